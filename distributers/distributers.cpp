@@ -1,0 +1,158 @@
+#include "distributers/distributers.h"
+
+#include <filesystem>
+
+#include "distributers/lauv_vehicle.h"
+#include "distributers/links/script.h"
+#include "distributers/links/simulation.h"
+#include "graph/spec/key.h"
+#include "graph/values/bind.h"
+
+namespace jarol::distributers {
+namespace {
+
+struct SimulationSpec {
+  Maybe<std::string> type, vehicle;
+  Maybe<Yaml> parameters;
+};
+
+const std::vector<Key<SimulationSpec>>& simulation_keys() {
+  static const std::vector<Key<SimulationSpec>> keys{
+      key<&SimulationSpec::type>("type", Form::word, "simulation: a vehicle in this process", true),
+      key<&SimulationSpec::vehicle>("vehicle", Form::word, "parameter file of the vehicle, relative to this file", true),
+      key<&SimulationSpec::parameters>("parameters", Form::mapping, "changes to the parameters of that file"),
+  };
+  return keys;
+}
+
+struct ScriptSpec {
+  Maybe<std::string> type, file;
+};
+
+const std::vector<Key<ScriptSpec>>& script_keys() {
+  static const std::vector<Key<ScriptSpec>> keys{
+      key<&ScriptSpec::type>("type", Form::word, "script: rows of a CSV", true),
+      key<&ScriptSpec::file>("file", Form::word, "the CSV, relative to this file", true),
+  };
+  return keys;
+}
+
+struct VehicleSpec {
+  Maybe<std::string> vehicle;
+  Maybe<Yaml> parameters;
+};
+
+const std::vector<Key<VehicleSpec>>& vehicle_keys() {
+  static const std::vector<Key<VehicleSpec>> keys{
+      key<&VehicleSpec::vehicle>("vehicle", Form::word, "name of the vehicle", true),
+      key<&VehicleSpec::parameters>("parameters", Form::mapping, "its parameters; what is left out keeps its default"),
+  };
+  return keys;
+}
+
+// A path in a file is relative to that file.
+std::shared_ptr<const Source> read_beside(const Graph& graph, const Located<std::string>& path, Problems& problems) {
+  const std::filesystem::path base = graph.where.source ? std::filesystem::path(graph.where.source->name).parent_path() : "";
+  try {
+    return read_source((base / path.value).string());
+  } catch (const SpecError& error) {
+    for (const Problem& problem : error.problems()) problems.add(path.where, problem.text);
+    return nullptr;
+  }
+}
+
+// Periods and offsets of what touches the vehicle fall on its grid.
+void check_grid(const Graph& graph, std::size_t distributer, const vehicles::Vehicle& vehicle, Problems& problems) {
+  for (const Communicator& c : graph.communicators) {
+    if (c.distributer != distributer) continue;
+    for (const auto& [what, duration] : {std::pair("period", c.period), std::pair("offset", c.offset)})
+      if (duration.count() % vehicle.grid().count() != 0)
+        problems.add(c.where, "communicator '" + c.name + "' has " + what + " " + duration_text(duration) +
+                                  "; it has to be a multiple of the vehicle's step of " + duration_text(vehicle.grid()));
+  }
+}
+
+std::unique_ptr<Channels> make_simulation(const Graph& graph, std::size_t index,
+                                          const std::vector<vehicles::VehicleClass>& known, Problems& problems) {
+  const Distributer& distributer = graph.distributers[index];
+  const std::string subject = "link of distributer '" + distributer.name + "'";
+  SimulationSpec spec;
+  read_keys(distributer.link, simulation_keys(), spec, subject, problems);
+  if (!spec.vehicle) return nullptr;
+  const auto source = read_beside(graph, *spec.vehicle, problems);
+  if (!source) return nullptr;
+  VehicleSpec vehicle;
+  const std::size_t before = problems.size();
+  const Yaml file = read_yaml(source, problems);
+  if (problems.size() > before) return nullptr;
+  read_keys(file, vehicle_keys(), vehicle, "a vehicle file", problems);
+  if (!vehicle.vehicle) return nullptr;
+  const std::vector<std::string> names = names_of(known);
+  const vehicles::VehicleClass* found = nullptr;
+  for (const auto& v : known)
+    if (v.name == vehicle.vehicle->value) found = &v;
+  if (found == nullptr) {
+    problems.add(vehicle.vehicle->where, "there is no vehicle '" + vehicle.vehicle->value + "'" +
+                                             did_you_mean(vehicle.vehicle->value, names) + "; this build has: " + list_of(names));
+    return nullptr;
+  }
+  Value parameters(*found->parameters);
+  const std::string name = "vehicle '" + found->name + "'";
+  if (vehicle.parameters) bind_fields(vehicle.parameters->value, *found->parameters, parameters.data(), name, "parameter", problems);
+  if (spec.parameters) bind_fields(spec.parameters->value, *found->parameters, parameters.data(), name, "parameter", problems);
+  if (problems.size() > before) return nullptr;
+  try {
+    auto made = found->make(parameters.data());
+    check_grid(graph, index, *made, problems);
+    return std::make_unique<SimulationChannels>(std::move(made), std::make_unique<LauvVehicle>());
+  } catch (const std::exception& error) {
+    problems.add(spec.vehicle->where, name + " can't be made: " + error.what());
+    return nullptr;
+  }
+}
+
+std::unique_ptr<Channels> make_script(const Graph& graph, std::size_t index, Problems& problems) {
+  const Distributer& distributer = graph.distributers[index];
+  ScriptSpec spec;
+  read_keys(distributer.link, script_keys(), spec, "link of distributer '" + distributer.name + "'", problems);
+  if (!spec.file) return nullptr;
+  const auto source = read_beside(graph, *spec.file, problems);
+  if (!source) return nullptr;
+  return std::make_unique<ScriptChannels>(source, *distributer.distributer_class, problems);
+}
+
+}  // namespace
+
+void add_distributers(Registry& registry) {
+  registry.add(describe_lauv_operator());
+  registry.add(LauvVehicle::describe_class());
+}
+
+std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
+                                                     const std::vector<vehicles::VehicleClass>& vehicles,
+                                                     Problems& problems) {
+  std::vector<std::unique_ptr<Channels>> all;
+  for (std::size_t i = 0; i < graph.distributers.size(); ++i) {
+    const Distributer& distributer = graph.distributers[i];
+    all.emplace_back();
+    if (distributer.distributer_class == nullptr || distributer.link.kind != Yaml::Kind::mapping) continue;
+    // a vehicle can be simulated; any operator can be played from a script
+    const bool is_vehicle = distributer.distributer_class->name == "LauvVehicle";
+    const std::vector<std::string> links = is_vehicle ? std::vector<std::string>{"simulation", "script"} : std::vector<std::string>{"script"};
+    const std::string subject = "link of distributer '" + distributer.name + "'";
+    const Yaml* type = distributer.link.find("type");
+    if (type == nullptr) {
+      problems.add(distributer.link.where, subject + " lacks the key 'type'; a " + distributer.distributer_class->name + " can have: " + list_of(links));
+    } else if (type->text == "simulation" && is_vehicle) {
+      all.back() = make_simulation(graph, i, vehicles, problems);
+    } else if (type->text == "script") {
+      all.back() = make_script(graph, i, problems);
+    } else {
+      problems.add(type->where, subject + " has type '" + type->text + "'" + did_you_mean(type->text, links) + "; a " +
+                                    distributer.distributer_class->name + " can have: " + list_of(links));
+    }
+  }
+  return all;
+}
+
+}  // namespace jarol::distributers

@@ -1,0 +1,22 @@
+// The catalogue of distributers, and the way from a valid graph to its channels.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "graph/graph.h"
+#include "runtime/channels.h"
+#include "vehicles/vehicle.h"
+
+namespace jarol::distributers {
+
+/// Adds every distributer class of this folder.
+void add_distributers(Registry& registry);
+
+/// The channels of each distributer of the graph, in its order, linked as the file says; `vehicles` are those that
+/// `simulation` links may name. What is wrong goes to `problems`, and a null stands in the place.
+std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
+                                                     const std::vector<vehicles::VehicleClass>& vehicles,
+                                                     Problems& problems);
+
+}  // namespace jarol::distributers

@@ -1,0 +1,35 @@
+// The link to a vehicle that is simulated in this process, in lockstep with the logical clock.
+#pragma once
+
+#include <memory>
+
+#include "distributers/adapter.h"
+#include "runtime/channels.h"
+#include "vehicles/vehicle.h"
+
+namespace jarol::distributers {
+
+class SimulationChannels : public Channels {
+ public:
+  SimulationChannels(std::unique_ptr<vehicles::Vehicle> vehicle, std::unique_ptr<Adapter> adapter);
+
+  void reach(Duration instant) override;
+  bool take(std::size_t channel, void* value) override;
+  void hand_over(std::size_t channel, const void* value) override;
+
+ private:
+  // What the adapter sends goes straight to the vehicle.
+  struct ToVehicle : messages::Receiver {
+    explicit ToVehicle(vehicles::Vehicle& to) : vehicle(to) {}
+    void receive(messages::MessageRef message) override { vehicle.accept(message); }
+    vehicles::Vehicle& vehicle;
+  };
+
+  std::unique_ptr<vehicles::Vehicle> vehicle_;
+  std::unique_ptr<Adapter> adapter_;
+  ToVehicle to_vehicle_;
+  Duration at_{};
+  bool sensed_ = false;  // at the start
+};
+
+}  // namespace jarol::distributers

@@ -1,0 +1,379 @@
+#include "graph/build.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "graph/deadlines.h"
+#include "graph/values/bind.h"
+
+namespace jarol {
+namespace {
+
+template <class S>
+std::vector<S> by_name(std::vector<S> specs) {
+  std::stable_sort(specs.begin(), specs.end(), [](const S& a, const S& b) { return a.name < b.name; });
+  return specs;
+}
+
+template <class T>
+std::optional<T> value_of(const Maybe<T>& maybe) {
+  return maybe ? std::optional<T>(maybe->value) : std::nullopt;
+}
+
+std::vector<std::string> field_names(const Type& type) { return names_of(type.fields); }
+
+class Builder {
+ public:
+  Builder(const GraphSpec& spec, const Registry& registry, Problems& problems)
+      : spec_(spec), registry_(registry), problems_(problems) {}
+
+  Graph build() {
+    graph_.name = spec_.name ? spec_.name->value : "";
+    graph_.where = spec_.where;
+    graph_.period = value_of(spec_.timing.period);
+    graph_.platform.cores = spec_.platform.cores ? spec_.platform.cores->value : 1;
+    graph_.platform.policy = spec_.platform.policy ? spec_.platform.policy->value : Policy::table;
+    if (graph_.platform.cores < 1)
+      problems_.add(spec_.platform.cores->where, "'platform' key 'cores' is 0; a platform has at least one core");
+    add_distributers();
+    add_communicators();
+    add_tasks();
+    check_names();
+    add_connections();
+    check_connected();
+    if (complete_) {
+      graph_.order = data_flow_order(graph_, problems_);
+      set_deadlines(graph_, declared_deadlines_, problems_);
+    }
+    return std::move(graph_);
+  }
+
+ private:
+  struct Timing {
+    Duration period{};
+    Duration offset{};
+  };
+
+  // Own period, else the graph's; offset below it.
+  template <class S>
+  Timing timing_of(const S& spec, const std::string& subject) {
+    Timing timing;
+    if (spec.period) {
+      timing.period = spec.period->value;
+      if (graph_.period && graph_.period->count() % timing.period.count() != 0)
+        problems_.add(spec.period->where, subject + " has period " + duration_text(timing.period) +
+                                              ", of which the graph's period " + duration_text(*graph_.period) +
+                                              " is no multiple; change one of them");
+    } else if (graph_.period) {
+      timing.period = *graph_.period;
+    } else {
+      problems_.add(spec.where, subject + " has no period, and the graph states none; add 'period:' here or below 'timing:'");
+      timing.period = Duration(1);
+      complete_ = false;
+      return timing;
+    }
+    if (spec.offset) {
+      timing.offset = spec.offset->value;
+      if (timing.offset >= timing.period)
+        problems_.add(spec.offset->where, subject + " has offset " + duration_text(timing.offset) +
+                                              " not below its period " + duration_text(timing.period));
+    }
+    return timing;
+  }
+
+  void add_distributers() {
+    for (const DistributerSpec& spec : by_name(spec_.distributers)) {
+      Distributer distributer{spec.name, spec.where, nullptr, spec.link ? spec.link->value : Yaml{}};
+      if (spec.type) {
+        distributer.distributer_class = registry_.find_distributer(spec.type->value);
+        if (distributer.distributer_class == nullptr) {
+          const auto names = names_of(registry_.distributers());
+          problems_.add(spec.type->where, "distributer '" + spec.name + "' has unknown type '" + spec.type->value +
+                                              "'" + did_you_mean(spec.type->value, names) + "; there are: " + list_of(names));
+        }
+      }
+      graph_.distributers.push_back(std::move(distributer));
+    }
+  }
+
+  void add_communicators() {
+    for (const CommunicatorSpec& spec : by_name(spec_.communicators)) {
+      const std::string subject = "communicator '" + spec.name + "'";
+      Communicator communicator;
+      communicator.name = spec.name;
+      communicator.where = spec.where;
+      const Timing timing = timing_of(spec, subject);
+      communicator.period = timing.period;
+      communicator.offset = timing.offset;
+      if (spec.channel) {
+        resolve_channel(spec, subject, communicator);
+      } else {
+        resolve_type(spec, subject, communicator);
+      }
+      if (communicator.type == nullptr) {
+        complete_ = false;
+      } else if (communicator.direction == Direction::in) {
+        communicator.init = Value(*communicator.type);
+        if (spec.init)
+          bind(spec.init->value, *communicator.type, "", communicator.init.data(), subject + " init", problems_);
+      } else if (spec.init) {
+        problems_.add(spec.init->where, subject + " is an 'out' and has an 'init'; that belongs to an 'in' only");
+      }
+      graph_.communicators.push_back(std::move(communicator));
+    }
+    check_out_channels();
+  }
+
+  void resolve_channel(const CommunicatorSpec& spec, const std::string& subject, Communicator& communicator) {
+    for (const bool given : {spec.type.has_value(), spec.direction.has_value()})
+      if (given) {
+        problems_.add(spec.where, subject + " has a channel and so its type and direction; leave 'type' and 'direction' out");
+        break;
+      }
+    const std::string& text = spec.channel->value;
+    const std::size_t dot = text.find('.');
+    const std::string name = text.substr(0, dot);
+    const auto found = std::find_if(graph_.distributers.begin(), graph_.distributers.end(),
+                                    [&](const Distributer& d) { return d.name == name; });
+    if (dot == std::string::npos || found == graph_.distributers.end()) {
+      const auto names = names_of(graph_.distributers);
+      problems_.add(spec.channel->where, subject + " has channel '" + text + "', but there is no distributer '" + name + "'" +
+                                             did_you_mean(name, names) + "; write distributer.channel, with one of: " + list_of(names));
+      return;
+    }
+    if (found->distributer_class == nullptr) return;  // reported there
+    const auto& channels = found->distributer_class->channels;
+    const std::string wanted = text.substr(dot + 1);
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      if (channels[i].name != wanted) continue;
+      communicator.distributer = static_cast<std::size_t>(found - graph_.distributers.begin());
+      communicator.channel = i;
+      communicator.type = channels[i].type;
+      communicator.direction = channels[i].direction;
+      return;
+    }
+    problems_.add(spec.channel->where, "distributer '" + name + "' (" + found->distributer_class->name +
+                                           ") has no channel '" + wanted + "'" + did_you_mean(wanted, names_of(channels)) +
+                                           "; it has: " + list_of(names_of(channels)));
+  }
+
+  void resolve_type(const CommunicatorSpec& spec, const std::string& subject, Communicator& communicator) {
+    if (!spec.type || !spec.direction) {
+      problems_.add(spec.where, subject + " has no channel; add 'channel: distributer.channel', or both 'type' and 'direction'");
+      return;
+    }
+    communicator.direction = spec.direction->value;
+    communicator.type = registry_.find_type(spec.type->value);
+    if (communicator.type == nullptr)
+      problems_.add(spec.type->where, subject + " has unknown type '" + spec.type->value + "'" +
+                                          did_you_mean(spec.type->value, registry_.type_names()) +
+                                          "; there are: " + list_of(registry_.type_names()));
+  }
+
+  // What two communicators handed to one channel at one instant would depend on their order alone.
+  void check_out_channels() {
+    std::map<std::pair<std::size_t, std::size_t>, const Communicator*> writers;
+    for (const Communicator& c : graph_.communicators) {
+      if (c.direction != Direction::out || !c.distributer) continue;
+      const auto [at, first] = writers.emplace(std::pair(*c.distributer, c.channel), &c);
+      if (first) continue;
+      problems_.add(c.where, "communicator '" + c.name + "' hands over to the same channel as '" + at->second->name +
+                                 "'; a channel has one writer",
+                    {{at->second->where, "the other one"}});
+    }
+  }
+
+  void add_tasks() {
+    for (const TaskSpec& spec : by_name(spec_.tasks)) {
+      Task task;
+      task.name = spec.name;
+      task.where = spec.where;
+      std::string subject = "task '" + spec.name + "'";
+      const Timing timing = timing_of(spec, subject);
+      task.period = timing.period;
+      task.offset = timing.offset;
+      task.let = value_of(spec.let);
+      task.wcet = value_of(spec.wcet);
+      task.priority = value_of(spec.priority);
+      task.core = value_of(spec.core);
+      task.heap = value_of(spec.heap);
+      if (spec.on_fault) task.on_fault = spec.on_fault->value;
+      if (spec.isolation) task.isolation = spec.isolation->value;
+      if (task.let && *task.let > task.period)
+        problems_.add(spec.let->where, subject + " has LET " + duration_text(*task.let) + " longer than its period " +
+                                           duration_text(task.period));
+      if (task.core && *task.core >= graph_.platform.cores)
+        problems_.add(spec.core->where, subject + " is on core " + std::to_string(*task.core) + ", but the platform has " +
+                                            std::to_string(graph_.platform.cores) + " (counted from 0)");
+      resolve_task_class(spec, subject, task);
+      declared_deadlines_.push_back(spec.deadline);
+      graph_.tasks.push_back(std::move(task));
+    }
+  }
+
+  void resolve_task_class(const TaskSpec& spec, std::string subject, Task& task) {
+    if (spec.type) {
+      task.task_class = registry_.find_task(spec.type->value);
+      if (task.task_class == nullptr) {
+        const auto names = names_of(registry_.tasks());
+        problems_.add(spec.type->where, subject + " has unknown type '" + spec.type->value + "'" +
+                                            did_you_mean(spec.type->value, names) + "; there are: " + list_of(names));
+      }
+    }
+    if (task.task_class == nullptr) {
+      complete_ = false;
+      return;
+    }
+    subject += " (" + task.task_class->name + ")";
+    task.parameters = Value(*task.task_class->parameters);
+    task.out = Value(*task.task_class->out);
+    if (spec.parameters)
+      bind_fields(spec.parameters->value, *task.task_class->parameters, task.parameters.data(), subject, "parameter", problems_);
+    if (spec.init) bind_fields(spec.init->value, *task.task_class->out, task.out.data(), subject, "output", problems_);
+  }
+
+  void check_names() {
+    for (const Communicator& c : graph_.communicators)
+      for (const Task& t : graph_.tasks)
+        if (t.name == c.name)
+          problems_.add(c.where, "communicator '" + c.name + "' has the name of a task; names are unique among both",
+                        {{t.where, "the task"}});
+  }
+
+  // Finds the end of a connection; null type: reported, or not known because something else is wrong.
+  const Type* resolve_end(const EndSpec& spec, bool output, End& end) {
+    const auto task = std::lower_bound(graph_.tasks.begin(), graph_.tasks.end(), spec.name,
+                                       [](const Task& t, const std::string& name) { return t.name < name; });
+    if (task != graph_.tasks.end() && task->name == spec.name) {
+      end = {End::Kind::task, static_cast<std::size_t>(task - graph_.tasks.begin()), 0};
+      return resolve_field(spec, output, *task, end);
+    }
+    const auto communicator =
+        std::lower_bound(graph_.communicators.begin(), graph_.communicators.end(), spec.name,
+                         [](const Communicator& c, const std::string& name) { return c.name < name; });
+    if (communicator == graph_.communicators.end() || communicator->name != spec.name) {
+      std::vector<std::string> names = names_of(graph_.tasks);
+      for (const Communicator& c : graph_.communicators) names.push_back(c.name);
+      problems_.add(spec.where, "there is no task or communicator '" + spec.name + "'" + did_you_mean(spec.name, names));
+      return nullptr;
+    }
+    end = {End::Kind::communicator, static_cast<std::size_t>(communicator - graph_.communicators.begin()), 0};
+    const std::string subject = "communicator '" + spec.name + "'";
+    if (!spec.field.empty()) {
+      problems_.add(spec.where, subject + " is written without '." + spec.field + "'; only tasks have inputs and outputs");
+      return nullptr;
+    }
+    if (communicator->type == nullptr) return nullptr;
+    if (output != (communicator->direction == Direction::in)) {
+      problems_.add(spec.where, subject + (output ? " is an 'out' and has an input only; it stands right of an arrow"
+                                                  : " is an 'in' and has an output only; it stands left of an arrow"));
+      return nullptr;
+    }
+    return communicator->type;
+  }
+
+  const Type* resolve_field(const EndSpec& spec, bool output, const Task& task, End& end) {
+    if (task.task_class == nullptr) return nullptr;
+    const Type& fields = output ? *task.task_class->out : *task.task_class->in;
+    const std::string subject = "task '" + spec.name + "' (" + task.task_class->name + ")";
+    const std::string noun = output ? "output" : "input";
+    if (spec.field.empty()) {
+      problems_.add(spec.where, subject + " is written without its " + noun + "; write " + spec.name + "." + noun +
+                                    " with one of: " + list_of(field_names(fields)));
+      return nullptr;
+    }
+    const TypeField* found = find_field(fields, spec.field);
+    if (found == nullptr) {
+      problems_.add(spec.where, subject + " has no " + noun + " '" + spec.field + "'" +
+                                    did_you_mean(spec.field, field_names(fields)) + "; it has: " + list_of(field_names(fields)));
+      return nullptr;
+    }
+    end.field = static_cast<std::size_t>(found - fields.fields.data());
+    return found->type;
+  }
+
+  void add_connections() {
+    std::map<std::tuple<End::Kind, std::size_t, std::size_t>, Location> fed;
+    for (const ConnectionSpec& spec : spec_.connections) {
+      Connection connection;
+      connection.where = spec.where;
+      const Type* from = resolve_end(spec.from, true, connection.from);
+      const Type* to = resolve_end(spec.to, false, connection.to);
+      if (to != nullptr) {
+        const auto [at, first] =
+            fed.emplace(std::tuple(connection.to.kind, connection.to.index, connection.to.field), spec.where);
+        if (!first)
+          problems_.add(spec.to.where, "'" + text_of(spec.to) + "' is fed twice; an input has one source",
+                        {{at->second, "first here"}});
+      }
+      if (from == nullptr || to == nullptr) {
+        complete_ = false;
+        continue;
+      }
+      if (!same_type(*from, *to)) {
+        problems_.add(spec.where, "connection " + text_of(spec.from) + " -> " + text_of(spec.to) + " joins a " + from->name +
+                                      " to a " + to->name + "; both ends carry one type");
+        continue;
+      }
+      connection.type = from;
+      graph_.connections.push_back(std::move(connection));
+    }
+    std::stable_sort(graph_.connections.begin(), graph_.connections.end(), [](const Connection& a, const Connection& b) {
+      return std::tuple(a.to.kind, a.to.index, a.to.field) < std::tuple(b.to.kind, b.to.index, b.to.field);
+    });
+    for (const auto& [key, where] : fed) fed_.insert(key);
+  }
+
+  void check_connected() {
+    for (std::size_t i = 0; i < graph_.tasks.size(); ++i) {
+      const Task& task = graph_.tasks[i];
+      if (task.task_class == nullptr) continue;
+      const auto& inputs = task.task_class->in->fields;
+      for (std::size_t field = 0; field < inputs.size(); ++field)
+        if (!fed_.contains({End::Kind::task, i, field}))
+          problems_.add(task.where, "task '" + task.name + "' (" + task.task_class->name + ") input '" + inputs[field].name +
+                                        "' (" + inputs[field].type->name + ") is not connected; add '... -> " + task.name +
+                                        "." + inputs[field].name + "'");
+    }
+    for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
+      const Communicator& c = graph_.communicators[i];
+      if (c.type == nullptr) continue;
+      const bool used = c.direction == Direction::out
+                            ? fed_.contains({End::Kind::communicator, i, 0})
+                            : std::any_of(spec_.connections.begin(), spec_.connections.end(),
+                                          [&](const ConnectionSpec& s) { return s.from.name == c.name; });
+      if (!used)
+        problems_.add(c.where, "communicator '" + c.name + "' is not connected; add '" +
+                                   (c.direction == Direction::out ? "... -> " + c.name : c.name + " -> ...") + "'");
+    }
+  }
+
+  static std::string text_of(const EndSpec& spec) {
+    return spec.field.empty() ? spec.name : spec.name + "." + spec.field;
+  }
+
+  const GraphSpec& spec_;
+  const Registry& registry_;
+  Problems& problems_;
+  Graph graph_;
+  std::vector<Maybe<Duration>> declared_deadlines_;
+  std::set<std::tuple<End::Kind, std::size_t, std::size_t>> fed_;
+  bool complete_ = true;  // order and deadlines make sense
+};
+
+}  // namespace
+
+std::string end_name(const Graph& graph, const End& end, bool output) {
+  if (end.kind == End::Kind::communicator) return graph.communicators[end.index].name;
+  const Task& task = graph.tasks[end.index];
+  const Type& fields = output ? *task.task_class->out : *task.task_class->in;
+  return task.name + "." + fields.fields[end.field].name;
+}
+
+Graph build_graph(const GraphSpec& spec, const Registry& registry, Problems& problems) {
+  return Builder(spec, registry, problems).build();
+}
+
+}  // namespace jarol

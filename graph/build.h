@@ -1,0 +1,13 @@
+// From the specification to a valid graph.
+#pragma once
+
+#include "graph/graph.h"
+#include "graph/spec/spec.h"
+
+namespace jarol {
+
+/// Resolves names and types, checks all that DESIGN sections 2 and 3 demand, derives deadlines and order. All that is
+/// wrong goes to `problems`; the graph is whole only if nothing was added.
+Graph build_graph(const GraphSpec& spec, const Registry& registry, Problems& problems);
+
+}  // namespace jarol

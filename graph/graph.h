@@ -1,0 +1,84 @@
+// A graph that is valid: everything resolved, checked and put in an order that declaration does not change.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/registry.h"
+#include "graph/values/value.h"
+
+namespace jarol {
+
+struct Task {
+  std::string name;
+  Location where;
+  const TaskClass* task_class = nullptr;
+  Duration period{};
+  Duration offset{};             // of the first release, below the period
+  std::optional<Duration> let;   // none: a data-flow task
+  Duration deadline{};           // relative to the release, derived or declared
+  std::optional<Duration> wcet;
+  std::optional<std::int64_t> priority;  // smaller is more urgent
+  std::optional<std::int64_t> core;
+  std::optional<std::int64_t> heap;  // bytes
+  OnFault on_fault = OnFault::stop;
+  Isolation isolation = Isolation::strong;
+  Value parameters;
+  Value out;  // what its outputs read as until first published
+};
+
+struct Communicator {
+  std::string name;
+  Location where;
+  Direction direction = Direction::in;
+  const Type* type = nullptr;
+  Duration period{};
+  Duration offset{};
+  Value init;                                // of an `in`
+  std::optional<std::size_t> distributer;    // none: no channel
+  std::size_t channel = 0;                   // of the distributer's class
+};
+
+struct Distributer {
+  std::string name;
+  Location where;
+  const DistributerClass* distributer_class = nullptr;
+  Yaml link;
+};
+
+/// One end of a connection: a field of a task's In or Out, or a communicator.
+struct End {
+  enum class Kind { task, communicator } kind = Kind::task;
+  std::size_t index = 0;
+  std::size_t field = 0;  // of a task
+};
+
+struct Connection {
+  End from;
+  End to;
+  const Type* type = nullptr;
+  Location where;
+};
+
+struct Platform {
+  std::int64_t cores = 1;
+  Policy policy = Policy::table;
+};
+
+struct Graph {
+  std::string name;
+  Location where;
+  std::optional<Duration> period;
+  std::vector<Task> tasks;                  // in bytewise order of name
+  std::vector<Communicator> communicators;  // in bytewise order of name
+  std::vector<Distributer> distributers;    // in bytewise order of name
+  std::vector<Connection> connections;      // by reader, in the order of tasks, fields, communicators
+  std::vector<std::size_t> order;           // of tasks: data-flow tasks before those they feed, then by name
+  Platform platform;
+};
+
+/// "task.output", or the communicator's name: what publications are called in trace and digest.
+std::string end_name(const Graph& graph, const End& end, bool output);
+
+}  // namespace jarol

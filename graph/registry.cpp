@@ -1,0 +1,61 @@
+#include "graph/registry.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace jarol {
+namespace {
+
+template <class C>
+void insert_by_name(std::vector<C>& classes, C added) {
+  const auto at = std::lower_bound(classes.begin(), classes.end(), added,
+                                   [](const C& a, const C& b) { return a.name < b.name; });
+  assert((at == classes.end() || at->name != added.name) && "two classes of one name");
+  classes.insert(at, std::move(added));
+}
+
+template <class C>
+const C* find_by_name(const std::vector<C>& classes, std::string_view name) {
+  const auto at = std::lower_bound(classes.begin(), classes.end(), name,
+                                   [](const C& c, std::string_view n) { return c.name < n; });
+  return at != classes.end() && at->name == name ? &*at : nullptr;
+}
+
+}  // namespace
+
+void Registry::add(TaskClass task) {
+  for (const TypeField& f : task.in->fields) add_type(*f.type);
+  for (const TypeField& f : task.out->fields) add_type(*f.type);
+  insert_by_name(tasks_, std::move(task));
+}
+
+void Registry::add(DistributerClass distributer) {
+  for (const ChannelClass& c : distributer.channels) add_type(*c.type);
+  insert_by_name(distributers_, std::move(distributer));
+}
+
+const TaskClass* Registry::find_task(std::string_view name) const { return find_by_name(tasks_, name); }
+
+const DistributerClass* Registry::find_distributer(std::string_view name) const {
+  return find_by_name(distributers_, name);
+}
+
+const Type* Registry::find_type(std::string_view name) const {
+  for (const Type* type : types_)
+    if (type->name == name) return type;
+  return nullptr;
+}
+
+std::vector<std::string> Registry::type_names() const {
+  std::vector<std::string> names;
+  for (const Type* type : types_) names.push_back(type->name);
+  return names;
+}
+
+void Registry::add_type(const Type& type) {
+  const auto at = std::lower_bound(types_.begin(), types_.end(), &type,
+                                   [](const Type* a, const Type* b) { return a->name < b->name; });
+  if (at == types_.end() || (*at)->name != type.name) types_.insert(at, &type);
+}
+
+}  // namespace jarol

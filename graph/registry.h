@@ -1,0 +1,60 @@
+// The task types and distributer classes that graphs may name.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "graph/spec/spec.h"
+#include "graph/task.h"
+
+namespace jarol {
+
+/// A channel that a distributer class defines: `in` brings values into the graph, `out` takes them to the outside.
+struct ChannelClass {
+  std::string name;
+  Direction direction = Direction::in;
+  const Type* type = nullptr;
+  std::string text;
+};
+
+/// A kind of external system: the adaptation layer's part that a graph can name.
+struct DistributerClass {
+  std::string name;
+  std::string summary;
+  std::vector<ChannelClass> channels;
+};
+
+class Registry {
+ public:
+  /// Names are unique; a second class of one name is a bug of the catalogue that adds it.
+  void add(TaskClass task);
+  void add(DistributerClass distributer);
+
+  const TaskClass* find_task(std::string_view name) const;
+  const DistributerClass* find_distributer(std::string_view name) const;
+  /// A type that some input, output or channel has, or null.
+  const Type* find_type(std::string_view name) const;
+
+  /// In bytewise order of name.
+  const std::vector<TaskClass>& tasks() const { return tasks_; }
+  const std::vector<DistributerClass>& distributers() const { return distributers_; }
+  std::vector<std::string> type_names() const;
+
+ private:
+  void add_type(const Type& type);
+
+  std::vector<TaskClass> tasks_;
+  std::vector<DistributerClass> distributers_;
+  std::vector<const Type*> types_;  // in bytewise order of name
+};
+
+/// The names of a list of classes.
+template <class C>
+std::vector<std::string> names_of(const std::vector<C>& classes) {
+  std::vector<std::string> names;
+  for (const C& c : classes) names.push_back(c.name);
+  return names;
+}
+
+}  // namespace jarol

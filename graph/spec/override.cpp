@@ -1,0 +1,119 @@
+#include "graph/spec/override.h"
+
+#include <algorithm>
+#include <array>
+
+#include "graph/spec/tables.h"
+
+namespace jarol {
+namespace {
+
+std::vector<std::string> keys_of(const Yaml& mapping) {
+  std::vector<std::string> keys;
+  for (const Yaml& child : mapping.children) keys.push_back(child.key);
+  return keys;
+}
+
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> parts(1);
+  for (const char c : path) {
+    if (c == '.') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+Yaml* find_child(Yaml& mapping, const std::string& key) {
+  for (Yaml& child : mapping.children)
+    if (child.key == key) return &child;
+  return nullptr;
+}
+
+// Sections whose entries the graph must already have: an override changes a graph, it does not add to it.
+bool holds_named_entries(const std::string& section) {
+  constexpr std::array<std::string_view, 4> sections{"tasks", "communicators", "distributers", "profiles"};
+  return std::find(sections.begin(), sections.end(), section) != sections.end();
+}
+
+}  // namespace
+
+void apply_override(Yaml& graph, const std::string& path, const Location& where, Yaml value, Problems& problems) {
+  const std::vector<std::string> parts = split(path);
+  Yaml* at = &graph;
+  std::string done;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string& part = parts[i];
+    const std::string so_far = done.empty() ? "the graph" : "'" + done + "'";
+    if (part.empty()) return problems.add(where, "path '" + path + "' has an empty part; write it as tasks.name.key");
+    if (at->kind == Yaml::Kind::null) at->kind = Yaml::Kind::mapping;
+    if (at->kind != Yaml::Kind::mapping)
+      return problems.add(where, "path '" + path + "' goes through " + so_far + ", which is " +
+                                     std::string(kind_name(*at)) + "; only mappings can be entered");
+    Yaml* child = find_child(*at, part);
+    if (child == nullptr) {
+      std::vector<std::string> known = keys_of(*at);
+      bool must_exist = i == 1 && holds_named_entries(parts[0]);
+      if (i == 0) {
+        known.clear();
+        for (const auto& k : graph_keys()) known.push_back(k.name);
+        must_exist = std::find(known.begin(), known.end(), part) == known.end();
+      }
+      if (must_exist)
+        return problems.add(where, "path '" + path + "': " + so_far + " has no '" + part + "'" +
+                                       did_you_mean(part, known) + "; it has: " + list_of(known));
+      Yaml made;
+      made.kind = Yaml::Kind::mapping;
+      made.where = where;
+      made.key = part;
+      made.key_where = where;
+      at->children.push_back(std::move(made));
+      child = &at->children.back();
+    }
+    done += (done.empty() ? "" : ".") + part;
+    at = child;
+  }
+  value.key = at->key;
+  value.key_where = at->key_where;
+  *at = std::move(value);
+}
+
+void apply_set(Yaml& graph, const std::string& argument, Problems& problems) {
+  const auto source = std::make_shared<Source>(Source{"--set", argument});
+  const std::size_t equals = argument.find('=');
+  if (equals == std::string::npos || equals == 0)
+    return problems.add({source, 1, 1}, "'" + argument + "' is no override; write path=value, as in tasks.depth.period=20ms");
+  // the value alone is read as YAML, with its place kept by blanks
+  const auto value_source =
+      std::make_shared<Source>(Source{"--set", std::string(equals + 1, ' ') + argument.substr(equals + 1)});
+  Problems of_value;
+  Yaml value = read_yaml(value_source, of_value);
+  try {
+    of_value.throw_if_any();
+  } catch (const SpecError& error) {
+    for (Problem problem : error.problems()) {
+      problem.where.source = source;
+      problems.add(problem.where, problem.text, problem.notes);
+    }
+    return;
+  }
+  apply_override(graph, argument.substr(0, equals), {source, 1, 1}, std::move(value), problems);
+}
+
+void apply_profile(Yaml& graph, const std::string& profile, Problems& problems) {
+  const Yaml* profiles = graph.find("profiles");
+  const std::vector<std::string> names = profiles == nullptr ? std::vector<std::string>{} : keys_of(*profiles);
+  const Yaml* found = profiles == nullptr ? nullptr : profiles->find(profile);
+  if (found == nullptr)
+    return problems.add(graph.where, "there is no profile '" + profile + "'" + did_you_mean(profile, names) +
+                                         "; the graph has: " + list_of(names));
+  const Yaml overrides = *found;  // a copy: an override may change the profiles themselves
+  if (overrides.kind != Yaml::Kind::mapping)
+    return problems.add(overrides.where, "profile '" + profile + "' needs a mapping of path to value, not " +
+                                             std::string(kind_name(overrides)));
+  for (const Yaml& child : overrides.children) apply_override(graph, child.key, child.key_where, child, problems);
+}
+
+}  // namespace jarol

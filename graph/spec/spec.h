@@ -1,0 +1,92 @@
+// What a graph file says, with the place of each word; nothing is resolved or checked against the tasks that exist.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/yaml/quantities.h"
+#include "graph/yaml/yaml.h"
+
+namespace jarol {
+
+/// A value and where it was written.
+template <class T>
+struct Located {
+  T value{};
+  Location where;
+};
+
+template <class T>
+using Maybe = std::optional<Located<T>>;
+
+/// What follows a fault (DESIGN section 3).
+enum class OnFault { stop, hold, skip };
+enum class Direction { in, out };
+enum class Isolation { strong, weak };
+
+/// One end of a connection: "task.field" or "communicator".
+struct EndSpec {
+  std::string name;
+  std::string field;  // empty: written without
+  Location where;
+};
+
+struct ConnectionSpec {
+  EndSpec from;
+  EndSpec to;
+  Location where;
+};
+
+struct TaskSpec {
+  std::string name;
+  Location where;
+  Maybe<std::string> type;
+  Maybe<Duration> period, offset, let, deadline, wcet;
+  Maybe<std::int64_t> priority, core, heap;
+  Maybe<OnFault> on_fault;
+  Maybe<Isolation> isolation;
+  Maybe<Yaml> parameters, init;
+};
+
+struct CommunicatorSpec {
+  std::string name;
+  Location where;
+  Maybe<std::string> channel, type;
+  Maybe<Direction> direction;
+  Maybe<Duration> period, offset;
+  Maybe<Yaml> init;
+};
+
+struct DistributerSpec {
+  std::string name;
+  Location where;
+  Maybe<std::string> type;
+  Maybe<Yaml> link;
+};
+
+enum class Grammar { let };
+enum class Policy { table, fixed_priority, edf, fixed_priority_nonpreemptive, edf_nonpreemptive, global_edf };
+
+struct TimingSpec {
+  Maybe<Grammar> grammar;
+  Maybe<Duration> period;
+};
+
+struct PlatformSpec {
+  Maybe<std::int64_t> cores;
+  Maybe<Policy> policy;
+};
+
+struct GraphSpec {
+  Maybe<std::string> name;
+  Location where;  // of the whole
+  TimingSpec timing;
+  std::vector<DistributerSpec> distributers;
+  std::vector<CommunicatorSpec> communicators;
+  std::vector<TaskSpec> tasks;
+  std::vector<ConnectionSpec> connections;
+  PlatformSpec platform;
+};
+
+}  // namespace jarol

@@ -1,0 +1,76 @@
+#include "graph/spec/tables.h"
+
+namespace jarol {
+
+const std::vector<Key<GraphSpec>>& graph_keys() {
+  static const std::vector<Key<GraphSpec>> keys{
+      key<&GraphSpec::name>("graph", Form::word, "name of the graph", true),
+      {"timing", Form::section, false, "period and timing grammar of the whole graph", {}, nullptr},
+      {"distributers", Form::section, false, "external systems, each with a link", {}, nullptr},
+      {"communicators", Form::section, false, "what comes in and goes out, pinned in time", {}, nullptr},
+      {"tasks", Form::section, false, "the compute tasks", {}, nullptr},
+      {"connections", Form::section, false, "one connection a line: 'from.output -> to.input'", {}, nullptr},
+      {"platform", Form::section, false, "what check analyses and run executes", {}, nullptr},
+      {"profiles", Form::section, false, "named sets of overrides, chosen by run --profile", {}, nullptr},
+  };
+  return keys;
+}
+
+const std::vector<Key<TimingSpec>>& timing_keys() {
+  static const std::vector<Key<TimingSpec>> keys{
+      key<&TimingSpec::grammar>("grammar", Form::choice, "the timing grammar, default let"),
+      key<&TimingSpec::period>("period", Form::positive_duration,
+                               "a multiple of every period, and the period of whatever states none"),
+  };
+  return keys;
+}
+
+const std::vector<Key<DistributerSpec>>& distributer_keys() {
+  static const std::vector<Key<DistributerSpec>> keys{
+      key<&DistributerSpec::type>("type", Form::word, "a registered distributer class, which defines the channels", true),
+      key<&DistributerSpec::link>("link", Form::mapping, "how the external system is reached", true),
+  };
+  return keys;
+}
+
+const std::vector<Key<CommunicatorSpec>>& communicator_keys() {
+  static const std::vector<Key<CommunicatorSpec>> keys{
+      key<&CommunicatorSpec::channel>("channel", Form::word, "'distributer.channel'; without one, state type and direction"),
+      key<&CommunicatorSpec::type>("type", Form::word, "type of the value, where there is no channel"),
+      key<&CommunicatorSpec::direction>("direction", Form::choice, "where there is no channel"),
+      key<&CommunicatorSpec::period>("period", Form::positive_duration, "default: the graph's period"),
+      key<&CommunicatorSpec::offset>("offset", Form::duration, "below the period, default 0ns"),
+      key<&CommunicatorSpec::init>("init", Form::any, "value of an 'in' until its channel brings one"),
+  };
+  return keys;
+}
+
+const std::vector<Key<TaskSpec>>& task_keys() {
+  static const std::vector<Key<TaskSpec>> keys{
+      key<&TaskSpec::type>("type", Form::word, "a registered task type, see jarol tasks", true),
+      key<&TaskSpec::period>("period", Form::positive_duration, "default: the graph's period"),
+      key<&TaskSpec::offset>("offset", Form::duration, "first release, below the period, default 0ns"),
+      key<&TaskSpec::let>("let", Form::positive_duration,
+                          "logical execution time, at most the period; without one a data-flow task"),
+      key<&TaskSpec::deadline>("deadline", Form::positive_duration, "smaller than the derived deadline"),
+      key<&TaskSpec::wcet>("wcet", Form::positive_duration, "worst-case execution time, for check"),
+      key<&TaskSpec::priority>("priority", Form::integer, "smaller is more urgent"),
+      key<&TaskSpec::core>("core", Form::integer, "the core that runs it, from 0"),
+      key<&TaskSpec::heap>("heap", Form::bytes, "size of the private heap, for values of changing size"),
+      key<&TaskSpec::on_fault>("on_fault", Form::choice, "what follows a fault, default stop"),
+      key<&TaskSpec::isolation>("isolation", Form::choice, "default strong"),
+      key<&TaskSpec::parameters>("parameters", Form::mapping, "parameters of the task type"),
+      key<&TaskSpec::init>("init", Form::mapping, "what each output reads as until first published"),
+  };
+  return keys;
+}
+
+const std::vector<Key<PlatformSpec>>& platform_keys() {
+  static const std::vector<Key<PlatformSpec>> keys{
+      key<&PlatformSpec::cores>("cores", Form::integer, "number of cores, default 1"),
+      key<&PlatformSpec::policy>("policy", Form::choice, "scheduling policy, default table"),
+  };
+  return keys;
+}
+
+}  // namespace jarol

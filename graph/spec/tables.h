@@ -1,0 +1,15 @@
+// The tables of the graph language (DESIGN section 2), one per kind of mapping.
+#pragma once
+
+#include "graph/spec/key.h"
+
+namespace jarol {
+
+const std::vector<Key<GraphSpec>>& graph_keys();
+const std::vector<Key<TimingSpec>>& timing_keys();
+const std::vector<Key<DistributerSpec>>& distributer_keys();
+const std::vector<Key<CommunicatorSpec>>& communicator_keys();
+const std::vector<Key<TaskSpec>>& task_keys();
+const std::vector<Key<PlatformSpec>>& platform_keys();
+
+}  // namespace jarol

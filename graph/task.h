@@ -1,0 +1,131 @@
+// The form of a task (DESIGN section 4) and the class that the runtime makes of it.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <string>
+
+#include "graph/values/type_of.h"
+
+namespace jarol {
+
+/// What a task sees of time: the instant of its release, always the same however late it really runs.
+struct Tick {
+  Duration now{};                // logical time since the start
+  std::int64_t activation = 0;  // 0, 1, 2 ...
+  Duration period{};
+};
+
+/// How an activation ended; `left_out`: it never ran, as one before it was faulty.
+enum class Outcome : std::uint8_t { good, threw, non_finite, left_out };
+
+/// First characters of what a task threw.
+struct FaultText {
+  char text[120] = "";
+};
+
+/// Where one task's values lie.
+struct TaskMemory {
+  const void* parameters = nullptr;
+  const void* in = nullptr;
+  void* state = nullptr;
+  void* out = nullptr;
+  FaultText* fault = nullptr;
+};
+
+using Thunk = Outcome (*)(const TaskMemory& memory, const Tick& tick);
+
+/// A task type: its inputs are the fields of `in`, its outputs those of `out`.
+struct TaskClass {
+  std::string name;
+  std::string summary;
+  const Type* parameters = nullptr;
+  const Type* in = nullptr;
+  const Type* state = nullptr;
+  const Type* out = nullptr;
+  Thunk run = nullptr;
+};
+
+namespace detail {
+
+// Stands for each of the four structs that a task leaves out.
+struct None {
+  static constexpr auto fields() { return describe(); }
+};
+
+template <class T>
+auto parameters_of() {
+  if constexpr (requires { typename T::Param; }) return typename T::Param{};
+  else return None{};
+}
+template <class T>
+auto in_of() {
+  if constexpr (requires { typename T::In; }) return typename T::In{};
+  else return None{};
+}
+template <class T>
+auto state_of() {
+  if constexpr (requires { typename T::State; }) return typename T::State{};
+  else return None{};
+}
+template <class T>
+auto out_of() {
+  if constexpr (requires { typename T::Out; }) return typename T::Out{};
+  else return None{};
+}
+
+// A tuple of one reference, or of none where the task has no such struct.
+template <class V, class Pointer>
+auto present(Pointer* pointer) {
+  if constexpr (std::is_same_v<std::remove_const_t<V>, None>) {
+    return std::tuple<>{};
+  } else {
+    return std::tuple<V&>(*static_cast<V*>(pointer));
+  }
+}
+
+template <class T>
+inline void call(const TaskMemory& memory, const Tick& tick) {
+  std::apply(T::run, std::tuple_cat(present<const decltype(parameters_of<T>())>(memory.parameters),
+                                    std::tuple<const Tick&>(tick), present<const decltype(in_of<T>())>(memory.in),
+                                    present<decltype(state_of<T>())>(memory.state),
+                                    present<decltype(out_of<T>())>(memory.out)));
+}
+
+inline void keep_text(FaultText& fault, const char* text) {
+  std::strncpy(fault.text, text, sizeof fault.text - 1);
+}
+
+template <class T>
+Outcome thunk(const TaskMemory& memory, const Tick& tick) {
+  try {
+    call<T>(memory, tick);
+  } catch (const std::exception& error) {
+    keep_text(*memory.fault, error.what());
+    return Outcome::threw;
+  } catch (...) {
+    keep_text(*memory.fault, "something that is not a std::exception");
+    return Outcome::threw;
+  }
+  using Out = decltype(out_of<T>());
+  return any_non_finite(*static_cast<const Out*>(memory.out)) != 0 ? Outcome::non_finite : Outcome::good;
+}
+
+}  // namespace detail
+
+/// The class of a task form: an empty struct with `summary`, any of Param, In, State, Out, and
+/// `static void run(const Param&, const Tick&, const In&, State&, Out&)` without the structs that it leaves out.
+template <class T>
+TaskClass task_class() {
+  static_assert(std::is_empty_v<T>, "a task is an empty struct; what it keeps belongs into its State");
+  return {std::string(type_name<T>()),
+          std::string(T::summary),
+          &type_of<decltype(detail::parameters_of<T>())>(),
+          &type_of<decltype(detail::in_of<T>())>(),
+          &type_of<decltype(detail::state_of<T>())>(),
+          &type_of<decltype(detail::out_of<T>())>(),
+          &detail::thunk<T>};
+}
+
+}  // namespace jarol

@@ -1,0 +1,188 @@
+#include "graph/values/bind.h"
+
+#include <charconv>
+#include <limits>
+
+#include "graph/yaml/quantities.h"
+
+namespace jarol {
+namespace {
+
+std::byte* at(void* value, std::size_t offset) { return static_cast<std::byte*>(value) + offset; }
+
+// What a message calls the type: "double [rad/m]".
+std::string wanted(const Type& type, const std::string& unit) {
+  std::string text = type.name;
+  if (type.kind == Kind::enumeration) {
+    std::vector<std::string> names;
+    for (const auto& [name, number] : type.enumerators) names.push_back(name);
+    text = "one of " + list_of(names);
+  }
+  return unit.empty() ? text : text + " [" + unit + "]";
+}
+
+std::string article(const std::string& noun) {
+  if (noun.starts_with("one of ")) return noun;
+  return (std::string("aeiou").find(noun[0]) == std::string::npos || noun.starts_with("uint") ? "a " : "an ") + noun;
+}
+
+void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
+             Problems& problems);
+
+void bind_structure(const Yaml& yaml, const Type& type, void* value, const std::string& subject,
+                    const std::string& noun, Problems& problems) {
+  std::vector<std::string> names;
+  for (const TypeField& f : type.fields) names.push_back(f.name);
+  for (const Yaml& child : yaml.children) {
+    const TypeField* f = find_field(type, child.key);
+    if (f == nullptr) {
+      problems.add(child.key_where,
+                   subject + " has no " + noun + " '" + child.key + "'" + did_you_mean(child.key, names) + "; it has: " + list_of(names));
+      continue;
+    }
+    bind_as(child, *f->type, f->unit, at(value, f->offset), subject + " " + noun + " '" + child.key + "'",
+            problems);
+  }
+}
+
+void bind_array(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
+                Problems& problems) {
+  if (yaml.children.size() != type.count) {
+    problems.add(yaml.where, subject + " has " + std::to_string(yaml.children.size()) + " elements; it needs " +
+                                 std::to_string(type.count));
+    return;
+  }
+  for (std::size_t i = 0; i < type.count; ++i)
+    bind_as(yaml.children[i], *type.element, unit, at(value, i * type.element->size),
+            subject + " element " + std::to_string(i), problems);
+}
+
+void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
+             Problems& problems) {
+  const auto expected = type.kind == Kind::structure ? Yaml::Kind::mapping
+                        : type.kind == Kind::array   ? Yaml::Kind::sequence
+                                                     : Yaml::Kind::scalar;
+  if (yaml.kind != expected) {
+    const std::string need = expected == Yaml::Kind::mapping    ? "a mapping of " + type.name + "'s fields"
+                             : expected == Yaml::Kind::sequence ? "a list of " + std::to_string(type.count) + " elements"
+                                                                : article(wanted(type, unit));
+    problems.add(yaml.where, subject + " needs " + need + ", not " + std::string(kind_name(yaml)));
+    return;
+  }
+  if (type.kind == Kind::structure) return bind_structure(yaml, type, value, subject, "field", problems);
+  if (type.kind == Kind::array) return bind_array(yaml, type, unit, value, subject, problems);
+  const std::string wrong = yaml.quoted && type.kind != Kind::enumeration
+                                ? "is in quotes and so a string"
+                                : parse_scalar(type, yaml.text, unit, value);
+  if (wrong.empty()) return;
+  problems.add(yaml.where,
+               subject + " needs " + article(wanted(type, unit)) + ", not '" + yaml.text + "'; that " + wrong);
+}
+
+void add_leaves(const Type& type, const std::string& path, const std::string& unit, std::size_t offset,
+                std::vector<Leaf>& leaves) {
+  const std::string prefix = path.empty() ? "" : path + ".";
+  if (type.kind == Kind::structure) {
+    for (const TypeField& f : type.fields) add_leaves(*f.type, prefix + f.name, f.unit, offset + f.offset, leaves);
+  } else if (type.kind == Kind::array) {
+    for (std::size_t i = 0; i < type.count; ++i)
+      add_leaves(*type.element, prefix + std::to_string(i), unit, offset + i * type.element->size, leaves);
+  } else {
+    leaves.push_back({path, unit, offset, &type});
+  }
+}
+
+std::int64_t least_of(const Type& type) {
+  if (type.kind == Kind::unsigned_integer) return 0;
+  return type.size == 8 ? std::numeric_limits<std::int64_t>::min() : -(std::int64_t{1} << (8 * type.size - 1));
+}
+
+std::int64_t most_of(const Type& type) {
+  const std::size_t bits = 8 * type.size - (type.kind == Kind::unsigned_integer ? 0 : 1);
+  return bits >= 63 ? std::numeric_limits<std::int64_t>::max() : (std::int64_t{1} << bits) - 1;
+}
+
+}  // namespace
+
+void bind(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
+          Problems& problems) {
+  bind_as(yaml, type, unit, value, subject, problems);
+}
+
+void bind_fields(const Yaml& yaml, const Type& type, void* value, const std::string& subject, const std::string& noun,
+                 Problems& problems) {
+  if (yaml.kind != Yaml::Kind::mapping) {
+    problems.add(yaml.where, subject + " needs a mapping of its " + noun + "s, not " + std::string(kind_name(yaml)));
+    return;
+  }
+  bind_structure(yaml, type, value, subject, noun, problems);
+}
+
+std::string parse_scalar(const Type& type, const std::string& text, const std::string& unit, void* value) {
+  switch (type.kind) {
+    case Kind::boolean:
+      if (text != "true" && text != "false") return "is neither true nor false";
+      write_integer(type, value, text == "true");
+      return "";
+    case Kind::floating: {
+      double number = 0;
+      const std::string wrong = parse_number(text, unit, number);
+      if (!wrong.empty()) return wrong;
+      if (type.size == 4 && std::abs(number) > std::numeric_limits<float>::max()) return "is beyond what a float holds";
+      write_floating(type, value, number);
+      return "";
+    }
+    case Kind::duration: {
+      Duration duration{};
+      const std::string wrong = parse_duration(text, duration);
+      if (wrong.empty()) write_integer(type, value, duration.count());
+      return wrong;
+    }
+    case Kind::signed_integer:
+    case Kind::unsigned_integer: {
+      std::int64_t integer = 0;
+      const std::string wrong = parse_integer(text, least_of(type), most_of(type), integer);
+      if (wrong.empty()) write_integer(type, value, integer);
+      return wrong;
+    }
+    case Kind::enumeration:
+      for (const auto& [name, number] : type.enumerators) {
+        if (name != text) continue;
+        write_integer(type, value, number);
+        return "";
+      }
+      return "is none of them";
+    case Kind::array:
+    case Kind::structure: break;
+  }
+  return "is a single word";
+}
+
+std::string scalar_text(const Type& type, const void* value) {
+  switch (type.kind) {
+    case Kind::boolean: return read_integer(type, value) != 0 ? "true" : "false";
+    case Kind::floating:
+      return type.size == 4 ? number_text(static_cast<float>(read_floating(type, value)))
+                            : number_text(read_floating(type, value));
+    case Kind::unsigned_integer: return std::to_string(static_cast<std::uint64_t>(read_integer(type, value)));
+    case Kind::duration:
+    case Kind::signed_integer: return std::to_string(read_integer(type, value));
+    case Kind::enumeration: {
+      const std::int64_t number = read_integer(type, value);
+      for (const auto& [name, its] : type.enumerators)
+        if (its == number) return name;
+      return std::to_string(number);
+    }
+    case Kind::array:
+    case Kind::structure: break;
+  }
+  return "";
+}
+
+std::vector<Leaf> leaves_of(const Type& type) {
+  std::vector<Leaf> leaves;
+  add_leaves(type, "", "", 0, leaves);
+  return leaves;
+}
+
+}  // namespace jarol

@@ -1,0 +1,34 @@
+// From YAML to a value and from a value to text, led by the value's description.
+#pragma once
+
+#include <string>
+
+#include "graph/values/type.h"
+#include "graph/yaml/yaml.h"
+
+namespace jarol {
+
+/// Overwrites what `yaml` mentions in the value of type `type`; all that does not fit is reported, `subject` first.
+void bind(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
+          Problems& problems);
+
+/// The same for a mapping whose keys are fields of a struct that messages call `noun`: "parameter", "output".
+void bind_fields(const Yaml& yaml, const Type& type, void* value, const std::string& subject, const std::string& noun,
+                 Problems& problems);
+
+/// A number or enumerator as text: shortest form that reads back exactly.
+std::string scalar_text(const Type& type, const void* value);
+
+/// A single number, duration, truth value or enumerator from text; returns what is wrong, or nothing.
+std::string parse_scalar(const Type& type, const std::string& text, const std::string& unit, void* value);
+
+/// The scalars of a type, depth first: "" for a plain number, "a.b" for members, "a.0" for elements of arrays.
+struct Leaf {
+  std::string path;
+  std::string unit;
+  std::size_t offset = 0;
+  const Type* type = nullptr;
+};
+std::vector<Leaf> leaves_of(const Type& type);
+
+}  // namespace jarol

@@ -1,0 +1,177 @@
+// type_of<T>(): the runtime description of a C++ value type, made once from its static description.
+#pragma once
+
+#include <Eigen/Core>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <concepts>
+#include <cstring>
+#include <new>
+#include <type_traits>
+
+#include "graph/values/describe.h"
+#include "graph/values/digest.h"
+#include "graph/values/type.h"
+
+namespace jarol {
+
+using Duration = std::chrono::nanoseconds;
+
+namespace detail {
+
+template <class T>
+struct ArrayTraits {
+  static constexpr bool is_array = false;
+};
+template <class E, std::size_t N>
+struct ArrayTraits<std::array<E, N>> {
+  static constexpr bool is_array = true;
+  static constexpr std::size_t count = N;
+  using Element = E;
+};
+template <class E, int Rows, int Options>
+struct ArrayTraits<Eigen::Matrix<E, Rows, 1, Options, Rows, 1>> {
+  static constexpr bool is_array = Rows > 0;
+  static constexpr std::size_t count = Rows > 0 ? Rows : 0;
+  using Element = E;
+};
+
+template <class T>
+concept Integer = std::integral<T> && !std::same_as<T, bool> && !std::same_as<T, char>;
+
+template <class T>
+concept Array = ArrayTraits<T>::is_array;
+
+// Calls visit(word) for each word of the value, in the order of its description.
+template <class T, class Visit>
+inline void for_each_word(const T& value, Visit&& visit) {
+  if constexpr (std::same_as<T, double>) {
+    visit(std::bit_cast<std::uint64_t>(value));
+  } else if constexpr (std::same_as<T, float>) {
+    visit(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(value)));
+  } else if constexpr (std::same_as<T, bool>) {
+    visit(static_cast<std::uint64_t>(value));
+  } else if constexpr (std::is_enum_v<T>) {
+    visit(static_cast<std::uint64_t>(static_cast<std::int64_t>(value)));
+  } else if constexpr (Integer<T>) {
+    visit(static_cast<std::uint64_t>(value));  // sign extension gives two's complement of 64 bits
+  } else if constexpr (std::same_as<T, Duration>) {
+    visit(static_cast<std::uint64_t>(value.count()));
+  } else if constexpr (Array<T>) {
+    for (std::size_t i = 0; i < ArrayTraits<T>::count; ++i) for_each_word(value[i], visit);
+  } else {
+    std::apply([&](auto... f) { (for_each_word(value.*(f.pointer), visit), ...); }, T::fields());
+  }
+}
+
+// Exponent all ones: an infinity or a NaN. On integers, as g++ would vectorise x - x and stall on fresh stores.
+inline std::uint64_t non_finite(double x) {
+  return (std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000ULL) == 0x7ff0000000000000ULL;
+}
+inline std::uint64_t non_finite(float x) { return (std::bit_cast<std::uint32_t>(x) & 0x7f800000U) == 0x7f800000U; }
+
+template <class T>
+inline std::uint64_t any_non_finite(const T& value) {
+  if constexpr (std::floating_point<T>) {
+    return non_finite(value);
+  } else if constexpr (Array<T>) {
+    std::uint64_t any = 0;
+    for (std::size_t i = 0; i < ArrayTraits<T>::count; ++i) any |= any_non_finite(value[i]);
+    return any;
+  } else if constexpr (Described<T>) {
+    return std::apply([&](auto... f) { return (std::uint64_t{0} | ... | any_non_finite(value.*(f.pointer))); },
+                      T::fields());
+  } else {
+    return 0;
+  }
+}
+
+template <class T>
+inline std::uint64_t hash_words(const T& value) {
+  digest::Words words;
+  for_each_word(value, [&](std::uint64_t word) { words.add(word); });
+  return words.sum();
+}
+
+template <class T>
+Type make_type();
+
+}  // namespace detail
+
+template <class T>
+const Type& type_of() {
+  static const Type type = detail::make_type<T>();
+  return type;
+}
+
+namespace detail {
+
+template <class T>
+constexpr std::string_view scalar_name() {
+  if constexpr (std::same_as<T, double>) return "double";
+  if constexpr (std::same_as<T, float>) return "float";
+  if constexpr (std::same_as<T, bool>) return "bool";
+  if constexpr (std::same_as<T, Duration>) return "duration";
+  constexpr bool is_signed = std::is_signed_v<T>;
+  if constexpr (sizeof(T) == 1) return is_signed ? "int8" : "uint8";
+  if constexpr (sizeof(T) == 2) return is_signed ? "int16" : "uint16";
+  if constexpr (sizeof(T) == 4) return is_signed ? "int32" : "uint32";
+  if constexpr (sizeof(T) == 8) return is_signed ? "int64" : "uint64";
+}
+
+template <class T, class F>
+TypeField make_field(F f) {
+  // the offset of the member in a value that exists only for this
+  alignas(T) static std::byte memory[sizeof(T)];
+  static const T* const origin = new (memory) T{};
+  const auto* member = reinterpret_cast<const std::byte*>(&(origin->*(f.pointer)));
+  return {std::string(f.name), std::string(f.unit), std::string(f.text),
+          static_cast<std::size_t>(member - reinterpret_cast<const std::byte*>(origin)),
+          &type_of<typename F::Value>()};
+}
+
+template <class T>
+Type make_type() {
+  static_assert(!std::is_pointer_v<T> && !std::is_reference_v<T>, "a value owns all it says: no pointers, no references");
+  Type type;
+  type.size = sizeof(T);
+  type.alignment = alignof(T);
+  type.construct = [](void* to) {
+    std::memset(to, 0, sizeof(T));  // padding too, so that equal values are equal bytes
+    new (to) T{};
+  };
+  type.finite = [](const void* value) { return any_non_finite(*static_cast<const T*>(value)) == 0; };
+  type.hash_words = [](const void* value) { return hash_words(*static_cast<const T*>(value)); };
+  if constexpr (std::same_as<T, bool> || std::floating_point<T> || Integer<T> || std::same_as<T, Duration>) {
+    type.name = scalar_name<T>();
+    type.kind = std::same_as<T, bool>         ? Kind::boolean
+                : std::floating_point<T>      ? Kind::floating
+                : std::same_as<T, Duration>   ? Kind::duration
+                : std::is_signed_v<T>         ? Kind::signed_integer
+                                              : Kind::unsigned_integer;
+  } else if constexpr (std::is_enum_v<T>) {
+    static_assert(DescribedEnum<T>, "an enumeration is a value once enumerators(E) lists its names");
+    type.name = type_name<T>();
+    type.kind = Kind::enumeration;
+    for (const auto& e : enumerators(T{})) type.enumerators.emplace_back(e.name, static_cast<std::int64_t>(e.value));
+  } else if constexpr (Array<T>) {
+    type.element = &type_of<typename ArrayTraits<T>::Element>();
+    type.count = ArrayTraits<T>::count;
+    type.kind = Kind::array;
+    type.name = type.element->name + "[" + std::to_string(type.count) + "]";
+  } else {
+    static_assert(Described<T>, "a struct is a value once its fields() describes every member");
+    static_assert(std::is_aggregate_v<T>, "a value is a plain struct without constructors or private members");
+    static_assert(std::tuple_size_v<decltype(T::fields())> == member_count<T>(),
+                  "fields() must describe every member of the struct");
+    static_assert(each_field_owned_and_in_order<T>(), "fields() may describe members of its own struct only");
+    type.name = type_name<T>();
+    type.kind = Kind::structure;
+    std::apply([&](auto... f) { (type.fields.push_back(make_field<T>(f)), ...); }, T::fields());
+  }
+  return type;
+}
+
+}  // namespace detail
+}  // namespace jarol

@@ -1,0 +1,113 @@
+#include "graph/yaml/problems.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace jarol {
+namespace {
+
+std::string place(const Location& where) {
+  if (!where.source) return "";
+  return where.source->name + ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
+}
+
+// The line and a caret below the column; tabs stay tabs, so that the caret stands where it should.
+std::string excerpt(const Location& where) {
+  if (!where.source) return "";
+  const std::string_view line = line_of(*where.source, where.line);
+  std::string caret;
+  for (int i = 0; i + 1 < where.column; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    // bytes that continue a UTF-8 character take no column of their own
+    if (at < line.size() && (static_cast<unsigned char>(line[at]) & 0xc0) == 0x80) continue;
+    caret += at < line.size() && line[at] == '\t' ? '\t' : ' ';
+  }
+  return "\n  " + std::string(line) + "\n  " + caret + "^";
+}
+
+// Edit distance with swaps of neighbours (Damerau 1964, optimal string alignment).
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    now[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) now[j] = std::min(now[j], before[j - 2] + 1);
+    }
+    std::swap(before, last);
+    std::swap(last, now);
+  }
+  return last[b.size()];
+}
+
+std::string report(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) {
+    if (!text.empty()) text += '\n';
+    text += to_text(problem);
+  }
+  return text;
+}
+
+auto order_key(const Problem& p) {
+  return std::tuple(p.where.source ? std::string_view(p.where.source->name) : std::string_view(), p.where.line,
+                    p.where.column);
+}
+
+}  // namespace
+
+std::string_view line_of(const Source& source, int line) {
+  std::string_view rest = source.text;
+  for (int i = 1; i < line; ++i) {
+    const std::size_t end = rest.find('\n');
+    if (end == std::string_view::npos) return {};
+    rest.remove_prefix(end + 1);
+  }
+  rest = rest.substr(0, rest.find('\n'));
+  if (!rest.empty() && rest.back() == '\r') rest.remove_suffix(1);
+  return rest;
+}
+
+SpecError::SpecError(std::vector<Problem> problems)
+    : std::runtime_error(report(problems)), problems_(std::move(problems)) {}
+
+void Problems::add(Location where, std::string text, std::vector<Note> notes) {
+  problems_.push_back({std::move(where), std::move(text), std::move(notes)});
+}
+
+void Problems::throw_if_any() const {
+  if (problems_.empty()) return;
+  std::vector<Problem> sorted = problems_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Problem& a, const Problem& b) { return order_key(a) < order_key(b); });
+  throw SpecError(std::move(sorted));
+}
+
+std::string to_text(const Problem& problem) {
+  std::string text = place(problem.where) + "error: " + problem.text + excerpt(problem.where);
+  for (const Note& note : problem.notes) text += "\n" + place(note.where) + "note: " + note.text + excerpt(note.where);
+  return text;
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string* best = nullptr;
+  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t d = distance(word, candidate);
+    if (d < least) {
+      least = d;
+      best = &candidate;
+    }
+  }
+  return best == nullptr ? "" : "; did you mean '" + *best + "'?";
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+  if (words.empty()) return "nothing";
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+}  // namespace jarol

@@ -1,0 +1,237 @@
+#include "graph/yaml/yaml.h"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <unordered_set>
+
+namespace jarol {
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{64} << 20;
+constexpr std::size_t most_values = 1'000'000;
+constexpr std::size_t most_depth = 64;
+
+struct TooMuch {};
+
+// Builds the tree from yaml-cpp's events, which still know anchors, quotes and every key.
+class Builder : public YAML::EventHandler {
+ public:
+  Builder(std::shared_ptr<const Source> source, Problems& problems)
+      : source_(std::move(source)), problems_(problems) {}
+
+  Yaml take() { return std::move(root_); }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    Yaml value;
+    value.where = at(mark);
+    finish(std::move(value), anchor);
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto found = anchored_.find(anchor);
+    if (found != anchored_.end()) {
+      add_to_count(count(found->second) - 1);  // aliases of aliases multiply
+      return finish(found->second, 0);
+    }
+    problems_.add(at(mark), "an alias stands inside the very value it refers to; a value can't contain itself");
+    Yaml value;
+    value.where = at(mark);
+    finish(std::move(value), 0);
+  }
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& text) override {
+    Yaml value;
+    value.where = at(mark);
+    value.quoted = tag == "!";
+    value.text = text;
+    value.kind = Yaml::Kind::scalar;
+    refuse_tag(tag, mark);
+    finish(std::move(value), anchor);
+  }
+
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    refuse_tag(tag, mark);
+    open(Yaml::Kind::sequence, mark, anchor);
+  }
+  void OnSequenceEnd() override { close(); }
+
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    refuse_tag(tag, mark);
+    open(Yaml::Kind::mapping, mark, anchor);
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Open {
+    Yaml value;
+    YAML::anchor_t anchor = 0;
+    bool has_key = false;
+    Yaml key;
+    std::unordered_set<std::string> keys;  // asked, never iterated
+  };
+
+  Location at(const YAML::Mark& mark) const { return {source_, mark.line + 1, mark.column + 1}; }
+
+  void refuse_tag(const std::string& tag, const YAML::Mark& mark) {
+    if (tag.empty() || tag == "?" || tag == "!") return;
+    problems_.add(at(mark), "tag '" + tag + "' is not supported; leave it out");
+  }
+
+  void open(Yaml::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor) {
+    if (open_.size() >= most_depth) {
+      problems_.add(at(mark), "values are nested deeper than " + std::to_string(most_depth) + " levels");
+      throw TooMuch();
+    }
+    Open value;
+    value.value.kind = kind;
+    value.value.where = at(mark);
+    value.anchor = anchor;
+    open_.push_back(std::move(value));
+  }
+
+  void close() {
+    Open done = std::move(open_.back());
+    open_.pop_back();
+    finish(std::move(done.value), done.anchor);
+  }
+
+  static std::size_t count(const Yaml& value) {
+    std::size_t sum = 1;
+    for (const Yaml& child : value.children) sum += count(child);
+    return sum;
+  }
+
+  void add_to_count(std::size_t values) {
+    values_ += values;
+    if (values_ <= most_values) return;
+    problems_.add({source_, 1, 1}, "the text holds more than " + std::to_string(most_values) + " values");
+    throw TooMuch();
+  }
+
+  void finish(Yaml value, YAML::anchor_t anchor) {
+    add_to_count(1);
+    if (anchor != 0) anchored_.emplace(anchor, value);
+    if (open_.empty()) {
+      root_ = std::move(value);
+      return;
+    }
+    Open& parent = open_.back();
+    if (parent.value.kind == Yaml::Kind::sequence) {
+      parent.value.children.push_back(std::move(value));
+    } else if (!parent.has_key) {
+      parent.has_key = true;
+      parent.key = std::move(value);
+    } else {
+      parent.has_key = false;
+      add_entry(parent, std::move(value));
+    }
+  }
+
+  void add_entry(Open& mapping, Yaml value) {
+    const Yaml& key = mapping.key;
+    if (key.kind != Yaml::Kind::scalar) {
+      problems_.add(key.where, "a key is " + std::string(kind_name(key)) + "; keys are plain words");
+      return;
+    }
+    if (key.text == "<<" && !key.quoted) {
+      problems_.add(key.where, "merge key '<<' is not supported; write the keys out, or use a profile");
+      return;
+    }
+    if (!mapping.keys.insert(key.text).second) {
+      const Yaml* first = mapping.value.find(key.text);
+      problems_.add(key.where, "key '" + key.text + "' appears twice in one mapping; keep one",
+                    {{first->key_where, "first here"}});
+      return;
+    }
+    value.key = key.text;
+    value.key_where = key.where;
+    mapping.value.children.push_back(std::move(value));
+  }
+
+  std::shared_ptr<const Source> source_;
+  Problems& problems_;
+  Yaml root_;
+  std::vector<Open> open_;
+  std::map<YAML::anchor_t, Yaml> anchored_;
+  std::size_t values_ = 0;
+};
+
+}  // namespace
+
+const Yaml* Yaml::find(std::string_view name) const {
+  for (const Yaml& child : children)
+    if (child.key == name) return &child;
+  return nullptr;
+}
+
+std::string_view kind_name(const Yaml& yaml) {
+  switch (yaml.kind) {
+    case Yaml::Kind::null: return "nothing";
+    case Yaml::Kind::scalar: return "a scalar";
+    case Yaml::Kind::sequence: return "a list";
+    case Yaml::Kind::mapping: return "a mapping";
+  }
+  return "";
+}
+
+Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) {
+  if (source->text.size() > most_bytes) {
+    problems.add({source, 1, 1}, "the text is larger than " + std::to_string(most_bytes >> 20) + " MiB");
+    return {};
+  }
+  Builder builder(source, problems);
+  std::istringstream stream(source->text);
+  try {
+    YAML::Parser parser(stream);
+    if (!parser.HandleNextDocument(builder)) {
+      Yaml empty;
+      empty.where = {source, 1, 1};
+      return empty;
+    }
+    Yaml root = builder.take();
+    Builder second(source, problems);
+    if (parser.HandleNextDocument(second)) {
+      problems.add(second.take().where, "a second document begins here; a file holds one");
+    }
+    return root;
+  } catch (const YAML::Exception& error) {
+    const bool known = !error.mark.is_null();
+    problems.add({source, known ? error.mark.line + 1 : 1, known ? error.mark.column + 1 : 1},
+                 "not valid YAML: " + error.msg);
+  } catch (const TooMuch&) {
+    // reported where it was found
+  }
+  return {};
+}
+
+std::shared_ptr<const Source> read_source(const std::string& path) {
+  auto source = std::make_shared<Source>();
+  source->name = path;
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file || file.bad() || (text.fail() && file.peek() != std::ifstream::traits_type::eof())) {
+    const std::string reason = errno != 0 ? std::strerror(errno) : "it can't be opened";
+    throw SpecError({{{}, "can't read '" + path + "': " + reason, {}}});
+  }
+  source->text = std::move(text).str();
+  return source;
+}
+
+}  // namespace jarol

@@ -1,0 +1,254 @@
+#include "runtime/executor.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "graph/values/bind.h"
+
+namespace jarol {
+namespace {
+
+constexpr std::size_t faults_kept = 1000;
+
+// Copies of the common sizes are a few moves; the compiler can't know sizes that come from a graph.
+inline void copy(const Copy& c) {
+  switch (c.size) {
+    case 8: std::memcpy(c.to, c.from, 8); return;
+    case 16: std::memcpy(c.to, c.from, 16); return;
+    case 32: std::memcpy(c.to, c.from, 32); return;
+    case 64: std::memcpy(c.to, c.from, 64); return;
+    default: std::memcpy(c.to, c.from, c.size);
+  }
+}
+
+// Communicators are in order of name in the graph, so their index tells it; few are due at once.
+void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
+  if (actions.size() < 2) return;
+  std::sort(actions.begin(), actions.end(),
+            [](const auto* a, const auto* b) { return a->communicator < b->communicator; });
+}
+
+// The first output with a number that is not finite, for the fault's text.
+std::string find_non_finite(const TaskClass& task_class, const void* out) {
+  for (const TypeField& f : task_class.out->fields) {
+    const auto* value = static_cast<const std::byte*>(out) + f.offset;
+    if (f.type->finite(value)) continue;
+    for (const Leaf& leaf : leaves_of(*f.type)) {
+      if (leaf.type->finite(value + leaf.offset)) continue;
+      const std::string path = leaf.path.empty() ? f.name : f.name + "." + leaf.path;
+      return "output '" + path + "' is " + scalar_text(*leaf.type, value + leaf.offset);
+    }
+  }
+  return "an output is not finite";
+}
+
+}  // namespace
+
+std::string to_text(const Fault& fault) {
+  return "task '" + fault.task + "' activation " + std::to_string(fault.activation) + " at " +
+         seconds_text(fault.instant) + " s: " + fault.cause;
+}
+
+Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options)
+    : graph_(graph), plan_(graph), channels_(std::move(channels)), options_(options) {
+  assert(channels_.size() == graph.distributers.size());
+  const std::size_t groups = plan_.groups.size();
+  due_.reserve(groups);
+  cursors_.resize(groups);
+  ticks_.resize(groups);
+  outs_.reserve(graph.communicators.size());
+  ins_.reserve(graph.communicators.size());
+  releases_.resize(groups);
+  report_.faults.reserve(faults_kept);
+  last_.resize(graph.communicators.size());
+  for (const Group& group : plan_.groups) {
+    calendar_.push_back({group.first.count(), static_cast<std::uint32_t>(&group - plan_.groups.data())});
+    for (const auto& actions : {group.outs, group.ins})
+      for (const CommunicatorAction& action : actions) last_[action.communicator] = action.value;
+  }
+  std::make_heap(calendar_.begin(), calendar_.end(), [](const Due& a, const Due& b) {
+    return std::tie(a.instant, a.group) > std::tie(b.instant, b.group);
+  });
+}
+
+const void* Executor::last_value(std::size_t communicator) const { return last_[communicator]; }
+
+void Executor::run_until(Duration end) {
+  if (report_.stopped) return;
+  const bool record = options_.recorder != nullptr;
+  if (options_.digest) {
+    record ? walk<true, true>(end) : walk<true, false>(end);
+  } else {
+    record ? walk<false, true>(end) : walk<false, false>(end);
+  }
+}
+
+template <bool Digest, bool Record>
+void Executor::walk(Duration end) {
+  const auto later = [](const Due& a, const Due& b) {
+    return std::tie(a.instant, a.group) > std::tie(b.instant, b.group);
+  };
+  while (!calendar_.empty() && calendar_.front().instant < end.count()) {
+    if (interrupted_.load(std::memory_order_relaxed)) return;
+    const std::int64_t instant = calendar_.front().instant;
+    now_.store(instant, std::memory_order_relaxed);
+    due_.clear();
+    while (!calendar_.empty() && calendar_.front().instant == instant) {
+      const std::uint32_t group = calendar_.front().group;
+      due_.push_back(group);
+      std::pop_heap(calendar_.begin(), calendar_.end(), later);
+      // an instant beyond what 64 bits hold, 292 years, is never reached
+      Due& next = calendar_.back();
+      if (__builtin_add_overflow(instant, plan_.groups[group].period.count(), &next.instant))
+        next.instant = std::numeric_limits<std::int64_t>::max();
+      std::push_heap(calendar_.begin(), calendar_.end(), later);
+    }
+    step_instant<Digest, Record>(instant);
+    report_.instants += 1;
+    report_.simulated = Duration(instant);
+    if (report_.stopped) return;
+  }
+  report_.simulated = end;
+  now_.store(end.count(), std::memory_order_relaxed);
+}
+
+template <bool Digest, bool Record>
+void Executor::step_instant(std::int64_t instant) {
+  const std::uint64_t instant_term = Digest ? digest::instant_term(instant) : 0;
+  outs_.clear();
+  ins_.clear();
+  for (const std::uint32_t g : due_) {
+    for (const CommunicatorAction& action : plan_.groups[g].outs) outs_.push_back(&action);
+    for (const CommunicatorAction& action : plan_.groups[g].ins) ins_.push_back(&action);
+  }
+  // step 0: external systems reach this instant with the inputs they held before it
+  if (!outs_.empty() || !ins_.empty())
+    for (const auto& channels : channels_) channels->reach(Duration(instant));
+  // step 1: outputs of LET tasks that end now
+  for (const std::uint32_t g : due_)
+    for (const LetEnd& let_end : plan_.groups[g].let_ends) {
+      if (let_end.status->outcome == Outcome::good) [[likely]] {
+        publish<Digest, Record>(let_end.publish, instant, instant_term);
+      } else {
+        if (let_end.status->outcome != Outcome::left_out) record_fault(let_end.task, instant);
+        let_end.status->outcome = Outcome::good;  // at most one activation waits for its end
+      }
+    }
+  // steps 2 and 3: communicators, by name
+  sort_by_name(outs_);
+  for (const CommunicatorAction* out : outs_) {
+    hand_over(*out);
+    publish<Digest, Record>(out->publish, instant, instant_term);
+  }
+  sort_by_name(ins_);
+  for (const CommunicatorAction* in : ins_) {
+    take(*in);
+    publish<Digest, Record>(in->publish, instant, instant_term);
+  }
+  // step 4: tasks released now
+  if (due_.size() == 1) {
+    const Group& group = plan_.groups[due_[0]];
+    const Tick tick{Duration(instant), releases_[due_[0]]++, group.period};
+    for (const Segment& segment : group.segments) run_segment<Digest, Record>(segment, tick, instant_term);
+    report_.activations += group.activations;
+  } else {
+    run_stages<Digest, Record>(instant, instant_term);
+  }
+}
+
+// Several groups: the segments of the lowest stage of all, then those of the next.
+template <bool Digest, bool Record>
+void Executor::run_stages(std::int64_t instant, std::uint64_t instant_term) {
+  for (std::size_t i = 0; i < due_.size(); ++i) {
+    const Group& group = plan_.groups[due_[i]];
+    cursors_[i] = group.segments.first;
+    ticks_[i] = {Duration(instant), releases_[due_[i]]++, group.period};
+    report_.activations += group.activations;
+  }
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  for (std::uint32_t stage = 0; stage != none;) {
+    std::uint32_t next = none;
+    for (std::size_t i = 0; i < due_.size(); ++i) {
+      const Segment* last = plan_.groups[due_[i]].segments.last;
+      if (cursors_[i] != last && cursors_[i]->stage == stage)
+        run_segment<Digest, Record>(*cursors_[i]++, ticks_[i], instant_term);
+      if (cursors_[i] != last) next = std::min(next, cursors_[i]->stage);
+    }
+    stage = next;
+  }
+}
+
+template <bool Digest, bool Record>
+void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term) {
+  for (const Activation& activation : segment.activations) {
+    const Outcome outcome = activation.run(*activation.memory, tick);
+    if (outcome == Outcome::good) [[likely]] {
+      publish<Digest, Record>(activation.publish, tick.now.count(), instant_term);
+    } else {
+      on_bad_outcome(activation, outcome, tick);
+    }
+  }
+}
+
+template <bool Digest, bool Record>
+inline void Executor::publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term) {
+  for (const Copy& c : what.copies) copy(c);
+  if constexpr (Digest)
+    for (const Publication& p : what.publications)
+      report_.digest += digest::publication(p.name_hash, instant_term, p.hash_words(p.value));
+  if constexpr (Record)
+    for (const Publication& p : what.publications) options_.recorder->append(instant, p.output, p.value, p.size);
+}
+
+void Executor::hand_over(const CommunicatorAction& out) {
+  const Communicator& communicator = graph_.communicators[out.communicator];
+  std::memcpy(out.value, out.input, communicator.type->size);
+  if (communicator.distributer) channels_[*communicator.distributer]->hand_over(communicator.channel, out.value);
+}
+
+void Executor::take(const CommunicatorAction& in) {
+  const Communicator& communicator = graph_.communicators[in.communicator];
+  if (!communicator.distributer) return;
+  if (!channels_[*communicator.distributer]->take(communicator.channel, in.taken)) return;
+  if (communicator.type->finite(in.taken)) {
+    std::memcpy(in.value, in.taken, communicator.type->size);
+  } else {
+    ++report_.non_finite_inputs;
+  }
+}
+
+// A LET task's fault shows at the end of its LET, when its outputs would have.
+void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick) {
+  const Task& task = graph_.tasks[activation.task];
+  TaskStatus& status = *activation.status;
+  status.outcome = outcome;
+  status.activation = tick.activation;
+  if (outcome == Outcome::left_out) {
+    --report_.activations;
+    return;
+  }
+  if (outcome == Outcome::non_finite) {
+    const std::string text = find_non_finite(*task.task_class, activation.memory->out);
+    text.copy(status.fault.text, sizeof status.fault.text - 1);
+  }
+  if (task.on_fault != OnFault::stop) {
+    const auto& undoable = static_cast<const UndoableMemory&>(*activation.memory);
+    std::memcpy(undoable.state, undoable.kept, undoable.size);
+    status.skip_next = task.on_fault == OnFault::skip;
+  }
+  if (!activation.has_let) record_fault(activation.task, tick.now.count());
+}
+
+void Executor::record_fault(std::uint32_t index, std::int64_t instant) {
+  const Task& task = graph_.tasks[index];
+  TaskStatus& status = plan_.status[index];
+  const std::string cause = (status.outcome == Outcome::threw ? "threw: " : "") + std::string(status.fault.text);
+  if (report_.faults.size() < faults_kept)
+    report_.faults.push_back({task.name, status.activation, Duration(instant), cause});
+  ++report_.fault_count;
+  status.fault = {};
+  if (task.on_fault == OnFault::stop) report_.stopped = true;
+}
+
+}  // namespace jarol

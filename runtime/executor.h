@@ -1,0 +1,99 @@
+// Runs a graph on the virtual clock: as fast as possible, in lockstep with the external systems in process.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "runtime/channels.h"
+#include "runtime/plan.h"
+#include "runtime/recorder.h"
+
+namespace jarol {
+
+/// A fault as the report tells it.
+struct Fault {
+  std::string task;
+  std::int64_t activation = 0;
+  Duration instant{};  // at which it would have published
+  std::string cause;
+};
+
+/// One line, as it goes to people: "task 'a' activation 3 at 0.03s: ...".
+std::string to_text(const Fault& fault);
+
+struct Report {
+  std::uint64_t digest = 0;
+  Duration simulated{};
+  std::uint64_t activations = 0;  // released tasks that ran
+  std::uint64_t instants = 0;     // distinct instants at which anything was due
+  std::vector<Fault> faults;      // the first of them; all are counted
+  std::uint64_t fault_count = 0;
+  std::uint64_t non_finite_inputs = 0;  // from outside, not taken
+  bool stopped = false;                 // by a fault
+};
+
+struct ExecutorOptions {
+  bool digest = true;
+  Recorder* recorder = nullptr;
+};
+
+class Executor {
+ public:
+  /// One Channels per distributer of the graph, in its order. Graph and recorder outlive the executor.
+  Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options = {});
+
+  /// Covers the instants from where it stands to before `end`, or stops at a fault. In pieces it is the same run.
+  void run_until(Duration end);
+
+  /// The logical instant reached, for progress; may be read by another thread.
+  Duration now() const { return Duration(now_.load(std::memory_order_relaxed)); }
+
+  /// Ends run_until after the instant under way; may be called from another thread or a signal handler.
+  void interrupt() { interrupted_.store(true, std::memory_order_relaxed); }
+
+  const Report& report() const { return report_; }
+  const Plan& plan() const { return plan_; }
+
+  /// What a communicator last published, or its initial value.
+  const void* last_value(std::size_t communicator) const;
+
+ private:
+  template <bool Digest, bool Record>
+  void walk(Duration end);
+  template <bool Digest, bool Record>
+  void step_instant(std::int64_t instant);
+  template <bool Digest, bool Record>
+  void publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term);
+  template <bool Digest, bool Record>
+  void run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term);
+  template <bool Digest, bool Record>
+  void run_stages(std::int64_t instant, std::uint64_t instant_term);
+  void hand_over(const CommunicatorAction& out);
+  void take(const CommunicatorAction& in);
+  void on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick);
+  void record_fault(std::uint32_t task, std::int64_t instant);
+
+  struct Due {
+    std::int64_t instant;
+    std::uint32_t group;
+  };
+
+  const Graph& graph_;
+  Plan plan_;
+  std::vector<std::unique_ptr<Channels>> channels_;
+  ExecutorOptions options_;
+  std::vector<Due> calendar_;                // heap: least instant first, then least group
+  std::vector<std::uint32_t> due_;           // groups due now
+  std::vector<const Segment*> cursors_;      // of the groups due now
+  std::vector<Tick> ticks_;                  // of the groups due now
+  std::vector<const CommunicatorAction*> outs_, ins_;  // due now
+  std::vector<std::int64_t> releases_;       // per group: how often it was due
+  std::vector<const std::byte*> last_;       // per communicator
+  Report report_;
+  std::atomic<std::int64_t> now_{0};
+  std::atomic<bool> interrupted_{false};
+};
+
+}  // namespace jarol

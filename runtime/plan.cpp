@@ -1,0 +1,300 @@
+#include "runtime/plan.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <new>
+#include <numeric>
+
+#include "graph/deadlines.h"
+
+namespace jarol {
+namespace {
+
+constexpr std::size_t line = 64;  // bytes of a cache line: no two tasks share one
+
+// Runs a task that may have to be undone: its state and outputs are kept until the executor has seen the outcome.
+Outcome run_undoable(const TaskMemory& memory, const Tick& tick) {
+  const auto& undoable = static_cast<const UndoableMemory&>(memory);
+  if (undoable.status->skip_next) {
+    undoable.status->skip_next = false;
+    return Outcome::left_out;
+  }
+  std::memcpy(undoable.kept, memory.state, undoable.size);
+  return undoable.run(memory, tick);
+}
+
+// Hands out places in memory that is allocated once all are known.
+class Layout {
+ public:
+  std::size_t place(std::size_t size, std::size_t alignment) {
+    const std::size_t at = (size_ + alignment - 1) / alignment * alignment;
+    size_ = at + size;
+    return at;
+  }
+  std::size_t place(const Type& type) { return place(type.size, type.alignment); }
+  std::size_t size() const { return size_; }
+
+ private:
+  std::size_t size_ = 0;
+};
+
+struct TaskPlaces {
+  std::size_t parameters = 0, in = 0, state = 0, out = 0, kept = 0;
+};
+
+struct CommunicatorPlaces {
+  std::size_t value = 0, input = 0, taken = 0;
+};
+
+template <class T>
+Range<T> range(const std::vector<T>& all, std::size_t first) {
+  return {all.data() + first, all.data() + all.size()};
+}
+
+}  // namespace
+
+class PlanBuilder {
+ public:
+  PlanBuilder(const Graph& graph, Plan& plan) : graph_(graph), plan_(plan) {}
+
+  void build() {
+    sort_connections();
+    assign_stages();
+    lay_out();
+    fill();
+    name_outputs();
+    make_groups();
+  }
+
+ private:
+  using GroupKey = std::pair<Duration, Duration>;  // period, first instant
+
+  void sort_connections() {
+    from_task_.resize(graph_.tasks.size());
+    from_communicator_.resize(graph_.communicators.size());
+    for (const Connection& c : graph_.connections)
+      (c.from.kind == End::Kind::task ? from_task_ : from_communicator_)[c.from.index].push_back(&c);
+  }
+
+  // A later stage than every producer of another group that can be due at the same instant.
+  void assign_stages() {
+    stage_.assign(graph_.tasks.size(), 0);
+    for (const std::size_t i : graph_.order) {
+      const Task& task = graph_.tasks[i];
+      if (task.let) continue;
+      for (const Connection* c : from_task_[i]) {
+        if (c->to.kind != End::Kind::task) continue;
+        const Task& reader = graph_.tasks[c->to.index];
+        const bool same_group = reader.period == task.period && reader.offset == task.offset;
+        const std::int64_t gcd = std::gcd(task.period.count(), reader.period.count());
+        const bool coincide = (reader.offset - task.offset).count() % gcd == 0;
+        if (!coincide) continue;
+        stage_[c->to.index] = std::max(stage_[c->to.index], stage_[i] + (same_group ? 0 : 1));
+      }
+    }
+  }
+
+  // Tasks of one group lie in the order in which they run.
+  std::vector<std::size_t> execution_order() const {
+    std::vector<std::size_t> order = graph_.order;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      const Task &s = graph_.tasks[a], &t = graph_.tasks[b];
+      return std::tuple(s.period, s.offset, stage_[a]) < std::tuple(t.period, t.offset, stage_[b]);
+    });
+    return order;
+  }
+
+  void lay_out() {
+    order_ = execution_order();
+    tasks_.resize(graph_.tasks.size());
+    communicators_.resize(graph_.communicators.size());
+    Layout layout;
+    for (const std::size_t i : order_) {
+      const TaskClass& c = *graph_.tasks[i].task_class;
+      layout.place(0, line);
+      tasks_[i].in = layout.place(*c.in);
+      tasks_[i].parameters = layout.place(*c.parameters);
+      tasks_[i].state = layout.place(*c.state);
+      tasks_[i].out = layout.place(*c.out);
+    }
+    for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
+      const Type& type = *graph_.communicators[i].type;
+      layout.place(0, line);
+      communicators_[i].value = layout.place(type);
+      communicators_[i].input = layout.place(type);
+      communicators_[i].taken = layout.place(type);
+    }
+    // kept apart from what every activation touches
+    for (const std::size_t i : order_)
+      if (graph_.tasks[i].on_fault != OnFault::stop) tasks_[i].kept = layout.place(undoable_size(i), line);
+    arena_size_ = layout.size();
+    plan_.arena_.reset(static_cast<std::byte*>(::operator new(arena_size_ + line, std::align_val_t{line})));
+    std::memset(plan_.arena_.get(), 0, arena_size_ + line);
+  }
+
+  std::size_t undoable_size(std::size_t i) const {
+    return tasks_[i].out + graph_.tasks[i].task_class->out->size - tasks_[i].state;
+  }
+
+  std::byte* at(std::size_t place) const { return plan_.arena_.get() + place; }
+
+  const std::byte* source_of(const Connection& c) const {
+    if (c.from.kind == End::Kind::communicator) return at(communicators_[c.from.index].value);
+    const TaskClass& task_class = *graph_.tasks[c.from.index].task_class;
+    return at(tasks_[c.from.index].out) + task_class.out->fields[c.from.field].offset;
+  }
+
+  std::byte* target_of(const Connection& c) const {
+    if (c.to.kind == End::Kind::communicator) return at(communicators_[c.to.index].input);
+    const TaskClass& task_class = *graph_.tasks[c.to.index].task_class;
+    return at(tasks_[c.to.index].in) + task_class.in->fields[c.to.field].offset;
+  }
+
+  // Initial values; each input begins with what its source reads as until first published.
+  void fill() {
+    plan_.status.resize(graph_.tasks.size());
+    plan_.memory_.resize(graph_.tasks.size());
+    for (std::size_t i = 0; i < graph_.tasks.size(); ++i) {
+      const Task& task = graph_.tasks[i];
+      const TaskClass& c = *task.task_class;
+      c.in->construct(at(tasks_[i].in));
+      c.state->construct(at(tasks_[i].state));
+      std::memcpy(at(tasks_[i].parameters), task.parameters.data(), c.parameters->size);
+      std::memcpy(at(tasks_[i].out), task.out.data(), c.out->size);
+      UndoableMemory& memory = plan_.memory_[i];
+      memory.parameters = at(tasks_[i].parameters);
+      memory.in = at(tasks_[i].in);
+      memory.state = at(tasks_[i].state);
+      memory.out = at(tasks_[i].out);
+      memory.status = &plan_.status[i];
+      memory.fault = &plan_.status[i].fault;
+      memory.run = c.run;
+      memory.kept = at(tasks_[i].kept);
+      memory.size = undoable_size(i);
+    }
+    for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
+      const Communicator& c = graph_.communicators[i];
+      for (const std::size_t place : {communicators_[i].value, communicators_[i].input, communicators_[i].taken})
+        c.type->construct(at(place));
+      if (c.direction == Direction::in) std::memcpy(at(communicators_[i].value), c.init.data(), c.type->size);
+    }
+    for (const Connection& c : graph_.connections) std::memcpy(target_of(c), source_of(c), c.type->size);
+  }
+
+  void name_outputs() {
+    for (std::size_t i = 0; i < graph_.tasks.size(); ++i) {
+      const auto& fields = graph_.tasks[i].task_class->out->fields;
+      for (std::size_t f = 0; f < fields.size(); ++f)
+        plan_.outputs.push_back({end_name(graph_, {End::Kind::task, i, f}, true), fields[f].type});
+    }
+    for (const Communicator& c : graph_.communicators) plan_.outputs.push_back({c.name, c.type});
+    std::sort(plan_.outputs.begin(), plan_.outputs.end(),
+              [](const Output& a, const Output& b) { return a.name < b.name; });
+    for (std::uint32_t i = 0; i < plan_.outputs.size(); ++i) output_index_[plan_.outputs[i].name] = i;
+    // ranges point into these: they never grow beyond what is reserved here
+    std::size_t publications = plan_.outputs.size();
+    plan_.copies_.reserve(graph_.connections.size());
+    plan_.publications_.reserve(publications);
+    plan_.activations_.reserve(graph_.tasks.size());
+    plan_.let_ends_.reserve(graph_.tasks.size());
+    plan_.outs_.reserve(graph_.communicators.size());
+    plan_.ins_.reserve(graph_.communicators.size());
+    plan_.segments_.reserve(graph_.tasks.size());
+  }
+
+  Publication publication(const std::string& name, const Type& type, const std::byte* value) const {
+    return {value, digest::name_hash(name), type.hash_words, output_index_.at(name), static_cast<std::uint32_t>(type.size)};
+  }
+
+  Publish publish_task(std::size_t i) {
+    const std::size_t first_copy = plan_.copies_.size(), first_publication = plan_.publications_.size();
+    for (const Connection* c : from_task_[i]) plan_.copies_.push_back({source_of(*c), target_of(*c), c->type->size});
+    const auto& fields = graph_.tasks[i].task_class->out->fields;
+    for (std::size_t f = 0; f < fields.size(); ++f)
+      plan_.publications_.push_back(publication(end_name(graph_, {End::Kind::task, i, f}, true), *fields[f].type,
+                                                at(tasks_[i].out) + fields[f].offset));
+    return {range(plan_.copies_, first_copy), range(plan_.publications_, first_publication)};
+  }
+
+  CommunicatorAction communicator_action(std::size_t i) {
+    const Communicator& c = graph_.communicators[i];
+    const std::size_t first_copy = plan_.copies_.size(), first_publication = plan_.publications_.size();
+    for (const Connection* s : from_communicator_[i])
+      plan_.copies_.push_back({source_of(*s), target_of(*s), s->type->size});
+    plan_.publications_.push_back(publication(c.name, *c.type, at(communicators_[i].value)));
+    return {static_cast<std::uint32_t>(i), at(communicators_[i].value), at(communicators_[i].input),
+            at(communicators_[i].taken), {range(plan_.copies_, first_copy), range(plan_.publications_, first_publication)}};
+  }
+
+  Activation activation(std::size_t i) {
+    const Task& task = graph_.tasks[i];
+    const bool undoable = task.on_fault != OnFault::stop;
+    return {undoable ? &run_undoable : task.task_class->run,
+            &plan_.memory_[i],
+            task.let ? Publish{} : publish_task(i),
+            &plan_.status[i],
+            static_cast<std::uint32_t>(i),
+            task.let.has_value()};
+  }
+
+  void make_groups() {
+    struct Members {
+      std::vector<std::size_t> let_ends, outs, ins, tasks;
+    };
+    std::map<GroupKey, Members> groups;
+    for (const std::size_t i : order_) {
+      const Task& task = graph_.tasks[i];
+      groups[{task.period, task.offset}].tasks.push_back(i);
+      if (task.let) groups[{task.period, task.offset + *task.let}].let_ends.push_back(i);
+    }
+    for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
+      const Communicator& c = graph_.communicators[i];
+      Members& members = groups[{c.period, c.offset}];
+      (c.direction == Direction::in ? members.ins : members.outs).push_back(i);
+    }
+    for (const auto& [key, members] : groups) {
+      Group group;
+      group.period = key.first;
+      group.first = key.second;
+      group.activations = members.tasks.size();
+      std::size_t first = plan_.let_ends_.size();
+      for (const std::size_t i : members.let_ends)
+        plan_.let_ends_.push_back({publish_task(i), &plan_.status[i], static_cast<std::uint32_t>(i)});
+      group.let_ends = range(plan_.let_ends_, first);
+      first = plan_.outs_.size();
+      for (const std::size_t i : members.outs) plan_.outs_.push_back(communicator_action(i));
+      group.outs = range(plan_.outs_, first);
+      first = plan_.ins_.size();
+      for (const std::size_t i : members.ins) plan_.ins_.push_back(communicator_action(i));
+      group.ins = range(plan_.ins_, first);
+      const std::size_t first_segment = plan_.segments_.size();
+      for (std::size_t m = 0; m < members.tasks.size(); ++m) {
+        const std::size_t i = members.tasks[m];
+        const std::size_t at = plan_.activations_.size();
+        plan_.activations_.push_back(activation(i));
+        if (m == 0 || stage_[i] != stage_[members.tasks[m - 1]])
+          plan_.segments_.push_back({stage_[i], {plan_.activations_.data() + at, nullptr}});
+        plan_.segments_.back().activations.last = plan_.activations_.data() + at + 1;
+      }
+      group.segments = range(plan_.segments_, first_segment);
+      plan_.groups.push_back(group);
+    }
+  }
+
+  const Graph& graph_;
+  Plan& plan_;
+  std::vector<std::vector<const Connection*>> from_task_, from_communicator_;
+  std::vector<std::uint32_t> stage_;
+  std::vector<std::size_t> order_;
+  std::vector<TaskPlaces> tasks_;
+  std::vector<CommunicatorPlaces> communicators_;
+  std::map<std::string, std::uint32_t> output_index_;
+  std::size_t arena_size_ = 0;
+};
+
+Plan::Plan(const Graph& graph) { PlanBuilder(graph, *this).build(); }
+
+void Plan::Release::operator()(std::byte* memory) const { ::operator delete(memory, std::align_val_t{line}); }
+
+}  // namespace jarol

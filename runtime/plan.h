@@ -1,0 +1,137 @@
+// The plan of a graph: memory and actions laid out once, so that running is walking.
+//
+// There is no table over the hyperperiod. All that acts with one period from one first instant forms a group; at an
+// instant the groups that are due run step by step, and within the last step stage by stage: a task that is fed by
+// another group without a LET stands in a later stage than its producer. Cost and memory hang on the number of tasks
+// and connections, never on how their periods relate.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "graph/graph.h"
+
+namespace jarol {
+
+/// One transfer along a connection: from a producer's output right into the reader's input.
+struct Copy {
+  const std::byte* from = nullptr;
+  std::byte* to = nullptr;
+  std::size_t size = 0;
+};
+
+/// A published value as trace and digest know it.
+struct Publication {
+  const std::byte* value = nullptr;
+  std::uint64_t name_hash = 0;
+  std::uint64_t (*hash_words)(const void* value) = nullptr;
+  std::uint32_t output = 0;  // index into Plan::outputs
+  std::uint32_t size = 0;
+};
+
+template <class T>
+struct Range {
+  const T* first = nullptr;
+  const T* last = nullptr;
+  const T* begin() const { return first; }
+  const T* end() const { return last; }
+};
+
+/// What is done to make outputs visible.
+struct Publish {
+  Range<Copy> copies;              // of all outputs together
+  Range<Publication> publications;
+};
+
+/// How the last activation of a task ended, until its outputs are due.
+struct TaskStatus {
+  Outcome outcome = Outcome::good;
+  bool skip_next = false;  // the next activation is left out
+  std::int64_t activation = 0;
+  FaultText fault;
+};
+
+/// A task's memory together with what is needed to undo an activation.
+struct UndoableMemory : TaskMemory {
+  Thunk run = nullptr;
+  std::byte* kept = nullptr;  // as large as state and outputs
+  std::size_t size = 0;       // of state and outputs, which lie next to each other
+  TaskStatus* status = nullptr;
+};
+
+/// One task of a group, run at its release.
+struct Activation {
+  Thunk run = nullptr;
+  const TaskMemory* memory = nullptr;
+  Publish publish;  // empty for a task with a LET
+  TaskStatus* status = nullptr;
+  std::uint32_t task = 0;
+  bool has_let = false;
+};
+
+/// The outputs of a LET task, due at the end of its LET.
+struct LetEnd {
+  Publish publish;
+  TaskStatus* status = nullptr;
+  std::uint32_t task = 0;
+};
+
+/// A communicator that acts.
+struct CommunicatorAction {
+  std::uint32_t communicator = 0;
+  std::byte* value = nullptr;        // last published
+  const std::byte* input = nullptr;  // of an `out`: what its producer last published
+  std::byte* taken = nullptr;        // of an `in`: where a new value from outside is tried
+  Publish publish;
+};
+
+/// Consecutive tasks of one group that may run before the next stage of other groups.
+struct Segment {
+  std::uint32_t stage = 0;
+  Range<Activation> activations;
+};
+
+/// All that acts at `first`, `first + period`, ...
+struct Group {
+  Duration first{};
+  Duration period{};
+  Range<LetEnd> let_ends;           // step 1
+  Range<CommunicatorAction> outs;   // step 2
+  Range<CommunicatorAction> ins;    // step 3
+  Range<Segment> segments;          // step 4
+  std::size_t activations = 0;
+};
+
+/// An output as trace and digest name it.
+struct Output {
+  std::string name;
+  const Type* type = nullptr;
+};
+
+struct Plan {
+  explicit Plan(const Graph& graph);
+  Plan(const Plan&) = delete;
+  Plan& operator=(const Plan&) = delete;
+
+  std::vector<Group> groups;
+  std::vector<Output> outputs;  // in bytewise order of name
+  std::vector<TaskStatus> status;
+
+ private:
+  friend class PlanBuilder;
+  struct Release {
+    void operator()(std::byte* memory) const;
+  };
+  std::unique_ptr<std::byte, Release> arena_;
+  std::vector<Copy> copies_;
+  std::vector<Publication> publications_;
+  std::vector<UndoableMemory> memory_;
+  std::vector<Activation> activations_;
+  std::vector<LetEnd> let_ends_;
+  std::vector<CommunicatorAction> outs_;
+  std::vector<CommunicatorAction> ins_;
+  std::vector<Segment> segments_;
+};
+
+}  // namespace jarol

@@ -1,0 +1,75 @@
+// Recording of every publication: the thread that runs tasks only appends to memory, another one hands it on.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "graph/values/type_of.h"
+
+namespace jarol {
+
+/// What stands before each recorded value.
+struct RecordHeader {
+  std::int64_t instant = 0;  // ns since the start
+  std::uint32_t output = 0;  // index into Plan::outputs
+  std::uint32_t size = 0;    // bytes of the value that follows, padded to 8
+};
+
+/// Takes recorded values in their order, on the recorder's thread.
+class RecordSink {
+ public:
+  virtual ~RecordSink() = default;
+  virtual void take(Duration instant, std::uint32_t output, const void* value) = 0;
+  /// After the last value. Throws if anything was lost.
+  virtual void finish() = 0;
+};
+
+class Recorder {
+ public:
+  /// The sinks outlive the recorder.
+  explicit Recorder(std::vector<RecordSink*> sinks);
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Appends one value. Waits only if the sinks are a whole ring behind.
+  void append(std::int64_t instant, std::uint32_t output, const void* value, std::uint32_t size) {
+    const std::size_t padded = (size + 7U) & ~std::size_t{7};
+    if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk(sizeof(RecordHeader) + padded);
+    const RecordHeader header{instant, output, size};
+    std::memcpy(now_ + used_, &header, sizeof header);
+    std::memcpy(now_ + used_ + sizeof header, value, size);
+    used_ += sizeof header + padded;
+  }
+
+  /// Hands on all that was appended, ends the thread and lets the sinks finish; throws what a sink threw.
+  void close();
+
+ private:
+  static constexpr std::size_t chunk_bytes = std::size_t{256} << 10;
+  static constexpr std::size_t chunks = 8;
+
+  void next_chunk(std::size_t needed);
+  void publish_chunk();
+  void run();
+  void drain(const std::byte* chunk, std::size_t bytes);
+
+  std::vector<RecordSink*> sinks_;
+  std::unique_ptr<std::byte[]> memory_;
+  std::size_t bytes_[chunks] = {};  // filled part of each chunk
+  std::byte* now_ = nullptr;
+  std::size_t used_ = 0;
+  std::atomic<std::uint64_t> written_{0};  // chunks handed on; the top bit says that no more will come
+  std::atomic<std::uint64_t> read_{0};     // chunks drained
+  std::exception_ptr failure_;             // of a sink; read after the thread has ended
+  std::thread thread_;
+};
+
+}  // namespace jarol

@@ -1,0 +1,21 @@
+#include "tasks/generic.h"
+
+namespace jarol::tasks {
+
+void Counter::run(const Tick& tick, Out& out) { out.out = static_cast<double>(tick.activation); }
+
+void Relay::run(const Tick&, const In& in, Out& out) { out.out = in.in; }
+
+void Sum::run(const Tick&, const In& in, Out& out) { out.out = in.a + in.b; }
+
+void Accumulate::run(const Tick&, const In& in, State& state, Out& out) {
+  state.sum += in.in;
+  out.out = state.sum;
+}
+
+void Work::run(const Param& p, const Tick&, State& state) {
+  // a chain that no compiler shortens: the multiplier of Knuth's linear congruential generator (MMIX)
+  for (std::uint32_t i = 0; i < p.rounds; ++i) state.number = state.number * 6364136223846793005ULL + 1442695040888963407ULL;
+}
+
+}  // namespace jarol::tasks

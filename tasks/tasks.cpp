@@ -1,0 +1,21 @@
+#include "tasks/tasks.h"
+
+#include "tasks/generic.h"
+#include "tasks/lauv_control.h"
+
+namespace jarol::tasks {
+namespace {
+
+template <class... T>
+void add(Registry& registry) {
+  (registry.add(task_class<T>()), ...);
+}
+
+}  // namespace
+
+void add_tasks(Registry& registry) {
+  add<Accumulate, Counter, Relay, Sum, Work>(registry);
+  add<DepthControl, FinAllocator, HeadingControl, LauvForward, LauvReport, SpeedControl>(registry);
+}
+
+}  // namespace jarol::tasks

@@ -1,0 +1,81 @@
+// Values that the submarine's tasks exchange. Earth frame NED, body frame forward-right-down, SI units, radians.
+#pragma once
+
+#include <array>
+
+#include "graph/values/describe.h"
+
+namespace jarol::tasks {
+
+/// How the vehicle moves, as its navigation tells it.
+struct Motion {
+  double x = 0, y = 0, z = 0;
+  double phi = 0, theta = 0, psi = 0;
+  double u = 0, v = 0, w = 0;
+  double p = 0, q = 0, r = 0;
+
+  static constexpr auto fields() {
+    using M = Motion;
+    return describe(field<&M::x>("m", "north of the origin"), field<&M::y>("m", "east of the origin"),
+                    field<&M::z>("m", "below the surface"), field<&M::phi>("rad", "roll"),
+                    field<&M::theta>("rad", "pitch, nose up"), field<&M::psi>("rad", "heading, -pi to pi"),
+                    field<&M::u>("m/s", "surge, through the water"), field<&M::v>("m/s", "sway"),
+                    field<&M::w>("m/s", "heave"), field<&M::p>("rad/s", "roll rate"),
+                    field<&M::q>("rad/s", "pitch rate"), field<&M::r>("rad/s", "yaw rate"));
+  }
+};
+
+/// What the operator wants.
+struct Setpoint {
+  double depth = 0;
+  double heading = 0;
+  double speed = 0;
+
+  static constexpr auto fields() {
+    using S = Setpoint;
+    return describe(field<&S::depth>("m", "below the surface"), field<&S::heading>("rad", "clockwise from north"),
+                    field<&S::speed>("m/s", "through the water, 0 stops the propeller"));
+  }
+};
+
+/// What the operator is told.
+struct VehicleReport {
+  double depth = 0;
+  double pitch = 0;
+  double heading = 0;
+  double speed = 0;
+
+  static constexpr auto fields() {
+    using S = VehicleReport;
+    return describe(field<&S::depth>("m", "below the surface"), field<&S::pitch>("rad", "nose up"),
+                    field<&S::heading>("rad", "clockwise from north"), field<&S::speed>("m/s", "through the water"));
+  }
+};
+
+/// A turning demand on the fins of one axis, in fin angle.
+struct Moment {
+  double angle = 0;
+
+  static constexpr auto fields() { return describe(field<&Moment::angle>("rad", "of the fins, positive turns the axis' positive way")); }
+};
+
+/// A demand on the propeller.
+struct Thrust {
+  double actuation = 0;
+
+  static constexpr auto fields() { return describe(field<&Thrust::actuation>("", "-1 (full astern) to 1 (full ahead)")); }
+};
+
+/// What the actuators get: fins 0 bottom, 1 port, 2 starboard, 3 top; positive on 0 and 3 turns to port, positive on 1
+/// and 2 noses down (the LAUV's numbering).
+struct Actuation {
+  double thruster = 0;
+  std::array<double, 4> fins{};
+
+  static constexpr auto fields() {
+    using A = Actuation;
+    return describe(field<&A::thruster>("", "-1 to 1"), field<&A::fins>("rad", "commanded angles"));
+  }
+};
+
+}  // namespace jarol::tasks

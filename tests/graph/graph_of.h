@@ -1,0 +1,40 @@
+// Graphs from text, for tests.
+#pragma once
+
+#include <string>
+
+#include "graph/build.h"
+#include "graph/spec/load.h"
+#include "tasks/tasks.h"
+
+namespace jarol::tests {
+
+inline const Registry& generic_tasks() {
+  static const Registry registry = [] {
+    Registry made;
+    tasks::add_tasks(made);
+    return made;
+  }();
+  return registry;
+}
+
+/// The graph of a text named t.yaml; throws SpecError if it is not valid.
+inline Graph graph_of(const std::string& text, const Overrides& overrides = {}) {
+  Problems problems;
+  const auto source = std::make_shared<Source>(Source{"t.yaml", text});
+  Graph graph = build_graph(load_spec(source, overrides, problems), generic_tasks(), problems);
+  problems.throw_if_any();
+  return graph;
+}
+
+/// The whole report on a text that is not valid, or nothing.
+inline std::string report_on(const std::string& text, const Overrides& overrides = {}) {
+  try {
+    graph_of(text, overrides);
+  } catch (const SpecError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace jarol::tests

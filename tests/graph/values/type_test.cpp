@@ -1,0 +1,117 @@
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "graph/values/bind.h"
+#include "graph/values/type_of.h"
+#include "graph/values/value.h"
+
+namespace {
+using namespace jarol;
+
+enum class Mode : std::int8_t { off, on };
+constexpr auto enumerators(Mode) {
+  return std::array{Enumerator<Mode>{"off", Mode::off}, Enumerator<Mode>{"on", Mode::on}};
+}
+
+struct Inner {
+  float depth = 0.5F;
+  Mode mode = Mode::on;
+  static constexpr auto fields() { return describe(field<&Inner::depth>("m", "below the surface"), field<&Inner::mode>()); }
+};
+
+struct Outer {
+  double angle = 0;
+  Eigen::Vector3d position{1, 2, 3};
+  std::array<Inner, 2> inner{};
+  Duration time{};
+  static constexpr auto fields() {
+    return describe(field<&Outer::angle>("rad"), field<&Outer::position>("m"), field<&Outer::inner>(), field<&Outer::time>());
+  }
+};
+
+// Binds a text into the value and returns the report.
+std::string bind_text(const std::string& text, Outer& value) {
+  Problems problems;
+  const Yaml yaml = read_yaml(std::make_shared<Source>(Source{"v.yaml", text}), problems);
+  bind_fields(yaml, type_of<Outer>(), &value, "value", "field", problems);
+  try {
+    problems.throw_if_any();
+  } catch (const SpecError& error) {
+    return error.what();
+  }
+  return "";
+}
+}  // namespace
+
+TEST_SUITE("graph/values/type") {
+  TEST_CASE("a type knows its fields by the names of the members") {
+    const Type& type = type_of<Outer>();
+    CHECK(type.name == "Outer");
+    REQUIRE(type.fields.size() == 4);
+    CHECK(type.fields[0].name == "angle");
+    CHECK(type.fields[0].unit == "rad");
+    CHECK(type.fields[1].type->name == "double[3]");
+    CHECK(type.fields[2].type->name == "Inner[2]");
+    CHECK(type.fields[2].type->element->fields[0].text == "below the surface");
+    CHECK(type.fields[3].type->name == "duration");
+    CHECK(type.fields[1].offset == offsetof(Outer, position));
+  }
+
+  TEST_CASE("the scalars of a type have paths") {
+    std::string paths;
+    for (const Leaf& leaf : leaves_of(type_of<Outer>())) paths += leaf.path + " ";
+    CHECK(paths == "angle position.0 position.1 position.2 inner.0.depth inner.0.mode inner.1.depth inner.1.mode time ");
+  }
+
+  TEST_CASE("a value begins as its struct's default") {
+    const Value value(type_of<Outer>());
+    const auto& outer = *static_cast<const Outer*>(value.data());
+    CHECK(outer.position == Eigen::Vector3d(1, 2, 3));
+    CHECK(outer.inner[1].depth == 0.5F);
+  }
+
+  TEST_CASE("YAML overwrites what it mentions and leaves the rest") {
+    Outer value;
+    CHECK(bind_text("{angle: 90deg, position: [4, 5cm, 6 m], inner: [{depth: 3}, {mode: off}], time: 2ms}", value) == "");
+    CHECK(value.angle == doctest::Approx(1.5707963267948966).epsilon(1e-15));
+    CHECK(value.position == Eigen::Vector3d(4, 0.05, 6));
+    CHECK(value.inner[0].depth == 3.0F);
+    CHECK(value.inner[0].mode == Mode::on);
+    CHECK(value.inner[1].mode == Mode::off);
+    CHECK(value.time == std::chrono::milliseconds(2));
+  }
+
+  TEST_CASE("all that does not fit is reported with its place and what would be right") {
+    Outer value;
+    CHECK(bind_text("angel: 1\nposition: [1, 2]\ninner: [{depth: deep}, {mode: auto}]\ntime: 5\n", value) ==
+          "v.yaml:1:1: error: value has no field 'angel'; did you mean 'angle'?; it has: angle, position, inner, time\n"
+          "  angel: 1\n"
+          "  ^\n"
+          "v.yaml:2:11: error: value field 'position' has 2 elements; it needs 3\n"
+          "  position: [1, 2]\n"
+          "            ^\n"
+          "v.yaml:3:17: error: value field 'inner' element 0 field 'depth' needs a float [m], not 'deep'; that is not a number\n"
+          "  inner: [{depth: deep}, {mode: auto}]\n"
+          "                  ^\n"
+          "v.yaml:3:31: error: value field 'inner' element 1 field 'mode' needs one of off, on, not 'auto'; that is none of them\n"
+          "  inner: [{depth: deep}, {mode: auto}]\n"
+          "                                ^\n"
+          "v.yaml:4:7: error: value field 'time' needs a duration, not '5'; that has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n"
+          "  time: 5\n"
+          "        ^");
+  }
+
+  TEST_CASE("infinities and NaN anywhere in a value are found") {
+    Outer value;
+    const Type& type = type_of<Outer>();
+    CHECK(type.finite(&value));
+    value.inner[1].depth = std::numeric_limits<float>::infinity();
+    CHECK_FALSE(type.finite(&value));
+    value.inner[1].depth = 0;
+    value.position[2] = std::numeric_limits<double>::quiet_NaN();
+    CHECK_FALSE(type.finite(&value));
+    value.position[2] = std::numeric_limits<double>::max();
+    CHECK(type.finite(&value));
+  }
+}

@@ -1,0 +1,121 @@
+#include "graph/yaml/yaml.h"
+
+#include <doctest/doctest.h>
+
+namespace {
+using namespace jarol;
+
+std::string report_on(const std::string& text) {
+  Problems problems;
+  read_yaml(std::make_shared<Source>(Source{"t.yaml", text}), problems);
+  try {
+    problems.throw_if_any();
+  } catch (const SpecError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+Yaml tree_of(const std::string& text) {
+  Problems problems;
+  Yaml yaml = read_yaml(std::make_shared<Source>(Source{"t.yaml", text}), problems);
+  problems.throw_if_any();
+  return yaml;
+}
+}  // namespace
+
+TEST_SUITE("graph/yaml") {
+  TEST_CASE("every value and key knows its line and column") {
+    const Yaml yaml = tree_of("a: 1\nb: {c: 'x', d: [2, 3]}\n");
+    const Yaml* b = yaml.find("b");
+    REQUIRE(b != nullptr);
+    CHECK(b->key_where.line == 2);
+    CHECK(b->where.column == 4);
+    const Yaml* c = b->find("c");
+    REQUIRE(c != nullptr);
+    CHECK(c->quoted);
+    CHECK(c->where.column == 8);
+    REQUIRE(b->find("d") != nullptr);
+    CHECK(b->find("d")->children.at(1).text == "3");
+  }
+
+  TEST_CASE("an alias stands for a copy of what it refers to") {
+    const Yaml yaml = tree_of("a: &x {k: 1}\nb: *x\n");
+    REQUIRE(yaml.find("b") != nullptr);
+    REQUIRE(yaml.find("b")->find("k") != nullptr);
+    CHECK(yaml.find("b")->find("k")->text == "1");
+  }
+
+  TEST_CASE("a key that appears twice is an error that shows both") {
+    CHECK(report_on("a: 1\nb: 2\na: 3\n") ==
+          "t.yaml:3:1: error: key 'a' appears twice in one mapping; keep one\n"
+          "  a: 3\n"
+          "  ^\n"
+          "t.yaml:1:1: note: first here\n"
+          "  a: 1\n"
+          "  ^");
+  }
+
+  TEST_CASE("a merge key is an error") {
+    CHECK(report_on("a: &x {k: 1}\nb:\n  <<: *x\n") ==
+          "t.yaml:3:3: error: merge key '<<' is not supported; write the keys out, or use a profile\n"
+          "    <<: *x\n"
+          "    ^");
+  }
+
+  TEST_CASE("an alias to what contains it is an error") {
+    CHECK(report_on("a: &x\n  b: *x\n") ==
+          "t.yaml:2:6: error: an alias stands inside the very value it refers to; a value can't contain itself\n"
+          "    b: *x\n"
+          "       ^");
+  }
+
+  TEST_CASE("a tag is an error") {
+    CHECK(report_on("a: !foo 1\n") ==
+          "t.yaml:1:4: error: tag '!foo' is not supported; leave it out\n"
+          "  a: !foo 1\n"
+          "     ^");
+  }
+
+  TEST_CASE("a second document is an error") {
+    CHECK(report_on("a: 1\n---\nb: 2\n") ==
+          "t.yaml:3:1: error: a second document begins here; a file holds one\n"
+          "  b: 2\n"
+          "  ^");
+  }
+
+  TEST_CASE("a syntax error has its place") {
+    CHECK(report_on("a: [1, 2\nb: 3\n") ==
+          "t.yaml:2:2: error: not valid YAML: end of sequence flow not found\n"
+          "  b: 3\n"
+          "   ^");
+  }
+
+  TEST_CASE("absurd depth is an error, not a crash") {
+    const std::string text(200, '[');
+    CHECK(report_on(text + std::string(200, ']')).starts_with("t.yaml:1:65: error: values are nested deeper than 64 levels\n"));
+  }
+
+  TEST_CASE("aliases that multiply end in an error, not in a full memory") {
+    std::string text = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+    for (int i = 1; i < 10; ++i) {
+      const std::string last = "*a" + std::to_string(i - 1);
+      text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + last;
+      for (int j = 1; j < 10; ++j) text += ", " + last;
+      text += "]\n";
+    }
+    CHECK(report_on(text).starts_with("t.yaml:1:1: error: the text holds more than 1000000 values\n"));
+  }
+
+  TEST_CASE("a file that can't be read says why") {
+    CHECK_THROWS_WITH_AS(read_source("no/such/file.yaml"),
+                         "error: can't read 'no/such/file.yaml': No such file or directory", SpecError);
+  }
+
+  TEST_CASE("a word close to a known one is suggested") {
+    const std::vector<std::string> known{"period", "offset", "let"};
+    CHECK(did_you_mean("peroid", known) == "; did you mean 'period'?");
+    CHECK(did_you_mean("lte", known) == "; did you mean 'let'?");
+    CHECK(did_you_mean("colour", known) == "");
+  }
+}

@@ -1,0 +1,92 @@
+// jarol graph: a graph as text or as a DOT drawing.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "tools/commands/commands.h"
+#include "tools/load_graph.h"
+
+namespace jarol::tools {
+namespace {
+
+struct Options {
+  std::string file;
+  Overrides overrides;
+  bool dot = false;
+};
+
+std::string timing_text(Duration period, Duration offset) {
+  return "every " + duration_text(period) + (offset.count() > 0 ? " from " + duration_text(offset) : "");
+}
+
+std::string task_text(const Task& task) {
+  return timing_text(task.period, task.offset) + (task.let ? ", LET " + duration_text(*task.let) : "") +
+         ", deadline " + duration_text(task.deadline);
+}
+
+void print_text(const Graph& graph) {
+  std::cout << "graph " << graph.name << "\n\ncommunicators\n";
+  for (const Communicator& c : graph.communicators) {
+    std::cout << "  " << c.name << ": " << (c.direction == Direction::in ? "in" : "out") << ", " << c.type->name << ", "
+              << timing_text(c.period, c.offset);
+    if (c.distributer) {
+      const Distributer& d = graph.distributers[*c.distributer];
+      std::cout << ", channel " << d.name << "." << d.distributer_class->channels[c.channel].name;
+    }
+    std::cout << "\n";
+  }
+  std::cout << "\ntasks, in the order in which they run when released together\n";
+  for (const std::size_t i : graph.order) {
+    const Task& t = graph.tasks[i];
+    std::cout << "  " << t.name << " (" << t.task_class->name << "): " << task_text(t) << "\n";
+  }
+  std::cout << "\nconnections\n";
+  for (const Connection& c : graph.connections)
+    std::cout << "  " << end_name(graph, c.from, true) << " -> " << end_name(graph, c.to, false) << " (" << c.type->name << ")\n";
+}
+
+std::string dot_name(const Graph& graph, const End& end) {
+  return end.kind == End::Kind::task ? graph.tasks[end.index].name : graph.communicators[end.index].name;
+}
+
+std::string dot_label(const Graph& graph, const Connection& c) {
+  std::string label;
+  if (c.from.kind == End::Kind::task) label = graph.tasks[c.from.index].task_class->out->fields[c.from.field].name;
+  if (c.to.kind == End::Kind::task)
+    label += (label.empty() ? "" : " > ") + graph.tasks[c.to.index].task_class->in->fields[c.to.field].name;
+  return label;
+}
+
+void print_dot(const Graph& graph) {
+  std::cout << "digraph \"" << graph.name << "\" {\n  rankdir=LR;\n  node [fontname=\"sans-serif\", fontsize=11];\n"
+            << "  edge [fontname=\"sans-serif\", fontsize=9];\n";
+  for (const Communicator& c : graph.communicators)
+    std::cout << "  " << c.name << " [shape=" << (c.direction == Direction::in ? "cds" : "rarrow") << ", label=\"" << c.name
+              << "\\n" << timing_text(c.period, c.offset) << "\"];\n";
+  for (const Task& t : graph.tasks)
+    std::cout << "  " << t.name << " [shape=box, style=" << (t.let ? "\"rounded,filled\", fillcolor=\"#e8f0fe\"" : "rounded")
+              << ", label=\"" << t.name << "\\n" << t.task_class->name << "\\n" << timing_text(t.period, t.offset)
+              << (t.let ? "\\nLET " + duration_text(*t.let) : "") << "\"];\n";
+  for (const Connection& c : graph.connections)
+    std::cout << "  " << dot_name(graph, c.from) << " -> " << dot_name(graph, c.to) << " [label=\"" << dot_label(graph, c) << "\"];\n";
+  std::cout << "}\n";
+}
+
+}  // namespace
+
+void add_graph(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("graph", "Print a graph as text, or as a drawing for Graphviz");
+  command->add_option("FILE", options->file, "The graph, a YAML file")->required();
+  command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.period=100ms")
+      ->allow_extra_args(false);
+  command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
+  command->add_flag("--dot", options->dot, "A DOT drawing: jarol graph FILE --dot | dot -Tsvg > graph.svg");
+  command->callback([options, &exit_code] {
+    const Loaded loaded = load_graph(options->file, options->overrides);
+    options->dot ? print_dot(*loaded.graph) : print_text(*loaded.graph);
+    exit_code = exit_good;
+  });
+}
+
+}  // namespace jarol::tools

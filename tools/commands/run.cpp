@@ -1,0 +1,205 @@
+// jarol run: a graph on the virtual clock.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "runtime/executor.h"
+#include "tools/commanded.h"
+#include "tools/commands/commands.h"
+#include "tools/load_graph.h"
+#include "tools/plot_svg.h"
+#include "tools/progress.h"
+#include "tools/trace_csv.h"
+#include "tools/value_json.h"
+
+namespace jarol::tools {
+namespace {
+
+struct Options {
+  std::string file;
+  Overrides overrides;
+  std::string duration;
+  std::uint64_t seed = 0;
+  bool json = false;
+  std::string trace;
+  std::string plot;
+};
+
+std::atomic<Executor*> running{nullptr};
+
+extern "C" void interrupt_run(int) {
+  if (Executor* executor = running.load()) executor->interrupt();
+}
+
+// Ctrl-C ends the run cleanly while this lives.
+class Interruptible {
+ public:
+  explicit Interruptible(Executor& executor) {
+    running.store(&executor);
+    before_ = std::signal(SIGINT, interrupt_run);
+  }
+  ~Interruptible() {
+    std::signal(SIGINT, before_);
+    running.store(nullptr);
+  }
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
+
+ private:
+  void (*before_)(int) = nullptr;
+};
+
+// --for, else the end of the longest mission.
+Duration end_of_run(const Options& options, const Loaded& loaded) {
+  Duration end{};
+  if (!options.duration.empty()) {
+    const std::string wrong = parse_duration(options.duration, end);
+    if (!wrong.empty()) throw std::invalid_argument("--for: '" + options.duration + "' " + wrong);
+    if (end <= Duration{}) throw std::invalid_argument("--for: '" + options.duration + "' is not above zero");
+    return end;
+  }
+  for (const auto& channels : loaded.channels) end = std::max(end, channels->end().value_or(Duration{}));
+  if (end == Duration{})
+    throw std::invalid_argument("'" + options.file + "' has no mission that ends; say how long to run, as in --for 10s");
+  return end;
+}
+
+std::vector<Panel> panels_of(const Graph& graph, const Plan& plan) {
+  const auto output_of = [&](std::size_t communicator) {
+    const std::string& name = graph.communicators[communicator].name;
+    const auto at = std::lower_bound(plan.outputs.begin(), plan.outputs.end(), name,
+                                     [](const Output& o, const std::string& n) { return o.name < n; });
+    return static_cast<std::uint32_t>(at - plan.outputs.begin());
+  };
+  std::vector<Panel> panels;
+  for (const Reported& r : find_reported(graph)) {
+    Panel panel{r.title, r.leaf.unit, output_of(r.communicator), r.leaf, std::nullopt};
+    if (r.command) panel.commanded = std::pair(output_of(r.command->communicator), r.command->leaf);
+    panels.push_back(std::move(panel));
+  }
+  // no operator: the first outputs, as many as fit
+  constexpr std::size_t most = 8;
+  for (std::uint32_t i = 0; panels.empty() && i < plan.outputs.size(); ++i)
+    for (const Leaf& leaf : leaves_of(*plan.outputs[i].type))
+      panels.push_back({leaf.path.empty() ? plan.outputs[i].name : plan.outputs[i].name + "." + leaf.path, leaf.unit, i, leaf, std::nullopt});
+  if (panels.size() > most) panels.resize(most);
+  return panels;
+}
+
+double shown(const Leaf& leaf, double value) { return leaf.unit == "rad" ? value * 180.0 / std::numbers::pi : value; }
+
+void print_reached(const Graph& graph, const Executor& executor) {
+  const auto number = [&](std::size_t communicator, const Leaf& leaf) {
+    const auto* value = static_cast<const std::byte*>(executor.last_value(communicator)) + leaf.offset;
+    return leaf.type->kind == Kind::floating ? shown(leaf, read_floating(*leaf.type, value))
+                                             : static_cast<double>(read_integer(*leaf.type, value));
+  };
+  bool title = false;
+  for (const Reported& r : find_reported(graph)) {
+    if (!r.command) continue;
+    if (!title) std::cout << fmt::format("  {:<10}  {:>10}  {:>10}\n", "", "commanded", "reached");
+    title = true;
+    std::cout << fmt::format("  {:<10}  {:>10.3f}  {:>10.3f} {}\n", r.title, number(r.command->communicator, r.command->leaf),
+                             number(r.communicator, r.leaf), r.leaf.unit == "rad" ? "deg" : r.leaf.unit);
+  }
+}
+
+void print_text(const Options& options, const Graph& graph, const Executor& executor, double seconds, bool interrupted) {
+  const Report& report = executor.report();
+  const double simulated = static_cast<double>(report.simulated.count()) * 1e-9;
+  std::cout << fmt::format("{}: {} s on the virtual clock in {:.2f} s, {:.0f} times real time{}\n", graph.name,
+                           seconds_text(report.simulated), seconds, simulated / seconds, interrupted ? " (interrupted)" : "");
+  print_reached(graph, executor);
+  std::cout << fmt::format("  activations {}, instants {}\n  digest      0x{:016x}\n", report.activations, report.instants, report.digest);
+  if (report.non_finite_inputs > 0)
+    std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
+  if (!options.trace.empty()) std::cout << "  trace       " << options.trace << "\n";
+  if (!options.plot.empty()) std::cout << "  picture     " << options.plot << "\n";
+  for (const Fault& fault : report.faults) std::cerr << "fault: " << to_text(fault) << "\n";
+  if (report.fault_count > report.faults.size())
+    std::cerr << "fault: and " << report.fault_count - report.faults.size() << " more\n";
+}
+
+void print_json(const Graph& graph, const Executor& executor, double seconds) {
+  const Report& report = executor.report();
+  auto faults = nlohmann::ordered_json::array();
+  for (const Fault& f : report.faults)
+    faults.push_back({{"task", f.task}, {"activation", f.activation}, {"instant_ns", f.instant.count()}, {"cause", f.cause}});
+  auto outputs = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < graph.communicators.size(); ++i)
+    if (graph.communicators[i].direction == Direction::out)
+      outputs[graph.communicators[i].name] = to_json(*graph.communicators[i].type, executor.last_value(i));
+  const double simulated = static_cast<double>(report.simulated.count()) * 1e-9;
+  std::cout << nlohmann::ordered_json{{"schema", "jarol.run/1"},
+                                      {"graph", graph.name},
+                                      {"digest", fmt::format("0x{:016x}", report.digest)},
+                                      {"simulated_ns", report.simulated.count()},
+                                      {"wall_ns", static_cast<std::int64_t>(seconds * 1e9)},
+                                      {"real_time_factor", simulated / seconds},
+                                      {"activations", report.activations},
+                                      {"instants", report.instants},
+                                      {"faults", faults},
+                                      {"outputs", outputs}}
+            << "\n";
+}
+
+int run(const Options& options) {
+  Loaded loaded = load_graph(options.file, options.overrides);
+  const Graph& graph = *loaded.graph;
+  const Duration end = end_of_run(options, loaded);
+  // the plan gives trace and plot their outputs before the executor exists
+  const Plan plan(graph);
+  std::vector<std::unique_ptr<RecordSink>> sinks;
+  if (!options.trace.empty()) sinks.push_back(std::make_unique<TraceCsv>(options.trace, plan.outputs));
+  if (!options.plot.empty()) sinks.push_back(std::make_unique<PlotSvg>(options.plot, graph.name, panels_of(graph, plan)));
+  std::vector<RecordSink*> to;
+  for (const auto& sink : sinks) to.push_back(sink.get());
+  std::unique_ptr<Recorder> recorder = to.empty() ? nullptr : std::make_unique<Recorder>(to);
+  Executor executor(graph, std::move(loaded.channels), {.digest = true, .recorder = recorder.get()});
+  const auto start = std::chrono::steady_clock::now();
+  {
+    const Interruptible interruptible(executor);
+    const Progress progress(!options.json && isatty(STDERR_FILENO) != 0, end, [&] { return executor.now(); });
+    executor.run_until(end);
+  }
+  if (recorder) recorder->close();
+  const double seconds = std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  const bool interrupted = !executor.report().stopped && executor.now() < end;
+  options.json ? print_json(graph, executor, seconds) : print_text(options, graph, executor, seconds, interrupted);
+  if (executor.report().stopped) return exit_unfinished;
+  return interrupted ? exit_interrupted : exit_good;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "run", "Run a graph on the virtual clock, as fast as possible and the same to the bit every time.\n"
+             "Exit code: 0 good, 3 stopped by a fault, 2 bad input, 130 interrupted");
+  command->add_option("FILE", options->file, "The graph, a YAML file")->required();
+  command->add_option("--for", options->duration, "How long, in logical time, as in 10s; default: until the mission ends");
+  command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.parameters.kp=0.5")
+      ->allow_extra_args(false);
+  command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
+  command->add_option("--seed", options->seed, "Seed of vehicles and distributers that have noise; default 0");
+  command->add_flag("--json", options->json, "One JSON object instead of text");
+  command->add_option("--trace", options->trace, "Write every published value to this CSV file");
+  command->add_option("--plot", options->plot, "Draw what was commanded and reached into this SVG file");
+  command->callback([options, &exit_code] {
+    try {
+      exit_code = run(*options);
+    } catch (const std::invalid_argument& error) {
+      std::cerr << "error: " << error.what() << "\n";
+      exit_code = exit_input;
+    }
+  });
+}
+
+}  // namespace jarol::tools

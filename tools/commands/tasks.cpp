@@ -1,0 +1,145 @@
+// jarol tasks: what graphs can be made of.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "graph/values/bind.h"
+#include "tools/commands/commands.h"
+#include "tools/load_graph.h"
+
+namespace jarol::tools {
+namespace {
+
+struct Options {
+  std::string name;
+  bool json = false;
+};
+
+std::string default_text(const Type& type, const void* value) {
+  const auto* bytes = static_cast<const std::byte*>(value);
+  if (type.kind == Kind::duration) return duration_text(Duration(read_integer(type, value)));
+  if (type.kind != Kind::structure && type.kind != Kind::array) return scalar_text(type, value);
+  std::string text;
+  for (const Leaf& leaf : leaves_of(type))
+    text += (text.empty() ? "" : ", ") + leaf.path + ": " + scalar_text(*leaf.type, bytes + leaf.offset);
+  return "{" + text + "}";
+}
+
+void print_fields(const std::string& title, const Type& type, bool defaults) {
+  if (type.fields.empty()) return;
+  std::cout << "\n" << title << "\n";
+  const Value value(type);
+  std::size_t name_width = 0, type_width = 0;
+  const auto type_text = [](const TypeField& f) { return f.type->name + (f.unit.empty() ? "" : " [" + f.unit + "]"); };
+  for (const TypeField& f : type.fields) {
+    name_width = std::max(name_width, f.name.size());
+    type_width = std::max(type_width, type_text(f).size());
+  }
+  for (const TypeField& f : type.fields) {
+    std::string line = "  " + f.name + std::string(name_width - f.name.size() + 2, ' ') + type_text(f) +
+                       std::string(type_width - type_text(f).size() + 2, ' ') + f.text;
+    if (defaults)
+      line += (f.text.empty() ? "" : ", ") + std::string("default ") +
+              default_text(*f.type, static_cast<const std::byte*>(value.data()) + f.offset);
+    line.erase(line.find_last_not_of(' ') + 1);
+    std::cout << line << "\n";
+    // members of a struct, one level down
+    for (const Leaf& leaf : f.type->kind == Kind::structure && !defaults ? leaves_of(*f.type) : std::vector<Leaf>{}) {
+      const TypeField* member = find_field(*f.type, leaf.path);
+      std::cout << "    ." << leaf.path << (leaf.unit.empty() ? "" : " [" + leaf.unit + "]")
+                << (member == nullptr || member->text.empty() ? "" : "  " + member->text) << "\n";
+    }
+  }
+}
+
+nlohmann::ordered_json fields_json(const Type& type) {
+  auto list = nlohmann::ordered_json::array();
+  const Value value(type);
+  for (const TypeField& f : type.fields)
+    list.push_back({{"name", f.name},
+                    {"type", f.type->name},
+                    {"unit", f.unit},
+                    {"text", f.text},
+                    {"default", default_text(*f.type, static_cast<const std::byte*>(value.data()) + f.offset)}});
+  return list;
+}
+
+nlohmann::ordered_json task_json(const TaskClass& task) {
+  return {{"name", task.name},
+          {"summary", task.summary},
+          {"parameters", fields_json(*task.parameters)},
+          {"inputs", fields_json(*task.in)},
+          {"outputs", fields_json(*task.out)}};
+}
+
+void print_task(const TaskClass& task) {
+  std::cout << task.name << ": " << task.summary << "\n";
+  print_fields("parameters", *task.parameters, true);
+  print_fields("inputs", *task.in, false);
+  print_fields("outputs", *task.out, false);
+}
+
+void print_distributer(const DistributerClass& distributer) {
+  std::cout << distributer.name << ": " << distributer.summary << "\n\nchannels\n";
+  std::size_t width = 0;
+  for (const ChannelClass& c : distributer.channels) width = std::max(width, c.name.size());
+  for (const ChannelClass& c : distributer.channels)
+    std::cout << "  " << c.name << std::string(width - c.name.size() + 2, ' ')
+              << (c.direction == Direction::in ? "in   " : "out  ") << c.type->name << "  " << c.text << "\n";
+}
+
+void print_all() {
+  std::size_t width = 0;
+  for (const auto& name : names_of(registry().tasks())) width = std::max(width, name.size());
+  for (const auto& name : names_of(registry().distributers())) width = std::max(width, name.size());
+  std::cout << "tasks\n";
+  for (const TaskClass& t : registry().tasks())
+    std::cout << "  " << t.name << std::string(width - t.name.size() + 2, ' ') << t.summary << "\n";
+  std::cout << "\ndistributers\n";
+  for (const DistributerClass& d : registry().distributers())
+    std::cout << "  " << d.name << std::string(width - d.name.size() + 2, ' ') << d.summary << "\n";
+  std::cout << "\njarol tasks NAME tells parameters, inputs, outputs and channels\n";
+}
+
+int list_tasks(const Options& options) {
+  if (options.name.empty()) {
+    if (!options.json) {
+      print_all();
+      return exit_good;
+    }
+    auto list = nlohmann::ordered_json::array();
+    for (const TaskClass& t : registry().tasks()) list.push_back(task_json(t));
+    std::cout << nlohmann::ordered_json{{"schema", "jarol.tasks/1"}, {"tasks", list}} << "\n";
+    return exit_good;
+  }
+  if (const TaskClass* task = registry().find_task(options.name)) {
+    if (options.json) {
+      std::cout << nlohmann::ordered_json{{"schema", "jarol.tasks/1"}, {"tasks", {task_json(*task)}}} << "\n";
+    } else {
+      print_task(*task);
+    }
+    return exit_good;
+  }
+  if (const DistributerClass* distributer = registry().find_distributer(options.name); distributer && !options.json) {
+    print_distributer(*distributer);
+    return exit_good;
+  }
+  std::vector<std::string> names = names_of(registry().tasks());
+  for (const auto& name : names_of(registry().distributers())) names.push_back(name);
+  std::cerr << "error: there is no task or distributer '" << options.name << "'" << did_you_mean(options.name, names)
+            << "; there are: " << list_of(names) << "\n";
+  return exit_input;
+}
+
+}  // namespace
+
+void add_tasks(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("tasks", "List task types and distributers, or tell all about one");
+  command->add_option("NAME", options->name, "A task type or distributer, as in DepthControl");
+  command->add_flag("--json", options->json, "One JSON object instead of text");
+  command->callback([options, &exit_code] { exit_code = list_tasks(*options); });
+}
+
+}  // namespace jarol::tools

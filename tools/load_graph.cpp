@@ -1,0 +1,46 @@
+#include "tools/load_graph.h"
+
+#include "distributers/distributers.h"
+#include "graph/build.h"
+#include "tasks/tasks.h"
+#ifdef JAROL_VEHICLES
+#include "vehicles/catalogue.h"
+#endif
+
+namespace jarol::tools {
+namespace {
+
+const std::vector<vehicles::VehicleClass>& known_vehicles() {
+#ifdef JAROL_VEHICLES
+  return vehicles::catalogue();
+#else
+  static const std::vector<vehicles::VehicleClass> none;
+  return none;
+#endif
+}
+
+Registry make_registry() {
+  Registry made;
+  tasks::add_tasks(made);
+  distributers::add_distributers(made);
+  return made;
+}
+
+}  // namespace
+
+const Registry& registry() {
+  static const Registry known = make_registry();
+  return known;
+}
+
+Loaded load_graph(const std::string& path, const Overrides& overrides) {
+  Problems problems;
+  const GraphSpec spec = load_spec(read_source(path), overrides, problems);
+  Loaded loaded;
+  loaded.graph = std::make_unique<Graph>(build_graph(spec, registry(), problems));
+  loaded.channels = distributers::make_channels(*loaded.graph, known_vehicles(), problems);
+  problems.throw_if_any();
+  return loaded;
+}
+
+}  // namespace jarol::tools

@@ -1,0 +1,25 @@
+// From a file name to a graph that can run: what every command that takes a graph does first.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "graph/graph.h"
+#include "graph/spec/load.h"
+#include "runtime/channels.h"
+
+namespace jarol::tools {
+
+/// Every task and distributer that this program knows.
+const Registry& registry();
+
+struct Loaded {
+  std::unique_ptr<Graph> graph;
+  std::vector<std::unique_ptr<Channels>> channels;
+};
+
+/// Throws SpecError with everything that is wrong with the file, its overrides and its links.
+Loaded load_graph(const std::string& path, const Overrides& overrides);
+
+}  // namespace jarol::tools

@@ -1,0 +1,32 @@
+#include "tools/value_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "graph/values/bind.h"
+
+namespace jarol::tools {
+
+nlohmann::ordered_json to_json(const Type& type, const void* value) {
+  const auto* bytes = static_cast<const std::byte*>(value);
+  switch (type.kind) {
+    case Kind::boolean: return read_integer(type, value) != 0;
+    case Kind::signed_integer:
+    case Kind::duration: return read_integer(type, value);
+    case Kind::unsigned_integer: return static_cast<std::uint64_t>(read_integer(type, value));
+    case Kind::floating: return read_floating(type, value);
+    case Kind::enumeration: return scalar_text(type, value);
+    case Kind::array: {
+      auto list = nlohmann::ordered_json::array();
+      for (std::size_t i = 0; i < type.count; ++i) list.push_back(to_json(*type.element, bytes + i * type.element->size));
+      return list;
+    }
+    case Kind::structure: {
+      auto object = nlohmann::ordered_json::object();
+      for (const TypeField& f : type.fields) object[f.name] = to_json(*f.type, bytes + f.offset);
+      return object;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace jarol::tools

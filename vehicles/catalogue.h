@@ -1,0 +1,21 @@
+// The vehicles there are, by name, with the type of their parameters.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vehicles/vehicle.h"
+
+namespace jarol::vehicles {
+
+const std::vector<VehicleClass>& catalogue();
+
+/// The class of that name, or null.
+const VehicleClass* find_vehicle(std::string_view name);
+
+/// All names, for messages: "helicopter, submarine".
+std::string vehicle_names();
+
+}  // namespace jarol::vehicles
