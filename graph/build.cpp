@@ -66,10 +66,11 @@ class Builder {
         problems_.add(spec.period->where, subject + " has period " + duration_text(timing.period) +
                                               ", of which the graph's period " + duration_text(*graph_.period) +
                                               " is no multiple; change one of them");
-    } else if (graph_.period) {
+    } else if (graph_.period && !spec.period.bad) {
       timing.period = *graph_.period;
     } else {
-      problems_.add(spec.where, subject + " has no period, and the graph states none; add 'period:' here or below 'timing:'");
+      if (!spec.period.bad && !spec_.timing.period.bad)
+        problems_.add(spec.where, subject + " has no period, and the graph states none; add 'period:' here or below 'timing:'");
       timing.period = Duration(1);
       complete_ = false;
       return timing;
@@ -117,7 +118,7 @@ class Builder {
       } else if (communicator.direction == Direction::in) {
         communicator.init = Value(*communicator.type);
         if (spec.init)
-          bind(spec.init->value, *communicator.type, "", communicator.init.data(), subject + " init", problems_);
+          bind_value(spec.init->value, *communicator.type, "", communicator.init.data(), subject + " init", problems_);
       } else if (spec.init) {
         problems_.add(spec.init->where, subject + " is an 'out' and has an 'init'; that belongs to an 'in' only");
       }
@@ -161,7 +162,8 @@ class Builder {
 
   void resolve_type(const CommunicatorSpec& spec, const std::string& subject, Communicator& communicator) {
     if (!spec.type || !spec.direction) {
-      problems_.add(spec.where, subject + " has no channel; add 'channel: distributer.channel', or both 'type' and 'direction'");
+      if (!spec.type.bad && !spec.direction.bad && !spec.channel.bad)
+        problems_.add(spec.where, subject + " has no channel; add 'channel: distributer.channel', or both 'type' and 'direction'");
       return;
     }
     communicator.direction = spec.direction->value;

@@ -15,7 +15,7 @@ inline constexpr double degree = std::numbers::pi / 180.0;
 struct DepthControl {
   static constexpr std::string_view summary = "holds a commanded depth with the stern planes";
   struct Param {
-    double kp = 0.35;
+    double kp = 0.45;
     double kd = 0.45;
     double ki = 0.05;
     double reach = 0.5;
@@ -81,9 +81,9 @@ struct HeadingControl {
 struct SpeedControl {
   static constexpr std::string_view summary = "holds a commanded speed with the propeller";
   struct Param {
-    double feed_forward = 0.5;
-    double kp = 0.5;
-    double ki = 0.2;
+    double feed_forward = 0.55;
+    double kp = 0.8;
+    double ki = 0.1;
     static constexpr auto fields() {
       using P = Param;
       return describe(field<&P::feed_forward>("s/m", "actuation per commanded speed"),

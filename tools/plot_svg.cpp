@@ -206,7 +206,7 @@ class PlotSvg::Pen {
     }
     if (curve.held) go_on(right, y.place(points.back().value));
     end_stroke();
-    svg.append("<path ").append(stroke).append(" d=\"" + path_ + "\"/>\n");
+    svg.append("<path fill=\"none\" ").append(stroke).append(" d=\"" + path_ + "\"/>\n");
   }
 
  private:
@@ -439,7 +439,7 @@ std::string PlotSvg::text() const {
     return pen.svg + "</svg>\n";
   }
   for (std::size_t i = 0; i < drawings_.size(); ++i) {
-    pen.svg += "<g fill-opacity=\"1\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n";
+    pen.svg += "<g stroke-linejoin=\"round\" stroke-linecap=\"round\">\n";
     draw(drawings_[i], first_panel + heading_line + pitch * static_cast<double>(i), pen);
     pen.svg += "</g>\n";
   }

@@ -87,9 +87,9 @@ TableResult check_table(const Graph& graph, std::uint64_t most_jobs) {
     finish = std::max(finish, job.release) + task.wcet->count();
     result.response[job.task] = std::max(result.response[job.task], Duration(finish - job.release));
     if (finish > job.release + task.deadline.count()) {
+      if (result.verdict == Verdict::unknown) result.reason = "a task is late when every task takes its 'wcet'";
       result.verdict = Verdict::not_schedulable;
       result.miss = Miss{job.task, job.activation, Duration(job.release), Duration(finish), Duration(job.release) + task.deadline};
-      result.reason = "a task is late when every task takes its 'wcet'";
       result.response.clear();
       return result;
     }

@@ -84,7 +84,11 @@ void read_member(const Key<S>& key, const Yaml& yaml, S& to, const std::string& 
     good = read_choice(yaml, key.choices, index, what, problems);
     value.value = static_cast<T>(index);
   }
-  if (good) to.*Member = std::move(value);
+  if (good) {
+    to.*Member = std::move(value);
+  } else {
+    (to.*Member).bad = true;
+  }
 }
 
 template <class M>

@@ -17,8 +17,12 @@ struct Located {
   Location where;
 };
 
+/// A value that may be left out; `bad`: it is there and can't be used, which was reported.
 template <class T>
-using Maybe = std::optional<Located<T>>;
+struct Maybe : std::optional<Located<T>> {
+  using std::optional<Located<T>>::operator=;
+  bool bad = false;
+};
 
 /// What follows a fault (DESIGN section 3).
 enum class OnFault { stop, hold, skip };

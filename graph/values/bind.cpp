@@ -104,7 +104,7 @@ std::int64_t most_of(const Type& type) {
 
 }  // namespace
 
-void bind(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
+void bind_value(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
           Problems& problems) {
   bind_as(yaml, type, unit, value, subject, problems);
 }

@@ -150,13 +150,13 @@ std::string parse_duration(std::string_view text, Duration& to) {
 
 std::string parse_number(std::string_view text, std::string_view unit, double& to) {
   const auto [number, suffix] = split_unit(text);
+  if (number.find_first_of("0123456789") == std::string_view::npos) return "is not a number";
   if (has_leading_zero(number)) return "begins with a zero; write it without";
   double factor = 1.0;
   if (!suffix.empty() && suffix != unit) {
     const Conversion* found = nullptr;
     for (const Conversion& c : conversions)
       if (c.from == suffix && c.to == unit) found = &c;
-    if (number.empty()) return "is not a number";
     if (found == nullptr)
       return "has the unit " + quoted(suffix) + (unit.empty() ? "; it has none" : "; it is in " + std::string(unit));
     factor = found->factor;

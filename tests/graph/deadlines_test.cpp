@@ -46,9 +46,9 @@ connections:
 
   TEST_CASE("a declared deadline may not be later than the derived one") {
     CHECK(tests::report_on("{graph: t, tasks: {a: {type: Counter, period: 10ms, let: 4ms, deadline: 5ms}}}") ==
-          "t.yaml:1:75: error: task 'a' has deadline 5ms later than 4ms, which follows from its LET; lower it or leave it out\n"
+          "t.yaml:1:73: error: task 'a' has deadline 5ms later than 4ms, which follows from its LET; lower it or leave it out\n"
           "  {graph: t, tasks: {a: {type: Counter, period: 10ms, let: 4ms, deadline: 5ms}}}\n"
-          "                                                                            ^");
+          "                                                                          ^");
   }
 
   TEST_CASE("a cycle without a LET task is an error that prints the cycle, whatever the offsets") {

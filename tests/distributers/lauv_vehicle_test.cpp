@@ -1,0 +1,61 @@
+#include "distributers/lauv_vehicle.h"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "distributers/messages/imc.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+namespace imc = messages::imc;
+
+struct Sent : messages::Receiver {
+  void receive(messages::MessageRef message) override {
+    if (const auto* t = message.as<imc::SetThrusterActuation>()) thruster.push_back(*t);
+    if (const auto* s = message.as<imc::SetServoPosition>()) servos.push_back(*s);
+  }
+  std::vector<imc::SetThrusterActuation> thruster;
+  std::vector<imc::SetServoPosition> servos;
+};
+}  // namespace
+
+TEST_SUITE("distributers/lauv_vehicle") {
+  TEST_CASE("a simulated state becomes motion, taken once") {
+    LauvVehicle adapter;
+    tasks::Motion motion;
+    CHECK_FALSE(adapter.take(0, &motion));
+    imc::SimulatedState state;
+    state.z = 2.5F;
+    state.psi = 0.1F;
+    state.u = 1.2F;
+    state.r = -0.3F;
+    adapter.receive(messages::refer_to(state));
+    CHECK(adapter.take(0, &motion));
+    CHECK(motion.z == 2.5);
+    CHECK(motion.psi == static_cast<double>(0.1F));  // the wire's 32 bits, in process too
+    CHECK(motion.u == static_cast<double>(1.2F));
+    CHECK(motion.r == static_cast<double>(-0.3F));
+    CHECK_FALSE(adapter.take(0, &motion));
+  }
+
+  TEST_CASE("an actuation becomes one thruster and four servo messages") {
+    LauvVehicle adapter;
+    Sent sent;
+    const tasks::Actuation actuation{0.5, {0.1, 0.2, 0.3, 0.4}};
+    adapter.hand_over(1, &actuation, sent);
+    REQUIRE(sent.thruster.size() == 1);
+    CHECK(sent.thruster[0].value == 0.5F);
+    REQUIRE(sent.servos.size() == 4);
+    CHECK(sent.servos[2].servo == 2);
+    CHECK(sent.servos[2].value == 0.3F);
+  }
+
+  TEST_CASE("other messages change nothing") {
+    LauvVehicle adapter;
+    adapter.receive(messages::refer_to(imc::SetServoPosition{}));
+    tasks::Motion motion;
+    CHECK_FALSE(adapter.take(0, &motion));
+  }
+}

@@ -1,0 +1,95 @@
+#include "distributers/links/script.h"
+
+#include <doctest/doctest.h>
+
+#include "distributers/lauv_vehicle.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+using namespace std::chrono_literals;
+
+const DistributerClass& operator_class() {
+  static const DistributerClass made = describe_lauv_operator();
+  return made;
+}
+
+std::string report_on(const std::string& text) {
+  Problems problems;
+  ScriptChannels(std::make_shared<Source>(Source{"m.csv", text}), operator_class(), problems);
+  try {
+    problems.throw_if_any();
+  } catch (const SpecError& error) {
+    return error.what();
+  }
+  return "";
+}
+}  // namespace
+
+TEST_SUITE("distributers/links/script") {
+  TEST_CASE("a row holds from its time until the next, an empty cell keeps what was") {
+    Problems problems;
+    ScriptChannels script(std::make_shared<Source>(Source{"m.csv",
+                                                          "# a mission\ntime,setpoint.depth, setpoint.heading\n0,1,90deg\n\n"
+                                                          "0.5,,-1\r\n2,3,0\n"}),
+                          operator_class(), problems);
+    CHECK(problems.empty());
+    tasks::Setpoint setpoint;
+    script.reach(0ms);
+    CHECK(script.take(0, &setpoint));
+    CHECK(setpoint.depth == 1);
+    CHECK(setpoint.heading == doctest::Approx(1.5707963267948966));
+    CHECK_FALSE(script.take(0, &setpoint));
+    script.reach(499ms);
+    CHECK_FALSE(script.take(0, &setpoint));
+    script.reach(500ms);
+    CHECK(script.take(0, &setpoint));
+    CHECK(setpoint.depth == 1);
+    CHECK(setpoint.heading == -1);
+    CHECK_FALSE(script.take(1, &setpoint));
+  }
+
+  TEST_CASE("the mission ends at the time of its last row") {
+    Problems problems;
+    const ScriptChannels script(std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n12.5,1\n"}), operator_class(), problems);
+    CHECK(script.end() == 12500ms);
+  }
+
+  TEST_CASE("of rows that pass between two looks the last counts") {
+    Problems problems;
+    ScriptChannels script(std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n1,2\n2,3\n9,9\n"}), operator_class(), problems);
+    script.reach(5s);
+    tasks::Setpoint setpoint;
+    CHECK(script.take(0, &setpoint));
+    CHECK(setpoint.depth == 3);
+  }
+
+  TEST_CASE("everything wrong with a script is reported with its place") {
+    CHECK(report_on("time,setpoint.deep\n0,1\n") ==
+          "m.csv:1:6: error: column 'setpoint.deep' is no field of an 'in' channel of LauvOperator; did you mean 'setpoint.depth'?; "
+          "there are: setpoint.depth, setpoint.heading, setpoint.speed, actuation.thruster, actuation.fins.0, actuation.fins.1, "
+          "actuation.fins.2, actuation.fins.3\n"
+          "  time,setpoint.deep\n"
+          "       ^");
+    CHECK(report_on("t,setpoint.depth\n0,x\n0,1\n1,1,1\n-1,2\n") ==
+          "m.csv:1:1: error: the first column is 't'; it has to be 'time'\n"
+          "  t,setpoint.depth\n"
+          "  ^\n"
+          "m.csv:2:3: error: column 'setpoint.depth': 'x' is not a number\n"
+          "  0,x\n"
+          "    ^\n"
+          "m.csv:3:1: error: time 0 is not after that of the row before\n"
+          "  0,1\n"
+          "  ^\n"
+          "m.csv:4:1: error: the row has 3 cells; the title row has 2\n"
+          "  1,1,1\n"
+          "  ^\n"
+          "m.csv:5:1: error: time '-1' is no number of seconds from 0 on\n"
+          "  -1,2\n"
+          "  ^");
+    CHECK(report_on("") ==
+          "m.csv:1:1: error: a script needs a title row and at least one row with a time\n"
+          "  \n"
+          "  ^");
+  }
+}

@@ -1,0 +1,66 @@
+#include "distributers/links/simulation.h"
+
+#include <doctest/doctest.h>
+
+#include "distributers/lauv_vehicle.h"
+#include "distributers/messages/imc.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+using namespace std::chrono_literals;
+namespace imc = messages::imc;
+
+// A vehicle whose depth is the number of its steps plus what its servo 0 was told in the step before.
+class Steps : public vehicles::Vehicle {
+ public:
+  Duration grid() const override { return 10ms; }
+  void accept(messages::MessageRef command) override {
+    if (const auto* servo = command.as<imc::SetServoPosition>(); servo != nullptr && servo->servo == 0) held_ = servo->value;
+  }
+  void step() override { depth_ += 1 + held_; }
+  void sense(messages::Receiver& receiver) const override {
+    imc::SimulatedState state;
+    state.z = depth_;
+    receiver.receive(messages::refer_to(state));
+  }
+
+ private:
+  float depth_ = 0;
+  float held_ = 0;
+};
+
+SimulationChannels make() { return {std::make_unique<Steps>(), std::make_unique<LauvVehicle>()}; }
+
+double depth_of(SimulationChannels& channels) {
+  tasks::Motion motion;
+  CHECK(channels.take(0, &motion));
+  return motion.z;
+}
+}  // namespace
+
+TEST_SUITE("distributers/links/simulation") {
+  TEST_CASE("the vehicle steps on its own grid, whoever looks and how often") {
+    auto seldom = make(), often = make();
+    seldom.reach(100ms);
+    for (Duration t{}; t <= 100ms; t += 5ms) often.reach(t);
+    CHECK(depth_of(seldom) == 10);
+    CHECK(depth_of(often) == 10);
+  }
+
+  TEST_CASE("at the start there is something to sense") {
+    auto channels = make();
+    channels.reach(0ms);
+    CHECK(depth_of(channels) == 0);
+  }
+
+  TEST_CASE("a command at an instant does not change what is sensed at it, and is held from then on") {
+    auto channels = make();
+    channels.reach(10ms);
+    const tasks::Actuation actuation{0, {4, 0, 0, 0}};
+    channels.hand_over(1, &actuation);
+    CHECK(depth_of(channels) == 1);
+    channels.reach(30ms);
+    CHECK(depth_of(channels) == 11);
+  }
+}

@@ -1,0 +1,116 @@
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "tests/runtime/trace_of.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+using tests::lines_of;
+
+// Counts its activations; from `first` on throws or publishes NaN, `count` times.
+struct Fails {
+  static constexpr std::string_view summary = "for tests";
+  struct Param {
+    std::int64_t first = 2;
+    std::int64_t count = 1;
+    bool nan = false;
+    static constexpr auto fields() { return describe(field<&Param::first>(), field<&Param::count>(), field<&Param::nan>()); }
+  };
+  struct State {
+    double runs = 0;
+    static constexpr auto fields() { return describe(field<&State::runs>()); }
+  };
+  struct Out {
+    double out = 0;
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Param& p, const Tick& tick, State& state, Out& out) {
+    state.runs += 1;
+    out.out = state.runs;
+    if (tick.activation < p.first || tick.activation >= p.first + p.count) return;
+    if (!p.nan) throw std::runtime_error("too hot");
+    out.out = std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+tests::Run run(const std::string& task, Duration end) {
+  static const Registry registry = [] {
+    Registry made;
+    tasks::add_tasks(made);
+    made.add(task_class<Fails>());
+    return made;
+  }();
+  const std::string text = "graph: t\ntiming: {period: 10ms}\ntasks:\n  f: {type: Fails" + task +
+                           "}\n  r: {type: Relay}\nconnections: [f.out -> r.in]\n";
+  Problems problems;
+  const Graph graph = build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
+  problems.throw_if_any();
+  return tests::run_graph(graph, end);
+}
+}  // namespace
+
+TEST_SUITE("runtime/faults") {
+  TEST_CASE("a task that throws stops the run at the end of that instant, told with task, activation, instant and cause") {
+    const auto r = run("", 100ms);
+    CHECK(r.report.stopped);
+    REQUIRE(r.report.faults.size() == 1);
+    CHECK(to_text(r.report.faults[0]) == "task 'f' activation 2 at 0.02 s: threw: too hot");
+    CHECK(lines_of(r, "f.out") == "0ns f.out=1; 10ms f.out=2");
+    CHECK(lines_of(r, "r.out") == "0ns r.out=1; 10ms r.out=2; 20ms r.out=2");  // the instant is completed
+    CHECK(r.report.simulated == 20ms);
+  }
+
+  TEST_CASE("a number that is not finite is a fault that names the output") {
+    const auto r = run(", parameters: {nan: true}", 100ms);
+    REQUIRE(r.report.faults.size() == 1);
+    CHECK(to_text(r.report.faults[0]) == "task 'f' activation 2 at 0.02 s: output 'out' is nan");
+    CHECK(lines_of(r, "f.out") == "0ns f.out=1; 10ms f.out=2");
+  }
+
+  TEST_CASE("a LET task's fault shows when its outputs would have") {
+    const auto r = run(", let: 5ms", 100ms);
+    REQUIRE(r.report.faults.size() == 1);
+    CHECK(to_text(r.report.faults[0]) == "task 'f' activation 2 at 0.025 s: threw: too hot");
+    CHECK(lines_of(r, "f.out") == "5ms f.out=1; 15ms f.out=2");
+    CHECK(r.report.simulated == 25ms);
+  }
+
+  TEST_CASE("hold goes on: readers keep the last value and the state is as before the activation") {
+    const auto r = run(", on_fault: hold", 50ms);
+    CHECK_FALSE(r.report.stopped);
+    CHECK(r.report.fault_count == 1);
+    CHECK(lines_of(r, "f.out") == "0ns f.out=1; 10ms f.out=2; 30ms f.out=3; 40ms f.out=4");
+    CHECK(lines_of(r, "r.out") == "0ns r.out=1; 10ms r.out=2; 20ms r.out=2; 30ms r.out=3; 40ms r.out=4");
+    CHECK(r.report.activations == 10);
+  }
+
+  TEST_CASE("hold with a LET equal to the period") {
+    const auto r = run(", on_fault: hold, let: 10ms", 60ms);
+    REQUIRE(r.report.faults.size() == 1);
+    CHECK(to_text(r.report.faults[0]) == "task 'f' activation 2 at 0.03 s: threw: too hot");
+    CHECK(lines_of(r, "f.out") == "10ms f.out=1; 20ms f.out=2; 40ms f.out=3; 50ms f.out=4");
+  }
+
+  TEST_CASE("skip also leaves out the next activation") {
+    const auto r = run(", on_fault: skip", 60ms);
+    CHECK(r.report.fault_count == 1);
+    CHECK(lines_of(r, "f.out") == "0ns f.out=1; 10ms f.out=2; 40ms f.out=3; 50ms f.out=4");
+    CHECK(r.report.activations == 11);  // six of r, five of f
+  }
+
+  TEST_CASE("skip with a LET") {
+    const auto r = run(", on_fault: skip, let: 5ms", 60ms);
+    CHECK(r.report.fault_count == 1);
+    CHECK(lines_of(r, "f.out") == "5ms f.out=1; 15ms f.out=2; 45ms f.out=3; 55ms f.out=4");
+  }
+
+  TEST_CASE("every fault is counted, the first thousand are told") {
+    const auto r = run(", on_fault: hold, parameters: {first: 0, count: 5000}", 20s);
+    CHECK(r.report.fault_count == 2000);
+    CHECK(r.report.faults.size() == 1000);
+    CHECK(lines_of(r, "f.out") == "");
+  }
+}

@@ -1,0 +1,174 @@
+// The command as people use it: what it prints, where, and how it exits.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace {
+
+struct Result {
+  int exit_code = -1;
+  std::string output;
+};
+
+// Runs `jarol ARGUMENTS` in the root of the tree, by default with errors and output in one.
+Result jarol(const std::string& arguments, const std::string& errors = "2>&1") {
+  Result result;
+  std::FILE* pipe = popen((std::string(JAROL_COMMAND) + " " + arguments + " " + errors).c_str(), "r");
+  std::array<char, 4096> chunk{};
+  for (std::size_t n = 0; (n = std::fread(chunk.data(), 1, chunk.size(), pipe)) > 0;) result.output.append(chunk.data(), n);
+  const int status = pclose(pipe);
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return result;
+}
+
+nlohmann::json json_of(const std::string& arguments) { return nlohmann::json::parse(jarol(arguments).output); }
+
+std::string digest_of(const std::string& arguments) { return json_of("run " + arguments + " --json")["digest"]; }
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_(std::filesystem::temp_directory_path() / ("jarol_command_test_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+    return *this / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
+TEST_SUITE("tools/command") {
+  TEST_CASE("run tells schema, digest, counts and last outputs") {
+    const auto run = json_of("run specs/counting.yaml --for 1s --json");
+    CHECK(run["schema"] == "jarol.run/1");
+    CHECK(run["graph"] == "counting");
+    CHECK(run["simulated_ns"] == 1'000'000'000);
+    CHECK(run["activations"] == 270);
+    CHECK(run["instants"] == 150);
+    CHECK(run["faults"] == nlohmann::json::array());
+    CHECK(run["outputs"].size() == 1);
+    CHECK(run["outputs"]["total"].is_number());
+    CHECK(run["wall_ns"].is_number());
+    CHECK(run["real_time_factor"].is_number());
+  }
+
+  TEST_CASE("the digest is the same every time, with and without trace and plot, and however much time is told apart") {
+    const TemporaryFolder folder;
+    const std::string digest = digest_of("specs/counting.yaml --for 3s");
+    for (int i = 0; i < 9; ++i) CHECK(digest_of("specs/counting.yaml --for 3s") == digest);
+    CHECK(digest_of("specs/counting.yaml --for 3000ms --trace " + (folder / "t.csv")) == digest);
+    CHECK(digest_of("specs/counting.yaml --for 3s --plot " + (folder / "p.svg")) == digest);
+    CHECK(jarol("run specs/counting.yaml --for 3s").output.find(digest) != std::string::npos);
+    CHECK(digest_of("specs/counting.yaml --for 3.1s") != digest);
+  }
+
+  TEST_CASE("another order of declaration gives the same digest") {
+    const TemporaryFolder folder;
+    const std::string one = folder.write("one.yaml", R"(graph: t
+tasks:
+  a: {type: Counter, period: 10ms}
+  b: {type: Relay, period: 20ms, let: 5ms}
+  c: {type: Sum, period: 10ms}
+connections: [a.out -> b.in, a.out -> c.a, b.out -> c.b]
+)");
+    const std::string two = folder.write("two.yaml", R"(graph: t
+connections: [b.out -> c.b, a.out -> c.a, a.out -> b.in]
+tasks:
+  c: {period: 10ms, type: Sum}
+  b: {let: 5ms, type: Relay, period: 20ms}
+  a: {type: Counter, period: 10ms}
+)");
+    CHECK(digest_of(one + " --for 2s") == digest_of(two + " --for 2s"));
+  }
+
+  TEST_CASE("a known digest stays what it was") {
+    // a change here breaks every recorded run of every user
+    CHECK(digest_of("specs/counting.yaml --for 10s") == "0xef44f03bd732a5ab");
+  }
+
+  TEST_CASE("check says what is schedulable and exits by the verdict") {
+    CHECK(jarol("check specs/counting.yaml").exit_code == 0);
+    const Result no = jarol("check specs/counting.yaml --set tasks.slow.wcet=19ms");
+    CHECK(no.exit_code == 1);
+    CHECK(no.output.starts_with("specs/counting.yaml: NOT SCHEDULABLE core 0: task 'slow' activation 0 (released 0.000 ms) "
+                                "finishes 20.050 ms, deadline 15.000 ms (late 5.050 ms)\n"));
+  }
+
+  TEST_CASE("check --json gives one object per file and line") {
+    const Result result = jarol("check --json specs/counting.yaml");
+    const auto check = nlohmann::json::parse(result.output);
+    CHECK(check["schema"] == "jarol.check/1");
+    CHECK(check["file"] == "specs/counting.yaml");
+    CHECK(check["verdict"] == "schedulable");
+    CHECK(check["tasks"][0] == nlohmann::json{{"name", "add"}, {"period_ns", 20'000'000}, {"offset_ns", 10'000'000},
+                                              {"deadline_ns", 10'000'000}, {"wcet_ns", 50'000}});
+    CHECK(check["utilisation"] == doctest::Approx(0.1325));
+  }
+
+  TEST_CASE("without a wcet the verdict is open") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", "{graph: t, tasks: {a: {type: Counter, period: 1ms}}}\n");
+    const Result result = jarol("check " + file);
+    CHECK(result.exit_code == 3);
+    CHECK(result.output.starts_with(file + ": UNKNOWN: no 'wcet' is stated for 'a'\n"));
+  }
+
+  TEST_CASE("a bad file does not hide the others, and all its errors are told") {
+    const TemporaryFolder folder;
+    const std::string bad = folder.write("bad.yaml", "{graph: t, tasks: {a: {type: Countr, period: 1ms}}, conections: []}\n");
+    const Result result = jarol("check --json " + bad + " specs/counting.yaml", "2>/dev/null");
+    CHECK(result.exit_code == 2);
+    CHECK(nlohmann::json::parse(result.output)["file"] == "specs/counting.yaml");
+    CHECK(jarol("check " + bad).output.ends_with(bad + ": 2 errors\n"));
+  }
+
+  TEST_CASE("usage errors and unreadable files exit with 2 and a sentence") {
+    CHECK(jarol("").exit_code == 2);
+    const Result command = jarol("chek x");
+    CHECK(command.exit_code == 2);
+    CHECK(command.output == "error: there is no command 'chek'; did you mean 'check'?; there are: check, graph, run, tasks\n");
+    const Result missing = jarol("run no/such.yaml");
+    CHECK(missing.exit_code == 2);
+    CHECK(missing.output == "error: can't read 'no/such.yaml': No such file or directory\n1 error\n");
+    const Result endless = jarol("run specs/counting.yaml");
+    CHECK(endless.exit_code == 2);
+    CHECK(endless.output == "error: 'specs/counting.yaml' has no mission that ends; say how long to run, as in --for 10s\n");
+    const Result duration = jarol("run specs/counting.yaml --for 10");
+    CHECK(duration.exit_code == 2);
+    CHECK(duration.output == "error: --for: '10' has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n");
+    CHECK(jarol("run specs/counting.yaml --for 1s --trace /no/such/x.csv").output ==
+          "error: can't write '/no/such/x.csv': No such file or directory\n");
+  }
+
+  TEST_CASE("every command helps") {
+    for (const std::string command : {"", "check", "graph", "run", "tasks"}) {
+      const Result help = jarol(command + " --help");
+      CHECK(help.exit_code == 0);
+      CHECK(help.output.find("Usage") != std::string::npos);
+    }
+  }
+
+  TEST_CASE("tasks tells all about one") {
+    CHECK(jarol("tasks Accumulate").output ==
+          "Accumulate: gives the running sum of its input\n\ninputs\n  in  double\n\noutputs\n  out  double  sum of all inputs so far\n");
+    CHECK(jarol("tasks Acumulate").exit_code == 2);
+    CHECK(json_of("tasks --json")["tasks"].size() == 11);
+  }
+
+  TEST_CASE("graph prints the order of tasks and a drawing") {
+    CHECK(jarol("graph specs/counting.yaml").output.find("count (Counter): every 10ms, deadline 10ms\n") != std::string::npos);
+    CHECK(jarol("graph specs/counting.yaml --dot").output.starts_with("digraph \"counting\" {\n"));
+  }
+}
