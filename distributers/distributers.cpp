@@ -19,7 +19,8 @@ struct SimulationSpec {
 const std::vector<Key<SimulationSpec>>& simulation_keys() {
   static const std::vector<Key<SimulationSpec>> keys{
       key<&SimulationSpec::type>("type", Form::word, "simulation: a vehicle in this process", true),
-      key<&SimulationSpec::vehicle>("vehicle", Form::word, "parameter file of the vehicle, relative to this file", true),
+      key<&SimulationSpec::vehicle>("vehicle", Form::word, "parameter file of the vehicle, relative to this file",
+                                    true),
       key<&SimulationSpec::parameters>("parameters", Form::mapping, "changes to the parameters of that file"),
   };
   return keys;
@@ -52,7 +53,8 @@ const std::vector<Key<VehicleSpec>>& vehicle_keys() {
 
 // A path in a file is relative to that file.
 std::shared_ptr<const Source> read_beside(const Graph& graph, const Located<std::string>& path, Problems& problems) {
-  const std::filesystem::path base = graph.where.source ? std::filesystem::path(graph.where.source->name).parent_path() : "";
+  const std::filesystem::path base =
+      graph.where.source ? std::filesystem::path(graph.where.source->name).parent_path() : "";
   try {
     return read_source((base / path.value).string());
   } catch (const SpecError& error) {
@@ -68,7 +70,8 @@ void check_grid(const Graph& graph, std::size_t distributer, const vehicles::Veh
     for (const auto& [what, duration] : {std::pair("period", c.period), std::pair("offset", c.offset)})
       if (duration.count() % vehicle.grid().count() != 0)
         problems.add(c.where, "communicator '" + c.name + "' has " + what + " " + duration_text(duration) +
-                                  "; it has to be a multiple of the vehicle's step of " + duration_text(vehicle.grid()));
+                                  "; it has to be a multiple of the vehicle's step of " +
+                                  duration_text(vehicle.grid()));
   }
 }
 
@@ -93,13 +96,16 @@ std::unique_ptr<Channels> make_simulation(const Graph& graph, std::size_t index,
     if (v.name == vehicle.vehicle->value) found = &v;
   if (found == nullptr) {
     problems.add(vehicle.vehicle->where, "there is no vehicle '" + vehicle.vehicle->value + "'" +
-                                             did_you_mean(vehicle.vehicle->value, names) + "; this build has: " + list_of(names));
+                                             did_you_mean(vehicle.vehicle->value, names) +
+                                             "; this build has: " + list_of(names));
     return nullptr;
   }
   Value parameters(*found->parameters);
   const std::string name = "vehicle '" + found->name + "'";
-  if (vehicle.parameters) bind_fields(vehicle.parameters->value, *found->parameters, parameters.data(), name, "parameter", problems);
-  if (spec.parameters) bind_fields(spec.parameters->value, *found->parameters, parameters.data(), name, "parameter", problems);
+  if (vehicle.parameters)
+    bind_fields(vehicle.parameters->value, *found->parameters, parameters.data(), name, "parameter", problems);
+  if (spec.parameters)
+    bind_fields(spec.parameters->value, *found->parameters, parameters.data(), name, "parameter", problems);
   if (problems.size() > before) return nullptr;
   try {
     auto made = found->make(parameters.data());
@@ -138,11 +144,13 @@ std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
     if (distributer.distributer_class == nullptr || distributer.link.kind != Yaml::Kind::mapping) continue;
     // a vehicle can be simulated; any operator can be played from a script
     const bool is_vehicle = distributer.distributer_class->name == "LauvVehicle";
-    const std::vector<std::string> links = is_vehicle ? std::vector<std::string>{"simulation", "script"} : std::vector<std::string>{"script"};
+    const std::vector<std::string> links =
+        is_vehicle ? std::vector<std::string>{"simulation", "script"} : std::vector<std::string>{"script"};
     const std::string subject = "link of distributer '" + distributer.name + "'";
     const Yaml* type = distributer.link.find("type");
     if (type == nullptr) {
-      problems.add(distributer.link.where, subject + " lacks the key 'type'; a " + distributer.distributer_class->name + " can have: " + list_of(links));
+      problems.add(distributer.link.where, subject + " lacks the key 'type'; a " + distributer.distributer_class->name +
+                                               " can have: " + list_of(links));
     } else if (type->text == "simulation" && is_vehicle) {
       all.back() = make_simulation(graph, i, vehicles, problems);
     } else if (type->text == "script") {

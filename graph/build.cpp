@@ -70,7 +70,8 @@ class Builder {
       timing.period = *graph_.period;
     } else {
       if (!spec.period.bad && !spec_.timing.period.bad)
-        problems_.add(spec.where, subject + " has no period, and the graph states none; add 'period:' here or below 'timing:'");
+        problems_.add(spec.where,
+                      subject + " has no period, and the graph states none; add 'period:' here or below 'timing:'");
       timing.period = Duration(1);
       complete_ = false;
       return timing;
@@ -92,7 +93,8 @@ class Builder {
         if (distributer.distributer_class == nullptr) {
           const auto names = names_of(registry_.distributers());
           problems_.add(spec.type->where, "distributer '" + spec.name + "' has unknown type '" + spec.type->value +
-                                              "'" + did_you_mean(spec.type->value, names) + "; there are: " + list_of(names));
+                                              "'" + did_you_mean(spec.type->value, names) +
+                                              "; there are: " + list_of(names));
         }
       }
       graph_.distributers.push_back(std::move(distributer));
@@ -130,7 +132,8 @@ class Builder {
   void resolve_channel(const CommunicatorSpec& spec, const std::string& subject, Communicator& communicator) {
     for (const bool given : {spec.type.has_value(), spec.direction.has_value()})
       if (given) {
-        problems_.add(spec.where, subject + " has a channel and so its type and direction; leave 'type' and 'direction' out");
+        problems_.add(spec.where,
+                      subject + " has a channel and so its type and direction; leave 'type' and 'direction' out");
         break;
       }
     const std::string& text = spec.channel->value;
@@ -140,8 +143,9 @@ class Builder {
                                     [&](const Distributer& d) { return d.name == name; });
     if (dot == std::string::npos || found == graph_.distributers.end()) {
       const auto names = names_of(graph_.distributers);
-      problems_.add(spec.channel->where, subject + " has channel '" + text + "', but there is no distributer '" + name + "'" +
-                                             did_you_mean(name, names) + "; write distributer.channel, with one of: " + list_of(names));
+      problems_.add(spec.channel->where, subject + " has channel '" + text + "', but there is no distributer '" + name +
+                                             "'" + did_you_mean(name, names) +
+                                             "; write distributer.channel, with one of: " + list_of(names));
       return;
     }
     if (found->distributer_class == nullptr) return;  // reported there
@@ -155,15 +159,16 @@ class Builder {
       communicator.direction = channels[i].direction;
       return;
     }
-    problems_.add(spec.channel->where, "distributer '" + name + "' (" + found->distributer_class->name +
-                                           ") has no channel '" + wanted + "'" + did_you_mean(wanted, names_of(channels)) +
-                                           "; it has: " + list_of(names_of(channels)));
+    problems_.add(spec.channel->where,
+                  "distributer '" + name + "' (" + found->distributer_class->name + ") has no channel '" + wanted +
+                      "'" + did_you_mean(wanted, names_of(channels)) + "; it has: " + list_of(names_of(channels)));
   }
 
   void resolve_type(const CommunicatorSpec& spec, const std::string& subject, Communicator& communicator) {
     if (!spec.type || !spec.direction) {
       if (!spec.type.bad && !spec.direction.bad && !spec.channel.bad)
-        problems_.add(spec.where, subject + " has no channel; add 'channel: distributer.channel', or both 'type' and 'direction'");
+        problems_.add(spec.where,
+                      subject + " has no channel; add 'channel: distributer.channel', or both 'type' and 'direction'");
       return;
     }
     communicator.direction = spec.direction->value;
@@ -181,8 +186,9 @@ class Builder {
       if (c.direction != Direction::out || !c.distributer) continue;
       const auto [at, first] = writers.emplace(std::pair(*c.distributer, c.channel), &c);
       if (first) continue;
-      problems_.add(c.where, "communicator '" + c.name + "' hands over to the same channel as '" + at->second->name +
-                                 "'; a channel has one writer",
+      problems_.add(c.where,
+                    "communicator '" + c.name + "' hands over to the same channel as '" + at->second->name +
+                        "'; a channel has one writer",
                     {{at->second->where, "the other one"}});
     }
   }
@@ -207,8 +213,9 @@ class Builder {
         problems_.add(spec.let->where, subject + " has LET " + duration_text(*task.let) + " longer than its period " +
                                            duration_text(task.period));
       if (task.core && *task.core >= graph_.platform.cores)
-        problems_.add(spec.core->where, subject + " is on core " + std::to_string(*task.core) + ", but the platform has " +
-                                            std::to_string(graph_.platform.cores) + " (counted from 0)");
+        problems_.add(spec.core->where, subject + " is on core " + std::to_string(*task.core) +
+                                            ", but the platform has " + std::to_string(graph_.platform.cores) +
+                                            " (counted from 0)");
       resolve_task_class(spec, subject, task);
       declared_deadlines_.push_back(spec.deadline);
       graph_.tasks.push_back(std::move(task));
@@ -232,7 +239,8 @@ class Builder {
     task.parameters = Value(*task.task_class->parameters);
     task.out = Value(*task.task_class->out);
     if (spec.parameters)
-      bind_fields(spec.parameters->value, *task.task_class->parameters, task.parameters.data(), subject, "parameter", problems_);
+      bind_fields(spec.parameters->value, *task.task_class->parameters, task.parameters.data(), subject, "parameter",
+                  problems_);
     if (spec.init) bind_fields(spec.init->value, *task.task_class->out, task.out.data(), subject, "output", problems_);
   }
 
@@ -258,13 +266,15 @@ class Builder {
     if (communicator == graph_.communicators.end() || communicator->name != spec.name) {
       std::vector<std::string> names = names_of(graph_.tasks);
       for (const Communicator& c : graph_.communicators) names.push_back(c.name);
-      problems_.add(spec.where, "there is no task or communicator '" + spec.name + "'" + did_you_mean(spec.name, names));
+      problems_.add(spec.where,
+                    "there is no task or communicator '" + spec.name + "'" + did_you_mean(spec.name, names));
       return nullptr;
     }
     end = {End::Kind::communicator, static_cast<std::size_t>(communicator - graph_.communicators.begin()), 0};
     const std::string subject = "communicator '" + spec.name + "'";
     if (!spec.field.empty()) {
-      problems_.add(spec.where, subject + " is written without '." + spec.field + "'; only tasks have inputs and outputs");
+      problems_.add(spec.where,
+                    subject + " is written without '." + spec.field + "'; only tasks have inputs and outputs");
       return nullptr;
     }
     if (communicator->type == nullptr) return nullptr;
@@ -289,7 +299,8 @@ class Builder {
     const TypeField* found = find_field(fields, spec.field);
     if (found == nullptr) {
       problems_.add(spec.where, subject + " has no " + noun + " '" + spec.field + "'" +
-                                    did_you_mean(spec.field, field_names(fields)) + "; it has: " + list_of(field_names(fields)));
+                                    did_you_mean(spec.field, field_names(fields)) +
+                                    "; it has: " + list_of(field_names(fields)));
       return nullptr;
     }
     end.field = static_cast<std::size_t>(found - fields.fields.data());
@@ -315,16 +326,17 @@ class Builder {
         continue;
       }
       if (!same_type(*from, *to)) {
-        problems_.add(spec.where, "connection " + text_of(spec.from) + " -> " + text_of(spec.to) + " joins a " + from->name +
-                                      " to a " + to->name + "; both ends carry one type");
+        problems_.add(spec.where, "connection " + text_of(spec.from) + " -> " + text_of(spec.to) + " joins a " +
+                                      from->name + " to a " + to->name + "; both ends carry one type");
         continue;
       }
       connection.type = from;
       graph_.connections.push_back(std::move(connection));
     }
-    std::stable_sort(graph_.connections.begin(), graph_.connections.end(), [](const Connection& a, const Connection& b) {
-      return std::tuple(a.to.kind, a.to.index, a.to.field) < std::tuple(b.to.kind, b.to.index, b.to.field);
-    });
+    std::stable_sort(
+        graph_.connections.begin(), graph_.connections.end(), [](const Connection& a, const Connection& b) {
+          return std::tuple(a.to.kind, a.to.index, a.to.field) < std::tuple(b.to.kind, b.to.index, b.to.field);
+        });
     for (const auto& [key, where] : fed) fed_.insert(key);
   }
 
@@ -335,9 +347,10 @@ class Builder {
       const auto& inputs = task.task_class->in->fields;
       for (std::size_t field = 0; field < inputs.size(); ++field)
         if (!fed_.contains({End::Kind::task, i, field}))
-          problems_.add(task.where, "task '" + task.name + "' (" + task.task_class->name + ") input '" + inputs[field].name +
-                                        "' (" + inputs[field].type->name + ") is not connected; add '... -> " + task.name +
-                                        "." + inputs[field].name + "'");
+          problems_.add(task.where, "task '" + task.name + "' (" + task.task_class->name + ") input '" +
+                                        inputs[field].name + "' (" + inputs[field].type->name +
+                                        ") is not connected; add '... -> " + task.name + "." + inputs[field].name +
+                                        "'");
     }
     for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
       const Communicator& c = graph_.communicators[i];

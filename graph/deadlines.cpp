@@ -49,8 +49,8 @@ void report_cycle(const Graph& graph, const std::vector<std::size_t>& cycle, Pro
   std::string path;
   for (const std::size_t i : cycle) path += graph.tasks[i].name + " -> ";
   const Task& first = graph.tasks[cycle.front()];
-  problems.add(first.where, "tasks " + path + first.name +
-                                " feed each other in a cycle without a LET; give one of them a 'let'");
+  problems.add(first.where,
+               "tasks " + path + first.name + " feed each other in a cycle without a LET; give one of them a 'let'");
 }
 
 }  // namespace
@@ -109,10 +109,10 @@ void set_deadlines(Graph& graph, const std::vector<Maybe<Duration>>& declared, P
     if (declared[*at]->value <= deadline) {
       task.deadline = declared[*at]->value;
     } else {
-      problems.add(declared[*at]->where, "task '" + task.name + "' has deadline " +
-                                             duration_text(declared[*at]->value) + " later than " +
-                                             duration_text(deadline) + ", which follows from " +
-                                             (task.let ? "its LET" : "what reads its outputs") + "; lower it or leave it out");
+      problems.add(declared[*at]->where,
+                   "task '" + task.name + "' has deadline " + duration_text(declared[*at]->value) + " later than " +
+                       duration_text(deadline) + ", which follows from " +
+                       (task.let ? "its LET" : "what reads its outputs") + "; lower it or leave it out");
     }
   }
 }

@@ -15,9 +15,9 @@ struct Task {
   Location where;
   const TaskClass* task_class = nullptr;
   Duration period{};
-  Duration offset{};             // of the first release, below the period
-  std::optional<Duration> let;   // none: a data-flow task
-  Duration deadline{};           // relative to the release, derived or declared
+  Duration offset{};            // of the first release, below the period
+  std::optional<Duration> let;  // none: a data-flow task
+  Duration deadline{};          // relative to the release, derived or declared
   std::optional<Duration> wcet;
   std::optional<std::int64_t> priority;  // smaller is more urgent
   std::optional<std::int64_t> core;
@@ -35,9 +35,9 @@ struct Communicator {
   const Type* type = nullptr;
   Duration period{};
   Duration offset{};
-  Value init;                                // of an `in`
-  std::optional<std::size_t> distributer;    // none: no channel
-  std::size_t channel = 0;                   // of the distributer's class
+  Value init;                              // of an `in`
+  std::optional<std::size_t> distributer;  // none: no channel
+  std::size_t channel = 0;                 // of the distributer's class
 };
 
 struct Distributer {

@@ -8,16 +8,16 @@ namespace {
 
 template <class C>
 void insert_by_name(std::vector<C>& classes, C added) {
-  const auto at = std::lower_bound(classes.begin(), classes.end(), added,
-                                   [](const C& a, const C& b) { return a.name < b.name; });
+  const auto at =
+      std::lower_bound(classes.begin(), classes.end(), added, [](const C& a, const C& b) { return a.name < b.name; });
   assert((at == classes.end() || at->name != added.name) && "two classes of one name");
   classes.insert(at, std::move(added));
 }
 
 template <class C>
 const C* find_by_name(const std::vector<C>& classes, std::string_view name) {
-  const auto at = std::lower_bound(classes.begin(), classes.end(), name,
-                                   [](const C& c, std::string_view n) { return c.name < n; });
+  const auto at =
+      std::lower_bound(classes.begin(), classes.end(), name, [](const C& c, std::string_view n) { return c.name < n; });
   return at != classes.end() && at->name == name ? &*at : nullptr;
 }
 

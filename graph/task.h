@@ -12,7 +12,7 @@ namespace jarol {
 
 /// What a task sees of time: the instant of its release, always the same however late it really runs.
 struct Tick {
-  Duration now{};                // logical time since the start
+  Duration now{};               // logical time since the start
   std::int64_t activation = 0;  // 0, 1, 2 ...
   Duration period{};
 };
@@ -56,23 +56,31 @@ struct None {
 
 template <class T>
 auto parameters_of() {
-  if constexpr (requires { typename T::Param; }) return typename T::Param{};
-  else return None{};
+  if constexpr (requires { typename T::Param; })
+    return typename T::Param{};
+  else
+    return None{};
 }
 template <class T>
 auto in_of() {
-  if constexpr (requires { typename T::In; }) return typename T::In{};
-  else return None{};
+  if constexpr (requires { typename T::In; })
+    return typename T::In{};
+  else
+    return None{};
 }
 template <class T>
 auto state_of() {
-  if constexpr (requires { typename T::State; }) return typename T::State{};
-  else return None{};
+  if constexpr (requires { typename T::State; })
+    return typename T::State{};
+  else
+    return None{};
 }
 template <class T>
 auto out_of() {
-  if constexpr (requires { typename T::Out; }) return typename T::Out{};
-  else return None{};
+  if constexpr (requires { typename T::Out; })
+    return typename T::Out{};
+  else
+    return None{};
 }
 
 // A tuple of one reference, or of none where the task has no such struct.
@@ -93,9 +101,7 @@ inline void call(const TaskMemory& memory, const Tick& tick) {
                                     present<decltype(out_of<T>())>(memory.out)));
 }
 
-inline void keep_text(FaultText& fault, const char* text) {
-  std::strncpy(fault.text, text, sizeof fault.text - 1);
-}
+inline void keep_text(FaultText& fault, const char* text) { std::strncpy(fault.text, text, sizeof fault.text - 1); }
 
 template <class T>
 Outcome thunk(const TaskMemory& memory, const Tick& tick) {

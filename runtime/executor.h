@@ -84,13 +84,13 @@ class Executor {
   Plan plan_;
   std::vector<std::unique_ptr<Channels>> channels_;
   ExecutorOptions options_;
-  std::vector<Due> calendar_;                // heap: least instant first, then least group
-  std::vector<std::uint32_t> due_;           // groups due now
-  std::vector<const Segment*> cursors_;      // of the groups due now
-  std::vector<Tick> ticks_;                  // of the groups due now
+  std::vector<Due> calendar_;                          // heap: least instant first, then least group
+  std::vector<std::uint32_t> due_;                     // groups due now
+  std::vector<const Segment*> cursors_;                // of the groups due now
+  std::vector<Tick> ticks_;                            // of the groups due now
   std::vector<const CommunicatorAction*> outs_, ins_;  // due now
-  std::vector<std::int64_t> releases_;       // per group: how often it was due
-  std::vector<const std::byte*> last_;       // per communicator
+  std::vector<std::int64_t> releases_;                 // per group: how often it was due
+  std::vector<const std::byte*> last_;                 // per communicator
   Report report_;
   std::atomic<std::int64_t> now_{0};
   std::atomic<bool> interrupted_{false};

@@ -129,7 +129,7 @@ class PlanBuilder {
     for (const std::size_t i : order_)
       if (graph_.tasks[i].on_fault != OnFault::stop) tasks_[i].kept = layout.place(undoable_size(i), line);
     arena_size_ = layout.size();
-    plan_.arena_.reset(static_cast<std::byte*>(::operator new(arena_size_ + line, std::align_val_t{line})));
+    plan_.arena_.reset(static_cast<std::byte*>(::operator new (arena_size_ + line, std::align_val_t{line})));
     std::memset(plan_.arena_.get(), 0, arena_size_ + line);
   }
 
@@ -204,7 +204,8 @@ class PlanBuilder {
   }
 
   Publication publication(const std::string& name, const Type& type, const std::byte* value) const {
-    return {value, digest::name_hash(name), type.hash_words, output_index_.at(name), static_cast<std::uint32_t>(type.size)};
+    return {value, digest::name_hash(name), type.hash_words, output_index_.at(name),
+            static_cast<std::uint32_t>(type.size)};
   }
 
   Publish publish_task(std::size_t i) {
@@ -223,8 +224,11 @@ class PlanBuilder {
     for (const Connection* s : from_communicator_[i])
       plan_.copies_.push_back({source_of(*s), target_of(*s), s->type->size});
     plan_.publications_.push_back(publication(c.name, *c.type, at(communicators_[i].value)));
-    return {static_cast<std::uint32_t>(i), at(communicators_[i].value), at(communicators_[i].input),
-            at(communicators_[i].taken), {range(plan_.copies_, first_copy), range(plan_.publications_, first_publication)}};
+    return {static_cast<std::uint32_t>(i),
+            at(communicators_[i].value),
+            at(communicators_[i].input),
+            at(communicators_[i].taken),
+            {range(plan_.copies_, first_copy), range(plan_.publications_, first_publication)}};
   }
 
   Activation activation(std::size_t i) {
@@ -295,6 +299,6 @@ class PlanBuilder {
 
 Plan::Plan(const Graph& graph) { PlanBuilder(graph, *this).build(); }
 
-void Plan::Release::operator()(std::byte* memory) const { ::operator delete(memory, std::align_val_t{line}); }
+void Plan::Release::operator()(std::byte* memory) const { ::operator delete (memory, std::align_val_t{line}); }
 
 }  // namespace jarol

@@ -40,7 +40,7 @@ struct Range {
 
 /// What is done to make outputs visible.
 struct Publish {
-  Range<Copy> copies;              // of all outputs together
+  Range<Copy> copies;  // of all outputs together
   Range<Publication> publications;
 };
 
@@ -96,10 +96,10 @@ struct Segment {
 struct Group {
   Duration first{};
   Duration period{};
-  Range<LetEnd> let_ends;           // step 1
-  Range<CommunicatorAction> outs;   // step 2
-  Range<CommunicatorAction> ins;    // step 3
-  Range<Segment> segments;          // step 4
+  Range<LetEnd> let_ends;          // step 1
+  Range<CommunicatorAction> outs;  // step 2
+  Range<CommunicatorAction> ins;   // step 3
+  Range<Segment> segments;         // step 4
   std::size_t activations = 0;
 };
 

@@ -77,9 +77,7 @@ void Recorder::drain(const std::byte* chunk, std::size_t bytes) {
       for (RecordSink* sink : sinks_) sink->take(Duration(header.instant), header.output, chunk + at + sizeof header);
       at += sizeof header + ((header.size + 7U) & ~std::size_t{7});
     }
-  } catch (...) {
-    failure_ = std::current_exception();
-  }
+  } catch (...) { failure_ = std::current_exception(); }
 }
 
 }  // namespace jarol

@@ -15,7 +15,8 @@ void Accumulate::run(const Tick&, const In& in, State& state, Out& out) {
 
 void Work::run(const Param& p, const Tick&, State& state) {
   // a chain that no compiler shortens: the multiplier of Knuth's linear congruential generator (MMIX)
-  for (std::uint32_t i = 0; i < p.rounds; ++i) state.number = state.number * 6364136223846793005ULL + 1442695040888963407ULL;
+  for (std::uint32_t i = 0; i < p.rounds; ++i)
+    state.number = state.number * 6364136223846793005ULL + 1442695040888963407ULL;
 }
 
 }  // namespace jarol::tasks

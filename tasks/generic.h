@@ -65,7 +65,9 @@ struct Work {
   static constexpr std::string_view summary = "takes time and does nothing else";
   struct Param {
     std::uint32_t rounds = 1000;
-    static constexpr auto fields() { return describe(field<&Param::rounds>("", "dependent multiplications, about 1 ns each")); }
+    static constexpr auto fields() {
+      return describe(field<&Param::rounds>("", "dependent multiplications, about 1 ns each"));
+    }
   };
   struct State {
     std::uint64_t number = 1;

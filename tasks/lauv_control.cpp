@@ -18,14 +18,15 @@ double seconds(Duration duration) { return 1e-9 * static_cast<double>(duration.c
 void DepthControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const Motion& m = in.motion;
   // z_dot: third row of R_nb times the velocity
-  const double z_dot = -m.u * std::sin(m.theta) + m.v * std::cos(m.theta) * std::sin(m.phi) +
-                       m.w * std::cos(m.theta) * std::cos(m.phi);
+  const double z_dot =
+      -m.u * std::sin(m.theta) + m.v * std::cos(m.theta) * std::sin(m.phi) + m.w * std::cos(m.theta) * std::cos(m.phi);
   const double error = in.setpoint.depth - m.z;
   // nose down to go deeper
   const double wanted = -p.kp * error + p.kd * z_dot + state.pitch_trim;
   const double theta = limited(wanted, p.limit);
   // learn the trim only close to the depth: on the way down it would wind up
-  if (std::abs(error) < p.reach) state.pitch_trim = limited(state.pitch_trim - p.ki * error * seconds(tick.period), p.limit);
+  if (std::abs(error) < p.reach)
+    state.pitch_trim = limited(state.pitch_trim - p.ki * error * seconds(tick.period), p.limit);
   // the rate of the Euler angle, not of the body: they differ in a turn
   const double theta_dot = m.q * std::cos(m.phi) - m.r * std::sin(m.phi);
   out.moment.angle = limited(p.pitch_kp * (theta - m.theta) - p.pitch_kd * theta_dot, p.fin_limit);

@@ -25,13 +25,13 @@ struct DepthControl {
     double fin_limit = 25 * degree;
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::kp>("rad/m", "pitch per depth error"), field<&P::kd>("rad s/m", "pitch per rate of depth"),
-                      field<&P::ki>("rad/(m s)", "pitch per integral of depth error"),
-                      field<&P::reach>("m", "depth error below which the integral works"),
-                      field<&P::limit>("rad", "greatest pitch demanded"),
-                      field<&P::pitch_kp>("", "fin angle per pitch error"),
-                      field<&P::pitch_kd>("s", "fin angle per pitch rate"),
-                      field<&P::fin_limit>("rad", "greatest fin angle demanded"));
+      return describe(
+          field<&P::kp>("rad/m", "pitch per depth error"), field<&P::kd>("rad s/m", "pitch per rate of depth"),
+          field<&P::ki>("rad/(m s)", "pitch per integral of depth error"),
+          field<&P::reach>("m", "depth error below which the integral works"),
+          field<&P::limit>("rad", "greatest pitch demanded"), field<&P::pitch_kp>("", "fin angle per pitch error"),
+          field<&P::pitch_kd>("s", "fin angle per pitch rate"),
+          field<&P::fin_limit>("rad", "greatest fin angle demanded"));
     }
   };
   struct In {
@@ -61,7 +61,8 @@ struct HeadingControl {
     double fin_limit = 25 * degree;
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::kp>("1/s", "yaw rate per heading error"), field<&P::rate_limit>("rad/s", "greatest yaw rate demanded"),
+      return describe(field<&P::kp>("1/s", "yaw rate per heading error"),
+                      field<&P::rate_limit>("rad/s", "greatest yaw rate demanded"),
                       field<&P::rate_kp>("s", "fin angle per error of yaw rate"),
                       field<&P::fin_limit>("rad", "greatest fin angle demanded"));
     }
@@ -108,7 +109,8 @@ struct SpeedControl {
 };
 
 struct FinAllocator {
-  static constexpr std::string_view summary = "gives the demands of pitch and yaw to the four fins, the thrust to the propeller";
+  static constexpr std::string_view summary =
+      "gives the demands of pitch and yaw to the four fins, the thrust to the propeller";
   struct In {
     Moment pitch{};
     Moment yaw{};
@@ -136,7 +138,8 @@ struct LauvReport {
 };
 
 struct LauvForward {
-  static constexpr std::string_view summary = "passes motion to the operator and the operator's actuation to the vehicle";
+  static constexpr std::string_view summary =
+      "passes motion to the operator and the operator's actuation to the vehicle";
   struct In {
     Motion motion{};
     Actuation actuation{};

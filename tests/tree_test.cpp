@@ -62,14 +62,16 @@ TEST_SUITE("tree") {
         std::ifstream in(entry.path());
         for (std::string line; std::getline(in, line);)
           for (const char* library : {"<Simbody", "<SimTK", "<boost/", "<yaml-cpp/"})
-            if (line.starts_with("#include " + std::string(library))) wrong += entry.path().string() + ": " + line + "\n";
+            if (line.starts_with("#include " + std::string(library)))
+              wrong += entry.path().string() + ": " + line + "\n";
       }
     CHECK(wrong == "");
   }
 
   TEST_CASE("at the top stand the eight folders and a few files") {
-    const std::set<std::string> expected{"graph", "runtime", "tasks", "distributers", "vehicles", "specs", "tests", "tools",
-                                         "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "build"};
+    const std::set<std::string> expected{"graph",     "runtime", "tasks", "distributers",   "vehicles",
+                                         "specs",     "tests",   "tools", "CMakeLists.txt", "CMakePresets.json",
+                                         "README.md", "LICENSE", "build"};
     std::string wrong;
     for (const auto& entry : fs::directory_iterator(".")) {
       const std::string name = entry.path().filename();

@@ -23,7 +23,8 @@ std::vector<Reported> find_reported(const Graph& graph) {
     const Communicator& out = graph.communicators[i];
     if (out.direction != Direction::out || !out.distributer) continue;
     std::vector<Reported> fields;
-    for (const Leaf& leaf : leaves_of(*out.type)) fields.push_back({leaf.path, i, leaf, find_command(graph, out, leaf)});
+    for (const Leaf& leaf : leaves_of(*out.type))
+      fields.push_back({leaf.path, i, leaf, find_command(graph, out, leaf)});
     if (std::any_of(fields.begin(), fields.end(), [](const Reported& r) { return r.command.has_value(); }))
       all.insert(all.end(), fields.begin(), fields.end());
   }

@@ -67,7 +67,8 @@ void TraceCsv::take(Duration instant, std::uint32_t output, const void* value) {
 void TraceCsv::finish() {
   if (pending_) write_row();
   const bool good = std::fflush(file_) == 0 && std::ferror(file_) == 0;
-  if (std::fclose(std::exchange(file_, nullptr)) != 0 || !good || std::rename(partial(path_).c_str(), path_.c_str()) != 0) {
+  if (std::fclose(std::exchange(file_, nullptr)) != 0 || !good ||
+      std::rename(partial(path_).c_str(), path_.c_str()) != 0) {
     const int reason = errno;
     std::remove(partial(path_).c_str());
     errno = reason;

@@ -17,7 +17,8 @@ nlohmann::ordered_json to_json(const Type& type, const void* value) {
     case Kind::enumeration: return scalar_text(type, value);
     case Kind::array: {
       auto list = nlohmann::ordered_json::array();
-      for (std::size_t i = 0; i < type.count; ++i) list.push_back(to_json(*type.element, bytes + i * type.element->size));
+      for (std::size_t i = 0; i < type.count; ++i)
+        list.push_back(to_json(*type.element, bytes + i * type.element->size));
       return list;
     }
     case Kind::structure: {

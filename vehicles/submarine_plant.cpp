@@ -89,9 +89,7 @@ struct SubmarinePlant::Simulation {
     try {
       stepper.stepTo(t);
       if (!SimTK::isFinite(integrator.getAdvancedState().getY().normSqr())) failure = "a number in it is not finite";
-    } catch (const std::exception& e) {
-      failure = e.what();
-    }
+    } catch (const std::exception& e) { failure = e.what(); }
     if (failure.empty()) return;
     failure = "submarine: no state at t = " + std::to_string(t) + " s: " + failure;
     throw std::runtime_error(failure);

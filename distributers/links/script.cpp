@@ -23,7 +23,8 @@ std::vector<Cell> cells_of(const std::shared_ptr<const Source>& source, std::str
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string_view cell = trim(text.substr(begin, end - begin));
-    const auto column = static_cast<int>(cell.empty() ? begin : static_cast<std::size_t>(cell.data() - text.data())) + 1;
+    const auto column =
+        static_cast<int>(cell.empty() ? begin : static_cast<std::size_t>(cell.data() - text.data())) + 1;
     cells.push_back({std::string(cell), {source, line, column}});
     begin = end + 1;
   }
@@ -74,7 +75,8 @@ ScriptChannels::ScriptChannels(const std::shared_ptr<const Source>& script, cons
     const std::vector<Cell> cells = cells_of(script, line, number);
     if (titles.empty()) {
       titles = cells;
-      if (titles[0].text != "time") problems.add(titles[0].where, "the first column is '" + titles[0].text + "'; it has to be 'time'");
+      if (titles[0].text != "time")
+        problems.add(titles[0].where, "the first column is '" + titles[0].text + "'; it has to be 'time'");
       for (std::size_t i = 1; i < titles.size(); ++i) {
         Column column;
         columns.push_back(find_column(titles[i], distributer, column, problems) ? std::optional(column) : std::nullopt);
@@ -82,7 +84,8 @@ ScriptChannels::ScriptChannels(const std::shared_ptr<const Source>& script, cons
       continue;
     }
     if (cells.size() != titles.size()) {
-      problems.add(cells[0].where, "the row has " + std::to_string(cells.size()) + " cells; the title row has " + std::to_string(titles.size()));
+      problems.add(cells[0].where, "the row has " + std::to_string(cells.size()) + " cells; the title row has " +
+                                       std::to_string(titles.size()));
       continue;
     }
     Row row;

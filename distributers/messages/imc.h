@@ -20,15 +20,15 @@ struct SimulatedState {
 
   static constexpr auto fields() {
     using S = SimulatedState;
-    return describe(field<&S::lat>("rad", "latitude of the origin (WGS-84)"), field<&S::lon>("rad", "longitude of the origin"),
-                    field<&S::height>("m", "height of the origin"), field<&S::x>("m", "offset north"),
-                    field<&S::y>("m", "offset east"), field<&S::z>("m", "offset down"), field<&S::phi>("rad", "roll"),
-                    field<&S::theta>("rad", "pitch"), field<&S::psi>("rad", "yaw"),
-                    field<&S::u>("m/s", "surge, through the water"), field<&S::v>("m/s", "sway, through the water"),
-                    field<&S::w>("m/s", "heave, through the water"), field<&S::p>("rad/s", "roll rate"),
-                    field<&S::q>("rad/s", "pitch rate"), field<&S::r>("rad/s", "yaw rate"),
-                    field<&S::svx>("m/s", "current north"), field<&S::svy>("m/s", "current east"),
-                    field<&S::svz>("m/s", "current down"));
+    return describe(field<&S::lat>("rad", "latitude of the origin (WGS-84)"),
+                    field<&S::lon>("rad", "longitude of the origin"), field<&S::height>("m", "height of the origin"),
+                    field<&S::x>("m", "offset north"), field<&S::y>("m", "offset east"),
+                    field<&S::z>("m", "offset down"), field<&S::phi>("rad", "roll"), field<&S::theta>("rad", "pitch"),
+                    field<&S::psi>("rad", "yaw"), field<&S::u>("m/s", "surge, through the water"),
+                    field<&S::v>("m/s", "sway, through the water"), field<&S::w>("m/s", "heave, through the water"),
+                    field<&S::p>("rad/s", "roll rate"), field<&S::q>("rad/s", "pitch rate"),
+                    field<&S::r>("rad/s", "yaw rate"), field<&S::svx>("m/s", "current north"),
+                    field<&S::svy>("m/s", "current east"), field<&S::svz>("m/s", "current down"));
   }
 };
 

@@ -49,7 +49,8 @@ std::string names_without_wcet(const Graph& graph) {
 TableResult check_table(const Graph& graph, std::uint64_t most_jobs) {
   TableResult result;
   for (const Task& task : graph.tasks)
-    if (task.wcet) result.utilisation += static_cast<double>(task.wcet->count()) / static_cast<double>(task.period.count());
+    if (task.wcet)
+      result.utilisation += static_cast<double>(task.wcet->count()) / static_cast<double>(task.period.count());
   const std::string missing = names_without_wcet(graph);
   if (missing != "nothing") {
     result.reason = "no 'wcet' is stated for " + missing;
@@ -77,7 +78,8 @@ TableResult check_table(const Graph& graph, std::uint64_t most_jobs) {
   for (std::uint64_t count = 0; !jobs.empty() && jobs.top().release < end; ++count) {
     if (count == most_jobs) {
       if (result.verdict == Verdict::unknown)
-        result.reason = "the periods repeat only after more than " + std::to_string(most_jobs) + " jobs, and none of these is late";
+        result.reason =
+            "the periods repeat only after more than " + std::to_string(most_jobs) + " jobs, and none of these is late";
       result.response.clear();
       return result;
     }
@@ -89,7 +91,8 @@ TableResult check_table(const Graph& graph, std::uint64_t most_jobs) {
     if (finish > job.release + task.deadline.count()) {
       if (result.verdict == Verdict::unknown) result.reason = "a task is late when every task takes its 'wcet'";
       result.verdict = Verdict::not_schedulable;
-      result.miss = Miss{job.task, job.activation, Duration(job.release), Duration(finish), Duration(job.release) + task.deadline};
+      result.miss = Miss{job.task, job.activation, Duration(job.release), Duration(finish),
+                         Duration(job.release) + task.deadline};
       result.response.clear();
       return result;
     }

@@ -22,8 +22,8 @@ struct Miss {
 
 struct TableResult {
   Verdict verdict = Verdict::unknown;
-  std::string reason;              // one sentence
-  double utilisation = 0;          // of the tasks that state a WCET
+  std::string reason;      // one sentence
+  double utilisation = 0;  // of the tasks that state a WCET
   std::optional<Miss> miss;
   std::vector<Duration> response;  // per task: the longest found, where the verdict rests on the table
 };

@@ -22,10 +22,12 @@ void read_entries(const Yaml& graph, const std::string& section, const std::stri
   const Yaml* yaml = graph.find(section);
   if (yaml == nullptr || yaml->kind == Yaml::Kind::null) return;
   if (yaml->kind != Yaml::Kind::mapping)
-    return problems.add(yaml->where, "'" + section + "' needs a mapping of names, not " + std::string(kind_name(*yaml)));
+    return problems.add(yaml->where,
+                        "'" + section + "' needs a mapping of names, not " + std::string(kind_name(*yaml)));
   for (const Yaml& child : yaml->children) {
     if (!is_name(child.key))
-      problems.add(child.key_where, noun + " name '" + child.key + "' is not a name; use letters, digits and _, no digit first");
+      problems.add(child.key_where,
+                   noun + " name '" + child.key + "' is not a name; use letters, digits and _, no digit first");
     S entry;
     entry.name = child.key;
     entry.where = child.key_where;
@@ -77,7 +79,9 @@ void read_connections(const Yaml& graph, std::vector<ConnectionSpec>& to, Proble
     if (child.kind != Yaml::Kind::scalar || arrow == std::string_view::npos ||
         !read_end(text.substr(0, arrow), child, connection.from) ||
         !read_end(text.substr(arrow + 2), child, connection.to)) {
-      problems.add(child.where, "'" + child.text + "' is no connection; write 'from.output -> to.input', a communicator without a dot");
+      problems.add(
+          child.where,
+          "'" + child.text + "' is no connection; write 'from.output -> to.input', a communicator without a dot");
       continue;
     }
     to.push_back(std::move(connection));
@@ -102,7 +106,8 @@ GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides
   spec.where = {source, 1, 1};
   if (!problems.empty() && graph.kind == Yaml::Kind::null) return spec;  // syntax: nothing was read
   if (graph.kind != Yaml::Kind::mapping) {
-    problems.add(graph.where, "a graph is a mapping that begins with 'graph: name', not " + std::string(kind_name(graph)));
+    problems.add(graph.where,
+                 "a graph is a mapping that begins with 'graph: name', not " + std::string(kind_name(graph)));
     return spec;
   }
   if (!overrides.profile.empty()) apply_profile(graph, overrides.profile, problems);

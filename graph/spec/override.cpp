@@ -84,7 +84,8 @@ void apply_set(Yaml& graph, const std::string& argument, Problems& problems) {
   const auto source = std::make_shared<Source>(Source{"--set", argument});
   const std::size_t equals = argument.find('=');
   if (equals == std::string::npos || equals == 0)
-    return problems.add({source, 1, 1}, "'" + argument + "' is no override; write path=value, as in tasks.depth.period=20ms");
+    return problems.add({source, 1, 1},
+                        "'" + argument + "' is no override; write path=value, as in tasks.depth.period=20ms");
   // the value alone is read as YAML, with its place kept by blanks
   const auto value_source =
       std::make_shared<Source>(Source{"--set", std::string(equals + 1, ' ') + argument.substr(equals + 1)});

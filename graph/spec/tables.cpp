@@ -27,7 +27,8 @@ const std::vector<Key<TimingSpec>>& timing_keys() {
 
 const std::vector<Key<DistributerSpec>>& distributer_keys() {
   static const std::vector<Key<DistributerSpec>> keys{
-      key<&DistributerSpec::type>("type", Form::word, "a registered distributer class, which defines the channels", true),
+      key<&DistributerSpec::type>("type", Form::word, "a registered distributer class, which defines the channels",
+                                  true),
       key<&DistributerSpec::link>("link", Form::mapping, "how the external system is reached", true),
   };
   return keys;
@@ -35,7 +36,8 @@ const std::vector<Key<DistributerSpec>>& distributer_keys() {
 
 const std::vector<Key<CommunicatorSpec>>& communicator_keys() {
   static const std::vector<Key<CommunicatorSpec>> keys{
-      key<&CommunicatorSpec::channel>("channel", Form::word, "'distributer.channel'; without one, state type and direction"),
+      key<&CommunicatorSpec::channel>("channel", Form::word,
+                                      "'distributer.channel'; without one, state type and direction"),
       key<&CommunicatorSpec::type>("type", Form::word, "type of the value, where there is no channel"),
       key<&CommunicatorSpec::direction>("direction", Form::choice, "where there is no channel"),
       key<&CommunicatorSpec::period>("period", Form::positive_duration, "default: the graph's period"),

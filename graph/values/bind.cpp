@@ -36,12 +36,11 @@ void bind_structure(const Yaml& yaml, const Type& type, void* value, const std::
   for (const Yaml& child : yaml.children) {
     const TypeField* f = find_field(type, child.key);
     if (f == nullptr) {
-      problems.add(child.key_where,
-                   subject + " has no " + noun + " '" + child.key + "'" + did_you_mean(child.key, names) + "; it has: " + list_of(names));
+      problems.add(child.key_where, subject + " has no " + noun + " '" + child.key + "'" +
+                                        did_you_mean(child.key, names) + "; it has: " + list_of(names));
       continue;
     }
-    bind_as(child, *f->type, f->unit, at(value, f->offset), subject + " " + noun + " '" + child.key + "'",
-            problems);
+    bind_as(child, *f->type, f->unit, at(value, f->offset), subject + " " + noun + " '" + child.key + "'", problems);
   }
 }
 
@@ -63,17 +62,17 @@ void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, void* 
                         : type.kind == Kind::array   ? Yaml::Kind::sequence
                                                      : Yaml::Kind::scalar;
   if (yaml.kind != expected) {
-    const std::string need = expected == Yaml::Kind::mapping    ? "a mapping of " + type.name + "'s fields"
-                             : expected == Yaml::Kind::sequence ? "a list of " + std::to_string(type.count) + " elements"
-                                                                : article(wanted(type, unit));
+    const std::string need = expected == Yaml::Kind::mapping ? "a mapping of " + type.name + "'s fields"
+                             : expected == Yaml::Kind::sequence
+                                 ? "a list of " + std::to_string(type.count) + " elements"
+                                 : article(wanted(type, unit));
     problems.add(yaml.where, subject + " needs " + need + ", not " + std::string(kind_name(yaml)));
     return;
   }
   if (type.kind == Kind::structure) return bind_structure(yaml, type, value, subject, "field", problems);
   if (type.kind == Kind::array) return bind_array(yaml, type, unit, value, subject, problems);
-  const std::string wrong = yaml.quoted && type.kind != Kind::enumeration
-                                ? "is in quotes and so a string"
-                                : parse_scalar(type, yaml.text, unit, value);
+  const std::string wrong = yaml.quoted && type.kind != Kind::enumeration ? "is in quotes and so a string"
+                                                                          : parse_scalar(type, yaml.text, unit, value);
   if (wrong.empty()) return;
   problems.add(yaml.where,
                subject + " needs " + article(wanted(type, unit)) + ", not '" + yaml.text + "'; that " + wrong);
@@ -105,7 +104,7 @@ std::int64_t most_of(const Type& type) {
 }  // namespace
 
 void bind_value(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
-          Problems& problems) {
+                Problems& problems) {
   bind_as(yaml, type, unit, value, subject, problems);
 }
 

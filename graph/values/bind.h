@@ -10,7 +10,7 @@ namespace jarol {
 
 /// Overwrites what `yaml` mentions in the value of type `type`; all that does not fit is reported, `subject` first.
 void bind_value(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
-          Problems& problems);
+                Problems& problems);
 
 /// The same for a mapping whose keys are fields of a struct that messages call `noun`: "parameter", "output".
 void bind_fields(const Yaml& yaml, const Type& type, void* value, const std::string& subject, const std::string& noun,

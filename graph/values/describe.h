@@ -96,11 +96,15 @@ struct Enumerator {
 };
 
 template <class T>
-concept Described = requires { T::fields(); };
+concept Described = requires {
+  T::fields();
+};
 
 /// An enumeration is a value once `enumerators(E)`, found by its argument, returns an array of Enumerator<E>.
 template <class E>
-concept DescribedEnum = std::is_enum_v<E> && requires(E e) { enumerators(e); };
+concept DescribedEnum = std::is_enum_v<E> && requires(E e) {
+  enumerators(e);
+};
 
 namespace detail {
 

@@ -42,9 +42,9 @@ struct Type {
   std::size_t count = 0;                                          // array
   std::vector<std::pair<std::string, std::int64_t>> enumerators;  // enumeration
 
-  void (*construct)(void* to) = nullptr;                         // default value into raw memory
-  bool (*finite)(const void* value) = nullptr;                   // no infinity, no NaN in it
-  std::uint64_t (*hash_words)(const void* value) = nullptr;      // the digest's sum over the value's words
+  void (*construct)(void* to) = nullptr;                     // default value into raw memory
+  bool (*finite)(const void* value) = nullptr;               // no infinity, no NaN in it
+  std::uint64_t (*hash_words)(const void* value) = nullptr;  // the digest's sum over the value's words
 };
 
 /// True if both have the same name, layout and fields; plugins bring their own objects for equal types.

@@ -127,13 +127,13 @@ TypeField make_field(F f) {
   static const T* const origin = new (memory) T{};
   const auto* member = reinterpret_cast<const std::byte*>(&(origin->*(f.pointer)));
   return {std::string(f.name), std::string(f.unit), std::string(f.text),
-          static_cast<std::size_t>(member - reinterpret_cast<const std::byte*>(origin)),
-          &type_of<typename F::Value>()};
+          static_cast<std::size_t>(member - reinterpret_cast<const std::byte*>(origin)), &type_of<typename F::Value>()};
 }
 
 template <class T>
 Type make_type() {
-  static_assert(!std::is_pointer_v<T> && !std::is_reference_v<T>, "a value owns all it says: no pointers, no references");
+  static_assert(!std::is_pointer_v<T> && !std::is_reference_v<T>,
+                "a value owns all it says: no pointers, no references");
   Type type;
   type.size = sizeof(T);
   type.alignment = alignof(T);
@@ -145,11 +145,11 @@ Type make_type() {
   type.hash_words = [](const void* value) { return hash_words(*static_cast<const T*>(value)); };
   if constexpr (std::same_as<T, bool> || std::floating_point<T> || Integer<T> || std::same_as<T, Duration>) {
     type.name = scalar_name<T>();
-    type.kind = std::same_as<T, bool>         ? Kind::boolean
-                : std::floating_point<T>      ? Kind::floating
-                : std::same_as<T, Duration>   ? Kind::duration
-                : std::is_signed_v<T>         ? Kind::signed_integer
-                                              : Kind::unsigned_integer;
+    type.kind = std::same_as<T, bool>       ? Kind::boolean
+                : std::floating_point<T>    ? Kind::floating
+                : std::same_as<T, Duration> ? Kind::duration
+                : std::is_signed_v<T>       ? Kind::signed_integer
+                                            : Kind::unsigned_integer;
   } else if constexpr (std::is_enum_v<T>) {
     static_assert(DescribedEnum<T>, "an enumeration is a value once enumerators(E) lists its names");
     type.name = type_name<T>();

@@ -8,8 +8,7 @@ namespace {
 constexpr std::align_val_t alignment{64};
 }
 
-Value::Value(const Type& type)
-    : type_(&type), memory_(static_cast<std::byte*>(::operator new(type.size, alignment))) {
+Value::Value(const Type& type) : type_(&type), memory_(static_cast<std::byte*>(::operator new(type.size, alignment))) {
   type.construct(memory_.get());
 }
 

@@ -119,7 +119,8 @@ std::string shortest(Number number) {
 // The decimal digits of value / 10^places without trailing zeros.
 std::string decimal(std::int64_t value, int places) {
   const bool negative = value < 0;
-  std::string digits = std::to_string(negative ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value));
+  std::string digits =
+      std::to_string(negative ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value));
   const auto width = static_cast<std::size_t>(places) + 1;
   if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
   if (places > 0) {

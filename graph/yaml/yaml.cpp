@@ -25,8 +25,7 @@ struct TooMuch {};
 // Builds the tree from yaml-cpp's events, which still know anchors, quotes and every key.
 class Builder : public YAML::EventHandler {
  public:
-  Builder(std::shared_ptr<const Source> source, Problems& problems)
-      : source_(std::move(source)), problems_(problems) {}
+  Builder(std::shared_ptr<const Source> source, Problems& problems) : source_(std::move(source)), problems_(problems) {}
 
   Yaml take() { return std::move(root_); }
 

@@ -56,14 +56,18 @@ struct VehicleReport {
 struct Moment {
   double angle = 0;
 
-  static constexpr auto fields() { return describe(field<&Moment::angle>("rad", "of the fins, positive turns the axis' positive way")); }
+  static constexpr auto fields() {
+    return describe(field<&Moment::angle>("rad", "of the fins, positive turns the axis' positive way"));
+  }
 };
 
 /// A demand on the propeller.
 struct Thrust {
   double actuation = 0;
 
-  static constexpr auto fields() { return describe(field<&Thrust::actuation>("", "-1 (full astern) to 1 (full ahead)")); }
+  static constexpr auto fields() {
+    return describe(field<&Thrust::actuation>("", "-1 (full astern) to 1 (full ahead)"));
+  }
 };
 
 /// What the actuators get: fins 0 bottom, 1 port, 2 starboard, 3 top; positive on 0 and 3 turns to port, positive on 1

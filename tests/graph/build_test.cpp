@@ -30,7 +30,8 @@ connections:
   }
 
   TEST_CASE("what states no period has the graph's") {
-    const Graph graph = graph_of("{graph: t, timing: {period: 40ms}, tasks: {a: {type: Counter}, b: {type: Counter, period: 10ms}}}");
+    const Graph graph =
+        graph_of("{graph: t, timing: {period: 40ms}, tasks: {a: {type: Counter}, b: {type: Counter, period: 10ms}}}");
     CHECK(graph.tasks[0].period == std::chrono::milliseconds(40));
     CHECK(graph.tasks[1].period == std::chrono::milliseconds(10));
   }
@@ -42,24 +43,25 @@ tasks:
   slow: {type: Relay, period: 20ms, let: 30ms, colour: red}
 connections:
   - count.out -> slow.inn
-)") ==
-          "t.yaml:3:17: error: task 'count' has unknown type 'Countre'; did you mean 'Counter'?; there are: Accumulate, Counter, "
-          "DepthControl, FinAllocator, HeadingControl, LauvForward, LauvReport, Relay, SpeedControl, Sum, Work\n"
-          "    count: {type: Countre, period: 10ms}\n"
-          "                  ^\n"
-          "t.yaml:4:3: error: task 'slow' (Relay) input 'in' (double) is not connected; add '... -> slow.in'\n"
-          "    slow: {type: Relay, period: 20ms, let: 30ms, colour: red}\n"
-          "    ^\n"
-          "t.yaml:4:42: error: task 'slow' has LET 30ms longer than its period 20ms\n"
-          "    slow: {type: Relay, period: 20ms, let: 30ms, colour: red}\n"
-          "                                           ^\n"
-          "t.yaml:4:48: error: task 'slow' has no key 'colour'; it has: type, period, offset, let, deadline, wcet, priority, "
-          "core, heap, on_fault, isolation, parameters, init\n"
-          "    slow: {type: Relay, period: 20ms, let: 30ms, colour: red}\n"
-          "                                                 ^\n"
-          "t.yaml:6:18: error: task 'slow' (Relay) has no input 'inn'; did you mean 'in'?; it has: in\n"
-          "    - count.out -> slow.inn\n"
-          "                   ^");
+)") == "t.yaml:3:17: error: task 'count' has unknown type 'Countre'; did you mean 'Counter'?; there are: Accumulate, "
+       "Counter, "
+       "DepthControl, FinAllocator, HeadingControl, LauvForward, LauvReport, Relay, SpeedControl, Sum, Work\n"
+       "    count: {type: Countre, period: 10ms}\n"
+       "                  ^\n"
+       "t.yaml:4:3: error: task 'slow' (Relay) input 'in' (double) is not connected; add '... -> slow.in'\n"
+       "    slow: {type: Relay, period: 20ms, let: 30ms, colour: red}\n"
+       "    ^\n"
+       "t.yaml:4:42: error: task 'slow' has LET 30ms longer than its period 20ms\n"
+       "    slow: {type: Relay, period: 20ms, let: 30ms, colour: red}\n"
+       "                                           ^\n"
+       "t.yaml:4:48: error: task 'slow' has no key 'colour'; it has: type, period, offset, let, deadline, wcet, "
+       "priority, "
+       "core, heap, on_fault, isolation, parameters, init\n"
+       "    slow: {type: Relay, period: 20ms, let: 30ms, colour: red}\n"
+       "                                                 ^\n"
+       "t.yaml:6:18: error: task 'slow' (Relay) has no input 'inn'; did you mean 'in'?; it has: in\n"
+       "    - count.out -> slow.inn\n"
+       "                   ^");
   }
 
   TEST_CASE("a connection between different types is an error that names both ends and both types") {
@@ -71,10 +73,9 @@ tasks:
   a: {type: Relay}
 connections:
   - i -> a.in
-)") ==
-          "t.yaml:8:5: error: connection i -> a.in joins a Motion to a double; both ends carry one type\n"
-          "    - i -> a.in\n"
-          "      ^");
+)") == "t.yaml:8:5: error: connection i -> a.in joins a Motion to a double; both ends carry one type\n"
+       "    - i -> a.in\n"
+       "      ^");
   }
 
   TEST_CASE("an input has one source") {
@@ -86,13 +87,12 @@ tasks:
 connections:
   - a.out -> b.in
   - a.out -> b.in
-)") ==
-          "t.yaml:8:14: error: 'b.in' is fed twice; an input has one source\n"
-          "    - a.out -> b.in\n"
-          "               ^\n"
-          "t.yaml:7:5: note: first here\n"
-          "    - a.out -> b.in\n"
-          "      ^");
+)") == "t.yaml:8:14: error: 'b.in' is fed twice; an input has one source\n"
+       "    - a.out -> b.in\n"
+       "               ^\n"
+       "t.yaml:7:5: note: first here\n"
+       "    - a.out -> b.in\n"
+       "      ^");
   }
 
   TEST_CASE("a communicator stands on its own side of an arrow and without a dot") {
@@ -105,21 +105,21 @@ tasks:
 connections:
   - o -> a.in
   - a.out -> o.x
-)") ==
-          "t.yaml:4:3: error: communicator 'o' is not connected; add '... -> o'\n"
-          "    o: {type: double, direction: out}\n"
-          "    ^\n"
-          "t.yaml:8:5: error: communicator 'o' is an 'out' and has an input only; it stands right of an arrow\n"
-          "    - o -> a.in\n"
-          "      ^\n"
-          "t.yaml:9:14: error: communicator 'o' is written without '.x'; only tasks have inputs and outputs\n"
-          "    - a.out -> o.x\n"
-          "               ^");
+)") == "t.yaml:4:3: error: communicator 'o' is not connected; add '... -> o'\n"
+       "    o: {type: double, direction: out}\n"
+       "    ^\n"
+       "t.yaml:8:5: error: communicator 'o' is an 'out' and has an input only; it stands right of an arrow\n"
+       "    - o -> a.in\n"
+       "      ^\n"
+       "t.yaml:9:14: error: communicator 'o' is written without '.x'; only tasks have inputs and outputs\n"
+       "    - a.out -> o.x\n"
+       "               ^");
   }
 
   TEST_CASE("the graph's period is a multiple of every period") {
     CHECK(report_on("{graph: t, timing: {period: 15ms}, tasks: {a: {type: Counter, period: 10ms}}}") ==
-          "t.yaml:1:71: error: task 'a' has period 10ms, of which the graph's period 15ms is no multiple; change one of them\n"
+          "t.yaml:1:71: error: task 'a' has period 10ms, of which the graph's period 15ms is no multiple; change one "
+          "of them\n"
           "  {graph: t, timing: {period: 15ms}, tasks: {a: {type: Counter, period: 10ms}}}\n"
           "                                                                        ^");
   }

@@ -25,7 +25,9 @@ TEST_SUITE("graph/deadlines") {
     CHECK(graph_of("{graph: t, tasks: {a: {type: Counter, period: 10ms}}}").tasks[0].deadline == 10ms);
   }
 
-  TEST_CASE("a data-flow task ends before anything reads its output later, and before the deadline of who latches at its release") {
+  TEST_CASE(
+      "a data-flow task ends before anything reads its output later, and before the deadline of who latches at its "
+      "release") {
     const Graph graph = graph_of(R"(graph: t
 tasks:
   a: {type: Counter, period: 10ms}
@@ -46,7 +48,8 @@ connections:
 
   TEST_CASE("a declared deadline may not be later than the derived one") {
     CHECK(tests::report_on("{graph: t, tasks: {a: {type: Counter, period: 10ms, let: 4ms, deadline: 5ms}}}") ==
-          "t.yaml:1:73: error: task 'a' has deadline 5ms later than 4ms, which follows from its LET; lower it or leave it out\n"
+          "t.yaml:1:73: error: task 'a' has deadline 5ms later than 4ms, which follows from its LET; lower it or leave "
+          "it out\n"
           "  {graph: t, tasks: {a: {type: Counter, period: 10ms, let: 4ms, deadline: 5ms}}}\n"
           "                                                                          ^");
   }
@@ -63,13 +66,13 @@ connections:
   - b.out -> c.in
   - c.out -> a.in
   - c.out -> z.in
-)") ==
-          "t.yaml:4:3: error: tasks a -> b -> c -> a feed each other in a cycle without a LET; give one of them a 'let'\n"
-          "    a: {type: Relay, period: 10ms}\n"
-          "    ^");
+)") == "t.yaml:4:3: error: tasks a -> b -> c -> a feed each other in a cycle without a LET; give one of them a 'let'\n"
+       "    a: {type: Relay, period: 10ms}\n"
+       "    ^");
   }
 
   TEST_CASE("a cycle through a LET task is fine, also of a task that feeds itself") {
-    CHECK(graph_of("{graph: t, tasks: {a: {type: Relay, period: 10ms, let: 10ms}}, connections: [a.out -> a.in]}").order.size() == 1);
+    CHECK(graph_of("{graph: t, tasks: {a: {type: Relay, period: 10ms, let: 10ms}}, connections: [a.out -> a.in]}")
+              .order.size() == 1);
   }
 }

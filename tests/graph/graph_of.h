@@ -31,9 +31,7 @@ inline Graph graph_of(const std::string& text, const Overrides& overrides = {}) 
 inline std::string report_on(const std::string& text, const Overrides& overrides = {}) {
   try {
     graph_of(text, overrides);
-  } catch (const SpecError& error) {
-    return error.what();
-  }
+  } catch (const SpecError& error) { return error.what(); }
   return "";
 }
 

@@ -53,7 +53,8 @@ const Registry& registry_with_echo() {
 
 Graph echo_graph(const std::string& text) {
   Problems problems;
-  Graph graph = build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry_with_echo(), problems);
+  Graph graph = build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems),
+                            registry_with_echo(), problems);
   problems.throw_if_any();
   return graph;
 }
@@ -206,9 +207,9 @@ connections: [l.out -> o1, d.out -> o2, i1 -> r.a, i2 -> r.b]
     // o1 hands over the LET output that ends at 10 ms; o2 what the data-flow task published one period before
     CHECK(lines == std::vector<std::string>{"0ns reach", "hand over 3 -1", "hand over 2 -2", "take 1", "take 0",
                                             "10ms reach", "hand over 3 0", "hand over 2 0", "take 1", "take 0"});
-    CHECK(run.lines == std::vector<std::string>{"0ns o1=-1", "0ns o2=-2", "0ns i1=0", "0ns i2=0", "0ns d.out=0", "0ns r.out=0",
-                                                "10ms l.out=0", "10ms o1=0", "10ms o2=0", "10ms i1=0", "10ms i2=0", "10ms d.out=1",
-                                                "10ms r.out=0"});
+    CHECK(run.lines == std::vector<std::string>{"0ns o1=-1", "0ns o2=-2", "0ns i1=0", "0ns i2=0", "0ns d.out=0",
+                                                "0ns r.out=0", "10ms l.out=0", "10ms o1=0", "10ms o2=0", "10ms i1=0",
+                                                "10ms i2=0", "10ms d.out=1", "10ms r.out=0"});
   }
 
   TEST_CASE("a run in pieces is the same run") {
@@ -221,7 +222,8 @@ connections: [c.out -> l.in, l.out -> s.in]
 )");
     Executor whole(graph, {}), pieces(graph, {});
     whole.run_until(1s);
-    for (const Duration cut : {1ns, 3000000ns, 10000000ns, 10000001ns, 999999999ns, 1000000000ns}) pieces.run_until(cut);
+    for (const Duration cut : {1ns, 3000000ns, 10000000ns, 10000001ns, 999999999ns, 1000000000ns})
+      pieces.run_until(cut);
     CHECK(pieces.report().digest == whole.report().digest);
     CHECK(pieces.report().activations == whole.report().activations);
     CHECK(pieces.report().instants == whole.report().instants);

@@ -17,7 +17,9 @@ struct Fails {
     std::int64_t first = 2;
     std::int64_t count = 1;
     bool nan = false;
-    static constexpr auto fields() { return describe(field<&Param::first>(), field<&Param::count>(), field<&Param::nan>()); }
+    static constexpr auto fields() {
+      return describe(field<&Param::first>(), field<&Param::count>(), field<&Param::nan>());
+    }
   };
   struct State {
     double runs = 0;
@@ -46,14 +48,16 @@ tests::Run run(const std::string& task, Duration end) {
   const std::string text = "graph: t\ntiming: {period: 10ms}\ntasks:\n  f: {type: Fails" + task +
                            "}\n  r: {type: Relay}\nconnections: [f.out -> r.in]\n";
   Problems problems;
-  const Graph graph = build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
+  const Graph graph =
+      build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
   problems.throw_if_any();
   return tests::run_graph(graph, end);
 }
 }  // namespace
 
 TEST_SUITE("runtime/faults") {
-  TEST_CASE("a task that throws stops the run at the end of that instant, told with task, activation, instant and cause") {
+  TEST_CASE(
+      "a task that throws stops the run at the end of that instant, told with task, activation, instant and cause") {
     const auto r = run("", 100ms);
     CHECK(r.report.stopped);
     REQUIRE(r.report.faults.size() == 1);

@@ -11,7 +11,8 @@ struct Collect : RecordSink {
   void take(Duration instant, std::uint32_t output, const void* value) override {
     double number = 0;
     std::memcpy(&number, value, sizeof number);
-    in_order &= instant.count() == count && output == static_cast<std::uint32_t>(count % 7) && number == static_cast<double>(count) / 3;
+    in_order &= instant.count() == count && output == static_cast<std::uint32_t>(count % 7) &&
+                number == static_cast<double>(count) / 3;
     ++count;
   }
   void finish() override { finished = true; }

@@ -21,7 +21,8 @@ Result jarol(const std::string& arguments, const std::string& errors = "2>&1") {
   Result result;
   std::FILE* pipe = popen((std::string(JAROL_COMMAND) + " " + arguments + " " + errors).c_str(), "r");
   std::array<char, 4096> chunk{};
-  for (std::size_t n = 0; (n = std::fread(chunk.data(), 1, chunk.size(), pipe)) > 0;) result.output.append(chunk.data(), n);
+  for (std::size_t n = 0; (n = std::fread(chunk.data(), 1, chunk.size(), pipe)) > 0;)
+    result.output.append(chunk.data(), n);
   const int status = pclose(pipe);
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return result;
@@ -33,7 +34,8 @@ std::string digest_of(const std::string& arguments) { return json_of("run " + ar
 
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_(std::filesystem::temp_directory_path() / ("jarol_command_test_" + std::to_string(getpid()))) {
+  TemporaryFolder()
+      : path_(std::filesystem::temp_directory_path() / ("jarol_command_test_" + std::to_string(getpid()))) {
     std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }
@@ -102,8 +104,9 @@ tasks:
     CHECK(jarol("check specs/counting.yaml").exit_code == 0);
     const Result no = jarol("check specs/counting.yaml --set tasks.slow.wcet=19ms");
     CHECK(no.exit_code == 1);
-    CHECK(no.output.starts_with("specs/counting.yaml: NOT SCHEDULABLE core 0: task 'slow' activation 0 (released 0.000 ms) "
-                                "finishes 20.050 ms, deadline 15.000 ms (late 5.050 ms)\n"));
+    CHECK(no.output.starts_with(
+        "specs/counting.yaml: NOT SCHEDULABLE core 0: task 'slow' activation 0 (released 0.000 ms) "
+        "finishes 20.050 ms, deadline 15.000 ms (late 5.050 ms)\n"));
   }
 
   TEST_CASE("check --json gives one object per file and line") {
@@ -112,8 +115,11 @@ tasks:
     CHECK(check["schema"] == "jarol.check/1");
     CHECK(check["file"] == "specs/counting.yaml");
     CHECK(check["verdict"] == "schedulable");
-    CHECK(check["tasks"][0] == nlohmann::json{{"name", "add"}, {"period_ns", 20'000'000}, {"offset_ns", 10'000'000},
-                                              {"deadline_ns", 10'000'000}, {"wcet_ns", 50'000}});
+    CHECK(check["tasks"][0] == nlohmann::json{{"name", "add"},
+                                              {"period_ns", 20'000'000},
+                                              {"offset_ns", 10'000'000},
+                                              {"deadline_ns", 10'000'000},
+                                              {"wcet_ns", 50'000}});
     CHECK(check["utilisation"] == doctest::Approx(0.1325));
   }
 
@@ -127,7 +133,8 @@ tasks:
 
   TEST_CASE("a bad file does not hide the others, and all its errors are told") {
     const TemporaryFolder folder;
-    const std::string bad = folder.write("bad.yaml", "{graph: t, tasks: {a: {type: Countr, period: 1ms}}, conections: []}\n");
+    const std::string bad =
+        folder.write("bad.yaml", "{graph: t, tasks: {a: {type: Countr, period: 1ms}}, conections: []}\n");
     const Result result = jarol("check --json " + bad + " specs/counting.yaml", "2>/dev/null");
     CHECK(result.exit_code == 2);
     CHECK(nlohmann::json::parse(result.output)["file"] == "specs/counting.yaml");
@@ -138,13 +145,15 @@ tasks:
     CHECK(jarol("").exit_code == 2);
     const Result command = jarol("chek x");
     CHECK(command.exit_code == 2);
-    CHECK(command.output == "error: there is no command 'chek'; did you mean 'check'?; there are: check, graph, run, tasks\n");
+    CHECK(command.output ==
+          "error: there is no command 'chek'; did you mean 'check'?; there are: check, graph, run, tasks\n");
     const Result missing = jarol("run no/such.yaml");
     CHECK(missing.exit_code == 2);
     CHECK(missing.output == "error: can't read 'no/such.yaml': No such file or directory\n1 error\n");
     const Result endless = jarol("run specs/counting.yaml");
     CHECK(endless.exit_code == 2);
-    CHECK(endless.output == "error: 'specs/counting.yaml' has no mission that ends; say how long to run, as in --for 10s\n");
+    CHECK(endless.output ==
+          "error: 'specs/counting.yaml' has no mission that ends; say how long to run, as in --for 10s\n");
     const Result duration = jarol("run specs/counting.yaml --for 10");
     CHECK(duration.exit_code == 2);
     CHECK(duration.output == "error: --for: '10' has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n");
@@ -162,13 +171,15 @@ tasks:
 
   TEST_CASE("tasks tells all about one") {
     CHECK(jarol("tasks Accumulate").output ==
-          "Accumulate: gives the running sum of its input\n\ninputs\n  in  double\n\noutputs\n  out  double  sum of all inputs so far\n");
+          "Accumulate: gives the running sum of its input\n\ninputs\n  in  double\n\noutputs\n  out  double  sum of "
+          "all inputs so far\n");
     CHECK(jarol("tasks Acumulate").exit_code == 2);
     CHECK(json_of("tasks --json")["tasks"].size() == 11);
   }
 
   TEST_CASE("graph prints the order of tasks and a drawing") {
-    CHECK(jarol("graph specs/counting.yaml").output.find("count (Counter): every 10ms, deadline 10ms\n") != std::string::npos);
+    CHECK(jarol("graph specs/counting.yaml").output.find("count (Counter): every 10ms, deadline 10ms\n") !=
+          std::string::npos);
     CHECK(jarol("graph specs/counting.yaml --dot").output.starts_with("digraph \"counting\" {\n"));
   }
 }

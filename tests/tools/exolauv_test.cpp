@@ -24,7 +24,8 @@ class Motions : public RecordSink {
  public:
   explicit Motions(std::uint32_t output) : output_(output) {}
   void take(Duration instant, std::uint32_t output, const void* value) override {
-    if (output == output_) samples.push_back({1e-9 * static_cast<double>(instant.count()), *static_cast<const tasks::Motion*>(value)});
+    if (output == output_)
+      samples.push_back({1e-9 * static_cast<double>(instant.count()), *static_cast<const tasks::Motion*>(value)});
   }
   void finish() override {}
   std::vector<Sample> samples;
@@ -41,7 +42,8 @@ struct Dive {
 Dive dive(const std::string& file) {
   auto loaded = tools::load_graph(file, {});
   const Plan plan(*loaded.graph);
-  const auto at = std::find_if(plan.outputs.begin(), plan.outputs.end(), [](const Output& o) { return o.name == "from_dune"; });
+  const auto at =
+      std::find_if(plan.outputs.begin(), plan.outputs.end(), [](const Output& o) { return o.name == "from_dune"; });
   REQUIRE(at != plan.outputs.end());
   Motions motions(static_cast<std::uint32_t>(at - plan.outputs.begin()));
   Recorder recorder({&motions});
@@ -96,7 +98,9 @@ TEST_SUITE("tools/exolauv") {
   TEST_CASE("the passthrough forwards: the rudders turn the vehicle to port and back to straight") {
     const Dive forward = dive("specs/passthrough.yaml");
     const auto at = [&](double time) {
-      return std::find_if(forward.samples.begin(), forward.samples.end(), [&](const Sample& s) { return s.time >= time; })->motion;
+      return std::find_if(forward.samples.begin(), forward.samples.end(),
+                          [&](const Sample& s) { return s.time >= time; })
+          ->motion;
     };
     CHECK(std::abs(at(19).psi) < 1 * degree);
     CHECK(at(29).r < -0.02);

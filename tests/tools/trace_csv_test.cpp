@@ -46,8 +46,8 @@ TEST_SUITE("tools/trace_csv") {
   }
 
   TEST_CASE("a trace that can't be written says why") {
-    CHECK_THROWS_WITH_AS(TraceCsv("no/such/folder/x.csv", {}), "can't write 'no/such/folder/x.csv': No such file or directory",
-                         std::runtime_error);
+    CHECK_THROWS_WITH_AS(TraceCsv("no/such/folder/x.csv", {}),
+                         "can't write 'no/such/folder/x.csv': No such file or directory", std::runtime_error);
   }
 
   TEST_CASE("a run that is not brought to its end leaves no file") {

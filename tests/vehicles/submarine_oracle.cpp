@@ -31,11 +31,11 @@ SubmarineOracle::SubmarineOracle(const vehicles::SubmarineParameters& parameters
   const auto& a = parameters.added_mass;
   // kinetic energy of the mass: v_g = v + omega x (0, 0, z_g)
   const double c = h.mass * h.z_g;
-  mass_ << h.mass - a.X_u_dot, 0, 0, 0, c, 0,             //
-      0, h.mass - a.Y_v_dot, 0, -c, 0, -a.Y_r_dot,        //
-      0, 0, h.mass - a.Z_w_dot, 0, -a.Z_q_dot, 0,         //
-      0, -c, 0, h.I_x - a.K_p_dot, 0, 0,                  //
-      c, 0, -a.Z_q_dot, 0, h.I_y - a.M_q_dot, 0,          //
+  mass_ << h.mass - a.X_u_dot, 0, 0, 0, c, 0,       //
+      0, h.mass - a.Y_v_dot, 0, -c, 0, -a.Y_r_dot,  //
+      0, 0, h.mass - a.Z_w_dot, 0, -a.Z_q_dot, 0,   //
+      0, -c, 0, h.I_x - a.K_p_dot, 0, 0,            //
+      c, 0, -a.Z_q_dot, 0, h.I_y - a.M_q_dot, 0,    //
       0, -a.Y_r_dot, 0, 0, 0, h.I_z - a.N_r_dot;
 
   Vector6 nu = Vector6::Zero();

@@ -1,7 +1,7 @@
 // jarol check: is the graph right, and can it be scheduled.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <fmt/format.h>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -55,9 +55,12 @@ void print_json(const std::string& file, const Graph& graph, const TableResult& 
     if (t.wcet) task["wcet_ns"] = t.wcet->count();
     tasks.push_back(std::move(task));
   }
-  std::cout << nlohmann::ordered_json{{"schema", "jarol.check/1"}, {"file", file},
-                                      {"graph", graph.name},       {"verdict", verdict_word(result.verdict)},
-                                      {"tasks", tasks},            {"utilisation", result.utilisation}}
+  std::cout << nlohmann::ordered_json{{"schema", "jarol.check/1"},
+                                      {"file", file},
+                                      {"graph", graph.name},
+                                      {"verdict", verdict_word(result.verdict)},
+                                      {"tasks", tasks},
+                                      {"utilisation", result.utilisation}}
             << "\n";
 }
 
@@ -68,10 +71,12 @@ void print_table(const Graph& graph, const TableResult& result) {
                            "deadline", "wcet", "use", "response");
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Task& t = graph.tasks[i];
-    const std::string use =
-        t.wcet ? fmt::format("{:.2f}%", 100.0 * static_cast<double>(t.wcet->count()) / static_cast<double>(t.period.count())) : "-";
-    std::cout << fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>6}  {:>9}\n", t.name, width, duration_text(t.period),
-                             duration_text(t.offset), duration_text(t.deadline), t.wcet ? duration_text(*t.wcet) : "-", use,
+    const std::string use = t.wcet ? fmt::format("{:.2f}%", 100.0 * static_cast<double>(t.wcet->count()) /
+                                                                static_cast<double>(t.period.count()))
+                                   : "-";
+    std::cout << fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>6}  {:>9}\n", t.name, width,
+                             duration_text(t.period), duration_text(t.offset), duration_text(t.deadline),
+                             t.wcet ? duration_text(*t.wcet) : "-", use,
                              result.response.empty() ? "-" : duration_text(result.response[i]));
   }
 }
@@ -92,14 +97,17 @@ void print_text(const std::string& file, const Graph& graph, const TableResult& 
     case Verdict::unknown: std::cout << file << ": UNKNOWN: " << result.reason << "\n"; break;
   }
   print_table(graph, result);
-  std::cout << fmt::format("  utilisation {:.2f}%; a task's response is its longest time from release to end when each takes its wcet;\n"
-                           "  assumed: tasks run one after the other as released, never interrupted, without overhead\n",
-                           100.0 * result.utilisation);
+  std::cout << fmt::format(
+      "  utilisation {:.2f}%; a task's response is its longest time from release to end when each takes its wcet;\n"
+      "  assumed: tasks run one after the other as released, never interrupted, without overhead\n",
+      100.0 * result.utilisation);
 }
 
 // The worst of the verdicts: bad input, then not schedulable, then undecided.
 int worst(int a, int b) {
-  const auto rank = [](int code) { return code == exit_input ? 3 : code == exit_negative ? 2 : code == exit_unfinished ? 1 : 0; };
+  const auto rank = [](int code) {
+    return code == exit_input ? 3 : code == exit_negative ? 2 : code == exit_unfinished ? 1 : 0;
+  };
   return rank(a) >= rank(b) ? a : b;
 }
 
@@ -125,9 +133,10 @@ int check_files(const Options& options) {
 
 void add_check(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "check", "Check structure, types and timing of graphs, and whether they can be scheduled.\n"
-               "Exit code: 0 schedulable, 1 not schedulable, 3 not decided, 2 bad input");
+  CLI::App* command =
+      app.add_subcommand("check",
+                         "Check structure, types and timing of graphs, and whether they can be scheduled.\n"
+                         "Exit code: 0 schedulable, 1 not schedulable, 3 not decided, 2 bad input");
   command->add_option("FILE", options->files, "Graphs, YAML files")->required();
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.wcet=2ms")
       ->allow_extra_args(false);

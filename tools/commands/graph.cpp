@@ -20,8 +20,8 @@ std::string timing_text(Duration period, Duration offset) {
 }
 
 std::string task_text(const Task& task) {
-  return timing_text(task.period, task.offset) + (task.let ? ", LET " + duration_text(*task.let) : "") +
-         ", deadline " + duration_text(task.deadline);
+  return timing_text(task.period, task.offset) + (task.let ? ", LET " + duration_text(*task.let) : "") + ", deadline " +
+         duration_text(task.deadline);
 }
 
 void print_text(const Graph& graph) {
@@ -42,7 +42,8 @@ void print_text(const Graph& graph) {
   }
   std::cout << "\nconnections\n";
   for (const Connection& c : graph.connections)
-    std::cout << "  " << end_name(graph, c.from, true) << " -> " << end_name(graph, c.to, false) << " (" << c.type->name << ")\n";
+    std::cout << "  " << end_name(graph, c.from, true) << " -> " << end_name(graph, c.to, false) << " (" << c.type->name
+              << ")\n";
 }
 
 std::string dot_name(const Graph& graph, const End& end) {
@@ -61,14 +62,18 @@ void print_dot(const Graph& graph) {
   std::cout << "digraph \"" << graph.name << "\" {\n  rankdir=LR;\n  node [fontname=\"sans-serif\", fontsize=11];\n"
             << "  edge [fontname=\"sans-serif\", fontsize=9];\n";
   for (const Communicator& c : graph.communicators)
-    std::cout << "  " << c.name << " [shape=" << (c.direction == Direction::in ? "cds" : "rarrow") << ", label=\"" << c.name
-              << "\\n" << timing_text(c.period, c.offset) << "\"];\n";
+    std::cout << "  " << c.name << " [shape=" << (c.direction == Direction::in ? "cds" : "rarrow") << ", label=\""
+              << c.name << "\\n"
+              << timing_text(c.period, c.offset) << "\"];\n";
   for (const Task& t : graph.tasks)
-    std::cout << "  " << t.name << " [shape=box, style=" << (t.let ? "\"rounded,filled\", fillcolor=\"#e8f0fe\"" : "rounded")
-              << ", label=\"" << t.name << "\\n" << t.task_class->name << "\\n" << timing_text(t.period, t.offset)
-              << (t.let ? "\\nLET " + duration_text(*t.let) : "") << "\"];\n";
+    std::cout << "  " << t.name
+              << " [shape=box, style=" << (t.let ? "\"rounded,filled\", fillcolor=\"#e8f0fe\"" : "rounded")
+              << ", label=\"" << t.name << "\\n"
+              << t.task_class->name << "\\n"
+              << timing_text(t.period, t.offset) << (t.let ? "\\nLET " + duration_text(*t.let) : "") << "\"];\n";
   for (const Connection& c : graph.connections)
-    std::cout << "  " << dot_name(graph, c.from) << " -> " << dot_name(graph, c.to) << " [label=\"" << dot_label(graph, c) << "\"];\n";
+    std::cout << "  " << dot_name(graph, c.from) << " -> " << dot_name(graph, c.to) << " [label=\""
+              << dot_label(graph, c) << "\"];\n";
   std::cout << "}\n";
 }
 

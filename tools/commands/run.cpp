@@ -1,10 +1,10 @@
 // jarol run: a graph on the virtual clock.
 #include <unistd.h>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <csignal>
-#include <fmt/format.h>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -66,7 +66,8 @@ Duration end_of_run(const Options& options, const Loaded& loaded) {
   }
   for (const auto& channels : loaded.channels) end = std::max(end, channels->end().value_or(Duration{}));
   if (end == Duration{})
-    throw std::invalid_argument("'" + options.file + "' has no mission that ends; say how long to run, as in --for 10s");
+    throw std::invalid_argument("'" + options.file +
+                                "' has no mission that ends; say how long to run, as in --for 10s");
   return end;
 }
 
@@ -87,7 +88,8 @@ std::vector<Panel> panels_of(const Graph& graph, const Plan& plan) {
   constexpr std::size_t most = 8;
   for (std::uint32_t i = 0; panels.empty() && i < plan.outputs.size(); ++i)
     for (const Leaf& leaf : leaves_of(*plan.outputs[i].type))
-      panels.push_back({leaf.path.empty() ? plan.outputs[i].name : plan.outputs[i].name + "." + leaf.path, leaf.unit, i, leaf, std::nullopt});
+      panels.push_back({leaf.path.empty() ? plan.outputs[i].name : plan.outputs[i].name + "." + leaf.path, leaf.unit, i,
+                        leaf, std::nullopt});
   if (panels.size() > most) panels.resize(most);
   return panels;
 }
@@ -105,18 +107,22 @@ void print_reached(const Graph& graph, const Executor& executor) {
     if (!r.command) continue;
     if (!title) std::cout << fmt::format("  {:<10}  {:>10}  {:>10}\n", "", "commanded", "reached");
     title = true;
-    std::cout << fmt::format("  {:<10}  {:>10.3f}  {:>10.3f} {}\n", r.title, number(r.command->communicator, r.command->leaf),
-                             number(r.communicator, r.leaf), r.leaf.unit == "rad" ? "deg" : r.leaf.unit);
+    std::cout << fmt::format("  {:<10}  {:>10.3f}  {:>10.3f} {}\n", r.title,
+                             number(r.command->communicator, r.command->leaf), number(r.communicator, r.leaf),
+                             r.leaf.unit == "rad" ? "deg" : r.leaf.unit);
   }
 }
 
-void print_text(const Options& options, const Graph& graph, const Executor& executor, double seconds, bool interrupted) {
+void print_text(const Options& options, const Graph& graph, const Executor& executor, double seconds,
+                bool interrupted) {
   const Report& report = executor.report();
   const double simulated = static_cast<double>(report.simulated.count()) * 1e-9;
   std::cout << fmt::format("{}: {} s on the virtual clock in {:.2f} s, {:.0f} times real time{}\n", graph.name,
-                           seconds_text(report.simulated), seconds, simulated / seconds, interrupted ? " (interrupted)" : "");
+                           seconds_text(report.simulated), seconds, simulated / seconds,
+                           interrupted ? " (interrupted)" : "");
   print_reached(graph, executor);
-  std::cout << fmt::format("  activations {}, instants {}\n  digest      0x{:016x}\n", report.activations, report.instants, report.digest);
+  std::cout << fmt::format("  activations {}, instants {}\n  digest      0x{:016x}\n", report.activations,
+                           report.instants, report.digest);
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
   if (!options.trace.empty()) std::cout << "  trace       " << options.trace << "\n";
@@ -130,7 +136,8 @@ void print_json(const Graph& graph, const Executor& executor, double seconds) {
   const Report& report = executor.report();
   auto faults = nlohmann::ordered_json::array();
   for (const Fault& f : report.faults)
-    faults.push_back({{"task", f.task}, {"activation", f.activation}, {"instant_ns", f.instant.count()}, {"cause", f.cause}});
+    faults.push_back(
+        {{"task", f.task}, {"activation", f.activation}, {"instant_ns", f.instant.count()}, {"cause", f.cause}});
   auto outputs = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < graph.communicators.size(); ++i)
     if (graph.communicators[i].direction == Direction::out)
@@ -157,7 +164,8 @@ int run(const Options& options) {
   const Plan plan(graph);
   std::vector<std::unique_ptr<RecordSink>> sinks;
   if (!options.trace.empty()) sinks.push_back(std::make_unique<TraceCsv>(options.trace, plan.outputs));
-  if (!options.plot.empty()) sinks.push_back(std::make_unique<PlotSvg>(options.plot, graph.name, panels_of(graph, plan)));
+  if (!options.plot.empty())
+    sinks.push_back(std::make_unique<PlotSvg>(options.plot, graph.name, panels_of(graph, plan)));
   std::vector<RecordSink*> to;
   for (const auto& sink : sinks) to.push_back(sink.get());
   std::unique_ptr<Recorder> recorder = to.empty() ? nullptr : std::make_unique<Recorder>(to);
@@ -169,7 +177,8 @@ int run(const Options& options) {
     executor.run_until(end);
   }
   if (recorder) recorder->close();
-  const double seconds = std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  const double seconds =
+      std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   const bool interrupted = !executor.report().stopped && executor.now() < end;
   options.json ? print_json(graph, executor, seconds) : print_text(options, graph, executor, seconds, interrupted);
   if (executor.report().stopped) return exit_unfinished;
@@ -180,12 +189,15 @@ int run(const Options& options) {
 
 void add_run(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "run", "Run a graph on the virtual clock, as fast as possible and the same to the bit every time.\n"
-             "Exit code: 0 good, 3 stopped by a fault, 2 bad input, 130 interrupted");
+  CLI::App* command =
+      app.add_subcommand("run",
+                         "Run a graph on the virtual clock, as fast as possible and the same to the bit every time.\n"
+                         "Exit code: 0 good, 3 stopped by a fault, 2 bad input, 130 interrupted");
   command->add_option("FILE", options->file, "The graph, a YAML file")->required();
-  command->add_option("--for", options->duration, "How long, in logical time, as in 10s; default: until the mission ends");
-  command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.parameters.kp=0.5")
+  command->add_option("--for", options->duration,
+                      "How long, in logical time, as in 10s; default: until the mission ends");
+  command
+      ->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.parameters.kp=0.5")
       ->allow_extra_args(false);
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
   command->add_option("--seed", options->seed, "Seed of vehicles and distributers that have noise; default 0");

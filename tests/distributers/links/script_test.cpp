@@ -19,9 +19,7 @@ std::string report_on(const std::string& text) {
   ScriptChannels(std::make_shared<Source>(Source{"m.csv", text}), operator_class(), problems);
   try {
     problems.throw_if_any();
-  } catch (const SpecError& error) {
-    return error.what();
-  }
+  } catch (const SpecError& error) { return error.what(); }
   return "";
 }
 }  // namespace
@@ -29,10 +27,11 @@ std::string report_on(const std::string& text) {
 TEST_SUITE("distributers/links/script") {
   TEST_CASE("a row holds from its time until the next, an empty cell keeps what was") {
     Problems problems;
-    ScriptChannels script(std::make_shared<Source>(Source{"m.csv",
-                                                          "# a mission\ntime,setpoint.depth, setpoint.heading\n0,1,90deg\n\n"
-                                                          "0.5,,-1\r\n2,3,0\n"}),
-                          operator_class(), problems);
+    ScriptChannels script(
+        std::make_shared<Source>(Source{"m.csv",
+                                        "# a mission\ntime,setpoint.depth, setpoint.heading\n0,1,90deg\n\n"
+                                        "0.5,,-1\r\n2,3,0\n"}),
+        operator_class(), problems);
     CHECK(problems.empty());
     tasks::Setpoint setpoint;
     script.reach(0ms);
@@ -51,13 +50,15 @@ TEST_SUITE("distributers/links/script") {
 
   TEST_CASE("the mission ends at the time of its last row") {
     Problems problems;
-    const ScriptChannels script(std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n12.5,1\n"}), operator_class(), problems);
+    const ScriptChannels script(std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n12.5,1\n"}),
+                                operator_class(), problems);
     CHECK(script.end() == 12500ms);
   }
 
   TEST_CASE("of rows that pass between two looks the last counts") {
     Problems problems;
-    ScriptChannels script(std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n1,2\n2,3\n9,9\n"}), operator_class(), problems);
+    ScriptChannels script(std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n1,2\n2,3\n9,9\n"}),
+                          operator_class(), problems);
     script.reach(5s);
     tasks::Setpoint setpoint;
     CHECK(script.take(0, &setpoint));
@@ -66,8 +67,10 @@ TEST_SUITE("distributers/links/script") {
 
   TEST_CASE("everything wrong with a script is reported with its place") {
     CHECK(report_on("time,setpoint.deep\n0,1\n") ==
-          "m.csv:1:6: error: column 'setpoint.deep' is no field of an 'in' channel of LauvOperator; did you mean 'setpoint.depth'?; "
-          "there are: setpoint.depth, setpoint.heading, setpoint.speed, actuation.thruster, actuation.fins.0, actuation.fins.1, "
+          "m.csv:1:6: error: column 'setpoint.deep' is no field of an 'in' channel of LauvOperator; did you mean "
+          "'setpoint.depth'?; "
+          "there are: setpoint.depth, setpoint.heading, setpoint.speed, actuation.thruster, actuation.fins.0, "
+          "actuation.fins.1, "
           "actuation.fins.2, actuation.fins.3\n"
           "  time,setpoint.deep\n"
           "       ^");

@@ -36,13 +36,15 @@ TEST_SUITE("graph/spec/override") {
           "--set:1:1: error: path 'tasks.cont.period': 'tasks' has no 'cont'; did you mean 'count'?; it has: count\n"
           "  tasks.cont.period=20ms\n"
           "  ^");
-    CHECK(report_on(counting, {"", {"tasks.count.perod=20ms"}}) ==
-          "--set:1:1: error: task 'count' has no key 'perod'; did you mean 'period'?; it has: type, period, offset, let, "
-          "deadline, wcet, priority, core, heap, on_fault, isolation, parameters, init\n"
-          "  tasks.count.perod=20ms\n"
-          "  ^");
+    CHECK(
+        report_on(counting, {"", {"tasks.count.perod=20ms"}}) ==
+        "--set:1:1: error: task 'count' has no key 'perod'; did you mean 'period'?; it has: type, period, offset, let, "
+        "deadline, wcet, priority, core, heap, on_fault, isolation, parameters, init\n"
+        "  tasks.count.perod=20ms\n"
+        "  ^");
     CHECK(report_on(counting, {"", {"tasks.count.period=20"}}) ==
-          "--set:1:20: error: task 'count' key 'period': '20' has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n"
+          "--set:1:20: error: task 'count' key 'period': '20' has no unit; write one of h, min, s, ms, us or ns, as in "
+          "10ms\n"
           "                     20\n"
           "                     ^");
     CHECK(report_on(counting, {"", {"period"}}) ==

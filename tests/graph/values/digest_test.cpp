@@ -42,7 +42,8 @@ TEST_SUITE("graph/values/digest") {
     bool b = true;
     std::array<std::uint8_t, 2> a{7, 8};
     static constexpr auto fields() {
-      return describe(field<&Mixed::d>(), field<&Mixed::f>(), field<&Mixed::i>(), field<&Mixed::b>(), field<&Mixed::a>());
+      return describe(field<&Mixed::d>(), field<&Mixed::f>(), field<&Mixed::i>(), field<&Mixed::b>(),
+                      field<&Mixed::a>());
     }
   };
 

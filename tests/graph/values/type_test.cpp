@@ -17,7 +17,9 @@ constexpr auto enumerators(Mode) {
 struct Inner {
   float depth = 0.5F;
   Mode mode = Mode::on;
-  static constexpr auto fields() { return describe(field<&Inner::depth>("m", "below the surface"), field<&Inner::mode>()); }
+  static constexpr auto fields() {
+    return describe(field<&Inner::depth>("m", "below the surface"), field<&Inner::mode>());
+  }
 };
 
 struct Outer {
@@ -26,7 +28,8 @@ struct Outer {
   std::array<Inner, 2> inner{};
   Duration time{};
   static constexpr auto fields() {
-    return describe(field<&Outer::angle>("rad"), field<&Outer::position>("m"), field<&Outer::inner>(), field<&Outer::time>());
+    return describe(field<&Outer::angle>("rad"), field<&Outer::position>("m"), field<&Outer::inner>(),
+                    field<&Outer::time>());
   }
 };
 
@@ -37,9 +40,7 @@ std::string bind_text(const std::string& text, Outer& value) {
   bind_fields(yaml, type_of<Outer>(), &value, "value", "field", problems);
   try {
     problems.throw_if_any();
-  } catch (const SpecError& error) {
-    return error.what();
-  }
+  } catch (const SpecError& error) { return error.what(); }
   return "";
 }
 }  // namespace
@@ -61,7 +62,8 @@ TEST_SUITE("graph/values/type") {
   TEST_CASE("the scalars of a type have paths") {
     std::string paths;
     for (const Leaf& leaf : leaves_of(type_of<Outer>())) paths += leaf.path + " ";
-    CHECK(paths == "angle position.0 position.1 position.2 inner.0.depth inner.0.mode inner.1.depth inner.1.mode time ");
+    CHECK(paths ==
+          "angle position.0 position.1 position.2 inner.0.depth inner.0.mode inner.1.depth inner.1.mode time ");
   }
 
   TEST_CASE("a value begins as its struct's default") {
@@ -73,7 +75,8 @@ TEST_SUITE("graph/values/type") {
 
   TEST_CASE("YAML overwrites what it mentions and leaves the rest") {
     Outer value;
-    CHECK(bind_text("{angle: 90deg, position: [4, 5cm, 6 m], inner: [{depth: 3}, {mode: off}], time: 2ms}", value) == "");
+    CHECK(bind_text("{angle: 90deg, position: [4, 5cm, 6 m], inner: [{depth: 3}, {mode: off}], time: 2ms}", value) ==
+          "");
     CHECK(value.angle == doctest::Approx(1.5707963267948966).epsilon(1e-15));
     CHECK(value.position == Eigen::Vector3d(4, 0.05, 6));
     CHECK(value.inner[0].depth == 3.0F);
@@ -91,13 +94,16 @@ TEST_SUITE("graph/values/type") {
           "v.yaml:2:11: error: value field 'position' has 2 elements; it needs 3\n"
           "  position: [1, 2]\n"
           "            ^\n"
-          "v.yaml:3:17: error: value field 'inner' element 0 field 'depth' needs a float [m], not 'deep'; that is not a number\n"
+          "v.yaml:3:17: error: value field 'inner' element 0 field 'depth' needs a float [m], not 'deep'; that is not "
+          "a number\n"
           "  inner: [{depth: deep}, {mode: auto}]\n"
           "                  ^\n"
-          "v.yaml:3:31: error: value field 'inner' element 1 field 'mode' needs one of off, on, not 'auto'; that is none of them\n"
+          "v.yaml:3:31: error: value field 'inner' element 1 field 'mode' needs one of off, on, not 'auto'; that is "
+          "none of them\n"
           "  inner: [{depth: deep}, {mode: auto}]\n"
           "                                ^\n"
-          "v.yaml:4:7: error: value field 'time' needs a duration, not '5'; that has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n"
+          "v.yaml:4:7: error: value field 'time' needs a duration, not '5'; that has no unit; write one of h, min, s, "
+          "ms, us or ns, as in 10ms\n"
           "  time: 5\n"
           "        ^");
   }

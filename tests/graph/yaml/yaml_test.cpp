@@ -10,9 +10,7 @@ std::string report_on(const std::string& text) {
   read_yaml(std::make_shared<Source>(Source{"t.yaml", text}), problems);
   try {
     problems.throw_if_any();
-  } catch (const SpecError& error) {
-    return error.what();
-  }
+  } catch (const SpecError& error) { return error.what(); }
   return "";
 }
 
@@ -93,7 +91,8 @@ TEST_SUITE("graph/yaml") {
 
   TEST_CASE("absurd depth is an error, not a crash") {
     const std::string text(200, '[');
-    CHECK(report_on(text + std::string(200, ']')).starts_with("t.yaml:1:65: error: values are nested deeper than 64 levels\n"));
+    CHECK(report_on(text + std::string(200, ']'))
+              .starts_with("t.yaml:1:65: error: values are nested deeper than 64 levels\n"));
   }
 
   TEST_CASE("aliases that multiply end in an error, not in a full memory") {
