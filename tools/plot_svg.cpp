@@ -28,6 +28,8 @@ constexpr double time_labels = 48;
 constexpr std::string_view reached_stroke = R"(stroke="#0072B2" stroke-width="2")";
 constexpr std::string_view commanded_stroke = R"(stroke="#D55E00" stroke-width="1.6" stroke-dasharray="6 4")";
 
+constexpr std::string_view title_font = R"(font-size="14" font-weight="bold" fill="#1F2933")";
+
 constexpr std::size_t most_spans = std::size_t{1} << 14;
 constexpr std::size_t most_points = 2000;
 constexpr double most_value = 1e300;  // what lies beyond can't be scaled without overflow
@@ -123,7 +125,11 @@ struct Axis {
 
 Axis time_axis(std::int64_t end) {
   const double seconds = end > 0 ? static_cast<double>(end) * 1e-9 : 1.0;
-  return {0, seconds, left, right, find_ticks(seconds, 12, false)};
+  Axis axis{0, seconds, left, right, find_ticks(seconds, 12, false)};
+  // a run of 100 s ends at 99.98 s: the tick it just misses belongs to it
+  const double next = axis.ticks.at(static_cast<std::int64_t>(std::ceil(seconds / axis.ticks.at(1))));
+  if (next < 1.01 * seconds) axis.most = next;
+  return axis;
 }
 
 std::string_view last_name(std::string_view path) { return path.substr(path.rfind('.') + 1); }
@@ -167,10 +173,9 @@ class PlotSvg::Pen {
     svg.append(">").append(escaped(words)).append("</text>\n");
   }
 
-  void line(double x1, double y1, double x2, double y2, std::string_view stroke) {
-    svg.append("<path ").append(stroke).append(" d=\"M").append(px(x1) + "," + px(y1));
-    svg += y1 == y2 ? "H" + px(x2) : "V" + px(y2);
-    svg += "\"/>\n";
+  // horizontal
+  void line(double x1, double x2, double y, std::string_view stroke) {
+    svg.append("<path ").append(stroke).append(" d=\"M" + px(x1) + "," + px(y) + "H" + px(x2) + "\"/>\n");
   }
 
   void curve(const Curve& curve, const std::vector<Point>& points, const Axis& x, const Axis& y,
@@ -396,14 +401,17 @@ void PlotSvg::draw(const Drawing& drawing, double top, Pen& pen) const {
   if (whole_numbers && y.ticks.exponent < 0) y.ticks = {1, 0};
   const Axis x = time_axis(end_);
 
-  pen.svg += "<g stroke=\"#E4E7EB\">\n";
-  x.for_each_tick([&](double at, const std::string&) { pen.line(at, top, at, bottom, ""); });
-  if (!no_data) y.for_each_tick([&](double at, const std::string&) { pen.line(left, at, right, at, ""); });
-  pen.svg += "</g>\n<rect x=\"" + px(left) + "\" y=\"" + px(top) + "\" width=\"" + px(right - left) + "\" height=\"" +
+  pen.svg += "<path stroke=\"#E4E7EB\" d=\"";
+  x.for_each_tick([&](double at, const std::string&) { pen.svg += "M" + px(at) + "," + px(top) + "V" + px(bottom); });
+  if (!no_data)
+    y.for_each_tick([&](double at, const std::string&) { pen.svg += "M" + px(left) + "," + px(at) + "H" + px(right); });
+  pen.svg += "\"/>\n<rect x=\"" + px(left) + "\" y=\"" + px(top) + "\" width=\"" + px(right - left) + "\" height=\"" +
              px(panel_height) + "\" stroke=\"#9AA5B1\" fill=\"none\"/>\n";
 
-  pen.text(left, top - 9, "font-size=\"14\" font-weight=\"bold\" fill=\"#1F2933\"", drawing.panel.title);
-  if (!drawing.unit.empty()) pen.text(left - 8, top - 9, "text-anchor=\"end\"", drawing.unit);
+  pen.svg += "<text x=\"" + px(left) + "\" y=\"" + px(top - 9) + "\"><tspan " + std::string(title_font) + ">" +
+             escaped(drawing.panel.title) + "</tspan>";
+  if (!drawing.unit.empty()) pen.svg += " [" + escaped(drawing.unit) + "]";
+  pen.svg += "</text>\n";
   if (no_data) {
     pen.text((left + right) / 2, top + panel_height / 2 + 5, "font-size=\"14\" text-anchor=\"middle\"", "no data");
     return;
@@ -416,9 +424,9 @@ void PlotSvg::draw(const Drawing& drawing, double top, Pen& pen) const {
     if (!lines[i].empty()) pen.curve(curves_[drawing.curves[i]], lines[i], x, y, strokes[i]);
 
   if (!drawing.panel.commanded) return;
-  pen.line(right - 216, top - 13, right - 190, top - 13, commanded_stroke);
+  pen.line(right - 216, right - 190, top - 13, commanded_stroke);
   pen.text(right - 184, top - 9, "", "commanded");
-  pen.line(right - 84, top - 13, right - 58, top - 13, reached_stroke);
+  pen.line(right - 84, right - 58, top - 13, reached_stroke);
   pen.text(right - 52, top - 9, "", "reached");
 }
 

@@ -1,0 +1,41 @@
+// The README shows what the command really prints.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace {
+std::string output_of(const std::string& arguments) {
+  std::string output;
+  std::FILE* pipe = popen((std::string(JAROL_COMMAND) + " " + arguments).c_str(), "r");
+  std::array<char, 4096> chunk{};
+  for (std::size_t n = 0; (n = std::fread(chunk.data(), 1, chunk.size(), pipe)) > 0;) output.append(chunk.data(), n);
+  pclose(pipe);
+  return output;
+}
+
+std::string readme() {
+  std::ifstream file("README.md");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+}  // namespace
+
+TEST_SUITE("tools/readme") {
+  TEST_CASE("the README shows the verdict on the demo as it is") {
+    const std::string verdict = output_of("check specs/exolauv.yaml");
+    CHECK(verdict.size() > 300);
+    CHECK(readme().find(verdict) != std::string::npos);
+  }
+
+  TEST_CASE("the README shows what the demo reaches as it is") {
+    const std::string run = output_of("run specs/exolauv.yaml");
+    const std::size_t begin = run.find("               commanded"), end = run.find("  digest");
+    REQUIRE(begin < end);
+    CHECK(readme().find(run.substr(begin, end - begin)) != std::string::npos);
+  }
+}

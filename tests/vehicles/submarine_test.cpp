@@ -1,0 +1,116 @@
+#include "vehicles/submarine.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "distributers/messages/imc.h"
+#include "vehicles/catalogue.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::vehicles;
+namespace imc = messages::imc;
+
+struct Sensed : messages::Receiver {
+  void receive(messages::MessageRef message) override {
+    if (const auto* s = message.as<imc::SimulatedState>()) state = *s;
+  }
+  imc::SimulatedState state;
+};
+
+imc::SimulatedState sense(const Submarine& submarine) {
+  Sensed sensed;
+  submarine.sense(sensed);
+  return sensed.state;
+}
+
+void command(Submarine& submarine, float thruster, const std::array<float, 4>& fins) {
+  submarine.accept(messages::refer_to(imc::SetThrusterActuation{0, thruster}));
+  for (std::uint8_t i = 0; i < 4; ++i) submarine.accept(messages::refer_to(imc::SetServoPosition{i, fins[i]}));
+}
+
+// Ten seconds at speed in the deep with these fins.
+imc::SimulatedState after_ten_seconds(const std::array<float, 4>& fins) {
+  SubmarineParameters parameters;
+  parameters.start.depth = 20;
+  parameters.start.surge = 1.2;
+  Submarine submarine(parameters);
+  command(submarine, 0.6F, fins);
+  for (int i = 0; i < 1000; ++i) submarine.step();
+  return sense(submarine);
+}
+}  // namespace
+
+TEST_SUITE("vehicles/submarine") {
+  TEST_CASE("its step is 10 ms") { CHECK(Submarine({}).grid() == std::chrono::milliseconds(10)); }
+
+  TEST_CASE("positive angles on fins 0 and 3 turn to port, negative ones to starboard") {
+    CHECK(after_ten_seconds({0.2F, 0, 0, 0.2F}).psi < -0.1F);
+    CHECK(after_ten_seconds({-0.2F, 0, 0, -0.2F}).psi > 0.1F);
+  }
+
+  TEST_CASE("positive angles on fins 1 and 2 nose down, negative ones up") {
+    const auto neutral = after_ten_seconds({});
+    CHECK(after_ten_seconds({0, 0.1F, 0.1F, 0}).theta < neutral.theta - 0.05F);
+    CHECK(after_ten_seconds({0, -0.1F, -0.1F, 0}).theta > neutral.theta + 0.05F);
+  }
+
+  TEST_CASE("port and starboard are mirror images") {
+    const auto port = after_ten_seconds({0.2F, 0, 0, 0.2F}), starboard = after_ten_seconds({-0.2F, 0, 0, -0.2F});
+    CHECK(port.psi == doctest::Approx(-starboard.psi).epsilon(1e-5));
+    CHECK(port.y == doctest::Approx(-starboard.y).epsilon(1e-5));
+    CHECK(port.z == doctest::Approx(starboard.z).epsilon(1e-6));
+  }
+
+  TEST_CASE("a command is held until the next, and what is not finite or not its own is not taken") {
+    SubmarineParameters parameters;
+    parameters.start.depth = 20;
+    Submarine once(parameters), often(parameters);
+    command(once, 0.5F, {0.1F, 0, 0, 0.1F});
+    for (int i = 0; i < 300; ++i) {
+      command(often, 0.5F, {0.1F, 0, 0, 0.1F});
+      once.accept(messages::refer_to(imc::SetThrusterActuation{0, std::numeric_limits<float>::quiet_NaN()}));
+      once.accept(messages::refer_to(imc::SetThrusterActuation{1, 1.0F}));
+      once.accept(messages::refer_to(imc::SetServoPosition{4, 1.0F}));
+      once.accept(messages::refer_to(imc::SimulatedState{}));
+      once.step();
+      often.step();
+    }
+    CHECK(sense(once).x == sense(often).x);
+    CHECK(sense(once).psi == sense(often).psi);
+    CHECK(sense(once).x > 0.5F);
+  }
+
+  TEST_CASE("results do not depend on who looks or how often") {
+    Submarine seen({}), unseen({});
+    command(seen, 1.0F, {});
+    command(unseen, 1.0F, {});
+    for (int i = 0; i < 500; ++i) {
+      seen.step();
+      unseen.step();
+      for (int look = 0; look < i % 4; ++look) static_cast<void>(sense(seen));
+    }
+    CHECK(sense(seen).x == sense(unseen).x);
+    CHECK(sense(seen).theta == sense(unseen).theta);
+  }
+
+  TEST_CASE("a current carries it along and is told, velocities stay those through the water") {
+    SubmarineParameters parameters;
+    parameters.sea.current_east = 0.25;
+    Submarine submarine(parameters);
+    for (int i = 0; i < 400; ++i) submarine.step();
+    CHECK(sense(submarine).y == doctest::Approx(1.0));
+    CHECK(sense(submarine).svy == 0.25F);
+    CHECK(sense(submarine).v == doctest::Approx(0.0));
+  }
+
+  TEST_CASE("it stands in the catalogue under its name") {
+    const VehicleClass* found = find_vehicle("submarine");
+    REQUIRE(found != nullptr);
+    CHECK(found->parameters == &type_of<SubmarineParameters>());
+    const SubmarineParameters parameters;
+    CHECK(found->make(&parameters)->grid() == std::chrono::milliseconds(10));
+    CHECK(find_vehicle("airship") == nullptr);
+  }
+}
