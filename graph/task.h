@@ -115,7 +115,7 @@ Outcome thunk(const TaskMemory& memory, const Tick& tick) {
     return Outcome::threw;
   }
   using Out = decltype(out_of<T>());
-  return any_non_finite(*static_cast<const Out*>(memory.out)) != 0 ? Outcome::non_finite : Outcome::good;
+  return has_non_finite(*static_cast<const Out*>(memory.out)) ? Outcome::non_finite : Outcome::good;
 }
 
 }  // namespace detail

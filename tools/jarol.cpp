@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", JAROL_VERSION);
   int exit_code = tools::exit_good;
+  tools::add_bench(app, exit_code);
   tools::add_check(app, exit_code);
   tools::add_graph(app, exit_code);
   tools::add_run(app, exit_code);

@@ -65,11 +65,16 @@ inline void for_each_word(const T& value, Visit&& visit) {
   }
 }
 
-// Exponent all ones: an infinity or a NaN. On integers, as g++ would vectorise x - x and stall on fresh stores.
+// Top bit set for an exponent of all ones, which is an infinity or a NaN: one more carries into the sign. On integers,
+// one by one: a vector load over what a task has just stored word by word would wait for the stores.
 inline std::uint64_t non_finite(double x) {
-  return (std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000ULL) == 0x7ff0000000000000ULL;
+  auto bits = std::bit_cast<std::uint64_t>(x);
+  asm("" : "+r"(bits));
+  return (bits & 0x7ff0000000000000ULL) + 0x0010000000000000ULL;
 }
-inline std::uint64_t non_finite(float x) { return (std::bit_cast<std::uint32_t>(x) & 0x7f800000U) == 0x7f800000U; }
+inline std::uint64_t non_finite(float x) {
+  return std::uint64_t{(std::bit_cast<std::uint32_t>(x) & 0x7f800000U) + 0x00800000U} << 32;
+}
 
 template <class T>
 inline std::uint64_t any_non_finite(const T& value) {
@@ -85,6 +90,11 @@ inline std::uint64_t any_non_finite(const T& value) {
   } else {
     return 0;
   }
+}
+
+template <class T>
+inline bool has_non_finite(const T& value) {
+  return (any_non_finite(value) >> 63) != 0;
 }
 
 template <class T>
@@ -141,7 +151,7 @@ Type make_type() {
     std::memset(to, 0, sizeof(T));  // padding too, so that equal values are equal bytes
     new (to) T{};
   };
-  type.finite = [](const void* value) { return any_non_finite(*static_cast<const T*>(value)) == 0; };
+  type.finite = [](const void* value) { return !has_non_finite(*static_cast<const T*>(value)); };
   type.hash_words = [](const void* value) { return hash_words(*static_cast<const T*>(value)); };
   if constexpr (std::same_as<T, bool> || std::floating_point<T> || Integer<T> || std::same_as<T, Duration>) {
     type.name = scalar_name<T>();

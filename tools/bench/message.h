@@ -1,0 +1,55 @@
+// What the benchmarks run: tasks that pass a message of 64 bytes on, with a body of a few additions.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "graph/task.h"
+
+namespace jarol::bench {
+
+struct Message {
+  std::array<double, 8> words{};
+  static constexpr auto fields() { return describe(field<&Message::words>()); }
+};
+
+/// The body that tasks and floors share; in a unit of its own, as a user's task would be.
+void pass_on(const Message& in, double& state, Message& out);
+
+struct Source {
+  static constexpr std::string_view summary = "begins a chain or a fan";
+  struct State {
+    double count = 0;
+    static constexpr auto fields() { return describe(field<&State::count>()); }
+  };
+  struct Out {
+    Message out{};
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Tick&, State& state, Out& out) { pass_on({}, state.count, out.out); }
+};
+
+struct Stage {
+  static constexpr std::string_view summary = "passes a message on";
+  struct In {
+    Message in{};
+    static constexpr auto fields() { return describe(field<&In::in>()); }
+  };
+  struct State {
+    double count = 0;
+    static constexpr auto fields() { return describe(field<&State::count>()); }
+  };
+  struct Out {
+    Message out{};
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Tick&, const In& in, State& state, Out& out) { pass_on(in.in, state.count, out.out); }
+};
+
+/// Throws at every activation.
+struct Thrower {
+  static constexpr std::string_view summary = "fails";
+  static void run(const Tick&);
+};
+
+}  // namespace jarol::bench
