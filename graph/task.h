@@ -25,6 +25,13 @@ struct FaultText {
   char text[120] = "";
 };
 
+/// Keeps the text from its place `from` on, as much as there is room for.
+inline void keep_text(FaultText& fault, std::string_view text, std::size_t from = 0) {
+  const std::size_t size = std::min(text.size(), sizeof fault.text - 1 - from);
+  std::memcpy(fault.text + from, text.data(), size);
+  fault.text[from + size] = '\0';
+}
+
 /// Where one task's values lie.
 struct TaskMemory {
   const void* parameters = nullptr;
@@ -103,15 +110,21 @@ inline void call(const TaskMemory& memory, const Tick& tick) {
 
 inline void keep_text(FaultText& fault, const char* text) { std::strncpy(fault.text, text, sizeof fault.text - 1); }
 
+inline void keep_threw(FaultText& fault, const char* what) {
+  constexpr std::string_view threw = "threw: ";
+  keep_text(fault, threw);
+  keep_text(fault, what, threw.size());
+}
+
 template <class T>
 Outcome thunk(const TaskMemory& memory, const Tick& tick) {
   try {
     call<T>(memory, tick);
   } catch (const std::exception& error) {
-    keep_text(*memory.fault, error.what());
+    keep_threw(*memory.fault, error.what());
     return Outcome::threw;
   } catch (...) {
-    keep_text(*memory.fault, "something that is not a std::exception");
+    keep_threw(*memory.fault, "something that is not a std::exception");
     return Outcome::threw;
   }
   using Out = decltype(out_of<T>());

@@ -63,13 +63,10 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
   report_.faults.reserve(faults_kept);
   last_.resize(graph.communicators.size());
   for (const Group& group : plan_.groups) {
-    calendar_.push_back({group.first.count(), static_cast<std::uint32_t>(&group - plan_.groups.data())});
+    calendar_.add(group.first.count(), group.period.count());
     for (const auto& actions : {group.outs, group.ins})
       for (const CommunicatorAction& action : actions) last_[action.communicator] = action.value;
   }
-  std::make_heap(calendar_.begin(), calendar_.end(), [](const Due& a, const Due& b) {
-    return std::tie(a.instant, a.group) > std::tie(b.instant, b.group);
-  });
 }
 
 const void* Executor::last_value(std::size_t communicator) const { return last_[communicator]; }
@@ -86,24 +83,11 @@ void Executor::run_until(Duration end) {
 
 template <bool Digest, bool Record>
 void Executor::walk(Duration end) {
-  const auto later = [](const Due& a, const Due& b) {
-    return std::tie(a.instant, a.group) > std::tie(b.instant, b.group);
-  };
-  while (!calendar_.empty() && calendar_.front().instant < end.count()) {
+  while (calendar_.next() < end.count()) {
     if (interrupted_.load(std::memory_order_relaxed)) return;
-    const std::int64_t instant = calendar_.front().instant;
+    const std::int64_t instant = calendar_.next();
     now_.store(instant, std::memory_order_relaxed);
-    due_.clear();
-    while (!calendar_.empty() && calendar_.front().instant == instant) {
-      const std::uint32_t group = calendar_.front().group;
-      due_.push_back(group);
-      std::pop_heap(calendar_.begin(), calendar_.end(), later);
-      // an instant beyond what 64 bits hold, 292 years, is never reached
-      Due& next = calendar_.back();
-      if (__builtin_add_overflow(instant, plan_.groups[group].period.count(), &next.instant))
-        next.instant = std::numeric_limits<std::int64_t>::max();
-      std::push_heap(calendar_.begin(), calendar_.end(), later);
-    }
+    calendar_.take(due_);
     step_instant<Digest, Record>(instant);
     report_.instants += 1;
     report_.simulated = Duration(instant);
@@ -128,11 +112,12 @@ void Executor::step_instant(std::int64_t instant) {
   // step 1: outputs of LET tasks that end now
   for (const std::uint32_t g : due_)
     for (const LetEnd& let_end : plan_.groups[g].let_ends) {
-      if (let_end.status->outcome == Outcome::good) [[likely]] {
+      Outcome& outcome = plan_.outcomes[let_end.task];
+      if (outcome == Outcome::good) [[likely]] {
         publish<Digest, Record>(let_end.publish, instant, instant_term);
       } else {
-        if (let_end.status->outcome != Outcome::left_out) record_fault(let_end.task, instant);
-        let_end.status->outcome = Outcome::good;  // at most one activation waits for its end
+        if (outcome != Outcome::left_out) record_fault(let_end.task, instant);
+        outcome = Outcome::good;  // at most one activation waits for its end
       }
     }
   // steps 2 and 3: communicators, by name
@@ -182,7 +167,7 @@ void Executor::run_stages(std::int64_t instant, std::uint64_t instant_term) {
 template <bool Digest, bool Record>
 void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term) {
   for (const Activation& activation : segment.activations) {
-    const Outcome outcome = activation.run(*activation.memory, tick);
+    const Outcome outcome = activation.run(activation.memory, tick);
     if (outcome == Outcome::good) [[likely]] {
       publish<Digest, Record>(activation.publish, tick.now.count(), instant_term);
     } else {
@@ -221,34 +206,27 @@ void Executor::take(const CommunicatorAction& in) {
 // A LET task's fault shows at the end of its LET, when its outputs would have.
 void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick) {
   const Task& task = graph_.tasks[activation.task];
-  TaskStatus& status = *activation.status;
-  status.outcome = outcome;
-  status.activation = tick.activation;
+  TaskStatus& status = plan_.status[activation.task];
+  if (activation.has_let) plan_.outcomes[activation.task] = outcome;
   if (outcome == Outcome::left_out) {
     --report_.activations;
     return;
   }
-  if (outcome == Outcome::non_finite) {
-    const std::string text = find_non_finite(*task.task_class, activation.memory->out);
-    text.copy(status.fault.text, sizeof status.fault.text - 1);
-  }
+  status.activation = tick.activation;
+  if (outcome == Outcome::non_finite) keep_text(status, find_non_finite(*task.task_class, activation.memory.out));
   if (task.on_fault != OnFault::stop) {
-    const auto& undoable = static_cast<const UndoableMemory&>(*activation.memory);
-    std::memcpy(undoable.state, undoable.kept, undoable.size);
+    std::memcpy(activation.memory.state, status.kept, status.size);
     status.skip_next = task.on_fault == OnFault::skip;
   }
   if (!activation.has_let) record_fault(activation.task, tick.now.count());
 }
 
-void Executor::record_fault(std::uint32_t index, std::int64_t instant) {
-  const Task& task = graph_.tasks[index];
-  TaskStatus& status = plan_.status[index];
-  const std::string cause = (status.outcome == Outcome::threw ? "threw: " : "") + std::string(status.fault.text);
+void Executor::record_fault(std::uint32_t task, std::int64_t instant) {
+  const TaskStatus& status = plan_.status[task];
   if (report_.faults.size() < faults_kept)
-    report_.faults.push_back({task.name, status.activation, Duration(instant), cause});
+    report_.faults.push_back({graph_.tasks[task].name, status.activation, Duration(instant), status.text});
   ++report_.fault_count;
-  status.fault = {};
-  if (task.on_fault == OnFault::stop) report_.stopped = true;
+  if (graph_.tasks[task].on_fault == OnFault::stop) report_.stopped = true;
 }
 
 }  // namespace jarol

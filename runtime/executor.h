@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/calendar.h"
 #include "runtime/channels.h"
 #include "runtime/plan.h"
 #include "runtime/recorder.h"
@@ -75,16 +76,11 @@ class Executor {
   void on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick);
   void record_fault(std::uint32_t task, std::int64_t instant);
 
-  struct Due {
-    std::int64_t instant;
-    std::uint32_t group;
-  };
-
   const Graph& graph_;
   Plan plan_;
   std::vector<std::unique_ptr<Channels>> channels_;
   ExecutorOptions options_;
-  std::vector<Due> calendar_;                          // heap: least instant first, then least group
+  Calendar calendar_;                                  // when each group is due
   std::vector<std::uint32_t> due_;                     // groups due now
   std::vector<const Segment*> cursors_;                // of the groups due now
   std::vector<Tick> ticks_;                            // of the groups due now

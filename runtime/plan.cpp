@@ -15,13 +15,13 @@ constexpr std::size_t line = 64;  // bytes of a cache line: no two tasks share o
 
 // Runs a task that may have to be undone: its state and outputs are kept until the executor has seen the outcome.
 Outcome run_undoable(const TaskMemory& memory, const Tick& tick) {
-  const auto& undoable = static_cast<const UndoableMemory&>(memory);
-  if (undoable.status->skip_next) {
-    undoable.status->skip_next = false;
+  auto& status = static_cast<TaskStatus&>(*memory.fault);
+  if (status.skip_next) {
+    status.skip_next = false;
     return Outcome::left_out;
   }
-  std::memcpy(undoable.kept, memory.state, undoable.size);
-  return undoable.run(memory, tick);
+  std::memcpy(status.kept, memory.state, status.size);
+  return status.run(memory, tick);
 }
 
 // Hands out places in memory that is allocated once all are known.
@@ -50,6 +50,11 @@ struct CommunicatorPlaces {
 template <class T>
 Range<T> range(const std::vector<T>& all, std::size_t first) {
   return {all.data() + first, all.data() + all.size()};
+}
+
+template <class T>
+ShortRange<T> short_range(const std::vector<T>& all, std::size_t first) {
+  return {all.data() + first, static_cast<std::uint32_t>(all.size() - first)};
 }
 
 }  // namespace
@@ -154,7 +159,7 @@ class PlanBuilder {
   // Initial values; each input begins with what its source reads as until first published.
   void fill() {
     plan_.status.resize(graph_.tasks.size());
-    plan_.memory_.resize(graph_.tasks.size());
+    plan_.outcomes.resize(graph_.tasks.size(), Outcome::good);
     for (std::size_t i = 0; i < graph_.tasks.size(); ++i) {
       const Task& task = graph_.tasks[i];
       const TaskClass& c = *task.task_class;
@@ -162,16 +167,9 @@ class PlanBuilder {
       c.state->construct(at(tasks_[i].state));
       std::memcpy(at(tasks_[i].parameters), task.parameters.data(), c.parameters->size);
       std::memcpy(at(tasks_[i].out), task.out.data(), c.out->size);
-      UndoableMemory& memory = plan_.memory_[i];
-      memory.parameters = at(tasks_[i].parameters);
-      memory.in = at(tasks_[i].in);
-      memory.state = at(tasks_[i].state);
-      memory.out = at(tasks_[i].out);
-      memory.status = &plan_.status[i];
-      memory.fault = &plan_.status[i].fault;
-      memory.run = c.run;
-      memory.kept = at(tasks_[i].kept);
-      memory.size = undoable_size(i);
+      plan_.status[i].run = c.run;
+      plan_.status[i].kept = at(tasks_[i].kept);
+      plan_.status[i].size = undoable_size(i);
     }
     for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
       const Communicator& c = graph_.communicators[i];
@@ -215,7 +213,7 @@ class PlanBuilder {
     for (std::size_t f = 0; f < fields.size(); ++f)
       plan_.publications_.push_back(publication(end_name(graph_, {End::Kind::task, i, f}, true), *fields[f].type,
                                                 at(tasks_[i].out) + fields[f].offset));
-    return {range(plan_.copies_, first_copy), range(plan_.publications_, first_publication)};
+    return {short_range(plan_.copies_, first_copy), short_range(plan_.publications_, first_publication)};
   }
 
   CommunicatorAction communicator_action(std::size_t i) {
@@ -228,16 +226,15 @@ class PlanBuilder {
             at(communicators_[i].value),
             at(communicators_[i].input),
             at(communicators_[i].taken),
-            {range(plan_.copies_, first_copy), range(plan_.publications_, first_publication)}};
+            {short_range(plan_.copies_, first_copy), short_range(plan_.publications_, first_publication)}};
   }
 
   Activation activation(std::size_t i) {
     const Task& task = graph_.tasks[i];
     const bool undoable = task.on_fault != OnFault::stop;
     return {undoable ? &run_undoable : task.task_class->run,
-            &plan_.memory_[i],
+            {at(tasks_[i].parameters), at(tasks_[i].in), at(tasks_[i].state), at(tasks_[i].out), &plan_.status[i]},
             task.let ? Publish{} : publish_task(i),
-            &plan_.status[i],
             static_cast<std::uint32_t>(i),
             task.let.has_value()};
   }
@@ -264,7 +261,7 @@ class PlanBuilder {
       group.activations = members.tasks.size();
       std::size_t first = plan_.let_ends_.size();
       for (const std::size_t i : members.let_ends)
-        plan_.let_ends_.push_back({publish_task(i), &plan_.status[i], static_cast<std::uint32_t>(i)});
+        plan_.let_ends_.push_back({publish_task(i), static_cast<std::uint32_t>(i)});
       group.let_ends = range(plan_.let_ends_, first);
       first = plan_.outs_.size();
       for (const std::size_t i : members.outs) plan_.outs_.push_back(communicator_action(i));

@@ -38,34 +38,36 @@ struct Range {
   const T* end() const { return last; }
 };
 
+/// The same in less room, for what is read at every activation.
+template <class T>
+struct ShortRange {
+  const T* first = nullptr;
+  std::uint32_t count = 0;
+  const T* begin() const { return first; }
+  const T* end() const { return first + count; }
+};
+
 /// What is done to make outputs visible.
 struct Publish {
-  Range<Copy> copies;  // of all outputs together
-  Range<Publication> publications;
+  ShortRange<Copy> copies;  // of all outputs together
+  ShortRange<Publication> publications;
 };
 
-/// How the last activation of a task ended, until its outputs are due.
-struct TaskStatus {
-  Outcome outcome = Outcome::good;
-  bool skip_next = false;  // the next activation is left out
-  std::int64_t activation = 0;
-  FaultText fault;
-};
-
-/// A task's memory together with what is needed to undo an activation.
-struct UndoableMemory : TaskMemory {
+/// What only faults need to know of a task, away from what every activation reads.
+struct TaskStatus : FaultText {
+  std::int64_t activation = 0;  // the faulty one
+  bool skip_next = false;       // the next activation is left out
+  // to undo an activation
   Thunk run = nullptr;
   std::byte* kept = nullptr;  // as large as state and outputs
   std::size_t size = 0;       // of state and outputs, which lie next to each other
-  TaskStatus* status = nullptr;
 };
 
 /// One task of a group, run at its release.
 struct Activation {
   Thunk run = nullptr;
-  const TaskMemory* memory = nullptr;
-  Publish publish;  // empty for a task with a LET
-  TaskStatus* status = nullptr;
+  TaskMemory memory;  // its fault text is the TaskStatus
+  Publish publish;    // empty for a task with a LET
   std::uint32_t task = 0;
   bool has_let = false;
 };
@@ -73,7 +75,6 @@ struct Activation {
 /// The outputs of a LET task, due at the end of its LET.
 struct LetEnd {
   Publish publish;
-  TaskStatus* status = nullptr;
   std::uint32_t task = 0;
 };
 
@@ -115,8 +116,9 @@ struct Plan {
   Plan& operator=(const Plan&) = delete;
 
   std::vector<Group> groups;
-  std::vector<Output> outputs;  // in bytewise order of name
-  std::vector<TaskStatus> status;
+  std::vector<Output> outputs;     // in bytewise order of name
+  std::vector<TaskStatus> status;  // per task
+  std::vector<Outcome> outcomes;   // per task: how the activation ended whose LET is under way
 
  private:
   friend class PlanBuilder;
@@ -126,7 +128,6 @@ struct Plan {
   std::unique_ptr<std::byte, Release> arena_;
   std::vector<Copy> copies_;
   std::vector<Publication> publications_;
-  std::vector<UndoableMemory> memory_;
   std::vector<Activation> activations_;
   std::vector<LetEnd> let_ends_;
   std::vector<CommunicatorAction> outs_;

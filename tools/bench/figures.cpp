@@ -29,7 +29,8 @@ const Registry& registry() {
 
 Graph graph_of(const std::string& text) {
   Problems problems;
-  Graph graph = build_graph(load_spec(std::make_shared<jarol::Source>(jarol::Source{"bench", text}), {}, problems), registry(), problems);
+  Graph graph = build_graph(load_spec(std::make_shared<jarol::Source>(jarol::Source{"bench", text}), {}, problems),
+                            registry(), problems);
   problems.throw_if_any();
   return graph;
 }
@@ -131,13 +132,15 @@ std::function<double()> fan_floor(std::size_t readers) {
 }
 
 std::function<double()> run_of(const std::string& text, bool digest, double activations_per_ms) {
-  const auto slice = std::chrono::milliseconds(static_cast<std::int64_t>(static_cast<double>(activations) / activations_per_ms));
+  const auto slice =
+      std::chrono::milliseconds(static_cast<std::int64_t>(static_cast<double>(activations) / activations_per_ms));
   return [run = std::make_shared<GraphRun>(text, digest, slice)] { return run->nanoseconds(); };
 }
 
 Figure chain_figure(const std::string& name, int length, bool digest, double goal, int repeats) {
-  return compare(name, std::string("activation of a chain") + (digest ? ", digest on" : "") + " / plain loop with two copies", goal,
-                 repeats, run_of(chain(length, same_rate), digest, length), chain_floor(static_cast<std::size_t>(length)));
+  return compare(
+      name, std::string("activation of a chain") + (digest ? ", digest on" : "") + " / plain loop with two copies",
+      goal, repeats, run_of(chain(length, same_rate), digest, length), chain_floor(static_cast<std::size_t>(length)));
 }
 
 // 25 tasks at each of 1, 2, 5 and 10 ms: 45 activations a millisecond
@@ -162,8 +165,9 @@ Figure load_figure(int repeats) {
              kept = static_cast<double>(plan.groups.size());
            });
   };
-  Figure figure = compare("load_1000", "load, validate and plan 1000 tasks / yaml-cpp's own parse", 1.3, std::max(3, repeats / 4), load,
-                          [&] { return 1e3 * seconds_of([&] { kept = parse_only(text); }); });
+  Figure figure =
+      compare("load_1000", "load, validate and plan 1000 tasks / yaml-cpp's own parse", 1.3, std::max(3, repeats / 4),
+              load, [&] { return 1e3 * seconds_of([&] { kept = parse_only(text); }); });
   figure.unit = "ms";
   return figure;
 }
@@ -171,7 +175,8 @@ Figure load_figure(int repeats) {
 }  // namespace
 
 std::vector<std::string> figure_names() {
-  return {"chain_10", "chain_100", "chain_100_digest", "multirate_100", "let_multirate_100", "fan_100", "fault", "load_1000"};
+  return {"chain_10", "chain_100", "chain_100_digest", "multirate_100", "let_multirate_100",
+          "fan_100",  "fault",     "load_1000"};
 }
 
 Figure measure(const std::string& name, int repeats) {
@@ -185,7 +190,8 @@ Figure measure(const std::string& name, int repeats) {
     return compare(name, "activation of 100 LET tasks at 1, 2, 5, 10 ms / plain fan", 1.6, repeats,
                    run_of(chain(100, four_rates_let), false, four_rate_activations), fan_floor(100));
   if (name == "fan_100")
-    return compare(name, "activation of a fan of 100 / plain fan", 2.8, repeats, run_of(fan(100), false, 101), fan_floor(100));
+    return compare(name, "activation of a fan of 100 / plain fan", 2.8, repeats, run_of(fan(100), false, 101),
+                   fan_floor(100));
   if (name == "fault") return fault_figure(repeats);
   if (name == "load_1000") return load_figure(repeats);
   throw std::invalid_argument("there is no figure '" + name + "'" + did_you_mean(name, figure_names()) +

@@ -13,7 +13,7 @@ struct Figure {
   std::string unit;
   double floor = 0;
   double ratio = 0;
-  double goal = 0;  // of the ratio, at most
+  double goal = 0;   // of the ratio, at most
   std::string text;  // what is compared with what
 };
 

@@ -25,22 +25,29 @@ int run_bench(const Options& options) {
   const auto known = bench::figure_names();
   for (const std::string& name : names)
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      std::cerr << "error: there is no figure '" << name << "'" << did_you_mean(name, known) << "; there are: " << list_of(known) << "\n";
+      std::cerr << "error: there is no figure '" << name << "'" << did_you_mean(name, known)
+                << "; there are: " << list_of(known) << "\n";
       return exit_input;
     }
   auto figures = nlohmann::ordered_json::array();
   bool all_met = true;
-  if (!options.json) std::cout << fmt::format("{:<20}{:>10}{:>10}{:>8}{:>8}  {}\n", "figure", "value", "floor", "ratio", "goal", "what");
+  if (!options.json)
+    std::cout << fmt::format("{:<20}{:>10}{:>10}{:>8}{:>8}  {}\n", "figure", "value", "floor", "ratio", "goal", "what");
   for (const std::string& name : names) {
     if (isatty(STDERR_FILENO) != 0) std::cerr << "\r\033[Kmeasuring " << name << " " << std::flush;
     const bench::Figure f = bench::measure(name, options.repeats);
     if (isatty(STDERR_FILENO) != 0) std::cerr << "\r\033[K" << std::flush;
     all_met = all_met && f.ratio <= f.goal;
     if (options.json) {
-      figures.push_back({{"name", f.name}, {"value", f.value}, {"unit", f.unit}, {"floor", f.floor}, {"ratio", f.ratio}, {"goal", f.goal}});
+      figures.push_back({{"name", f.name},
+                         {"value", f.value},
+                         {"unit", f.unit},
+                         {"floor", f.floor},
+                         {"ratio", f.ratio},
+                         {"goal", f.goal}});
     } else {
-      std::cout << fmt::format("{:<20}{:>7.2f} {:<2}{:>7.2f} {:<2}{:>8.2f}{:>8.2f}  {}{}\n", f.name, f.value, f.unit, f.floor, f.unit,
-                               f.ratio, f.goal, f.text, f.ratio <= f.goal ? "" : "  NOT MET");
+      std::cout << fmt::format("{:<20}{:>7.2f} {:<2}{:>7.2f} {:<2}{:>8.2f}{:>8.2f}  {}{}\n", f.name, f.value, f.unit,
+                               f.floor, f.unit, f.ratio, f.goal, f.text, f.ratio <= f.goal ? "" : "  NOT MET");
     }
   }
   if (options.json)
@@ -54,11 +61,13 @@ int run_bench(const Options& options) {
 
 void add_bench(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("bench",
-                                         "Measure what running costs, each figure beside the best plain code for the same work.\n"
-                                         "Least of interleaved repeats. Exit code: 0 all goals met, 1 not all");
+  CLI::App* command =
+      app.add_subcommand("bench",
+                         "Measure what running costs, each figure beside the best plain code for the same work.\n"
+                         "Least of interleaved repeats. Exit code: 0 all goals met, 1 not all");
   command->add_option("FIGURE", options->names, "Figures to measure; default all: " + list_of(bench::figure_names()));
-  command->add_option("--repeats", options->repeats, "Interleaved repeats per figure; default 60")->check(CLI::Range(1, 100000));
+  command->add_option("--repeats", options->repeats, "Interleaved repeats per figure; default 60")
+      ->check(CLI::Range(1, 100000));
   command->add_flag("--json", options->json, "One JSON object instead of a table");
   command->callback([options, &exit_code] { exit_code = run_bench(*options); });
 }
