@@ -146,7 +146,7 @@ tasks:
     const Result command = jarol("chek x");
     CHECK(command.exit_code == 2);
     CHECK(command.output ==
-          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, graph, run, tasks\n");
+          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, graph, run, schema, tasks\n");
     const Result missing = jarol("run no/such.yaml");
     CHECK(missing.exit_code == 2);
     CHECK(missing.output == "error: can't read 'no/such.yaml': No such file or directory\n1 error\n");
@@ -162,7 +162,7 @@ tasks:
   }
 
   TEST_CASE("every command helps") {
-    for (const std::string command : {"", "bench", "check", "graph", "run", "tasks"}) {
+    for (const std::string command : {"", "bench", "check", "graph", "run", "schema", "tasks"}) {
       const Result help = jarol(command + " --help");
       CHECK(help.exit_code == 0);
       CHECK(help.output.find("Usage") != std::string::npos);

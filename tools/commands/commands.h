@@ -17,6 +17,7 @@ void add_bench(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_graph(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
+void add_schema(CLI::App& app, int& exit_code);
 void add_tasks(CLI::App& app, int& exit_code);
 
 }  // namespace jarol::tools
