@@ -47,7 +47,8 @@ Json mapping_schema(const std::vector<Key<S>>& keys) {
 
 // A section of named entries.
 Json entries_schema(Json entry) {
-  return {{"type", "object"}, {"patternProperties", {{name_pattern, std::move(entry)}}}, {"additionalProperties", false}};
+  return {
+      {"type", "object"}, {"patternProperties", {{name_pattern, std::move(entry)}}}, {"additionalProperties", false}};
 }
 
 void describe_section(Json& schema, const std::string& name, Json section) {
@@ -63,7 +64,8 @@ std::string graph_schema() {
   describe_section(schema, "distributers", entries_schema(mapping_schema(distributer_keys())));
   describe_section(schema, "communicators", entries_schema(mapping_schema(communicator_keys())));
   describe_section(schema, "tasks", entries_schema(mapping_schema(task_keys())));
-  describe_section(schema, "connections", {{"type", "array"}, {"items", {{"type", "string"}, {"pattern", arrow_pattern}}}});
+  describe_section(schema, "connections",
+                   {{"type", "array"}, {"items", {{"type", "string"}, {"pattern", arrow_pattern}}}});
   describe_section(schema, "platform", mapping_schema(platform_keys()));
   describe_section(schema, "profiles", {{"type", "object"}, {"additionalProperties", {{"type", "object"}}}});
   Json whole{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "A graph of Jarol"}};

@@ -146,7 +146,8 @@ tasks:
     const Result command = jarol("chek x");
     CHECK(command.exit_code == 2);
     CHECK(command.output ==
-          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, graph, run, schema, tasks\n");
+          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, graph, run, schema, "
+          "tasks\n");
     const Result missing = jarol("run no/such.yaml");
     CHECK(missing.exit_code == 2);
     CHECK(missing.output == "error: can't read 'no/such.yaml': No such file or directory\n1 error\n");

@@ -41,7 +41,8 @@ TEST_SUITE("tools/graph_schema") {
     for (const auto& entry : std::filesystem::directory_iterator("specs")) {
       if (entry.path().extension() != ".yaml") continue;
       ++seen;
-      CHECK_MESSAGE(text_of(entry.path()).starts_with("# yaml-language-server: $schema=graph.schema.json\n"), entry.path().string());
+      CHECK_MESSAGE(text_of(entry.path()).starts_with("# yaml-language-server: $schema=graph.schema.json\n"),
+                    entry.path().string());
     }
     CHECK(seen >= 3);
   }

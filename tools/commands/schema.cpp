@@ -8,10 +8,10 @@
 namespace jarol::tools {
 
 void add_schema(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "schema",
-      "Print the JSON Schema of graphs, for editors: jarol schema > specs/graph.schema.json.\n"
-      "A file names it in its first line: # yaml-language-server: $schema=graph.schema.json");
+  CLI::App* command =
+      app.add_subcommand("schema",
+                         "Print the JSON Schema of graphs, for editors: jarol schema > specs/graph.schema.json.\n"
+                         "A file names it in its first line: # yaml-language-server: $schema=graph.schema.json");
   command->callback([&exit_code] {
     std::cout << graph_schema();
     exit_code = exit_good;
