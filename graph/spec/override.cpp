@@ -38,6 +38,12 @@ bool holds_named_entries(const std::string& section) {
   return std::find(sections.begin(), sections.end(), section) != sections.end();
 }
 
+void set_source(Yaml& yaml, const std::shared_ptr<const Source>& source) {
+  yaml.where.source = source;
+  yaml.key_where.source = source;
+  for (Yaml& child : yaml.children) set_source(child, source);
+}
+
 }  // namespace
 
 void apply_override(Yaml& graph, const std::string& path, const Location& where, Yaml value, Problems& problems) {
@@ -86,20 +92,17 @@ void apply_set(Yaml& graph, const std::string& argument, Problems& problems) {
   if (equals == std::string::npos || equals == 0)
     return problems.add({source, 1, 1},
                         "'" + argument + "' is no override; write path=value, as in tasks.depth.period=20ms");
-  // the value alone is read as YAML, with its place kept by blanks
-  const auto value_source =
+  // the value alone is read as YAML; blanks in front of it keep its place in the argument
+  const auto padded =
       std::make_shared<Source>(Source{"--set", std::string(equals + 1, ' ') + argument.substr(equals + 1)});
   Problems of_value;
-  Yaml value = read_yaml(value_source, of_value);
-  try {
-    of_value.throw_if_any();
-  } catch (const SpecError& error) {
-    for (Problem problem : error.problems()) {
-      problem.where.source = source;
-      problems.add(problem.where, problem.text, problem.notes);
-    }
-    return;
+  Yaml value = read_yaml(padded, of_value);
+  for (Problem problem : of_value.list()) {
+    problem.where.source = source;
+    problems.add(problem.where, problem.text, problem.notes);
   }
+  if (!of_value.empty()) return;
+  set_source(value, source);
   apply_override(graph, argument.substr(0, equals), {source, 1, 1}, std::move(value), problems);
 }
 

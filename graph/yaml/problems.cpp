@@ -11,18 +11,28 @@ std::string place(const Location& where) {
   return where.source->name + ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
 }
 
-// The line and a caret below the column; tabs stay tabs, so that the caret stands where it should.
+constexpr std::size_t most_shown = 160;  // characters of a line
+
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+
+// The line and a caret below the column. Tabs stay tabs, so that the caret stands where it should; other control
+// characters are shown as dots, and of a long line only what surrounds the place.
 std::string excerpt(const Location& where) {
   if (!where.source) return "";
   const std::string_view line = line_of(*where.source, where.line);
-  std::string caret;
-  for (int i = 0; i + 1 < where.column; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    // bytes that continue a UTF-8 character take no column of their own
-    if (at < line.size() && (static_cast<unsigned char>(line[at]) & 0xc0) == 0x80) continue;
-    caret += at < line.size() && line[at] == '\t' ? '\t' : ' ';
+  const std::size_t at = std::min(static_cast<std::size_t>(std::max(where.column, 1) - 1), line.size());
+  std::size_t begin = at > most_shown - 40 ? at - (most_shown - 40) : 0;
+  std::size_t end = std::min(begin + most_shown, line.size());
+  while (begin > 0 && continues_character(line[begin])) --begin;
+  while (end < line.size() && continues_character(line[end])) ++end;
+  std::string shown(begin > 0 ? "..." : ""), caret(shown.size(), ' ');
+  for (std::size_t i = begin; i < end; ++i) {
+    const bool control = (line[i] >= 0 && line[i] < ' ' && line[i] != '\t') || line[i] == '\x7f';
+    shown += control ? '.' : line[i];
+    if (i < at && !continues_character(line[i])) caret += line[i] == '\t' ? '\t' : ' ';
   }
-  return "\n  " + std::string(line) + "\n  " + caret + "^";
+  if (end < line.size()) shown += "...";
+  return "\n  " + shown + "\n  " + caret + "^";
 }
 
 // Edit distance with swaps of neighbours (Damerau 1964, optimal string alignment).

@@ -35,6 +35,7 @@ class Problems {
   void add(Location where, std::string text, std::vector<Note> notes = {});
   bool empty() const { return problems_.empty(); }
   std::size_t size() const { return problems_.size(); }
+  const std::vector<Problem>& list() const { return problems_; }
 
   /// Throws SpecError with all problems, in the order of their places, unless there are none.
   void throw_if_any() const;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -221,6 +222,8 @@ Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) 
 std::shared_ptr<const Source> read_source(const std::string& path) {
   auto source = std::make_shared<Source>();
   source->name = path;
+  if (std::filesystem::is_directory(path))
+    throw SpecError({{{}, "can't read '" + path + "': it is a directory", {}}});
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;

@@ -45,7 +45,7 @@ TEST_SUITE("graph/spec/override") {
     CHECK(report_on(counting, {"", {"tasks.count.period=20"}}) ==
           "--set:1:20: error: task 'count' key 'period': '20' has no unit; write one of h, min, s, ms, us or ns, as in "
           "10ms\n"
-          "                     20\n"
+          "  tasks.count.period=20\n"
           "                     ^");
     CHECK(report_on(counting, {"", {"period"}}) ==
           "--set:1:1: error: 'period' is no override; write path=value, as in tasks.depth.period=20ms\n"

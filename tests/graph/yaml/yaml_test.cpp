@@ -111,6 +111,22 @@ TEST_SUITE("graph/yaml") {
                          "error: can't read 'no/such/file.yaml': No such file or directory", SpecError);
   }
 
+  TEST_CASE("a folder is no file") {
+    CHECK_THROWS_WITH_AS(read_source("specs"), "error: can't read 'specs': it is a directory", SpecError);
+  }
+
+  TEST_CASE("of a long line only what surrounds the place is shown, and nothing that could harm a terminal") {
+    const std::string before(300, 'x'), after(300, 'y');
+    CHECK(report_on("a: \"" + before + "\"\nb: 1\n\x1b[0m: 2\n").find('\x1b') == std::string::npos);
+    CHECK(report_on("{a" + before + ": 1, b: 2, b: 3, c" + after + ": 4}\n") ==
+          "t.yaml:1:314: error: key 'b' appears twice in one mapping; keep one\n"
+          "  ..." + std::string(109, 'x') + ": 1, b: 2, b: 3, c" + std::string(33, 'y') + "...\n"
+          "     " + std::string(120, ' ') + "^\n"
+          "t.yaml:1:308: note: first here\n"
+          "  ..." + std::string(115, 'x') + ": 1, b: 2, b: 3, c" + std::string(27, 'y') + "...\n"
+          "     " + std::string(120, ' ') + "^");
+  }
+
   TEST_CASE("a word close to a known one is suggested") {
     const std::vector<std::string> known{"period", "offset", "let"};
     CHECK(did_you_mean("peroid", known) == "; did you mean 'period'?");
