@@ -209,7 +209,7 @@ class Builder {
       task.heap = value_of(spec.heap);
       if (spec.on_fault) task.on_fault = spec.on_fault->value;
       if (spec.isolation) task.isolation = spec.isolation->value;
-      if (task.let && *task.let > task.period)
+      if (task.let && !spec.period.bad && *task.let > task.period)
         problems_.add(spec.let->where, subject + " has LET " + duration_text(*task.let) + " longer than its period " +
                                            duration_text(task.period));
       if (task.core && *task.core >= graph_.platform.cores)
@@ -292,8 +292,8 @@ class Builder {
     const std::string subject = "task '" + spec.name + "' (" + task.task_class->name + ")";
     const std::string noun = output ? "output" : "input";
     if (spec.field.empty()) {
-      problems_.add(spec.where, subject + " is written without its " + noun + "; write " + spec.name + "." + noun +
-                                    " with one of: " + list_of(field_names(fields)));
+      problems_.add(spec.where,
+                    subject + " is written without its " + noun + "; it has: " + list_of(field_names(fields)));
       return nullptr;
     }
     const TypeField* found = find_field(fields, spec.field);
@@ -323,6 +323,7 @@ class Builder {
       }
       if (from == nullptr || to == nullptr) {
         complete_ = false;
+        if (to == nullptr) misfed_.insert(spec.to.name);
         continue;
       }
       if (!same_type(*from, *to)) {
@@ -343,7 +344,7 @@ class Builder {
   void check_connected() {
     for (std::size_t i = 0; i < graph_.tasks.size(); ++i) {
       const Task& task = graph_.tasks[i];
-      if (task.task_class == nullptr) continue;
+      if (task.task_class == nullptr || misfed_.contains(task.name)) continue;
       const auto& inputs = task.task_class->in->fields;
       for (std::size_t field = 0; field < inputs.size(); ++field)
         if (!fed_.contains({End::Kind::task, i, field}))
@@ -354,7 +355,7 @@ class Builder {
     }
     for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
       const Communicator& c = graph_.communicators[i];
-      if (c.type == nullptr) continue;
+      if (c.type == nullptr || misfed_.contains(c.name)) continue;
       const bool used = c.direction == Direction::out
                             ? fed_.contains({End::Kind::communicator, i, 0})
                             : std::any_of(spec_.connections.begin(), spec_.connections.end(),
@@ -375,7 +376,8 @@ class Builder {
   Graph graph_;
   std::vector<Maybe<Duration>> declared_deadlines_;
   std::set<std::tuple<End::Kind, std::size_t, std::size_t>> fed_;
-  bool complete_ = true;  // order and deadlines make sense
+  std::set<std::string> misfed_;  // at the right of a connection that is wrong itself
+  bool complete_ = true;          // order and deadlines make sense
 };
 
 }  // namespace

@@ -96,6 +96,13 @@ void refuse_later_keys(Yaml& graph, Problems& problems) {
     problems.add(found->key_where, "'" + key + "' is not there yet; leave it out");
     std::erase_if(graph.children, [&](const Yaml& child) { return child.key == key; });
   }
+  for (Yaml& timing : graph.children) {
+    const Yaml* grammar = timing.key == "timing" ? timing.find("grammar") : nullptr;
+    if (grammar == nullptr || (grammar->text != "tt" && grammar->text != "htl" && grammar->text != "reactive"))
+      continue;
+    problems.add(grammar->where, "timing grammar '" + grammar->text + "' is not there yet; write let");
+    std::erase_if(timing.children, [](const Yaml& child) { return child.key == "grammar"; });
+  }
 }
 
 }  // namespace

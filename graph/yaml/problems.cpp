@@ -105,7 +105,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t d = distance(word, candidate);
-    if (d < least) {
+    if (d < least && d < word.size()) {
       least = d;
       best = &candidate;
     }

@@ -222,8 +222,7 @@ Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) 
 std::shared_ptr<const Source> read_source(const std::string& path) {
   auto source = std::make_shared<Source>();
   source->name = path;
-  if (std::filesystem::is_directory(path))
-    throw SpecError({{{}, "can't read '" + path + "': it is a directory", {}}});
+  if (std::filesystem::is_directory(path)) throw SpecError({{{}, "can't read '" + path + "': it is a directory", {}}});
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;

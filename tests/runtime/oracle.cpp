@@ -33,7 +33,9 @@ std::uint64_t hash_of(const std::string& name, std::int64_t instant, double valu
   return fold((n + fold(static_cast<std::uint64_t>(instant) ^ k[2], k[3]) + fold(word ^ k[4], k[5])) ^ k[0], k[1]);
 }
 
-bool acts_at(std::int64_t period, std::int64_t offset, std::int64_t t) { return t >= offset && (t - offset) % period == 0; }
+bool acts_at(std::int64_t period, std::int64_t offset, std::int64_t t) {
+  return t >= offset && (t - offset) % period == 0;
+}
 
 std::int64_t next_after(std::int64_t period, std::int64_t offset, std::int64_t t) {
   return t < offset ? offset : offset + ((t - offset) / period + 1) * period;
@@ -86,7 +88,8 @@ class Interpreter {
     ++result_.instants;
     // (1) outputs of LET tasks ending now
     for (const TaskModel& task : model_.tasks)
-      if (task.let && acts_at(task.period, task.offset + *task.let, t)) publish(t, task.name + ".out", pending_.at(task.name));
+      if (task.let && acts_at(task.period, task.offset + *task.let, t))
+        publish(t, task.name + ".out", pending_.at(task.name));
     // (2) outs, (3) ins
     for (const CommunicatorModel& c : model_.communicators)
       if (!c.in && acts_at(c.period, c.offset, t)) publish(t, c.name, published_.at(model_.source_of.at(c.name)));
@@ -162,7 +165,8 @@ std::map<std::string, std::int64_t> enumerate_deadlines(const Model& model) {
         for (const TaskModel& reader : model.tasks) {
           if (reader.name != owner(input)) continue;
           // before the reader's first release nothing is read, but the pattern repeats: only later releases count
-          if (release >= reader.offset) least = std::min(least, next_after(reader.period, reader.offset, release) - release);
+          if (release >= reader.offset)
+            least = std::min(least, next_after(reader.period, reader.offset, release) - release);
           if (acts_at(reader.period, reader.offset, release)) least = std::min(least, deadline_of(reader));
         }
         for (const CommunicatorModel& reader : model.communicators)

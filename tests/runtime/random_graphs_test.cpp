@@ -3,10 +3,10 @@
 
 #include <cstdlib>
 
+#include "runtime/executor.h"
 #include "tests/graph/graph_of.h"
 #include "tests/runtime/oracle.h"
 #include "tests/runtime/random_model.h"
-#include "runtime/executor.h"
 
 namespace {
 using namespace jarol;
@@ -35,7 +35,8 @@ std::string first_difference(const oracle::Trace& is, const oracle::Trace& shoul
     return std::to_string(instant) + " ns " + name + "=" + number_text(value);
   };
   for (std::size_t i = 0; i < std::max(is.size(), should.size()); ++i)
-    if (i >= is.size() || i >= should.size() || is[i] != should[i]) return "is " + text(is, i) + ", should be " + text(should, i);
+    if (i >= is.size() || i >= should.size() || is[i] != should[i])
+      return "is " + text(is, i) + ", should be " + text(should, i);
   return "";
 }
 
@@ -72,7 +73,9 @@ TEST_SUITE("runtime/random_graphs") {
       // another order of declaration, no recorder, and in pieces of random lengths
       const Graph shuffled = tests::graph_of(oracle::to_yaml(model, seed + 1));
       Executor pieces(shuffled, {});
-      for (Duration at{}; at < end; at += Duration(1 + static_cast<std::int64_t>((seed * 7919 + static_cast<std::uint64_t>(at.count())) % 9'000'000)))
+      for (Duration at{}; at < end;
+           at +=
+           Duration(1 + static_cast<std::int64_t>((seed * 7919 + static_cast<std::uint64_t>(at.count())) % 9'000'000)))
         pieces.run_until(at);
       pieces.run_until(end);
       REQUIRE(pieces.report().digest == should.digest);
@@ -80,7 +83,8 @@ TEST_SUITE("runtime/random_graphs") {
 
       for (const auto& [name, deadline] : oracle::enumerate_deadlines(model)) {
         CAPTURE(name);
-        const auto task = std::find_if(graph.tasks.begin(), graph.tasks.end(), [&, wanted = name](const Task& t) { return t.name == wanted; });
+        const auto task = std::find_if(graph.tasks.begin(), graph.tasks.end(),
+                                       [&, wanted = name](const Task& t) { return t.name == wanted; });
         REQUIRE(task->deadline.count() == deadline);
       }
     }

@@ -24,7 +24,8 @@ class Dice {
   }
   template <class T>
   void shuffle(std::vector<T>& list) {
-    for (std::size_t i = list.size(); i > 1; --i) std::swap(list[i - 1], list[static_cast<std::size_t>(below(static_cast<std::int64_t>(i)))]);
+    for (std::size_t i = list.size(); i > 1; --i)
+      std::swap(list[i - 1], list[static_cast<std::size_t>(below(static_cast<std::int64_t>(i)))]);
   }
 
  private:
@@ -125,10 +126,12 @@ std::string to_yaml(const Model& model, std::uint64_t shuffle) {
   Dice dice(shuffle);
   std::vector<std::string> tasks, communicators, connections;
   for (const TaskModel& t : model.tasks)
-    tasks.push_back("  " + t.name + ": {type: " + t.type + ", period: " + duration_text(t.period) + ", offset: " + duration_text(t.offset) +
-                    (t.let ? ", let: " + duration_text(*t.let) : "") + ", init: {out: " + std::to_string(t.init) + "}}\n");
+    tasks.push_back("  " + t.name + ": {type: " + t.type + ", period: " + duration_text(t.period) +
+                    ", offset: " + duration_text(t.offset) + (t.let ? ", let: " + duration_text(*t.let) : "") +
+                    ", init: {out: " + std::to_string(t.init) + "}}\n");
   for (const CommunicatorModel& c : model.communicators)
-    communicators.push_back("  " + c.name + ": {type: double, direction: " + (c.in ? "in, init: " + std::to_string(c.init) : "out") +
+    communicators.push_back("  " + c.name +
+                            ": {type: double, direction: " + (c.in ? "in, init: " + std::to_string(c.init) : "out") +
                             ", period: " + duration_text(c.period) + ", offset: " + duration_text(c.offset) + "}\n");
   for (const auto& [end, source] : model.source_of) connections.push_back("  - " + source + " -> " + end + "\n");
   dice.shuffle(tasks);

@@ -120,11 +120,18 @@ TEST_SUITE("graph/yaml") {
     CHECK(report_on("a: \"" + before + "\"\nb: 1\n\x1b[0m: 2\n").find('\x1b') == std::string::npos);
     CHECK(report_on("{a" + before + ": 1, b: 2, b: 3, c" + after + ": 4}\n") ==
           "t.yaml:1:314: error: key 'b' appears twice in one mapping; keep one\n"
-          "  ..." + std::string(109, 'x') + ": 1, b: 2, b: 3, c" + std::string(33, 'y') + "...\n"
-          "     " + std::string(120, ' ') + "^\n"
-          "t.yaml:1:308: note: first here\n"
-          "  ..." + std::string(115, 'x') + ": 1, b: 2, b: 3, c" + std::string(27, 'y') + "...\n"
-          "     " + std::string(120, ' ') + "^");
+          "  ..." +
+              std::string(109, 'x') + ": 1, b: 2, b: 3, c" + std::string(33, 'y') +
+              "...\n"
+              "     " +
+              std::string(120, ' ') +
+              "^\n"
+              "t.yaml:1:308: note: first here\n"
+              "  ..." +
+              std::string(115, 'x') + ": 1, b: 2, b: 3, c" + std::string(27, 'y') +
+              "...\n"
+              "     " +
+              std::string(120, ' ') + "^");
   }
 
   TEST_CASE("a word close to a known one is suggested") {
