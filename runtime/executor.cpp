@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <stdexcept>
 
 #include "graph/values/bind.h"
 
@@ -53,6 +54,10 @@ std::string to_text(const Fault& fault) {
 Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options)
     : graph_(graph), plan_(graph), channels_(std::move(channels)), options_(options) {
   assert(channels_.size() == graph.distributers.size());
+  for (const Output& output : plan_.outputs)
+    if (options.recorder != nullptr && output.type->size > Recorder::most_bytes)
+      throw std::length_error("output '" + output.name + "' has " + std::to_string(output.type->size) +
+                              " bytes; values of up to " + std::to_string(Recorder::most_bytes) + " can be recorded");
   const std::size_t groups = plan_.groups.size();
   due_.reserve(groups);
   cursors_.resize(groups);

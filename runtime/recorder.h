@@ -35,6 +35,10 @@ class Recorder {
  public:
   /// The sinks outlive the recorder.
   explicit Recorder(std::vector<RecordSink*> sinks);
+
+  /// Values up to this size can be recorded.
+  static constexpr std::size_t most_bytes = (std::size_t{256} << 10) - sizeof(RecordHeader);
+
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -53,7 +57,7 @@ class Recorder {
   void close();
 
  private:
-  static constexpr std::size_t chunk_bytes = std::size_t{256} << 10;
+  static constexpr std::size_t chunk_bytes = most_bytes + sizeof(RecordHeader);
   static constexpr std::size_t chunks = 8;
 
   void next_chunk(std::size_t needed);

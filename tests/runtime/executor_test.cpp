@@ -58,6 +58,16 @@ Graph echo_graph(const std::string& text) {
   problems.throw_if_any();
   return graph;
 }
+
+// More than a recorder's chunk holds.
+struct Huge {
+  static constexpr std::string_view summary = "for tests";
+  struct Out {
+    std::array<double, 40'000> out{};
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Tick&, Out&) {}
+};
 }  // namespace
 
 TEST_SUITE("runtime/executor") {
@@ -241,6 +251,18 @@ connections: [a.out -> b.in, b.out -> c.in, c.out -> d.in]
 )",
                               1s);
     CHECK(run.report.activations == 4002);
+  }
+
+  TEST_CASE("a value too large to be recorded is refused before the run, not cut") {
+    Registry registry;
+    registry.add(task_class<Huge>());
+    Problems problems;
+    const std::string text = "{graph: t, tasks: {h: {type: Huge, period: 1ms}}}";
+    const Graph graph =
+        build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
+    Recorder recorder({});
+    CHECK_THROWS_WITH_AS(Executor(graph, {}, {.digest = true, .recorder = &recorder}),
+                         "output 'h.out' has 320000 bytes; values of up to 262128 can be recorded", std::length_error);
   }
 
   TEST_CASE("the digest is the sum of one hash per publication") {

@@ -23,9 +23,7 @@ std::string text_of(const fs::path& path) {
 std::string report_on(const std::string& file) {
   try {
     jarol::tools::load_graph(file, {});
-  } catch (const jarol::SpecError& error) {
-    return error.what() + std::string("\n");
-  }
+  } catch (const jarol::SpecError& error) { return error.what() + std::string("\n"); }
   return "";
 }
 

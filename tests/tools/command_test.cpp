@@ -95,6 +95,12 @@ tasks:
     CHECK(digest_of(one + " --for 2s") == digest_of(two + " --for 2s"));
   }
 
+  TEST_CASE("of a graph with a weakly isolated task nothing is claimed, and that is said") {
+    CHECK(jarol("run specs/counting.yaml --for 1s --set tasks.sum.isolation=weak")
+              .output.find("nothing is claimed of the digest: task 'sum' is weakly isolated\n") != std::string::npos);
+    CHECK(jarol("run specs/counting.yaml --for 1s").output.find("claimed") == std::string::npos);
+  }
+
   TEST_CASE("a known digest stays what it was") {
     // a change here breaks every recorded run of every user
     CHECK(digest_of("specs/counting.yaml --for 10s") == "0xef44f03bd732a5ab");
@@ -176,6 +182,12 @@ tasks:
           "all inputs so far\n");
     CHECK(jarol("tasks Acumulate").exit_code == 2);
     CHECK(json_of("tasks --json")["tasks"].size() == 11);
+    CHECK(json_of("tasks --json")["distributers"].size() == 2);
+    CHECK(json_of("tasks LauvVehicle --json")["distributers"][0]["channels"][0] ==
+          nlohmann::json{{"name", "motion"},
+                         {"direction", "in"},
+                         {"type", "Motion"},
+                         {"text", "position, attitude and velocities"}});
   }
 
   TEST_CASE("graph prints the order of tasks and a drawing") {

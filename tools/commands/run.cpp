@@ -123,6 +123,9 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
   print_reached(graph, executor);
   std::cout << fmt::format("  activations {}, instants {}\n  digest      0x{:016x}\n", report.activations,
                            report.instants, report.digest);
+  for (const Task& task : graph.tasks)
+    if (task.isolation == Isolation::weak)
+      std::cout << "              nothing is claimed of the digest: task '" << task.name << "' is weakly isolated\n";
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
   if (!options.trace.empty()) std::cout << "  trace       " << options.trace << "\n";

@@ -73,6 +73,25 @@ nlohmann::ordered_json task_json(const TaskClass& task) {
           {"outputs", fields_json(*task.out)}};
 }
 
+nlohmann::ordered_json distributer_json(const DistributerClass& distributer) {
+  auto channels = nlohmann::ordered_json::array();
+  for (const ChannelClass& c : distributer.channels)
+    channels.push_back({{"name", c.name},
+                        {"direction", c.direction == Direction::in ? "in" : "out"},
+                        {"type", c.type->name},
+                        {"text", c.text}});
+  return {{"name", distributer.name}, {"summary", distributer.summary}, {"channels", channels}};
+}
+
+void print_json(const std::vector<TaskClass>& tasks, const std::vector<DistributerClass>& distributers) {
+  nlohmann::ordered_json whole{{"schema", "jarol.tasks/1"},
+                               {"tasks", nlohmann::ordered_json::array()},
+                               {"distributers", nlohmann::ordered_json::array()}};
+  for (const TaskClass& t : tasks) whole["tasks"].push_back(task_json(t));
+  for (const DistributerClass& d : distributers) whole["distributers"].push_back(distributer_json(d));
+  std::cout << whole << "\n";
+}
+
 void print_task(const TaskClass& task) {
   std::cout << task.name << ": " << task.summary << "\n";
   print_fields("parameters", *task.parameters, true);
@@ -104,25 +123,15 @@ void print_all() {
 
 int list_tasks(const Options& options) {
   if (options.name.empty()) {
-    if (!options.json) {
-      print_all();
-      return exit_good;
-    }
-    auto list = nlohmann::ordered_json::array();
-    for (const TaskClass& t : registry().tasks()) list.push_back(task_json(t));
-    std::cout << nlohmann::ordered_json{{"schema", "jarol.tasks/1"}, {"tasks", list}} << "\n";
+    options.json ? print_json(registry().tasks(), registry().distributers()) : print_all();
     return exit_good;
   }
   if (const TaskClass* task = registry().find_task(options.name)) {
-    if (options.json) {
-      std::cout << nlohmann::ordered_json{{"schema", "jarol.tasks/1"}, {"tasks", {task_json(*task)}}} << "\n";
-    } else {
-      print_task(*task);
-    }
+    options.json ? print_json({*task}, {}) : print_task(*task);
     return exit_good;
   }
-  if (const DistributerClass* distributer = registry().find_distributer(options.name); distributer && !options.json) {
-    print_distributer(*distributer);
+  if (const DistributerClass* distributer = registry().find_distributer(options.name)) {
+    options.json ? print_json({}, {*distributer}) : print_distributer(*distributer);
     return exit_good;
   }
   std::vector<std::string> names = names_of(registry().tasks());

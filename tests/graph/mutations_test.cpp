@@ -1,0 +1,40 @@
+// Damaged specs never crash the loader, and are either valid graphs or get a report.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "tests/graph/graph_of.h"
+#include "tests/graph/mutations.h"
+
+namespace {
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+}  // namespace
+
+TEST_SUITE("graph/mutations") {
+  TEST_CASE("twenty thousand damaged specs: no crash, no hang") {
+    const std::string counting = text_of("specs/counting.yaml"), exolauv = text_of("specs/exolauv.yaml");
+    REQUIRE(counting.size() > 100);
+    REQUIRE(exolauv.size() > 100);
+    const std::uint64_t count = std::getenv("JAROL_FULL") != nullptr ? 200'000 : 20'000;
+    std::uint64_t valid = 0, reported = 0;
+    for (std::uint64_t seed = 0; seed < count; ++seed) {
+      const std::string text = jarol::tests::mutate(seed % 2 == 0 ? counting : exolauv, seed);
+      CAPTURE(seed);
+      const auto start = std::chrono::steady_clock::now();
+      const std::string report = jarol::tests::report_on(text);
+      CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(1));
+      ++(report.empty() ? valid : reported);
+    }
+    MESSAGE(valid << " still valid, " << reported << " reported");
+    CHECK(valid > 10);
+    CHECK(reported > count / 2);
+  }
+}
