@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace jarol {
@@ -13,6 +14,7 @@ class Calendar {
  public:
   /// Adds a group, numbered in the order of adding: due at `first`, `first + period`, ... (ns).
   void add(std::int64_t first, std::int64_t period) {
+    due_.push_back(0);
     times_.push_back({first, period});
     least_ = std::min(least_, first);
     heap_.push_back(static_cast<std::uint32_t>(heap_.size()));
@@ -22,11 +24,8 @@ class Calendar {
   /// The next instant at which any group is due; the greatest integer if there is no group.
   std::int64_t next() const { return least_; }
 
-  /// The groups due at next(), least number first; next() then is the instant after it.
-  void take(std::vector<std::uint32_t>& due) {
-    due.clear();
-    times_.size() <= few ? take_by_scan(due) : take_by_heap(due);
-  }
+  /// The groups due at next(), least number first, until the next call; next() then is the instant after it.
+  std::span<const std::uint32_t> take() { return times_.size() <= few ? take_by_scan() : take_by_heap(); }
 
  private:
   // up to here a look at all is faster than a heap
@@ -48,33 +47,44 @@ class Calendar {
     }
   };
 
-  void take_by_scan(std::vector<std::uint32_t>& due) {
+  // without branches on what is due, which no processor could predict
+  std::span<const std::uint32_t> take_by_scan() {
     const std::int64_t now = least_;
-    least_ = std::numeric_limits<std::int64_t>::max();
-    for (std::uint32_t group = 0; group < times_.size(); ++group) {
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    std::size_t count = 0;
+    const auto groups = static_cast<std::uint32_t>(times_.size());
+    for (std::uint32_t group = 0; group < groups; ++group) {
       Time& time = times_[group];
-      if (time.next == now) {
-        due.push_back(group);
-        time.advance();
-      }
-      least_ = std::min(least_, time.next);
+      const bool is_due = time.next == now;
+      due_[count] = group;
+      count += is_due ? 1 : 0;
+      const auto later = static_cast<std::uint64_t>(time.next) + (is_due ? static_cast<std::uint64_t>(time.period) : 0);
+      time.next = later > greatest ? static_cast<std::int64_t>(greatest) : static_cast<std::int64_t>(later);
+      least = std::min(least, time.next);
     }
+    least_ = least;
+    return {due_.data(), count};
   }
 
-  void take_by_heap(std::vector<std::uint32_t>& due) {
+  std::span<const std::uint32_t> take_by_heap() {
     const std::int64_t now = least_;
+    std::size_t count = 0;
     while (times_[heap_.front()].next == now) {
       const std::uint32_t group = heap_.front();
-      due.push_back(group);
+      due_[count++] = group;
       std::pop_heap(heap_.begin(), heap_.end(), Later{times_});
       times_[group].advance();
       std::push_heap(heap_.begin(), heap_.end(), Later{times_});
     }
     least_ = times_[heap_.front()].next;
+    return {due_.data(), count};
   }
+
+  static constexpr auto greatest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
 
   std::vector<Time> times_;          // per group
   std::vector<std::uint32_t> heap_;  // of groups
+  std::vector<std::uint32_t> due_;   // room for all groups
   std::int64_t least_ = std::numeric_limits<std::int64_t>::max();
 };
 

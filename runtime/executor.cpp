@@ -59,7 +59,6 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
       throw std::length_error("output '" + output.name + "' has " + std::to_string(output.type->size) +
                               " bytes; values of up to " + std::to_string(Recorder::most_bytes) + " can be recorded");
   const std::size_t groups = plan_.groups.size();
-  due_.reserve(groups);
   cursors_.resize(groups);
   ticks_.resize(groups);
   outs_.reserve(graph.communicators.size());
@@ -92,7 +91,7 @@ void Executor::walk(Duration end) {
     if (interrupted_.load(std::memory_order_relaxed)) return;
     const std::int64_t instant = calendar_.next();
     now_.store(instant, std::memory_order_relaxed);
-    calendar_.take(due_);
+    due_ = calendar_.take();
     step_instant<Digest, Record>(instant);
     report_.instants += 1;
     report_.simulated = Duration(instant);
@@ -105,19 +104,15 @@ void Executor::walk(Duration end) {
 template <bool Digest, bool Record>
 void Executor::step_instant(std::int64_t instant) {
   const std::uint64_t instant_term = Digest ? digest::instant_term(instant) : 0;
-  outs_.clear();
-  ins_.clear();
-  for (const std::uint32_t g : due_) {
-    for (const CommunicatorAction& action : plan_.groups[g].outs) outs_.push_back(&action);
-    for (const CommunicatorAction& action : plan_.groups[g].ins) ins_.push_back(&action);
-  }
+  if (!last_.empty()) gather_communicators();
   // step 0: external systems reach this instant with the inputs they held before it
   if (!outs_.empty() || !ins_.empty())
     for (const auto& channels : channels_) channels->reach(Duration(instant));
   // step 1: outputs of LET tasks that end now
+  Outcome* const outcomes = plan_.outcomes.data();  // read once: the copies may alias anything
   for (const std::uint32_t g : due_)
     for (const LetEnd& let_end : plan_.groups[g].let_ends) {
-      Outcome& outcome = plan_.outcomes[let_end.task];
+      Outcome& outcome = outcomes[let_end.task];
       if (outcome == Outcome::good) [[likely]] {
         publish<Digest, Record>(let_end.publish, instant, instant_term);
       } else {
@@ -126,12 +121,10 @@ void Executor::step_instant(std::int64_t instant) {
       }
     }
   // steps 2 and 3: communicators, by name
-  sort_by_name(outs_);
   for (const CommunicatorAction* out : outs_) {
     hand_over(*out);
     publish<Digest, Record>(out->publish, instant, instant_term);
   }
-  sort_by_name(ins_);
   for (const CommunicatorAction* in : ins_) {
     take(*in);
     publish<Digest, Record>(in->publish, instant, instant_term);
@@ -145,6 +138,18 @@ void Executor::step_instant(std::int64_t instant) {
   } else {
     run_stages<Digest, Record>(instant, instant_term);
   }
+}
+
+// The communicators due now, by name.
+void Executor::gather_communicators() {
+  outs_.clear();
+  ins_.clear();
+  for (const std::uint32_t g : due_) {
+    for (const CommunicatorAction& action : plan_.groups[g].outs) outs_.push_back(&action);
+    for (const CommunicatorAction& action : plan_.groups[g].ins) ins_.push_back(&action);
+  }
+  sort_by_name(outs_);
+  sort_by_name(ins_);
 }
 
 // Several groups: the segments of the lowest stage of all, then those of the next.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -71,6 +71,7 @@ class Executor {
   void run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term);
   template <bool Digest, bool Record>
   void run_stages(std::int64_t instant, std::uint64_t instant_term);
+  void gather_communicators();
   void hand_over(const CommunicatorAction& out);
   void take(const CommunicatorAction& in);
   void on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick);
@@ -81,7 +82,7 @@ class Executor {
   std::vector<std::unique_ptr<Channels>> channels_;
   ExecutorOptions options_;
   Calendar calendar_;                                  // when each group is due
-  std::vector<std::uint32_t> due_;                     // groups due now
+  std::span<const std::uint32_t> due_;                 // groups due now, in the calendar
   std::vector<const Segment*> cursors_;                // of the groups due now
   std::vector<Tick> ticks_;                            // of the groups due now
   std::vector<const CommunicatorAction*> outs_, ins_;  // due now

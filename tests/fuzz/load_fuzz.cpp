@@ -1,4 +1,5 @@
-// Coverage-guided: any bytes as a graph. Build with -DJAROL_FUZZ=ON and clang, run: load_fuzz -max_len=4096 CORPUS specs
+// Coverage-guided: any bytes as a graph. Build with -DJAROL_FUZZ=ON and clang, run: load_fuzz -max_len=4096 CORPUS
+// specs
 #include <cstddef>
 #include <cstdint>
 

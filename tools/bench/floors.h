@@ -11,7 +11,7 @@ namespace jarol::bench {
 /// One place of a plain loop, laid out as densely as a task.
 struct alignas(64) Place {
   Message in;
-  double state = 0;
+  Filter state;
   Message out;
   Message published;
 };

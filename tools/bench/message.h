@@ -1,4 +1,4 @@
-// What the benchmarks run: tasks that pass a message of 64 bytes on, with a body of a few additions.
+// What the benchmarks run: tasks that pass a message of 64 bytes on, with the body of a small filter.
 #pragma once
 
 #include <array>
@@ -13,20 +13,24 @@ struct Message {
   static constexpr auto fields() { return describe(field<&Message::words>()); }
 };
 
-/// The body that tasks and floors share; in a unit of its own, as a user's task would be.
-void pass_on(const Message& in, double& state, Message& out);
+struct Filter {
+  std::array<double, 7> mean{};
+  double count = 0;
+  static constexpr auto fields() { return describe(field<&Filter::mean>(), field<&Filter::count>()); }
+};
+
+/// The body that tasks and floors share, in a unit of its own, as a user's task would be: a first-order low-pass on
+/// seven channels, and a count.
+void pass_on(const Message& in, Filter& state, Message& out);
 
 struct Source {
   static constexpr std::string_view summary = "begins a chain or a fan";
-  struct State {
-    double count = 0;
-    static constexpr auto fields() { return describe(field<&State::count>()); }
-  };
+  using State = Filter;
   struct Out {
     Message out{};
     static constexpr auto fields() { return describe(field<&Out::out>()); }
   };
-  static void run(const Tick&, State& state, Out& out) { pass_on({}, state.count, out.out); }
+  static void run(const Tick&, State& state, Out& out) { pass_on({}, state, out.out); }
 };
 
 struct Stage {
@@ -35,15 +39,12 @@ struct Stage {
     Message in{};
     static constexpr auto fields() { return describe(field<&In::in>()); }
   };
-  struct State {
-    double count = 0;
-    static constexpr auto fields() { return describe(field<&State::count>()); }
-  };
+  using State = Filter;
   struct Out {
     Message out{};
     static constexpr auto fields() { return describe(field<&Out::out>()); }
   };
-  static void run(const Tick&, const In& in, State& state, Out& out) { pass_on(in.in, state.count, out.out); }
+  static void run(const Tick&, const In& in, State& state, Out& out) { pass_on(in.in, state, out.out); }
 };
 
 /// Throws at every activation.
