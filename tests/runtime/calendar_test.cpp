@@ -34,7 +34,8 @@ TEST_SUITE("runtime/calendar") {
       for (std::int64_t instant = 0; instant < 500; ++instant) {
         std::vector<std::uint32_t> expected;
         for (std::int64_t g = 0; g < groups; ++g)
-          if (instant >= first(g) && (instant - first(g)) % period(g) == 0) expected.push_back(static_cast<std::uint32_t>(g));
+          if (instant >= first(g) && (instant - first(g)) % period(g) == 0)
+            expected.push_back(static_cast<std::uint32_t>(g));
         if (expected.empty()) {
           REQUIRE(calendar.next() != instant);
           continue;
@@ -54,5 +55,7 @@ TEST_SUITE("runtime/calendar") {
     CHECK(calendar.next() == std::numeric_limits<std::int64_t>::max());
   }
 
-  TEST_CASE("without groups there is no next instant") { CHECK(Calendar().next() == std::numeric_limits<std::int64_t>::max()); }
+  TEST_CASE("without groups there is no next instant") {
+    CHECK(Calendar().next() == std::numeric_limits<std::int64_t>::max());
+  }
 }

@@ -147,6 +147,26 @@ tasks:
     CHECK(jarol("check " + bad).output.ends_with(bad + ": 2 errors\n"));
   }
 
+  TEST_CASE("a fault stops the run, is told with task, activation, instant and cause, and exits with 3") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+timing: {period: 10ms}
+communicators:
+  i: {type: double, direction: in, init: 1e308}
+tasks:
+  sum: {type: Accumulate}
+connections: [i -> sum.in]
+)");
+    const Result result = jarol("run " + file + " --for 1s");
+    CHECK(result.exit_code == 3);
+    CHECK(result.output.find("fault: task 'sum' activation 1 at 0.01 s: output 'out' is inf\n") != std::string::npos);
+    const auto run = nlohmann::json::parse(jarol("run " + file + " --for 1s --json").output);
+    CHECK(run["faults"] ==
+          nlohmann::json::parse(
+              R"([{"task": "sum", "activation": 1, "instant_ns": 10000000, "cause": "output 'out' is inf"}])"));
+    CHECK(jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold").exit_code == 0);
+  }
+
   TEST_CASE("usage errors and unreadable files exit with 2 and a sentence") {
     CHECK(jarol("").exit_code == 2);
     const Result command = jarol("chek x");
