@@ -81,11 +81,12 @@ TEST_SUITE("runtime/random_graphs") {
       REQUIRE(pieces.report().digest == should.digest);
       REQUIRE(pieces.report().activations == should.activations);
 
-      for (const auto& [name, deadline] : oracle::enumerate_deadlines(model)) {
+      for (const auto& found : oracle::enumerate_deadlines(model)) {
+        const std::string& name = found.first;
         CAPTURE(name);
-        const auto task = std::find_if(graph.tasks.begin(), graph.tasks.end(),
-                                       [&, wanted = name](const Task& t) { return t.name == wanted; });
-        REQUIRE(task->deadline.count() == deadline);
+        const auto task =
+            std::find_if(graph.tasks.begin(), graph.tasks.end(), [&](const Task& t) { return t.name == name; });
+        REQUIRE(task->deadline.count() == found.second);
       }
     }
   }
