@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <numbers>
-#include <stdexcept>
 #include <string_view>
+
+#include "tools/whole_file.h"
 
 namespace jarol::tools {
 namespace {
@@ -30,9 +28,6 @@ constexpr std::string_view commanded_stroke = R"(stroke="#D55E00" stroke-width="
 
 constexpr std::string_view title_font = R"(font-size="14" font-weight="bold" fill="#1F2933")";
 
-constexpr std::size_t most_spans = std::size_t{1} << 14;
-constexpr std::size_t most_points = 2000;
-constexpr double most_value = 1e300;  // what lies beyond can't be scaled without overflow
 constexpr double degrees = 180.0 / std::numbers::pi;
 
 // Pixels with at most two decimals.
@@ -148,18 +143,6 @@ std::string name_of(const Panel& panel) {
 
 bool is_angle(std::string_view unit) { return unit == "rad" || unit.starts_with("rad/") || unit.starts_with("rad "); }
 
-double read_number(const Leaf& leaf, const void* value) {
-  const void* at = static_cast<const std::byte*>(value) + leaf.offset;
-  if (leaf.type->kind == Kind::floating) return read_floating(*leaf.type, at);
-  const std::int64_t integer = read_integer(*leaf.type, at);
-  if (leaf.type->kind == Kind::unsigned_integer) return static_cast<double>(static_cast<std::uint64_t>(integer));
-  return static_cast<double>(integer);
-}
-
-[[noreturn]] void fail(const std::string& path, int reason) {
-  throw std::runtime_error("can't write '" + path + "': " + std::strerror(reason));
-}
-
 }  // namespace
 
 // Writes shapes and texts.
@@ -178,18 +161,18 @@ class PlotSvg::Pen {
     svg.append("<path ").append(stroke).append(" d=\"M" + px(x1) + "," + px(y) + "H" + px(x2) + "\"/>\n");
   }
 
-  void curve(const Curve& curve, const std::vector<Point>& points, const Axis& x, const Axis& y,
+  void curve(const PlotCurve& curve, const std::vector<PlotCurve::Point>& points, const Axis& x, const Axis& y,
              std::string_view stroke) {
     path_.clear();
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Point& b = points[i];
+      const PlotCurve::Point& b = points[i];
       const double x_b = x.place(static_cast<double>(b.instant) * 1e-9);
       const double y_b = y.place(b.value);
       if (i == 0) {
         start(x_b, y_b);
         continue;
       }
-      const Point& a = points[i - 1];
+      const PlotCurve::Point& a = points[i - 1];
       if (curve.held) go_on(x_b, y.place(a.value));
       if (a.turn == b.turn) {
         go_on(x_b, y_b);
@@ -277,7 +260,7 @@ PlotSvg::PlotSvg(std::string path, std::string title, std::vector<Panel> panels)
 }
 
 std::size_t PlotSvg::add_curve(std::uint32_t output, const Leaf& leaf, const Drawing& drawing, bool held) {
-  Curve curve;
+  PlotCurve curve;
   curve.leaf = leaf;
   if (is_angle(leaf.unit.empty() ? drawing.panel.unit : leaf.unit)) curve.factor = degrees;
   if (leaf.type->kind == Kind::duration) curve.factor = 1e-9;
@@ -293,72 +276,7 @@ std::size_t PlotSvg::add_curve(std::uint32_t output, const Leaf& leaf, const Dra
 void PlotSvg::take(Duration instant, std::uint32_t output, const void* value) {
   end_ = std::max(end_, instant.count());
   if (output >= curves_of_.size()) return;
-  for (const std::size_t i : curves_of_[output]) {
-    Curve& curve = curves_[i];
-    curve.add(instant.count(), read_number(curve.leaf, value) * curve.factor);
-  }
-}
-
-void PlotSvg::Span::widen(const Span& next) {
-  const auto straight = [](const Point& p) { return p.value + 360.0 * static_cast<double>(p.turn); };
-  if (straight(next.low) < straight(low)) low = next.low;
-  if (straight(next.high) > straight(high)) high = next.high;
-  last = next.last;
-}
-
-void PlotSvg::Curve::add(std::int64_t instant, double value) {
-  if (!(std::abs(value) < most_value)) return;  // nor what is no number
-  if (heading && std::abs(value) > 180) value -= 360 * std::ceil((value - 180) / 360);
-  Point point{instant, value, 0};
-  if (!spans.empty()) {
-    const Point& before = spans.back().last;
-    point.turn = before.turn;
-    if (angle && std::abs(value - before.value) > 180) point.turn += value < before.value ? 1 : -1;
-    if (held && value == before.value) return;
-  }
-  const Span span{point, point, point};
-  if (!spans.empty() && samples_in_last < samples_per_span) {
-    spans.back().widen(span);
-    ++samples_in_last;
-    return;
-  }
-  // full: pairs become one, and from now on a span takes twice as many samples
-  if (spans.size() == most_spans) {
-    for (std::size_t i = 0; i < most_spans / 2; ++i) {
-      Span pair = spans[2 * i];
-      pair.widen(spans[2 * i + 1]);
-      spans[i] = pair;
-    }
-    spans.resize(most_spans / 2);
-    samples_per_span *= 2;
-  }
-  spans.push_back(span);
-  samples_in_last = 1;
-}
-
-std::vector<PlotSvg::Point> PlotSvg::Curve::points(std::int64_t end) const {
-  std::vector<Span> drawn;
-  const bool all = samples_per_span == 1 && spans.size() <= most_points;
-  // else one span for each column of the picture, up to three points of each
-  constexpr std::size_t columns = most_points / 3;
-  std::size_t column_before = columns;
-  for (const Span& span : spans) {
-    const double part = static_cast<double>(span.last.instant) / static_cast<double>(std::max<std::int64_t>(end, 1));
-    const std::size_t column = std::min(columns - 1, static_cast<std::size_t>(part * columns));
-    if (all || drawn.empty() || column != column_before) {
-      drawn.push_back(span);
-    } else {
-      drawn.back().widen(span);
-    }
-    column_before = column;
-  }
-  std::vector<Point> points;
-  for (const Span& span : drawn) {
-    const bool rises = span.low.instant < span.high.instant;
-    for (const Point& p : {rises ? span.low : span.high, rises ? span.high : span.low, span.last})
-      if (points.empty() || points.back().instant < p.instant) points.push_back(p);
-  }
-  return points;
+  for (const std::size_t i : curves_of_[output]) { curves_[i].add(instant.count(), value); }
 }
 
 void PlotSvg::draw(const Drawing& drawing, double top, Pen& pen) const {
@@ -366,13 +284,13 @@ void PlotSvg::draw(const Drawing& drawing, double top, Pen& pen) const {
   const bool angle = curves_[drawing.curves[0]].angle;
   bool whole_numbers = true;
   bool crosses = false;
-  double least = most_value;
-  double most = -most_value;
-  std::vector<std::vector<Point>> lines;
+  double least = PlotCurve::most_value;
+  double most = -PlotCurve::most_value;
+  std::vector<std::vector<PlotCurve::Point>> lines;
   for (const std::size_t i : drawing.curves) {
-    const Curve& curve = curves_[i];
+    const PlotCurve& curve = curves_[i];
     lines.push_back(curve.points(end_));
-    for (const Point& p : lines.back()) {
+    for (const PlotCurve::Point& p : lines.back()) {
       least = std::min(least, p.value);
       most = std::max(most, p.value);
       crosses = crosses || (curve.heading && p.turn != 0);
@@ -459,18 +377,9 @@ std::string PlotSvg::text() const {
 }
 
 void PlotSvg::finish() {
-  const std::string picture = text();
-  const std::string partial = path_ + ".part";
-  std::FILE* file = std::fopen(partial.c_str(), "wb");
-  if (file == nullptr) fail(path_, errno);
-  errno = 0;
-  const bool whole = std::fwrite(picture.data(), 1, picture.size(), file) == picture.size();
-  const int reason = errno;
-  const bool closed = std::fclose(file) == 0;
-  if (whole && closed && std::rename(partial.c_str(), path_.c_str()) == 0) return;
-  const int failure = whole ? errno : reason;
-  std::remove(partial.c_str());
-  fail(path_, failure);
+  WholeFile file(path_);
+  file.write(text());
+  file.commit();
 }
 
 }  // namespace jarol::tools

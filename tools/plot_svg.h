@@ -10,6 +10,7 @@
 
 #include "graph/values/bind.h"
 #include "runtime/recorder.h"
+#include "tools/plot_curve.h"
 
 namespace jarol::tools {
 
@@ -36,31 +37,6 @@ class PlotSvg : public RecordSink {
   std::string text() const;
 
  private:
-  struct Point {
-    std::int64_t instant = 0;  // ns
-    double value = 0;          // in the unit shown
-    std::int64_t turn = 0;     // whole turns that make a wrapped angle continuous again
-  };
-  // What is kept of consecutive samples.
-  struct Span {
-    Point low;
-    Point high;
-    Point last;
-    void widen(const Span& next);
-  };
-  struct Curve {
-    Leaf leaf;
-    double factor = 1;     // from the value's unit to the one shown
-    bool angle = false;    // in degrees
-    bool heading = false;  // shown from -180 to 180
-    bool held = false;     // drawn as steps
-    std::vector<Span> spans;
-    std::uint64_t samples_per_span = 1;
-    std::uint64_t samples_in_last = 0;
-
-    void add(std::int64_t instant, double value);
-    std::vector<Point> points(std::int64_t end) const;
-  };
   struct Drawing {
     Panel panel;
     std::string unit;  // shown
@@ -75,7 +51,7 @@ class PlotSvg : public RecordSink {
   std::string path_;
   std::string title_;
   std::vector<Drawing> drawings_;
-  std::vector<Curve> curves_;
+  std::vector<PlotCurve> curves_;
   std::vector<std::vector<std::size_t>> curves_of_;  // per output
   std::int64_t end_ = 0;                             // last instant of the run
 };

@@ -1,20 +1,11 @@
 #include "tools/trace_csv.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <stdexcept>
 
 #include "graph/yaml/quantities.h"
 
 namespace jarol::tools {
 namespace {
-
-std::string partial(const std::string& path) { return path + ".part"; }
-
-[[noreturn]] void fail(const std::string& path) {
-  throw std::runtime_error("can't write '" + path + "': " + std::strerror(errno));
-}
 
 // Truth values and enumerators as numbers: what plots and other programs read.
 std::string cell_text(const Type& type, const void* value) {
@@ -24,7 +15,7 @@ std::string cell_text(const Type& type, const void* value) {
 
 }  // namespace
 
-TraceCsv::TraceCsv(std::string path, const std::vector<Output>& outputs) : path_(std::move(path)) {
+TraceCsv::TraceCsv(std::string path, const std::vector<Output>& outputs) : file_(std::move(path)) {
   struct Column {
     std::string name;
     std::size_t output;
@@ -45,15 +36,7 @@ TraceCsv::TraceCsv(std::string path, const std::vector<Output>& outputs) : path_
     targets_[columns[i].output].push_back({columns[i].leaf, i});
   }
   title += "\n";
-  file_ = std::fopen(partial(path_).c_str(), "wb");
-  if (file_ == nullptr) fail(path_);
-  std::fwrite(title.data(), 1, title.size(), file_);
-}
-
-TraceCsv::~TraceCsv() {
-  if (file_ == nullptr) return;
-  std::fclose(file_);
-  std::remove(partial(path_).c_str());
+  file_.write(title);
 }
 
 void TraceCsv::take(Duration instant, std::uint32_t output, const void* value) {
@@ -66,14 +49,7 @@ void TraceCsv::take(Duration instant, std::uint32_t output, const void* value) {
 
 void TraceCsv::finish() {
   if (pending_) write_row();
-  const bool good = std::fflush(file_) == 0 && std::ferror(file_) == 0;
-  if (std::fclose(std::exchange(file_, nullptr)) != 0 || !good ||
-      std::rename(partial(path_).c_str(), path_.c_str()) != 0) {
-    const int reason = errno;
-    std::remove(partial(path_).c_str());
-    errno = reason;
-    fail(path_);
-  }
+  file_.commit();
 }
 
 void TraceCsv::write_row() {
@@ -84,7 +60,7 @@ void TraceCsv::write_row() {
     cell.clear();
   }
   row_ += '\n';
-  if (std::fwrite(row_.data(), 1, row_.size(), file_) != row_.size()) fail(path_);
+  file_.write(row_);
 }
 
 }  // namespace jarol::tools

@@ -1,23 +1,22 @@
 // The trace as CSV: a row per instant, a column per published number.
 #pragma once
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "graph/values/bind.h"
 #include "runtime/plan.h"
 #include "runtime/recorder.h"
+#include "tools/whole_file.h"
 
 namespace jarol::tools {
 
 /// Columns: `time` (s, exact), then `task.output`, `task.output.field`, `communicator` or `communicator.field` in
-/// bytewise order. An empty cell: not published at that instant. Written under a temporary name until it is whole.
+/// bytewise order. An empty cell: not published at that instant. The file appears when it is whole.
 class TraceCsv : public RecordSink {
  public:
   /// Throws std::runtime_error if the file can't be made.
   TraceCsv(std::string path, const std::vector<Output>& outputs);
-  ~TraceCsv() override;
 
   void take(Duration instant, std::uint32_t output, const void* value) override;
   void finish() override;
@@ -30,8 +29,7 @@ class TraceCsv : public RecordSink {
     std::size_t column = 0;
   };
 
-  std::string path_;
-  std::FILE* file_ = nullptr;
+  WholeFile file_;
   std::vector<std::vector<Target>> targets_;  // per output
   std::vector<std::string> cells_;
   Duration instant_{};
