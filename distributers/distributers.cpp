@@ -1,5 +1,6 @@
 #include "distributers/distributers.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "distributers/lauv_vehicle.h"
@@ -10,6 +11,26 @@
 
 namespace jarol::distributers {
 namespace {
+
+// A kind of external system; one without an adapter speaks no messages yet and can only be played from a script.
+struct DistributerKind {
+  DistributerClass description;
+  std::unique_ptr<Adapter> (*make_adapter)() = nullptr;
+};
+
+const std::vector<DistributerKind>& kinds() {
+  static const std::vector<DistributerKind> all{
+      {LauvVehicle::describe_class(), []() -> std::unique_ptr<Adapter> { return std::make_unique<LauvVehicle>(); }},
+      {describe_lauv_operator(), nullptr},
+  };
+  return all;
+}
+
+const DistributerKind& kind_of(const Distributer& distributer) {
+  return *std::find_if(kinds().begin(), kinds().end(), [&](const DistributerKind& kind) {
+    return kind.description.name == distributer.distributer_class->name;
+  });
+}
 
 struct SimulationSpec {
   Maybe<std::string> type, vehicle;
@@ -110,7 +131,7 @@ std::unique_ptr<Channels> make_simulation(const Graph& graph, std::size_t index,
   try {
     auto made = found->make(parameters.data());
     check_grid(graph, index, *made, problems);
-    return std::make_unique<SimulationChannels>(std::move(made), std::make_unique<LauvVehicle>());
+    return std::make_unique<SimulationChannels>(std::move(made), kind_of(distributer).make_adapter());
   } catch (const std::exception& error) {
     problems.add(spec.vehicle->where, name + " can't be made: " + error.what());
     return nullptr;
@@ -130,8 +151,7 @@ std::unique_ptr<Channels> make_script(const Graph& graph, std::size_t index, Pro
 }  // namespace
 
 void add_distributers(Registry& registry) {
-  registry.add(describe_lauv_operator());
-  registry.add(LauvVehicle::describe_class());
+  for (const DistributerKind& kind : kinds()) registry.add(kind.description);
 }
 
 std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
@@ -142,16 +162,15 @@ std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
     const Distributer& distributer = graph.distributers[i];
     all.emplace_back();
     if (distributer.distributer_class == nullptr || distributer.link.kind != Yaml::Kind::mapping) continue;
-    // a vehicle can be simulated; any operator can be played from a script
-    const bool is_vehicle = distributer.distributer_class->name == "LauvVehicle";
+    const bool speaks_messages = kind_of(distributer).make_adapter != nullptr;
     const std::vector<std::string> links =
-        is_vehicle ? std::vector<std::string>{"simulation", "script"} : std::vector<std::string>{"script"};
+        speaks_messages ? std::vector<std::string>{"simulation", "script"} : std::vector<std::string>{"script"};
     const std::string subject = "link of distributer '" + distributer.name + "'";
     const Yaml* type = distributer.link.find("type");
     if (type == nullptr) {
       problems.add(distributer.link.where, subject + " lacks the key 'type'; a " + distributer.distributer_class->name +
                                                " can have: " + list_of(links));
-    } else if (type->text == "simulation" && is_vehicle) {
+    } else if (type->text == "simulation" && speaks_messages) {
       all.back() = make_simulation(graph, i, vehicles, problems);
     } else if (type->text == "script") {
       all.back() = make_script(graph, i, problems);

@@ -3,19 +3,12 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 #include "tests/graph/graph_of.h"
 #include "tests/graph/mutations.h"
 
 namespace {
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+std::string text_of(const std::string& path) { return jarol::read_source(path)->text; }
 }  // namespace
 
 TEST_SUITE("graph/mutations") {

@@ -3,22 +3,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <vector>
 
 #include "graph/yaml/problems.h"
+#include "graph/yaml/yaml.h"
 #include "tools/load_graph.h"
 
 namespace {
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+std::string text_of(const fs::path& path) { return jarol::read_source(path.string())->text; }
 
 std::string report_on(const std::string& file) {
   try {

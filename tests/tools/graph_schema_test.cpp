@@ -3,19 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "graph/spec/tables.h"
+#include "graph/yaml/yaml.h"
 
 namespace {
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+std::string text_of(const std::string& path) { return jarol::read_source(path)->text; }
 }  // namespace
 
 TEST_SUITE("tools/graph_schema") {

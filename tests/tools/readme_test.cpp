@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 #include <string>
+
+#include "graph/yaml/yaml.h"
 
 namespace {
 std::string output_of(const std::string& arguments) {
@@ -17,12 +17,7 @@ std::string output_of(const std::string& arguments) {
   return output;
 }
 
-std::string readme() {
-  std::ifstream file("README.md");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+std::string readme() { return jarol::read_source("README.md")->text; }
 }  // namespace
 
 TEST_SUITE("tools/readme") {

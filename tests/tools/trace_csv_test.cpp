@@ -3,22 +3,16 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "graph/values/type_of.h"
+#include "graph/yaml/yaml.h"
 #include "tasks/values/lauv.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tools;
 
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+std::string text_of(const std::string& path) { return jarol::read_source(path)->text; }
 
 std::string temporary(const std::string& name) { return (std::filesystem::temp_directory_path() / name).string(); }
 }  // namespace
