@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "graph/deadlines.h"
+#include "graph/heaps.h"
 #include "graph/values/bind.h"
 
 namespace jarol {
@@ -46,6 +47,7 @@ class Builder {
     if (complete_) {
       graph_.order = data_flow_order(graph_, problems_);
       set_deadlines(graph_, declared_deadlines_, problems_);
+      check_heaps(graph_, problems_);
     }
     return std::move(graph_);
   }
@@ -206,7 +208,6 @@ class Builder {
       task.wcet = value_of(spec.wcet);
       task.priority = value_of(spec.priority);
       task.core = value_of(spec.core);
-      task.heap = value_of(spec.heap);
       if (spec.on_fault) task.on_fault = spec.on_fault->value;
       if (spec.isolation) task.isolation = spec.isolation->value;
       if (task.let && !spec.period.bad && *task.let > task.period)
@@ -217,6 +218,14 @@ class Builder {
                                             ", but the platform has " + std::to_string(graph_.platform.cores) +
                                             " (counted from 0)");
       resolve_task_class(spec, subject, task);
+      if (spec.heap) {
+        constexpr std::int64_t most = std::int64_t{1} << 30;
+        if (spec.heap->value > most)
+          problems_.add(spec.heap->where, subject + " has a heap of more than 1GiB, the largest there is");
+        task.heap = static_cast<std::size_t>(std::min(spec.heap->value, most));
+      } else if (task.task_class != nullptr && task.task_class->is_deep()) {
+        task.heap = default_heap;
+      }
       declared_deadlines_.push_back(spec.deadline);
       graph_.tasks.push_back(std::move(task));
     }

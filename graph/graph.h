@@ -10,6 +10,8 @@
 
 namespace jarol {
 
+constexpr std::size_t default_heap = std::size_t{64} << 10;  // bytes
+
 struct Task {
   std::string name;
   Location where;
@@ -21,7 +23,7 @@ struct Task {
   std::optional<Duration> wcet;
   std::optional<std::int64_t> priority;  // smaller is more urgent
   std::optional<std::int64_t> core;
-  std::optional<std::int64_t> heap;  // bytes
+  std::size_t heap = 0;  // bytes; of a task that needs one and does not say how large, `default_heap`
   OnFault on_fault = OnFault::stop;
   Isolation isolation = Isolation::strong;
   Value parameters;

@@ -18,7 +18,7 @@ struct Tick {
 };
 
 /// How an activation ended; `left_out`: it never ran, as one before it was faulty.
-enum class Outcome : std::uint8_t { good, threw, non_finite, left_out };
+enum class Outcome : std::uint8_t { good, threw, heap_exhausted, non_finite, left_out };
 
 /// First characters of what a task threw.
 struct FaultText {
@@ -52,6 +52,9 @@ struct TaskClass {
   const Type* state = nullptr;
   const Type* out = nullptr;
   Thunk run = nullptr;
+
+  /// Has values of changing size, which need a heap.
+  bool is_deep() const { return in->is_deep() || state->is_deep() || out->is_deep(); }
 };
 
 namespace detail {
@@ -108,8 +111,6 @@ inline void call(const TaskMemory& memory, const Tick& tick) {
                                     present<decltype(out_of<T>())>(memory.out)));
 }
 
-inline void keep_text(FaultText& fault, const char* text) { std::strncpy(fault.text, text, sizeof fault.text - 1); }
-
 inline void keep_threw(FaultText& fault, const char* what) {
   constexpr std::string_view threw = "threw: ";
   keep_text(fault, threw);
@@ -120,6 +121,9 @@ template <class T>
 Outcome thunk(const TaskMemory& memory, const Tick& tick) {
   try {
     call<T>(memory, tick);
+  } catch (const HeapExhausted& error) {
+    keep_text(*memory.fault, error.what());
+    return Outcome::heap_exhausted;
   } catch (const std::exception& error) {
     keep_threw(*memory.fault, error.what());
     return Outcome::threw;

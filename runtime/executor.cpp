@@ -12,9 +12,22 @@ namespace {
 
 constexpr std::size_t faults_kept = 1000;
 
+// An input that does not fit its reader's heap is lost until one that does comes.
+void copy_deep(const Copy& c) {
+  const auto& deep = *static_cast<const DeepCopy*>(c.from);
+  try {
+    deep.type->assign(c.to, deep.from);
+    if (deep.input != nullptr) deep.input->lost = false;
+  } catch (const HeapExhausted& error) {
+    deep.input->lost = true;
+    keep_text(*deep.input, error.what());
+  }
+}
+
 // Copies of the common sizes are a few moves; the compiler can't know sizes that come from a graph.
 inline void copy(const Copy& c) {
   switch (c.size) {
+    case 0: return copy_deep(c);
     case 8: std::memcpy(c.to, c.from, 8); return;
     case 16: std::memcpy(c.to, c.from, 16); return;
     case 32: std::memcpy(c.to, c.from, 32); return;
@@ -30,18 +43,22 @@ void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
             [](const auto* a, const auto* b) { return a->communicator < b->communicator; });
 }
 
-// The first output with a number that is not finite, for the fault's text.
-std::string find_non_finite(const TaskClass& task_class, const void* out) {
-  for (const TypeField& f : task_class.out->fields) {
-    const auto* value = static_cast<const std::byte*>(out) + f.offset;
-    if (f.type->finite(value)) continue;
-    for (const Leaf& leaf : leaves_of(*f.type)) {
-      if (leaf.type->finite(value + leaf.offset)) continue;
-      const std::string path = leaf.path.empty() ? f.name : f.name + "." + leaf.path;
-      return "output '" + path + "' is " + scalar_text(*leaf.type, value + leaf.offset);
-    }
-  }
-  return "an output is not finite";
+// The first number that is not finite, for the fault's text: "output 'a.b' is nan".
+std::string find_non_finite(const Type& type, const void* value, const std::string& path) {
+  const auto* bytes = static_cast<const std::byte*>(value);
+  const std::string prefix = path.empty() ? "" : path + ".";
+  const auto find_element = [&](std::size_t count, const std::byte* elements) -> std::string {
+    for (std::size_t i = 0; i < count; ++i)
+      if (const std::byte* element = elements + i * type.element->size; !type.element->finite(element))
+        return find_non_finite(*type.element, element, prefix + std::to_string(i));
+    return "";
+  };
+  if (type.kind == Kind::array) return find_element(type.count, bytes);
+  if (type.kind == Kind::sequence)
+    return find_element(type.length(value), static_cast<const std::byte*>(type.elements(value)));
+  for (const TypeField& f : type.fields)
+    if (!f.type->finite(bytes + f.offset)) return find_non_finite(*f.type, bytes + f.offset, prefix + f.name);
+  return "output '" + path + "' is " + scalar_text(type, value);
 }
 
 }  // namespace
@@ -54,10 +71,7 @@ std::string to_text(const Fault& fault) {
 Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options)
     : graph_(graph), plan_(graph), channels_(std::move(channels)), options_(options) {
   assert(channels_.size() == graph.distributers.size());
-  for (const Output& output : plan_.outputs)
-    if (options.recorder != nullptr && output.type->size > Recorder::most_bytes)
-      throw std::length_error("output '" + output.name + "' has " + std::to_string(output.type->size) +
-                              " bytes; values of up to " + std::to_string(Recorder::most_bytes) + " can be recorded");
+  if (options.recorder != nullptr) options.recorder->expect(plan_.outputs);
   const std::size_t groups = plan_.groups.size();
   cursors_.resize(groups);
   ticks_.resize(groups);
@@ -77,6 +91,7 @@ const void* Executor::last_value(std::size_t communicator) const { return last_[
 
 void Executor::run_until(Duration end) {
   if (report_.stopped) return;
+  const MemoryScope scope(no_heap());  // a task with a heap has a scope of its own
   const bool record = options_.recorder != nullptr;
   if (options_.digest) {
     record ? walk<true, true>(end) : walk<true, false>(end);
@@ -106,8 +121,10 @@ void Executor::step_instant(std::int64_t instant) {
   const std::uint64_t instant_term = Digest ? digest::instant_term(instant) : 0;
   if (!last_.empty()) gather_communicators();
   // step 0: external systems reach this instant with the inputs they held before it
-  if (!outs_.empty() || !ins_.empty())
+  if (!outs_.empty() || !ins_.empty()) {
+    const MemoryScope outside(nullptr);
     for (const auto& channels : channels_) channels->reach(Duration(instant));
+  }
   // step 1: outputs of LET tasks that end now
   Outcome* const outcomes = plan_.outcomes.data();  // read once: the copies may alias anything
   for (const std::uint32_t g : due_)
@@ -193,21 +210,29 @@ inline void Executor::publish(const Publish& what, std::int64_t instant, std::ui
     for (const Publication& p : what.publications)
       report_.digest += digest::publication(p.name_hash, instant_term, p.hash_words(p.value));
   if constexpr (Record)
-    for (const Publication& p : what.publications) options_.recorder->append(instant, p.output, p.value, p.size);
+    for (const Publication& p : what.publications) {
+      if (p.size > 0) [[likely]] {
+        options_.recorder->append(instant, p.output, p.value, p.size);
+      } else {
+        options_.recorder->append_deep(instant, p.output, p.value);
+      }
+    }
 }
 
 void Executor::hand_over(const CommunicatorAction& out) {
   const Communicator& communicator = graph_.communicators[out.communicator];
-  std::memcpy(out.value, out.input, communicator.type->size);
+  copy_value(*communicator.type, out.value, out.input);
+  const MemoryScope outside(nullptr);
   if (communicator.distributer) channels_[*communicator.distributer]->hand_over(communicator.channel, out.value);
 }
 
 void Executor::take(const CommunicatorAction& in) {
   const Communicator& communicator = graph_.communicators[in.communicator];
   if (!communicator.distributer) return;
+  const MemoryScope outside(nullptr);
   if (!channels_[*communicator.distributer]->take(communicator.channel, in.taken)) return;
   if (communicator.type->finite(in.taken)) {
-    std::memcpy(in.value, in.taken, communicator.type->size);
+    copy_value(*communicator.type, in.value, in.taken);
   } else {
     ++report_.non_finite_inputs;
   }
@@ -223,9 +248,10 @@ void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, con
     return;
   }
   status.activation = tick.activation;
-  if (outcome == Outcome::non_finite) keep_text(status, find_non_finite(*task.task_class, activation.memory.out));
+  if (outcome == Outcome::non_finite)
+    keep_text(status, find_non_finite(*task.task_class->out, activation.memory.out, ""));
   if (task.on_fault != OnFault::stop) {
-    std::memcpy(activation.memory.state, status.kept, status.size);
+    status.put_back(activation.memory.state);
     status.skip_next = task.on_fault == OnFault::skip;
   }
   if (!activation.has_let) record_fault(activation.task, tick.now.count());

@@ -13,15 +13,28 @@ namespace {
 
 constexpr std::size_t line = 64;  // bytes of a cache line: no two tasks share one
 
-// Runs a task that may have to be undone: its state and outputs are kept until the executor has seen the outcome.
-Outcome run_undoable(const TaskMemory& memory, const Tick& tick) {
+// Runs a task that has a heap: what it allocates meanwhile is scratch.
+Outcome run_with_heap(TaskStatus& status, const TaskMemory& memory, const Tick& tick) {
+  for (const DeepInput& input : status.deep_inputs) {
+    if (!input.lost) continue;
+    static_cast<FaultText&>(status) = input;
+    return Outcome::heap_exhausted;
+  }
+  const MemoryScope scope(status.heap->scratch());
+  const Outcome outcome = status.run(memory, tick);
+  status.heap->release_scratch();
+  return outcome;
+}
+
+// Runs a task that has a heap or may have to be undone: what to undo is kept until the executor has seen the outcome.
+Outcome run_with_care(const TaskMemory& memory, const Tick& tick) {
   auto& status = static_cast<TaskStatus&>(*memory.fault);
   if (status.skip_next) {
     status.skip_next = false;
     return Outcome::left_out;
   }
-  std::memcpy(status.kept, memory.state, status.size);
-  return status.run(memory, tick);
+  if (status.undoable) status.keep(memory.state);
+  return status.heap != nullptr ? run_with_heap(status, memory, tick) : status.run(memory, tick);
 }
 
 // Hands out places in memory that is allocated once all are known.
@@ -40,7 +53,7 @@ class Layout {
 };
 
 struct TaskPlaces {
-  std::size_t parameters = 0, in = 0, state = 0, out = 0, kept = 0;
+  std::size_t parameters = 0, in = 0, state = 0, out = 0, heap = 0, kept = 0;
 };
 
 struct CommunicatorPlaces {
@@ -130,13 +143,16 @@ class PlanBuilder {
       communicators_[i].input = layout.place(type);
       communicators_[i].taken = layout.place(type);
     }
-    // kept apart from what every activation touches
+    // apart from what every activation touches
+    for (const std::size_t i : order_) tasks_[i].heap = layout.place(graph_.tasks[i].heap, line);
     for (const std::size_t i : order_)
-      if (graph_.tasks[i].on_fault != OnFault::stop) tasks_[i].kept = layout.place(undoable_size(i), line);
+      if (is_undoable(i)) tasks_[i].kept = layout.place(undoable_size(i) + graph_.tasks[i].heap, line);
     arena_size_ = layout.size();
     plan_.arena_.reset(static_cast<std::byte*>(::operator new (arena_size_ + line, std::align_val_t{line})));
     std::memset(plan_.arena_.get(), 0, arena_size_ + line);
   }
+
+  bool is_undoable(std::size_t i) const { return graph_.tasks[i].on_fault != OnFault::stop; }
 
   std::size_t undoable_size(std::size_t i) const {
     return tasks_[i].out + graph_.tasks[i].task_class->out->size - tasks_[i].state;
@@ -160,24 +176,75 @@ class PlanBuilder {
   void fill() {
     plan_.status.resize(graph_.tasks.size());
     plan_.outcomes.resize(graph_.tasks.size(), Outcome::good);
-    for (std::size_t i = 0; i < graph_.tasks.size(); ++i) {
-      const Task& task = graph_.tasks[i];
-      const TaskClass& c = *task.task_class;
-      c.in->construct(at(tasks_[i].in));
-      c.state->construct(at(tasks_[i].state));
-      std::memcpy(at(tasks_[i].parameters), task.parameters.data(), c.parameters->size);
-      std::memcpy(at(tasks_[i].out), task.out.data(), c.out->size);
-      plan_.status[i].run = c.run;
-      plan_.status[i].kept = at(tasks_[i].kept);
-      plan_.status[i].size = undoable_size(i);
-    }
+    plan_.heaps.resize(graph_.tasks.size());
+    for (std::size_t i = 0; i < graph_.tasks.size(); ++i) fill_task(i);
     for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
       const Communicator& c = graph_.communicators[i];
       for (const std::size_t place : {communicators_[i].value, communicators_[i].input, communicators_[i].taken})
-        c.type->construct(at(place));
-      if (c.direction == Direction::in) std::memcpy(at(communicators_[i].value), c.init.data(), c.type->size);
+        make(*c.type, place, &plan_.communicator_memory_);
+      if (c.direction == Direction::in) copy_value(*c.type, at(communicators_[i].value), c.init.data());
     }
-    for (const Connection& c : graph_.connections) std::memcpy(target_of(c), source_of(c), c.type->size);
+    for (const Connection& c : graph_.connections) copy_value(*c.type, target_of(c), source_of(c));
+    make_deep_inputs();
+  }
+
+  void fill_task(std::size_t i) {
+    const Task& task = graph_.tasks[i];
+    const TaskClass& c = *task.task_class;
+    TaskStatus& status = plan_.status[i];
+    if (task.heap > 0 || c.is_deep()) {
+      plan_.heaps[i] = std::make_unique<PrivateHeap>(at(tasks_[i].heap), task.heap);
+      status.heap = plan_.heaps[i].get();
+    }
+    make(*c.parameters, tasks_[i].parameters, std::pmr::new_delete_resource());
+    make_private(*c.out, tasks_[i].out, status.heap);
+    copy_value(*c.parameters, at(tasks_[i].parameters), task.parameters.data());
+    copy_value(*c.out, at(tasks_[i].out), task.out.data());
+    make_private(*c.state, tasks_[i].state, status.heap);
+    make_private(*c.in, tasks_[i].in, status.heap);
+    status.undoable = is_undoable(i);
+    status.run = c.run;
+    status.kept = at(tasks_[i].kept);
+    status.size = undoable_size(i);
+  }
+
+  // A default value whose deep parts go with the heap that they live in.
+  void make_private(const Type& type, std::size_t place, PrivateHeap* heap) {
+    type.construct(at(place));
+    if (type.is_deep()) type.adopt(at(place), heap->values());
+  }
+
+  // A default value in memory that wants it back.
+  void make(const Type& type, std::size_t place, std::pmr::memory_resource* memory) {
+    type.construct(at(place));
+    if (!type.is_deep()) return;
+    type.adopt(at(place), memory);
+    plan_.owned_.push_back({at(place), {&type}});
+  }
+
+  // Connections are in order of their readers, so that each reader's lie side by side.
+  void make_deep_inputs() {
+    const auto into_task = [](const Connection& c) { return c.type->is_deep() && c.to.kind == End::Kind::task; };
+    const auto count = std::count_if(graph_.connections.begin(), graph_.connections.end(), into_task);
+    plan_.deep_inputs_.resize(static_cast<std::size_t>(count));
+    DeepInput* next = plan_.deep_inputs_.data();
+    for (const Connection& c : graph_.connections) {
+      if (!into_task(c)) continue;
+      Range<DeepInput>& inputs = plan_.status[c.to.index].deep_inputs;
+      if (inputs.first == nullptr) inputs.first = next;
+      deep_input_[&c] = next++;
+      inputs.last = next;
+    }
+  }
+
+  void add_copy(const Connection& c) {
+    if (!c.type->is_deep()) {
+      plan_.copies_.push_back({source_of(c), target_of(c), c.type->size});
+      return;
+    }
+    const auto input = deep_input_.find(&c);
+    plan_.deep_copies_.push_back({c.type, source_of(c), input == deep_input_.end() ? nullptr : input->second});
+    plan_.copies_.push_back({&plan_.deep_copies_.back(), target_of(c), 0});
   }
 
   void name_outputs() {
@@ -193,6 +260,7 @@ class PlanBuilder {
     // ranges point into these: they never grow beyond what is reserved here
     std::size_t publications = plan_.outputs.size();
     plan_.copies_.reserve(graph_.connections.size());
+    plan_.deep_copies_.reserve(graph_.connections.size());
     plan_.publications_.reserve(publications);
     plan_.activations_.reserve(graph_.tasks.size());
     plan_.let_ends_.reserve(graph_.tasks.size());
@@ -203,12 +271,12 @@ class PlanBuilder {
 
   Publication publication(const std::string& name, const Type& type, const std::byte* value) const {
     return {value, digest::name_hash(name), type.hash_words, output_index_.at(name),
-            static_cast<std::uint32_t>(type.size)};
+            type.is_deep() ? 0 : static_cast<std::uint32_t>(type.size)};
   }
 
   Publish publish_task(std::size_t i) {
     const std::size_t first_copy = plan_.copies_.size(), first_publication = plan_.publications_.size();
-    for (const Connection* c : from_task_[i]) plan_.copies_.push_back({source_of(*c), target_of(*c), c->type->size});
+    for (const Connection* c : from_task_[i]) add_copy(*c);
     const auto& fields = graph_.tasks[i].task_class->out->fields;
     for (std::size_t f = 0; f < fields.size(); ++f)
       plan_.publications_.push_back(publication(end_name(graph_, {End::Kind::task, i, f}, true), *fields[f].type,
@@ -219,8 +287,7 @@ class PlanBuilder {
   CommunicatorAction communicator_action(std::size_t i) {
     const Communicator& c = graph_.communicators[i];
     const std::size_t first_copy = plan_.copies_.size(), first_publication = plan_.publications_.size();
-    for (const Connection* s : from_communicator_[i])
-      plan_.copies_.push_back({source_of(*s), target_of(*s), s->type->size});
+    for (const Connection* s : from_communicator_[i]) add_copy(*s);
     plan_.publications_.push_back(publication(c.name, *c.type, at(communicators_[i].value)));
     return {static_cast<std::uint32_t>(i),
             at(communicators_[i].value),
@@ -231,8 +298,8 @@ class PlanBuilder {
 
   Activation activation(std::size_t i) {
     const Task& task = graph_.tasks[i];
-    const bool undoable = task.on_fault != OnFault::stop;
-    return {undoable ? &run_undoable : task.task_class->run,
+    const bool with_care = plan_.status[i].undoable || plan_.status[i].heap != nullptr;
+    return {with_care ? &run_with_care : task.task_class->run,
             {at(tasks_[i].parameters), at(tasks_[i].in), at(tasks_[i].state), at(tasks_[i].out), &plan_.status[i]},
             task.let ? Publish{} : publish_task(i),
             static_cast<std::uint32_t>(i),
@@ -291,8 +358,19 @@ class PlanBuilder {
   std::vector<TaskPlaces> tasks_;
   std::vector<CommunicatorPlaces> communicators_;
   std::map<std::string, std::uint32_t> output_index_;
+  std::map<const Connection*, DeepInput*> deep_input_;
   std::size_t arena_size_ = 0;
 };
+
+void TaskStatus::keep(const void* state) {
+  std::memcpy(kept, state, size);
+  if (heap != nullptr) heap->keep(kept + size);
+}
+
+void TaskStatus::put_back(void* state) {
+  std::memcpy(state, kept, size);
+  if (heap != nullptr) heap->put_back(kept + size);
+}
 
 Plan::Plan(const Graph& graph) { PlanBuilder(graph, *this).build(); }
 

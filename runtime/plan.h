@@ -11,14 +11,28 @@
 #include <vector>
 
 #include "graph/graph.h"
+#include "graph/values/heap.h"
+#include "runtime/output.h"
 
 namespace jarol {
 
 /// One transfer along a connection: from a producer's output right into the reader's input.
 struct Copy {
-  const std::byte* from = nullptr;
+  const void* from = nullptr;  // of size 0: a DeepCopy
   std::byte* to = nullptr;
   std::size_t size = 0;
+};
+
+/// An input of a task that did not fit its heap when it was last transferred; says why.
+struct DeepInput : FaultText {
+  bool lost = false;
+};
+
+/// A transfer of a deep value.
+struct DeepCopy {
+  const Type* type = nullptr;
+  const std::byte* from = nullptr;
+  DeepInput* input = nullptr;  // null: of a communicator, whose memory grows
 };
 
 /// A published value as trace and digest know it.
@@ -27,7 +41,7 @@ struct Publication {
   std::uint64_t name_hash = 0;
   std::uint64_t (*hash_words)(const void* value) = nullptr;
   std::uint32_t output = 0;  // index into Plan::outputs
-  std::uint32_t size = 0;
+  std::uint32_t size = 0;    // of a deep value 0
 };
 
 template <class T>
@@ -57,10 +71,15 @@ struct Publish {
 struct TaskStatus : FaultText {
   std::int64_t activation = 0;  // the faulty one
   bool skip_next = false;       // the next activation is left out
-  // to undo an activation
+  bool undoable = false;        // state and outputs are kept before each activation
   Thunk run = nullptr;
-  std::byte* kept = nullptr;  // as large as state and outputs
+  PrivateHeap* heap = nullptr;
+  Range<DeepInput> deep_inputs;
+  std::byte* kept = nullptr;  // as large as state, outputs and heap
   std::size_t size = 0;       // of state and outputs, which lie next to each other
+
+  void keep(const void* state);
+  void put_back(void* state);
 };
 
 /// One task of a group, run at its release.
@@ -104,28 +123,32 @@ struct Group {
   std::size_t activations = 0;
 };
 
-/// An output as trace and digest name it.
-struct Output {
-  std::string name;
-  const Type* type = nullptr;
-};
-
 struct Plan {
   explicit Plan(const Graph& graph);
   Plan(const Plan&) = delete;
   Plan& operator=(const Plan&) = delete;
 
   std::vector<Group> groups;
-  std::vector<Output> outputs;     // in bytewise order of name
-  std::vector<TaskStatus> status;  // per task
-  std::vector<Outcome> outcomes;   // per task: how the activation ended whose LET is under way
+  std::vector<Output> outputs;                      // in bytewise order of name
+  std::vector<TaskStatus> status;                   // per task
+  std::vector<Outcome> outcomes;                    // per task: how the activation ended whose LET is under way
+  std::vector<std::unique_ptr<PrivateHeap>> heaps;  // per task, null where it has none
 
  private:
   friend class PlanBuilder;
   struct Release {
     void operator()(std::byte* memory) const;
   };
+  // a deep value in the arena whose memory is not a private heap
+  struct Destroy {
+    const Type* type = nullptr;
+    void operator()(std::byte* value) const { type->destroy(value); }
+  };
   std::unique_ptr<std::byte, Release> arena_;
+  std::pmr::unsynchronized_pool_resource communicator_memory_;  // of deep values; no more than they need
+  std::vector<std::unique_ptr<std::byte, Destroy>> owned_;
+  std::vector<DeepCopy> deep_copies_;
+  std::vector<DeepInput> deep_inputs_;
   std::vector<Copy> copies_;
   std::vector<Publication> publications_;
   std::vector<Activation> activations_;

@@ -1,6 +1,9 @@
 #include "runtime/recorder.h"
 
 #include <cassert>
+#include <stdexcept>
+
+#include "graph/values/pack.h"
 
 namespace jarol {
 namespace {
@@ -20,6 +23,34 @@ Recorder::~Recorder() {
   }
 }
 
+void Recorder::expect(const std::vector<Output>& outputs) {
+  outputs_ = outputs;
+  deep_values_.clear();
+  for (const Output& output : outputs) {
+    if (output.type->size > most_bytes)
+      throw std::length_error("output '" + output.name + "' has " + std::to_string(output.type->size) +
+                              " bytes; values of up to " + std::to_string(most_bytes) + " can be recorded");
+    deep_values_.push_back(output.type->is_deep() ? Value(*output.type) : Value());
+  }
+}
+
+void Recorder::append_deep(std::int64_t instant, std::uint32_t output, const void* value) {
+  const Type& type = *outputs_[output].type;
+  const std::size_t size = packed_size(type, value);
+  if (size > most_bytes) {
+    if (lost_.empty())
+      lost_ = "output '" + outputs_[output].name + "' had " + std::to_string(size) + " bytes at " +
+              std::to_string(instant) + "ns; values of up to " + std::to_string(most_bytes) + " can be recorded";
+    return;
+  }
+  const std::size_t padded = (size + 7U) & ~std::size_t{7};
+  if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk(sizeof(RecordHeader) + padded);
+  const RecordHeader header{instant, output, static_cast<std::uint32_t>(size)};
+  std::memcpy(now_ + used_, &header, sizeof header);
+  pack(type, value, now_ + used_ + sizeof header);
+  used_ += sizeof header + padded;
+}
+
 void Recorder::close() {
   if (!thread_.joinable()) return;
   if (used_ > 0) publish_chunk();
@@ -28,6 +59,7 @@ void Recorder::close() {
   written_.notify_one();
   thread_.join();
   if (failure_) std::rethrow_exception(failure_);
+  if (!lost_.empty()) throw std::length_error(lost_);
 }
 
 void Recorder::publish_chunk() {
@@ -74,10 +106,18 @@ void Recorder::drain(const std::byte* chunk, std::size_t bytes) {
     for (std::size_t at = 0; at < bytes;) {
       RecordHeader header;
       std::memcpy(&header, chunk + at, sizeof header);
-      for (RecordSink* sink : sinks_) sink->take(Duration(header.instant), header.output, chunk + at + sizeof header);
+      const void* value = value_of(header, chunk + at + sizeof header);
+      for (RecordSink* sink : sinks_) sink->take(Duration(header.instant), header.output, value);
       at += sizeof header + ((header.size + 7U) & ~std::size_t{7});
     }
   } catch (...) { failure_ = std::current_exception(); }
+}
+
+const void* Recorder::value_of(const RecordHeader& header, const std::byte* packed) {
+  if (header.output >= deep_values_.size() || deep_values_[header.output].type() == nullptr) return packed;
+  Value& value = deep_values_[header.output];
+  unpack(*value.type(), packed, value.data());
+  return value.data();
 }
 
 }  // namespace jarol

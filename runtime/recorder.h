@@ -8,10 +8,12 @@
 #include <exception>
 #include <memory>
 #include <span>
+#include <string>
 #include <thread>
 #include <vector>
 
-#include "graph/values/type_of.h"
+#include "graph/values/value.h"
+#include "runtime/output.h"
 
 namespace jarol {
 
@@ -36,6 +38,9 @@ class Recorder {
   /// The sinks outlive the recorder.
   explicit Recorder(std::vector<RecordSink*> sinks);
 
+  /// What will be recorded, before the first of it. Throws std::length_error for flat values beyond most_bytes.
+  void expect(const std::vector<Output>& outputs);
+
   /// Values up to this size can be recorded.
   static constexpr std::size_t most_bytes = (std::size_t{256} << 10) - sizeof(RecordHeader);
 
@@ -53,6 +58,9 @@ class Recorder {
     used_ += sizeof header + padded;
   }
 
+  /// The same for a deep value; one beyond most_bytes is lost, which `close` tells.
+  void append_deep(std::int64_t instant, std::uint32_t output, const void* value);
+
   /// Hands on all that was appended, ends the thread and lets the sinks finish; throws what a sink threw.
   void close();
 
@@ -64,8 +72,12 @@ class Recorder {
   void publish_chunk();
   void run();
   void drain(const std::byte* chunk, std::size_t bytes);
+  const void* value_of(const RecordHeader& header, const std::byte* packed);
 
   std::vector<RecordSink*> sinks_;
+  std::vector<Output> outputs_;
+  std::vector<Value> deep_values_;  // per output: what the sinks see, empty for flat ones
+  std::string lost_;                // the first value that was too large
   std::unique_ptr<std::byte[]> memory_;
   std::size_t bytes_[chunks] = {};  // filled part of each chunk
   std::byte* now_ = nullptr;

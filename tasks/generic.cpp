@@ -1,5 +1,7 @@
 #include "tasks/generic.h"
 
+#include <algorithm>
+
 namespace jarol::tasks {
 
 void Counter::run(const Tick& tick, Out& out) { out.out = static_cast<double>(tick.activation); }
@@ -11,6 +13,22 @@ void Sum::run(const Tick&, const In& in, Out& out) { out.out = in.a + in.b; }
 void Accumulate::run(const Tick&, const In& in, State& state, Out& out) {
   state.sum += in.in;
   out.out = state.sum;
+}
+
+void Window::run(const Param& p, const Tick&, const In& in, State& state, Out& out) {
+  Sequence<double>& values = state.values;
+  values.push_back(in.in);
+  if (values.size() > p.length) {
+    std::copy(values.begin() + 1, values.end(), values.begin());
+    values.pop_back();
+  }
+  out.out = values;
+}
+
+void Mean::run(const Tick&, const In& in, Out& out) {
+  double sum = 0;
+  for (const double value : in.in) sum += value;
+  out.out = in.in.empty() ? 0 : sum / static_cast<double>(in.in.size());
 }
 
 void Work::run(const Param& p, const Tick&, State& state) {

@@ -61,6 +61,40 @@ struct Accumulate {
   static void run(const Tick&, const In& in, State& state, Out& out);
 };
 
+struct Window {
+  static constexpr std::string_view summary = "gives the newest values of its input, oldest first";
+  struct Param {
+    std::uint32_t length = 10;
+    static constexpr auto fields() { return describe(field<&Param::length>("", "of the window, at most")); }
+  };
+  struct In {
+    double in = 0;
+    static constexpr auto fields() { return describe(field<&In::in>()); }
+  };
+  struct State {
+    Sequence<double> values{};
+    static constexpr auto fields() { return describe(field<&State::values>()); }
+  };
+  struct Out {
+    Sequence<double> out{};
+    static constexpr auto fields() { return describe(field<&Out::out>("", "the newest inputs, oldest first")); }
+  };
+  static void run(const Param& p, const Tick&, const In& in, State& state, Out& out);
+};
+
+struct Mean {
+  static constexpr std::string_view summary = "gives the mean of a sequence";
+  struct In {
+    Sequence<double> in{};
+    static constexpr auto fields() { return describe(field<&In::in>()); }
+  };
+  struct Out {
+    double out = 0;
+    static constexpr auto fields() { return describe(field<&Out::out>("", "the mean, 0 of none")); }
+  };
+  static void run(const Tick&, const In& in, Out& out);
+};
+
 struct Work {
   static constexpr std::string_view summary = "takes time and does nothing else";
   struct Param {

@@ -14,7 +14,7 @@ void add(Registry& registry) {
 }  // namespace
 
 void add_tasks(Registry& registry) {
-  add<Accumulate, Counter, Relay, Sum, Work>(registry);
+  add<Accumulate, Counter, Mean, Relay, Sum, Window, Work>(registry);
   add<DepthControl, FinAllocator, HeadingControl, LauvForward, LauvReport, SpeedControl>(registry);
 }
 

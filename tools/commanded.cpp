@@ -24,7 +24,7 @@ std::vector<Reported> find_reported(const Graph& graph) {
     if (out.direction != Direction::out || !out.distributer) continue;
     std::vector<Reported> fields;
     for (const Leaf& leaf : leaves_of(*out.type))
-      fields.push_back({leaf.path, i, leaf, find_command(graph, out, leaf)});
+      if (!leaf.type->is_deep()) fields.push_back({leaf.path, i, leaf, find_command(graph, out, leaf)});
     if (std::any_of(fields.begin(), fields.end(), [](const Reported& r) { return r.command.has_value(); }))
       all.insert(all.end(), fields.begin(), fields.end());
   }

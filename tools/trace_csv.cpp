@@ -7,9 +7,17 @@
 namespace jarol::tools {
 namespace {
 
+// RFC 4180: in quotes, with quotes doubled.
+std::string quoted(const std::string& text) {
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
+  return cell + "\"";
+}
+
 // Truth values and enumerators as numbers: what plots and other programs read.
 std::string cell_text(const Type& type, const void* value) {
   if (type.kind == Kind::boolean || type.kind == Kind::enumeration) return std::to_string(read_integer(type, value));
+  if (type.kind == Kind::sequence || type.kind == Kind::string) return quoted(scalar_text(type, value));
   return scalar_text(type, value);
 }
 

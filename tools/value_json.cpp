@@ -21,6 +21,14 @@ nlohmann::ordered_json to_json(const Type& type, const void* value) {
         list.push_back(to_json(*type.element, bytes + i * type.element->size));
       return list;
     }
+    case Kind::string: return std::string(read_string(type, value));
+    case Kind::sequence: {
+      auto list = nlohmann::ordered_json::array();
+      const auto* elements = static_cast<const std::byte*>(type.elements(value));
+      for (std::size_t i = 0; i < type.length(value); ++i)
+        list.push_back(to_json(*type.element, elements + i * type.element->size));
+      return list;
+    }
     case Kind::structure: {
       auto object = nlohmann::ordered_json::object();
       for (const TypeField& f : type.fields) object[f.name] = to_json(*f.type, bytes + f.offset);

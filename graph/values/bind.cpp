@@ -56,13 +56,22 @@ void bind_array(const Yaml& yaml, const Type& type, const std::string& unit, voi
             subject + " element " + std::to_string(i), problems);
 }
 
+void bind_sequence(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
+                   Problems& problems) {
+  void* const elements = type.resize(value, yaml.children.size());
+  for (std::size_t i = 0; i < yaml.children.size(); ++i)
+    bind_as(yaml.children[i], *type.element, unit, at(elements, i * type.element->size),
+            subject + " element " + std::to_string(i), problems);
+}
+
 void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
              Problems& problems) {
-  const auto expected = type.kind == Kind::structure ? Yaml::Kind::mapping
-                        : type.kind == Kind::array   ? Yaml::Kind::sequence
-                                                     : Yaml::Kind::scalar;
+  const auto expected = type.kind == Kind::structure                              ? Yaml::Kind::mapping
+                        : type.kind == Kind::array || type.kind == Kind::sequence ? Yaml::Kind::sequence
+                                                                                  : Yaml::Kind::scalar;
   if (yaml.kind != expected) {
     const std::string need = expected == Yaml::Kind::mapping ? "a mapping of " + type.name + "'s fields"
+                             : type.kind == Kind::sequence   ? "a list of elements of type " + type.element->name
                              : expected == Yaml::Kind::sequence
                                  ? "a list of " + std::to_string(type.count) + " elements"
                                  : article(wanted(type, unit));
@@ -71,8 +80,10 @@ void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, void* 
   }
   if (type.kind == Kind::structure) return bind_structure(yaml, type, value, subject, "field", problems);
   if (type.kind == Kind::array) return bind_array(yaml, type, unit, value, subject, problems);
-  const std::string wrong = yaml.quoted && type.kind != Kind::enumeration ? "is in quotes and so a string"
-                                                                          : parse_scalar(type, yaml.text, unit, value);
+  if (type.kind == Kind::sequence) return bind_sequence(yaml, type, unit, value, subject, problems);
+  const bool text = type.kind == Kind::enumeration || type.kind == Kind::string;
+  const std::string wrong =
+      yaml.quoted && !text ? "is in quotes and so a string" : parse_scalar(type, yaml.text, unit, value);
   if (wrong.empty()) return;
   problems.add(yaml.where,
                subject + " needs " + article(wanted(type, unit)) + ", not '" + yaml.text + "'; that " + wrong);
@@ -89,6 +100,31 @@ void add_leaves(const Type& type, const std::string& path, const std::string& un
   } else {
     leaves.push_back({path, unit, offset, &type});
   }
+}
+
+// JSON's form of a string.
+std::string quoted_text(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(c) >= 0x20) {
+      quoted += c;
+    } else {
+      constexpr std::string_view digits = "0123456789abcdef";
+      quoted += std::string("\\u00") + (c >= 0x10 ? '1' : '0') + digits[static_cast<std::size_t>(c & 15)];
+    }
+  }
+  return quoted + "\"";
+}
+
+// An element of a sequence, whatever it is: "1", "{a:1,b.0:2}".
+std::string compact_text(const Type& type, const void* value) {
+  if (type.kind != Kind::structure && type.kind != Kind::array) return scalar_text(type, value);
+  std::string text;
+  for (const Leaf& leaf : leaves_of(type))
+    text += (text.empty() ? "" : ",") + leaf.path + ":" +
+            scalar_text(*leaf.type, static_cast<const std::byte*>(value) + leaf.offset);
+  return "{" + text + "}";
 }
 
 std::int64_t least_of(const Type& type) {
@@ -151,7 +187,9 @@ std::string parse_scalar(const Type& type, const std::string& text, const std::s
         return "";
       }
       return "is none of them";
+    case Kind::string: write_string(type, value, text); return "";
     case Kind::array:
+    case Kind::sequence:
     case Kind::structure: break;
   }
   return "is a single word";
@@ -171,6 +209,14 @@ std::string scalar_text(const Type& type, const void* value) {
       for (const auto& [name, its] : type.enumerators)
         if (its == number) return name;
       return std::to_string(number);
+    }
+    case Kind::string: return quoted_text(read_string(type, value));
+    case Kind::sequence: {
+      std::string text;
+      const auto* elements = static_cast<const std::byte*>(type.elements(value));
+      for (std::size_t i = 0; i < type.length(value); ++i)
+        text += (i == 0 ? "" : ",") + compact_text(*type.element, elements + i * type.element->size);
+      return "[" + text + "]";
     }
     case Kind::array:
     case Kind::structure: break;

@@ -16,13 +16,15 @@ void bind_value(const Yaml& yaml, const Type& type, const std::string& unit, voi
 void bind_fields(const Yaml& yaml, const Type& type, void* value, const std::string& subject, const std::string& noun,
                  Problems& problems);
 
-/// A number or enumerator as text: shortest form that reads back exactly.
+/// A leaf as text: of a number the shortest form that reads back exactly, of a string JSON's form, of a sequence its
+/// elements in brackets.
 std::string scalar_text(const Type& type, const void* value);
 
 /// A single number, duration, truth value or enumerator from text; returns what is wrong, or nothing.
 std::string parse_scalar(const Type& type, const std::string& text, const std::string& unit, void* value);
 
-/// The scalars of a type, depth first: "" for a plain number, "a.b" for members, "a.0" for elements of arrays.
+/// The scalars, strings and sequences of a type, depth first: "" for a plain number, "a.b" for members, "a.0" for
+/// elements of arrays.
 struct Leaf {
   std::string path;
   std::string unit;

@@ -35,6 +35,11 @@ bool same_type(const Type& a, const Type& b) {
   return a.element == nullptr || same_type(*a.element, *b.element);
 }
 
+void copy_value(const Type& type, void* to, const void* from) {
+  if (type.is_deep()) return type.assign(to, from);
+  std::memcpy(to, from, type.size);
+}
+
 const TypeField* find_field(const Type& type, std::string_view name) {
   for (const TypeField& f : type.fields)
     if (f.name == name) return &f;
@@ -57,6 +62,15 @@ void write_integer(const Type& type, void* value, std::int64_t integer) {
     case 4: return store(value, static_cast<std::uint32_t>(integer));
     default: assert(type.size == 8); return store(value, integer);
   }
+}
+
+std::string_view read_string(const Type& type, const void* value) {
+  return {static_cast<const char*>(type.elements(value)), type.length(value)};
+}
+
+void write_string(const Type& type, void* value, std::string_view text) {
+  void* const bytes = type.resize(value, text.size());
+  if (!text.empty()) std::memcpy(bytes, text.data(), text.size());
 }
 
 double read_floating(const Type& type, const void* value) {

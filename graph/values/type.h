@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace jarol {
@@ -28,9 +30,12 @@ enum class Kind {
   enumeration,  // of the size of its underlying integer
   array,        // fixed arrays and fixed Eigen vectors
   structure,
+  sequence,  // of any length
+  string,    // of any length, in bytes
 };
 
-/// A value's type. One object per C++ type lives for ever, made by `type_of<T>()`.
+/// A value's type. One object per C++ type lives for ever, made by `type_of<T>()`. Flat values are copied as bytes;
+/// deep ones hold sequences or strings.
 struct Type {
   std::string name;
   Kind kind = Kind::structure;
@@ -38,17 +43,32 @@ struct Type {
   std::size_t alignment = 1;  // bytes
 
   std::vector<TypeField> fields;                                  // structure
-  const Type* element = nullptr;                                  // array
+  const Type* element = nullptr;                                  // array, sequence
   std::size_t count = 0;                                          // array
   std::vector<std::pair<std::string, std::int64_t>> enumerators;  // enumeration
 
   void (*construct)(void* to) = nullptr;                     // default value into raw memory
   bool (*finite)(const void* value) = nullptr;               // no infinity, no NaN in it
   std::uint64_t (*hash_words)(const void* value) = nullptr;  // the digest's sum over the value's words
+
+  // deep values only
+  void (*adopt)(void* value, std::pmr::memory_resource* memory) = nullptr;  // lives in that memory from now on
+  void (*assign)(void* to, const void* from) = nullptr;  // deep copy into the memory of `to`; throws HeapExhausted
+  void (*destroy)(void* value) = nullptr;
+
+  // sequences, and strings as sequences of bytes
+  std::size_t (*length)(const void* value) = nullptr;
+  const void* (*elements)(const void* value) = nullptr;
+  void* (*resize)(void* value, std::size_t length) = nullptr;  // returns the elements
+
+  bool is_deep() const { return assign != nullptr; }
 };
 
 /// True if both have the same name, layout and fields; plugins bring their own objects for equal types.
 bool same_type(const Type& a, const Type& b);
+
+/// Deep copy of a value.
+void copy_value(const Type& type, void* to, const void* from);
 
 /// The field of that name, or null.
 const TypeField* find_field(const Type& type, std::string_view name);
@@ -56,6 +76,10 @@ const TypeField* find_field(const Type& type, std::string_view name);
 /// Integer of a value of kind boolean, *_integer, duration or enumeration, sign- or zero-extended to 64 bits.
 std::int64_t read_integer(const Type& type, const void* value);
 void write_integer(const Type& type, void* value, std::int64_t integer);
+
+/// Bytes of a value of kind string.
+std::string_view read_string(const Type& type, const void* value);
+void write_string(const Type& type, void* value, std::string_view text);
 
 /// Number of a value of kind floating.
 double read_floating(const Type& type, const void* value);

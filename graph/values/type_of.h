@@ -12,6 +12,7 @@
 
 #include "graph/values/describe.h"
 #include "graph/values/digest.h"
+#include "graph/values/sequence.h"
 #include "graph/values/type.h"
 
 namespace jarol {
@@ -38,10 +39,61 @@ struct ArrayTraits<Eigen::Matrix<E, Rows, 1, Options, Rows, 1>> {
 };
 
 template <class T>
+struct SequenceTraits {
+  static constexpr bool is_sequence = false;
+};
+template <class E>
+struct SequenceTraits<Sequence<E>> {
+  static constexpr bool is_sequence = true;
+  using Element = E;
+};
+
+template <class T>
 concept Integer = std::integral<T> && !std::same_as<T, bool> && !std::same_as<T, char>;
 
 template <class T>
 concept Array = ArrayTraits<T>::is_array;
+
+template <class T>
+concept SequenceOf = SequenceTraits<T>::is_sequence;
+
+// Does it hold anything of changing size?
+template <class T>
+constexpr bool is_deep() {
+  if constexpr (SequenceOf<T> || std::same_as<T, String>) {
+    return true;
+  } else if constexpr (Array<T>) {
+    return is_deep<typename ArrayTraits<T>::Element>();
+  } else if constexpr (Described<T>) {
+    return std::apply([](auto... f) { return (is_deep<typename decltype(f)::Value>() || ...); }, T::fields());
+  } else {
+    return false;
+  }
+}
+
+template <class T>
+void adopt(T& value, std::pmr::memory_resource* memory) {
+  if constexpr (SequenceOf<T> || std::same_as<T, String>) {
+    value.adopt(memory);
+  } else if constexpr (is_deep<T>()) {
+    if constexpr (Array<T>) {
+      for (auto& element : value) adopt(element, memory);
+    } else {
+      std::apply([&](auto... f) { (adopt(value.*(f.pointer), memory), ...); }, T::fields());
+    }
+  }
+}
+
+// Eight bytes a word, the first in the lowest place.
+template <class Visit>
+inline void for_each_packed_word(std::string_view text, Visit&& visit) {
+  for (std::size_t i = 0; i < text.size(); i += 8) {
+    std::uint64_t word = 0;
+    for (std::size_t b = 0; b < 8 && i + b < text.size(); ++b)
+      word |= std::uint64_t{static_cast<unsigned char>(text[i + b])} << (8 * b);
+    visit(word);
+  }
+}
 
 // Calls visit(word) for each word of the value, in the order of its description.
 template <class T, class Visit>
@@ -60,6 +112,12 @@ inline void for_each_word(const T& value, Visit&& visit) {
     visit(static_cast<std::uint64_t>(value.count()));
   } else if constexpr (Array<T>) {
     for (std::size_t i = 0; i < ArrayTraits<T>::count; ++i) for_each_word(value[i], visit);
+  } else if constexpr (SequenceOf<T>) {
+    visit(static_cast<std::uint64_t>(value.size()));
+    for (const auto& element : value) for_each_word(element, visit);
+  } else if constexpr (std::same_as<T, String>) {
+    visit(static_cast<std::uint64_t>(value.size()));
+    for_each_packed_word(value.view(), visit);
   } else {
     std::apply([&](auto... f) { (for_each_word(value.*(f.pointer), visit), ...); }, T::fields());
   }
@@ -83,6 +141,16 @@ inline std::uint64_t any_non_finite(const T& value) {
   } else if constexpr (Array<T>) {
     std::uint64_t any = 0;
     for (std::size_t i = 0; i < ArrayTraits<T>::count; ++i) any |= any_non_finite(value[i]);
+    return any;
+  } else if constexpr (SequenceOf<T>) {
+    std::uint64_t any = 0;
+    if constexpr (std::same_as<T, Sequence<double>>) {
+      // long enough that vectors pay
+      for (const double x : value)
+        any |= (std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000ULL) + 0x0010000000000000ULL;
+    } else {
+      for (const auto& element : value) any |= any_non_finite(element);
+    }
     return any;
   } else if constexpr (Described<T>) {
     return std::apply([&](auto... f) { return (std::uint64_t{0} | ... | any_non_finite(value.*(f.pointer))); },
@@ -141,6 +209,21 @@ TypeField make_field(F f) {
 }
 
 template <class T>
+void set_length_operations(Type& type) {
+  type.length = [](const void* value) { return static_cast<const T*>(value)->size(); };
+  if constexpr (SequenceOf<T>) {
+    type.elements = [](const void* value) -> const void* { return static_cast<const T*>(value)->data(); };
+    type.resize = [](void* value, std::size_t length) -> void* {
+      static_cast<T*>(value)->resize(length);
+      return static_cast<T*>(value)->data();
+    };
+  } else {
+    type.elements = [](const void* value) -> const void* { return static_cast<const T*>(value)->view().data(); };
+    type.resize = [](void* value, std::size_t length) -> void* { return static_cast<T*>(value)->resize(length); };
+  }
+}
+
+template <class T>
 Type make_type() {
   static_assert(!std::is_pointer_v<T> && !std::is_reference_v<T>,
                 "a value owns all it says: no pointers, no references");
@@ -153,6 +236,12 @@ Type make_type() {
   };
   type.finite = [](const void* value) { return !has_non_finite(*static_cast<const T*>(value)); };
   type.hash_words = [](const void* value) { return hash_words(*static_cast<const T*>(value)); };
+  if constexpr (is_deep<T>()) {
+    type.adopt = [](void* value, std::pmr::memory_resource* memory) { adopt(*static_cast<T*>(value), memory); };
+    type.assign = [](void* to, const void* from) { *static_cast<T*>(to) = *static_cast<const T*>(from); };
+    type.destroy = [](void* value) { std::destroy_at(static_cast<T*>(value)); };
+  }
+  if constexpr (SequenceOf<T> || std::same_as<T, String>) set_length_operations<T>(type);
   if constexpr (std::same_as<T, bool> || std::floating_point<T> || Integer<T> || std::same_as<T, Duration>) {
     type.name = scalar_name<T>();
     type.kind = std::same_as<T, bool>       ? Kind::boolean
@@ -170,6 +259,13 @@ Type make_type() {
     type.count = ArrayTraits<T>::count;
     type.kind = Kind::array;
     type.name = type.element->name + "[" + std::to_string(type.count) + "]";
+  } else if constexpr (SequenceOf<T>) {
+    type.element = &type_of<typename SequenceTraits<T>::Element>();
+    type.kind = Kind::sequence;
+    type.name = type.element->name + "[]";
+  } else if constexpr (std::same_as<T, String>) {
+    type.kind = Kind::string;
+    type.name = "string";
   } else {
     static_assert(Described<T>, "a struct is a value once its fields() describes every member");
     static_assert(std::is_aggregate_v<T>, "a value is a plain struct without constructors or private members");

@@ -1,6 +1,5 @@
 #include "graph/values/value.h"
 
-#include <cstring>
 #include <new>
 
 namespace jarol {
@@ -8,7 +7,8 @@ namespace {
 constexpr std::align_val_t alignment{64};
 }
 
-Value::Value(const Type& type) : type_(&type), memory_(static_cast<std::byte*>(::operator new(type.size, alignment))) {
+Value::Value(const Type& type)
+    : type_(&type), memory_(static_cast<std::byte*>(::operator new(type.size, alignment)), Release{&type}) {
   type.construct(memory_.get());
 }
 
@@ -18,10 +18,13 @@ Value& Value::operator=(const Value& other) {
   if (this == &other) return *this;
   if (other.type_ == nullptr) return *this = Value();
   *this = Value(*other.type_);
-  std::memcpy(memory_.get(), other.memory_.get(), type_->size);
+  copy_value(*type_, memory_.get(), other.memory_.get());
   return *this;
 }
 
-void Value::Release::operator()(std::byte* memory) const { ::operator delete(memory, alignment); }
+void Value::Release::operator()(std::byte* memory) const {
+  if (type->destroy != nullptr) type->destroy(memory);
+  ::operator delete(memory, alignment);
+}
 
 }  // namespace jarol

@@ -25,6 +25,7 @@ class Value {
 
  private:
   struct Release {
+    const Type* type;  // not initialized here: a nested deleter must be complete without it
     void operator()(std::byte* memory) const;
   };
   const Type* type_ = nullptr;

@@ -45,7 +45,8 @@ connections:
   - count.out -> slow.inn
 )") == "t.yaml:3:17: error: task 'count' has unknown type 'Countre'; did you mean 'Counter'?; there are: Accumulate, "
        "Counter, "
-       "DepthControl, FinAllocator, HeadingControl, LauvForward, LauvReport, Relay, SpeedControl, Sum, Work\n"
+       "DepthControl, FinAllocator, HeadingControl, LauvForward, LauvReport, Mean, Relay, SpeedControl, Sum, Window, "
+       "Work\n"
        "    count: {type: Countre, period: 10ms}\n"
        "                  ^\n"
        "t.yaml:4:42: error: task 'slow' has LET 30ms longer than its period 20ms\n"

@@ -65,4 +65,27 @@ connections: [a.out -> b.in, b.out -> c.a, i -> c.b, c.out -> d.in, d.out -> o]
     CHECK(executor.report().activations > 1'000'000);
     CHECK(during == 0);
   }
+
+  TEST_CASE("a million activations on values of changing size allocate nothing once communicators have their room") {
+    const Graph graph = tests::graph_of(R"(graph: t
+timing: {period: 1ms}
+communicators:
+  o: {type: 'double[]', direction: out}
+tasks:
+  c: {type: Counter}
+  w: {type: Window, parameters: {length: 40}}
+  v: {type: Window, let: 1ms, on_fault: hold, parameters: {length: 300}}
+  m: {type: Mean}
+  n: {type: Mean}
+connections: [c.out -> w.in, c.out -> v.in, w.out -> m.in, v.out -> n.in, w.out -> o]
+)");
+    Executor executor(graph, {});
+    executor.run_until(1s);
+    const std::uint64_t before = allocations.load();
+    executor.run_until(250s);
+    const std::uint64_t during = allocations.load() - before;
+    CHECK(executor.report().activations > 1'000'000);
+    CHECK(executor.report().fault_count == 0);
+    CHECK(during == 0);
+  }
 }

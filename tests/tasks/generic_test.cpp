@@ -21,6 +21,20 @@ TEST_SUITE("tasks/generic") {
     CHECK(relay.out == 2.5);
   }
 
+  TEST_CASE("a window gives the newest inputs, a mean their mean") {
+    Window::State state;
+    Window::Out out;
+    for (const double x : {1.0, 2.0, 3.0}) Window::run({.length = 2}, Tick{}, {x}, state, out);
+    CHECK(out.out == Sequence<double>{2, 3});
+    Window::run({.length = 0}, Tick{}, {4}, state, out);
+    CHECK(out.out == Sequence<double>{3, 4});
+    Mean::Out mean;
+    Mean::run(Tick{}, {{2, 3}}, mean);
+    CHECK(mean.out == 2.5);
+    Mean::run(Tick{}, {}, mean);
+    CHECK(mean.out == 0);
+  }
+
   TEST_CASE("an accumulator keeps the running sum in its state") {
     Accumulate::State state;
     Accumulate::Out out;

@@ -101,6 +101,18 @@ tasks:
     CHECK(jarol("run specs/counting.yaml --for 1s").output.find("claimed") == std::string::npos);
   }
 
+  TEST_CASE("run tells how much of each private heap was in use at most, and a trace holds sequences whole") {
+    const TemporaryFolder folder;
+    const auto run = json_of("run specs/window.yaml --for 1s --json --trace " + (folder / "t.csv"));
+    CHECK(run["heaps"] == nlohmann::json{{"window", {{"size", 1024}, {"most_used", 896}}},
+                                         {"mean", {{"size", 65536}, {"most_used", 160}}}});
+    CHECK(jarol("run specs/window.yaml --for 1s")
+              .output.find("  heap        window: at most 896 of 1024 bytes in use\n") != std::string::npos);
+    std::ifstream file(folder / "t.csv");
+    const std::string trace{std::istreambuf_iterator<char>(file), {}};
+    CHECK(trace.find("time,count.out,mean.out,window.out\n0,0,,\"[0]\"\n0.005,,0,\n0.01,1,,\"[0,1]\"\n") == 0);
+  }
+
   TEST_CASE("a known digest stays what it was") {
     // a change here breaks every recorded run of every user
     CHECK(digest_of("specs/counting.yaml --for 10s") == "0xef44f03bd732a5ab");
@@ -201,7 +213,7 @@ connections: [i -> sum.in]
           "Accumulate: gives the running sum of its input\n\ninputs\n  in  double\n\noutputs\n  out  double  sum of "
           "all inputs so far\n");
     CHECK(jarol("tasks Acumulate").exit_code == 2);
-    CHECK(json_of("tasks --json")["tasks"].size() == 11);
+    CHECK(json_of("tasks --json")["tasks"].size() == 13);
     CHECK(json_of("tasks --json")["distributers"].size() == 2);
     CHECK(json_of("tasks LauvVehicle --json")["distributers"][0]["channels"][0] ==
           nlohmann::json{{"name", "motion"},

@@ -88,8 +88,9 @@ std::vector<Panel> panels_of(const Graph& graph, const Plan& plan) {
   constexpr std::size_t most = 8;
   for (std::uint32_t i = 0; panels.empty() && i < plan.outputs.size(); ++i)
     for (const Leaf& leaf : leaves_of(*plan.outputs[i].type))
-      panels.push_back({leaf.path.empty() ? plan.outputs[i].name : plan.outputs[i].name + "." + leaf.path, leaf.unit, i,
-                        leaf, std::nullopt});
+      if (!leaf.type->is_deep())
+        panels.push_back({leaf.path.empty() ? plan.outputs[i].name : plan.outputs[i].name + "." + leaf.path, leaf.unit,
+                          i, leaf, std::nullopt});
   if (panels.size() > most) panels.resize(most);
   return panels;
 }
@@ -126,6 +127,10 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
   for (const Task& task : graph.tasks)
     if (task.isolation == Isolation::weak)
       std::cout << "              nothing is claimed of the digest: task '" << task.name << "' is weakly isolated\n";
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i)
+    if (const PrivateHeap* heap = executor.plan().heaps[i].get())
+      std::cout << "  heap        " << graph.tasks[i].name << ": at most " << heap->most_used() << " of "
+                << heap->size() << " bytes in use\n";
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
   if (!options.trace.empty()) std::cout << "  trace       " << options.trace << "\n";
@@ -145,6 +150,10 @@ void print_json(const Graph& graph, const Executor& executor, double seconds) {
   for (std::size_t i = 0; i < graph.communicators.size(); ++i)
     if (graph.communicators[i].direction == Direction::out)
       outputs[graph.communicators[i].name] = to_json(*graph.communicators[i].type, executor.last_value(i));
+  auto heaps = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i)
+    if (const PrivateHeap* heap = executor.plan().heaps[i].get())
+      heaps[graph.tasks[i].name] = {{"size", heap->size()}, {"most_used", heap->most_used()}};
   const double simulated = static_cast<double>(report.simulated.count()) * 1e-9;
   std::cout << nlohmann::ordered_json{{"schema", "jarol.run/1"},
                                       {"graph", graph.name},
@@ -155,6 +164,7 @@ void print_json(const Graph& graph, const Executor& executor, double seconds) {
                                       {"activations", report.activations},
                                       {"instants", report.instants},
                                       {"faults", faults},
+                                      {"heaps", heaps},
                                       {"outputs", outputs}}
             << "\n";
 }
