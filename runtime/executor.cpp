@@ -4,37 +4,15 @@
 #include <cassert>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 
 #include "graph/values/bind.h"
+#include "runtime/copy.h"
 
 namespace jarol {
 namespace {
 
 constexpr std::size_t faults_kept = 1000;
-
-// An input that does not fit its reader's heap is lost until one that does comes.
-void copy_deep(const Copy& c) {
-  const auto& deep = *static_cast<const DeepCopy*>(c.from);
-  try {
-    deep.type->assign(c.to, deep.from);
-    if (deep.input != nullptr) deep.input->lost = false;
-  } catch (const HeapExhausted& error) {
-    deep.input->lost = true;
-    keep_text(*deep.input, error.what());
-  }
-}
-
-// Copies of the common sizes are a few moves; the compiler can't know sizes that come from a graph.
-inline void copy(const Copy& c) {
-  switch (c.size) {
-    case 0: return copy_deep(c);
-    case 8: std::memcpy(c.to, c.from, 8); return;
-    case 16: std::memcpy(c.to, c.from, 16); return;
-    case 32: std::memcpy(c.to, c.from, 32); return;
-    case 64: std::memcpy(c.to, c.from, 64); return;
-    default: std::memcpy(c.to, c.from, c.size);
-  }
-}
 
 // Communicators are in order of name in the graph, so their index tells it; few are due at once.
 void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
@@ -61,6 +39,12 @@ std::string find_non_finite(const Type& type, const void* value, const std::stri
   return "output '" + path + "' is " + scalar_text(type, value);
 }
 
+// More than there are processors never pay.
+std::size_t useful_workers(std::size_t wanted, Sharing sharing) {
+  if (sharing == Sharing::always) return wanted;
+  return std::min<std::size_t>(wanted, std::max(1U, std::thread::hardware_concurrency()));
+}
+
 }  // namespace
 
 std::string to_text(const Fault& fault) {
@@ -72,8 +56,11 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
     : graph_(graph), plan_(graph), channels_(std::move(channels)), options_(options) {
   assert(channels_.size() == graph.distributers.size());
   if (options.recorder != nullptr) options.recorder->expect(plan_.outputs);
+  if (options.workers > 1)
+    team_ = std::make_unique<StageTeam>(useful_workers(options.workers, options.sharing), options.sharing, plan_);
   const std::size_t groups = plan_.groups.size();
   cursors_.resize(groups);
+  in_stage_.resize(groups);
   ticks_.resize(groups);
   outs_.reserve(graph.communicators.size());
   ins_.reserve(graph.communicators.size());
@@ -147,7 +134,9 @@ void Executor::step_instant(std::int64_t instant) {
     publish<Digest, Record>(in->publish, instant, instant_term);
   }
   // step 4: tasks released now
-  if (due_.size() == 1) {
+  if (team_ != nullptr && team_->may_share(plan_.groups, due_)) {
+    run_stages_shared<Digest, Record>(instant, instant_term);
+  } else if (due_.size() == 1) {
     const Group& group = plan_.groups[due_[0]];
     const Tick tick{Duration(instant), releases_[due_[0]]++, group.period};
     for (const Segment& segment : group.segments) run_segment<Digest, Record>(segment, tick, instant_term);
@@ -169,15 +158,19 @@ void Executor::gather_communicators() {
   sort_by_name(ins_);
 }
 
-// Several groups: the segments of the lowest stage of all, then those of the next.
-template <bool Digest, bool Record>
-void Executor::run_stages(std::int64_t instant, std::uint64_t instant_term) {
+void Executor::start_groups(std::int64_t instant) {
   for (std::size_t i = 0; i < due_.size(); ++i) {
     const Group& group = plan_.groups[due_[i]];
     cursors_[i] = group.segments.first;
     ticks_[i] = {Duration(instant), releases_[due_[i]]++, group.period};
     report_.activations += group.activations;
   }
+}
+
+// Several groups: the segments of the lowest stage of all, then those of the next.
+template <bool Digest, bool Record>
+void Executor::run_stages(std::int64_t instant, std::uint64_t instant_term) {
+  start_groups(instant);
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   for (std::uint32_t stage = 0; stage != none;) {
     std::uint32_t next = none;
@@ -188,6 +181,47 @@ void Executor::run_stages(std::int64_t instant, std::uint64_t instant_term) {
       if (cursors_[i] != last) next = std::min(next, cursors_[i]->stage);
     }
     stage = next;
+  }
+}
+
+// The same by several workers, stage by stage.
+template <bool Digest, bool Record>
+void Executor::run_stages_shared(std::int64_t instant, std::uint64_t instant_term) {
+  start_groups(instant);
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  for (std::uint32_t stage = 0; stage != none;) {
+    std::uint32_t next = none;
+    std::ptrdiff_t levels = 0;
+    for (std::size_t i = 0; i < due_.size(); ++i) {
+      const Segment* last = plan_.groups[due_[i]].segments.last;
+      in_stage_[i] = cursors_[i] != last && cursors_[i]->stage == stage ? cursors_[i]++ : nullptr;
+      if (in_stage_[i] != nullptr) levels = std::max(levels, in_stage_[i]->levels.last - in_stage_[i]->levels.first);
+      if (cursors_[i] != last) next = std::min(next, cursors_[i]->stage);
+    }
+    for (std::ptrdiff_t level = 0; level < levels; ++level) run_level_shared<Digest, Record>(level, instant_term);
+    stage = next;
+  }
+}
+
+// The tasks of one level of all segments of the stage: none feeds another.
+template <bool Digest, bool Record>
+void Executor::run_level_shared(std::ptrdiff_t level, std::uint64_t instant_term) {
+  team_->clear();
+  for (std::size_t i = 0; i < due_.size(); ++i) {
+    const Segment* const segment = in_stage_[i];
+    if (segment == nullptr || level >= segment->levels.last - segment->levels.first) continue;
+    for (const Activation& activation : segment->levels.first[level]) team_->add(activation, ticks_[i]);
+  }
+  report_.digest += team_->run(Digest, instant_term);
+  for (const StageTeam::Item& item : team_->items()) {
+    const std::int64_t instant = item.tick->now.count();
+    if (item.outcome != Outcome::good) {
+      on_bad_outcome(*item.activation, item.outcome, *item.tick);
+    } else if (item.activation->publishes_deep) {
+      publish<Digest, Record>(item.activation->publish, instant, instant_term);
+    } else if constexpr (Record) {
+      record(item.activation->publish, instant);
+    }
   }
 }
 
@@ -205,18 +239,21 @@ void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64
 
 template <bool Digest, bool Record>
 inline void Executor::publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term) {
-  for (const Copy& c : what.copies) copy(c);
+  for (const Copy& c : what.copies) transfer(c);
   if constexpr (Digest)
     for (const Publication& p : what.publications)
       report_.digest += digest::publication(p.name_hash, instant_term, p.hash_words(p.value));
-  if constexpr (Record)
-    for (const Publication& p : what.publications) {
-      if (p.size > 0) [[likely]] {
-        options_.recorder->append(instant, p.output, p.value, p.size);
-      } else {
-        options_.recorder->append_deep(instant, p.output, p.value);
-      }
+  if constexpr (Record) record(what, instant);
+}
+
+inline void Executor::record(const Publish& what, std::int64_t instant) {
+  for (const Publication& p : what.publications) {
+    if (p.size > 0) [[likely]] {
+      options_.recorder->append(instant, p.output, p.value, p.size);
+    } else {
+      options_.recorder->append_deep(instant, p.output, p.value);
     }
+  }
 }
 
 void Executor::hand_over(const CommunicatorAction& out) {

@@ -10,6 +10,7 @@
 #include "runtime/channels.h"
 #include "runtime/plan.h"
 #include "runtime/recorder.h"
+#include "runtime/stage_team.h"
 
 namespace jarol {
 
@@ -38,6 +39,8 @@ struct Report {
 struct ExecutorOptions {
   bool digest = true;
   Recorder* recorder = nullptr;
+  std::size_t workers = 1;  // threads that run tasks, the caller's among them; the outcome is the same for any number
+  Sharing sharing = Sharing::if_it_pays;
 };
 
 class Executor {
@@ -57,6 +60,9 @@ class Executor {
   const Report& report() const { return report_; }
   const Plan& plan() const { return plan_; }
 
+  /// How the stages were shared among several workers; null with one.
+  const StageTeam* team() const { return team_.get(); }
+
   /// What a communicator last published, or its initial value.
   const void* last_value(std::size_t communicator) const;
 
@@ -71,6 +77,12 @@ class Executor {
   void run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term);
   template <bool Digest, bool Record>
   void run_stages(std::int64_t instant, std::uint64_t instant_term);
+  template <bool Digest, bool Record>
+  void run_stages_shared(std::int64_t instant, std::uint64_t instant_term);
+  template <bool Digest, bool Record>
+  void run_level_shared(std::ptrdiff_t level, std::uint64_t instant_term);
+  void record(const Publish& what, std::int64_t instant);
+  void start_groups(std::int64_t instant);
   void gather_communicators();
   void hand_over(const CommunicatorAction& out);
   void take(const CommunicatorAction& in);
@@ -84,10 +96,12 @@ class Executor {
   Calendar calendar_;                                  // when each group is due
   std::span<const std::uint32_t> due_;                 // groups due now, in the calendar
   std::vector<const Segment*> cursors_;                // of the groups due now
+  std::vector<const Segment*> in_stage_;               // of the groups due now, null where none
   std::vector<Tick> ticks_;                            // of the groups due now
   std::vector<const CommunicatorAction*> outs_, ins_;  // due now
   std::vector<std::int64_t> releases_;                 // per group: how often it was due
   std::vector<const std::byte*> last_;                 // per communicator
+  std::unique_ptr<StageTeam> team_;                    // null: one worker
   Report report_;
   std::atomic<std::int64_t> now_{0};
   std::atomic<bool> interrupted_{false};

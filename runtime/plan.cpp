@@ -79,6 +79,7 @@ class PlanBuilder {
   void build() {
     sort_connections();
     assign_stages();
+    assign_levels();
     lay_out();
     fill();
     name_outputs();
@@ -104,11 +105,27 @@ class PlanBuilder {
       for (const Connection* c : from_task_[i]) {
         if (c->to.kind != End::Kind::task) continue;
         const Task& reader = graph_.tasks[c->to.index];
-        const bool same_group = reader.period == task.period && reader.offset == task.offset;
+        const bool same_group = in_same_group(task, reader);
         const std::int64_t gcd = std::gcd(task.period.count(), reader.period.count());
         const bool coincide = (reader.offset - task.offset).count() % gcd == 0;
         if (!coincide) continue;
         stage_[c->to.index] = std::max(stage_[c->to.index], stage_[i] + (same_group ? 0 : 1));
+      }
+    }
+  }
+
+  static bool in_same_group(const Task& a, const Task& b) { return a.period == b.period && a.offset == b.offset; }
+
+  // Within a group and stage, a later level than every producer there.
+  void assign_levels() {
+    level_.assign(graph_.tasks.size(), 0);
+    for (const std::size_t i : graph_.order) {
+      if (graph_.tasks[i].let) continue;
+      for (const Connection* c : from_task_[i]) {
+        const std::size_t reader = c->to.index;
+        if (c->to.kind != End::Kind::task || stage_[reader] != stage_[i]) continue;
+        if (in_same_group(graph_.tasks[i], graph_.tasks[reader]))
+          level_[reader] = std::max(level_[reader], level_[i] + 1);
       }
     }
   }
@@ -118,7 +135,8 @@ class PlanBuilder {
     std::vector<std::size_t> order = graph_.order;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       const Task &s = graph_.tasks[a], &t = graph_.tasks[b];
-      return std::tuple(s.period, s.offset, stage_[a]) < std::tuple(t.period, t.offset, stage_[b]);
+      return std::tuple(s.period, s.offset, stage_[a], level_[a]) <
+             std::tuple(t.period, t.offset, stage_[b], level_[b]);
     });
     return order;
   }
@@ -267,6 +285,7 @@ class PlanBuilder {
     plan_.outs_.reserve(graph_.communicators.size());
     plan_.ins_.reserve(graph_.communicators.size());
     plan_.segments_.reserve(graph_.tasks.size());
+    plan_.levels_.reserve(graph_.tasks.size());
   }
 
   Publication publication(const std::string& name, const Type& type, const std::byte* value) const {
@@ -303,7 +322,27 @@ class PlanBuilder {
             {at(tasks_[i].parameters), at(tasks_[i].in), at(tasks_[i].state), at(tasks_[i].out), &plan_.status[i]},
             task.let ? Publish{} : publish_task(i),
             static_cast<std::uint32_t>(i),
-            task.let.has_value()};
+            connections_of(i),
+            task.let.has_value(),
+            std::any_of(from_task_[i].begin(), from_task_[i].end(),
+                        [](const Connection* c) { return c->type->is_deep(); })};
+  }
+
+  std::uint32_t connections_of(std::size_t i) const {
+    const std::size_t out = graph_.tasks[i].let ? 0 : from_task_[i].size();
+    return static_cast<std::uint32_t>(graph_.tasks[i].task_class->in->fields.size() + out);
+  }
+
+  // Appends to the newest segment and level, or begins new ones.
+  void add_to_segment(std::size_t task, const std::size_t* before, Range<Activation> activation) {
+    const bool same_stage = before != nullptr && stage_[*before] == stage_[task];
+    if (!same_stage) plan_.segments_.push_back({stage_[task], {activation.first, nullptr}, {}});
+    if (!same_stage || level_[*before] != level_[task]) plan_.levels_.push_back({activation.first, nullptr});
+    plan_.levels_.back().last = activation.last;
+    Segment& segment = plan_.segments_.back();
+    segment.activations.last = activation.last;
+    if (segment.levels.first == nullptr) segment.levels.first = &plan_.levels_.back();
+    segment.levels.last = plan_.levels_.data() + plan_.levels_.size();
   }
 
   void make_groups() {
@@ -341,9 +380,8 @@ class PlanBuilder {
         const std::size_t i = members.tasks[m];
         const std::size_t at = plan_.activations_.size();
         plan_.activations_.push_back(activation(i));
-        if (m == 0 || stage_[i] != stage_[members.tasks[m - 1]])
-          plan_.segments_.push_back({stage_[i], {plan_.activations_.data() + at, nullptr}});
-        plan_.segments_.back().activations.last = plan_.activations_.data() + at + 1;
+        add_to_segment(i, m == 0 ? nullptr : &members.tasks[m - 1],
+                       {&plan_.activations_[at], &plan_.activations_[at] + 1});
       }
       group.segments = range(plan_.segments_, first_segment);
       plan_.groups.push_back(group);
@@ -354,6 +392,7 @@ class PlanBuilder {
   Plan& plan_;
   std::vector<std::vector<const Connection*>> from_task_, from_communicator_;
   std::vector<std::uint32_t> stage_;
+  std::vector<std::uint32_t> level_;
   std::vector<std::size_t> order_;
   std::vector<TaskPlaces> tasks_;
   std::vector<CommunicatorPlaces> communicators_;

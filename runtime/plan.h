@@ -88,7 +88,9 @@ struct Activation {
   TaskMemory memory;  // its fault text is the TaskStatus
   Publish publish;    // empty for a task with a LET
   std::uint32_t task = 0;
+  std::uint32_t connections = 0;  // to and from others at its release
   bool has_let = false;
+  bool publishes_deep = false;  // into memory that other producers may write as well
 };
 
 /// The outputs of a LET task, due at the end of its LET.
@@ -106,10 +108,12 @@ struct CommunicatorAction {
   Publish publish;
 };
 
-/// Consecutive tasks of one group that may run before the next stage of other groups.
+/// Consecutive tasks of one group that may run before the next stage of other groups. Those of one level do not feed
+/// each other; and segments of different groups in one stage do not either.
 struct Segment {
   std::uint32_t stage = 0;
   Range<Activation> activations;
+  Range<Range<Activation>> levels;  // the same activations, for several workers
 };
 
 /// All that acts at `first`, `first + period`, ...
@@ -156,6 +160,7 @@ struct Plan {
   std::vector<CommunicatorAction> outs_;
   std::vector<CommunicatorAction> ins_;
   std::vector<Segment> segments_;
+  std::vector<Range<Activation>> levels_;
 };
 
 }  // namespace jarol

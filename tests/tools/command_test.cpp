@@ -73,6 +73,7 @@ TEST_SUITE("tools/command") {
     CHECK(digest_of("specs/counting.yaml --for 3000ms --trace " + (folder / "t.csv")) == digest);
     CHECK(digest_of("specs/counting.yaml --for 3s --plot " + (folder / "p.svg")) == digest);
     CHECK(jarol("run specs/counting.yaml --for 3s").output.find(digest) != std::string::npos);
+    CHECK(digest_of("specs/counting.yaml --for 3s --workers 4") == digest);
     CHECK(digest_of("specs/counting.yaml --for 3.1s") != digest);
   }
 

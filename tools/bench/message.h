@@ -47,6 +47,27 @@ struct Stage {
   static void run(const Tick&, const In& in, State& state, Out& out) { pass_on(in.in, state, out.out); }
 };
 
+/// Passes nothing on and takes as long as it is told.
+struct Body {
+  static constexpr std::string_view summary = "takes time";
+  struct Param {
+    std::uint32_t rounds = 1;
+    static constexpr auto fields() { return describe(field<&Param::rounds>()); }
+  };
+  struct In {
+    Message in{};
+    static constexpr auto fields() { return describe(field<&In::in>()); }
+  };
+  using State = Filter;
+  struct Out {
+    Message out{};
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Param& p, const Tick&, const In& in, State& state, Out& out) {
+    for (std::uint32_t i = 0; i < p.rounds; ++i) pass_on(in.in, state, out.out);
+  }
+};
+
 /// Throws at every activation.
 struct Thrower {
   static constexpr std::string_view summary = "fails";

@@ -26,6 +26,7 @@ struct Options {
   Overrides overrides;
   std::string duration;
   std::uint64_t seed = 0;
+  std::size_t workers = 1;
   bool json = false;
   std::string trace;
   std::string plot;
@@ -133,6 +134,9 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
                 << heap->size() << " bytes in use\n";
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
+  if (const StageTeam* team = executor.team())
+    std::cout << "  workers     " << options.workers << ", " << team->shared() << " of "
+              << team->shared() + team->alone() << " stages shared\n";
   if (!options.trace.empty()) std::cout << "  trace       " << options.trace << "\n";
   if (!options.plot.empty()) std::cout << "  picture     " << options.plot << "\n";
   for (const Fault& fault : report.faults) std::cerr << "fault: " << to_text(fault) << "\n";
@@ -182,7 +186,8 @@ int run(const Options& options) {
   std::vector<RecordSink*> to;
   for (const auto& sink : sinks) to.push_back(sink.get());
   std::unique_ptr<Recorder> recorder = to.empty() ? nullptr : std::make_unique<Recorder>(to);
-  Executor executor(graph, std::move(loaded.channels), {.digest = true, .recorder = recorder.get()});
+  Executor executor(graph, std::move(loaded.channels),
+                    {.digest = true, .recorder = recorder.get(), .workers = options.workers});
   const auto start = std::chrono::steady_clock::now();
   {
     const Interruptible interruptible(executor);
@@ -214,6 +219,11 @@ void add_run(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
   command->add_option("--seed", options->seed, "Seed of vehicles and distributers that have noise; default 0");
+  command
+      ->add_option("--workers", options->workers,
+                   "Threads that run tasks; stages are shared where that pays, and the outcome is the same for any "
+                   "number; default 1")
+      ->check(CLI::Range(1, 64));
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->add_option("--trace", options->trace, "Write every published value to this CSV file");
   command->add_option("--plot", options->plot, "Draw what was commanded and reached into this SVG file");

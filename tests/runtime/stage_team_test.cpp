@@ -1,0 +1,160 @@
+// Several workers give what one gives.
+#include "runtime/stage_team.h"
+
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+
+#include "tests/runtime/random_model.h"
+#include "tests/runtime/trace_of.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+
+constexpr std::array<std::size_t, 3> counts{2, 4, 8};
+
+std::uint64_t graph_count() {
+#ifdef __OPTIMIZE__
+  return 1'000;
+#else
+  return 200;
+#endif
+}
+
+// Threads that do nothing but take processors away.
+class Load {
+ public:
+  explicit Load(int threads) {
+    for (int i = 0; i < threads; ++i)
+      threads_.emplace_back([this] {
+        while (!end_.load(std::memory_order_relaxed)) {
+        }
+      });
+  }
+  ~Load() {
+    end_ = true;
+    for (std::thread& thread : threads_) thread.join();
+  }
+  Load(const Load&) = delete;
+  Load& operator=(const Load&) = delete;
+
+ private:
+  std::atomic<bool> end_{false};
+  std::vector<std::thread> threads_;
+};
+
+struct Result {
+  std::uint64_t digest = 0, activations = 0, faults = 0;
+  std::string first_fault;
+  bool operator==(const Result&) const = default;
+};
+
+Result run_with(const Graph& graph, std::size_t workers, Sharing sharing, Duration end) {
+  Executor executor(graph, {},
+                    {.digest = true, .recorder = nullptr, .workers = workers, .sharing = sharing});
+  executor.run_until(end);
+  const Report& r = executor.report();
+  return {r.digest, r.activations, r.fault_count, r.faults.empty() ? "" : to_text(r.faults[0])};
+}
+
+void check_random_graphs(std::uint64_t count) {
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    const Graph graph = tests::graph_of(oracle::to_yaml(oracle::random_model(seed), 0));
+    const Result one = run_with(graph, 1, Sharing::if_it_pays, 20ms);
+    CAPTURE(seed);
+    for (const std::size_t workers : counts) {
+      CAPTURE(workers);
+      REQUIRE(run_with(graph, workers, Sharing::always, 20ms) == one);
+    }
+  }
+}
+
+// Fails at every third activation.
+struct Unsteady {
+  static constexpr std::string_view summary = "for tests";
+  struct State {
+    double runs = 0;
+    static constexpr auto fields() { return describe(field<&State::runs>()); }
+  };
+  struct Out {
+    double out = 0;
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Tick& tick, State& state, Out& out) {
+    out.out = state.runs += 1;
+    if (tick.activation % 3 == 2) throw std::runtime_error("every third");
+  }
+};
+
+Graph mixed_graph() {
+  static const Registry registry = [] {
+    Registry made = tests::generic_tasks();
+    made.add(task_class<Unsteady>());
+    return made;
+  }();
+  std::string tasks, connections;
+  for (int i = 0; i < 12; ++i) {
+    const std::string n = std::to_string(i);
+    tasks += "  u" + n + ": {type: Unsteady, on_fault: " + (i % 2 == 0 ? "hold" : "skip") + "}\n";
+    tasks += "  w" + n + ": {type: Window, parameters: {length: " + n + "}}\n";
+    tasks += "  m" + n + ": {type: Mean" + (i % 3 == 0 ? ", let: 1ms" : "") + "}\n";
+    connections += "  - u" + n + ".out -> w" + n + ".in\n  - w" + n + ".out -> m" + n + ".in\n";
+  }
+  Problems problems;
+  Graph graph = build_graph(
+      load_spec(std::make_shared<Source>(Source{"t.yaml", "graph: t\ntiming: {period: 1ms}\ntasks:\n" + tasks +
+                                                              "connections:\n" + connections}),
+                {}, problems),
+      registry, problems);
+  problems.throw_if_any();
+  return graph;
+}
+}  // namespace
+
+TEST_SUITE("runtime/stage_team") {
+  TEST_CASE("random graphs give the same with 1, 2, 4 and 8 workers") { check_random_graphs(graph_count()); }
+
+  TEST_CASE("on a loaded machine too") {
+    const Load load(4);
+    check_random_graphs(graph_count() / 10);
+  }
+
+  TEST_CASE("faults, deep values and records are the same for any number of workers") {
+    const Graph graph = mixed_graph();
+    const Result one = run_with(graph, 1, Sharing::if_it_pays, 100ms);
+    CHECK(one.faults > 100);
+    for (const std::size_t workers : counts) CHECK(run_with(graph, workers, Sharing::always, 100ms) == one);
+
+    const auto sorted_trace = [&](std::size_t workers) {
+      tests::TraceLines lines(graph);
+      Recorder recorder({&lines});
+      Executor executor(graph, {},
+                        {.digest = false, .recorder = &recorder, .workers = workers, .sharing = Sharing::always});
+      executor.run_until(50ms);
+      recorder.close();
+      std::sort(lines.lines.begin(), lines.lines.end());
+      return lines.lines;
+    };
+    const auto trace = sorted_trace(1);
+    CHECK(trace.size() > 1000);
+    CHECK(sorted_trace(2) == trace);
+    CHECK(sorted_trace(8) == trace);
+  }
+
+  TEST_CASE("a stage is shared if its tasks take long enough, and else not") {
+    const auto shared_part = [](int rounds) {
+      std::string tasks;
+      for (int i = 0; i < 16; ++i)
+        tasks += "  w" + std::to_string(i) + ": {type: Work, parameters: {rounds: " + std::to_string(rounds) + "}}\n";
+      const Graph graph = tests::graph_of("graph: t\ntiming: {period: 1ms}\ntasks:\n" + tasks);
+      Executor executor(graph, {}, {.digest = true, .recorder = nullptr, .workers = 2});
+      executor.run_until(100ms);
+      const StageTeam& team = *executor.team();
+      CHECK(team.shared() + team.alone() == 100);
+      return team.shared();
+    };
+    CHECK(shared_part(1) == 0);
+    if (std::thread::hardware_concurrency() >= 2) CHECK(shared_part(10'000) == 92);  // all after those that measure
+  }
+}
