@@ -12,9 +12,9 @@ namespace {
 constexpr std::uint32_t measurements = 8;  // of each task, of which the least counts
 
 // What sharing costs (measured on two processors): waking and waiting, and each value that crosses between caches.
-constexpr double handover = 700;   // ns
-constexpr double crossing = 60;    // ns
-constexpr double margin = 2;       // gain over cost, at least
+constexpr double handover = 700;             // ns
+constexpr double crossing = 60;              // ns
+constexpr double margin = 2;                 // gain over cost, at least
 constexpr std::size_t parts_per_worker = 4;  // so that who is done first can help
 constexpr double least_part = 2000;          // ns, unless there would be fewer parts than workers
 

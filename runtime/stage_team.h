@@ -1,5 +1,5 @@
-// Several workers on the tasks of one level, which are independent of each other. Decides for each level by the measured
-// times of its tasks whether that pays; whatever it decides, values, digest and faults are the same.
+// Several workers on the tasks of one level, which are independent of each other. Decides for each level by the
+// measured times of its tasks whether that pays; whatever it decides, values, digest and faults are the same.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ class StageTeam {
   void add(const Activation& activation, const Tick& tick) { items_.push_back({&activation, &tick, Outcome::good}); }
   std::span<const Item> items() const { return items_; }
 
-  /// Runs all items. What is good and flat is copied to its readers; the digest's part of these publications is returned
-  /// if asked for. Left to the caller, in order: deep values, recording, and what was not good.
+  /// Runs all items. What is good and flat is copied to its readers; the digest's part of these publications is
+  /// returned if asked for. Left to the caller, in order: deep values, recording, and what was not good.
   std::uint64_t run(bool digest, std::uint64_t instant_term);
 
   /// How often a level was shared, and how often one worker did it.
@@ -65,9 +65,9 @@ class StageTeam {
 
   Workers workers_;
   Sharing sharing_;
-  std::vector<Cost> costs_;             // per task
+  std::vector<Cost> costs_;     // per task
   std::vector<double> widest_;  // per group: the cost of its costliest level; infinite while not known
-  std::size_t unknown_;      // tasks that were not yet measured often enough
+  std::size_t unknown_;         // tasks that were not yet measured often enough
   std::vector<Item> items_;
   std::vector<Part> parts_;
   bool digest_ = false;

@@ -61,6 +61,7 @@ void describe_section(Json& schema, const std::string& name, Json section) {
 std::string graph_schema() {
   Json schema = mapping_schema(graph_keys());
   describe_section(schema, "timing", mapping_schema(timing_keys()));
+  describe_section(schema, "plugins", {{"type", "array"}, {"items", {{"type", "string"}}}});
   describe_section(schema, "distributers", entries_schema(mapping_schema(distributer_keys())));
   describe_section(schema, "communicators", entries_schema(mapping_schema(communicator_keys())));
   describe_section(schema, "tasks", entries_schema(mapping_schema(task_keys())));

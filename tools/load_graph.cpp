@@ -2,6 +2,7 @@
 
 #include "distributers/distributers.h"
 #include "graph/build.h"
+#include "graph/plugins.h"
 #include "tasks/tasks.h"
 #ifdef JAROL_VEHICLES
 #include "vehicles/catalogue.h"
@@ -37,7 +38,9 @@ Loaded load_graph(const std::string& path, const Overrides& overrides) {
   Problems problems;
   const GraphSpec spec = load_spec(read_source(path), overrides, problems);
   Loaded loaded;
-  loaded.graph = std::make_unique<Graph>(build_graph(spec, registry(), problems));
+  loaded.registry = std::make_unique<Registry>(registry());
+  load_plugins(spec, *loaded.registry, problems);
+  loaded.graph = std::make_unique<Graph>(build_graph(spec, *loaded.registry, problems));
   loaded.channels = distributers::make_channels(*loaded.graph, known_vehicles(), problems);
   problems.throw_if_any();
   return loaded;

@@ -15,6 +15,7 @@ namespace jarol::tools {
 const Registry& registry();
 
 struct Loaded {
+  std::unique_ptr<Registry> registry;  // with the graph's plugins
   std::unique_ptr<Graph> graph;
   std::vector<std::unique_ptr<Channels>> channels;
 };

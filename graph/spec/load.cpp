@@ -88,9 +88,23 @@ void read_connections(const Yaml& graph, std::vector<ConnectionSpec>& to, Proble
   }
 }
 
+void read_plugins(const Yaml& graph, std::vector<Located<std::string>>& to, Problems& problems) {
+  const Yaml* yaml = graph.find("plugins");
+  if (yaml == nullptr || yaml->kind == Yaml::Kind::null) return;
+  if (yaml->kind != Yaml::Kind::sequence)
+    return problems.add(yaml->where,
+                        "'plugins' needs a list of shared libraries, not " + std::string(kind_name(*yaml)));
+  for (const Yaml& child : yaml->children) {
+    if (child.kind == Yaml::Kind::scalar)
+      to.push_back({child.text, child.where});
+    else
+      problems.add(child.where, "'plugins' needs paths of shared libraries, not " + std::string(kind_name(child)));
+  }
+}
+
 // Keys of later versions get a sentence of their own.
 void refuse_later_keys(Yaml& graph, Problems& problems) {
-  for (const std::string key : {"modes", "predicates", "plugins", "chains"}) {
+  for (const std::string key : {"modes", "predicates", "chains"}) {
     const Yaml* found = graph.find(key);
     if (found == nullptr) continue;
     problems.add(found->key_where, "'" + key + "' is not there yet; leave it out");
@@ -122,6 +136,7 @@ GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides
   refuse_later_keys(graph, problems);
   read_keys(graph, graph_keys(), spec, "a graph", problems);
   read_section(graph, "timing", timing_keys(), spec.timing, problems);
+  read_plugins(graph, spec.plugins, problems);
   read_section(graph, "platform", platform_keys(), spec.platform, problems);
   read_entries(graph, "distributers", "distributer", distributer_keys(), spec.distributers, problems);
   read_entries(graph, "communicators", "communicator", communicator_keys(), spec.communicators, problems);

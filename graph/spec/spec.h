@@ -86,6 +86,7 @@ struct GraphSpec {
   Maybe<std::string> name;
   Location where;  // of the whole
   TimingSpec timing;
+  std::vector<Located<std::string>> plugins;  // paths, relative to the graph's file
   std::vector<DistributerSpec> distributers;
   std::vector<CommunicatorSpec> communicators;
   std::vector<TaskSpec> tasks;

@@ -6,6 +6,7 @@ const std::vector<Key<GraphSpec>>& graph_keys() {
   static const std::vector<Key<GraphSpec>> keys{
       key<&GraphSpec::name>("graph", Form::word, "name of the graph", true),
       {"timing", Form::section, false, "period and timing grammar of the whole graph", {}, nullptr},
+      {"plugins", Form::section, false, "shared libraries with task types, relative to this file", {}, nullptr},
       {"distributers", Form::section, false, "external systems, each with a link", {}, nullptr},
       {"communicators", Form::section, false, "what comes in and goes out, pinned in time", {}, nullptr},
       {"tasks", Form::section, false, "the compute tasks", {}, nullptr},

@@ -28,8 +28,7 @@ class Load {
   explicit Load(int threads) {
     for (int i = 0; i < threads; ++i)
       threads_.emplace_back([this] {
-        while (!end_.load(std::memory_order_relaxed)) {
-        }
+        while (!end_.load(std::memory_order_relaxed)) {}
       });
   }
   ~Load() {
@@ -51,8 +50,7 @@ struct Result {
 };
 
 Result run_with(const Graph& graph, std::size_t workers, Sharing sharing, Duration end) {
-  Executor executor(graph, {},
-                    {.digest = true, .recorder = nullptr, .workers = workers, .sharing = sharing});
+  Executor executor(graph, {}, {.digest = true, .recorder = nullptr, .workers = workers, .sharing = sharing});
   executor.run_until(end);
   const Report& r = executor.report();
   return {r.digest, r.activations, r.fault_count, r.faults.empty() ? "" : to_text(r.faults[0])};
@@ -102,11 +100,11 @@ Graph mixed_graph() {
     connections += "  - u" + n + ".out -> w" + n + ".in\n  - w" + n + ".out -> m" + n + ".in\n";
   }
   Problems problems;
-  Graph graph = build_graph(
-      load_spec(std::make_shared<Source>(Source{"t.yaml", "graph: t\ntiming: {period: 1ms}\ntasks:\n" + tasks +
-                                                              "connections:\n" + connections}),
-                {}, problems),
-      registry, problems);
+  Graph graph =
+      build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", "graph: t\ntiming: {period: 1ms}\ntasks:\n" +
+                                                                          tasks + "connections:\n" + connections}),
+                            {}, problems),
+                  registry, problems);
   problems.throw_if_any();
   return graph;
 }

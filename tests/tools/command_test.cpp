@@ -114,6 +114,31 @@ tasks:
     CHECK(trace.find("time,count.out,mean.out,window.out\n0,0,,\"[0]\"\n0.005,,0,\n0.01,1,,\"[0,1]\"\n") == 0);
   }
 
+  TEST_CASE("a graph names plugins beside itself, and runs their tasks") {
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(JAROL_PLUGIN_FOLDER "/twice.so", folder / "twice.so",
+                               std::filesystem::copy_options::overwrite_existing);
+    const std::string graph = folder.write("g.yaml", R"(graph: t
+timing: {period: 10ms}
+plugins: [twice.so]
+communicators:
+  o: {type: double, direction: out}
+tasks:
+  c: {type: Counter}
+  t: {type: Twice}
+  w: {type: Window, parameters: {length: 5}}
+  r: {type: Reverse}
+connections: [c.out -> t.in, t.out -> o, c.out -> w.in, w.out -> r.in]
+)");
+    const auto run = json_of("run " + graph + " --for 100ms --json");
+    CHECK(run["faults"].size() == 1);
+    CHECK(run["faults"][0]["cause"] == "threw: more than three");
+    CHECK(run["outputs"]["o"] == 4);
+    CHECK(jarol("tasks Twice --plugin " JAROL_PLUGIN_FOLDER "/twice.so").output ==
+          "Twice: doubles its input\n\ninputs\n  in  double\n\noutputs\n  out  double  twice the input\n");
+    CHECK(jarol("tasks --plugin nowhere.so").output == "error: there is no file 'nowhere.so'\n");
+  }
+
   TEST_CASE("a known digest stays what it was") {
     // a change here breaks every recorded run of every user
     CHECK(digest_of("specs/counting.yaml --for 10s") == "0xef44f03bd732a5ab");

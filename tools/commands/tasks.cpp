@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "graph/plugins.h"
 #include "graph/values/bind.h"
 #include "tools/commands/commands.h"
 #include "tools/load_graph.h"
@@ -13,6 +14,7 @@ namespace {
 
 struct Options {
   std::string name;
+  std::vector<std::string> plugins;
   bool json = false;
 };
 
@@ -108,34 +110,41 @@ void print_distributer(const DistributerClass& distributer) {
               << (c.direction == Direction::in ? "in   " : "out  ") << c.type->name << "  " << c.text << "\n";
 }
 
-void print_all() {
+void print_all(const Registry& known) {
   std::size_t width = 0;
-  for (const auto& name : names_of(registry().tasks())) width = std::max(width, name.size());
-  for (const auto& name : names_of(registry().distributers())) width = std::max(width, name.size());
+  for (const auto& name : names_of(known.tasks())) width = std::max(width, name.size());
+  for (const auto& name : names_of(known.distributers())) width = std::max(width, name.size());
   std::cout << "tasks\n";
-  for (const TaskClass& t : registry().tasks())
+  for (const TaskClass& t : known.tasks())
     std::cout << "  " << t.name << std::string(width - t.name.size() + 2, ' ') << t.summary << "\n";
   std::cout << "\ndistributers\n";
-  for (const DistributerClass& d : registry().distributers())
+  for (const DistributerClass& d : known.distributers())
     std::cout << "  " << d.name << std::string(width - d.name.size() + 2, ' ') << d.summary << "\n";
   std::cout << "\njarol tasks NAME tells parameters, inputs, outputs and channels\n";
 }
 
 int list_tasks(const Options& options) {
+  Registry known = registry();
+  for (const std::string& plugin : options.plugins) {
+    const std::string wrong = load_plugin(plugin, known);
+    if (wrong.empty()) continue;
+    std::cerr << "error: " << wrong << "\n";
+    return exit_input;
+  }
   if (options.name.empty()) {
-    options.json ? print_json(registry().tasks(), registry().distributers()) : print_all();
+    options.json ? print_json(known.tasks(), known.distributers()) : print_all(known);
     return exit_good;
   }
-  if (const TaskClass* task = registry().find_task(options.name)) {
+  if (const TaskClass* task = known.find_task(options.name)) {
     options.json ? print_json({*task}, {}) : print_task(*task);
     return exit_good;
   }
-  if (const DistributerClass* distributer = registry().find_distributer(options.name)) {
+  if (const DistributerClass* distributer = known.find_distributer(options.name)) {
     options.json ? print_json({}, {*distributer}) : print_distributer(*distributer);
     return exit_good;
   }
-  std::vector<std::string> names = names_of(registry().tasks());
-  for (const auto& name : names_of(registry().distributers())) names.push_back(name);
+  std::vector<std::string> names = names_of(known.tasks());
+  for (const auto& name : names_of(known.distributers())) names.push_back(name);
   std::cerr << "error: there is no task or distributer '" << options.name << "'" << did_you_mean(options.name, names)
             << "; there are: " << list_of(names) << "\n";
   return exit_input;
@@ -147,6 +156,7 @@ void add_tasks(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("tasks", "List task types and distributers, or tell all about one");
   command->add_option("NAME", options->name, "A task type or distributer, as in DepthControl");
+  command->add_option("--plugin", options->plugins, "Also those of this shared library")->allow_extra_args(false);
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->callback([options, &exit_code] { exit_code = list_tasks(*options); });
 }
