@@ -23,8 +23,6 @@ void add_tasks_of_plugin(Registry& registry) {
 }  // namespace jarol
 
 /// Names the tasks that the library brings, once in a library.
-#define JAROL_PLUGIN(...)                                                      \
-  extern "C" const char* jarol_plugin_form() { return jarol::plugin_form; }    \
-  extern "C" void jarol_plugin_add(jarol::Registry& registry) {                \
-    jarol::add_tasks_of_plugin<__VA_ARGS__>(registry);                         \
-  }
+#define JAROL_PLUGIN(...)                                                   \
+  extern "C" const char* jarol_plugin_form() { return jarol::plugin_form; } \
+  extern "C" void jarol_plugin_add(jarol::Registry& registry) { jarol::add_tasks_of_plugin<__VA_ARGS__>(registry); }

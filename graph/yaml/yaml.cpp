@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
 constexpr std::size_t most_values = 1'000'000;
+constexpr std::size_t most_aliased = 100'000;
 constexpr std::size_t most_depth = 64;
 
 struct TooMuch {};
@@ -42,7 +43,10 @@ class Builder : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = anchored_.find(anchor);
     if (found != anchored_.end()) {
-      add_to_count(count(found->second) - 1);  // aliases of aliases multiply
+      // aliases of aliases multiply
+      aliased_ += count(found->second);
+      if (aliased_ > most_aliased)
+        too_much(mark, "aliases stand for more than " + std::to_string(most_aliased) + " values");
       return finish(found->second, 0);
     }
     problems_.add(at(mark), "an alias stands inside the very value it refers to; a value can't contain itself");
@@ -116,15 +120,13 @@ class Builder : public YAML::EventHandler {
     return sum;
   }
 
-  void add_to_count(std::size_t values) {
-    values_ += values;
-    if (values_ <= most_values) return;
-    problems_.add({source_, 1, 1}, "the text holds more than " + std::to_string(most_values) + " values");
+  [[noreturn]] void too_much(const YAML::Mark& mark, const std::string& text) {
+    problems_.add(at(mark), text);
     throw TooMuch();
   }
 
   void finish(Yaml value, YAML::anchor_t anchor) {
-    add_to_count(1);
+    if (++values_ > most_values) too_much({}, "the text holds more than " + std::to_string(most_values) + " values");
     if (anchor != 0) anchored_.emplace(anchor, value);
     if (open_.empty()) {
       root_ = std::move(value);
@@ -169,6 +171,7 @@ class Builder : public YAML::EventHandler {
   std::vector<Open> open_;
   std::map<YAML::anchor_t, Yaml> anchored_;
   std::size_t values_ = 0;
+  std::size_t aliased_ = 0;  // values that aliases stand for
 };
 
 }  // namespace

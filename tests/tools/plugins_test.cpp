@@ -38,7 +38,6 @@ TEST_SUITE("tools/plugins") {
                                    "graph/plugin.h");
     CHECK(report_on("old") == "'" + library("old") + "' was built for form 0 of 4.2, this is " +
                                   std::string(plugin_form) + "; build it again");
-    CHECK(report_on("clash") ==
-          "'" + library("clash") + "' brings a task type 'Counter', which there is already");
+    CHECK(report_on("clash") == "'" + library("clash") + "' brings a task type 'Counter', which there is already");
   }
 }

@@ -103,7 +103,13 @@ TEST_SUITE("graph/yaml") {
       for (int j = 1; j < 10; ++j) text += ", " + last;
       text += "]\n";
     }
-    CHECK(report_on(text).starts_with("t.yaml:1:1: error: the text holds more than 1000000 values\n"));
+    CHECK(report_on(text).starts_with("t.yaml:5:45: error: aliases stand for more than 100000 values\n"));
+  }
+
+  TEST_CASE("a text of too many values is an error") {
+    std::string text = "a: [1";
+    for (int i = 0; i < 1'000'000; ++i) text += ",1";
+    CHECK(report_on(text + "]").starts_with("t.yaml:1:1: error: the text holds more than 1000000 values\n"));
   }
 
   TEST_CASE("a file that can't be read says why") {

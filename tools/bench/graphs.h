@@ -1,0 +1,29 @@
+// The graphs that the benchmarks run, as text.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "graph/graph.h"
+
+namespace jarol::bench {
+
+Graph graph_of(const std::string& text);
+
+/// Gives the keys of the i-th task: its timing.
+using Keys = std::function<std::string(int)>;
+
+std::string same_rate(int i);
+/// 1, 2, 5 and 10 ms in turn.
+std::string four_rates(int i);
+/// The same with a LET of half the period.
+std::string four_rates_let(int i);
+
+/// A chain: a source and stages.
+std::string chain(int length, const Keys& keys);
+/// One source, all others read it.
+std::string fan(int readers);
+/// A source and `depth` layers of `width` tasks, each fed by the one above.
+std::string layers(int depth, int width, std::uint32_t rounds);
+
+}  // namespace jarol::bench

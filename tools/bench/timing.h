@@ -1,0 +1,38 @@
+// How figures are measured: beside their floor, in turn, in one process.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "runtime/executor.h"
+#include "tools/bench/figures.h"
+
+namespace jarol::bench {
+
+double seconds_of(const std::function<void()>& work);
+
+/// Takes results, so that no floor is optimised away.
+void keep(double result);
+
+/// Runs a graph slice by slice and tells the nanoseconds of one activation.
+class GraphRun {
+ public:
+  GraphRun(const std::string& text, bool digest, Duration slice, std::size_t workers = 1);
+  double nanoseconds();
+
+ private:
+  Graph graph_;
+  Executor executor_;
+  Duration slice_;
+  Duration until_{};
+};
+
+/// Interleaves the two and takes the least of each: what neighbours on the machine add is left out.
+Figure compare(std::string name, std::string text, double goal, int repeats, const std::function<double()>& value,
+               const std::function<double()>& floor);
+
+/// The same by medians: what a second processor gives varies with the neighbours on the machine.
+Figure compare_medians(std::string name, std::string text, double goal, int repeats,
+                       const std::function<double()>& value, const std::function<double()>& floor);
+
+}  // namespace jarol::bench
