@@ -222,6 +222,33 @@ connections: [l.out -> o1, d.out -> o2, i1 -> r.a, i2 -> r.b]
                                                 "10ms i2=0", "10ms d.out=1", "10ms r.out=0"});
   }
 
+  TEST_CASE("an `out` hands over what a LET that ends at that instant publishes") {
+    const auto run = run_graph(graph_of(R"(graph: t
+timing: {period: 10ms}
+communicators:
+  from_let: {type: double, direction: out}
+tasks:
+  l: {type: Counter, let: 10ms, init: {out: 5}}
+connections: [l.out -> from_let]
+)"),
+                               20ms);
+    CHECK(lines_of(run, "from_let") == "0ns from_let=5; 10ms from_let=0");
+  }
+
+  TEST_CASE("a task latches at its release what an `in` publishes then and what a LET publishes then") {
+    const auto run = run_text(R"(graph: t
+timing: {period: 10ms}
+tasks:
+  l: {type: Counter, let: 10ms, init: {out: 5}}
+  r: {type: Relay}
+  slow: {type: Relay, let: 10ms}
+connections: [l.out -> r.in, l.out -> slow.in]
+)",
+                              30ms);
+    CHECK(lines_of(run, "r.out") == "0ns r.out=5; 10ms r.out=0; 20ms r.out=1");  // one output, two readers
+    CHECK(lines_of(run, "slow.out") == "10ms slow.out=5; 20ms slow.out=0");
+  }
+
   TEST_CASE("a run in pieces is the same run") {
     const Graph graph = graph_of(R"(graph: t
 tasks:

@@ -60,7 +60,6 @@ std::string fan(int readers) {
 
 std::string same_rate(int) { return "period: 1ms"; }
 
-
 std::string four_rates(int i) { return "period: " + std::to_string(rate_of(i)) + "ms"; }
 
 std::string four_rates_let(int i) {

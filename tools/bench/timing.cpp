@@ -13,9 +13,7 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void keep(double result) {
-  asm volatile("" : : "g"(&result) : "memory");
-}
+void keep(double result) { asm volatile("" : : "g"(&result) : "memory"); }
 
 GraphRun::GraphRun(const std::string& text, bool digest, Duration slice, std::size_t workers)
     : graph_(graph_of(text)),
