@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "graph/chains.h"
 #include "graph/deadlines.h"
 #include "graph/heaps.h"
 #include "graph/values/bind.h"
@@ -36,6 +37,7 @@ class Builder {
     graph_.period = value_of(spec_.timing.period);
     graph_.platform.cores = spec_.platform.cores ? spec_.platform.cores->value : 1;
     graph_.platform.policy = spec_.platform.policy ? spec_.platform.policy->value : Policy::table;
+    if (spec_.platform.phasing) graph_.platform.phasing = spec_.platform.phasing->value;
     if (graph_.platform.cores < 1)
       problems_.add(spec_.platform.cores->where, "'platform' key 'cores' is 0; a platform has at least one core");
     add_distributers();
@@ -44,6 +46,7 @@ class Builder {
     check_names();
     add_connections();
     check_connected();
+    add_chains(spec_, graph_, problems_);
     if (complete_) {
       graph_.order = data_flow_order(graph_, problems_);
       set_deadlines(graph_, declared_deadlines_, problems_);
@@ -206,6 +209,8 @@ class Builder {
       task.offset = timing.offset;
       task.let = value_of(spec.let);
       task.wcet = value_of(spec.wcet);
+      task.jitter = value_of(spec.jitter).value_or(Duration{});
+      task.blocking = value_of(spec.blocking).value_or(Duration{});
       task.priority = value_of(spec.priority);
       task.core = value_of(spec.core);
       if (spec.on_fault) task.on_fault = spec.on_fault->value;

@@ -21,6 +21,8 @@ struct Task {
   std::optional<Duration> let;  // none: a data-flow task
   Duration deadline{};          // relative to the release, derived or declared
   std::optional<Duration> wcet;
+  Duration jitter{};                     // for the analysis only
+  Duration blocking{};                   // for the analysis only
   std::optional<std::int64_t> priority;  // smaller is more urgent
   std::optional<std::int64_t> core;
   std::size_t heap = 0;  // bytes; of a task that needs one and does not say how large, `default_heap`
@@ -66,6 +68,16 @@ struct Connection {
 struct Platform {
   std::int64_t cores = 1;
   Policy policy = Policy::table;
+  Phasing phasing = Phasing::given;
+};
+
+/// A path of connections along which latency matters.
+struct Chain {
+  std::string name;
+  Location where;
+  std::vector<End> path;  // tasks and communicators; fields do not count
+  std::optional<Duration> reaction;
+  std::optional<Duration> age;
 };
 
 struct Graph {
@@ -78,6 +90,7 @@ struct Graph {
   std::vector<Connection> connections;      // by reader, in the order of tasks, fields, communicators
   std::vector<std::size_t> order;           // of tasks: data-flow tasks before those they feed, then by name
   Platform platform;
+  std::vector<Chain> chains;  // in bytewise order of name
 };
 
 /// "task.output", or the communicator's name: what publications are called in trace and digest.

@@ -67,6 +67,7 @@ std::string graph_schema() {
   describe_section(schema, "tasks", entries_schema(mapping_schema(task_keys())));
   describe_section(schema, "connections",
                    {{"type", "array"}, {"items", {{"type", "string"}, {"pattern", arrow_pattern}}}});
+  describe_section(schema, "chains", entries_schema(mapping_schema(chain_keys())));
   describe_section(schema, "platform", mapping_schema(platform_keys()));
   describe_section(schema, "profiles", {{"type", "object"}, {"additionalProperties", {{"type", "object"}}}});
   Json whole{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "A graph of Jarol"}};

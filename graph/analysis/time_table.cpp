@@ -1,13 +1,11 @@
 #include "graph/analysis/time_table.h"
 
 #include <algorithm>
-#include <numeric>
 #include <queue>
+#include <tuple>
 
 namespace jarol::analysis {
 namespace {
-
-__extension__ using Wide = __int128;
 
 struct Job {
   std::int64_t release = 0;
@@ -18,90 +16,82 @@ struct Job {
 
 bool later(const Job& a, const Job& b) { return std::tie(a.release, a.rank) > std::tie(b.release, b.rank); }
 
-// Least common multiple of all periods, or nothing once it is beyond `most`.
-std::optional<std::int64_t> hyperperiod(const Graph& graph, std::int64_t most) {
-  std::int64_t lcm = 1;
-  for (const Task& task : graph.tasks) {
-    const std::int64_t period = task.period.count();
-    const Wide next = static_cast<Wide>(lcm) / std::gcd(lcm, period) * period;
-    if (next > most) return std::nullopt;
-    lcm = static_cast<std::int64_t>(next);
-  }
-  return lcm;
-}
-
-// Sum of C/T against 1 without rounding: -1, 0 or 1, or nothing if the common denominator is out of reach.
-std::optional<int> compare_utilisation(const Graph& graph, std::int64_t lcm) {
-  Wide demand = 0;
-  for (const Task& task : graph.tasks) demand += static_cast<Wide>(task.wcet->count()) * (lcm / task.period.count());
-  return demand < lcm ? -1 : demand == lcm ? 0 : 1;
-}
-
-std::string names_without_wcet(const Graph& graph) {
-  std::vector<std::string> names;
-  for (const Task& task : graph.tasks)
-    if (!task.wcet) names.push_back("'" + task.name + "'");
-  return list_of(names);
+// Does any core have more to do than there is time?
+bool overloaded(const System& system, const std::vector<std::size_t>& core) {
+  std::vector<Loads> of_core(static_cast<std::size_t>(system.cores));
+  for (std::size_t i = 0; i < system.loads.size(); ++i) of_core[core[i]].push_back(system.loads[i]);
+  return std::any_of(of_core.begin(), of_core.end(), [](const Loads& loads) {
+    const auto order = compare_utilisation(loads, 1);
+    return order && *order > 0;
+  });
 }
 
 }  // namespace
 
-TableResult check_table(const Graph& graph, std::uint64_t most_jobs) {
-  TableResult result;
-  for (const Task& task : graph.tasks)
-    if (task.wcet)
-      result.utilisation += static_cast<double>(task.wcet->count()) / static_cast<double>(task.period.count());
-  const std::string missing = names_without_wcet(graph);
-  if (missing != "nothing") {
-    result.reason = "no 'wcet' is stated for " + missing;
-    return result;
-  }
-  if (graph.platform.policy != Policy::table || graph.platform.cores != 1) {
-    result.reason = "only 'policy: table' on one core is analysed yet";
-    return result;
-  }
+CoreResult check_table(const System& system, const std::vector<std::size_t>& core, std::uint64_t most) {
+  constexpr std::size_t most_slices = 200;
   constexpr std::int64_t most_time = std::int64_t{1} << 60;
-  const auto lcm = hyperperiod(graph, most_time);
-  if (lcm && compare_utilisation(graph, *lcm) == 1) {
+  CoreResult result;
+  if (!system.offsets_hold) {
+    result.reason = "a table needs offsets that hold; 'phasing: any' has none";
+    return result;
+  }
+  const bool too_much = overloaded(system, core);
+  if (too_much) {
     result.verdict = Verdict::not_schedulable;
+    result.standing = Standing::proof;
     result.reason = "the tasks need more than the whole core";
   }
-  Duration largest_offset{};
-  for (const Task& task : graph.tasks) largest_offset = std::max(largest_offset, task.offset);
-  const std::int64_t end = lcm && *lcm <= most_time / 4 ? largest_offset.count() + 2 * *lcm : most_time;
-  std::vector<std::size_t> rank(graph.tasks.size());
-  for (std::size_t i = 0; i < graph.order.size(); ++i) rank[graph.order[i]] = i;
+  const auto lcm = hyperperiod(system.loads, most_time / 4);
+  std::int64_t largest_offset = 0;
+  for (const Load& l : system.loads) largest_offset = std::max(largest_offset, l.offset);
+  const std::int64_t end = lcm ? largest_offset + 2 * *lcm : most_time;
+  const std::size_t n = system.loads.size();
+  std::vector<std::vector<std::size_t>> producers(n);
+  for (const auto& [producer, reader] : system.follows)
+    if (core[producer] != core[reader]) producers[reader].push_back(producer);
+  std::vector<std::int64_t> released(n, -1), ended(n, 0), response(n, 0),
+      free(static_cast<std::size_t>(system.cores), 0);
   std::priority_queue<Job, std::vector<Job>, decltype(&later)> jobs(&later);
-  for (std::size_t i = 0; i < graph.tasks.size(); ++i) jobs.push({graph.tasks[i].offset.count(), rank[i], i, 0});
-  result.response.resize(graph.tasks.size());
-  std::int64_t finish = 0;
+  for (std::size_t i = 0; i < n; ++i) jobs.push({system.loads[i].offset, system.rank[i], i, 0});
   for (std::uint64_t count = 0; !jobs.empty() && jobs.top().release < end; ++count) {
-    if (count == most_jobs) {
-      if (result.verdict == Verdict::unknown)
+    if (count == most) {
+      if (!too_much)
         result.reason =
-            "the periods repeat only after more than " + std::to_string(most_jobs) + " jobs, and none of these is late";
-      result.response.clear();
+            "the periods repeat only after more than " + std::to_string(most) + " activations, and none of these is late";
+      result.responses.resize(n);
       return result;
     }
     Job job = jobs.top();
     jobs.pop();
-    const Task& task = graph.tasks[job.task];
-    finish = std::max(finish, job.release) + task.wcet->count();
-    result.response[job.task] = std::max(result.response[job.task], Duration(finish - job.release));
-    if (finish > job.release + task.deadline.count()) {
-      if (result.verdict == Verdict::unknown) result.reason = "a task is late when every task takes its 'wcet'";
+    const Load& load = system.loads[job.task];
+    std::int64_t start = std::max(free[core[job.task]], job.release + load.jitter);
+    for (const std::size_t p : producers[job.task])
+      if (released[p] == job.release) start = std::max(start, ended[p]);
+    const std::int64_t finish = start + load.blocking + load.wcet;
+    free[core[job.task]] = ended[job.task] = finish;
+    released[job.task] = job.release;
+    response[job.task] = std::max(response[job.task], finish - job.release);
+    if (result.slices.size() >= 2 * most_slices)
+      result.slices.erase(result.slices.begin(), result.slices.begin() + most_slices);
+    result.slices.push_back({job.task, job.activation, start, finish});
+    if (finish > job.release + load.deadline) {
+      if (!too_much) result.reason = "a task is late when every task takes its 'wcet'";
       result.verdict = Verdict::not_schedulable;
-      result.miss = Miss{job.task, job.activation, Duration(job.release), Duration(finish),
-                         Duration(job.release) + task.deadline};
-      result.response.clear();
+      result.standing = Standing::proof;
+      result.late = Late{job.task, job.activation, job.release, finish, job.release + load.deadline};
+      result.responses.resize(n);
       return result;
     }
-    job.release += task.period.count();
+    job.release += load.period;
     ++job.activation;
     jobs.push(job);
   }
-  if (result.verdict == Verdict::unknown) {
+  result.slices.clear();
+  for (const std::int64_t r : response) result.responses.emplace_back(r);
+  if (!too_much) {
     result.verdict = Verdict::schedulable;
+    result.standing = Standing::proof;
     result.reason = "every job of the time table ends by its deadline";
   }
   return result;

@@ -46,6 +46,10 @@ struct Words<Grammar> {
   static std::vector<std::string> list() { return {"let"}; }
 };
 template <>
+struct Words<Phasing> {
+  static std::vector<std::string> list() { return {"given", "any"}; }
+};
+template <>
 struct Words<Policy> {
   static std::vector<std::string> list() {
     return {"table", "fixed_priority", "edf", "fixed_priority_nonpreemptive", "edf_nonpreemptive", "global_edf"};

@@ -104,7 +104,7 @@ void read_plugins(const Yaml& graph, std::vector<Located<std::string>>& to, Prob
 
 // Keys of later versions get a sentence of their own.
 void refuse_later_keys(Yaml& graph, Problems& problems) {
-  for (const std::string key : {"modes", "predicates", "chains"}) {
+  for (const std::string key : {"modes", "predicates"}) {
     const Yaml* found = graph.find(key);
     if (found == nullptr) continue;
     problems.add(found->key_where, "'" + key + "' is not there yet; leave it out");
@@ -140,6 +140,7 @@ GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides
   read_section(graph, "platform", platform_keys(), spec.platform, problems);
   read_entries(graph, "distributers", "distributer", distributer_keys(), spec.distributers, problems);
   read_entries(graph, "communicators", "communicator", communicator_keys(), spec.communicators, problems);
+  read_entries(graph, "chains", "chain", chain_keys(), spec.chains, problems);
   read_entries(graph, "tasks", "task", task_keys(), spec.tasks, problems);
   read_connections(graph, spec.connections, problems);
   return spec;

@@ -47,6 +47,7 @@ struct TaskSpec {
   Location where;
   Maybe<std::string> type;
   Maybe<Duration> period, offset, let, deadline, wcet;
+  Maybe<Duration> jitter, blocking;
   Maybe<std::int64_t> priority, core, heap;
   Maybe<OnFault> on_fault;
   Maybe<Isolation> isolation;
@@ -77,9 +78,19 @@ struct TimingSpec {
   Maybe<Duration> period;
 };
 
+enum class Phasing { given, any };
+
 struct PlatformSpec {
   Maybe<std::int64_t> cores;
   Maybe<Policy> policy;
+  Maybe<Phasing> phasing;
+};
+
+struct ChainSpec {
+  std::string name;
+  Location where;
+  Maybe<Yaml> path;
+  Maybe<Duration> reaction, age;
 };
 
 struct GraphSpec {
@@ -92,6 +103,7 @@ struct GraphSpec {
   std::vector<TaskSpec> tasks;
   std::vector<ConnectionSpec> connections;
   PlatformSpec platform;
+  std::vector<ChainSpec> chains;
 };
 
 }  // namespace jarol

@@ -11,6 +11,7 @@ const std::vector<Key<GraphSpec>>& graph_keys() {
       {"communicators", Form::section, false, "what comes in and goes out, pinned in time", {}, nullptr},
       {"tasks", Form::section, false, "the compute tasks", {}, nullptr},
       {"connections", Form::section, false, "one connection a line: 'from.output -> to.input'", {}, nullptr},
+      {"chains", Form::section, false, "paths whose reaction time and data age check tells", {}, nullptr},
       {"platform", Form::section, false, "what check analyses and run executes", {}, nullptr},
       {"profiles", Form::section, false, "named sets of overrides, chosen by run --profile", {}, nullptr},
   };
@@ -57,6 +58,9 @@ const std::vector<Key<TaskSpec>>& task_keys() {
                           "logical execution time, at most the period; without one a data-flow task"),
       key<&TaskSpec::deadline>("deadline", Form::positive_duration, "smaller than the derived deadline"),
       key<&TaskSpec::wcet>("wcet", Form::positive_duration, "worst-case execution time, for check"),
+      key<&TaskSpec::jitter>("jitter", Form::duration, "of the release, for check, default 0ns"),
+      key<&TaskSpec::blocking>("blocking", Form::duration,
+                               "longest time that others hold it up beyond the policy, for check, default 0ns"),
       key<&TaskSpec::priority>("priority", Form::integer, "smaller is more urgent"),
       key<&TaskSpec::core>("core", Form::integer, "the core that runs it, from 0"),
       key<&TaskSpec::heap>("heap", Form::bytes, "size of the private heap, for values of changing size"),
@@ -68,10 +72,22 @@ const std::vector<Key<TaskSpec>>& task_keys() {
   return keys;
 }
 
+const std::vector<Key<ChainSpec>>& chain_keys() {
+  static const std::vector<Key<ChainSpec>> keys{
+      key<&ChainSpec::path>("path", Form::any, "tasks and communicators in order, as in [from_dune, depth, to_dune]",
+                            true),
+      key<&ChainSpec::reaction>("reaction", Form::positive_duration, "limit of the maximum reaction time"),
+      key<&ChainSpec::age>("age", Form::positive_duration, "limit of the maximum data age"),
+  };
+  return keys;
+}
+
 const std::vector<Key<PlatformSpec>>& platform_keys() {
   static const std::vector<Key<PlatformSpec>> keys{
       key<&PlatformSpec::cores>("cores", Form::integer, "number of cores, default 1"),
       key<&PlatformSpec::policy>("policy", Form::choice, "scheduling policy, default table"),
+      key<&PlatformSpec::phasing>("phasing", Form::choice,
+                                  "do offsets hold as given, or is every shift possible; default given"),
   };
   return keys;
 }

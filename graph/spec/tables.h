@@ -10,6 +10,7 @@ const std::vector<Key<TimingSpec>>& timing_keys();
 const std::vector<Key<DistributerSpec>>& distributer_keys();
 const std::vector<Key<CommunicatorSpec>>& communicator_keys();
 const std::vector<Key<TaskSpec>>& task_keys();
+const std::vector<Key<ChainSpec>>& chain_keys();
 const std::vector<Key<PlatformSpec>>& platform_keys();
 
 }  // namespace jarol

@@ -53,6 +53,7 @@ connections:
        "    slow: {type: Relay, period: 20ms, let: 30ms, colour: red}\n"
        "                                           ^\n"
        "t.yaml:4:48: error: task 'slow' has no key 'colour'; it has: type, period, offset, let, deadline, wcet, "
+       "jitter, blocking, "
        "priority, "
        "core, heap, on_fault, isolation, parameters, init\n"
        "    slow: {type: Relay, period: 20ms, let: 30ms, colour: red}\n"

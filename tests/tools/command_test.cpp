@@ -163,8 +163,65 @@ connections: [c.out -> t.in, t.out -> o, c.out -> w.in, w.out -> r.in]
                                               {"period_ns", 20'000'000},
                                               {"offset_ns", 10'000'000},
                                               {"deadline_ns", 10'000'000},
-                                              {"wcet_ns", 50'000}});
+                                              {"wcet_ns", 50'000},
+                                              {"core", 0},
+                                              {"response_ns", 50'000},
+                                              {"slack_ns", 9'950'000},
+                                              {"max_wcet_ns", 8'850'000}});
+    CHECK(check["standing"] == "proof");
+    CHECK(check["witness"] == nullptr);
+    CHECK(check["alpha"] == doctest::Approx(4.918032));
+    CHECK(check["chains"] == nlohmann::json::array());
     CHECK(check["utilisation"] == doctest::Approx(0.1325));
+  }
+
+  TEST_CASE("check tells why not: the demand, the chart, and what would help") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {policy: fixed_priority}
+tasks:
+  fast: {type: Work, period: 5ms, wcet: 2ms}
+  slow: {type: Work, period: 7ms, wcet: 4ms}
+)");
+    const Result no = jarol("check " + file);
+    CHECK(no.exit_code == 1);
+    CHECK(
+        no.output ==
+        file +
+            R"(: NOT SCHEDULABLE core 0: task 'slow' activation 0 (released 0.000 ms) finishes 8.000 ms, deadline 7.000 ms (late 1.000 ms)
+  a task's worst response is longer than its deadline on one core (fixed_priority)
+    fast ##################...........................##################.........
+    slow ^.................###########################..................|!!!!!!!!
+         0ns                                                                  8ms
+  task     period     offset   deadline       wcet     use   response      slack
+  fast        5ms        0ns        5ms        2ms  40.00%        2ms        3ms
+  slow        7ms        0ns        7ms        4ms  57.14%        8ms       -1ms
+  utilisation 97.14%; a task's response is its longest time from release to end when each takes its wcet;
+  assumed: the most urgent task runs, interrupting others; 'run' does not execute this yet, without overhead
+  all WCETs together may be 0.875 times as long; alone, 'fast' has least room: up to 1.5ms
+  it would hold with a 'wcet' of 1.5ms for 'fast', which has 2ms
+                  or a 'wcet' of 3ms for 'slow', which has 4ms
+                  or 'policy: table'
+                  or 'policy: edf'
+)");
+    CHECK(jarol("check " + file + " --set platform.policy=edf").exit_code == 0);
+    const auto late = json_of("check --json --set platform.policy=edf --set tasks.slow.deadline=5ms " + file);
+    CHECK(late["witness"] ==
+          nlohmann::json{{"core", 0},
+                         {"task", "slow"},
+                         {"activation", 0},
+                         {"release_ns", 0},
+                         {"finish_ns", 6'000'000},
+                         {"deadline_ns", 5'000'000},
+                         {"demand", {{"length_ns", 5'000'000}, {"demand_ns", 6'000'000}, {"blocking_ns", 0}}}});
+  }
+
+  TEST_CASE("a chain that breaks its limit is a negative verdict") {
+    const Result good = jarol("check specs/exolauv.yaml");
+    CHECK(good.exit_code == 0);
+    const Result bad = jarol("check specs/exolauv.yaml --set chains.steer.reaction=60ms");
+    CHECK(bad.exit_code == 1);
+    CHECK(bad.output.find("    LIMIT BROKEN: reaction 70ms over 60ms\n") != std::string::npos);
   }
 
   TEST_CASE("without a wcet the verdict is open") {
@@ -172,7 +229,7 @@ connections: [c.out -> t.in, t.out -> o, c.out -> w.in, w.out -> r.in]
     const std::string file = folder.write("t.yaml", "{graph: t, tasks: {a: {type: Counter, period: 1ms}}}\n");
     const Result result = jarol("check " + file);
     CHECK(result.exit_code == 3);
-    CHECK(result.output.starts_with(file + ": UNKNOWN: no 'wcet' is stated for 'a'\n"));
+    CHECK(result.output.starts_with(file + ": UNKNOWN on one core (table): no 'wcet' is stated for 'a'\n"));
   }
 
   TEST_CASE("a bad file does not hide the others, and all its errors are told") {

@@ -27,6 +27,12 @@ TEST_SUITE("tools/readme") {
     CHECK(readme().find(verdict) != std::string::npos);
   }
 
+  TEST_CASE("the README shows the change that makes the demo unschedulable, and what check says to it") {
+    const std::string verdict = output_of("check specs/exolauv.yaml --set tasks.speed.wcet=60ms");
+    CHECK(verdict.size() > 300);
+    CHECK(readme().find(verdict) != std::string::npos);
+  }
+
   TEST_CASE("the README shows what the demo reaches as it is") {
     const std::string run = output_of("run specs/exolauv.yaml");
     const std::size_t begin = run.find("               commanded"), end = run.find("  digest");

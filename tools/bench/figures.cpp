@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "graph/yaml/quantities.h"
+#include "tools/bench/checking.h"
 #include "tools/bench/deep.h"
 #include "tools/bench/floors.h"
 #include "tools/bench/graphs.h"
@@ -77,8 +78,9 @@ Figure load_figure(int repeats) {
 }  // namespace
 
 std::vector<std::string> figure_names() {
-  return {"chain_10",       "chain_100",      "chain_100_digest", "multirate_100", "let_multirate_100", "fan_100",
-          "workers_2_tiny", "workers_2_10us", "deep_1k",          "fault",         "load_1000"};
+  return {"chain_10",  "chain_100",      "chain_100_digest", "multirate_100", "let_multirate_100",
+          "fan_100",   "workers_2_tiny", "workers_2_10us",   "deep_1k",       "fault",
+          "load_1000", "check_1000",     "check_10000"};
 }
 
 Figure measure(const std::string& name, int repeats) {
@@ -99,6 +101,8 @@ Figure measure(const std::string& name, int repeats) {
   if (name == "deep_1k") return measure_deep(repeats);
   if (name == "fault") return fault_figure(repeats);
   if (name == "load_1000") return load_figure(repeats);
+  if (name == "check_1000") return measure_check(name, 1000, 100, repeats);
+  if (name == "check_10000") return measure_check(name, 10'000, 1000, repeats);
   throw std::invalid_argument("there is no figure '" + name + "'" + did_you_mean(name, figure_names()) +
                               "; there are: " + list_of(figure_names()));
 }

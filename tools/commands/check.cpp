@@ -1,106 +1,97 @@
 // jarol check: is the graph right, and can it be scheduled.
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "graph/analysis/time_table.h"
+#include "tools/check_report.h"
 #include "tools/commands/commands.h"
 #include "tools/load_graph.h"
 
 namespace jarol::tools {
 namespace {
 
-using analysis::TableResult;
 using analysis::Verdict;
 
 struct Options {
   std::vector<std::string> files;
   Overrides overrides;
+  bool sensitivity = false;
+  bool all_chains = false;
   bool json = false;
 };
 
-std::string verdict_word(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::schedulable: return "schedulable";
-    case Verdict::not_schedulable: return "not_schedulable";
-    case Verdict::unknown: return "unknown";
-  }
-  return "";
-}
-
-int exit_code_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::schedulable: return exit_good;
+int exit_code_of(const CheckReport& report) {
+  switch (report.result.verdict) {
+    case Verdict::schedulable: return chains_hold(report) ? exit_good : exit_negative;
     case Verdict::not_schedulable: return exit_negative;
-    case Verdict::unknown: return exit_unfinished;
+    case Verdict::unknown: return chains_hold(report) ? exit_unfinished : exit_negative;
   }
   return exit_unfinished;
 }
 
-std::string milliseconds(Duration duration) {
-  return fmt::format("{:.3f} ms", static_cast<double>(duration.count()) * 1e-6);
+// About how many steps one verdict takes.
+double cost_of(const analysis::System& system) {
+  const auto n = static_cast<double>(system.loads.size());
+  if (system.policy != Policy::table && system.offsets_hold == false) return n * n;
+  const auto lcm = analysis::hyperperiod(system.loads, std::int64_t{1} << 60);
+  double activations = 0;
+  for (const analysis::Load& l : system.loads)
+    activations += lcm ? 2 * static_cast<double>(*lcm) / static_cast<double>(l.period) : 1e6;
+  return std::max(n * n, activations);
 }
 
-void print_json(const std::string& file, const Graph& graph, const TableResult& result) {
-  auto tasks = nlohmann::ordered_json::array();
-  for (const Task& t : graph.tasks) {
-    nlohmann::ordered_json task{{"name", t.name},
-                                {"period_ns", t.period.count()},
-                                {"offset_ns", t.offset.count()},
-                                {"deadline_ns", t.deadline.count()},
-                                {"wcet_ns", nullptr}};
-    if (t.wcet) task["wcet_ns"] = t.wcet->count();
-    tasks.push_back(std::move(task));
+// Every path from an `in` to an `out`, as far as there are not too many.
+void add_all_chains(const Graph& graph, std::vector<End>& path, std::vector<ReportedChain>& chains) {
+  constexpr std::size_t most = 1000;
+  const End at = path.back();
+  if (at.kind == End::Kind::communicator && path.size() > 1) {
+    std::string name;
+    for (const End& end : path)
+      name += (name.empty() ? "" : " -> ") +
+              (end.kind == End::Kind::task ? graph.tasks[end.index].name : graph.communicators[end.index].name);
+    chains.push_back({name, path, analysis::latency_of(graph, path), std::nullopt, std::nullopt});
+    return;
   }
-  std::cout << nlohmann::ordered_json{{"schema", "jarol.check/1"},
-                                      {"file", file},
-                                      {"graph", graph.name},
-                                      {"verdict", verdict_word(result.verdict)},
-                                      {"tasks", tasks},
-                                      {"utilisation", result.utilisation}}
-            << "\n";
-}
-
-void print_table(const Graph& graph, const TableResult& result) {
-  std::size_t width = 4;
-  for (const Task& t : graph.tasks) width = std::max(width, t.name.size());
-  std::cout << fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>6}  {:>9}\n", "task", width, "period", "offset",
-                           "deadline", "wcet", "use", "response");
-  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
-    const Task& t = graph.tasks[i];
-    const std::string use = t.wcet ? fmt::format("{:.2f}%", 100.0 * static_cast<double>(t.wcet->count()) /
-                                                                static_cast<double>(t.period.count()))
-                                   : "-";
-    std::cout << fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>6}  {:>9}\n", t.name, width,
-                             duration_text(t.period), duration_text(t.offset), duration_text(t.deadline),
-                             t.wcet ? duration_text(*t.wcet) : "-", use,
-                             result.response.empty() ? "-" : duration_text(result.response[i]));
+  const auto same = [](const End& a, const End& b) { return a.kind == b.kind && a.index == b.index; };
+  std::vector<End> next;
+  for (const Connection& c : graph.connections) {
+    const auto is_to = [&](const End& end) { return same(end, c.to); };
+    if (!same(c.from, at) || std::any_of(path.begin(), path.end(), is_to)) continue;
+    if (!std::any_of(next.begin(), next.end(), is_to)) next.push_back(c.to);
+  }
+  for (const End& end : next) {
+    if (chains.size() >= most) return;
+    path.push_back(end);
+    add_all_chains(graph, path, chains);
+    path.pop_back();
   }
 }
 
-void print_text(const std::string& file, const Graph& graph, const TableResult& result) {
-  switch (result.verdict) {
-    case Verdict::schedulable: std::cout << file << ": SCHEDULABLE on one core: " << result.reason << "\n"; break;
-    case Verdict::not_schedulable:
-      std::cout << file << ": NOT SCHEDULABLE";
-      if (result.miss) {
-        const analysis::Miss& m = *result.miss;
-        std::cout << " core 0: task '" << graph.tasks[m.task].name << "' activation " << m.activation << " (released "
-                  << milliseconds(m.release) << ") finishes " << milliseconds(m.finish) << ", deadline "
-                  << milliseconds(m.deadline) << " (late " << milliseconds(m.finish - m.deadline) << ")";
-      }
-      std::cout << "\n  " << result.reason << "\n";
-      break;
-    case Verdict::unknown: std::cout << file << ": UNKNOWN: " << result.reason << "\n"; break;
-  }
-  print_table(graph, result);
-  std::cout << fmt::format(
-      "  utilisation {:.2f}%; a task's response is its longest time from release to end when each takes its wcet;\n"
-      "  assumed: tasks run one after the other as released, never interrupted, without overhead\n",
-      100.0 * result.utilisation);
+CheckReport report_on(const std::string& file, const Graph& graph, const Options& options) {
+  CheckReport report;
+  report.file = file;
+  report.graph = &graph;
+  report.result = analysis::check(graph);
+  for (const Chain& c : graph.chains)
+    report.chains.push_back({c.name, c.path, analysis::latency_of(graph, c.path), c.reaction, c.age});
+  if (options.all_chains)
+    for (std::size_t i = 0; i < graph.communicators.size(); ++i) {
+      std::vector<End> path{{End::Kind::communicator, i, 0}};
+      if (graph.communicators[i].direction == Direction::in) add_all_chains(graph, path, report.chains);
+    }
+  const bool stated = std::all_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return t.wcet; });
+  if (!stated) return report;
+  // what is quick comes without being asked for
+  const analysis::System system = analysis::system_of(graph);
+  constexpr double quick = 5e6, searches = 40;
+  const double cost = searches * cost_of(system), per_task = cost * static_cast<double>(graph.tasks.size());
+  if (options.sensitivity || cost < quick)
+    report.sensitivity = analysis::sensitivity_of(system, options.sensitivity || per_task < quick);
+  if (report.result.verdict != Verdict::schedulable && (options.sensitivity || per_task < quick))
+    report.suggestions = analysis::suggestions_for(system);
+  return report;
 }
 
 // The worst of the verdicts: bad input, then not schedulable, then undecided.
@@ -116,9 +107,12 @@ int check_files(const Options& options) {
   for (const std::string& file : options.files) {
     try {
       const Loaded loaded = load_graph(file, options.overrides);
-      const TableResult result = analysis::check_table(*loaded.graph);
-      options.json ? print_json(file, *loaded.graph, result) : print_text(file, *loaded.graph, result);
-      exit_code = worst(exit_code, exit_code_of(result.verdict));
+      const CheckReport report = report_on(file, *loaded.graph, options);
+      if (options.json)
+        std::cout << to_json(report) << "\n";
+      else
+        std::cout << to_text(report);
+      exit_code = worst(exit_code, exit_code_of(report));
     } catch (const SpecError& error) {
       // one bad file does not hide the others
       std::cerr << error.what() << "\n"
@@ -141,6 +135,9 @@ void add_check(CLI::App& app, int& exit_code) {
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.wcet=2ms")
       ->allow_extra_args(false);
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
+  command->add_flag("--sensitivity", options->sensitivity,
+                    "How much longer each WCET may be, and what would help, also where finding it takes long");
+  command->add_flag("--chains", options->all_chains, "Latency of every path from an 'in' to an 'out'");
   command->add_flag("--json", options->json, "One JSON object per file and line instead of text");
   command->callback([options, &exit_code] { exit_code = check_files(*options); });
 }

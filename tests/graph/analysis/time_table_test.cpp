@@ -2,16 +2,24 @@
 
 #include <doctest/doctest.h>
 
+#include "graph/analysis/check.h"
 #include "tests/graph/graph_of.h"
 
+namespace {
+using namespace jarol;
+using namespace jarol::analysis;
+
+CoreResult table_of(const std::string& text, std::uint64_t most) {
+  const System system = system_of(tests::graph_of(text));
+  return check_table(system, std::vector<std::size_t>(system.loads.size(), 0), most);
+}
+}  // namespace
+
 TEST_SUITE("graph/analysis/time_table") {
-  using namespace jarol;
-  using namespace jarol::analysis;
-  using namespace std::chrono_literals;
   using tests::graph_of;
 
   TEST_CASE("tasks that fit are schedulable, and their responses are told") {
-    const TableResult r = check_table(graph_of(R"(graph: t
+    const Result r = check(graph_of(R"(graph: t
 tasks:
   a: {type: Counter, period: 10ms, wcet: 2ms}
   b: {type: Counter, period: 20ms, wcet: 5ms}
@@ -19,23 +27,23 @@ tasks:
     CHECK(r.verdict == Verdict::schedulable);
     CHECK(r.reason == "every job of the time table ends by its deadline");
     CHECK(r.utilisation == doctest::Approx(0.45));
-    CHECK(r.response[0] == 2ms);
-    CHECK(r.response[1] == 7ms);
+    CHECK(r.response[0] == 2'000'000);
+    CHECK(r.response[1] == 7'000'000);
   }
 
   TEST_CASE("the first late job is named with its times") {
-    const TableResult r = check_table(graph_of(R"(graph: t
+    const Result r = check(graph_of(R"(graph: t
 tasks:
   long:  {type: Counter, period: 40ms, wcet: 12ms}
   short: {type: Counter, period: 10ms, wcet: 2ms}
 )"));
     CHECK(r.verdict == Verdict::not_schedulable);
-    REQUIRE(r.miss.has_value());
-    CHECK(r.miss->task == 1);
-    CHECK(r.miss->activation == 0);
-    CHECK(r.miss->release == 0ms);
-    CHECK(r.miss->finish == 14ms);
-    CHECK(r.miss->deadline == 10ms);
+    REQUIRE(r.late.has_value());
+    CHECK(r.late->task == 1);
+    CHECK(r.late->activation == 0);
+    CHECK(r.late->release == 0);
+    CHECK(r.late->finish == 14'000'000);
+    CHECK(r.late->deadline == 10'000'000);
   }
 
   TEST_CASE("more than the whole core is never schedulable, by however little") {
@@ -47,35 +55,35 @@ tasks:
     std::string exact(text), over(text);
     exact.replace(exact.find("%s"), 2, "500ms");
     over.replace(over.find("%s"), 2, "500.000001ms");
-    CHECK(check_table(graph_of(exact)).verdict == Verdict::schedulable);
-    CHECK(check_table(graph_of(over)).verdict == Verdict::not_schedulable);
+    CHECK(check(graph_of(exact)).verdict == Verdict::schedulable);
+    CHECK(check(graph_of(over)).verdict == Verdict::not_schedulable);
   }
 
   TEST_CASE("overload that shows only after the table's reach is found by exact utilisation") {
-    const TableResult r = check_table(graph_of(R"(graph: t
+    const CoreResult r = table_of(R"(graph: t
 tasks:
   a: {type: Counter, period: 999983ns, wcet: 500000ns}
   b: {type: Counter, period: 999979ns, wcet: 500000ns}
-)"),
-                                      10);
+)",
+                                  10);
     CHECK(r.verdict == Verdict::not_schedulable);
     CHECK(r.reason == "the tasks need more than the whole core");
   }
 
   TEST_CASE("a task without a wcet leaves the verdict open and is named") {
-    const TableResult r = check_table(graph_of("{graph: t, tasks: {a: {type: Counter, period: 10ms}}}"));
+    const Result r = check(graph_of("{graph: t, tasks: {a: {type: Counter, period: 10ms}}}"));
     CHECK(r.verdict == Verdict::unknown);
     CHECK(r.reason == "no 'wcet' is stated for 'a'");
   }
 
   TEST_CASE("a table of too many jobs leaves the verdict open and says so") {
-    const TableResult r = check_table(graph_of(R"(graph: t
+    const CoreResult r = table_of(R"(graph: t
 tasks:
   a: {type: Counter, period: 999983ns, wcet: 1us}
   b: {type: Counter, period: 999979ns, wcet: 1us}
-)"),
-                                      1000);
+)",
+                                  1000);
     CHECK(r.verdict == Verdict::unknown);
-    CHECK(r.reason == "the periods repeat only after more than 1000 jobs, and none of these is late");
+    CHECK(r.reason == "the periods repeat only after more than 1000 activations, and none of these is late");
   }
 }

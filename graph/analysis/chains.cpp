@@ -1,0 +1,111 @@
+#include "graph/analysis/chains.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace jarol::analysis {
+namespace {
+
+__extension__ using Wide = __int128;
+
+// A point of logical time: the instant, and the step within it (DESIGN section 3).
+struct Point {
+  std::int64_t instant;
+  int step;
+};
+
+// What reads and publishes with a period.
+struct Hop {
+  std::int64_t period, offset, let;
+  int read_step, publish_step;
+
+  Point read(std::int64_t k) const { return {offset + k * period, read_step}; }
+  Point publish(std::int64_t k) const { return {offset + k * period + let, publish_step}; }
+
+  // The first activation that reads what was published at a point; who reads in the step of its producer follows it.
+  std::int64_t first_after(Point p) const {
+    const std::int64_t earliest = p.instant + (p.step > read_step ? 1 : 0);
+    if (earliest <= offset) return 0;
+    return (earliest - offset + period - 1) / period;
+  }
+  // The last activation whose output can be read at a point, or a negative one.
+  std::int64_t last_before(Point p) const {
+    const std::int64_t latest = p.instant - (p.step < publish_step ? 1 : 0) - let - offset;
+    return latest < 0 ? -1 : latest / period;
+  }
+};
+
+Hop hop_of(const Graph& graph, const End& end) {
+  if (end.kind == End::Kind::communicator) {
+    const Communicator& c = graph.communicators[end.index];
+    const int step = c.direction == Direction::out ? 2 : 3;
+    return {c.period.count(), c.offset.count(), 0, step, step};
+  }
+  const Task& t = graph.tasks[end.index];
+  return {t.period.count(), t.offset.count(), t.let.value_or(Duration{}).count(), 4, t.let ? 1 : 4};
+}
+
+// The activation of the last hop that first shows what activation k of the first read.
+std::int64_t forward(const std::vector<Hop>& hops, std::int64_t k, std::vector<std::int64_t>* at = nullptr) {
+  if (at != nullptr) at->assign(1, hops.front().read(k).instant);
+  for (std::size_t i = 0; i < hops.size(); ++i) {
+    if (i > 0) k = hops[i].first_after(hops[i - 1].publish(k));
+    if (at != nullptr) at->push_back(hops[i].publish(k).instant);
+  }
+  return k;
+}
+
+// The activation of the first hop on which activation k of the last one rests, or a negative one.
+std::int64_t backward(const std::vector<Hop>& hops, std::int64_t k) {
+  for (std::size_t i = hops.size() - 1; i > 0 && k >= 0; --i) k = hops[i - 1].last_before(hops[i].read(k));
+  return k;
+}
+
+}  // namespace
+
+ChainLatency latency_of(const Graph& graph, const std::vector<End>& path) {
+  constexpr std::int64_t most_activations = 2'000'000;
+  std::vector<Hop> hops;
+  for (const End& end : path) hops.push_back(hop_of(graph, end));
+  ChainLatency result;
+  Wide lcm = 1;
+  std::int64_t start = 0;
+  for (const Hop& h : hops) {
+    result.bound += h.period + (h.let > 0 ? h.let : 0);
+    start += h.offset + h.period + h.let;
+    const Wide next = lcm / std::gcd(static_cast<std::int64_t>(lcm), h.period) * h.period;
+    lcm = std::min<Wide>(next, static_cast<Wide>(1) << 62);
+  }
+  const Hop &first = hops.front(), &last = hops.back();
+  if (lcm / first.period > most_activations || lcm / last.period > most_activations) {
+    result.exact = false;
+    result.max_reaction = result.max_reduced = result.max_age = result.max_reduced_age = result.bound;
+    return result;
+  }
+  // forward, for every read of one repetition once all offsets are behind
+  const std::int64_t from = start / first.period + 1, count = static_cast<std::int64_t>(lcm) / first.period;
+  result.min_reaction = std::numeric_limits<std::int64_t>::max();
+  std::int64_t slowest = from;
+  for (std::int64_t k = from; k < from + count; ++k) {
+    const std::int64_t out = last.publish(forward(hops, k)).instant;
+    const std::int64_t reduced = out - first.read(k).instant;
+    result.min_reaction = std::min(result.min_reaction, reduced);
+    if (reduced > result.max_reduced) slowest = k;
+    result.max_reduced = std::max(result.max_reduced, reduced);
+    result.max_reaction = std::max(result.max_reaction, out - first.read(k - 1).instant);
+  }
+  // backward, for every output of one repetition: it is valid until the next one that rests on another read
+  const std::int64_t begin = (2 * start) / last.period + 1, outputs = static_cast<std::int64_t>(lcm) / last.period;
+  for (std::int64_t k = begin; k < begin + outputs; ++k) {
+    const std::int64_t read = backward(hops, k);
+    if (read < 0) continue;
+    result.max_reduced_age = std::max(result.max_reduced_age, last.publish(k).instant - first.read(read).instant);
+    result.max_age = std::max(result.max_age, last.publish(k + 1).instant - first.read(read).instant);
+  }
+  result.jitter = result.max_reduced - result.min_reaction;
+  forward(hops, slowest, &result.at);
+  return result;
+}
+
+}  // namespace jarol::analysis

@@ -1,0 +1,195 @@
+#include "graph/analysis/check.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "graph/analysis/global_edf.h"
+#include "graph/analysis/partition.h"
+#include "graph/analysis/time_table.h"
+#include "graph/yaml/problems.h"
+
+namespace jarol::analysis {
+namespace {
+
+// Most urgent first: stated priorities, then deadlines; of equal ones who is fed comes after who feeds, then by name.
+bool more_urgent(const System& s, std::size_t a, std::size_t b) {
+  const auto key = [&](std::size_t i) {
+    return std::tuple(!s.priority[i].has_value(), s.priority[i].value_or(s.loads[i].deadline), s.rank[i]);
+  };
+  return key(a) < key(b);
+}
+
+std::vector<std::size_t> in_order(const System& system, std::vector<std::size_t> tasks) {
+  const bool by_priority =
+      system.policy == Policy::fixed_priority || system.policy == Policy::fixed_priority_nonpreemptive;
+  std::sort(tasks.begin(), tasks.end(), [&](std::size_t a, std::size_t b) {
+    return by_priority ? more_urgent(system, a, b) : system.rank[a] < system.rank[b];
+  });
+  return tasks;
+}
+
+Loads loads_of(const System& system, const std::vector<std::size_t>& tasks) {
+  Loads loads;
+  for (const std::size_t i : tasks) loads.push_back(system.loads[i]);
+  return loads;
+}
+
+// What no policy on one core can know, or nothing.
+std::string precedence_problem(const System& s, const std::vector<std::size_t>& core) {
+  const bool by_priority = s.policy == Policy::fixed_priority || s.policy == Policy::fixed_priority_nonpreemptive;
+  for (const auto& [producer, reader] : s.follows) {
+    if (core[producer] != core[reader])
+      return "a task follows another of its instant on another core, which only 'policy: table' analyses";
+    if (by_priority && more_urgent(s, reader, producer))
+      return "a task has a higher priority than one that it follows at the same instant; give the producer the "
+             "higher one";
+  }
+  return "";
+}
+
+Result check_on_table(const System& system) {
+  const auto fits = [&](const std::vector<std::size_t>& tasks) {
+    const auto order = compare_utilisation(loads_of(system, tasks), 1);
+    return !order || *order <= 0;
+  };
+  Result result;
+  const Partition partition = assign_cores(system, fits);
+  CoreResult table = check_table(system, partition.core);
+  result.core.assign(partition.core.begin(), partition.core.end());
+  result.verdict = table.verdict;
+  result.standing = table.standing;
+  result.reason = table.reason;
+  result.response = table.responses;
+  if (system.cores > 1 && table.verdict == Verdict::not_schedulable) {
+    // another assignment could hold, unless all are given
+    const bool given = std::all_of(system.core.begin(), system.core.end(), [](const auto& c) { return c.has_value(); });
+    const auto order = compare_utilisation(system.loads, system.cores);
+    if (!given && !(order && *order > 0)) {
+      result.verdict = Verdict::unknown;
+      result.standing = Standing::sufficient;
+      result.reason += " with the cores that were assigned; 'core:' per task may say better ones";
+    }
+  }
+  result.late = table.late;
+  if (table.late) {
+    result.core_at_fault = partition.core[table.late->task];
+    for (const Slice& s : table.slices)
+      if (partition.core[s.task] == *result.core_at_fault) result.slices.push_back(s);
+  }
+  return result;
+}
+
+Result check_globally(const System& system) {
+  Result result;
+  result.response = global_edf_responses(system.loads, system.cores);
+  result.core.resize(system.loads.size());
+  const bool bounded =
+      std::all_of(result.response.begin(), result.response.end(), [](const auto& r) { return r.has_value(); });
+  const auto order = compare_utilisation(system.loads, system.cores);
+  if (order && *order > 0) {
+    result.verdict = Verdict::not_schedulable;
+    result.standing = Standing::proof;
+    result.reason = "the tasks need more than all cores";
+  } else if (!system.follows.empty()) {
+    result.reason = "tasks follow each other at one instant, which is not analysed under global_edf";
+  } else if (bounded || passes_gfb(system.loads, system.cores)) {
+    result.verdict = Verdict::schedulable;
+    result.standing = Standing::proof;
+    result.reason = bounded ? "every task's response is bounded within its deadline (Bertogna, Cirinei)"
+                            : "the densities fit the cores (Goossens, Funk, Baruah)";
+  } else {
+    result.standing = Standing::sufficient;
+    result.reason = "the tests of global_edf are sufficient only, and none of them holds";
+  }
+  return result;
+}
+
+// Core by core, with each policy's own test.
+Result check_partitioned(const System& system) {
+  const Partition partition = assign_cores(system, [&](const std::vector<std::size_t>& tasks) {
+    return verdict_of_core(loads_of(system, in_order(system, tasks)), system.policy, system.offsets_hold) ==
+           Verdict::schedulable;
+  });
+  Result result;
+  result.response.resize(system.loads.size());
+  result.core.assign(partition.core.begin(), partition.core.end());
+  result.reason = precedence_problem(system, partition.core);
+  if (!result.reason.empty()) return result;
+  result.verdict = Verdict::schedulable;
+  result.standing = Standing::proof;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(system.cores); ++c) {
+    std::vector<std::size_t> tasks;
+    for (std::size_t i = 0; i < partition.core.size(); ++i)
+      if (partition.core[i] == c) tasks.push_back(i);
+    if (tasks.empty()) continue;
+    tasks = in_order(system, std::move(tasks));
+    CoreResult core = check_core(loads_of(system, tasks), system.policy, system.offsets_hold);
+    for (std::size_t i = 0; i < tasks.size(); ++i) result.response[tasks[i]] = core.responses[i];
+    if (result.reason.empty() || (result.verdict == Verdict::schedulable && core.verdict != Verdict::schedulable))
+      result.reason = core.reason;
+    if (core.verdict == Verdict::schedulable || result.verdict == Verdict::not_schedulable) continue;
+    result.verdict = core.verdict;
+    result.standing = core.standing;
+    if (core.verdict != Verdict::not_schedulable) continue;
+    result.core_at_fault = c;
+    result.demand = core.demand;
+    if (core.late) {
+      core.late->task = tasks[core.late->task];
+      result.late = core.late;
+    }
+    for (Slice s : core.slices) {
+      s.task = tasks[s.task];
+      result.slices.push_back(s);
+    }
+  }
+  const bool all_given =
+      std::all_of(system.core.begin(), system.core.end(), [](const auto& c) { return c.has_value(); });
+  if (system.cores > 1 && result.verdict == Verdict::not_schedulable && !all_given) {
+    const auto order = compare_utilisation(system.loads, system.cores);
+    if (partition.searched) {
+      result.reason += "; no assignment of tasks to cores holds";
+    } else if (!(order && *order > 0)) {
+      result.verdict = Verdict::unknown;
+      result.standing = Standing::sufficient;
+      result.reason += " with the cores that were assigned; another assignment may hold";
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Result check(const System& system) {
+  Result result = system.policy == Policy::table        ? check_on_table(system)
+                  : system.policy == Policy::global_edf ? check_globally(system)
+                                                        : check_partitioned(system);
+  result.utilisation = utilisation(system.loads);
+  return result;
+}
+
+Verdict verdict_of(const System& system) {
+  if (system.cores == 1 && system.policy != Policy::table && system.policy != Policy::global_edf) {
+    std::vector<std::size_t> all(system.loads.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (!precedence_problem(system, std::vector<std::size_t>(all.size(), 0)).empty()) return Verdict::unknown;
+    return verdict_of_core(loads_of(system, in_order(system, all)), system.policy, system.offsets_hold);
+  }
+  return check(system).verdict;
+}
+
+Result check(const Graph& graph) {
+  std::vector<std::string> missing;
+  for (const Task& task : graph.tasks)
+    if (!task.wcet) missing.push_back("'" + task.name + "'");
+  const System system = system_of(graph);
+  if (missing.empty()) return check(system);
+  Result result;
+  result.reason = "no 'wcet' is stated for " + list_of(missing);
+  result.utilisation = utilisation(system.loads);
+  result.response.resize(graph.tasks.size());
+  result.core.resize(graph.tasks.size());
+  return result;
+}
+
+}  // namespace jarol::analysis

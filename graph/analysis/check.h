@@ -1,0 +1,32 @@
+// Can a graph be scheduled on its platform, and if not, why? Pure functions; graph/analysis/README.md says what rests on
+// which theorem.
+#pragma once
+
+#include "graph/analysis/one_core.h"
+
+namespace jarol::analysis {
+
+struct Result {
+  Verdict verdict = Verdict::unknown;
+  Standing standing = Standing::none;
+  std::string reason;  // one sentence
+  double utilisation = 0;
+  // per task, in the order of the graph
+  std::vector<std::optional<std::int64_t>> response;  // ns from the arrival; an upper bound
+  std::vector<std::optional<std::size_t>> core;       // where one runs it always
+  // why not
+  std::optional<std::size_t> core_at_fault;
+  std::optional<Late> late;
+  std::vector<Slice> slices;  // on that core, before that
+  std::optional<Demand> demand;
+};
+
+Result check(const System& system);
+
+/// The verdict alone.
+Verdict verdict_of(const System& system);
+
+/// The same of a graph; a task without a WCET leaves it open and is named.
+Result check(const Graph& graph);
+
+}  // namespace jarol::analysis

@@ -1,0 +1,190 @@
+#include "graph/analysis/edf.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace jarol::analysis {
+namespace {
+
+constexpr std::int64_t far = std::int64_t{1} << 61;
+constexpr std::uint64_t most_steps = 50'000'000;
+
+// Releases with a deadline within `length` of an arrival as late as jitter allows.
+std::int64_t due(const Load& l, std::int64_t length) {
+  const std::int64_t reach = length + l.jitter - l.deadline;
+  return reach < 0 ? 0 : reach / l.period + 1;
+}
+
+std::int64_t blocking_bound(std::span<const Load> loads, std::int64_t length, bool preemptive) {
+  std::int64_t most = 0;
+  for (const Load& l : loads) {
+    if (l.deadline - l.jitter <= length) most = std::max(most, l.blocking);
+    if (!preemptive && l.deadline > length) most = std::max(most, l.wcet - 1);
+  }
+  return most;
+}
+
+// Length of the synchronous busy period.
+std::optional<std::int64_t> busy_period(std::span<const Load> loads, std::int64_t blocking, std::uint64_t& steps) {
+  std::int64_t length = 1;
+  while (true) {
+    Wide next = blocking;
+    for (const Load& l : loads) next += ceil_div(static_cast<Wide>(length) + l.jitter, l.period) * l.wcet;
+    steps += loads.size();
+    if (next > far || steps > most_steps) return std::nullopt;
+    if (next == length) return length;
+    length = static_cast<std::int64_t>(next);
+  }
+}
+
+// A length beyond which demand can't exceed it, where utilisation is below one.
+std::optional<std::int64_t> linear_bound(std::span<const Load> loads, std::int64_t blocking) {
+  long double total = 0, sum = static_cast<long double>(blocking);
+  std::int64_t latest = 0;
+  for (const Load& l : loads) {
+    const long double u = static_cast<long double>(l.wcet) / static_cast<long double>(l.period);
+    total += u;
+    sum += u * static_cast<long double>(std::max<std::int64_t>(0, l.period - l.deadline + l.jitter));
+    latest = std::max(latest, l.deadline - l.jitter);
+  }
+  const long double slack = 1 - total;
+  if (slack < 1e-15L) return std::nullopt;
+  const long double bound = sum / slack * (1 + 1e-9L) + 1;
+  if (bound > static_cast<long double>(far)) return std::nullopt;
+  return std::max(latest, static_cast<std::int64_t>(bound)) + 1;
+}
+
+std::optional<std::int64_t> one_repetition(std::span<const Load> loads) {
+  const auto lcm = hyperperiod(loads, far / 2);
+  std::int64_t latest = 0;
+  for (const Load& l : loads) latest = std::max(latest, l.deadline);
+  return lcm ? std::optional(*lcm + latest) : std::nullopt;
+}
+
+// The latest absolute deadline before `length`, or nothing.
+std::optional<std::int64_t> deadline_before(std::span<const Load> loads, std::int64_t length) {
+  std::optional<std::int64_t> latest;
+  for (const Load& l : loads) {
+    const std::int64_t first = std::max<std::int64_t>(0, l.deadline - l.jitter);
+    if (first >= length) continue;
+    // jitter may pull the first ones to 0
+    const std::int64_t k = (length - 1 - (l.deadline - l.jitter)) / l.period;
+    latest = std::max(latest.value_or(0), std::max<std::int64_t>(0, k * l.period + l.deadline - l.jitter));
+  }
+  return latest;
+}
+
+}  // namespace
+
+Wide demand_bound(std::span<const Load> loads, std::int64_t length) {
+  Wide sum = 0;
+  for (const Load& l : loads) sum += static_cast<Wide>(due(l, length)) * l.wcet;
+  return sum;
+}
+
+namespace {
+
+// As far as demand goes, tasks of equal timing are one.
+Loads merged(std::span<const Load> loads) {
+  Loads sorted(loads.begin(), loads.end());
+  const auto timing = [](const Load& l) { return std::tuple(l.period, l.deadline, l.jitter, l.blocking); };
+  std::sort(sorted.begin(), sorted.end(), [&](const Load& a, const Load& b) { return timing(a) < timing(b); });
+  Loads result;
+  for (const Load& l : sorted) {
+    if (!result.empty() && timing(result.back()) == timing(l)) {
+      result.back().wcet += l.wcet;
+    } else {
+      result.push_back(l);
+    }
+  }
+  return result;
+}
+
+EdfResult check_edf_of(std::span<const Load> loads, bool preemptive) {
+  EdfResult result;
+  const auto order = compare_utilisation(loads, 1);
+  std::int64_t blocking = 0;
+  for (const Load& l : loads) blocking = std::max({blocking, l.blocking, preemptive ? 0 : l.wcet - 1});
+  std::uint64_t steps = 0;
+  std::optional<std::int64_t> end;
+  if (order && *order <= 0) {
+    // at full utilisation demand and time grow alike from one hyperperiod to the next
+    const auto linear = *order < 0 ? linear_bound(loads, blocking) : one_repetition(loads);
+    const auto busy = *order < 0 || blocking == 0 ? busy_period(loads, blocking, steps) : std::nullopt;
+    end = busy && linear ? std::min(*busy, *linear) : busy ? busy : linear;
+    if (end) *end += 1;
+  } else if (order) {
+    // demand grows beyond any line: look from short intervals on until it does
+    std::int64_t length = 1;
+    for (const Load& l : loads) length = std::max(length, l.deadline);
+    while (length < far / 2 && demand_bound(loads, length) <= length) length *= 2;
+    end = length + 1;
+  }
+  if (!end) return {false, std::nullopt};
+  const auto total = [&](std::int64_t t) { return demand_bound(loads, t) + blocking_bound(loads, t, preemptive); };
+  auto at = deadline_before(loads, *end);
+  if (order && *order > 0 && demand_bound(loads, *end - 1) > *end - 1) at = *end - 1;
+  while (at) {
+    steps += loads.size();
+    if (steps > most_steps) return {false, std::nullopt};
+    const Wide need = total(*at);
+    if (need > *at) {
+      const std::int64_t held = blocking_bound(loads, *at, preemptive);
+      result.over = Demand{*at, static_cast<std::int64_t>(std::min<Wide>(need - held, far)), held};
+      return result;
+    }
+    // shorter intervals have no more due, though perhaps more blocking: down to there none can exceed its length
+    const Wide most = demand_bound(loads, *at) + blocking;
+    at = deadline_before(loads, most < *at ? static_cast<std::int64_t>(most) + 1 : *at);
+  }
+  return result;
+}
+
+}  // namespace
+
+EdfResult check_edf(std::span<const Load> loads, bool preemptive) {
+  return preemptive ? check_edf_of(merged(loads), true) : check_edf_of(loads, false);
+}
+
+std::vector<std::int64_t> edf_responses(std::span<const Load> loads) {
+  std::uint64_t steps = 0;
+  std::int64_t blocking = 0;
+  for (const Load& l : loads) blocking = std::max(blocking, l.blocking);
+  const auto busy = busy_period(loads, blocking, steps);
+  if (!busy) return {};
+  std::uint64_t points = 0;
+  for (const Load& l : loads) points += static_cast<std::uint64_t>((*busy + l.jitter) / l.period + 1);
+  if (points * loads.size() * loads.size() > most_steps) return {};
+  std::vector<std::int64_t> responses;
+  for (const Load& own : loads) {
+    std::int64_t response = own.wcet + own.jitter + own.blocking;
+    for (const Load& other : loads)
+      for (std::int64_t k = 0;; ++k) {
+        // an arrival whose deadline coincides with one of the other
+        const std::int64_t a = k * other.period + other.deadline - other.jitter - (own.deadline - own.jitter);
+        if (a >= *busy) break;
+        if (a < 0) continue;
+        const std::int64_t earlier = own.period == 0 ? 0 : (a + own.jitter) / own.period;
+        std::int64_t length = own.wcet;
+        while (true) {
+          Wide next = static_cast<Wide>(earlier + 1) * own.wcet + own.blocking;
+          for (const Load& l : loads) {
+            if (&l == &own) continue;
+            const std::int64_t reach = a + own.deadline - own.jitter - l.deadline + l.jitter;
+            if (reach < 0) continue;
+            const Wide by_time = ceil_div(static_cast<Wide>(length) + l.jitter, l.period);
+            next += std::min<Wide>(by_time, reach / l.period + 1) * l.wcet;
+          }
+          steps += loads.size();
+          if (steps > 4 * most_steps) return {};
+          if (next == length) break;
+          length = static_cast<std::int64_t>(next);
+        }
+        response = std::max(response, length - a + own.jitter);
+      }
+    responses.push_back(response);
+  }
+  return responses;
+}
+
+}  // namespace jarol::analysis

@@ -1,0 +1,32 @@
+// Earliest deadline first on one core.
+#pragma once
+
+#include "graph/analysis/load.h"
+
+namespace jarol::analysis {
+
+/// In [0, length] work of `demand` is due.
+struct Demand {
+  std::int64_t length = 0;
+  std::int64_t demand = 0;    // of tasks
+  std::int64_t blocking = 0;  // by what can't be preempted
+};
+
+struct EdfResult {
+  bool decided = true;         // else no end was found in reasonable time
+  std::optional<Demand> over;  // more is due than there is time for: not schedulable
+};
+
+/// Work due in any interval of that length.
+Wide demand_bound(std::span<const Load> loads, std::int64_t length);
+
+/// Processor demand (Baruah, Rosier, Howell 1990; with jitter Spuri 1996), by QPA (Zhang, Burns 2009). Exact for
+/// sporadic and for synchronous periodic tasks without blocking. Non-preemptive: Jeffay, Stanat, Martel 1991; exact for
+/// sporadic tasks.
+EdfResult check_edf(std::span<const Load> loads, bool preemptive);
+
+/// Worst-case response times from the arrival over all offsets (Spuri 1996), ties against the task; of schedulable
+/// preemptive sets. Empty if that takes more than reasonable time.
+std::vector<std::int64_t> edf_responses(std::span<const Load> loads);
+
+}  // namespace jarol::analysis

@@ -1,0 +1,121 @@
+#include "graph/analysis/fixed_priority.h"
+
+#include <algorithm>
+#include <map>
+
+namespace jarol::analysis {
+namespace {
+
+constexpr std::int64_t far = std::int64_t{1} << 61;
+constexpr std::uint64_t most_steps = 2'000'000'000;  // of all tasks together
+
+// What more urgent tasks need, those of equal period and jitter together.
+class Interference {
+ public:
+  void add(const Load& load) {
+    const auto [at, added] = index_.emplace(std::pair(load.period, load.jitter), work_.size());
+    if (added) work_.push_back({load.period, load.jitter, 0});
+    work_[at->second].wcet += load.wcet;
+  }
+
+  // Releases in a window of that length, closed at its end or not.
+  Wide demand(std::int64_t window, bool closed) const {
+    Wide sum = 0;
+    for (const Work& w : work_) {
+      const std::int64_t reach = window + w.jitter;
+      const std::int64_t count = closed ? reach / w.period + 1 : (reach + w.period - 1) / w.period;
+      sum += static_cast<Wide>(count) * w.wcet;
+    }
+    return sum;
+  }
+  std::size_t size() const { return work_.size() + 1; }
+
+ private:
+  struct Work {
+    std::int64_t period, jitter, wcet;
+  };
+  std::vector<Work> work_;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> index_;  // by period and jitter
+};
+
+// The least window that `need` maps to itself, from `start` on; nothing beyond reach.
+template <class Need>
+std::optional<std::int64_t> least_fixed_point(std::int64_t start, std::uint64_t& steps, std::size_t cost,
+                                              const Need& need) {
+  std::int64_t window = start;
+  while (true) {
+    steps += cost;
+    const Wide next = need(window);
+    if (next > far || steps > most_steps) return std::nullopt;
+    if (next == window) return window;
+    window = static_cast<std::int64_t>(next);
+  }
+}
+
+// `repeats`: at full utilisation a busy period need not end, but repeats itself after so long; else far.
+std::optional<std::int64_t> preemptive_response(const Load& load, const Interference& more_urgent,
+                                                std::int64_t repeats, std::int64_t& first_window,
+                                                std::uint64_t& steps) {
+  // it does not run before the one above it has ended, and runs then
+  std::int64_t response = 0, window = std::max(load.blocking, first_window) + load.wcet;
+  for (std::int64_t q = 0;; ++q) {
+    const Wide own = static_cast<Wide>(load.blocking) + static_cast<Wide>(q + 1) * load.wcet;
+    const auto end = least_fixed_point(std::max(window, static_cast<std::int64_t>(own)), steps, more_urgent.size(),
+                                       [&](std::int64_t w) { return own + more_urgent.demand(w, false); });
+    if (!end) return std::nullopt;
+    window = *end;
+    if (q == 0) first_window = load.blocking == 0 ? window : first_window + load.wcet;
+    response = std::max(response, window - q * load.period + load.jitter);
+    if (window + load.jitter <= (q + 1) * load.period) return response;
+    if ((q + 1) * load.period > repeats) return response;
+  }
+}
+
+std::optional<std::int64_t> nonpreemptive_response(const Load& load, const Interference& more_urgent,
+                                                   std::int64_t blocking, std::int64_t repeats,
+                                                   std::uint64_t& steps) {
+  Interference busy = more_urgent;
+  busy.add(load);
+  const auto length = repeats < far ? std::optional(repeats)
+                              : least_fixed_point(std::max<std::int64_t>(1, blocking), steps, busy.size(),
+                                                  [&](std::int64_t w) { return blocking + busy.demand(w, false); });
+  if (!length) return std::nullopt;
+  std::int64_t response = 0, start = blocking;
+  for (std::int64_t q = 0; q * load.period < *length + load.jitter; ++q) {
+    const Wide own = static_cast<Wide>(blocking) + static_cast<Wide>(q) * load.wcet;
+    const auto found = least_fixed_point(std::max(start, static_cast<std::int64_t>(own)), steps, more_urgent.size(),
+                                         [&](std::int64_t w) { return own + more_urgent.demand(w, true); });
+    if (!found) return std::nullopt;
+    start = *found;
+    response = std::max(response, start + load.wcet - q * load.period + load.jitter);
+  }
+  return response;
+}
+
+}  // namespace
+
+std::vector<std::optional<std::int64_t>> fixed_priority_responses(std::span<const Load> loads, bool preemptive) {
+  std::vector<std::optional<std::int64_t>> responses(loads.size());
+  // by what has begun and can't be interrupted: at most all but its first nanosecond
+  std::vector<std::int64_t> longest_below(loads.size(), 0);
+  for (std::size_t i = loads.size(); i-- > 1;)
+    longest_below[i - 1] = std::max(longest_below[i], loads[i].wcet - 1);
+  Interference more_urgent;
+  std::uint64_t steps = 0;
+  std::int64_t first_window = 0;
+  long double used = 0;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    used += static_cast<long double>(loads[i].wcet) / static_cast<long double>(loads[i].period);
+    // near to one without rounding
+    const auto order = used < 1 - 1e-9L ? std::optional(std::strong_ordering::less) : compare_utilisation(loads.first(i + 1), 1);
+    if (!order || *order > 0) break;  // without bound from here on
+    const auto repeats = *order == 0 ? hyperperiod(loads.first(i + 1), far).value_or(far) : far;
+    responses[i] = preemptive ? preemptive_response(loads[i], more_urgent, repeats, first_window, steps)
+                              : nonpreemptive_response(loads[i], more_urgent,
+                                                       std::max(longest_below[i], loads[i].blocking), repeats, steps);
+    more_urgent.add(loads[i]);
+  }
+  return responses;
+}
+
+}  // namespace jarol::analysis

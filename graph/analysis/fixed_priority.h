@@ -1,0 +1,14 @@
+// Fixed priorities on one core: worst-case response times over all offsets.
+#pragma once
+
+#include "graph/analysis/load.h"
+
+namespace jarol::analysis {
+
+/// Per task, from its arrival; nothing where it grows without bound or no end was found in reasonable time.
+/// Preemptive: exact for sporadic and for synchronous periodic tasks (Joseph, Pandya 1986; Audsley et al. 1993), later
+/// activations of a busy period included (Lehoczky 1990), with jitter and blocking (Tindell et al. 1994).
+/// Non-preemptive: every start in the busy period (George, Rivierre, Spuri 1996; Davis et al. 2007).
+std::vector<std::optional<std::int64_t>> fixed_priority_responses(std::span<const Load> loads, bool preemptive);
+
+}  // namespace jarol::analysis

@@ -1,0 +1,16 @@
+// Global earliest deadline first on several cores: sufficient tests.
+#pragma once
+
+#include "graph/analysis/load.h"
+
+namespace jarol::analysis {
+
+/// Goossens, Funk, Baruah 2003: sum of densities <= m - (m - 1) largest density. Without rounding up to what a double
+/// holds, on the safe side.
+bool passes_gfb(std::span<const Load> loads, std::int64_t cores);
+
+/// Bertogna, Cirinei 2007: upper bounds of response times with iterated slack; nothing for a task that none was found
+/// for. Sufficient for constrained deadlines.
+std::vector<std::optional<std::int64_t>> global_edf_responses(std::span<const Load> loads, std::int64_t cores);
+
+}  // namespace jarol::analysis

@@ -1,0 +1,37 @@
+// Tasks as the analysis of one core sees them: plain numbers, in ns.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace jarol::analysis {
+
+__extension__ using Wide = __int128;
+
+struct Load {
+  std::int64_t wcet = 0;
+  std::int64_t period = 1;
+  std::int64_t deadline = 1;  // relative to the arrival
+  std::int64_t offset = 0;
+  std::int64_t jitter = 0;    // the release follows the arrival by at most so much
+  std::int64_t blocking = 0;  // by what can't be preempted, once an activation
+};
+
+/// Of one core; most urgent first where priorities count.
+using Loads = std::vector<Load>;
+
+/// Sum of wcet / period against `bound` without rounding; nothing if the common denominator is out of reach and the two
+/// are as close as rounding goes.
+std::optional<std::strong_ordering> compare_utilisation(std::span<const Load> loads, std::int64_t bound);
+
+double utilisation(std::span<const Load> loads);
+
+/// Least common multiple of the periods, or nothing beyond `most`.
+std::optional<std::int64_t> hyperperiod(std::span<const Load> loads, std::int64_t most);
+
+inline Wide ceil_div(Wide a, Wide b) { return (a + b - 1) / b; }
+
+}  // namespace jarol::analysis

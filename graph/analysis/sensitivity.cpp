@@ -1,0 +1,95 @@
+#include "graph/analysis/sensitivity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jarol::analysis {
+namespace {
+
+bool holds(const System& system) { return verdict_of(system) == Verdict::schedulable; }
+
+// The largest x in [low, high) with good(x), where good is monotone and good(low).
+template <class Good>
+std::int64_t largest(std::int64_t low, std::int64_t high, const Good& good) {
+  while (high - low > 1) {
+    const std::int64_t middle = low + (high - low) / 2;
+    (good(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+System scaled(const System& system, std::int64_t millionths) {
+  System changed = system;
+  for (Load& l : changed.loads)
+    l.wcet = static_cast<std::int64_t>((static_cast<Wide>(l.wcet) * millionths + 999'999) / 1'000'000);
+  return changed;
+}
+
+std::optional<std::int64_t> most_wcet(const System& system, std::size_t task) {
+  System changed = system;
+  const auto good = [&](std::int64_t wcet) {
+    changed.loads[task].wcet = wcet;
+    return holds(changed);
+  };
+  if (!good(1)) return std::nullopt;
+  return largest(1, system.loads[task].deadline + 1, good);
+}
+
+std::vector<Policy> other_policies(Policy policy) {
+  std::vector<Policy> others;
+  for (const Policy p : {Policy::table, Policy::fixed_priority, Policy::edf})
+    if (p != policy) others.push_back(p);
+  return others;
+}
+
+}  // namespace
+
+Sensitivity sensitivity_of(const System& system, bool per_task) {
+  Sensitivity result;
+  result.most_wcet.resize(system.loads.size());
+  const bool any = std::any_of(system.loads.begin(), system.loads.end(), [](const Load& l) { return l.wcet > 0; });
+  if (any && holds(scaled(system, 1))) {
+    std::int64_t high = 1'000'000;
+    while (high < 1'000'000'000'000 && holds(scaled(system, high))) high *= 2;
+    const std::int64_t factor =
+        largest(high == 1'000'000 ? 1 : high / 2, high, [&](std::int64_t f) { return holds(scaled(system, f)); });
+    result.alpha = static_cast<double>(factor) * 1e-6;
+  }
+  if (!per_task) return result;
+  double least = 0;
+  for (std::size_t i = 0; i < system.loads.size(); ++i) {
+    result.most_wcet[i] = most_wcet(system, i);
+    if (!result.most_wcet[i] || system.loads[i].wcet == 0) continue;
+    const double room = static_cast<double>(*result.most_wcet[i]) / static_cast<double>(system.loads[i].wcet);
+    if (result.binding && room >= least) continue;
+    least = room;
+    result.binding = i;
+  }
+  return result;
+}
+
+std::vector<Suggestion> suggestions_for(const System& system) {
+  constexpr std::size_t most = 4;
+  std::vector<Suggestion> found;
+  // the smallest cut of one WCET
+  std::vector<std::pair<double, Suggestion>> cuts;
+  for (std::size_t i = 0; i < system.loads.size() && system.loads.size() <= 100; ++i)
+    if (const auto wcet = most_wcet(system, i); wcet && *wcet < system.loads[i].wcet)
+      cuts.push_back({1 - static_cast<double>(*wcet) / static_cast<double>(system.loads[i].wcet),
+                      {Suggestion::Kind::lower_wcet, i, *wcet, system.policy}});
+  std::stable_sort(cuts.begin(), cuts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [cut, suggestion] : cuts)
+    if (found.size() < 2) found.push_back(suggestion);
+  for (const Policy policy : other_policies(system.policy)) {
+    System changed = system;
+    changed.policy = policy;
+    if (found.size() < most && holds(changed)) found.push_back({Suggestion::Kind::other_policy, 0, 0, policy});
+  }
+  System wider = system;
+  wider.cores = system.cores + 1;
+  if (found.size() < most && holds(wider))
+    found.push_back({Suggestion::Kind::more_cores, 0, wider.cores, system.policy});
+  return found;
+}
+
+}  // namespace jarol::analysis

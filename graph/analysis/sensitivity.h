@@ -1,0 +1,31 @@
+// How far a system is from the other verdict. Every figure was found by checking again.
+#pragma once
+
+#include "graph/analysis/check.h"
+
+namespace jarol::analysis {
+
+struct Sensitivity {
+  /// Largest common factor on all WCETs that is still schedulable, to a millionth; nothing if even none is.
+  std::optional<double> alpha;
+  /// Per task the largest WCET in ns that is schedulable with the others as they are; nothing if none is.
+  std::vector<std::optional<std::int64_t>> most_wcet;
+  /// The task whose WCET may grow least, relative to it.
+  std::optional<std::size_t> binding;
+};
+
+/// `per_task`: also what costs a search for each task.
+Sensitivity sensitivity_of(const System& system, bool per_task);
+
+/// A single change that turns "no" into "yes".
+struct Suggestion {
+  enum class Kind { lower_wcet, other_policy, more_cores } kind = Kind::lower_wcet;
+  std::size_t task = 0;
+  std::int64_t value = 0;  // ns, or cores
+  Policy policy = Policy::table;
+};
+
+/// The cheapest few, each checked again.
+std::vector<Suggestion> suggestions_for(const System& system);
+
+}  // namespace jarol::analysis

@@ -1,0 +1,38 @@
+// What happens on one core when every activation takes its WCET and arrives as the offsets say.
+#pragma once
+
+#include "graph/analysis/load.h"
+
+namespace jarol::analysis {
+
+enum class Order { by_priority, by_deadline };
+
+/// The first activation that ends after its deadline.
+struct Late {
+  std::size_t task = 0;
+  std::int64_t activation = 0;
+  std::int64_t release = 0;
+  std::int64_t finish = 0;
+  std::int64_t deadline = 0;  // absolute
+};
+
+/// A piece of one activation without interruption.
+struct Slice {
+  std::size_t task = 0;
+  std::int64_t activation = 0;
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+};
+
+struct Simulation {
+  bool whole = true;  // reached `until`
+  std::optional<Late> late;
+  std::vector<std::int64_t> responses;  // per task, the longest of those that ended
+  std::vector<Slice> slices;            // the last ones before the late activation ended
+};
+
+/// Runs all releases before `until`, or up to the first late activation, or so many. Ties: the task that stands first.
+Simulation simulate(std::span<const Load> loads, Order order, bool preemptive, std::int64_t until,
+                    std::uint64_t most_activations = 2'000'000);
+
+}  // namespace jarol::analysis

@@ -1,0 +1,30 @@
+#include "graph/analysis/system.h"
+
+#include <numeric>
+
+namespace jarol::analysis {
+
+System system_of(const Graph& graph) {
+  System system;
+  system.policy = graph.platform.policy;
+  system.cores = graph.platform.cores;
+  system.offsets_hold = graph.platform.phasing == Phasing::given;
+  for (const Task& t : graph.tasks) {
+    system.loads.push_back({t.wcet.value_or(Duration{}).count(), t.period.count(), t.deadline.count(),
+                            t.offset.count(), t.jitter.count(), t.blocking.count()});
+    system.priority.push_back(t.priority);
+    system.core.push_back(t.core);
+  }
+  system.rank.resize(graph.tasks.size());
+  for (std::size_t i = 0; i < graph.order.size(); ++i) system.rank[graph.order[i]] = i;
+  for (const Connection& c : graph.connections) {
+    if (c.from.kind != End::Kind::task || c.to.kind != End::Kind::task) continue;
+    const Task &producer = graph.tasks[c.from.index], &reader = graph.tasks[c.to.index];
+    if (producer.let) continue;
+    const std::int64_t gcd = std::gcd(producer.period.count(), reader.period.count());
+    if ((producer.offset - reader.offset).count() % gcd == 0) system.follows.emplace_back(c.from.index, c.to.index);
+  }
+  return system;
+}
+
+}  // namespace jarol::analysis

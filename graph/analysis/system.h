@@ -1,0 +1,33 @@
+// A whole graph as the analysis sees it.
+#pragma once
+
+#include <string>
+
+#include "graph/analysis/load.h"
+#include "graph/graph.h"
+
+namespace jarol::analysis {
+
+struct System {
+  Policy policy = Policy::table;
+  std::int64_t cores = 1;
+  bool offsets_hold = true;  // else every shift of the tasks against each other is possible
+  // per task, in the order of the graph
+  Loads loads;
+  std::vector<std::optional<std::int64_t>> priority;
+  std::vector<std::optional<std::int64_t>> core;
+  std::vector<std::size_t> rank;  // in data-flow order
+  // data-flow connections between tasks that are released at one instant at times: the second follows the first
+  std::vector<std::pair<std::size_t, std::size_t>> follows;
+};
+
+/// Of a valid graph. A task without a WCET has 0 here.
+System system_of(const Graph& graph);
+
+enum class Verdict { schedulable, not_schedulable, unknown };
+
+/// What a verdict rests on: a proof, a test that may refuse what would hold, a simulation that shorter execution could
+/// break, or nothing.
+enum class Standing { none, proof, sufficient, simulated };
+
+}  // namespace jarol::analysis

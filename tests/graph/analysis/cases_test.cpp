@@ -1,0 +1,177 @@
+// Published and recomputed scheduling problems (tests/data/sched-cases.json) through YAML.
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "graph/analysis/chains.h"
+#include "graph/analysis/check.h"
+#include "graph/analysis/global_edf.h"
+#include "graph/analysis/sensitivity.h"
+#include "tests/graph/graph_of.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::analysis;
+using Json = nlohmann::json;
+
+const Json& cases() {
+  static const Json all = Json::parse(std::ifstream("tests/data/sched-cases.json"))["cases"];
+  return all;
+}
+
+constexpr std::int64_t unit = 1'000'000;  // ns that stand for one unit of a case
+
+std::string name_of(std::size_t i) { return (i < 10 ? "t0" : "t") + std::to_string(i); }
+
+std::string policy_of(const Json& c) {
+  static const std::map<std::string, std::string> names{{"fp", "fixed_priority"},
+                                                        {"edf", "edf"},
+                                                        {"np-fp", "fixed_priority_nonpreemptive"},
+                                                        {"np-edf", "edf_nonpreemptive"}};
+  return names.at(c["policy"]);
+}
+
+// What the language can't say: a deadline beyond the period, and the kinds that are no periodic tasks on cores.
+std::string why_not(const Json& c) {
+  const std::string kind = c["kind"];
+  if (kind == "jobset") return "jobs with ranges of releases and execution times are no periodic tasks";
+  if (kind == "tt" || kind == "dag") return "a set of single jobs is no set of periodic tasks";
+  if (kind == "sim") return "global policies are tested, not simulated";
+  for (const Json& t : c.value("tasks", Json::array()))
+    if (t.value("D", t["T"]).get<std::int64_t>() > t["T"].get<std::int64_t>())
+      return "a deadline lies beyond the period";
+  return "";
+}
+
+std::string yaml_of(const Json& c, const std::string& of_unit) {
+  const std::string policy = c["kind"] == "global-test" ? "global_edf" : policy_of(c);
+  const bool nonpreemptive = policy.ends_with("nonpreemptive");
+  std::string text = "graph: t\nplatform: {cores: " + std::to_string(c.value("m", 1)) + ", policy: " + policy +
+                     (nonpreemptive ? ", phasing: any" : "") + "}\ntasks:\n";
+  for (std::size_t i = 0; i < c["tasks"].size(); ++i) {
+    const Json& t = c["tasks"][i];
+    text += "  " + name_of(i) + ": {type: Work";
+    const std::pair<const char*, const char*> keys[] = {{"C", "wcet"}, {"T", "period"}, {"O", "offset"},
+                                                        {"D", "deadline"}, {"J", "jitter"}, {"B", "blocking"},
+                                                        {"L", "let"}};
+    for (const auto& [from, to] : keys)
+      if (t.contains(from)) text += std::string(", ") + to + ": " + t[from].dump() + of_unit;
+    if (t.contains("prio")) text += ", priority: " + t["prio"].dump();
+    text += "}\n";
+  }
+  return text;
+}
+
+double fraction(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  return slash == std::string::npos ? std::stod(text) : std::stod(text.substr(0, slash)) / std::stod(text.substr(slash + 1));
+}
+
+void check_case(const Json& c) {
+  // what can't be preempted is held up by one nanosecond less than a whole WCET: there the unit is the nanosecond
+  const bool small = policy_of(c).ends_with("nonpreemptive");
+  const Graph graph = tests::graph_of(yaml_of(c, small ? "ns" : "ms"));
+  const std::int64_t scale = small ? 1 : unit;
+  const Json& expect = c["expect"];
+  const System system = system_of(graph);
+  const Result result = check(system);
+  CHECK(result.verdict == (expect["schedulable"].get<bool>() ? Verdict::schedulable : Verdict::not_schedulable));
+  CHECK(result.standing == Standing::proof);
+  if (expect.contains("U") && !small) CHECK(result.utilisation == doctest::Approx(fraction(expect["U"])));
+  const bool edf_late = policy_of(c) == "edf" && !expect["schedulable"].get<bool>();
+  if (expect.contains("R") && !edf_late)
+    for (std::size_t i = 0; i < expect["R"].size(); ++i) {
+      CAPTURE(i);
+      if (expect["R"][i].is_null()) {
+        CHECK(!result.response[i]);
+      } else {
+        REQUIRE(result.response[i]);
+        CHECK(*result.response[i] == expect["R"][i].get<std::int64_t>() * scale);
+      }
+    }
+  if (expect.contains("first_miss")) {
+    REQUIRE(result.late);
+    const Late& l = *result.late;
+    CHECK(Json{l.task, l.activation, l.release / scale, l.deadline / scale, l.finish / scale} == expect["first_miss"]);
+  }
+  if (policy_of(c) == "edf" && expect.contains("witness") && expect["witness"].size() == 2 &&
+      expect["witness"][0].is_number()) {
+    // any interval in which more is due than there is time will do
+    REQUIRE(result.demand);
+    CHECK(result.demand->demand > result.demand->length);
+  }
+  if (expect.contains("alpha") || expect.contains("max_C")) {
+    const Sensitivity s = sensitivity_of(system, true);
+    if (expect.contains("alpha")) {
+      REQUIRE(s.alpha);
+      CHECK(*s.alpha == doctest::Approx(fraction(expect["alpha"])).epsilon(2e-6));
+    }
+    if (expect.contains("max_C"))
+      for (std::size_t i = 0; i < expect["max_C"].size(); ++i)
+        CHECK(s.most_wcet[i].value_or(0) / scale == expect["max_C"][i].get<std::int64_t>());
+  }
+}
+
+void check_chain(const Json& c) {
+  std::string tasks, connections;
+  for (std::size_t i = 0; i < c["chain"].size(); ++i) {
+    const Json& t = c["chain"][i];
+    tasks += "  " + name_of(i) + ": {type: " + (i == 0 ? "Counter" : "Relay") + ", period: " + t["T"].dump() +
+             "ms, let: " + t.value("L", t["T"]).dump() + "ms, offset: " + t.value("O", Json(0)).dump() + "ms}\n";
+    if (i > 0) connections += "  - " + name_of(i - 1) + ".out -> " + name_of(i) + ".in\n";
+  }
+  const Graph graph = tests::graph_of("graph: t\ntasks:\n" + tasks + "connections:\n" + connections);
+  std::vector<End> path;
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) path.push_back({End::Kind::task, i, 0});
+  const ChainLatency l = latency_of(graph, path);
+  CHECK(l.exact);
+  CHECK(l.max_reaction == c["expect"]["mrt"].get<std::int64_t>() * unit);
+  CHECK(l.max_age == c["expect"]["mda"].get<std::int64_t>() * unit);
+  CHECK(l.max_reduced_age == c["expect"]["mrda"].get<std::int64_t>() * unit);
+  CHECK(l.bound == c["expect"]["davare"].get<std::int64_t>() * unit);
+}
+
+void check_global(const Json& c) {
+  // the published bounds count in whole units
+  const Graph graph = tests::graph_of(yaml_of(c, "ns"));
+  const System system = system_of(graph);
+  CHECK(passes_gfb(system.loads, system.cores) == c["expect"]["gfb"].get<bool>());
+  const auto responses = global_edf_responses(system.loads, system.cores);
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    REQUIRE(responses[i]);
+    CHECK(*responses[i] == c["expect"]["R_edf"][i].get<std::int64_t>());
+  }
+}
+}  // namespace
+
+TEST_SUITE("graph/analysis/cases") {
+  TEST_CASE("each problem that the language can say has the verdict, responses, witness and margins that are known") {
+    std::size_t done = 0;
+    std::map<std::string, int> left_out;
+    for (const Json& c : cases()) {
+      const std::string id = c["id"], kind = c["kind"];
+      CAPTURE(id);
+      const std::string reason = why_not(c);
+      if (!reason.empty()) {
+        ++left_out[reason];
+        continue;
+      }
+      ++done;
+      if (kind == "let-chain") {
+        check_chain(c);
+      } else if (kind == "global-test") {
+        check_global(c);
+      } else {
+        check_case(c);
+      }
+    }
+    CHECK(done == 58);
+    CHECK(left_out == std::map<std::string, int>{
+                          {"a deadline lies beyond the period", 5},
+                          {"a set of single jobs is no set of periodic tasks", 11},
+                          {"global policies are tested, not simulated", 2},
+                          {"jobs with ranges of releases and execution times are no periodic tasks", 13}});
+  }
+}

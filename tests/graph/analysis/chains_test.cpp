@@ -1,0 +1,95 @@
+#include "graph/analysis/chains.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/graph/graph_of.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::analysis;
+
+constexpr std::int64_t ms = 1'000'000;
+
+std::string name_of(std::size_t i) { return (i < 10 ? "t0" : "t") + std::to_string(i); }
+
+// A chain of LET tasks whose LETs are their periods.
+Graph let_chain(const std::vector<int>& periods) {
+  std::string tasks, connections;
+  for (std::size_t i = 0; i < periods.size(); ++i) {
+    const std::string p = std::to_string(periods[i]) + "ms";
+    tasks += "  " + name_of(i) + ": {type: " + (i == 0 ? "Counter" : "Relay") + ", period: " + p + ", let: " + p + "}\n";
+    if (i > 0) connections += "  - " + name_of(i - 1) + ".out -> " + name_of(i) + ".in\n";
+  }
+  return tests::graph_of("graph: t\ntasks:\n" + tasks + "connections:\n" + connections);
+}
+
+std::vector<End> all_tasks(const Graph& graph) {
+  std::vector<End> path;
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) path.push_back({End::Kind::task, i, 0});
+  return path;
+}
+}  // namespace
+
+TEST_SUITE("graph/analysis/chains") {
+  TEST_CASE("the published chains come out exactly") {
+    struct Published {
+      std::vector<int> periods;
+      std::int64_t max_reaction, reduced, min_reaction;  // ms
+    };
+    // effect chains of WATERS 2016/17 and 2019, RTSS 2021, JSA 2024, Gemlau 2021, Frey 2010 and ROSACE
+    const std::vector<Published> all{{{10, 10, 10, 10}, 50, 40, 40},
+                                     {{33, 400, 15, 15, 5}, 908, 875, 470},
+                                     {{10, 15, 15, 5}, 65, 55, 45},
+                                     {{66, 15, 5}, 164, 98, 86},
+                                     {{100, 100, 100, 100, 100, 10}, 610, 510, 510},
+                                     {{100, 100, 100, 100, 100, 100, 10}, 710, 610, 610},
+                                     {{10, 100, 100, 10}, 320, 310, 220},
+                                     {{20, 30, 40, 50, 60}, 360, 340, 240},
+                                     {{5, 10, 2, 1, 2}, 31, 26, 21},
+                                     {{5, 10, 10, 10}, 45, 40, 35},
+                                     {{5, 10, 10, 10, 10}, 55, 50, 45},
+                                     {{10, 20, 20}, 70, 60, 50}};
+    for (const Published& p : all) {
+      CAPTURE(p.periods.size());
+      CAPTURE(p.periods[0]);
+      const Graph graph = let_chain(p.periods);
+      const ChainLatency l = latency_of(graph, all_tasks(graph));
+      CHECK(l.max_reaction == p.max_reaction * ms);
+      CHECK(l.max_age == p.max_reaction * ms);  // forward and backward agree
+      CHECK(l.max_reduced == p.reduced * ms);
+      CHECK(l.min_reaction == p.min_reaction * ms);
+    }
+  }
+
+  TEST_CASE("a chain through communicators and data-flow tasks counts the order inside an instant") {
+    const Graph graph = tests::graph_of(R"(graph: t
+timing: {period: 10ms}
+communicators:
+  i: {type: double, direction: in}
+  late: {type: double, direction: out}
+  soon: {type: double, direction: out, offset: 2ms}
+tasks:
+  a: {type: Relay}
+  b: {type: Relay}
+connections: [i -> a.in, a.out -> b.in, b.out -> late, a.out -> soon]
+chains:
+  slow: {path: [i, a, b, late], reaction: 30ms, age: 15ms}
+  fast: {path: [i, a, soon]}
+)");
+    REQUIRE(graph.chains.size() == 2);
+    CHECK(graph.chains[1].name == "slow");
+    const ChainLatency fast = latency_of(graph, graph.chains[0].path), slow = latency_of(graph, graph.chains[1].path);
+    CHECK(fast.max_reaction == 12 * ms);
+    CHECK(fast.min_reaction == 2 * ms);
+    CHECK(slow.max_reaction == 20 * ms);  // what is published at an instant is handed over at the next
+    CHECK(slow.min_reaction == 10 * ms);
+    CHECK(slow.at == std::vector<std::int64_t>{50 * ms, 50 * ms, 50 * ms, 50 * ms, 60 * ms});
+  }
+
+  TEST_CASE("a chain that repeats too late to be enumerated has the classical upper bound") {
+    const Graph graph = let_chain({9973, 9967, 9949, 9941, 9931});
+    const ChainLatency l = latency_of(graph, all_tasks(graph));
+    CHECK_FALSE(l.exact);
+    CHECK(l.max_reaction == 2 * (9973 + 9967 + 9949 + 9941 + 9931) * ms);
+  }
+}

@@ -1,0 +1,286 @@
+#include "tools/check_report.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "graph/deadlines.h"
+#include "graph/spec/key.h"
+#include "tools/gantt.h"
+
+namespace jarol::tools {
+namespace {
+
+using analysis::Standing;
+using analysis::Suggestion;
+using analysis::Verdict;
+using Json = nlohmann::ordered_json;
+
+std::string text_of(Standing standing) {
+  switch (standing) {
+    case Standing::none: return "none";
+    case Standing::proof: return "proof";
+    case Standing::sufficient: return "sufficient";
+    case Standing::simulated: return "simulated";
+  }
+  return "";
+}
+
+std::string word_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::schedulable: return "schedulable";
+    case Verdict::not_schedulable: return "not_schedulable";
+    case Verdict::unknown: return "unknown";
+  }
+  return "";
+}
+
+std::string milliseconds(std::int64_t ns) { return fmt::format("{:.3f} ms", static_cast<double>(ns) * 1e-6); }
+std::string duration(std::int64_t ns) { return duration_text(Duration(ns)); }
+
+std::string platform_text(const Platform& platform) {
+  const std::string cores = platform.cores == 1 ? "one core" : std::to_string(platform.cores) + " cores";
+  return cores + " (" + Words<Policy>::list()[static_cast<std::size_t>(platform.policy)] + ")";
+}
+
+std::string headline(const CheckReport& r) {
+  switch (r.result.verdict) {
+    case Verdict::schedulable:
+      return fmt::format("{}: SCHEDULABLE on {}: {}\n", r.file, platform_text(r.graph->platform), r.result.reason);
+    case Verdict::unknown:
+      return fmt::format("{}: UNKNOWN on {}: {}\n", r.file, platform_text(r.graph->platform), r.result.reason);
+    case Verdict::not_schedulable: break;
+  }
+  std::string text = r.file + ": NOT SCHEDULABLE";
+  if (r.result.late) {
+    const analysis::Late& l = *r.result.late;
+    text += fmt::format(" core {}: task '{}' activation {} (released {}) finishes {}, deadline {} (late {})",
+                        r.result.core_at_fault.value_or(0), r.graph->tasks[l.task].name, l.activation,
+                        milliseconds(l.release), milliseconds(l.finish), milliseconds(l.deadline),
+                        milliseconds(l.finish - l.deadline));
+  }
+  return text + "\n  " + r.result.reason + " on " + platform_text(r.graph->platform) + "\n";
+}
+
+// Who needs how much in the interval that is too short.
+std::string demand_text(const CheckReport& r) {
+  if (!r.result.demand) return "";
+  const analysis::Demand& d = *r.result.demand;
+  std::string text = fmt::format("  in an interval of {} work of {} is due", duration(d.length), duration(d.demand));
+  if (d.blocking > 0) text += fmt::format(", and {} can hold it up", duration(d.blocking));
+  std::string parts;
+  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
+    const Task& t = r.graph->tasks[i];
+    if (!t.wcet || (r.result.core_at_fault && r.result.core[i] && *r.result.core[i] != *r.result.core_at_fault)) continue;
+    const std::int64_t reach = d.length + t.jitter.count() - t.deadline.count();
+    if (reach < 0) continue;
+    parts += fmt::format("{}{} {}x{}", parts.empty() ? "" : " + ", t.name, reach / t.period.count() + 1,
+                         duration_text(*t.wcet));
+  }
+  return text + ": " + parts + "\n";
+}
+
+std::string task_table(const CheckReport& r) {
+  std::size_t width = 4;
+  for (const Task& t : r.graph->tasks) width = std::max(width, t.name.size());
+  const bool cores = r.graph->platform.cores > 1;
+  std::string text =
+      fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>6}  {:>9}  {:>9}{}\n", "task", width, "period", "offset",
+                  "deadline", "wcet", "use", "response", "slack", cores ? "  core" : "");
+  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
+    const Task& t = r.graph->tasks[i];
+    const std::string use = t.wcet ? fmt::format("{:.2f}%", 100.0 * static_cast<double>(t.wcet->count()) /
+                                                                static_cast<double>(t.period.count()))
+                                   : "-";
+    const auto& response = r.result.response[i];
+    text += fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>6}  {:>9}  {:>9}", t.name, width,
+                        duration_text(t.period), duration_text(t.offset), duration_text(t.deadline),
+                        t.wcet ? duration_text(*t.wcet) : "-", use, response ? duration(*response) : "-",
+                        response ? duration(t.deadline.count() - *response) : "-");
+    if (cores) text += r.result.core[i] ? fmt::format("  {:>4}", *r.result.core[i]) : "     -";
+    text += "\n";
+  }
+  return text;
+}
+
+std::string core_lines(const CheckReport& r) {
+  std::string text;
+  for (std::size_t c = 0; r.graph->platform.cores > 1 && c < static_cast<std::size_t>(r.graph->platform.cores); ++c) {
+    double use = 0;
+    for (std::size_t i = 0; i < r.graph->tasks.size(); ++i)
+      if (r.result.core[i] == c && r.graph->tasks[i].wcet)
+        use += static_cast<double>(r.graph->tasks[i].wcet->count()) /
+               static_cast<double>(r.graph->tasks[i].period.count());
+    text += fmt::format("  core {}: utilisation {:.2f}%, idle {:.2f}%\n", c, 100 * use, 100 * (1 - use));
+  }
+  return text;
+}
+
+// Where an `out` reads at the very instant at which its data-flow producer runs.
+std::string late_outs(const Graph& graph) {
+  std::string text;
+  for (const Connection& c : graph.connections) {
+    if (c.from.kind != End::Kind::task || c.to.kind != End::Kind::communicator) continue;
+    const Task& producer = graph.tasks[c.from.index];
+    const Communicator& out = graph.communicators[c.to.index];
+    if (producer.let || least_distance(producer.period, producer.offset, out.period, out.offset) !=
+                            least_distance(producer.period, Duration{}, out.period, Duration{}))
+      continue;
+    text += fmt::format(
+        "  note: '{}' reads at the very instant at which '{}' runs, and so one period late; give it an 'offset'\n",
+        out.name, producer.name);
+  }
+  return text;
+}
+
+std::string chain_lines(const CheckReport& r) {
+  std::string text;
+  for (const ReportedChain& c : r.chains) {
+    const analysis::ChainLatency& l = c.latency;
+    text += fmt::format("  chain {}: reaction {} to {}, data age at most {}, jitter {}{}\n", c.name,
+                        l.exact ? duration(l.min_reaction) : "-", duration(l.max_reaction), duration(l.max_age),
+                        duration(l.jitter), l.exact ? "" : " (upper bounds)");
+    if (l.exact) {
+      std::string hops;
+      for (std::size_t i = 0; i < c.path.size(); ++i)
+        hops += fmt::format("{}{} {}", i == 0 ? "" : ", ",
+                            c.path[i].kind == End::Kind::task ? r.graph->tasks[c.path[i].index].name
+                                                              : r.graph->communicators[c.path[i].index].name,
+                            duration(l.at[i + 1] - l.at[i]));
+      text += fmt::format("    slowest way from {}: {}\n", duration(l.at.front()), hops);
+    }
+    if (c.reaction_limit && l.max_reaction > c.reaction_limit->count())
+      text += fmt::format("    LIMIT BROKEN: reaction {} over {}\n", duration(l.max_reaction),
+                          duration_text(*c.reaction_limit));
+    if (c.age_limit && l.max_age > c.age_limit->count())
+      text += fmt::format("    LIMIT BROKEN: data age {} over {}\n", duration(l.max_age), duration_text(*c.age_limit));
+  }
+  return text;
+}
+
+std::string text_of(const Suggestion& s, const Graph& graph) {
+  switch (s.kind) {
+    case Suggestion::Kind::lower_wcet:
+      return fmt::format("a 'wcet' of {} for '{}', which has {}", duration(s.value), graph.tasks[s.task].name,
+                         duration_text(*graph.tasks[s.task].wcet));
+    case Suggestion::Kind::other_policy:
+      return "'policy: " + Words<Policy>::list()[static_cast<std::size_t>(s.policy)] + "'";
+    case Suggestion::Kind::more_cores: return fmt::format("'cores: {}'", s.value);
+  }
+  return "";
+}
+
+std::string sensitivity_lines(const CheckReport& r) {
+  std::string text;
+  if (r.sensitivity && r.sensitivity->alpha) {
+    text += fmt::format("  all WCETs together may be {:.6g} times as long", *r.sensitivity->alpha);
+    if (r.sensitivity->binding) {
+      const std::size_t i = *r.sensitivity->binding;
+      text += fmt::format("; alone, '{}' has least room: up to {}", r.graph->tasks[i].name,
+                          duration(*r.sensitivity->most_wcet[i]));
+    }
+    text += "\n";
+  }
+  for (std::size_t i = 0; i < r.suggestions.size(); ++i)
+    text += fmt::format("  {} {}\n", i == 0 ? "it would hold with" : "                or", text_of(r.suggestions[i], *r.graph));
+  return text;
+}
+
+std::string assumptions(const Platform& platform) {
+  std::string how;
+  switch (platform.policy) {
+    case Policy::table: how = "tasks run one after the other as released, never interrupted"; break;
+    case Policy::fixed_priority: how = "the most urgent task runs, interrupting others; 'run' does not execute this yet"; break;
+    case Policy::edf: how = "the task with the earliest deadline runs, interrupting others; 'run' does not execute this"; break;
+    case Policy::fixed_priority_nonpreemptive:
+      how = "the most urgent task starts, and runs to its end; 'run' does not execute this";
+      break;
+    case Policy::edf_nonpreemptive:
+      how = "the task with the earliest deadline starts, and runs to its end; 'run' does not execute this";
+      break;
+    case Policy::global_edf: how = "the earliest deadlines run, on any core; 'run' does not execute this"; break;
+  }
+  return "  assumed: " + how + ", without overhead" +
+         (platform.phasing == Phasing::any ? "; whatever the offsets" : "") + "\n";
+}
+
+}  // namespace
+
+bool chains_hold(const CheckReport& report) {
+  return std::all_of(report.chains.begin(), report.chains.end(), [](const ReportedChain& c) {
+    return !(c.reaction_limit && c.latency.max_reaction > c.reaction_limit->count()) &&
+           !(c.age_limit && c.latency.max_age > c.age_limit->count());
+  });
+}
+
+std::string to_text(const CheckReport& r) {
+  std::string text = headline(r) + demand_text(r) + gantt_text(*r.graph, r.result) + task_table(r) + core_lines(r);
+  text += fmt::format("  utilisation {:.2f}%; a task's response is its longest time from release to end when each takes "
+                      "its wcet;\n",
+                      100 * r.result.utilisation);
+  text += assumptions(r.graph->platform) + sensitivity_lines(r) + chain_lines(r) + late_outs(*r.graph);
+  if (r.result.verdict == Verdict::unknown &&
+      std::any_of(r.graph->tasks.begin(), r.graph->tasks.end(), [](const Task& t) { return !t.wcet; }))
+    text += "  'wcet: 1ms' or the like in each task states the longest time that an activation takes\n";
+  return text;
+}
+
+nlohmann::ordered_json to_json(const CheckReport& r) {
+  auto tasks = Json::array();
+  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
+    const Task& t = r.graph->tasks[i];
+    const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
+    const auto& response = r.result.response[i];
+    Json task{{"name", t.name},
+              {"period_ns", t.period.count()},
+              {"offset_ns", t.offset.count()},
+              {"deadline_ns", t.deadline.count()},
+              {"wcet_ns", t.wcet ? Json(t.wcet->count()) : Json(nullptr)},
+              {"core", or_null(r.result.core[i])},
+              {"response_ns", or_null(response)},
+              {"slack_ns", response ? Json(t.deadline.count() - *response) : Json(nullptr)},
+              {"max_wcet_ns", r.sensitivity ? or_null(r.sensitivity->most_wcet[i]) : Json(nullptr)}};
+    tasks.push_back(std::move(task));
+  }
+  Json witness = nullptr;
+  if (r.result.late || r.result.demand) {
+    witness = Json::object();
+    if (r.result.core_at_fault) witness["core"] = *r.result.core_at_fault;
+    if (r.result.late) {
+      const analysis::Late& l = *r.result.late;
+      witness.update({{"task", r.graph->tasks[l.task].name},
+                      {"activation", l.activation},
+                      {"release_ns", l.release},
+                      {"finish_ns", l.finish},
+                      {"deadline_ns", l.deadline}});
+    }
+    if (r.result.demand)
+      witness["demand"] = {{"length_ns", r.result.demand->length},
+                           {"demand_ns", r.result.demand->demand},
+                           {"blocking_ns", r.result.demand->blocking}};
+  }
+  auto chains = Json::array();
+  for (const ReportedChain& c : r.chains)
+    chains.push_back({{"name", c.name},
+                      {"exact", c.latency.exact},
+                      {"max_reaction_ns", c.latency.max_reaction},
+                      {"min_reaction_ns", c.latency.min_reaction},
+                      {"max_age_ns", c.latency.max_age},
+                      {"jitter_ns", c.latency.jitter}});
+  auto suggestions = Json::array();
+  for (const Suggestion& s : r.suggestions) suggestions.push_back(text_of(s, *r.graph));
+  return {{"schema", "jarol.check/1"},
+          {"file", r.file},
+          {"graph", r.graph->name},
+          {"verdict", word_of(r.result.verdict)},
+          {"standing", text_of(r.result.standing)},
+          {"reason", r.result.reason},
+          {"witness", std::move(witness)},
+          {"alpha", r.sensitivity && r.sensitivity->alpha ? Json(*r.sensitivity->alpha) : Json(nullptr)},
+          {"tasks", std::move(tasks)},
+          {"chains", std::move(chains)},
+          {"suggestions", std::move(suggestions)},
+          {"utilisation", r.result.utilisation}};
+}
+
+}  // namespace jarol::tools

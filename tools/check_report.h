@@ -1,0 +1,38 @@
+// What `jarol check` tells of one graph, as text and as JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "graph/analysis/chains.h"
+#include "graph/analysis/check.h"
+#include "graph/analysis/sensitivity.h"
+
+namespace jarol::tools {
+
+struct ReportedChain {
+  std::string name;
+  std::vector<End> path;
+  analysis::ChainLatency latency;
+  std::optional<Duration> reaction_limit;
+  std::optional<Duration> age_limit;
+};
+
+/// Everything found about one graph.
+struct CheckReport {
+  std::string file;
+  const Graph* graph = nullptr;
+  analysis::Result result;
+  std::optional<analysis::Sensitivity> sensitivity;
+  std::vector<analysis::Suggestion> suggestions;
+  std::vector<ReportedChain> chains;
+};
+
+/// Does every chain keep its limits?
+bool chains_hold(const CheckReport& report);
+
+std::string to_text(const CheckReport& report);
+nlohmann::ordered_json to_json(const CheckReport& report);
+
+}  // namespace jarol::tools

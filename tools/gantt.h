@@ -1,0 +1,15 @@
+// What ran when on one core, as a chart of characters.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "graph/analysis/check.h"
+
+namespace jarol::tools {
+
+/// The window around the late activation: one line per task that ran in it, `#` while it ran, `!` past the deadline of
+/// the late one, `^` at its release and `|` at its deadline. `width` columns.
+std::string gantt_text(const Graph& graph, const analysis::Result& result, std::size_t width = 72);
+
+}  // namespace jarol::tools
