@@ -37,6 +37,8 @@ class Builder {
     graph_.period = value_of(spec_.timing.period);
     graph_.platform.cores = spec_.platform.cores ? spec_.platform.cores->value : 1;
     graph_.platform.policy = spec_.platform.policy ? spec_.platform.policy->value : Policy::table;
+    graph_.platform.dispatch = value_of(spec_.platform.dispatch).value_or(Duration{});
+    graph_.platform.copy = value_of(spec_.platform.copy).value_or(Duration{});
     if (spec_.platform.phasing) graph_.platform.phasing = spec_.platform.phasing->value;
     if (graph_.platform.cores < 1)
       problems_.add(spec_.platform.cores->where, "'platform' key 'cores' is 0; a platform has at least one core");

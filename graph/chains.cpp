@@ -35,21 +35,22 @@ std::vector<std::string> readers_of(const Graph& graph, const End& from) {
 void resolve(const Yaml& path, Chain& chain, const Graph& graph, Problems& problems) {
   const std::string subject = "chain '" + chain.name + "'";
   if (path.kind != Yaml::Kind::sequence || path.children.empty())
-    return problems.add(path.where, subject + " needs a path, a list of tasks and communicators as in [from_dune, "
-                                              "depth, to_dune]");
+    return problems.add(path.where, subject +
+                                        " needs a path, a list of tasks and communicators as in [from_dune, "
+                                        "depth, to_dune]");
   for (const Yaml& child : path.children) {
     const auto end = child.kind == Yaml::Kind::scalar ? find_end(graph, child.text) : std::nullopt;
     if (!end) {
       std::vector<std::string> names = names_of(graph.tasks);
       for (const Communicator& c : graph.communicators) names.push_back(c.name);
-      return problems.add(child.where, subject + " goes through '" + child.text + "', which is no task or communicator" +
-                                           did_you_mean(child.text, names));
+      return problems.add(child.where, subject + " goes through '" + child.text +
+                                           "', which is no task or communicator" + did_you_mean(child.text, names));
     }
     if (!chain.path.empty() && !connected(graph, chain.path.back(), *end))
       return problems.add(child.where, subject + " goes from '" + name_of(graph, chain.path.back()) + "' to '" +
                                            child.text + "', but no connection does; '" +
-                                           name_of(graph, chain.path.back()) + "' feeds: " +
-                                           list_of(readers_of(graph, chain.path.back())));
+                                           name_of(graph, chain.path.back()) +
+                                           "' feeds: " + list_of(readers_of(graph, chain.path.back())));
     chain.path.push_back(*end);
   }
 }
@@ -58,9 +59,10 @@ void resolve(const Yaml& path, Chain& chain, const Graph& graph, Problems& probl
 
 void add_chains(const GraphSpec& spec, Graph& graph, Problems& problems) {
   for (const ChainSpec& s : spec.chains) {
-    Chain chain{s.name, s.where, {}, std::nullopt, std::nullopt};
+    Chain chain{s.name, s.where, {}, std::nullopt, std::nullopt, std::nullopt};
     if (s.reaction) chain.reaction = s.reaction->value;
     if (s.age) chain.age = s.age->value;
+    if (s.crossover) chain.crossover = s.crossover->value;
     if (s.path) resolve(s.path->value, chain, graph, problems);
     graph.chains.push_back(std::move(chain));
   }

@@ -69,6 +69,8 @@ struct Platform {
   std::int64_t cores = 1;
   Policy policy = Policy::table;
   Phasing phasing = Phasing::given;
+  Duration dispatch{};  // overhead of each activation
+  Duration copy{};      // overhead of each byte that an activation hands on
 };
 
 /// A path of connections along which latency matters.
@@ -78,6 +80,7 @@ struct Chain {
   std::vector<End> path;  // tasks and communicators; fields do not count
   std::optional<Duration> reaction;
   std::optional<Duration> age;
+  std::optional<double> crossover;  // rad/s
 };
 
 struct Graph {

@@ -71,7 +71,8 @@ std::string demand_text(const CheckReport& r) {
   std::string parts;
   for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
     const Task& t = r.graph->tasks[i];
-    if (!t.wcet || (r.result.core_at_fault && r.result.core[i] && *r.result.core[i] != *r.result.core_at_fault)) continue;
+    if (!t.wcet || (r.result.core_at_fault && r.result.core[i] && *r.result.core[i] != *r.result.core_at_fault))
+      continue;
     const std::int64_t reach = d.length + t.jitter.count() - t.deadline.count();
     if (reach < 0) continue;
     parts += fmt::format("{}{} {}x{}", parts.empty() ? "" : " + ", t.name, reach / t.period.count() + 1,
@@ -93,10 +94,10 @@ std::string task_table(const CheckReport& r) {
                                                                 static_cast<double>(t.period.count()))
                                    : "-";
     const auto& response = r.result.response[i];
-    text += fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>6}  {:>9}  {:>9}", t.name, width,
-                        duration_text(t.period), duration_text(t.offset), duration_text(t.deadline),
-                        t.wcet ? duration_text(*t.wcet) : "-", use, response ? duration(*response) : "-",
-                        response ? duration(t.deadline.count() - *response) : "-");
+    text +=
+        fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>6}  {:>9}  {:>9}", t.name, width, duration_text(t.period),
+                    duration_text(t.offset), duration_text(t.deadline), t.wcet ? duration_text(*t.wcet) : "-", use,
+                    response ? duration(*response) : "-", response ? duration(t.deadline.count() - *response) : "-");
     if (cores) text += r.result.core[i] ? fmt::format("  {:>4}", *r.result.core[i]) : "     -";
     text += "\n";
   }
@@ -133,6 +134,18 @@ std::string late_outs(const Graph& graph) {
   return text;
 }
 
+// The phase that a loop through the chain loses at its crossover: the delay from read to output, and half a period that
+// the output is held (Franklin, Powell, Workman 1998).
+std::string control_view(const Graph& graph, const ReportedChain& c) {
+  const End& last = c.path.back();
+  const std::int64_t period = last.kind == End::Kind::task ? graph.tasks[last.index].period.count()
+                                                           : graph.communicators[last.index].period.count();
+  const double delay = static_cast<double>(c.latency.max_reduced) * 1e-9, held = 0.5e-9 * static_cast<double>(period);
+  return fmt::format("    at {:.4g} rad/s: delay {}, jitter {}, held for {}: {:.1f} deg of phase lost\n", *c.crossover,
+                     duration(c.latency.max_reduced), duration(c.latency.jitter), duration(period),
+                     *c.crossover * (delay + held) * 180 / 3.14159265358979323846);
+}
+
 std::string chain_lines(const CheckReport& r) {
   std::string text;
   for (const ReportedChain& c : r.chains) {
@@ -149,6 +162,7 @@ std::string chain_lines(const CheckReport& r) {
                             duration(l.at[i + 1] - l.at[i]));
       text += fmt::format("    slowest way from {}: {}\n", duration(l.at.front()), hops);
     }
+    if (c.crossover) text += control_view(*r.graph, c);
     if (c.reaction_limit && l.max_reaction > c.reaction_limit->count())
       text += fmt::format("    LIMIT BROKEN: reaction {} over {}\n", duration(l.max_reaction),
                           duration_text(*c.reaction_limit));
@@ -182,7 +196,8 @@ std::string sensitivity_lines(const CheckReport& r) {
     text += "\n";
   }
   for (std::size_t i = 0; i < r.suggestions.size(); ++i)
-    text += fmt::format("  {} {}\n", i == 0 ? "it would hold with" : "                or", text_of(r.suggestions[i], *r.graph));
+    text += fmt::format("  {} {}\n", i == 0 ? "it would hold with" : "                or",
+                        text_of(r.suggestions[i], *r.graph));
   return text;
 }
 
@@ -190,8 +205,12 @@ std::string assumptions(const Platform& platform) {
   std::string how;
   switch (platform.policy) {
     case Policy::table: how = "tasks run one after the other as released, never interrupted"; break;
-    case Policy::fixed_priority: how = "the most urgent task runs, interrupting others; 'run' does not execute this yet"; break;
-    case Policy::edf: how = "the task with the earliest deadline runs, interrupting others; 'run' does not execute this"; break;
+    case Policy::fixed_priority:
+      how = "the most urgent task runs, interrupting others; 'run' does not execute this yet";
+      break;
+    case Policy::edf:
+      how = "the task with the earliest deadline runs, interrupting others; 'run' does not execute this";
+      break;
     case Policy::fixed_priority_nonpreemptive:
       how = "the most urgent task starts, and runs to its end; 'run' does not execute this";
       break;
@@ -200,8 +219,11 @@ std::string assumptions(const Platform& platform) {
       break;
     case Policy::global_edf: how = "the earliest deadlines run, on any core; 'run' does not execute this"; break;
   }
-  return "  assumed: " + how + ", without overhead" +
-         (platform.phasing == Phasing::any ? "; whatever the offsets" : "") + "\n";
+  std::string overhead = ", without overhead";
+  if (platform.dispatch > Duration{} || platform.copy > Duration{})
+    overhead = ", with " + duration_text(platform.dispatch) + " for each activation and " +
+               duration_text(platform.copy) + " for each byte handed on";
+  return "  assumed: " + how + overhead + (platform.phasing == Phasing::any ? "; whatever the offsets" : "") + "\n";
 }
 
 }  // namespace
@@ -215,9 +237,10 @@ bool chains_hold(const CheckReport& report) {
 
 std::string to_text(const CheckReport& r) {
   std::string text = headline(r) + demand_text(r) + gantt_text(*r.graph, r.result) + task_table(r) + core_lines(r);
-  text += fmt::format("  utilisation {:.2f}%; a task's response is its longest time from release to end when each takes "
-                      "its wcet;\n",
-                      100 * r.result.utilisation);
+  text += fmt::format(
+      "  utilisation {:.2f}%; a task's response is its longest time from release to end when each takes "
+      "its wcet;\n",
+      100 * r.result.utilisation);
   text += assumptions(r.graph->platform) + sensitivity_lines(r) + chain_lines(r) + late_outs(*r.graph);
   if (r.result.verdict == Verdict::unknown &&
       std::any_of(r.graph->tasks.begin(), r.graph->tasks.end(), [](const Task& t) { return !t.wcet; }))
@@ -239,7 +262,8 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
               {"core", or_null(r.result.core[i])},
               {"response_ns", or_null(response)},
               {"slack_ns", response ? Json(t.deadline.count() - *response) : Json(nullptr)},
-              {"max_wcet_ns", r.sensitivity ? or_null(r.sensitivity->most_wcet[i]) : Json(nullptr)}};
+              {"max_wcet_ns", r.sensitivity ? or_null(r.sensitivity->most_wcet[i]) : Json(nullptr)},
+              {"min_deadline_ns", r.sensitivity ? or_null(r.sensitivity->least_deadline[i]) : Json(nullptr)}};
     tasks.push_back(std::move(task));
   }
   Json witness = nullptr;

@@ -17,6 +17,7 @@ struct ReportedChain {
   analysis::ChainLatency latency;
   std::optional<Duration> reaction_limit;
   std::optional<Duration> age_limit;
+  std::optional<double> crossover;  // rad/s
 };
 
 /// Everything found about one graph.

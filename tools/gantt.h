@@ -12,4 +12,7 @@ namespace jarol::tools {
 /// the late one, `^` at its release and `|` at its deadline. `width` columns.
 std::string gantt_text(const Graph& graph, const analysis::Result& result, std::size_t width = 72);
 
+/// The same as an SVG picture.
+std::string gantt_svg(const Graph& graph, const analysis::Result& result);
+
 }  // namespace jarol::tools

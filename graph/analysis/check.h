@@ -1,5 +1,5 @@
-// Can a graph be scheduled on its platform, and if not, why? Pure functions; graph/analysis/README.md says what rests on
-// which theorem.
+// Can a graph be scheduled on its platform, and if not, why? Pure functions; graph/analysis/README.md says what rests
+// on which theorem.
 #pragma once
 
 #include "graph/analysis/one_core.h"

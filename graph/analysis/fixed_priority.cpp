@@ -53,9 +53,8 @@ std::optional<std::int64_t> least_fixed_point(std::int64_t start, std::uint64_t&
 }
 
 // `repeats`: at full utilisation a busy period need not end, but repeats itself after so long; else far.
-std::optional<std::int64_t> preemptive_response(const Load& load, const Interference& more_urgent,
-                                                std::int64_t repeats, std::int64_t& first_window,
-                                                std::uint64_t& steps) {
+std::optional<std::int64_t> preemptive_response(const Load& load, const Interference& more_urgent, std::int64_t repeats,
+                                                std::int64_t& first_window, std::uint64_t& steps) {
   // it does not run before the one above it has ended, and runs then
   std::int64_t response = 0, window = std::max(load.blocking, first_window) + load.wcet;
   for (std::int64_t q = 0;; ++q) {
@@ -72,13 +71,13 @@ std::optional<std::int64_t> preemptive_response(const Load& load, const Interfer
 }
 
 std::optional<std::int64_t> nonpreemptive_response(const Load& load, const Interference& more_urgent,
-                                                   std::int64_t blocking, std::int64_t repeats,
-                                                   std::uint64_t& steps) {
+                                                   std::int64_t blocking, std::int64_t repeats, std::uint64_t& steps) {
   Interference busy = more_urgent;
   busy.add(load);
-  const auto length = repeats < far ? std::optional(repeats)
-                              : least_fixed_point(std::max<std::int64_t>(1, blocking), steps, busy.size(),
-                                                  [&](std::int64_t w) { return blocking + busy.demand(w, false); });
+  const auto length = repeats < far
+                          ? std::optional(repeats)
+                          : least_fixed_point(std::max<std::int64_t>(1, blocking), steps, busy.size(),
+                                              [&](std::int64_t w) { return blocking + busy.demand(w, false); });
   if (!length) return std::nullopt;
   std::int64_t response = 0, start = blocking;
   for (std::int64_t q = 0; q * load.period < *length + load.jitter; ++q) {
@@ -98,8 +97,7 @@ std::vector<std::optional<std::int64_t>> fixed_priority_responses(std::span<cons
   std::vector<std::optional<std::int64_t>> responses(loads.size());
   // by what has begun and can't be interrupted: at most all but its first nanosecond
   std::vector<std::int64_t> longest_below(loads.size(), 0);
-  for (std::size_t i = loads.size(); i-- > 1;)
-    longest_below[i - 1] = std::max(longest_below[i], loads[i].wcet - 1);
+  for (std::size_t i = loads.size(); i-- > 1;) longest_below[i - 1] = std::max(longest_below[i], loads[i].wcet - 1);
   Interference more_urgent;
   std::uint64_t steps = 0;
   std::int64_t first_window = 0;
@@ -107,7 +105,8 @@ std::vector<std::optional<std::int64_t>> fixed_priority_responses(std::span<cons
   for (std::size_t i = 0; i < loads.size(); ++i) {
     used += static_cast<long double>(loads[i].wcet) / static_cast<long double>(loads[i].period);
     // near to one without rounding
-    const auto order = used < 1 - 1e-9L ? std::optional(std::strong_ordering::less) : compare_utilisation(loads.first(i + 1), 1);
+    const auto order =
+        used < 1 - 1e-9L ? std::optional(std::strong_ordering::less) : compare_utilisation(loads.first(i + 1), 1);
     if (!order || *order > 0) break;  // without bound from here on
     const auto repeats = *order == 0 ? hyperperiod(loads.first(i + 1), far).value_or(far) : far;
     responses[i] = preemptive ? preemptive_response(loads[i], more_urgent, repeats, first_window, steps)

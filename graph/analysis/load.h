@@ -18,6 +18,7 @@ struct Load {
   std::int64_t offset = 0;
   std::int64_t jitter = 0;    // the release follows the arrival by at most so much
   std::int64_t blocking = 0;  // by what can't be preempted, once an activation
+  std::int64_t overhead = 0;  // the part of the WCET that is the platform's
 };
 
 /// Of one core; most urgent first where priorities count.

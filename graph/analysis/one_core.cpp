@@ -19,7 +19,8 @@ CoreResult check_any_phasing(std::span<const Load> loads, Policy policy, bool re
   result.standing = Standing::proof;
   if (by_deadline(policy)) {
     const EdfResult edf = check_edf(loads, is_preemptive(policy));
-    if (!edf.decided) return {Verdict::unknown, Standing::none, "no end of the processor demand was found", {}, {}, {}, {}};
+    if (!edf.decided)
+      return {Verdict::unknown, Standing::none, "no end of the processor demand was found", {}, {}, {}, {}};
     result.verdict = edf.over ? Verdict::not_schedulable : Verdict::schedulable;
     result.demand = edf.over;
     result.reason = edf.over ? "more work is due in an interval than there is time for"
@@ -71,8 +72,8 @@ void add_witness(std::span<const Load> loads, Policy policy, CoreResult& result)
   std::int64_t end = 0;
   for (const Load& l : loads) end = std::max(end, l.offset + 4 * l.period);
   end = std::max(end_of_repetition(loads).value_or(end), result.demand ? result.demand->length : 0);
-  Simulation run = simulate(loads, by_deadline(policy) ? Order::by_deadline : Order::by_priority,
-                            is_preemptive(policy), end, most_activations);
+  Simulation run = simulate(loads, by_deadline(policy) ? Order::by_deadline : Order::by_priority, is_preemptive(policy),
+                            end, most_activations);
   result.late = run.late;
   if (run.late) result.slices = std::move(run.slices);
 }
@@ -85,24 +86,34 @@ CoreResult decide(std::span<const Load> loads, Policy policy, bool offsets_hold,
   const auto order = compare_utilisation(loads, 1);
   if (order && *order > 0) return any;
   const auto end = only_offsets(loads) ? end_of_repetition(loads) : std::nullopt;
-  const std::string undecided =
-      any.reason + " if offsets could shift; that they hold was not decided";
+  const std::string undecided = any.reason + " if offsets could shift; that they hold was not decided";
   if (!end || !order) {
-    if (any.verdict != Verdict::schedulable) any = {Verdict::unknown, Standing::none, undecided, any.responses, {}, {}, {}};
+    if (any.verdict != Verdict::schedulable)
+      any = {Verdict::unknown, Standing::none, undecided, any.responses, {}, {}, {}};
     return any;
   }
   const Simulation run = simulate(loads, by_deadline(policy) ? Order::by_deadline : Order::by_priority,
                                   is_preemptive(policy), *end, 4 * most_activations);
   if (run.late) {
-    CoreResult late{Verdict::not_schedulable, Standing::proof, "a task is late when every task takes its 'wcet'",
-                    std::vector<std::optional<std::int64_t>>(loads.size()), {}, run.late, run.slices};
+    CoreResult late{Verdict::not_schedulable,
+                    Standing::proof,
+                    "a task is late when every task takes its 'wcet'",
+                    std::vector<std::optional<std::int64_t>>(loads.size()),
+                    {},
+                    run.late,
+                    run.slices};
     return late;
   }
   if (!is_preemptive(policy)) {
     // shorter execution may change the order, and so make others late
     if (any.verdict == Verdict::schedulable) return any;
-    return {Verdict::unknown, Standing::simulated,
-            "none is late when every task takes its 'wcet', but shorter execution may make one late", {}, {}, {}, {}};
+    return {Verdict::unknown,
+            Standing::simulated,
+            "none is late when every task takes its 'wcet', but shorter execution may make one late",
+            {},
+            {},
+            {},
+            {}};
   }
   any.verdict = Verdict::schedulable;
   any.standing = Standing::proof;

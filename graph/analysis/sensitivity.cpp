@@ -21,7 +21,8 @@ std::int64_t largest(std::int64_t low, std::int64_t high, const Good& good) {
 System scaled(const System& system, std::int64_t millionths) {
   System changed = system;
   for (Load& l : changed.loads)
-    l.wcet = static_cast<std::int64_t>((static_cast<Wide>(l.wcet) * millionths + 999'999) / 1'000'000);
+    l.wcet = static_cast<std::int64_t>((static_cast<Wide>(l.wcet - l.overhead) * millionths + 999'999) / 1'000'000) +
+             l.overhead;
   return changed;
 }
 
@@ -31,8 +32,21 @@ std::optional<std::int64_t> most_wcet(const System& system, std::size_t task) {
     changed.loads[task].wcet = wcet;
     return holds(changed);
   };
-  if (!good(1)) return std::nullopt;
-  return largest(1, system.loads[task].deadline + 1, good);
+  const std::int64_t overhead = system.loads[task].overhead;
+  if (!good(1 + overhead)) return std::nullopt;
+  return largest(1 + overhead, system.loads[task].deadline + overhead + 1, good) - overhead;
+}
+
+std::optional<std::int64_t> least_deadline(const System& system, std::size_t task) {
+  System changed = system;
+  // negated: the search looks for the largest
+  const auto good = [&](std::int64_t negative) {
+    changed.loads[task].deadline = -negative;
+    return holds(changed);
+  };
+  const std::int64_t now = system.loads[task].deadline;
+  if (!good(-now)) return std::nullopt;
+  return -largest(-now, 0, good);
 }
 
 std::vector<Policy> other_policies(Policy policy) {
@@ -47,6 +61,7 @@ std::vector<Policy> other_policies(Policy policy) {
 Sensitivity sensitivity_of(const System& system, bool per_task) {
   Sensitivity result;
   result.most_wcet.resize(system.loads.size());
+  result.least_deadline.resize(system.loads.size());
   const bool any = std::any_of(system.loads.begin(), system.loads.end(), [](const Load& l) { return l.wcet > 0; });
   if (any && holds(scaled(system, 1))) {
     std::int64_t high = 1'000'000;
@@ -59,8 +74,10 @@ Sensitivity sensitivity_of(const System& system, bool per_task) {
   double least = 0;
   for (std::size_t i = 0; i < system.loads.size(); ++i) {
     result.most_wcet[i] = most_wcet(system, i);
-    if (!result.most_wcet[i] || system.loads[i].wcet == 0) continue;
-    const double room = static_cast<double>(*result.most_wcet[i]) / static_cast<double>(system.loads[i].wcet);
+    result.least_deadline[i] = least_deadline(system, i);
+    if (!result.most_wcet[i] || system.loads[i].wcet == system.loads[i].overhead) continue;
+    const double room = static_cast<double>(*result.most_wcet[i]) /
+                        static_cast<double>(system.loads[i].wcet - system.loads[i].overhead);
     if (result.binding && room >= least) continue;
     least = room;
     result.binding = i;
@@ -74,9 +91,10 @@ std::vector<Suggestion> suggestions_for(const System& system) {
   // the smallest cut of one WCET
   std::vector<std::pair<double, Suggestion>> cuts;
   for (std::size_t i = 0; i < system.loads.size() && system.loads.size() <= 100; ++i)
-    if (const auto wcet = most_wcet(system, i); wcet && *wcet < system.loads[i].wcet)
-      cuts.push_back({1 - static_cast<double>(*wcet) / static_cast<double>(system.loads[i].wcet),
-                      {Suggestion::Kind::lower_wcet, i, *wcet, system.policy}});
+    if (const auto wcet = most_wcet(system, i); wcet && *wcet < system.loads[i].wcet - system.loads[i].overhead)
+      cuts.push_back(
+          {1 - static_cast<double>(*wcet) / static_cast<double>(system.loads[i].wcet - system.loads[i].overhead),
+           {Suggestion::Kind::lower_wcet, i, *wcet, system.policy}});
   std::stable_sort(cuts.begin(), cuts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [cut, suggestion] : cuts)
     if (found.size() < 2) found.push_back(suggestion);

@@ -10,6 +10,8 @@ struct Sensitivity {
   std::optional<double> alpha;
   /// Per task the largest WCET in ns that is schedulable with the others as they are; nothing if none is.
   std::vector<std::optional<std::int64_t>> most_wcet;
+  /// Per task the smallest deadline in ns (of a task with a LET: its LET) that is still met, the others as they are.
+  std::vector<std::optional<std::int64_t>> least_deadline;
   /// The task whose WCET may grow least, relative to it.
   std::optional<std::size_t> binding;
 };

@@ -9,9 +9,14 @@ System system_of(const Graph& graph) {
   system.policy = graph.platform.policy;
   system.cores = graph.platform.cores;
   system.offsets_hold = graph.platform.phasing == Phasing::given;
-  for (const Task& t : graph.tasks) {
-    system.loads.push_back({t.wcet.value_or(Duration{}).count(), t.period.count(), t.deadline.count(),
-                            t.offset.count(), t.jitter.count(), t.blocking.count()});
+  std::vector<std::int64_t> bytes(graph.tasks.size(), 0);
+  for (const Connection& c : graph.connections)
+    if (c.from.kind == End::Kind::task) bytes[c.from.index] += static_cast<std::int64_t>(c.type->size);
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    const Task& t = graph.tasks[i];
+    const std::int64_t overhead = t.wcet ? graph.platform.dispatch.count() + graph.platform.copy.count() * bytes[i] : 0;
+    system.loads.push_back({t.wcet.value_or(Duration{}).count() + overhead, t.period.count(), t.deadline.count(),
+                            t.offset.count(), t.jitter.count(), t.blocking.count(), overhead});
     system.priority.push_back(t.priority);
     system.core.push_back(t.core);
   }

@@ -21,7 +21,7 @@ struct System {
   std::vector<std::pair<std::size_t, std::size_t>> follows;
 };
 
-/// Of a valid graph. A task without a WCET has 0 here.
+/// Of a valid graph; WCETs include the platform's overheads. A task without a WCET has 0 here.
 System system_of(const Graph& graph);
 
 enum class Verdict { schedulable, not_schedulable, unknown };

@@ -57,8 +57,8 @@ CoreResult check_table(const System& system, const std::vector<std::size_t>& cor
   for (std::uint64_t count = 0; !jobs.empty() && jobs.top().release < end; ++count) {
     if (count == most) {
       if (!too_much)
-        result.reason =
-            "the periods repeat only after more than " + std::to_string(most) + " activations, and none of these is late";
+        result.reason = "the periods repeat only after more than " + std::to_string(most) +
+                        " activations, and none of these is late";
       result.responses.resize(n);
       return result;
     }

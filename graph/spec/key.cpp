@@ -45,6 +45,12 @@ bool read_bytes(const Yaml& yaml, std::int64_t& to, const std::string& subject, 
   return passes(yaml, parse_bytes(yaml.text, to), subject, problems);
 }
 
+bool read_frequency(const Yaml& yaml, double& to, const std::string& subject, Problems& problems) {
+  if (!is_scalar(yaml, "a frequency, as in 2Hz or 12rad/s", subject, problems)) return false;
+  if (!passes(yaml, parse_number(yaml.text, "rad/s", to), subject, problems)) return false;
+  return passes(yaml, to > 0 ? "" : "is not above zero", subject, problems);
+}
+
 bool read_choice(const Yaml& yaml, const std::vector<std::string>& choices, std::size_t& to, const std::string& subject,
                  Problems& problems) {
   if (!is_scalar(yaml, "one of " + list_of(choices), subject, problems)) return false;

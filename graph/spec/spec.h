@@ -84,6 +84,7 @@ struct PlatformSpec {
   Maybe<std::int64_t> cores;
   Maybe<Policy> policy;
   Maybe<Phasing> phasing;
+  Maybe<Duration> dispatch, copy;
 };
 
 struct ChainSpec {
@@ -91,6 +92,7 @@ struct ChainSpec {
   Location where;
   Maybe<Yaml> path;
   Maybe<Duration> reaction, age;
+  Maybe<double> crossover;
 };
 
 struct GraphSpec {

@@ -78,6 +78,8 @@ const std::vector<Key<ChainSpec>>& chain_keys() {
                             true),
       key<&ChainSpec::reaction>("reaction", Form::positive_duration, "limit of the maximum reaction time"),
       key<&ChainSpec::age>("age", Form::positive_duration, "limit of the maximum data age"),
+      key<&ChainSpec::crossover>("crossover", Form::frequency,
+                                 "of the loop that it closes, as in 2Hz: check tells the phase lost there"),
   };
   return keys;
 }
@@ -88,6 +90,9 @@ const std::vector<Key<PlatformSpec>>& platform_keys() {
       key<&PlatformSpec::policy>("policy", Form::choice, "scheduling policy, default table"),
       key<&PlatformSpec::phasing>("phasing", Form::choice,
                                   "do offsets hold as given, or is every shift possible; default given"),
+      key<&PlatformSpec::dispatch>("dispatch", Form::duration, "overhead of each activation, for check, default 0ns"),
+      key<&PlatformSpec::copy>("copy", Form::duration,
+                               "overhead of each byte that an activation hands on, for check, default 0ns"),
   };
   return keys;
 }

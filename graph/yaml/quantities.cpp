@@ -31,7 +31,8 @@ struct Conversion {
 };
 
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr std::array<Conversion, 14> conversions{{{"deg", "rad", degree},
+constexpr std::array<Conversion, 15> conversions{{{"deg", "rad", degree},
+                                                  {"Hz", "rad/s", 2 * std::numbers::pi},
                                                   {"mrad", "rad", 1e-3},
                                                   {"deg/s", "rad/s", degree},
                                                   {"mrad/s", "rad/s", 1e-3},

@@ -167,7 +167,8 @@ connections: [c.out -> t.in, t.out -> o, c.out -> w.in, w.out -> r.in]
                                               {"core", 0},
                                               {"response_ns", 50'000},
                                               {"slack_ns", 9'950'000},
-                                              {"max_wcet_ns", 8'850'000}});
+                                              {"max_wcet_ns", 8'850'000},
+                                              {"min_deadline_ns", 50'000}});
     CHECK(check["standing"] == "proof");
     CHECK(check["witness"] == nullptr);
     CHECK(check["alpha"] == doctest::Approx(4.918032));
@@ -214,6 +215,54 @@ tasks:
                          {"finish_ns", 6'000'000},
                          {"deadline_ns", 5'000'000},
                          {"demand", {{"length_ns", 5'000'000}, {"demand_ns", 6'000'000}, {"blocking_ns", 0}}}});
+  }
+
+  TEST_CASE("overheads of the platform count in the verdict, and margins leave them out") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {policy: edf}
+timing: {period: 10ms}
+tasks:
+  a: {type: Counter, wcet: 4ms}
+  b: {type: Relay, wcet: 4ms}
+connections: [a.out -> b.in]
+)");
+    CHECK(json_of("check --json " + file)["alpha"] == doctest::Approx(1.25));
+    const auto with = json_of("check --json --set platform.dispatch=1ms --set platform.copy=1us " + file);
+    CHECK(with["verdict"] == "not_schedulable");  // 8 bytes: 8 us over
+    CHECK(with["tasks"][0]["max_wcet_ns"] == 3'992'000);
+    CHECK(with["alpha"] == doctest::Approx(7.992 / 8));
+  }
+
+  TEST_CASE("check draws the chart of a late activation") {
+    const TemporaryFolder folder;
+    CHECK(jarol("check specs/exolauv.yaml --set tasks.speed.wcet=60ms --svg " + (folder / "g.svg")).exit_code == 1);
+    std::ifstream file(folder / "g.svg");
+    const std::string svg{std::istreambuf_iterator<char>(file), {}};
+    CHECK(svg.starts_with("<svg xmlns"));
+    CHECK(svg.find("exolauv: activation 0 of speed is 20.25ms late</text>") != std::string::npos);
+    CHECK(svg.ends_with("</svg>\n"));
+  }
+
+  TEST_CASE("check writes random graphs that it can check, the same for the same seed") {
+    const TemporaryFolder folder;
+    CHECK(jarol("check --generate waters --count 2 --seed 7 -o " + (folder / "g")).output ==
+          "2 graphs in " + (folder / "g") + "\n");
+    CHECK(jarol("check --generate waters --seed 7 -o " + (folder / "h")).exit_code == 0);
+    const auto text_of = [](const std::string& path) {
+      std::ifstream file(path);
+      return std::string{std::istreambuf_iterator<char>(file), {}};
+    };
+    CHECK(text_of(folder / "g/waters_7.yaml") == text_of(folder / "h/waters_7.yaml"));
+    CHECK(text_of(folder / "g/waters_7.yaml") != text_of(folder / "g/waters_8.yaml"));
+    for (const std::string kind : {"waters", "uunifast"}) {
+      jarol("check --generate " + kind + " --tasks 12 --utilisation 0.5 -o " + (folder / "k"));
+      const auto check = json_of("check --json " + (folder / "k") + "/" + kind + "_0.yaml");
+      CHECK(check["tasks"].size() == 12);
+      CHECK(check["utilisation"] == doctest::Approx(0.5).epsilon(0.001));
+    }
+    CHECK(jarol("check --generate waters").output == "error: --generate needs -o DIR, a folder for the graphs\n");
+    CHECK(jarol("check").output == "error: check needs a FILE, a graph\n");
   }
 
   TEST_CASE("a chain that breaks its limit is a negative verdict") {

@@ -26,7 +26,7 @@ std::string graph_text(const std::string& platform, int tasks, const std::functi
 
 // Periods and their shares as in WATERS 2015 (Kramer, Ziegenbein, Hamann).
 std::int64_t automotive(int i) {
-  constexpr std::array<int, 20> periods{1,  2,  5,  10, 10, 10, 10,  10,  20,  20,
+  constexpr std::array<int, 20> periods{1,  2,  5,  10, 10,  10,  10,  10,  20,  20,
                                         20, 20, 20, 50, 100, 100, 100, 100, 200, 1000};
   return 1000 * periods[static_cast<std::size_t>(i) % periods.size()];
 }
@@ -50,7 +50,8 @@ Figure measure_check(const std::string& name, int tasks, double goal, int repeat
       {"table", graph_text("{policy: table}", tasks, automotive, short_ones)},
       {"fixed priorities", graph_text("{policy: fixed_priority}", tasks, automotive, share)},
       {"edf", graph_text("{policy: edf}", tasks, automotive, share)},
-      {"fixed priorities, periods all different", graph_text("{policy: fixed_priority, phasing: any}", tasks, coprime, share)},
+      {"fixed priorities, periods all different",
+       graph_text("{policy: fixed_priority, phasing: any}", tasks, coprime, share)},
       {"edf, periods all different", graph_text("{policy: edf, phasing: any}", tasks, coprime, share)}};
   for (const auto& [what, text] : sets) {
     const Graph graph = graph_of(text);
@@ -59,7 +60,8 @@ Figure measure_check(const std::string& name, int tasks, double goal, int repeat
     for (int i = 0; i < std::max(3, repeats / 10); ++i) least = std::min(least, check_ms(graph));
     if (least < worst.value) continue;
     worst.value = worst.ratio = least;
-    worst.text = "check of " + std::to_string(tasks) + " tasks beyond loading / 1 ms, the slowest of five sets: " + what;
+    worst.text =
+        "check of " + std::to_string(tasks) + " tasks beyond loading / 1 ms, the slowest of five sets: " + what;
   }
   return worst;
 }

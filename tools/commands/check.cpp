@@ -1,13 +1,18 @@
 // jarol check: is the graph right, and can it be scheduled.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "graph/spec/key.h"
 #include "tools/check_report.h"
 #include "tools/commands/commands.h"
+#include "tools/gantt.h"
+#include "tools/generate_graphs.h"
 #include "tools/load_graph.h"
+#include "tools/whole_file.h"
 
 namespace jarol::tools {
 namespace {
@@ -17,6 +22,11 @@ using analysis::Verdict;
 struct Options {
   std::vector<std::string> files;
   Overrides overrides;
+  std::string generate;
+  std::string folder;
+  int count = 1;
+  Generation generation;
+  std::string svg;
   bool sensitivity = false;
   bool all_chains = false;
   bool json = false;
@@ -51,7 +61,7 @@ void add_all_chains(const Graph& graph, std::vector<End>& path, std::vector<Repo
     for (const End& end : path)
       name += (name.empty() ? "" : " -> ") +
               (end.kind == End::Kind::task ? graph.tasks[end.index].name : graph.communicators[end.index].name);
-    chains.push_back({name, path, analysis::latency_of(graph, path), std::nullopt, std::nullopt});
+    chains.push_back({name, path, analysis::latency_of(graph, path), std::nullopt, std::nullopt, std::nullopt});
     return;
   }
   const auto same = [](const End& a, const End& b) { return a.kind == b.kind && a.index == b.index; };
@@ -75,7 +85,7 @@ CheckReport report_on(const std::string& file, const Graph& graph, const Options
   report.graph = &graph;
   report.result = analysis::check(graph);
   for (const Chain& c : graph.chains)
-    report.chains.push_back({c.name, c.path, analysis::latency_of(graph, c.path), c.reaction, c.age});
+    report.chains.push_back({c.name, c.path, analysis::latency_of(graph, c.path), c.reaction, c.age, c.crossover});
   if (options.all_chains)
     for (std::size_t i = 0; i < graph.communicators.size(); ++i) {
       std::vector<End> path{{End::Kind::communicator, i, 0}};
@@ -108,6 +118,11 @@ int check_files(const Options& options) {
     try {
       const Loaded loaded = load_graph(file, options.overrides);
       const CheckReport report = report_on(file, *loaded.graph, options);
+      if (!options.svg.empty() && report.result.late) {
+        WholeFile picture(options.svg);
+        picture.write(gantt_svg(*loaded.graph, report.result));
+        picture.commit();
+      }
       if (options.json)
         std::cout << to_json(report) << "\n";
       else
@@ -123,6 +138,23 @@ int check_files(const Options& options) {
   return exit_code;
 }
 
+int write_graphs(const Options& options) {
+  if (options.folder.empty()) {
+    std::cerr << "error: --generate needs -o DIR, a folder for the graphs\n";
+    return exit_input;
+  }
+  std::filesystem::create_directories(options.folder);
+  Generation generation = options.generation;
+  generation.kind = options.generate;
+  for (int i = 0; i < options.count; ++i, ++generation.seed) {
+    WholeFile file(options.folder + "/" + generation.kind + "_" + std::to_string(generation.seed) + ".yaml");
+    file.write(generate_graph(generation));
+    file.commit();
+  }
+  std::cerr << options.count << (options.count == 1 ? " graph in " : " graphs in ") << options.folder << "\n";
+  return exit_good;
+}
+
 }  // namespace
 
 void add_check(CLI::App& app, int& exit_code) {
@@ -131,15 +163,40 @@ void add_check(CLI::App& app, int& exit_code) {
       app.add_subcommand("check",
                          "Check structure, types and timing of graphs, and whether they can be scheduled.\n"
                          "Exit code: 0 schedulable, 1 not schedulable, 3 not decided, 2 bad input");
-  command->add_option("FILE", options->files, "Graphs, YAML files")->required();
+  command->add_option("FILE", options->files, "Graphs, YAML files");
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.wcet=2ms")
       ->allow_extra_args(false);
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
   command->add_flag("--sensitivity", options->sensitivity,
                     "How much longer each WCET may be, and what would help, also where finding it takes long");
   command->add_flag("--chains", options->all_chains, "Latency of every path from an 'in' to an 'out'");
+  command->add_option("--svg", options->svg, "Draw what ran around the first late activation into this SVG file");
+  command
+      ->add_option("--generate", options->generate,
+                   "Instead of checking, write random graphs: waters (automotive periods) or uunifast")
+      ->check(CLI::IsMember({"waters", "uunifast"}));
+  command->add_option("-o", options->folder, "Folder of the graphs that --generate writes");
+  command->add_option("--count", options->count, "How many graphs, of consecutive seeds; default 1")
+      ->check(CLI::Range(1, 1'000'000));
+  command->add_option("--seed", options->generation.seed, "Seed of the first graph; default 0");
+  command->add_option("--tasks", options->generation.tasks, "Tasks of a graph; default 20")
+      ->check(CLI::Range(1, 100'000));
+  command->add_option("--utilisation", options->generation.utilisation, "Of all tasks together; default 0.6")
+      ->check(CLI::Range(0.0, 1e6));
+  command->add_option("--cores", options->generation.cores, "Cores of a graph; default 1")->check(CLI::Range(1, 1024));
+  command->add_option("--policy", options->generation.policy, "Policy of a graph; default fixed_priority")
+      ->check(CLI::IsMember(Words<Policy>::list()));
   command->add_flag("--json", options->json, "One JSON object per file and line instead of text");
-  command->callback([options, &exit_code] { exit_code = check_files(*options); });
+  command->callback([options, &exit_code] {
+    if (!options->generate.empty()) {
+      exit_code = write_graphs(*options);
+    } else if (options->files.empty()) {
+      std::cerr << "error: check needs a FILE, a graph\n";
+      exit_code = exit_input;
+    } else {
+      exit_code = check_files(*options);
+    }
+  });
 }
 
 }  // namespace jarol::tools

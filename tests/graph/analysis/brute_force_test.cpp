@@ -58,7 +58,7 @@ System system_of(const Set& set, Policy policy, bool offsets_hold) {
   system.policy = policy;
   system.offsets_hold = offsets_hold;
   for (std::size_t i = 0; i < set.size(); ++i) {
-    system.loads.push_back({set.wcet[i], set.period[i], set.deadline[i], offsets_hold ? set.offset[i] : 0, 0, 0});
+    system.loads.push_back({set.wcet[i], set.period[i], set.deadline[i], offsets_hold ? set.offset[i] : 0, 0, 0, 0});
     system.rank.push_back(i);
   }
   system.priority.resize(set.size());

@@ -53,7 +53,7 @@ std::string yaml_of(const Json& c, const std::string& of_unit) {
   for (std::size_t i = 0; i < c["tasks"].size(); ++i) {
     const Json& t = c["tasks"][i];
     text += "  " + name_of(i) + ": {type: Work";
-    const std::pair<const char*, const char*> keys[] = {{"C", "wcet"}, {"T", "period"}, {"O", "offset"},
+    const std::pair<const char*, const char*> keys[] = {{"C", "wcet"},     {"T", "period"}, {"O", "offset"},
                                                         {"D", "deadline"}, {"J", "jitter"}, {"B", "blocking"},
                                                         {"L", "let"}};
     for (const auto& [from, to] : keys)
@@ -66,7 +66,8 @@ std::string yaml_of(const Json& c, const std::string& of_unit) {
 
 double fraction(const std::string& text) {
   const std::size_t slash = text.find('/');
-  return slash == std::string::npos ? std::stod(text) : std::stod(text.substr(0, slash)) / std::stod(text.substr(slash + 1));
+  return slash == std::string::npos ? std::stod(text)
+                                    : std::stod(text.substr(0, slash)) / std::stod(text.substr(slash + 1));
 }
 
 void check_case(const Json& c) {
@@ -168,10 +169,10 @@ TEST_SUITE("graph/analysis/cases") {
       }
     }
     CHECK(done == 58);
-    CHECK(left_out == std::map<std::string, int>{
-                          {"a deadline lies beyond the period", 5},
-                          {"a set of single jobs is no set of periodic tasks", 11},
-                          {"global policies are tested, not simulated", 2},
-                          {"jobs with ranges of releases and execution times are no periodic tasks", 13}});
+    CHECK(left_out ==
+          std::map<std::string, int>{{"a deadline lies beyond the period", 5},
+                                     {"a set of single jobs is no set of periodic tasks", 11},
+                                     {"global policies are tested, not simulated", 2},
+                                     {"jobs with ranges of releases and execution times are no periodic tasks", 13}});
   }
 }

@@ -17,7 +17,8 @@ Graph let_chain(const std::vector<int>& periods) {
   std::string tasks, connections;
   for (std::size_t i = 0; i < periods.size(); ++i) {
     const std::string p = std::to_string(periods[i]) + "ms";
-    tasks += "  " + name_of(i) + ": {type: " + (i == 0 ? "Counter" : "Relay") + ", period: " + p + ", let: " + p + "}\n";
+    tasks +=
+        "  " + name_of(i) + ": {type: " + (i == 0 ? "Counter" : "Relay") + ", period: " + p + ", let: " + p + "}\n";
     if (i > 0) connections += "  - " + name_of(i - 1) + ".out -> " + name_of(i) + ".in\n";
   }
   return tests::graph_of("graph: t\ntasks:\n" + tasks + "connections:\n" + connections);
