@@ -56,7 +56,7 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
     : graph_(graph), plan_(graph), channels_(std::move(channels)), options_(options) {
   assert(channels_.size() == graph.distributers.size());
   if (options.recorder != nullptr) options.recorder->expect(plan_.outputs);
-  if (options.workers > 1)
+  if (options.workers > 1 || options.sharing == Sharing::measure)
     team_ = std::make_unique<StageTeam>(useful_workers(options.workers, options.sharing), options.sharing, plan_);
   const std::size_t groups = plan_.groups.size();
   cursors_.resize(groups);

@@ -29,6 +29,7 @@ double now() {
 StageTeam::StageTeam(std::size_t workers, Sharing sharing, const Plan& plan)
     : workers_(workers, parts_per_worker * workers),
       sharing_(sharing),
+      times_(plan.status.size()),
       costs_(plan.status.size()),
       widest_(plan.groups.size(), std::numeric_limits<double>::infinity()),
       unknown_(costs_.size()),
@@ -40,6 +41,7 @@ std::uint64_t StageTeam::run(bool digest, std::uint64_t instant_term) {
   if (items_.empty()) return 0;
   digest_ = digest;
   instant_term_ = instant_term;
+  if (sharing_ == Sharing::measure) return run_measured();
   if (sharing_ == Sharing::if_it_pays && unknown_ > 0 && !all_known()) return run_measured();
   if (!divide()) {
     ++alone_;
@@ -60,6 +62,7 @@ std::uint64_t StageTeam::run(bool digest, std::uint64_t instant_term) {
 }
 
 bool StageTeam::may_share(std::span<const Group> groups, std::span<const std::uint32_t> due) {
+  if (sharing_ == Sharing::measure) return true;
   double cost = 0;
   for (const std::uint32_t g : due) cost += widest_of(groups[g], widest_[g]);
   if (!too_short(cost)) return true;
@@ -100,7 +103,9 @@ std::uint64_t StageTeam::run_measured() {
     run_item(item, digest);
     const double after = now();
     Cost& cost = costs_[item.activation->task];
-    cost.least = std::min(cost.least, std::max(1.0, after - before - clock_cost));
+    const double took = std::max(1.0, after - before - clock_cost);
+    cost.least = std::min(cost.least, took);
+    if (sharing_ == Sharing::measure) times_[item.activation->task].push_back(static_cast<float>(took));
     if (cost.measured < measurements && ++cost.measured == measurements) --unknown_;
     before = after;
   }

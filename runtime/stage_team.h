@@ -11,8 +11,8 @@
 
 namespace jarol {
 
-/// When several workers share a level.
-enum class Sharing { if_it_pays, always };
+/// When several workers share a level; `measure`: never, all are timed instead.
+enum class Sharing { if_it_pays, always, measure };
 
 class StageTeam {
  public:
@@ -36,6 +36,9 @@ class StageTeam {
   /// Runs all items. What is good and flat is copied to its readers; the digest's part of these publications is
   /// returned if asked for. Left to the caller, in order: deep values, recording, and what was not good.
   std::uint64_t run(bool digest, std::uint64_t instant_term);
+
+  /// With Sharing::measure: how long each activation of a task took, in ns, reading the clock left out.
+  const std::vector<float>& times(std::size_t task) const { return times_[task]; }
 
   /// How often a level was shared, and how often one worker did it.
   std::uint64_t shared() const { return shared_; }
@@ -65,9 +68,10 @@ class StageTeam {
 
   Workers workers_;
   Sharing sharing_;
-  std::vector<Cost> costs_;     // per task
-  std::vector<double> widest_;  // per group: the cost of its costliest level; infinite while not known
-  std::size_t unknown_;         // tasks that were not yet measured often enough
+  std::vector<std::vector<float>> times_;  // per task
+  std::vector<Cost> costs_;                // per task
+  std::vector<double> widest_;             // per group: the cost of its costliest level; infinite while not known
+  std::size_t unknown_;                    // tasks that were not yet measured often enough
   std::vector<Item> items_;
   std::vector<Part> parts_;
   bool digest_ = false;

@@ -244,7 +244,8 @@ std::string to_text(const CheckReport& r) {
   text += assumptions(r.graph->platform) + sensitivity_lines(r) + chain_lines(r) + late_outs(*r.graph);
   if (r.result.verdict == Verdict::unknown &&
       std::any_of(r.graph->tasks.begin(), r.graph->tasks.end(), [](const Task& t) { return !t.wcet; }))
-    text += "  'wcet: 1ms' or the like in each task states the longest time that an activation takes\n";
+    text +=
+        "  'check --measure' tells how long they take here, 'check --write' writes that into the file with a margin\n";
   return text;
 }
 

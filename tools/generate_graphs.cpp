@@ -25,7 +25,7 @@ class Random {
 
 struct Row {
   std::int64_t period_us;
-  double share;             // of all tasks, in percent
+  double share;              // of all tasks, in percent
   double least, mean, most;  // average execution times, us
 };
 
@@ -81,14 +81,15 @@ std::vector<Task> uunifast(const Generation& g, Random& random) {
 std::string generate_graph(const Generation& g) {
   Random random(g.seed);
   const std::vector<Task> tasks = g.kind == "waters" ? waters(g, random) : uunifast(g, random);
-  std::string text = fmt::format("# {} by seed {}: {} tasks, utilisation {}\ngraph: {}_{}\n"
-                                 "platform: {{cores: {}, policy: {}}}\ntasks:\n",
-                                 g.kind, g.seed, g.tasks, g.utilisation, g.kind, g.seed, g.cores, g.policy);
+  std::string text = fmt::format(
+      "# {} by seed {}: {} tasks, utilisation {}\ngraph: {}_{}\n"
+      "platform: {{cores: {}, policy: {}}}\ntasks:\n",
+      g.kind, g.seed, g.tasks, g.utilisation, g.kind, g.seed, g.cores, g.policy);
   std::string connections;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const Task& t = tasks[i];
-    const auto wcet_ns =
-        std::clamp<std::int64_t>(std::llround(t.utilisation * static_cast<double>(t.period_us) * 1e3), 1, t.period_us * 1000);
+    const auto wcet_ns = std::clamp<std::int64_t>(std::llround(t.utilisation * static_cast<double>(t.period_us) * 1e3),
+                                                  1, t.period_us * 1000);
     // every third reads one before it; a LET of a period keeps deadlines as long as periods
     const bool reads = i > 0 && i % 3 == 0;
     text += fmt::format("  t{:04}: {{type: {}, period: {}us, let: {}us, wcet: {}ns}}\n", i, reads ? "Relay" : "Counter",

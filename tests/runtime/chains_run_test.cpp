@@ -67,9 +67,10 @@ Measured measure(const std::vector<int>& periods, std::int64_t hyperperiod, anal
 TEST_SUITE("runtime/chains_run") {
   TEST_CASE("executing the published chains measures the analysed maxima") {
     const std::vector<std::pair<std::vector<int>, std::int64_t>> chains{
-        {{10, 10, 10, 10}, 10},   {{33, 400, 15, 15, 5}, 13200}, {{10, 15, 15, 5}, 30},    {{66, 15, 5}, 330},
-        {{100, 100, 100, 10}, 100}, {{10, 100, 100, 10}, 100},     {{20, 30, 40, 50, 60}, 600}, {{5, 10, 2, 1, 2}, 10},
-        {{5, 10, 10, 10}, 10},    {{10, 20, 20}, 20}};
+        {{10, 10, 10, 10}, 10},      {{33, 400, 15, 15, 5}, 13200}, {{10, 15, 15, 5}, 30},
+        {{66, 15, 5}, 330},          {{100, 100, 100, 10}, 100},    {{10, 100, 100, 10}, 100},
+        {{20, 30, 40, 50, 60}, 600}, {{5, 10, 2, 1, 2}, 10},        {{5, 10, 10, 10}, 10},
+        {{10, 20, 20}, 20}};
     for (const auto& chain : chains) {
       const auto& periods = chain.first;
       const std::size_t length = periods.size();

@@ -1,0 +1,28 @@
+// Execution times as they are on this machine, and how they get into a graph's file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/load_graph.h"
+
+namespace jarol::tools {
+
+struct MeasuredTask {
+  std::size_t activations = 0;
+  Duration most{};
+  Duration most_of_999{};  // at most so long in 99.9 % of the activations
+};
+
+/// Runs the graph on the virtual clock up to `end`; per task. Its channels are used up.
+std::vector<MeasuredTask> measure_tasks(Loaded& loaded, Duration end);
+
+/// What is written for a measured maximum: with the margin on top, rounded up to three digits.
+Duration with_margin(Duration most, double margin);
+
+/// The text of a graph's file with these WCETs in its tasks, everything else as it was: a value that is there is
+/// replaced, else `wcet` follows the task's type. Throws std::invalid_argument for what can't be edited so.
+std::string with_wcets(const std::string& text, const GraphSpec& spec, const Graph& graph,
+                       const std::vector<Duration>& wcets);
+
+}  // namespace jarol::tools
