@@ -4,9 +4,9 @@
 #include <cstring>
 #include <map>
 #include <new>
-#include <numeric>
+#include <tuple>
 
-#include "graph/deadlines.h"
+#include "runtime/stages.h"
 
 namespace jarol {
 namespace {
@@ -78,8 +78,7 @@ class PlanBuilder {
 
   void build() {
     sort_connections();
-    assign_stages();
-    assign_levels();
+    stages_ = stages_of(graph_);
     lay_out();
     fill();
     name_outputs();
@@ -96,47 +95,13 @@ class PlanBuilder {
       (c.from.kind == End::Kind::task ? from_task_ : from_communicator_)[c.from.index].push_back(&c);
   }
 
-  // A later stage than every producer of another group that can be due at the same instant.
-  void assign_stages() {
-    stage_.assign(graph_.tasks.size(), 0);
-    for (const std::size_t i : graph_.order) {
-      const Task& task = graph_.tasks[i];
-      if (task.let) continue;
-      for (const Connection* c : from_task_[i]) {
-        if (c->to.kind != End::Kind::task) continue;
-        const Task& reader = graph_.tasks[c->to.index];
-        const bool same_group = in_same_group(task, reader);
-        const std::int64_t gcd = std::gcd(task.period.count(), reader.period.count());
-        const bool coincide = (reader.offset - task.offset).count() % gcd == 0;
-        if (!coincide) continue;
-        stage_[c->to.index] = std::max(stage_[c->to.index], stage_[i] + (same_group ? 0 : 1));
-      }
-    }
-  }
-
-  static bool in_same_group(const Task& a, const Task& b) { return a.period == b.period && a.offset == b.offset; }
-
-  // Within a group and stage, a later level than every producer there.
-  void assign_levels() {
-    level_.assign(graph_.tasks.size(), 0);
-    for (const std::size_t i : graph_.order) {
-      if (graph_.tasks[i].let) continue;
-      for (const Connection* c : from_task_[i]) {
-        const std::size_t reader = c->to.index;
-        if (c->to.kind != End::Kind::task || stage_[reader] != stage_[i]) continue;
-        if (in_same_group(graph_.tasks[i], graph_.tasks[reader]))
-          level_[reader] = std::max(level_[reader], level_[i] + 1);
-      }
-    }
-  }
-
   // Tasks of one group lie in the order in which they run.
   std::vector<std::size_t> execution_order() const {
     std::vector<std::size_t> order = graph_.order;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       const Task &s = graph_.tasks[a], &t = graph_.tasks[b];
-      return std::tuple(s.period, s.offset, stage_[a], level_[a]) <
-             std::tuple(t.period, t.offset, stage_[b], level_[b]);
+      return std::tuple(s.period, s.offset, stages_.stage[a], stages_.level[a]) <
+             std::tuple(t.period, t.offset, stages_.stage[b], stages_.level[b]);
     });
     return order;
   }
@@ -335,9 +300,10 @@ class PlanBuilder {
 
   // Appends to the newest segment and level, or begins new ones.
   void add_to_segment(std::size_t task, const std::size_t* before, Range<Activation> activation) {
-    const bool same_stage = before != nullptr && stage_[*before] == stage_[task];
-    if (!same_stage) plan_.segments_.push_back({stage_[task], {activation.first, nullptr}, {}});
-    if (!same_stage || level_[*before] != level_[task]) plan_.levels_.push_back({activation.first, nullptr});
+    const bool same_stage = before != nullptr && stages_.stage[*before] == stages_.stage[task];
+    if (!same_stage) plan_.segments_.push_back({stages_.stage[task], {activation.first, nullptr}, {}});
+    if (!same_stage || stages_.level[*before] != stages_.level[task])
+      plan_.levels_.push_back({activation.first, nullptr});
     plan_.levels_.back().last = activation.last;
     Segment& segment = plan_.segments_.back();
     segment.activations.last = activation.last;
@@ -391,8 +357,7 @@ class PlanBuilder {
   const Graph& graph_;
   Plan& plan_;
   std::vector<std::vector<const Connection*>> from_task_, from_communicator_;
-  std::vector<std::uint32_t> stage_;
-  std::vector<std::uint32_t> level_;
+  Stages stages_;
   std::vector<std::size_t> order_;
   std::vector<TaskPlaces> tasks_;
   std::vector<CommunicatorPlaces> communicators_;

@@ -47,7 +47,8 @@ Edit edit_of(const std::string& text, const TaskSpec& task, Duration wcet) {
 }  // namespace
 
 std::vector<MeasuredTask> measure_tasks(Loaded& loaded, Duration end) {
-  Executor executor(*loaded.graph, std::move(loaded.channels), {.digest = false, .recorder = nullptr, .sharing = Sharing::measure});
+  Executor executor(*loaded.graph, std::move(loaded.channels),
+                    {.digest = false, .recorder = nullptr, .sharing = Sharing::measure});
   executor.run_until(end);
   if (executor.report().stopped)
     throw std::invalid_argument("nothing was measured, as a fault stopped the run: " +
@@ -91,7 +92,8 @@ std::string with_wcets(const std::string& text, const GraphSpec& spec, const Gra
   std::sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.at > b.at; });
   for (std::size_t i = 1; i < edits.size(); ++i)
     if (edits[i].at == edits[i - 1].at)
-      throw std::invalid_argument("two tasks share one place of the file through an alias; write their 'wcet' yourself");
+      throw std::invalid_argument(
+          "two tasks share one place of the file through an alias; write their 'wcet' yourself");
   std::string edited = text;
   for (const Edit& edit : edits) edited.replace(edit.at, edit.length, edit.text);
   return edited;

@@ -1,0 +1,21 @@
+// In which order the tasks that are released at one instant may run.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "graph/graph.h"
+
+namespace jarol {
+
+/// Tasks of one period and offset form a group, always released together.
+struct Stages {
+  /// Per task: later than of every producer of another group that can be due at the same instant.
+  std::vector<std::uint32_t> stage;
+  /// Per task, within its group and stage: later than of every producer there.
+  std::vector<std::uint32_t> level;
+};
+
+Stages stages_of(const Graph& graph);
+
+}  // namespace jarol
