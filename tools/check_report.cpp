@@ -62,9 +62,23 @@ std::string headline(const CheckReport& r) {
   return text + "\n  " + r.result.reason + " on " + platform_text(r.graph->platform) + "\n";
 }
 
+// Who ran how long while the late activation waited and ran.
+std::string shares_text(const CheckReport& r) {
+  if (!r.result.late) return "";
+  const analysis::Late& late = *r.result.late;
+  std::vector<std::int64_t> ran(r.graph->tasks.size(), 0);
+  for (const analysis::Slice& s : r.result.slices)
+    if (s.end > late.release) ran[s.task] += s.end - std::max(s.begin, late.release);
+  std::string parts;
+  for (std::size_t i = 0; i < ran.size(); ++i)
+    if (ran[i] > 0)
+      parts += fmt::format("{}{} {}", parts.empty() ? "" : " + ", r.graph->tasks[i].name, duration(ran[i]));
+  return fmt::format("  from release to end {}: {}\n", duration(late.finish - late.release), parts);
+}
+
 // Who needs how much in the interval that is too short.
 std::string demand_text(const CheckReport& r) {
-  if (!r.result.demand) return "";
+  if (!r.result.demand) return shares_text(r);
   const analysis::Demand& d = *r.result.demand;
   std::string text = fmt::format("  in an interval of {} work of {} is due", duration(d.length), duration(d.demand));
   if (d.blocking > 0) text += fmt::format(", and {} can hold it up", duration(d.blocking));

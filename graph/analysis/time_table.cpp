@@ -4,6 +4,8 @@
 #include <queue>
 #include <tuple>
 
+#include "graph/analysis/validate_table.h"
+
 namespace jarol::analysis {
 namespace {
 
@@ -30,8 +32,10 @@ bool overloaded(const System& system, const std::vector<std::size_t>& core) {
 
 CoreResult check_table(const System& system, const std::vector<std::size_t>& core, std::uint64_t most) {
   constexpr std::size_t most_slices = 200;
+  constexpr std::size_t most_validated = 50'000;
   constexpr std::int64_t most_time = std::int64_t{1} << 60;
   CoreResult result;
+  std::vector<Slice> recent;  // beyond those that are kept for the validation
   if (!system.offsets_hold) {
     result.reason = "a table needs offsets that hold; 'phasing: any' has none";
     return result;
@@ -72,13 +76,19 @@ CoreResult check_table(const System& system, const std::vector<std::size_t>& cor
     free[core[job.task]] = ended[job.task] = finish;
     released[job.task] = job.release;
     response[job.task] = std::max(response[job.task], finish - job.release);
-    if (result.slices.size() >= 2 * most_slices)
-      result.slices.erase(result.slices.begin(), result.slices.begin() + most_slices);
-    result.slices.push_back({job.task, job.activation, start, finish});
+    if (result.slices.size() < most_validated)
+      result.slices.push_back({job.task, job.activation, start, finish});
+    else
+      recent.push_back({job.task, job.activation, start, finish});
+    if (recent.size() >= 2 * most_slices) recent.erase(recent.begin(), recent.begin() + most_slices);
     if (finish > job.release + load.deadline) {
       if (!too_much) result.reason = "a task is late when every task takes its 'wcet'";
       result.verdict = Verdict::not_schedulable;
       result.standing = Standing::proof;
+      // the last ones tell why
+      result.slices.insert(result.slices.end(), recent.begin(), recent.end());
+      if (result.slices.size() > most_slices)
+        result.slices.erase(result.slices.begin(), result.slices.end() - static_cast<std::ptrdiff_t>(most_slices));
       result.late = Late{job.task, job.activation, job.release, finish, job.release + load.deadline};
       result.responses.resize(n);
       return result;
@@ -87,8 +97,13 @@ CoreResult check_table(const System& system, const std::vector<std::size_t>& cor
     ++job.activation;
     jobs.push(job);
   }
+  const std::string fault = recent.empty() && !too_much ? fault_of_table(system, core, result.slices, end) : "";
   result.slices.clear();
   for (const std::int64_t r : response) result.responses.emplace_back(r);
+  if (!fault.empty()) {
+    result.reason = "the table that was found is wrong, please report this: " + fault;
+    return result;
+  }
   if (!too_much) {
     result.verdict = Verdict::schedulable;
     result.standing = Standing::proof;

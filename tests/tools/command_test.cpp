@@ -191,6 +191,7 @@ tasks:
         file +
             R"(: NOT SCHEDULABLE core 0: task 'slow' activation 0 (released 0.000 ms) finishes 8.000 ms, deadline 7.000 ms (late 1.000 ms)
   a task's worst response is longer than its deadline on one core (fixed_priority)
+  from release to end 8ms: fast 4ms + slow 4ms
     fast ##################...........................##################.........
     slow ^.................###########################..................|!!!!!!!!
          0ns                                                                  8ms

@@ -136,7 +136,7 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
   if (const StageTeam* team = executor.team())
     std::cout << "  workers     " << options.workers << ", " << team->shared() << " of "
-              << team->shared() + team->alone() << " stages shared\n";
+              << team->shared() + team->alone() << " levels of tasks shared\n";
   if (!options.trace.empty()) std::cout << "  trace       " << options.trace << "\n";
   if (!options.plot.empty()) std::cout << "  picture     " << options.plot << "\n";
   for (const Fault& fault : report.faults) std::cerr << "fault: " << to_text(fault) << "\n";

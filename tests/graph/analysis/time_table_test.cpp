@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "graph/analysis/check.h"
+#include "graph/analysis/validate_table.h"
 #include "tests/graph/graph_of.h"
 
 namespace {
@@ -16,6 +17,36 @@ CoreResult table_of(const std::string& text, std::uint64_t most) {
 }  // namespace
 
 TEST_SUITE("graph/analysis/time_table") {
+  TEST_CASE("a table is looked at once more, and everything that could be wrong with one is found") {
+    const System system = system_of(tests::graph_of(R"(graph: t
+timing: {period: 10ns}
+tasks:
+  a: {type: Counter, wcet: 2ns}
+  b: {type: Relay, wcet: 3ns, deadline: 8ns}
+connections: [a.out -> b.in]
+)"));
+    const std::vector<Slice> good{{0, 0, 0, 2}, {1, 0, 2, 5}, {0, 1, 10, 12}, {1, 1, 12, 15}};
+    const std::vector<std::size_t> one{0, 0}, two{0, 1};
+    CHECK(fault_of_table(system, one, good, 20) == "");
+    const auto with = [&](std::size_t i, Slice slice) {
+      std::vector<Slice> changed = good;
+      changed[i] = slice;
+      return changed;
+    };
+    CHECK(fault_of_table(system, one, with(3, {1, 0, 12, 15}), 20) == "task 1 activation 0 stands twice");
+    CHECK(fault_of_table(system, one, {good[0], good[1], good[2]}, 20) == "task 1 activation 1 is missing");
+    CHECK(fault_of_table(system, one, with(1, {1, 0, 2, 4}), 20) == "task 1 activation 0 is cut short");
+    CHECK(fault_of_table(system, one, with(2, {0, 1, 9, 12}), 20) == "task 0 activation 1 begins before its release");
+    CHECK(fault_of_table(system, one, with(1, {1, 0, 6, 9}), 20) == "task 1 activation 0 ends after its deadline");
+    CHECK(fault_of_table(system, two, with(1, {1, 0, 1, 4}), 20) ==
+          "task 1 activation 0 begins before the one that it follows has ended");
+    System apart = system;
+    apart.follows.clear();
+    CHECK(fault_of_table(apart, one, with(1, {1, 0, 1, 4}), 20) ==
+          "task 1 activation 0 begins while another runs on its core");
+    CHECK(fault_of_table(apart, two, with(1, {1, 0, 1, 4}), 20) == "");
+  }
+
   using tests::graph_of;
 
   TEST_CASE("tasks that fit are schedulable, and their responses are told") {

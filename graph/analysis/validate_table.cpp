@@ -1,0 +1,49 @@
+#include "graph/analysis/validate_table.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace jarol::analysis {
+
+std::string fault_of_table(const System& system, const std::vector<std::size_t>& core, std::vector<Slice> slices,
+                           std::int64_t end) {
+  const auto named = [](std::size_t task, std::int64_t activation) {
+    return "task " + std::to_string(task) + " activation " + std::to_string(activation);
+  };
+  std::map<std::pair<std::size_t, std::int64_t>, const Slice*> found;
+  for (const Slice& s : slices)
+    if (!found.emplace(std::pair(s.task, s.activation), &s).second) return named(s.task, s.activation) + " stands twice";
+  // each where it belongs
+  for (std::size_t i = 0; i < system.loads.size(); ++i) {
+    const Load& l = system.loads[i];
+    for (std::int64_t k = 0; l.offset + k * l.period < end; ++k) {
+      const auto at = found.find({i, k});
+      if (at == found.end()) return named(i, k) + " is missing";
+      const Slice& s = *at->second;
+      const std::int64_t release = l.offset + k * l.period;
+      if (s.end - s.begin < l.wcet) return named(i, k) + " is cut short";
+      if (s.begin < release) return named(i, k) + " begins before its release";
+      if (s.end > release + l.deadline) return named(i, k) + " ends after its deadline";
+    }
+  }
+  for (const auto& [producer, reader] : system.follows)
+    for (const Slice& s : slices) {
+      if (s.task != reader) continue;
+      const Load &p = system.loads[producer], &r = system.loads[reader];
+      const std::int64_t since = r.offset + s.activation * r.period - p.offset;
+      if (since < 0 || since % p.period != 0) continue;
+      const auto at = found.find({producer, since / p.period});
+      if (at != found.end() && at->second->end > s.begin)
+        return named(s.task, s.activation) + " begins before the one that it follows has ended";
+    }
+  std::sort(slices.begin(), slices.end(), [&](const Slice& a, const Slice& b) {
+    return std::tuple(core[a.task], a.begin, a.end) < std::tuple(core[b.task], b.begin, b.end);
+  });
+  for (std::size_t i = 1; i < slices.size(); ++i)
+    if (core[slices[i].task] == core[slices[i - 1].task] && slices[i].begin < slices[i - 1].end)
+      return named(slices[i].task, slices[i].activation) + " begins while another runs on its core";
+  return "";
+}
+
+}  // namespace jarol::analysis
