@@ -14,6 +14,7 @@ inline void copy_deep(const Copy& c) {
     deep.type->assign(c.to, deep.from);
     if (deep.input != nullptr) deep.input->lost = false;
   } catch (const HeapExhausted& error) {
+    if (deep.input == nullptr) throw;
     deep.input->lost = true;
     keep_text(*deep.input, error.what());
   }

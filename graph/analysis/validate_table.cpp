@@ -13,7 +13,8 @@ std::string fault_of_table(const System& system, const std::vector<std::size_t>&
   };
   std::map<std::pair<std::size_t, std::int64_t>, const Slice*> found;
   for (const Slice& s : slices)
-    if (!found.emplace(std::pair(s.task, s.activation), &s).second) return named(s.task, s.activation) + " stands twice";
+    if (!found.emplace(std::pair(s.task, s.activation), &s).second)
+      return named(s.task, s.activation) + " stands twice";
   // each where it belongs
   for (std::size_t i = 0; i < system.loads.size(); ++i) {
     const Load& l = system.loads[i];

@@ -8,8 +8,8 @@
 
 namespace jarol::analysis {
 
-/// `slices` are all activations released before `end`, in any order. Returns what is wrong, or nothing: every activation
-/// stands there once and whole, on its core alone, within its window, after those that it follows.
+/// `slices` are all activations released before `end`, in any order. Returns what is wrong, or nothing: every
+/// activation stands there once and whole, on its core alone, within its window, after those that it follows.
 std::string fault_of_table(const System& system, const std::vector<std::size_t>& core, std::vector<Slice> slices,
                            std::int64_t end);
 

@@ -237,11 +237,11 @@ connections: [a.out -> b.in]
 
   TEST_CASE("check draws the chart of a late activation") {
     const TemporaryFolder folder;
-    CHECK(jarol("check specs/exolauv.yaml --set tasks.speed.wcet=60ms --svg " + (folder / "g.svg")).exit_code == 1);
+    CHECK(jarol("check specs/counting.yaml --set tasks.slow.wcet=20ms --svg " + (folder / "g.svg")).exit_code == 1);
     std::ifstream file(folder / "g.svg");
     const std::string svg{std::istreambuf_iterator<char>(file), {}};
     CHECK(svg.starts_with("<svg xmlns"));
-    CHECK(svg.find("exolauv: activation 0 of speed is 20.25ms late</text>") != std::string::npos);
+    CHECK(svg.find("counting: activation 0 of slow is 5.05ms late</text>") != std::string::npos);
     CHECK(svg.ends_with("</svg>\n"));
   }
 
@@ -267,11 +267,26 @@ connections: [a.out -> b.in]
   }
 
   TEST_CASE("a chain that breaks its limit is a negative verdict") {
-    const Result good = jarol("check specs/exolauv.yaml");
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+timing: {period: 10ms}
+communicators:
+  out: {type: double, direction: out, offset: 2ms}
+tasks:
+  a: {type: Counter, wcet: 1ms}
+connections: [a.out -> out]
+chains:
+  c: {path: [a, out], reaction: 12ms, crossover: 2Hz}
+)");
+    const Result good = jarol("check " + file);
     CHECK(good.exit_code == 0);
-    const Result bad = jarol("check specs/exolauv.yaml --set chains.steer.reaction=60ms");
+    CHECK(good.output.find("  chain c: reaction 2ms to 12ms, data age at most 12ms, jitter 0ns\n"
+                           "    slowest way from 30ms: a 0ns, out 2ms\n"
+                           "    at 12.57 rad/s: delay 2ms, jitter 0ns, held for 10ms: 5.0 deg of phase lost\n") !=
+          std::string::npos);
+    const Result bad = jarol("check " + file + " --set chains.c.reaction=11ms");
     CHECK(bad.exit_code == 1);
-    CHECK(bad.output.find("    LIMIT BROKEN: reaction 70ms over 60ms\n") != std::string::npos);
+    CHECK(bad.output.find("    LIMIT BROKEN: reaction 12ms over 11ms\n") != std::string::npos);
   }
 
   TEST_CASE("without a wcet the verdict is open") {
