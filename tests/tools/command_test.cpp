@@ -241,7 +241,7 @@ connections: [a.out -> b.in]
     std::ifstream file(folder / "g.svg");
     const std::string svg{std::istreambuf_iterator<char>(file), {}};
     CHECK(svg.starts_with("<svg xmlns"));
-    CHECK(svg.find("counting: activation 0 of slow is 5.05ms late</text>") != std::string::npos);
+    CHECK(svg.find("counting: activation 0 of slow is 6.05ms late</text>") != std::string::npos);
     CHECK(svg.ends_with("</svg>\n"));
   }
 
