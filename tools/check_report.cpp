@@ -43,6 +43,24 @@ std::string platform_text(const Platform& platform) {
   return cores + " (" + Words<Policy>::list()[static_cast<std::size_t>(platform.policy)] + ")";
 }
 
+// Where no run shows the miss, as offsets and jitter may be worse: the task that exceeds its deadline by most.
+std::string worst_response(const CheckReport& r) {
+  std::optional<std::size_t> worst;
+  std::int64_t over = 0;
+  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
+    if (!r.result.response[i]) continue;
+    const std::int64_t late = *r.result.response[i] - r.graph->tasks[i].deadline.count();
+    if (late <= over) continue;
+    over = late;
+    worst = i;
+  }
+  if (!worst) return "";
+  const Task& t = r.graph->tasks[*worst];
+  return fmt::format(" core {}: task '{}' responds within {} at worst, deadline {} (late {})",
+                     r.result.core[*worst].value_or(0), t.name, milliseconds(*r.result.response[*worst]),
+                     milliseconds(t.deadline.count()), milliseconds(over));
+}
+
 std::string headline(const CheckReport& r) {
   switch (r.result.verdict) {
     case Verdict::schedulable:
@@ -59,6 +77,7 @@ std::string headline(const CheckReport& r) {
                         milliseconds(l.release), milliseconds(l.finish), milliseconds(l.deadline),
                         milliseconds(l.finish - l.deadline));
   }
+  if (!r.result.late) text += worst_response(r);
   return text + "\n  " + r.result.reason + " on " + platform_text(r.graph->platform) + "\n";
 }
 

@@ -218,6 +218,37 @@ tasks:
                          {"demand", {{"length_ns", 5'000'000}, {"demand_ns", 6'000'000}, {"blocking_ns", 0}}}});
   }
 
+  TEST_CASE("where only jitter makes a task late, the worst response is told") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {policy: fixed_priority}
+tasks:
+  a: {type: Work, period: 5ms, wcet: 2ms, jitter: 3ms}
+  b: {type: Work, period: 10ms, wcet: 3ms, deadline: 6ms}
+)");
+    const Result late = jarol("check " + file);
+    CHECK(late.exit_code == 1);
+    CHECK(late.output.starts_with(
+        file +
+        ": NOT SCHEDULABLE core 0: task 'b' responds within 7.000 ms at worst, deadline 6.000 ms (late 1.000 ms)\n"));
+  }
+
+  TEST_CASE("an `out` that reads at the very instant at which its producer runs gets a note") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+timing: {period: 10ms}
+communicators:
+  late: {type: double, direction: out}
+  soon: {type: double, direction: out, offset: 1ms}
+tasks: {a: {type: Counter, wcet: 1us}}
+connections: [a.out -> late, a.out -> soon]
+)");
+    const std::string output = jarol("check " + file).output;
+    CHECK(output.find("  note: 'late' reads at the very instant at which 'a' runs, and so one period late; give it an "
+                      "'offset'\n") != std::string::npos);
+    CHECK(output.find("'soon' reads") == std::string::npos);
+  }
+
   TEST_CASE("overheads of the platform count in the verdict, and margins leave them out") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t
