@@ -18,7 +18,7 @@ std::uint64_t graph_count() {
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_THREAD__)
   return 1'000;
 #else
-  return 100;
+  return 40;
 #endif
 }
 
