@@ -17,8 +17,9 @@ struct Tick {
   Duration period{};
 };
 
-/// How an activation ended; `left_out`: it never ran, as one before it was faulty.
-enum class Outcome : std::uint8_t { good, threw, heap_exhausted, non_finite, left_out };
+/// How an activation ended; `left_out`: it never ran, as one before it was faulty; `overrun`: as one before it still
+/// ran.
+enum class Outcome : std::uint8_t { good, threw, heap_exhausted, non_finite, left_out, late, overrun };
 
 /// First characters of what a task threw.
 struct FaultText {

@@ -80,21 +80,27 @@ void Executor::run_until(Duration end) {
   if (report_.stopped) return;
   const MemoryScope scope(no_heap());  // a task with a heap has a scope of its own
   const bool record = options_.recorder != nullptr;
-  if (options_.digest) {
-    record ? walk<true, true>(end) : walk<true, false>(end);
+  if (options_.clock != nullptr) {
+    record ? walk<true, true, true>(end) : walk<true, false, true>(end);
+  } else if (options_.digest) {
+    record ? walk<true, true, false>(end) : walk<true, false, false>(end);
   } else {
-    record ? walk<false, true>(end) : walk<false, false>(end);
+    record ? walk<false, true, false>(end) : walk<false, false, false>(end);
   }
 }
 
-template <bool Digest, bool Record>
+template <bool Digest, bool Record, bool Real>
 void Executor::walk(Duration end) {
   while (calendar_.next() < end.count()) {
     if (interrupted_.load(std::memory_order_relaxed)) return;
     const std::int64_t instant = calendar_.next();
+    if constexpr (Real) {
+      options_.clock->wait_until(instant, interrupted_);
+      if (interrupted_.load(std::memory_order_relaxed)) return;
+    }
     now_.store(instant, std::memory_order_relaxed);
     due_ = calendar_.take();
-    step_instant<Digest, Record>(instant);
+    step_instant<Digest, Record, Real>(instant);
     report_.instants += 1;
     report_.simulated = Duration(instant);
     if (report_.stopped) return;
@@ -103,7 +109,7 @@ void Executor::walk(Duration end) {
   now_.store(end.count(), std::memory_order_relaxed);
 }
 
-template <bool Digest, bool Record>
+template <bool Digest, bool Record, bool Real>
 void Executor::step_instant(std::int64_t instant) {
   const std::uint64_t instant_term = Digest ? digest::instant_term(instant) : 0;
   if (!last_.empty()) gather_communicators();
@@ -139,10 +145,10 @@ void Executor::step_instant(std::int64_t instant) {
   } else if (due_.size() == 1) {
     const Group& group = plan_.groups[due_[0]];
     const Tick tick{Duration(instant), releases_[due_[0]]++, group.period};
-    for (const Segment& segment : group.segments) run_segment<Digest, Record>(segment, tick, instant_term);
+    for (const Segment& segment : group.segments) run_segment<Digest, Record, Real>(segment, tick, instant_term);
     report_.activations += group.activations;
   } else {
-    run_stages<Digest, Record>(instant, instant_term);
+    run_stages<Digest, Record, Real>(instant, instant_term);
   }
 }
 
@@ -168,7 +174,7 @@ void Executor::start_groups(std::int64_t instant) {
 }
 
 // Several groups: the segments of the lowest stage of all, then those of the next.
-template <bool Digest, bool Record>
+template <bool Digest, bool Record, bool Real>
 void Executor::run_stages(std::int64_t instant, std::uint64_t instant_term) {
   start_groups(instant);
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -177,7 +183,7 @@ void Executor::run_stages(std::int64_t instant, std::uint64_t instant_term) {
     for (std::size_t i = 0; i < due_.size(); ++i) {
       const Segment* last = plan_.groups[due_[i]].segments.last;
       if (cursors_[i] != last && cursors_[i]->stage == stage)
-        run_segment<Digest, Record>(*cursors_[i]++, ticks_[i], instant_term);
+        run_segment<Digest, Record, Real>(*cursors_[i]++, ticks_[i], instant_term);
       if (cursors_[i] != last) next = std::min(next, cursors_[i]->stage);
     }
     stage = next;
@@ -225,10 +231,10 @@ void Executor::run_level_shared(std::ptrdiff_t level, std::uint64_t instant_term
   }
 }
 
-template <bool Digest, bool Record>
+template <bool Digest, bool Record, bool Real>
 void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term) {
   for (const Activation& activation : segment.activations) {
-    const Outcome outcome = activation.run(activation.memory, tick);
+    const Outcome outcome = Real ? run_in_time(activation, tick) : activation.run(activation.memory, tick);
     if (outcome == Outcome::good) [[likely]] {
       publish<Digest, Record>(activation.publish, tick.now.count(), instant_term);
     } else {
@@ -275,6 +281,26 @@ void Executor::take(const CommunicatorAction& in) {
   }
 }
 
+// On the real clock: an activation that ends after its deadline has a fault, and so have those whose releases fall into
+// the time that it took.
+Outcome Executor::run_in_time(const Activation& activation, const Tick& tick) {
+  TaskTiming& timing = options_.clock->timing(activation.task);
+  if (timing.busy_until > tick.now.count()) {
+    ++timing.left_out;
+    return Outcome::overrun;
+  }
+  const std::int64_t begin = options_.clock->now();
+  const Outcome outcome = activation.run(activation.memory, tick);
+  timing.busy_until = options_.clock->now();
+  if (outcome == Outcome::left_out) return outcome;
+  timing.execution.add(timing.busy_until - begin);
+  if (outcome != Outcome::good ||
+      timing.busy_until - tick.now.count() <= graph_.tasks[activation.task].deadline.count())
+    return outcome;
+  ++timing.late;
+  return Outcome::late;
+}
+
 // A LET task's fault shows at the end of its LET, when its outputs would have.
 void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick) {
   const Task& task = graph_.tasks[activation.task];
@@ -284,10 +310,20 @@ void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, con
     --report_.activations;
     return;
   }
-  status.activation = tick.activation;
-  if (outcome == Outcome::non_finite)
+  if (outcome == Outcome::overrun) {
+    --report_.activations;
+    keep_text(status, "left out: an activation before it still ran at its release");
+  } else if (outcome == Outcome::late) {
+    const Duration took(options_.clock->timing(activation.task).busy_until - tick.now.count());
+    keep_text(status,
+              "late: ended " + duration_text(took) + " after its release, deadline " + duration_text(task.deadline));
+  } else if (outcome == Outcome::non_finite) {
     keep_text(status, find_non_finite(*task.task_class->out, activation.memory.out, ""));
-  if (task.on_fault != OnFault::stop) {
+  }
+  status.activation = tick.activation;
+  if (outcome == Outcome::overrun) {
+    status.skip_next = false;  // this was the one to skip
+  } else if (task.on_fault != OnFault::stop) {
     status.put_back(activation.memory.state);
     status.skip_next = task.on_fault == OnFault::skip;
   }

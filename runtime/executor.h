@@ -1,4 +1,5 @@
-// Runs a graph on the virtual clock: as fast as possible, in lockstep with the external systems in process.
+// Runs a graph: on the virtual clock as fast as possible, in lockstep with the external systems in process; or instant
+// by instant when the real clock has reached it.
 #pragma once
 
 #include <atomic>
@@ -9,6 +10,7 @@
 #include "runtime/calendar.h"
 #include "runtime/channels.h"
 #include "runtime/plan.h"
+#include "runtime/real_clock.h"
 #include "runtime/recorder.h"
 #include "runtime/stage_team.h"
 
@@ -41,6 +43,7 @@ struct ExecutorOptions {
   Recorder* recorder = nullptr;
   std::size_t workers = 1;  // threads that run tasks, the caller's among them; the outcome is the same for any number
   Sharing sharing = Sharing::if_it_pays;
+  RealClock* clock = nullptr;  // none: the virtual clock; with one there is a single worker
 };
 
 class Executor {
@@ -67,15 +70,15 @@ class Executor {
   const void* last_value(std::size_t communicator) const;
 
  private:
-  template <bool Digest, bool Record>
+  template <bool Digest, bool Record, bool Real>
   void walk(Duration end);
-  template <bool Digest, bool Record>
+  template <bool Digest, bool Record, bool Real>
   void step_instant(std::int64_t instant);
   template <bool Digest, bool Record>
   void publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term);
-  template <bool Digest, bool Record>
+  template <bool Digest, bool Record, bool Real>
   void run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term);
-  template <bool Digest, bool Record>
+  template <bool Digest, bool Record, bool Real>
   void run_stages(std::int64_t instant, std::uint64_t instant_term);
   template <bool Digest, bool Record>
   void run_stages_shared(std::int64_t instant, std::uint64_t instant_term);
@@ -86,6 +89,7 @@ class Executor {
   void gather_communicators();
   void hand_over(const CommunicatorAction& out);
   void take(const CommunicatorAction& in);
+  Outcome run_in_time(const Activation& activation, const Tick& tick);
   void on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick);
   void record_fault(std::uint32_t task, std::int64_t instant);
 

@@ -1,4 +1,4 @@
-// jarol run: a graph on the virtual clock.
+// jarol run: a graph on the virtual clock or in real time.
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 #include "tools/load_graph.h"
 #include "tools/plot_svg.h"
 #include "tools/progress.h"
+#include "tools/real_time.h"
 #include "tools/trace_csv.h"
 #include "tools/value_json.h"
 
@@ -27,6 +28,8 @@ struct Options {
   std::string duration;
   std::uint64_t seed = 0;
   std::size_t workers = 1;
+  std::string clock = "virtual";
+  RealTimeArguments real_time;
   bool json = false;
   std::string trace;
   std::string plot;
@@ -115,13 +118,17 @@ void print_reached(const Graph& graph, const Executor& executor) {
   }
 }
 
-void print_text(const Options& options, const Graph& graph, const Executor& executor, double seconds,
-                bool interrupted) {
+void print_text(const Options& options, const Graph& graph, const Executor& executor, const RealClock* clock,
+                double seconds, bool interrupted) {
   const Report& report = executor.report();
   const double simulated = static_cast<double>(report.simulated.count()) * 1e-9;
-  std::cout << fmt::format("{}: {} s on the virtual clock in {:.2f} s, {:.0f} times real time{}\n", graph.name,
-                           seconds_text(report.simulated), seconds, simulated / seconds,
-                           interrupted ? " (interrupted)" : "");
+  const char* const ended_early = interrupted ? " (interrupted)" : "";
+  if (clock != nullptr) {
+    std::cout << fmt::format("{}: {} s in real time{}\n", graph.name, seconds_text(report.simulated), ended_early);
+  } else {
+    std::cout << fmt::format("{}: {} s on the virtual clock in {:.2f} s, {:.0f} times real time{}\n", graph.name,
+                             seconds_text(report.simulated), seconds, simulated / seconds, ended_early);
+  }
   print_reached(graph, executor);
   std::cout << fmt::format("  activations {}, instants {}\n  digest      0x{:016x}\n", report.activations,
                            report.instants, report.digest);
@@ -132,6 +139,7 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
     if (const PrivateHeap* heap = executor.plan().heaps[i].get())
       std::cout << "  heap        " << graph.tasks[i].name << ": at most " << heap->most_used() << " of "
                 << heap->size() << " bytes in use\n";
+  if (clock != nullptr) std::cout << to_text(graph, *clock);
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
   if (const StageTeam* team = executor.team())
@@ -144,7 +152,7 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
     std::cerr << "fault: and " << report.fault_count - report.faults.size() << " more\n";
 }
 
-void print_json(const Graph& graph, const Executor& executor, double seconds) {
+void print_json(const Graph& graph, const Executor& executor, const RealClock* clock, double seconds) {
   const Report& report = executor.report();
   auto faults = nlohmann::ordered_json::array();
   for (const Fault& f : report.faults)
@@ -159,18 +167,20 @@ void print_json(const Graph& graph, const Executor& executor, double seconds) {
     if (const PrivateHeap* heap = executor.plan().heaps[i].get())
       heaps[graph.tasks[i].name] = {{"size", heap->size()}, {"most_used", heap->most_used()}};
   const double simulated = static_cast<double>(report.simulated.count()) * 1e-9;
-  std::cout << nlohmann::ordered_json{{"schema", "jarol.run/1"},
-                                      {"graph", graph.name},
-                                      {"digest", fmt::format("0x{:016x}", report.digest)},
-                                      {"simulated_ns", report.simulated.count()},
-                                      {"wall_ns", static_cast<std::int64_t>(seconds * 1e9)},
-                                      {"real_time_factor", simulated / seconds},
-                                      {"activations", report.activations},
-                                      {"instants", report.instants},
-                                      {"faults", faults},
-                                      {"heaps", heaps},
-                                      {"outputs", outputs}}
-            << "\n";
+  nlohmann::ordered_json json{{"schema", "jarol.run/1"},
+                              {"graph", graph.name},
+                              {"clock", clock != nullptr ? "real" : "virtual"},
+                              {"digest", fmt::format("0x{:016x}", report.digest)},
+                              {"simulated_ns", report.simulated.count()},
+                              {"wall_ns", static_cast<std::int64_t>(seconds * 1e9)},
+                              {"real_time_factor", simulated / seconds},
+                              {"activations", report.activations},
+                              {"instants", report.instants},
+                              {"faults", faults},
+                              {"heaps", heaps},
+                              {"outputs", outputs}};
+  if (clock != nullptr) json["real_time"] = to_json(graph, *clock);
+  std::cout << json << "\n";
 }
 
 int run(const Options& options) {
@@ -186,8 +196,19 @@ int run(const Options& options) {
   std::vector<RecordSink*> to;
   for (const auto& sink : sinks) to.push_back(sink.get());
   std::unique_ptr<Recorder> recorder = to.empty() ? nullptr : std::make_unique<Recorder>(to);
-  Executor executor(graph, std::move(loaded.channels),
-                    {.digest = true, .recorder = recorder.get(), .workers = options.workers});
+  std::optional<RealClock> clock;
+  if (options.clock == "real") {
+    if (options.workers > 1) throw std::invalid_argument("--workers: the real clock runs tasks on one thread");
+    require_executable(options.file, graph, options.real_time);
+    clock.emplace(graph, options_of(options.real_time));
+  }
+  Executor executor(
+      graph, std::move(loaded.channels),
+      {.digest = true, .recorder = recorder.get(), .workers = options.workers, .clock = clock ? &*clock : nullptr});
+  if (clock) {
+    for (const std::string& refusal : clock->prepare_thread()) std::cerr << "note: " << refusal << "\n";
+    clock->start();
+  }
   const auto start = std::chrono::steady_clock::now();
   {
     const Interruptible interruptible(executor);
@@ -198,7 +219,9 @@ int run(const Options& options) {
   const double seconds =
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   const bool interrupted = !executor.report().stopped && executor.now() < end;
-  options.json ? print_json(graph, executor, seconds) : print_text(options, graph, executor, seconds, interrupted);
+  const RealClock* const real = clock ? &*clock : nullptr;
+  options.json ? print_json(graph, executor, real, seconds)
+               : print_text(options, graph, executor, real, seconds, interrupted);
   if (executor.report().stopped) return exit_unfinished;
   return interrupted ? exit_interrupted : exit_good;
 }
@@ -207,10 +230,11 @@ int run(const Options& options) {
 
 void add_run(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("run",
-                         "Run a graph on the virtual clock, as fast as possible and the same to the bit every time.\n"
-                         "Exit code: 0 good, 3 stopped by a fault, 2 bad input, 130 interrupted");
+  CLI::App* command = app.add_subcommand(
+      "run",
+      "Run a graph: on the virtual clock, as fast as possible and the same to the bit every time, or\n"
+      "on the real clock.\n"
+      "Exit code: 0 good, 3 stopped by a fault, 2 bad input, 130 interrupted");
   command->add_option("FILE", options->file, "The graph, a YAML file")->required();
   command->add_option("--for", options->duration,
                       "How long, in logical time, as in 10s; default: until the mission ends");
@@ -224,6 +248,9 @@ void add_run(CLI::App& app, int& exit_code) {
                    "Threads that run tasks; stages are shared where that pays, and the outcome is the same for any "
                    "number; default 1")
       ->check(CLI::Range(1, 64));
+  command->add_option("--clock", options->clock, "virtual (default) or real")
+      ->check(CLI::IsMember({"virtual", "real"}));
+  add_real_time_options(*command, options->real_time);
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->add_option("--trace", options->trace, "Write every published value to this CSV file");
   command->add_option("--plot", options->plot, "Draw what was commanded and reached into this SVG file");

@@ -1,0 +1,61 @@
+// Logical time tied to CLOCK_MONOTONIC: when an instant of the plan is due in reality, and how well it was met.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/graph.h"
+#include "runtime/histogram.h"
+
+namespace jarol {
+
+struct RealTimeOptions {
+  std::optional<int> priority;  // SCHED_FIFO, 1 to 99; none: the ordinary scheduler
+  std::vector<int> cpus;        // where it may run; empty: anywhere
+  bool spin = false;            // wait without sleeping at the end, for less lateness at the cost of a CPU
+};
+
+/// How long the activations of one task took, and how many were not in time.
+struct TaskTiming {
+  Histogram execution;
+  std::uint64_t late = 0;      // finished after the deadline
+  std::uint64_t left_out = 0;  // as the one before still ran
+  std::int64_t busy_until = 0;
+};
+
+class RealClock {
+ public:
+  RealClock(const Graph& graph, RealTimeOptions options);
+
+  /// Gives the calling thread its priority, CPUs, timer slack of 1 ns and locked memory; a plain sentence for each that
+  /// this machine does not permit.
+  std::vector<std::string> prepare_thread() const;
+
+  /// Instant 0 is now.
+  void start();
+
+  /// ns since instant 0.
+  std::int64_t now() const { return monotonic() - start_; }
+
+  /// Returns at the instant, or when `interrupted` is seen, at most a tenth of a second later; counts the lateness.
+  void wait_until(std::int64_t instant, const std::atomic<bool>& interrupted);
+
+  TaskTiming& timing(std::size_t task) { return timings_[task]; }
+  const TaskTiming& timing(std::size_t task) const { return timings_[task]; }
+
+  /// From an instant to the moment at which its work began.
+  const Histogram& lateness() const { return lateness_; }
+
+  /// ns of CLOCK_MONOTONIC.
+  static std::int64_t monotonic();
+
+ private:
+  RealTimeOptions options_;
+  std::int64_t start_ = 0;
+  std::vector<TaskTiming> timings_;  // per task
+  Histogram lateness_;
+};
+
+}  // namespace jarol

@@ -1,0 +1,182 @@
+#include "runtime/real_clock.h"
+
+#include <doctest/doctest.h>
+
+#include <thread>
+
+#include "tests/runtime/trace_of.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+using tests::lines_of;
+
+// Publishes its activation; that one of number `slow` takes `lasts`.
+struct Slow {
+  static constexpr std::string_view summary = "for tests";
+  struct Param {
+    std::int64_t slow = 2;
+    Duration lasts = 50ms;
+    static constexpr auto fields() { return describe(field<&Param::slow>(), field<&Param::lasts>()); }
+  };
+  struct State {
+    double runs = 0;
+    static constexpr auto fields() { return describe(field<&State::runs>()); }
+  };
+  struct Out {
+    double out = -1;
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Param& p, const Tick& tick, State& state, Out& out) {
+    state.runs += 1;
+    out.out = state.runs;
+    if (tick.activation == p.slow) std::this_thread::sleep_for(p.lasts);
+  }
+};
+
+Graph graph_with(const std::string& slow, const std::string& period = "20ms") {
+  static const Registry registry = [] {
+    Registry made;
+    tasks::add_tasks(made);
+    made.add(task_class<Slow>());
+    return made;
+  }();
+  const std::string text = "graph: t\ntiming: {period: " + period + "}\ntasks:\n  s: {type: Slow" + slow +
+                           "}\n  r: {type: Relay, on_fault: hold}\nconnections: [s.out -> r.in]\n";
+  Problems problems;
+  Graph graph =
+      build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
+  problems.throw_if_any();
+  return graph;
+}
+
+struct RealRun : tests::Run {
+  std::uint64_t late = 0, left_out = 0;  // of all tasks
+};
+
+RealRun run(const Graph& graph, Duration end) {
+  tests::TraceLines lines(graph);
+  Recorder recorder({&lines});
+  RealClock clock(graph, {});
+  Executor executor(graph, {}, {.digest = true, .recorder = &recorder, .clock = &clock});
+  clock.start();
+  executor.run_until(end);
+  recorder.close();
+  RealRun run;
+  run.report = executor.report();
+  run.lines = lines.lines;
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    run.late += clock.timing(i).late;
+    run.left_out += clock.timing(i).left_out;
+  }
+  return run;
+}
+
+// Again when the machine was late for reasons of its own.
+RealRun run_undisturbed(const Graph& graph, Duration end, std::uint64_t late, std::uint64_t left_out) {
+  RealRun r;
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    r = run(graph, end);
+    if (r.late == late && r.left_out == left_out) break;
+  }
+  return r;
+}
+}  // namespace
+
+TEST_SUITE("runtime/real_clock") {
+  TEST_CASE("the real clock gives the digest of the virtual clock") {
+    const Graph graph = graph_with(", parameters: {slow: -1}");
+    const RealRun real = run_undisturbed(graph, 200ms, 0, 0);
+    REQUIRE(real.report.fault_count == 0);
+    CHECK(real.report.digest == tests::run_graph(graph, 200ms).report.digest);
+    CHECK(real.report.activations == 20);
+  }
+
+  TEST_CASE("an instant is never begun before the clock has reached it") {
+    const Graph graph = graph_with(", parameters: {slow: -1}");
+    RealClock clock(graph, {});
+    Executor executor(graph, {}, {.clock = &clock});
+    clock.start();
+    executor.run_until(101ms);
+    CHECK(clock.now() >= 100'000'000);
+    CHECK(clock.lateness().count() == 6);
+    CHECK(clock.lateness().percentile(0) >= 0);
+  }
+
+  TEST_CASE("a task that is late publishes nothing, readers keep the last value, its state is undone") {
+    const Graph graph = graph_with(", on_fault: hold, parameters: {slow: 2, lasts: 30ms}");
+    const RealRun r = run_undisturbed(graph, 120ms, 2, 2);  // what it feeds waits for it and is late too
+    REQUIRE(r.report.fault_count == 4);
+    CHECK(r.report.faults[0].task == "s");
+    CHECK(r.report.faults[0].activation == 2);
+    CHECK(r.report.faults[0].instant == 40ms);
+    CHECK(r.report.faults[0].cause.substr(0, 12) == "late: ended ");
+    CHECK(r.report.faults[0].cause.find(" after its release, deadline 20ms") != std::string::npos);
+    CHECK(r.report.faults[1].task == "r");
+    CHECK(lines_of(r, "s.out") == "0ns s.out=1; 20ms s.out=2; 80ms s.out=3; 100ms s.out=4");
+    CHECK(lines_of(r, "r.out") == "0ns r.out=1; 20ms r.out=2; 80ms r.out=3; 100ms r.out=4");
+  }
+
+  TEST_CASE("releases while a late one still runs are left out, each a fault") {
+    const Graph graph = graph_with(", on_fault: hold, let: 20ms, parameters: {slow: 2, lasts: 70ms}");
+    const RealRun r = run_undisturbed(graph, 160ms, 2, 6);
+    std::string faults;
+    for (const Fault& fault : r.report.faults)
+      if (fault.task == "s") faults += std::to_string(fault.activation) + " " + fault.cause.substr(0, 12) + "; ";
+    CHECK(faults == "2 late: ended ; 3 left out: an; 4 left out: an; 5 left out: an; ");
+    CHECK(r.report.faults[2].cause == "left out: an activation before it still ran at its release");
+    CHECK(lines_of(r, "s.out") == "20ms s.out=1; 40ms s.out=2; 140ms s.out=3");
+  }
+
+  TEST_CASE("with 'stop' a late task ends the run") {
+    const Graph graph = graph_with(", parameters: {slow: 1, lasts: 25ms}");
+    const RealRun r = run_undisturbed(graph, 200ms, 2, 0);
+    CHECK(r.report.stopped);
+    CHECK(r.report.simulated == 20ms);
+  }
+
+  TEST_CASE("an interrupt ends the wait for an instant far away") {
+    const Graph graph = graph_with(", parameters: {slow: -1}", "1h");
+    RealClock clock(graph, {});
+    Executor executor(graph, {}, {.clock = &clock});
+    std::thread other([&] {
+      std::this_thread::sleep_for(20ms);
+      executor.interrupt();
+    });
+    clock.start();
+    executor.run_until(2h);
+    other.join();
+    CHECK(executor.report().instants == 1);
+    CHECK(clock.now() < 60'000'000'000);
+  }
+}
+
+TEST_SUITE("runtime/histogram") {
+  TEST_CASE("percentiles are those of the samples, rounded up by a sixteenth at most") {
+    Histogram h;
+    CHECK(h.percentile(0.5) == 0);
+    for (std::int64_t i = 1; i <= 100'000; ++i) h.add(i * 10);
+    CHECK(h.count() == 100'000);
+    CHECK(h.most() == 1'000'000);
+    CHECK(h.percentile(1.0) == 1'000'000);
+    for (const double part : {0.001, 0.1, 0.5, 0.99, 0.999}) {
+      CAPTURE(part);
+      CHECK(static_cast<double>(h.percentile(part)) >= part * 1e6);
+      CHECK(static_cast<double>(h.percentile(part)) <= part * 1e6 * 17 / 16);
+    }
+  }
+
+  TEST_CASE("small durations are exact, and a negative one counts as none") {
+    Histogram h;
+    for (const std::int64_t ns : {-5, 3, 31, 31}) h.add(ns);
+    CHECK(h.percentile(0.25) == 0);
+    CHECK(h.percentile(0.5) == 3);
+    CHECK(h.percentile(0.75) == 31);
+  }
+
+  TEST_CASE("the longest duration there is fits") {
+    Histogram h;
+    h.add(std::numeric_limits<std::int64_t>::max());
+    CHECK(h.percentile(0.5) == std::numeric_limits<std::int64_t>::max());
+  }
+}

@@ -1,0 +1,113 @@
+#include "tools/real_time.h"
+
+#include <fmt/format.h>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "graph/analysis/check.h"
+#include "graph/spec/key.h"
+#include "graph/yaml/quantities.h"
+
+namespace jarol::tools {
+namespace {
+
+// One CPU or a range of them, as in 2 or 0-3.
+void add_cpus(const std::string& part, const std::string& list, std::vector<int>& cpus) {
+  const auto number = [&](const std::string& digits) {
+    if (digits.empty() || digits.size() > 4 || digits.find_first_not_of("0123456789") != std::string::npos)
+      throw std::invalid_argument("--cpus: '" + list + "' is not a list of CPUs as in 0,2-3");
+    return std::stoi(digits);
+  };
+  const std::size_t dash = part.find('-');
+  const int first = number(part.substr(0, dash));
+  const int last = dash == std::string::npos ? first : number(part.substr(dash + 1));
+  const int count = static_cast<int>(std::thread::hardware_concurrency());
+  if (last < first) throw std::invalid_argument("--cpus: '" + part + "' ends before it begins");
+  if (last >= count)
+    throw std::invalid_argument("--cpus: there is no CPU " + std::to_string(last) + "; this machine has 0 to " +
+                                std::to_string(count - 1));
+  for (int cpu = first; cpu <= last; ++cpu) cpus.push_back(cpu);
+}
+
+}  // namespace
+
+void add_real_time_options(CLI::App& command, RealTimeArguments& arguments) {
+  command
+      .add_option("--rt-priority", arguments.priority,
+                  "Real clock: SCHED_FIFO priority of the thread that runs tasks; default: the ordinary scheduler")
+      ->check(CLI::Range(1, 99));
+  command.add_option("--cpus", arguments.cpus, "Real clock: CPUs on which tasks may run, as in 0,2-3; default: any");
+  command.add_flag("--spin", arguments.spin, "Real clock: wait for the instant without sleeping, at the cost of a CPU");
+  command.add_flag("--force", arguments.force, "Real clock: run also what check finds not schedulable");
+}
+
+RealTimeOptions options_of(const RealTimeArguments& arguments) {
+  RealTimeOptions options;
+  if (arguments.priority > 0) options.priority = arguments.priority;
+  options.spin = arguments.spin;
+  for (std::size_t at = 0; !arguments.cpus.empty() && at != std::string::npos;) {
+    const std::size_t comma = arguments.cpus.find(',', at);
+    add_cpus(arguments.cpus.substr(at, comma == std::string::npos ? comma : comma - at), arguments.cpus, options.cpus);
+    at = comma == std::string::npos ? comma : comma + 1;
+  }
+  return options;
+}
+
+void require_executable(const std::string& file, const Graph& graph, const RealTimeArguments& arguments) {
+  if (graph.platform.policy != Policy::table)
+    throw std::invalid_argument("'" + file + "' has the policy '" +
+                                Words<Policy>::list()[static_cast<std::size_t>(graph.platform.policy)] +
+                                "'; the real clock executes 'table'; choose it by --set platform.policy=table");
+  if (graph.platform.cores != 1)
+    throw std::invalid_argument("'" + file + "' has " + std::to_string(graph.platform.cores) +
+                                " cores; the real clock executes one; choose it by --set platform.cores=1");
+  const analysis::Result result = analysis::check(graph);
+  if (result.verdict == analysis::Verdict::schedulable) return;
+  if (result.verdict == analysis::Verdict::unknown) {
+    std::cerr << "note: whether this graph can be scheduled is not known: " << result.reason << "\n";
+    return;
+  }
+  if (!arguments.force)
+    throw std::invalid_argument("'" + file + "' is not schedulable: " + result.reason +
+                                "; 'jarol check' says more, --force runs it all the same");
+  std::cerr << "note: not schedulable, run by force: " << result.reason << "\n";
+}
+
+std::string to_text(const Graph& graph, const RealClock& clock) {
+  const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
+  const Histogram& late = clock.lateness();
+  std::string text = fmt::format("  lateness    {:.1f} us median, {:.1f} us 99 %, {:.1f} us worst\n",
+                                 us(late.percentile(0.5)), us(late.percentile(0.99)), us(late.most()));
+  std::size_t width = 4;
+  for (const Task& task : graph.tasks) width = std::max(width, task.name.size());
+  text += fmt::format("  {:<{}}  {:>11}  {:>10}  {:>10}  {:>6}  {:>8}\n", "task", width, "activations", "99 % us",
+                      "worst us", "late", "left out");
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    const TaskTiming& t = clock.timing(i);
+    text += fmt::format("  {:<{}}  {:>11}  {:>10.1f}  {:>10.1f}  {:>6}  {:>8}\n", graph.tasks[i].name, width,
+                        t.execution.count(), us(t.execution.percentile(0.99)), us(t.execution.most()), t.late,
+                        t.left_out);
+  }
+  return text;
+}
+
+nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock) {
+  const Histogram& late = clock.lateness();
+  auto tasks = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    const TaskTiming& t = clock.timing(i);
+    tasks[graph.tasks[i].name] = {{"activations", t.execution.count()},
+                                  {"execution_99_ns", t.execution.percentile(0.99)},
+                                  {"execution_most_ns", t.execution.most()},
+                                  {"late", t.late},
+                                  {"left_out", t.left_out}};
+  }
+  return {{"lateness_50_ns", late.percentile(0.5)},
+          {"lateness_99_ns", late.percentile(0.99)},
+          {"lateness_most_ns", late.most()},
+          {"tasks", tasks}};
+}
+
+}  // namespace jarol::tools

@@ -1,0 +1,32 @@
+// What commands that run in real time share: their options, what they refuse, and what they tell afterwards.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "runtime/real_clock.h"
+
+namespace jarol::tools {
+
+struct RealTimeArguments {
+  int priority = 0;  // 0: the ordinary scheduler
+  std::string cpus;
+  bool spin = false;
+  bool force = false;
+};
+
+void add_real_time_options(CLI::App& command, RealTimeArguments& arguments);
+
+/// Throws std::invalid_argument for a bad list of CPUs.
+RealTimeOptions options_of(const RealTimeArguments& arguments);
+
+/// Throws std::invalid_argument for a graph that can't be executed in real time, and unless forced for one that check
+/// finds not schedulable; says on stderr when check can't tell. `file` is what the user called the graph.
+void require_executable(const std::string& file, const Graph& graph, const RealTimeArguments& arguments);
+
+/// How well the run kept to real time.
+std::string to_text(const Graph& graph, const RealClock& clock);
+nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock);
+
+}  // namespace jarol::tools
