@@ -1,0 +1,193 @@
+// Parameters of the helicopter. Defaults: the JAviator V1, 1.1 m over the rotors, 1.5 kg, with the thrust law of the
+// plant that its recorded flight was made with; the rest measured on the V2 or estimated, as helicopter.yaml says.
+#pragma once
+
+#include <cstdint>
+
+#include "graph/values/describe.h"
+
+namespace jarol::vehicles {
+
+/// The rigid body. Its origin is the centre of gravity; body axes are forward, right, down.
+struct FrameParameters {
+  double mass = 1.5;
+  double I_x = 0.0144;
+  double I_y = 0.0144;
+  double I_z = 0.0288;
+  double drag_area = 0.03;
+
+  static constexpr auto fields() {
+    using S = FrameParameters;
+    return describe(field<&S::mass>("kg", "mass"), field<&S::I_x>("kg m^2", "moment of inertia in roll"),
+                    field<&S::I_y>("kg m^2", "moment of inertia in pitch"),
+                    field<&S::I_z>("kg m^2", "moment of inertia in yaw"),
+                    field<&S::drag_area>("m^2", "drag coefficient times area of everything but the rotors"));
+  }
+};
+
+/// Four equal rotors at the ends of a plus; those in front and in the rear turn clockwise seen from above. Their setting
+/// follows the motor signal, from 0 to 1 at 16000, with a lag and in proportion to the battery's voltage.
+struct RotorParameters {
+  double arm = 0.30;
+  double height = 0.05;
+  double radius = 0.25;
+  double full_thrust = 9.81;
+  double thrust_exponent = 1.415;
+  double reference_voltage = 15.887;
+  double lag = 0.05;
+  double torque_per_thrust = 0.024;
+  double inertia = 6e-4;
+  double full_speed = 255.0;
+  double drag = 5e-4;
+  double inflow = 2e-3;
+  double ground_effect = 1.0;
+
+  static constexpr auto fields() {
+    using S = RotorParameters;
+    return describe(
+        field<&S::arm>("m", "distance of a rotor's axis from the centre"),
+        field<&S::height>("m", "of the rotors above the centre of gravity"),
+        field<&S::radius>("m", "radius of a rotor"),
+        field<&S::full_thrust>("N", "thrust of one rotor at setting 1, far from the ground"),
+        field<&S::thrust_exponent>("", "thrust is full_thrust times the setting to this power"),
+        field<&S::reference_voltage>("V", "voltage at which signal 16000 is setting 1"),
+        field<&S::lag>("s", "first-order lag of the setting"),
+        field<&S::torque_per_thrust>("m", "drag torque of a rotor per thrust"),
+        field<&S::inertia>("kg m^2", "moment of inertia of one rotor about its axis"),
+        field<&S::full_speed>("rad/s", "speed of a rotor at setting 1"),
+        field<&S::drag>("N s^2/(m rad)", "force against flow in the rotor's plane, per speed of flow and of rotor"),
+        field<&S::inflow>("N s^2/(m rad)", "thrust lost to flow against it, per speed of flow and of rotor"),
+        field<&S::ground_effect>("", "part of the Cheeseman-Bennett gain of thrust near the ground"));
+  }
+};
+
+/// Four feet, below the arms.
+struct FeetParameters {
+  double radius = 0.20;
+  double height = 0.20;
+  double stiffness = 2500.0;
+  double dissipation = 10.0;
+  double friction = 0.8;
+
+  static constexpr auto fields() {
+    using S = FeetParameters;
+    return describe(field<&S::radius>("m", "distance of a foot from the centre"),
+                    field<&S::height>("m", "of the centre of gravity above the feet"),
+                    field<&S::stiffness>("N/m", "of one foot, upwards and sideways"),
+                    field<&S::dissipation>("s/m", "growth of the force per speed of compression"),
+                    field<&S::friction>("", "friction between foot and ground"));
+  }
+};
+
+/// Current of the rotors: full_current at full thrust of all, less by a power of the thrust. The voltage falls with the
+/// charge used, from full to empty, and with the current.
+struct BatteryParameters {
+  double full = 16.0;
+  double empty = 13.2;
+  double capacity = 6.3;
+  double resistance = 0.02;
+  double electronics = 0.7;
+  double full_current = 27.7;
+  double current_exponent = 1.76;
+
+  static constexpr auto fields() {
+    using S = BatteryParameters;
+    return describe(field<&S::full>("V", "voltage without load when full"),
+                    field<&S::empty>("V", "voltage without load when empty"), field<&S::capacity>("A h", "charge"),
+                    field<&S::resistance>("Ohm", "of cells and wires"),
+                    field<&S::electronics>("A", "current of everything but the motors"),
+                    field<&S::full_current>("A", "of the four motors at full thrust"),
+                    field<&S::current_exponent>("", "current grows with thrust to this power"));
+  }
+};
+
+/// Mean wind and gusts: a random walk that tends back to the mean, alike in all three axes.
+struct AirParameters {
+  double density = 1.225;
+  double gravity = 9.81;
+  double north = 0.0;
+  double east = 0.0;
+  double down = 0.0;
+  double gusts = 0.0;
+  double gust_time = 1.0;
+  std::uint64_t seed = 0;
+
+  static constexpr auto fields() {
+    using S = AirParameters;
+    return describe(field<&S::density>("kg/m^3", "density of air"),
+                    field<&S::gravity>("m/s^2", "acceleration of gravity"),
+                    field<&S::north>("m/s", "mean wind to the north"), field<&S::east>("m/s", "mean wind to the east"),
+                    field<&S::down>("m/s", "mean wind downwards"),
+                    field<&S::gusts>("m/s", "standard deviation of the gusts, per axis"),
+                    field<&S::gust_time>("s", "over which gusts stay alike"), field<&S::seed>("", "of the gusts"));
+  }
+};
+
+/// Places of the sensors in body axes. Lasers measure to walls north and east.
+struct SensorParameters {
+  double sonar_x = -0.095;
+  double sonar_y = -0.095;
+  double sonar_z = 0.055;
+  double wall_north = 8.0;
+  double wall_east = 8.0;
+  double laser_north_x = 0.070;
+  double laser_north_y = -0.075;
+  double laser_north_z = -0.080;
+  double laser_east_x = -0.050;
+  double laser_east_y = 0.077;
+  double laser_east_z = -0.080;
+  double temperature = 25.0;
+  double pressure = 101325.0;
+
+  static constexpr auto fields() {
+    using S = SensorParameters;
+    return describe(field<&S::sonar_x>("m", "of the sonar, forward"), field<&S::sonar_y>("m", "of the sonar, right"),
+                    field<&S::sonar_z>("m", "of the sonar, down"), field<&S::wall_north>("m", "north of the origin"),
+                    field<&S::wall_east>("m", "east of the origin"),
+                    field<&S::laser_north_x>("m", "of the laser that looks north, forward"),
+                    field<&S::laser_north_y>("m", "of the laser that looks north, right"),
+                    field<&S::laser_north_z>("m", "of the laser that looks north, down"),
+                    field<&S::laser_east_x>("m", "of the laser that looks east, forward"),
+                    field<&S::laser_east_y>("m", "of the laser that looks east, right"),
+                    field<&S::laser_east_z>("m", "of the laser that looks east, down"),
+                    field<&S::temperature>("degC", "of the air"),
+                    field<&S::pressure>("Pa", "of the air where the vehicle stands at rest"));
+  }
+};
+
+/// Level and at rest, standing or in the air.
+struct LiftOffParameters {
+  double north = 0.0;
+  double east = 0.0;
+  double altitude = 0.0;
+  double heading = 0.0;
+  double signal = 0.0;
+
+  static constexpr auto fields() {
+    using S = LiftOffParameters;
+    return describe(field<&S::north>("m", "offset north of the origin"),
+                    field<&S::east>("m", "offset east of the origin"),
+                    field<&S::altitude>("m", "above where it stands"), field<&S::heading>("rad", "heading"),
+                    field<&S::signal>("", "motor signals that the rotors have followed, 0 to 16000"));
+  }
+};
+
+struct HelicopterParameters {
+  FrameParameters frame{};
+  RotorParameters rotors{};
+  FeetParameters feet{};
+  BatteryParameters battery{};
+  AirParameters air{};
+  SensorParameters sensors{};
+  LiftOffParameters start{};
+
+  static constexpr auto fields() {
+    using S = HelicopterParameters;
+    return describe(field<&S::frame>("", "the rigid body"), field<&S::rotors>("", "the four rotors"),
+                    field<&S::feet>("", "the four feet"), field<&S::battery>("", "the battery"),
+                    field<&S::air>("", "the air"), field<&S::sensors>("", "places of the sensors"),
+                    field<&S::start>("", "the start"));
+  }
+};
+
+}  // namespace jarol::vehicles
