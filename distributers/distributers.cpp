@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "distributers/javiator_vehicle.h"
 #include "distributers/lauv_vehicle.h"
 #include "distributers/links/script.h"
 #include "distributers/links/simulation.h"
@@ -20,6 +21,9 @@ struct DistributerKind {
 
 const std::vector<DistributerKind>& kinds() {
   static const std::vector<DistributerKind> all{
+      {JaviatorVehicle::describe_class(),
+       []() -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorVehicle>(); }},
+      {describe_javiator_operator(), nullptr},
       {LauvVehicle::describe_class(), []() -> std::unique_ptr<Adapter> { return std::make_unique<LauvVehicle>(); }},
       {describe_lauv_operator(), nullptr},
   };

@@ -1,6 +1,9 @@
 #include "tasks/tasks.h"
 
+#include "tasks/flight_logic.h"
 #include "tasks/generic.h"
+#include "tasks/javiator_control.h"
+#include "tasks/javiator_filter.h"
 #include "tasks/lauv_control.h"
 
 namespace jarol::tasks {
@@ -15,6 +18,8 @@ void add(Registry& registry) {
 
 void add_tasks(Registry& registry) {
   add<Accumulate, Counter, Mean, Relay, Sum, Window, Work>(registry);
+  add<AltitudeControl, AttitudeControl, FlightLogic, HelicopterReporter, JaviatorFilter, MotorMixer, PositionControl>(
+      registry);
   add<DepthControl, FinAllocator, HeadingControl, LauvForward, LauvReport, SpeedControl>(registry);
 }
 

@@ -1,6 +1,7 @@
 #include "vehicles/catalogue.h"
 
 #include "graph/values/type_of.h"
+#include "vehicles/helicopter.h"
 #include "vehicles/submarine.h"
 
 namespace jarol::vehicles {
@@ -18,6 +19,8 @@ VehicleClass entry(std::string name, std::string summary) {
 
 const std::vector<VehicleClass>& catalogue() {
   static const std::vector<VehicleClass> all = {
+      entry<Helicopter, HelicopterParameters>("helicopter",
+                                              "quadrotor with a Robostix between signals and sensors (JAviator)"),
       entry<Submarine, SubmarineParameters>("submarine", "torpedo-shaped AUV with four fins and one propeller (LAUV)"),
   };
   return all;

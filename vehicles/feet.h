@@ -9,8 +9,8 @@ namespace jarol::vehicles {
 
 struct Feet {
   std::array<fossen::Vector3, 4> r_b{};
-  double stiffness = 1.0;   // of one foot, N/m
-  double dissipation = 0.0; // s/m, after Hunt and Crossley, "Coefficient of Restitution ...", 1975
+  double stiffness = 1.0;    // of one foot, N/m
+  double dissipation = 0.0;  // s/m, after Hunt and Crossley, "Coefficient of Restitution ...", 1975
   double friction = 0.0;
   double grip_stiffness = 1.0;  // along the ground, N/m
   double grip_damping = 0.0;    // N s/m

@@ -25,8 +25,8 @@ struct FrameParameters {
   }
 };
 
-/// Four equal rotors at the ends of a plus; those in front and in the rear turn clockwise seen from above. Their setting
-/// follows the motor signal, from 0 to 1 at 16000, with a lag and in proportion to the battery's voltage.
+/// Four equal rotors at the ends of a plus; those in front and in the rear turn clockwise seen from above. Their
+/// setting follows the motor signal, from 0 to 1 at 16000, with a lag and in proportion to the battery's voltage.
 struct RotorParameters {
   double arm = 0.30;
   double height = 0.05;

@@ -17,7 +17,8 @@ struct HelicopterCommand {
 class HelicopterPlant {
  public:
   /// `settings`: those that the rotors have reached at the start.
-  HelicopterPlant(const HelicopterBody& body, const HelicopterMotion& start, const std::array<double, 4>& settings = {});
+  HelicopterPlant(const HelicopterBody& body, const HelicopterMotion& start,
+                  const std::array<double, 4>& settings = {});
   ~HelicopterPlant();
 
   static constexpr long step_nanoseconds = 5'000'000;

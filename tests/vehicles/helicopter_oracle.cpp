@@ -68,8 +68,7 @@ HelicopterOracle::State HelicopterOracle::calc_rate(const State& state, const Ve
     const Vector3d at = q * hub(r, i);
     const double height = -(state[2] + at.z());
     const double free = r.full_thrust * std::pow(state[13 + i], r.thrust_exponent);
-    const double thrust =
-        free * (1 + r.ground_effect * (1 / (1 - std::pow(r.radius / (4 * height), 2)) - 1));
+    const double thrust = free * (1 + r.ground_effect * (1 / (1 - std::pow(r.radius / (4 * height), 2)) - 1));
     const double speed = r.full_speed * std::pow(state[13 + i], r.thrust_exponent / 2);
     const Vector3d flow = air + (q * omega).cross(at);
     const Vector3d along = flow.dot(axis) * axis;

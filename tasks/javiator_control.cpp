@@ -1,0 +1,130 @@
+#include "tasks/javiator_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jarol::tasks {
+namespace {
+
+constexpr double gravity = 9.81;
+
+double limited(double value, double limit) { return std::clamp(value, -limit, limit); }
+
+double seconds(Duration duration) { return 1e-9 * static_cast<double>(duration.count()); }
+
+// critically damped, s^2 + 2 w s + w^2, but for its bounds
+template <class Param>
+void approach(Approach& a, double goal, const Param& p, double dt) {
+  const double speed = limited(0.5 * p.bandwidth * (goal - a.place), p.speed_limit);
+  a.acceleration = limited(2 * p.bandwidth * (speed - a.speed), p.acceleration_limit);
+  a.place += a.speed * dt + 0.5 * a.acceleration * dt * dt;
+  a.speed += a.acceleration * dt;
+}
+
+double hold(const PositionControl::Param& p, const Approach& a, double place, double speed, double& trim, double dt) {
+  trim = limited(trim + p.ki * (a.place - place) * dt, 3);
+  return a.acceleration + p.kp * (a.place - place) + p.kd * (a.speed - speed) + trim;
+}
+
+}  // namespace
+
+void PositionControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const FlightEstimate& e = in.estimate;
+  const FlightDirective& d = in.directive;
+  const double dt = seconds(tick.period);
+  const double c = std::cos(e.yaw), s = std::sin(e.yaw);
+  out.goal.yaw = d.yaw;
+
+  // by hand; commands are meant from the take-off heading, not from the nose
+  if (!d.hold_position || d.state == FlightState::starting || d.state == FlightState::ground) {
+    state.holding = false;
+    out.goal.roll = limited(d.pitch * s + d.roll * c, p.lean_limit);
+    out.goal.pitch = limited(d.pitch * c - d.roll * s, p.lean_limit);
+    return;
+  }
+  if (!state.holding)
+    state = {.x = {e.x, e.v_x, 0}, .y = {e.y, e.v_y, 0}, .trim_x = state.trim_x, .trim_y = state.trim_y};
+  state.holding = true;
+  approach(state.x, d.x, p, dt);
+  approach(state.y, d.y, p, dt);
+  const double a_x = hold(p, state.x, e.x, e.v_x, state.trim_x, dt);
+  const double a_y = hold(p, state.y, e.y, e.v_y, state.trim_y, dt);
+  // to the right by rolling right, forward by nosing down
+  out.goal.roll = limited(std::atan((c * a_y - s * a_x) / gravity), p.lean_limit);
+  out.goal.pitch = limited(-std::atan((c * a_x + s * a_y) / gravity), p.lean_limit);
+}
+
+void AttitudeControl::run(const Param& p, const Tick&, const In& in, Out& out) {
+  const FlightEstimate& e = in.estimate;
+  out.turn.roll = limited(p.kp * (in.goal.roll - e.roll) - p.kd * e.p, p.limit);
+  out.turn.pitch = limited(p.kp * (in.goal.pitch - e.pitch) - p.kd * e.q, p.limit);
+  out.turn.yaw = limited(p.yaw_kp * (in.goal.yaw - e.yaw) - p.yaw_kd * e.r, p.yaw_limit);
+}
+
+void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const FlightEstimate& e = in.estimate;
+  const FlightDirective& d = in.directive;
+  const double dt = seconds(tick.period);
+  double& thrust = out.lift.thrust;
+  if (d.state == FlightState::halt || d.state == FlightState::ground) {
+    state = {};
+    // rotors that still turn run down
+    thrust = d.state == FlightState::halt ? 0 : std::max(thrust - dt / 1.0, 0.0);
+    return;
+  }
+  if (d.state == FlightState::starting) {
+    thrust = std::min(thrust + p.idle * dt / p.spin_up, p.idle);
+    state.trim = thrust;
+    return;
+  }
+
+  constexpr double ground = 0.02;  // m
+  if (!state.lifted) {
+    // thrust grows slowly until the ground is left, and is learnt on the way
+    const bool wants_up = d.state == FlightState::flying && d.altitude > ground;
+    state.trim = std::clamp(state.trim + (wants_up ? p.lift_rate : -p.lift_rate) * dt, p.idle, 1.5);
+    state.lifted = wants_up && e.altitude > ground;
+    state.z = {e.altitude, std::max(e.climb, 0.0), 0};
+    thrust = state.trim;
+    return;
+  }
+  if (d.state == FlightState::landing) {
+    const double speed = e.altitude > 0.5 ? p.descent : p.touch_speed;
+    state.z.acceleration = limited(3 * (-speed - state.z.speed), 1);
+    state.z.speed += state.z.acceleration * dt;
+    // never far below: on the ground it would wind down all at once
+    state.z.place = std::max(state.z.place + state.z.speed * dt, e.altitude - 0.15);
+  } else {
+    approach(state.z, d.altitude, p, dt);
+    if (d.altitude <= ground && e.altitude < ground && std::abs(e.climb) < 0.05) state.lifted = false;
+  }
+  const double error = state.z.place - e.altitude;
+  state.trim = std::clamp(state.trim + p.ki / gravity * error * dt, 0.3, 1.7);
+  const double a = state.z.acceleration + p.kp * error + p.kd * (state.z.speed - e.climb);
+  const double upright = std::max(std::cos(e.roll) * std::cos(e.pitch), 0.5);
+  thrust = std::clamp((state.trim + a / gravity) / upright, 0.1, 2.0);
+}
+
+void MotorMixer::run(const Param& p, const Tick&, const In& in, Out& out) {
+  const FlightState doing = in.directive.state;
+  out.motors.unlocked = doing != FlightState::halt;
+  const bool steers = doing == FlightState::flying || doing == FlightState::landing;
+  const TurnDemand turn = steers ? in.turn : TurnDemand{};
+  const double lift = in.lift.thrust;
+  // front and rear turn clockwise: more of them turns the hull to the left
+  const std::array<double, 4> parts = {lift - turn.yaw + turn.pitch, lift + turn.yaw - turn.roll,
+                                       lift - turn.yaw - turn.pitch, lift + turn.yaw + turn.roll};
+  const double battery = in.estimate.battery;
+  const double made_up = battery > 0 ? std::clamp(p.voltage / battery, 0.8, 1.3) : 1.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double signal = made_up * p.hover * std::pow(std::max(parts[i], 0.0), 1 / p.exponent);
+    out.motors.signals[i] = doing == FlightState::halt ? 0 : std::clamp(signal, 0.0, 16000.0);
+  }
+}
+
+void HelicopterReporter::run(const Tick&, const In& in, Out& out) {
+  const FlightEstimate& e = in.estimate;
+  out.report = {e.roll, e.pitch, e.yaw, e.altitude, e.x, e.y, e.battery, in.directive.state, in.directive.cause};
+}
+
+}  // namespace jarol::tasks

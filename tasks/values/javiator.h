@@ -1,0 +1,176 @@
+// Values that the helicopter's tasks exchange. Earth frame: north, east of the start, and altitude above where it stood;
+// body frame forward-right-down; SI units, radians. Roll to the right, pitch nose up, yaw clockwise are positive.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "graph/values/describe.h"
+
+namespace jarol::tasks {
+
+/// What the vehicle's sensors tell, one answer of the Robostix.
+struct JaviatorSensors {
+  double roll = 0, pitch = 0, yaw = 0;
+  double p = 0, q = 0, r = 0;
+  double a_x = 0, a_y = 0, a_z = 0;
+  double sonar = 0, laser_x = 0, laser_y = 0;
+  double pressure = 0, temperature = 0, battery = 0;
+  bool new_imu = false, new_bmu = false, new_sonar = false, new_x = false, new_y = false;
+  std::uint32_t answers = 0;
+
+  static constexpr auto fields() {
+    using S = JaviatorSensors;
+    return describe(
+        field<&S::roll>("rad"), field<&S::pitch>("rad"), field<&S::yaw>("rad", "from north, -pi to pi"),
+        field<&S::p>("rad/s", "rate about the body's x"), field<&S::q>("rad/s", "about y"),
+        field<&S::r>("rad/s", "about z"), field<&S::a_x>("m/s^2", "specific force along the body's x"),
+        field<&S::a_y>("m/s^2", "along y"), field<&S::a_z>("m/s^2", "along z, -9.81 at rest"),
+        field<&S::sonar>("m", "range below"), field<&S::laser_x>("m", "range to the wall in the north"),
+        field<&S::laser_y>("m", "range to the wall in the east"), field<&S::pressure>("Pa", "of the air"),
+        field<&S::temperature>("degC", "of the air"), field<&S::battery>("V", "voltage"),
+        field<&S::new_imu>("", "attitude, rates and forces are new"),
+        field<&S::new_bmu>("", "pressure, temperature and battery are new"), field<&S::new_sonar>("", "sonar is new"),
+        field<&S::new_x>("", "laser_x is new"), field<&S::new_y>("", "laser_y is new"),
+        field<&S::answers>("", "answers so far; the same number again: none has come since"));
+  }
+};
+
+/// What the operator wants. Switches count how often a key was pressed since the start.
+struct PilotCommand {
+  double roll = 0, pitch = 0, yaw = 0, altitude = 0, x = 0, y = 0;
+  std::uint32_t state_switches = 0, mode_switches = 0, shut_downs = 0;
+  bool heard = true;
+
+  static constexpr auto fields() {
+    using C = PilotCommand;
+    return describe(field<&C::roll>("rad", "by hand"), field<&C::pitch>("rad", "by hand"),
+                    field<&C::yaw>("rad", "from the take-off heading"), field<&C::altitude>("m", "above the start"),
+                    field<&C::x>("m", "north of the start, when position is held"),
+                    field<&C::y>("m", "east of the start, when position is held"),
+                    field<&C::state_switches>("", "unlock, take off, land and so on in turn"),
+                    field<&C::mode_switches>("", "odd: position is held, even: by hand"),
+                    field<&C::shut_downs>("", "each stops the motors at once"),
+                    field<&C::heard>("", "the operator is still there"));
+  }
+};
+
+/// Motor signals in the order front, right, rear, left, 0 to 16000; the Robostix obeys them while unlocked.
+struct MotorCommand {
+  std::array<double, 4> signals{};
+  bool unlocked = false;
+
+  static constexpr auto fields() {
+    return describe(field<&MotorCommand::signals>("", "0 to 16000"),
+                    field<&MotorCommand::unlocked>("", "motors may turn"));
+  }
+};
+
+enum class FlightState : std::uint8_t { halt, ground, starting, flying, landing };
+
+constexpr auto enumerators(FlightState) {
+  return std::array<Enumerator<FlightState>, 5>{{{"halt", FlightState::halt},
+                                                 {"ground", FlightState::ground},
+                                                 {"starting", FlightState::starting},
+                                                 {"flying", FlightState::flying},
+                                                 {"landing", FlightState::landing}}};
+}
+
+/// Why the vehicle lands or stops without being told to.
+enum class LandingCause : std::uint8_t { none, roll, pitch, yaw, altitude, operator_lost, sonar_lost, position_lost, imu_lost };
+
+constexpr auto enumerators(LandingCause) {
+  return std::array<Enumerator<LandingCause>, 9>{{{"none", LandingCause::none},
+                                                  {"roll", LandingCause::roll},
+                                                  {"pitch", LandingCause::pitch},
+                                                  {"yaw", LandingCause::yaw},
+                                                  {"altitude", LandingCause::altitude},
+                                                  {"operator_lost", LandingCause::operator_lost},
+                                                  {"sonar_lost", LandingCause::sonar_lost},
+                                                  {"position_lost", LandingCause::position_lost},
+                                                  {"imu_lost", LandingCause::imu_lost}}};
+}
+
+/// What the operator is told.
+struct HelicopterReport {
+  double roll = 0, pitch = 0, yaw = 0, altitude = 0, x = 0, y = 0, battery = 0;
+  FlightState state = FlightState::halt;
+  LandingCause cause = LandingCause::none;
+
+  static constexpr auto fields() {
+    using R = HelicopterReport;
+    return describe(field<&R::roll>("rad"), field<&R::pitch>("rad"), field<&R::yaw>("rad", "from the take-off heading"),
+                    field<&R::altitude>("m", "above the start"), field<&R::x>("m", "north of the start"),
+                    field<&R::y>("m", "east of the start"), field<&R::battery>("V", "voltage"), field<&R::state>(),
+                    field<&R::cause>("", "of a landing that nobody wanted"));
+  }
+};
+
+/// How the vehicle moves, as far as its sensors tell.
+struct FlightEstimate {
+  double roll = 0, pitch = 0, yaw = 0;
+  double p = 0, q = 0, r = 0;
+  double x = 0, y = 0, altitude = 0;
+  double v_x = 0, v_y = 0, climb = 0;
+  double battery = 0;
+  bool attitude_known = false, altitude_known = false, position_known = false;
+
+  static constexpr auto fields() {
+    using E = FlightEstimate;
+    return describe(field<&E::roll>("rad"), field<&E::pitch>("rad"), field<&E::yaw>("rad", "from the take-off heading"),
+                    field<&E::p>("rad/s", "rate about the body's x"), field<&E::q>("rad/s", "about y"),
+                    field<&E::r>("rad/s", "about z"), field<&E::x>("m", "north of the start"),
+                    field<&E::y>("m", "east of the start"), field<&E::altitude>("m", "above the start"),
+                    field<&E::v_x>("m/s", "to the north"), field<&E::v_y>("m/s", "to the east"),
+                    field<&E::climb>("m/s", "upwards"), field<&E::battery>("V", "voltage"),
+                    field<&E::attitude_known>("", "the IMU has answered of late"),
+                    field<&E::altitude_known>("", "the sonar has"),
+                    field<&E::position_known>("", "both lasers have"));
+  }
+};
+
+/// What is to be done now.
+struct FlightDirective {
+  FlightState state = FlightState::halt;
+  LandingCause cause = LandingCause::none;
+  bool hold_position = false;
+  double roll = 0, pitch = 0, yaw = 0, altitude = 0, x = 0, y = 0;
+
+  static constexpr auto fields() {
+    using D = FlightDirective;
+    return describe(field<&D::state>(), field<&D::cause>("", "of a landing that nobody wanted"), field<&D::hold_position>("", "else roll and pitch by hand"),
+                    field<&D::roll>("rad"), field<&D::pitch>("rad"), field<&D::yaw>("rad", "from the take-off heading"),
+                    field<&D::altitude>("m", "above the start"), field<&D::x>("m", "north of the start"),
+                    field<&D::y>("m", "east of the start"));
+  }
+};
+
+struct AttitudeGoal {
+  double roll = 0, pitch = 0, yaw = 0;
+
+  static constexpr auto fields() {
+    using A = AttitudeGoal;
+    return describe(field<&A::roll>("rad"), field<&A::pitch>("rad"),
+                    field<&A::yaw>("rad", "from the take-off heading"));
+  }
+};
+
+/// Demands on the rotors in parts of the thrust of hover: what is added on one side and taken on the other.
+struct TurnDemand {
+  double roll = 0, pitch = 0, yaw = 0;
+
+  static constexpr auto fields() {
+    using T = TurnDemand;
+    return describe(field<&T::roll>("", "to the right"), field<&T::pitch>("", "nose up"),
+                    field<&T::yaw>("", "clockwise"));
+  }
+};
+
+/// Thrust of all rotors, 1 at hover.
+struct LiftDemand {
+  double thrust = 0;
+
+  static constexpr auto fields() { return describe(field<&LiftDemand::thrust>("", "1 at hover")); }
+};
+
+}  // namespace jarol::tasks

@@ -1,0 +1,49 @@
+// The helicopter as a vehicle: takes the JAviator's motor signals and switches, answers with what its sensors measure.
+#pragma once
+
+#include <memory>
+
+#include "distributers/messages/javiator.h"
+#include "vehicles/battery.h"
+#include "vehicles/helicopter_sensors.h"
+#include "vehicles/robostix.h"
+#include "vehicles/vehicle.h"
+#include "vehicles/wind.h"
+
+namespace jarol::vehicles {
+
+class HelicopterPlant;
+
+/// Steps of 5 ms. Motor signals act at once and are answered a step later; the IMU values of an answer were measured
+/// when the answer before had been sent.
+class Helicopter : public Vehicle {
+ public:
+  /// Throws std::runtime_error if no body can have these parameters.
+  explicit Helicopter(const HelicopterParameters& parameters);
+  ~Helicopter() override;
+
+  std::chrono::nanoseconds grid() const override;
+  void accept(messages::MessageRef command) override { robostix_.accept(command); }
+  /// Throws std::runtime_error once the state is no longer finite.
+  void step() override;
+  void sense(messages::Receiver& receiver) const override;
+
+  /// The truth, for tests and for looking on.
+  HelicopterMotion motion() const;
+  double voltage() const { return voltage_; }
+
+ private:
+  HelicopterSensors::Scene scene() const;
+
+  HelicopterParameters parameters_;
+  std::unique_ptr<HelicopterPlant> plant_;
+  Robostix robostix_;
+  Battery battery_;
+  Wind wind_;
+  HelicopterSensors sensors_;
+  messages::javiator::JaviatorData answer_{};
+  double voltage_ = 0.0;
+  std::int64_t nanoseconds_ = 0;
+};
+
+}  // namespace jarol::vehicles
