@@ -63,10 +63,10 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   }
   state.yaw += wrapped(s.yaw - state.zero_yaw - state.yaw);
 
-  const Eigen::Matrix3d R = (Eigen::AngleAxisd(state.yaw, Vector3d::UnitZ()) *
-                             Eigen::AngleAxisd(s.pitch, Vector3d::UnitY()) *
-                             Eigen::AngleAxisd(s.roll, Vector3d::UnitX()))
-                                .toRotationMatrix();
+  const Eigen::Matrix3d R =
+      (Eigen::AngleAxisd(state.yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(s.pitch, Vector3d::UnitY()) *
+       Eigen::AngleAxisd(s.roll, Vector3d::UnitX()))
+          .toRotationMatrix();
   const Vector3d a = R * Vector3d(s.a_x, s.a_y, s.a_z) + Vector3d(0, 0, gravity);
   const double x = (R * Vector3d(p.laser_x_x, p.laser_x_y, p.laser_x_z)).x() - s.laser_x;
   const double y = (R * Vector3d(p.laser_y_x, p.laser_y_y, p.laser_y_z)).y() - s.laser_y;

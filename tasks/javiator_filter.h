@@ -16,8 +16,7 @@ struct AxisObserver {
 
   static constexpr auto fields() {
     using A = AxisObserver;
-    return describe(field<&A::place>("m"), field<&A::speed>("m/s"),
-                    field<&A::bias>("m/s^2", "of the accelerometer"),
+    return describe(field<&A::place>("m"), field<&A::speed>("m/s"), field<&A::bias>("m/s^2", "of the accelerometer"),
                     field<&A::silent>("s", "since the last measurement"));
   }
 };
@@ -48,7 +47,9 @@ struct JaviatorFilter {
   struct In {
     JaviatorSensors sensors{};
     FlightDirective directive{};
-    static constexpr auto fields() { return describe(field<&In::sensors>(), field<&In::directive>("", "of the period before")); }
+    static constexpr auto fields() {
+      return describe(field<&In::sensors>(), field<&In::directive>("", "of the period before"));
+    }
   };
   struct State {
     AxisObserver x{}, y{}, z{};

@@ -10,7 +10,8 @@ namespace jarol::vehicles {
 // Box and Muller, "A Note on the Generation of Random Normal Deviates", 1958, on splitmix64 by number
 double Wind::draw_normal() {
   const auto uniform = [this] {
-    return (static_cast<double>(digest::key(parameters_.seed * 0x9e3779b97f4a7c15ULL + drawn_++) >> 11) + 0.5) * 0x1p-53;
+    return (static_cast<double>(digest::key(parameters_.seed * 0x9e3779b97f4a7c15ULL + drawn_++) >> 11) + 0.5) *
+           0x1p-53;
   };
   const double radius = std::sqrt(-2.0 * std::log(uniform()));
   return radius * std::cos(2.0 * std::numbers::pi * uniform());

@@ -1,5 +1,6 @@
-// Values that the helicopter's tasks exchange. Earth frame: north, east of the start, and altitude above where it stood;
-// body frame forward-right-down; SI units, radians. Roll to the right, pitch nose up, yaw clockwise are positive.
+// Values that the helicopter's tasks exchange. Earth frame: north, east of the start, and altitude above where it
+// stood; body frame forward-right-down; SI units, radians. Roll to the right, pitch nose up, yaw clockwise are
+// positive.
 #pragma once
 
 #include <array>
@@ -21,18 +22,18 @@ struct JaviatorSensors {
 
   static constexpr auto fields() {
     using S = JaviatorSensors;
-    return describe(
-        field<&S::roll>("rad"), field<&S::pitch>("rad"), field<&S::yaw>("rad", "from north, -pi to pi"),
-        field<&S::p>("rad/s", "rate about the body's x"), field<&S::q>("rad/s", "about y"),
-        field<&S::r>("rad/s", "about z"), field<&S::a_x>("m/s^2", "specific force along the body's x"),
-        field<&S::a_y>("m/s^2", "along y"), field<&S::a_z>("m/s^2", "along z, -9.81 at rest"),
-        field<&S::sonar>("m", "range below"), field<&S::laser_x>("m", "range to the wall in the north"),
-        field<&S::laser_y>("m", "range to the wall in the east"), field<&S::pressure>("Pa", "of the air"),
-        field<&S::temperature>("degC", "of the air"), field<&S::battery>("V", "voltage"),
-        field<&S::new_imu>("", "attitude, rates and forces are new"),
-        field<&S::new_bmu>("", "pressure, temperature and battery are new"), field<&S::new_sonar>("", "sonar is new"),
-        field<&S::new_x>("", "laser_x is new"), field<&S::new_y>("", "laser_y is new"),
-        field<&S::answers>("", "answers so far; the same number again: none has come since"));
+    return describe(field<&S::roll>("rad"), field<&S::pitch>("rad"), field<&S::yaw>("rad", "from north, -pi to pi"),
+                    field<&S::p>("rad/s", "rate about the body's x"), field<&S::q>("rad/s", "about y"),
+                    field<&S::r>("rad/s", "about z"), field<&S::a_x>("m/s^2", "specific force along the body's x"),
+                    field<&S::a_y>("m/s^2", "along y"), field<&S::a_z>("m/s^2", "along z, -9.81 at rest"),
+                    field<&S::sonar>("m", "range below"), field<&S::laser_x>("m", "range to the wall in the north"),
+                    field<&S::laser_y>("m", "range to the wall in the east"), field<&S::pressure>("Pa", "of the air"),
+                    field<&S::temperature>("degC", "of the air"), field<&S::battery>("V", "voltage"),
+                    field<&S::new_imu>("", "attitude, rates and forces are new"),
+                    field<&S::new_bmu>("", "pressure, temperature and battery are new"),
+                    field<&S::new_sonar>("", "sonar is new"), field<&S::new_x>("", "laser_x is new"),
+                    field<&S::new_y>("", "laser_y is new"),
+                    field<&S::answers>("", "answers so far; the same number again: none has come since"));
   }
 };
 
@@ -77,7 +78,17 @@ constexpr auto enumerators(FlightState) {
 }
 
 /// Why the vehicle lands or stops without being told to.
-enum class LandingCause : std::uint8_t { none, roll, pitch, yaw, altitude, operator_lost, sonar_lost, position_lost, imu_lost };
+enum class LandingCause : std::uint8_t {
+  none,
+  roll,
+  pitch,
+  yaw,
+  altitude,
+  operator_lost,
+  sonar_lost,
+  position_lost,
+  imu_lost
+};
 
 constexpr auto enumerators(LandingCause) {
   return std::array<Enumerator<LandingCause>, 9>{{{"none", LandingCause::none},
@@ -124,8 +135,7 @@ struct FlightEstimate {
                     field<&E::v_x>("m/s", "to the north"), field<&E::v_y>("m/s", "to the east"),
                     field<&E::climb>("m/s", "upwards"), field<&E::battery>("V", "voltage"),
                     field<&E::attitude_known>("", "the IMU has answered of late"),
-                    field<&E::altitude_known>("", "the sonar has"),
-                    field<&E::position_known>("", "both lasers have"));
+                    field<&E::altitude_known>("", "the sonar has"), field<&E::position_known>("", "both lasers have"));
   }
 };
 
@@ -138,8 +148,9 @@ struct FlightDirective {
 
   static constexpr auto fields() {
     using D = FlightDirective;
-    return describe(field<&D::state>(), field<&D::cause>("", "of a landing that nobody wanted"), field<&D::hold_position>("", "else roll and pitch by hand"),
-                    field<&D::roll>("rad"), field<&D::pitch>("rad"), field<&D::yaw>("rad", "from the take-off heading"),
+    return describe(field<&D::state>(), field<&D::cause>("", "of a landing that nobody wanted"),
+                    field<&D::hold_position>("", "else roll and pitch by hand"), field<&D::roll>("rad"),
+                    field<&D::pitch>("rad"), field<&D::yaw>("rad", "from the take-off heading"),
                     field<&D::altitude>("m", "above the start"), field<&D::x>("m", "north of the start"),
                     field<&D::y>("m", "east of the start"));
   }

@@ -44,9 +44,9 @@ tasks:
 connections:
   - count.out -> slow.inn
 )") == "t.yaml:3:17: error: task 'count' has unknown type 'Countre'; did you mean 'Counter'?; there are: Accumulate, "
-       "Counter, "
-       "DepthControl, FinAllocator, HeadingControl, LauvForward, LauvReport, Mean, Relay, SpeedControl, Sum, Window, "
-       "Work\n"
+       "AltitudeControl, AttitudeControl, Counter, DepthControl, FinAllocator, FlightLogic, HeadingControl, "
+       "HelicopterReporter, JaviatorFilter, LauvForward, LauvReport, Mean, MotorMixer, PositionControl, Relay, "
+       "SpeedControl, Sum, Window, Work\n"
        "    count: {type: Countre, period: 10ms}\n"
        "                  ^\n"
        "t.yaml:4:42: error: task 'slow' has LET 30ms longer than its period 20ms\n"

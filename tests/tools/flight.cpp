@@ -1,0 +1,154 @@
+#include "tests/tools/flight.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "distributers/distributers.h"
+#include "tools/load_graph.h"
+#include "vehicles/catalogue.h"
+#include "vehicles/helicopter.h"
+
+namespace jarol::tests {
+namespace {
+
+// where the watched vehicle writes; a vehicle class has room for nothing else
+std::vector<Glimpse>* watching = nullptr;
+
+class Watched : public vehicles::Helicopter {
+ public:
+  explicit Watched(const vehicles::HelicopterParameters& parameters) : Helicopter(parameters) { look(); }
+
+  void step() override {
+    Helicopter::step();
+    ++steps_;
+    look();
+  }
+
+ private:
+  void look() {
+    const vehicles::HelicopterMotion m = motion();
+    if (steps_ == 0) ground_ = m.p_n[2];
+    watching->push_back({.time = 0.005 * steps_,
+                         .x = m.p_n[0],
+                         .y = m.p_n[1],
+                         .altitude = ground_ - m.p_n[2],
+                         .roll = std::atan2(m.R_nb[2][1], m.R_nb[2][2]),
+                         .pitch = -std::asin(m.R_nb[2][0]),
+                         .yaw = std::atan2(m.R_nb[1][0], m.R_nb[0][0]),
+                         .climb = -vehicles::to_ned(m.R_nb, m.v_b)[2]});
+  }
+
+  int steps_ = 0;
+  double ground_ = 0;
+};
+
+class PilotChannels : public Channels {
+ public:
+  explicit PilotChannels(std::function<tasks::PilotCommand(double)> pilot) : pilot_(std::move(pilot)) {}
+  void reach(Duration instant) override { now_ = 1e-9 * static_cast<double>(instant.count()); }
+  bool take(std::size_t, void* value) override {
+    *static_cast<tasks::PilotCommand*>(value) = pilot_(now_);
+    return true;
+  }
+  void hand_over(std::size_t, const void*) override {}
+
+ private:
+  std::function<tasks::PilotCommand(double)> pilot_;
+  double now_ = 0;
+};
+
+class Directives : public RecordSink {
+ public:
+  Directives(std::uint32_t output, Flight& flight) : output_(output), flight_(flight) {}
+  void take(Duration instant, std::uint32_t output, const void* value) override {
+    if (output == output_)
+      flight_.directives.emplace_back(1e-9 * static_cast<double>(instant.count()),
+                                      *static_cast<const tasks::FlightDirective*>(value));
+  }
+  void finish() override {}
+
+ private:
+  std::uint32_t output_;
+  Flight& flight_;
+};
+
+}  // namespace
+
+Flight fly(const FlightPlan& plan) {
+  auto loaded = tools::load_graph(plan.graph, {.profile = plan.profile, .set = plan.set});
+  vehicles::VehicleClass watched = *vehicles::find_vehicle("helicopter");
+  watched.make = [](const void* parameters) -> std::unique_ptr<vehicles::Vehicle> {
+    return std::make_unique<Watched>(*static_cast<const vehicles::HelicopterParameters*>(parameters));
+  };
+  Flight flight;
+  watching = &flight.path;
+  Problems problems;
+  auto channels = distributers::make_channels(*loaded.graph, {watched}, problems);
+  problems.throw_if_any();
+  Duration end(std::llround(1e9 * plan.seconds));
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (loaded.graph->distributers[i].name != "terminal") continue;
+    if (plan.pilot) {
+      channels[i] = std::make_unique<PilotChannels>(plan.pilot);
+    } else {
+      end = channels[i]->end().value_or(end);
+    }
+  }
+  const Plan order(*loaded.graph);
+  const auto directive = std::find_if(order.outputs.begin(), order.outputs.end(),
+                                      [](const Output& o) { return o.name == "logic.directive"; });
+  Directives directives(static_cast<std::uint32_t>(directive - order.outputs.begin()), flight);
+  Recorder recorder({&directives});
+  Executor executor(*loaded.graph, std::move(channels), {.digest = true, .recorder = &recorder});
+  executor.run_until(end);
+  recorder.close();
+  flight.report = executor.report();
+  return flight;
+}
+
+double Flight::most(double Glimpse::*value, double from, double to) const {
+  double most = -1e300;
+  for (const Glimpse& g : path)
+    if (g.time >= from && g.time <= to) most = std::max(most, g.*value);
+  return most;
+}
+
+double Flight::least(double Glimpse::*value, double from, double to) const {
+  double least = 1e300;
+  for (const Glimpse& g : path)
+    if (g.time >= from && g.time <= to) least = std::min(least, g.*value);
+  return least;
+}
+
+double Flight::furthest(double Glimpse::*value, double of, double from, double to) const {
+  return std::max(most(value, from, to) - of, of - least(value, from, to));
+}
+
+double Flight::settled(double Glimpse::*value, double of, double band) const {
+  double time = 0;
+  for (const Glimpse& g : path)
+    if (std::abs(g.*value - of) > band) time = g.time;
+  return time;
+}
+
+Glimpse Flight::at(double time) const {
+  for (const Glimpse& g : path)
+    if (g.time >= time - 1e-9) return g;
+  return path.back();
+}
+
+double Flight::touch_down() const {
+  for (std::size_t i = path.size() - 1; i > 0; --i)
+    if (path[i].altitude < 0.002 && path[i - 1].altitude >= 0.002) return -path[i - 1].climb;
+  return 0;
+}
+
+tasks::PilotCommand hover_command(double time) {
+  tasks::PilotCommand command;
+  command.mode_switches = 1;
+  command.state_switches = (time >= 0.5 ? 1U : 0U) + (time >= 1 ? 1U : 0U);
+  command.altitude = time >= 3 ? 1 : 0;
+  return command;
+}
+
+}  // namespace jarol::tests

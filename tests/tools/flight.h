@@ -1,0 +1,53 @@
+// Flies a graph of the helicopter and looks at what truly happens, not at what its sensors tell.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "runtime/executor.h"
+#include "tasks/values/javiator.h"
+#include "vehicles/helicopter_body.h"
+
+namespace jarol::tests {
+
+/// The vehicle at one step of its grid. Angles are Euler's ZYX.
+struct Glimpse {
+  double time = 0;
+  double x = 0, y = 0, altitude = 0;
+  double roll = 0, pitch = 0, yaw = 0;
+  double climb = 0;
+};
+
+struct Flight {
+  std::vector<Glimpse> path;
+  std::vector<std::pair<double, tasks::FlightDirective>> directives;
+  Report report;
+
+  /// The greatest |value - of| within [from, to].
+  double furthest(double Glimpse::*value, double of, double from, double to) const;
+  double most(double Glimpse::*value, double from, double to) const;
+  double least(double Glimpse::*value, double from, double to) const;
+  /// The last instant at which |value - of| exceeds the band.
+  double settled(double Glimpse::*value, double of, double band) const;
+  Glimpse at(double time) const;
+  /// The speed of descent when the ground was reached for the last time.
+  double touch_down() const;
+  tasks::FlightDirective last() const { return directives.back().second; }
+};
+
+struct FlightPlan {
+  std::string graph = "specs/javiator.yaml";
+  std::vector<std::string> set{};
+  std::string profile{};
+  /// What the operator wants at that second; without one, the graph's own script.
+  std::function<tasks::PilotCommand(double)> pilot{};
+  double seconds = 20;
+};
+
+Flight fly(const FlightPlan& plan);
+
+/// An operator who holds a place, takes off at 1 s and wants an altitude of 1 m.
+tasks::PilotCommand hover_command(double time);
+
+}  // namespace jarol::tests
