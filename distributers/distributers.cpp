@@ -7,8 +7,10 @@
 #include "distributers/lauv_vehicle.h"
 #include "distributers/links/script.h"
 #include "distributers/links/simulation.h"
+#include "distributers/vehicle_file.h"
 #include "graph/spec/key.h"
 #include "graph/values/bind.h"
+#include "graph/values/seed.h"
 
 namespace jarol::distributers {
 namespace {
@@ -63,19 +65,6 @@ const std::vector<Key<ScriptSpec>>& script_keys() {
   return keys;
 }
 
-struct VehicleSpec {
-  Maybe<std::string> vehicle;
-  Maybe<Yaml> parameters;
-};
-
-const std::vector<Key<VehicleSpec>>& vehicle_keys() {
-  static const std::vector<Key<VehicleSpec>> keys{
-      key<&VehicleSpec::vehicle>("vehicle", Form::word, "name of the vehicle", true),
-      key<&VehicleSpec::parameters>("parameters", Form::mapping, "its parameters; what is left out keeps its default"),
-  };
-  return keys;
-}
-
 // A path in a file is relative to that file.
 std::shared_ptr<const Source> read_beside(const Graph& graph, const Located<std::string>& path, Problems& problems) {
   const std::filesystem::path base =
@@ -101,7 +90,8 @@ void check_grid(const Graph& graph, std::size_t distributer, const vehicles::Veh
 }
 
 std::unique_ptr<Channels> make_simulation(const Graph& graph, std::size_t index,
-                                          const std::vector<vehicles::VehicleClass>& known, Problems& problems) {
+                                          const std::vector<vehicles::VehicleClass>& known, std::uint64_t seed,
+                                          Problems& problems) {
   const Distributer& distributer = graph.distributers[index];
   const std::string subject = "link of distributer '" + distributer.name + "'";
   SimulationSpec spec;
@@ -109,31 +99,16 @@ std::unique_ptr<Channels> make_simulation(const Graph& graph, std::size_t index,
   if (!spec.vehicle) return nullptr;
   const auto source = read_beside(graph, *spec.vehicle, problems);
   if (!source) return nullptr;
-  VehicleSpec vehicle;
   const std::size_t before = problems.size();
-  const Yaml file = read_yaml(source, problems);
-  if (problems.size() > before) return nullptr;
-  read_keys(file, vehicle_keys(), vehicle, "a vehicle file", problems);
-  if (!vehicle.vehicle) return nullptr;
-  const std::vector<std::string> names = names_of(known);
-  const vehicles::VehicleClass* found = nullptr;
-  for (const auto& v : known)
-    if (v.name == vehicle.vehicle->value) found = &v;
-  if (found == nullptr) {
-    problems.add(vehicle.vehicle->where, "there is no vehicle '" + vehicle.vehicle->value + "'" +
-                                             did_you_mean(vehicle.vehicle->value, names) +
-                                             "; this build has: " + list_of(names));
-    return nullptr;
-  }
-  Value parameters(*found->parameters);
-  const std::string name = "vehicle '" + found->name + "'";
-  if (vehicle.parameters)
-    bind_fields(vehicle.parameters->value, *found->parameters, parameters.data(), name, "parameter", problems);
+  std::optional<VehicleFile> file = read_vehicle_file(source, known, problems);
+  if (!file) return nullptr;
+  const std::string name = "vehicle '" + file->vehicle->name + "'";
   if (spec.parameters)
-    bind_fields(spec.parameters->value, *found->parameters, parameters.data(), name, "parameter", problems);
+    bind_fields(spec.parameters->value, *file->vehicle->parameters, file->parameters.data(), name, "parameter",
+                problems);
   if (problems.size() > before) return nullptr;
   try {
-    auto made = found->make(parameters.data());
+    auto made = file->vehicle->make(file->parameters.data(), seed);
     check_grid(graph, index, *made, problems);
     return std::make_unique<SimulationChannels>(std::move(made), kind_of(distributer).make_adapter());
   } catch (const std::exception& error) {
@@ -160,7 +135,7 @@ void add_distributers(Registry& registry) {
 
 std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
                                                      const std::vector<vehicles::VehicleClass>& vehicles,
-                                                     Problems& problems) {
+                                                     std::uint64_t seed, Problems& problems) {
   std::vector<std::unique_ptr<Channels>> all;
   for (std::size_t i = 0; i < graph.distributers.size(); ++i) {
     const Distributer& distributer = graph.distributers[i];
@@ -175,7 +150,7 @@ std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
       problems.add(distributer.link.where, subject + " lacks the key 'type'; a " + distributer.distributer_class->name +
                                                " can have: " + list_of(links));
     } else if (type->text == "simulation" && speaks_messages) {
-      all.back() = make_simulation(graph, i, vehicles, problems);
+      all.back() = make_simulation(graph, i, vehicles, spread_seed(seed, distributer.name), problems);
     } else if (type->text == "script") {
       all.back() = make_script(graph, i, problems);
     } else {

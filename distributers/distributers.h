@@ -14,9 +14,10 @@ namespace jarol::distributers {
 void add_distributers(Registry& registry);
 
 /// The channels of each distributer of the graph, in its order, linked as the file says; `vehicles` are those that
-/// `simulation` links may name. What is wrong goes to `problems`, and a null stands in the place.
+/// `simulation` links may name, and each gets its share of the seed by the distributer's name. What is wrong goes to
+/// `problems`, and a null stands in the place.
 std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
                                                      const std::vector<vehicles::VehicleClass>& vehicles,
-                                                     Problems& problems);
+                                                     std::uint64_t seed, Problems& problems);
 
 }  // namespace jarol::distributers

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   tools::add_run(app, exit_code);
   tools::add_schema(app, exit_code);
   tools::add_tasks(app, exit_code);
+  tools::add_vehicle(app, exit_code);
   // a mistyped command gets a suggestion
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());

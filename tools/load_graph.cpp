@@ -11,15 +11,6 @@
 namespace jarol::tools {
 namespace {
 
-const std::vector<vehicles::VehicleClass>& known_vehicles() {
-#ifdef JAROL_VEHICLES
-  return vehicles::catalogue();
-#else
-  static const std::vector<vehicles::VehicleClass> none;
-  return none;
-#endif
-}
-
 Registry make_registry() {
   Registry made;
   tasks::add_tasks(made);
@@ -34,14 +25,23 @@ const Registry& registry() {
   return known;
 }
 
-Loaded load_graph(const std::string& path, const Overrides& overrides) {
+const std::vector<vehicles::VehicleClass>& known_vehicles() {
+#ifdef JAROL_VEHICLES
+  return vehicles::catalogue();
+#else
+  static const std::vector<vehicles::VehicleClass> none;
+  return none;
+#endif
+}
+
+Loaded load_graph(const std::string& path, const Overrides& overrides, std::uint64_t seed) {
   Problems problems;
   const GraphSpec spec = load_spec(read_source(path), overrides, problems);
   Loaded loaded;
   loaded.registry = std::make_unique<Registry>(registry());
   load_plugins(spec, *loaded.registry, problems);
   loaded.graph = std::make_unique<Graph>(build_graph(spec, *loaded.registry, problems));
-  loaded.channels = distributers::make_channels(*loaded.graph, known_vehicles(), problems);
+  loaded.channels = distributers::make_channels(*loaded.graph, known_vehicles(), seed, problems);
   problems.throw_if_any();
   return loaded;
 }

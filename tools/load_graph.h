@@ -8,6 +8,7 @@
 #include "graph/graph.h"
 #include "graph/spec/load.h"
 #include "runtime/channels.h"
+#include "vehicles/vehicle.h"
 
 namespace jarol::tools {
 
@@ -20,7 +21,11 @@ struct Loaded {
   std::vector<std::unique_ptr<Channels>> channels;
 };
 
-/// Throws SpecError with everything that is wrong with the file, its overrides and its links.
-Loaded load_graph(const std::string& path, const Overrides& overrides);
+/// Every vehicle that this program has.
+const std::vector<vehicles::VehicleClass>& known_vehicles();
+
+/// Throws SpecError with everything that is wrong with the file, its overrides and its links. The seed is that of all
+/// noise.
+Loaded load_graph(const std::string& path, const Overrides& overrides, std::uint64_t seed = 0);
 
 }  // namespace jarol::tools

@@ -86,9 +86,9 @@ std::string to_text(const Graph& graph, const RealClock& clock) {
                       "worst us", "late", "left out");
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const TaskTiming& t = clock.timing(i);
-    text += fmt::format("  {:<{}}  {:>11}  {:>10.1f}  {:>10.1f}  {:>6}  {:>8}\n", graph.tasks[i].name, width,
-                        t.execution.count(), us(t.execution.percentile(0.99)), us(t.execution.most()), t.late,
-                        t.left_out);
+    text +=
+        fmt::format("  {:<{}}  {:>11}  {:>10.1f}  {:>10.1f}  {:>6}  {:>8}\n", graph.tasks[i].name, width,
+                    t.execution.count(), us(t.execution.percentile(0.99)), us(t.execution.most()), t.late, t.left_out);
   }
   return text;
 }

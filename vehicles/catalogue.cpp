@@ -7,21 +7,28 @@
 namespace jarol::vehicles {
 namespace {
 
-template <class V, class Parameters>
+// A vehicle class names its Parameters, Inputs and Outputs, and the ranges of its inputs.
+template <class V>
 VehicleClass entry(std::string name, std::string summary) {
-  return {std::move(name), std::move(summary), &type_of<Parameters>(),
-          [](const void* parameters) -> std::unique_ptr<Vehicle> {
-            return std::make_unique<V>(*static_cast<const Parameters*>(parameters));
-          }};
+  VehicleClass made;
+  made.name = std::move(name);
+  made.summary = std::move(summary);
+  made.parameters = &type_of<typename V::Parameters>();
+  made.inputs = &type_of<typename V::Inputs>();
+  made.ranges = V::Inputs::ranges();
+  made.outputs = &type_of<typename V::Outputs>();
+  made.make = [](const void* parameters, std::uint64_t seed) -> std::unique_ptr<Vehicle> {
+    return std::make_unique<V>(*static_cast<const typename V::Parameters*>(parameters), seed);
+  };
+  return made;
 }
 
 }  // namespace
 
 const std::vector<VehicleClass>& catalogue() {
   static const std::vector<VehicleClass> all = {
-      entry<Helicopter, HelicopterParameters>("helicopter",
-                                              "quadrotor with a Robostix between signals and sensors (JAviator)"),
-      entry<Submarine, SubmarineParameters>("submarine", "torpedo-shaped AUV with four fins and one propeller (LAUV)"),
+      entry<Helicopter>("helicopter", "quadrotor with a Robostix between signals and sensors (JAviator)"),
+      entry<Submarine>("submarine", "torpedo-shaped AUV with four fins and one propeller (LAUV)"),
   };
   return all;
 }
@@ -31,12 +38,6 @@ const VehicleClass* find_vehicle(std::string_view name) {
     if (each.name == name) return &each;
   }
   return nullptr;
-}
-
-std::string vehicle_names() {
-  std::string names;
-  for (const VehicleClass& each : catalogue()) names += (names.empty() ? "" : ", ") + each.name;
-  return names;
 }
 
 }  // namespace jarol::vehicles

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,8 +13,5 @@ const std::vector<VehicleClass>& catalogue();
 
 /// The class of that name, or null.
 const VehicleClass* find_vehicle(std::string_view name);
-
-/// All names, for messages: "helicopter, submarine".
-std::string vehicle_names();
 
 }  // namespace jarol::vehicles

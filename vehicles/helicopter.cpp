@@ -1,5 +1,6 @@
 #include "vehicles/helicopter.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "vehicles/helicopter_coefficients.h"
@@ -14,23 +15,24 @@ double setting_of(const HelicopterParameters& p, double signal, double voltage) 
   return signal / most_signal * voltage / p.rotors.reference_voltage;
 }
 
-std::unique_ptr<HelicopterPlant> make_plant(const HelicopterParameters& p) {
+std::unique_ptr<HelicopterPlant> make_plant(const HelicopterParameters& p, const HelicopterMotion& start) {
   const double setting = setting_of(p, p.start.signal, p.rotors.reference_voltage);
-  return std::make_unique<HelicopterPlant>(make_body(p), make_start(p),
+  return std::make_unique<HelicopterPlant>(make_body(p), start,
                                            std::array<double, 4>{setting, setting, setting, setting});
 }
 
 }  // namespace
 
-Helicopter::Helicopter(const HelicopterParameters& parameters)
+Helicopter::Helicopter(const HelicopterParameters& parameters, std::uint64_t)
     : parameters_(parameters),
-      plant_(make_plant(parameters)),
+      plant_(make_plant(parameters, make_start(parameters))),
       battery_(parameters.battery),
       wind_(parameters.air),
       sensors_(parameters.sensors),
       voltage_(battery_.calc_voltage(0.0)) {
   sensors_.sample(0, scene());
   sensors_.sample_imu(scene());
+  tell_outputs(0.0);
 }
 
 Helicopter::~Helicopter() = default;
@@ -58,12 +60,62 @@ void Helicopter::step() {
   const double current = battery_.calc_current(thrusts);
   battery_.draw(current, seconds);
   voltage_ = battery_.calc_voltage(current);
+  tell_outputs(current);
 
   sensors_.sample(nanoseconds_, scene());
   robostix_.step();
   if (!robostix_.answers()) return;
   answer_ = sensors_.answer(robostix_.id());
   sensors_.sample_imu(scene());
+}
+
+void Helicopter::tell_outputs(double current) {
+  const std::array<double, 4>& reached = plant_->settings();
+  outputs_.rotors = {most_signal * reached[0], most_signal * reached[1], most_signal * reached[2],
+                     most_signal * reached[3]};
+  outputs_.battery = {voltage_, current};
+}
+
+VehicleState Helicopter::state() const {
+  const HelicopterMotion m = plant_->motion();
+  const auto& R = m.R_nb;
+  return {m.p_n[0],
+          m.p_n[1],
+          m.p_n[2],
+          std::atan2(R[2][1], R[2][2]),
+          -std::asin(std::clamp(R[2][0], -1.0, 1.0)),
+          std::atan2(R[1][0], R[0][0]),
+          m.v_b[0],
+          m.v_b[1],
+          m.v_b[2],
+          m.omega_b[0],
+          m.omega_b[1],
+          m.omega_b[2]};
+}
+
+void Helicopter::place(const VehicleState& s) {
+  const double cphi = std::cos(s.phi), sphi = std::sin(s.phi);
+  const double cth = std::cos(s.theta), sth = std::sin(s.theta);
+  const double cpsi = std::cos(s.psi), spsi = std::sin(s.psi);
+  HelicopterMotion motion;
+  motion.p_n = {s.x, s.y, s.z};
+  motion.R_nb = {{{cpsi * cth, cpsi * sth * sphi - spsi * cphi, cpsi * sth * cphi + spsi * sphi},
+                  {spsi * cth, spsi * sth * sphi + cpsi * cphi, spsi * sth * cphi - cpsi * sphi},
+                  {-sth, cth * sphi, cth * cphi}}};
+  motion.v_b = {s.u, s.v, s.w};
+  motion.omega_b = {s.p, s.q, s.r};
+  plant_ = make_plant(parameters_, motion);
+  sensors_.sample(0, scene());
+  sensors_.sample_imu(scene());
+}
+
+void Helicopter::command(const void* inputs) {
+  namespace javiator = messages::javiator;
+  const auto& in = *static_cast<const HelicopterInputs*>(inputs);
+  const auto signal = [](double value) { return static_cast<std::int16_t>(std::lround(value)); };
+  robostix_.accept(messages::refer_to(javiator::SwitchState{}));
+  robostix_.accept(messages::refer_to(
+      javiator::MotorSignals{signal(in.front), signal(in.right), signal(in.rear), signal(in.left), 0}));
 }
 
 void Helicopter::sense(messages::Receiver& receiver) const {

@@ -5,6 +5,7 @@
 
 #include "distributers/messages/javiator.h"
 #include "vehicles/battery.h"
+#include "vehicles/helicopter_io.h"
 #include "vehicles/helicopter_sensors.h"
 #include "vehicles/robostix.h"
 #include "vehicles/vehicle.h"
@@ -18,15 +19,24 @@ class HelicopterPlant;
 /// when the answer before had been sent.
 class Helicopter : public Vehicle {
  public:
+  using Parameters = HelicopterParameters;
+  using Inputs = HelicopterInputs;
+  using Outputs = HelicopterOutputs;
+
   /// Throws std::runtime_error if no body can have these parameters.
-  explicit Helicopter(const HelicopterParameters& parameters);
+  explicit Helicopter(const HelicopterParameters& parameters, std::uint64_t seed = 0);
   ~Helicopter() override;
 
   std::chrono::nanoseconds grid() const override;
   void accept(messages::MessageRef command) override { robostix_.accept(command); }
-  /// Throws std::runtime_error once the state is no longer finite.
   void step() override;
   void sense(messages::Receiver& receiver) const override;
+  VehicleState state() const override;
+  /// z is that of the centre of gravity, negative above the ground.
+  void place(const VehicleState& state) override;
+  /// Unlocks the motors.
+  void command(const void* inputs) override;
+  const void* outputs() const override { return &outputs_; }
 
   /// The truth, for tests and for looking on.
   HelicopterMotion motion() const;
@@ -34,6 +44,7 @@ class Helicopter : public Vehicle {
 
  private:
   HelicopterSensors::Scene scene() const;
+  void tell_outputs(double current);
 
   HelicopterParameters parameters_;
   std::unique_ptr<HelicopterPlant> plant_;
@@ -43,6 +54,7 @@ class Helicopter : public Vehicle {
   HelicopterSensors sensors_;
   messages::javiator::JaviatorData answer_{};
   double voltage_ = 0.0;
+  HelicopterOutputs outputs_;
   std::int64_t nanoseconds_ = 0;
 };
 

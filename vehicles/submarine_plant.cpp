@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "vehicles/frames.h"
+#include "vehicles/no_state.h"
 
 namespace jarol::vehicles {
 namespace {
@@ -84,7 +84,7 @@ struct SubmarinePlant::Simulation {
 
   // Simbody may notice a number that is not finite itself, or not at all; it must not be asked again after that
   void advance() {
-    if (!failure.empty()) throw std::runtime_error(failure);
+    if (!failure.empty()) throw NoState(failure);
     const double t = static_cast<double>(++steps) * step_seconds;
     try {
       stepper.stepTo(t);
@@ -92,7 +92,7 @@ struct SubmarinePlant::Simulation {
     } catch (const std::exception& e) { failure = e.what(); }
     if (failure.empty()) return;
     failure = "submarine: no state at t = " + std::to_string(t) + " s: " + failure;
-    throw std::runtime_error(failure);
+    throw NoState(failure);
   }
 
   SimTK::MultibodySystem system;

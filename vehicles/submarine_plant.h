@@ -21,7 +21,7 @@ class SubmarinePlant {
 
   static constexpr double step_seconds = 0.01;
 
-  /// One step under constant inputs; throws std::runtime_error if the state is not finite after it.
+  /// One step under constant inputs; throws NoState if the state is not finite after it.
   void step(const SubmarineInput& input);
 
   PlantState state() const;

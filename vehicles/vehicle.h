@@ -9,8 +9,29 @@
 #include <vector>
 
 #include "distributers/messages/message.h"
+#include "graph/values/describe.h"
+#include "vehicles/no_state.h"
 
 namespace jarol::vehicles {
+
+/// Where a vehicle is and how it moves: NED, Euler angles ZYX, velocities in body axes (forward, right, down).
+struct VehicleState {
+  double x = 0, y = 0, z = 0;
+  double phi = 0, theta = 0, psi = 0;
+  double u = 0, v = 0, w = 0;
+  double p = 0, q = 0, r = 0;
+
+  static constexpr auto fields() {
+    using S = VehicleState;
+    return describe(field<&S::x>("m", "north of the origin"), field<&S::y>("m", "east of the origin"),
+                    field<&S::z>("m", "below the origin"), field<&S::phi>("rad", "roll"),
+                    field<&S::theta>("rad", "pitch, nose up"), field<&S::psi>("rad", "yaw, from north to east"),
+                    field<&S::u>("m/s", "velocity forward, through what carries the vehicle"),
+                    field<&S::v>("m/s", "velocity to the right, likewise"),
+                    field<&S::w>("m/s", "velocity down, likewise"), field<&S::p>("rad/s", "roll rate"),
+                    field<&S::q>("rad/s", "pitch rate"), field<&S::r>("rad/s", "yaw rate"));
+  }
+};
 
 /// Stands at a whole number of its own grid steps since the start. Who looks, or how often, changes nothing.
 class Vehicle {
@@ -23,11 +44,29 @@ class Vehicle {
   /// Takes a command; it is held until the next of its kind. Others than the vehicle's own are ignored.
   virtual void accept(messages::MessageRef command) = 0;
 
-  /// Advances by one grid step with the commands it holds.
+  /// Advances by one grid step with the commands it holds. Throws NoState if its state is not finite then.
   virtual void step() = 0;
 
-  /// Sends what its sensors sample at the present instant.
+  /// Sends what its sensors tell at the present instant.
   virtual void sense(messages::Receiver& receiver) const = 0;
+
+  /// The true state.
+  virtual VehicleState state() const = 0;
+
+  /// Puts it into a state. Only before the first step; throws std::runtime_error if it can't be in it.
+  virtual void place(const VehicleState& state) = 0;
+
+  /// Gives all commands at once: a value of its class' type of inputs.
+  virtual void command(const void* inputs) = 0;
+
+  /// What its actuators do and its sensors told last: a value of its class' type of outputs. NaN: never told.
+  virtual const void* outputs() const = 0;
+};
+
+/// What a number may be, both ends included.
+struct Range {
+  double least = 0;
+  double greatest = 0;
 };
 
 /// A kind of vehicle, by the name that its parameter files give.
@@ -35,7 +74,11 @@ struct VehicleClass {
   std::string name;
   std::string summary;
   const Type* parameters = nullptr;
-  std::unique_ptr<Vehicle> (*make)(const void* parameters) = nullptr;  // from a value of that type
+  const Type* inputs = nullptr;   // a struct of doubles
+  std::vector<Range> ranges;      // of the inputs
+  const Type* outputs = nullptr;  // a struct of structs of numbers
+  // from a value of the type of parameters; throws std::runtime_error if there can be no such vehicle
+  std::unique_ptr<Vehicle> (*make)(const void* parameters, std::uint64_t seed) = nullptr;
 };
 
 }  // namespace jarol::vehicles

@@ -86,24 +86,35 @@ void apply_override(Yaml& graph, const std::string& path, const Location& where,
   *at = std::move(value);
 }
 
-void apply_set(Yaml& graph, const std::string& argument, Problems& problems) {
+bool read_set(const std::string& argument, std::string_view example, std::string& path, Yaml& value,
+              Problems& problems) {
   const auto source = std::make_shared<Source>(Source{"--set", argument});
   const std::size_t equals = argument.find('=');
-  if (equals == std::string::npos || equals == 0)
-    return problems.add({source, 1, 1},
-                        "'" + argument + "' is no override; write path=value, as in tasks.depth.period=20ms");
+  if (equals == std::string::npos || equals == 0) {
+    problems.add({source, 1, 1}, "'" + argument + "' is no override; write path=value, as in " + std::string(example));
+    return false;
+  }
   // the value alone is read as YAML; blanks in front of it keep its place in the argument
   const auto padded =
       std::make_shared<Source>(Source{"--set", std::string(equals + 1, ' ') + argument.substr(equals + 1)});
   Problems of_value;
-  Yaml value = read_yaml(padded, of_value);
+  value = read_yaml(padded, of_value);
   for (Problem problem : of_value.list()) {
     problem.where.source = source;
     problems.add(problem.where, problem.text, problem.notes);
   }
-  if (!of_value.empty()) return;
+  if (!of_value.empty()) return false;
   set_source(value, source);
-  apply_override(graph, argument.substr(0, equals), {source, 1, 1}, std::move(value), problems);
+  path = argument.substr(0, equals);
+  return true;
+}
+
+void apply_set(Yaml& graph, const std::string& argument, Problems& problems) {
+  std::string path;
+  Yaml value;
+  if (!read_set(argument, "tasks.depth.period=20ms", path, value, problems)) return;
+  const Location where{value.where.source, 1, 1};
+  apply_override(graph, path, where, std::move(value), problems);
 }
 
 void apply_profile(Yaml& graph, const std::string& profile, Problems& problems) {

@@ -1,53 +1,23 @@
 // The command as people use it: what it prints, where, and how it exits.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/tools/run_command.h"
+
 namespace {
 
-struct Result {
-  int exit_code = -1;
-  std::string output;
-};
-
-// Runs `jarol ARGUMENTS` in the root of the tree, by default with errors and output in one.
-Result jarol(const std::string& arguments, const std::string& errors = "2>&1") {
-  Result result;
-  std::FILE* pipe = popen((std::string(JAROL_COMMAND) + " " + arguments + " " + errors).c_str(), "r");
-  std::array<char, 4096> chunk{};
-  for (std::size_t n = 0; (n = std::fread(chunk.data(), 1, chunk.size(), pipe)) > 0;)
-    result.output.append(chunk.data(), n);
-  const int status = pclose(pipe);
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return result;
-}
+using command::jarol;
+using command::Result;
+using command::TemporaryFolder;
 
 nlohmann::json json_of(const std::string& arguments) { return nlohmann::json::parse(jarol(arguments).output); }
 
 std::string digest_of(const std::string& arguments) { return json_of("run " + arguments + " --json")["digest"]; }
-
-class TemporaryFolder {
- public:
-  TemporaryFolder()
-      : path_(std::filesystem::temp_directory_path() / ("jarol_command_test_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name) << text;
-    return *this / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace
 
@@ -364,7 +334,7 @@ connections: [i -> sum.in]
     CHECK(command.exit_code == 2);
     CHECK(command.output ==
           "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, graph, run, schema, "
-          "tasks\n");
+          "tasks, vehicle\n");
     const Result missing = jarol("run no/such.yaml");
     CHECK(missing.exit_code == 2);
     CHECK(missing.output == "error: can't read 'no/such.yaml': No such file or directory\n1 error\n");

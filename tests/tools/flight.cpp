@@ -77,13 +77,13 @@ class Directives : public RecordSink {
 Flight fly(const FlightPlan& plan) {
   auto loaded = tools::load_graph(plan.graph, {.profile = plan.profile, .set = plan.set});
   vehicles::VehicleClass watched = *vehicles::find_vehicle("helicopter");
-  watched.make = [](const void* parameters) -> std::unique_ptr<vehicles::Vehicle> {
+  watched.make = [](const void* parameters, std::uint64_t) -> std::unique_ptr<vehicles::Vehicle> {
     return std::make_unique<Watched>(*static_cast<const vehicles::HelicopterParameters*>(parameters));
   };
   Flight flight;
   watching = &flight.path;
   Problems problems;
-  auto channels = distributers::make_channels(*loaded.graph, {watched}, problems);
+  auto channels = distributers::make_channels(*loaded.graph, {watched}, 0, problems);
   problems.throw_if_any();
   Duration end(std::llround(1e9 * plan.seconds));
   for (std::size_t i = 0; i < channels.size(); ++i) {

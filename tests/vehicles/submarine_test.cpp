@@ -110,7 +110,7 @@ TEST_SUITE("vehicles/submarine") {
     REQUIRE(found != nullptr);
     CHECK(found->parameters == &type_of<SubmarineParameters>());
     const SubmarineParameters parameters;
-    CHECK(found->make(&parameters)->grid() == std::chrono::milliseconds(10));
+    CHECK(found->make(&parameters, 0)->grid() == std::chrono::milliseconds(10));
     CHECK(find_vehicle("airship") == nullptr);
   }
 }

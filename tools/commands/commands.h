@@ -19,5 +19,6 @@ void add_graph(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
 void add_tasks(CLI::App& app, int& exit_code);
+void add_vehicle(CLI::App& app, int& exit_code);
 
 }  // namespace jarol::tools

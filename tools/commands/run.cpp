@@ -184,7 +184,7 @@ void print_json(const Graph& graph, const Executor& executor, const RealClock* c
 }
 
 int run(const Options& options) {
-  Loaded loaded = load_graph(options.file, options.overrides);
+  Loaded loaded = load_graph(options.file, options.overrides, options.seed);
   const Graph& graph = *loaded.graph;
   const Duration end = end_of_run(options, loaded);
   // the plan gives trace and plot their outputs before the executor exists

@@ -48,6 +48,15 @@ TEST_SUITE("distributers/links/script") {
     CHECK_FALSE(script.take(1, &setpoint));
   }
 
+  TEST_CASE("times are taken as programs write them, to the nanosecond") {
+    Problems problems;
+    const ScriptChannels script(
+        std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n0.30000000000000004,1\n1.25e1,2\n"}),
+        operator_class(), problems);
+    CHECK(problems.empty());
+    CHECK(script.end() == 12500ms);
+  }
+
   TEST_CASE("the mission ends at the time of its last row") {
     Problems problems;
     const ScriptChannels script(std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n12.5,1\n"}),

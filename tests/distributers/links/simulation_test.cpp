@@ -25,6 +25,10 @@ class Steps : public vehicles::Vehicle {
     state.z = depth_;
     receiver.receive(messages::refer_to(state));
   }
+  vehicles::VehicleState state() const override { return {}; }
+  void place(const vehicles::VehicleState&) override {}
+  void command(const void*) override {}
+  const void* outputs() const override { return nullptr; }
 
  private:
   float depth_ = 0;

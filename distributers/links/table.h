@@ -1,0 +1,30 @@
+// Time-stamped rows of a CSV, as scripts are written.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "graph/values/type_of.h"
+#include "graph/yaml/problems.h"
+
+namespace jarol::distributers {
+
+/// A title row, the first of it `time`, then rows whose times (s) grow from 0 on. Lines that are empty or begin with #
+/// are left out.
+struct Table {
+  struct Cell {
+    std::string text;  // may be empty
+    Location where;
+  };
+  struct Row {
+    Duration time{};
+    std::vector<Cell> cells;  // as many as titles
+  };
+  std::vector<Cell> titles;  // without `time`
+  std::vector<Row> rows;
+};
+
+/// What is wrong goes to `problems`, with file, line and column; rows that are wrong are left out.
+Table read_table(const std::shared_ptr<const Source>& source, Problems& problems);
+
+}  // namespace jarol::distributers

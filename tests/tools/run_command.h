@@ -1,0 +1,48 @@
+// The command as people run it, and a folder for what it reads and writes.
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace command {
+
+struct Result {
+  int exit_code = -1;
+  std::string output;
+};
+
+/// Runs `jarol ARGUMENTS` in the root of the tree, by default with errors and output in one.
+inline Result jarol(const std::string& arguments, const std::string& errors = "2>&1") {
+  Result result;
+  std::FILE* pipe = popen((std::string(JAROL_COMMAND) + " " + arguments + " " + errors).c_str(), "r");
+  std::array<char, 4096> chunk{};
+  for (std::size_t n = 0; (n = std::fread(chunk.data(), 1, chunk.size(), pipe)) > 0;)
+    result.output.append(chunk.data(), n);
+  const int status = pclose(pipe);
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return result;
+}
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_(std::filesystem::temp_directory_path() / ("jarol_test_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+    return *this / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace command

@@ -1,0 +1,279 @@
+// jarol vehicle: a simulated vehicle alone, described or driven open-loop by a script.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "distributers/vehicle_file.h"
+#include "graph/registry.h"
+#include "graph/spec/override.h"
+#include "graph/values/bind.h"
+#include "graph/values/seed.h"
+#include "graph/yaml/quantities.h"
+#include "tools/commands/commands.h"
+#include "tools/load_graph.h"
+#include "tools/open_loop.h"
+
+namespace jarol::tools {
+namespace {
+
+struct Options {
+  std::string name;
+  bool describe = false;
+  bool json = false;
+  std::string parameters;
+  std::string initial;
+  std::vector<std::string> set;
+  std::string script;
+  std::string csv;
+  std::string duration;
+  double rate = 100;
+  std::uint64_t seed = 0;
+};
+
+struct Entry {
+  std::string name, unit, text, value;  // value: default or range
+};
+
+const TypeField* field_at(const Type& type, const std::string& path) {
+  const std::size_t dot = path.find('.');
+  const TypeField* field = find_field(type, path.substr(0, dot));
+  return field == nullptr || dot == std::string::npos ? field : field_at(*field->type, path.substr(dot + 1));
+}
+
+std::vector<Entry> entries_of(const Type& type, const void* values) {
+  std::vector<Entry> entries;
+  for (const Leaf& leaf : leaves_of(type)) {
+    const TypeField* field = field_at(type, leaf.path);
+    entries.push_back(
+        {leaf.path, leaf.unit, field == nullptr ? "" : field->text,
+         values == nullptr ? "" : scalar_text(*leaf.type, static_cast<const std::byte*>(values) + leaf.offset)});
+  }
+  return entries;
+}
+
+struct Section {
+  std::string title, value_title;
+  std::vector<Entry> entries;
+};
+
+std::vector<Section> sections_of(const vehicles::VehicleClass& vehicle, const Value& parameters) {
+  std::vector<Section> sections{{"state", "", entries_of(type_of<vehicles::VehicleState>(), nullptr)},
+                                {"inputs", "range", entries_of(*vehicle.inputs, nullptr)}};
+  for (std::size_t i = 0; i < vehicle.ranges.size(); ++i)
+    sections[1].entries[i].value =
+        number_text(vehicle.ranges[i].least) + " to " + number_text(vehicle.ranges[i].greatest);
+  // a group of outputs each: actuators, sensors
+  for (const TypeField& group : vehicle.outputs->fields) {
+    sections.push_back({group.name, "", {}});
+    for (Entry& entry : entries_of(*group.type, nullptr)) {
+      entry.name = group.name + "." + entry.name;
+      sections.back().entries.push_back(std::move(entry));
+    }
+  }
+  sections.push_back({"parameters", "value", entries_of(*vehicle.parameters, parameters.data())});
+  return sections;
+}
+
+void print_text(const vehicles::VehicleClass& vehicle, const std::vector<Section>& sections) {
+  std::cout << vehicle.name << ": " << vehicle.summary << "\n";
+  for (const Section& section : sections) {
+    std::cout << "\n" << section.title << "\n";
+    std::size_t name = 0, value = 0;
+    const auto with_unit = [](const Entry& e) { return e.value + (e.unit.empty() ? "" : " [" + e.unit + "]"); };
+    for (const Entry& e : section.entries) {
+      name = std::max(name, e.name.size());
+      value = std::max(value, with_unit(e).size());
+    }
+    for (const Entry& e : section.entries) {
+      std::string line = "  " + e.name + std::string(name - e.name.size() + 2, ' ') + with_unit(e) +
+                         std::string(value - with_unit(e).size() + 2, ' ') + e.text;
+      line.erase(line.find_last_not_of(' ') + 1);
+      std::cout << line << "\n";
+    }
+  }
+}
+
+void print_json(const vehicles::VehicleClass& vehicle, const std::vector<Section>& sections) {
+  nlohmann::ordered_json whole{{"schema", "jarol.vehicle/1"}, {"name", vehicle.name}, {"summary", vehicle.summary}};
+  for (const Section& section : sections) {
+    auto list = nlohmann::ordered_json::array();
+    for (const Entry& e : section.entries) {
+      nlohmann::ordered_json entry{{"name", e.name}, {"unit", e.unit}, {"text", e.text}};
+      if (!section.value_title.empty()) entry[section.value_title] = e.value;
+      list.push_back(std::move(entry));
+    }
+    whole[section.title] = std::move(list);
+  }
+  std::cout << whole << "\n";
+}
+
+// "hull.mass" and a value as the mapping {hull: {mass: value}}.
+Yaml nested(const std::string& path, Yaml value, const Location& where) {
+  const std::size_t dot = path.find('.');
+  Yaml mapping;
+  mapping.kind = Yaml::Kind::mapping;
+  mapping.where = where;
+  Yaml child = dot == std::string::npos ? std::move(value) : nested(path.substr(dot + 1), std::move(value), where);
+  child.key = path.substr(0, dot);
+  child.key_where = where;
+  mapping.children.push_back(std::move(child));
+  return mapping;
+}
+
+Value read_parameters(const Options& options, const vehicles::VehicleClass& vehicle, Problems& problems) {
+  Value parameters(*vehicle.parameters);
+  if (!options.parameters.empty()) {
+    const auto source = read_source(options.parameters);
+    if (auto file = distributers::read_vehicle_file(source, known_vehicles(), problems)) {
+      if (file->vehicle->name == vehicle.name)
+        parameters = std::move(file->parameters);
+      else
+        problems.add({source, 1, 1},
+                     "the file is one of vehicle '" + file->vehicle->name + "', not of vehicle '" + vehicle.name + "'");
+    }
+  }
+  for (const std::string& argument : options.set) {
+    std::string path;
+    Yaml value;
+    if (!read_set(argument, "sea.density=1025", path, value, problems)) continue;
+    const Location where{value.where.source, 1, 1};
+    bind_fields(nested(path, std::move(value), where), *vehicle.parameters, parameters.data(),
+                "vehicle '" + vehicle.name + "'", "parameter", problems);
+  }
+  return parameters;
+}
+
+// "z=4,theta=5deg" over the state where the vehicle stands.
+void read_initial(const std::string& text, vehicles::VehicleState& state, Problems& problems) {
+  const auto source = std::make_shared<Source>(Source{"--initial", text});
+  const std::vector<Leaf> leaves = leaves_of(type_of<vehicles::VehicleState>());
+  std::vector<std::string> names;
+  for (const Leaf& leaf : leaves) names.push_back(leaf.path);
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string part = text.substr(begin, end - begin);
+    const Location where{source, 1, static_cast<int>(begin) + 1};
+    begin = end + 1;
+    const std::size_t equals = part.find('=');
+    if (equals == std::string::npos) {
+      problems.add(where, "'" + part + "' sets nothing; write name=value, as in z=4,theta=0.1");
+      continue;
+    }
+    const std::string name = part.substr(0, equals), value = part.substr(equals + 1);
+    const auto leaf = std::find_if(leaves.begin(), leaves.end(), [&](const Leaf& l) { return l.path == name; });
+    if (leaf == leaves.end()) {
+      problems.add(where,
+                   "the state has no '" + name + "'" + did_you_mean(name, names) + "; it has: " + list_of(names));
+      continue;
+    }
+    const std::string wrong =
+        parse_scalar(*leaf->type, value, leaf->unit, reinterpret_cast<std::byte*>(&state) + leaf->offset);
+    if (!wrong.empty()) problems.add(where, "'" + name + "': '" + value + "' " + wrong);
+  }
+}
+
+Duration period_of(const Options& options, Duration grid) {
+  const double nanoseconds = 1e9 / options.rate;
+  const auto period = Duration(std::llround(std::min(nanoseconds, 1e18)));
+  if (!(options.rate > 0) || std::abs(nanoseconds - static_cast<double>(period.count())) > 1e-6 * nanoseconds ||
+      period < grid || period % grid != Duration{})
+    throw std::invalid_argument("--rate: " + number_text(options.rate) +
+                                " rows per second do not fall on the vehicle's "
+                                "steps of " +
+                                duration_text(grid) + "; it can be " +
+                                number_text(1e9 / static_cast<double>(grid.count())) + " divided by a whole number");
+  return period;
+}
+
+Duration end_of(const Options& options, const std::vector<Commands>& commands) {
+  Duration end = commands.empty() ? Duration{} : commands.back().time;
+  if (options.duration.empty()) return end;
+  const std::string wrong = parse_duration(options.duration, end);
+  if (!wrong.empty()) throw std::invalid_argument("--for: '" + options.duration + "' " + wrong);
+  if (end < Duration{}) throw std::invalid_argument("--for: '" + options.duration + "' is below zero");
+  return end;
+}
+
+int drive(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
+          Problems& problems) {
+  const auto commands = read_commands(read_source(options.script), vehicle_class, problems);
+  std::unique_ptr<vehicles::Vehicle> vehicle;
+  try {
+    vehicle = vehicle_class.make(parameters.data(), spread_seed(options.seed, vehicle_class.name));
+  } catch (const std::runtime_error& error) {
+    problems.throw_if_any();
+    throw std::invalid_argument("vehicle '" + vehicle_class.name + "' can't be made: " + error.what());
+  }
+  if (!options.initial.empty()) {
+    vehicles::VehicleState state = vehicle->state();
+    read_initial(options.initial, state, problems);
+    problems.throw_if_any();
+    try {
+      vehicle->place(state);
+    } catch (const std::runtime_error& error) {
+      throw std::invalid_argument("--initial: " + std::string(error.what()));
+    }
+  }
+  problems.throw_if_any();
+  const Duration period = period_of(options, vehicle->grid()), end = end_of(options, commands);
+  try {
+    run_open_loop(*vehicle, vehicle_class, commands, period, end, options.csv);
+  } catch (const vehicles::NoState& error) {
+    std::cerr << "error: " << error.what() << "\n";
+    return exit_unfinished;
+  }
+  return exit_good;
+}
+
+int vehicle(const Options& options) {
+  const auto& known = known_vehicles();
+  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& v) { return v.name == options.name; });
+  if (found == known.end()) {
+    const std::vector<std::string> names = names_of(known);
+    throw std::invalid_argument("there is no vehicle '" + options.name + "'" + did_you_mean(options.name, names) +
+                                "; this build has: " + list_of(names));
+  }
+  if (!options.describe && (options.script.empty() || options.csv.empty()))
+    throw std::invalid_argument("say --describe, or --script and --csv: what to do, and where the motion goes");
+  Problems problems;
+  const Value parameters = read_parameters(options, *found, problems);
+  if (options.describe) {
+    problems.throw_if_any();
+    const auto sections = sections_of(*found, parameters);
+    options.json ? print_json(*found, sections) : print_text(*found, sections);
+  }
+  return options.script.empty() ? exit_good : drive(options, *found, parameters, problems);
+}
+
+}  // namespace
+
+void add_vehicle(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("vehicle", "Tell all about a simulated vehicle, or drive it by a script");
+  command->add_option("NAME", options->name, "A vehicle, as in submarine")->required();
+  command->add_flag("--describe", options->describe, "Print state, inputs, outputs and parameters, with units");
+  command->add_flag("--json", options->json, "With --describe: one JSON object instead of text");
+  command->add_option("--parameters", options->parameters, "A parameter file, as in specs/vehicles/submarine.yaml");
+  command->add_option("--set", options->set, "Change a parameter: path=value, as in sea.density=1025")
+      ->allow_extra_args(false);
+  command->add_option("--initial", options->initial, "Change the state at the start, as in z=4,theta=0.1");
+  command->add_option("--script", options->script,
+                      "A CSV of commands: time (s), then inputs; a row holds until the next");
+  command->add_option("--csv", options->csv, "Write time, state and outputs to this CSV file");
+  command->add_option("--rate", options->rate, "Rows per second of that file; default 100");
+  command->add_option("--for", options->duration, "How long, as in 10s; default: to the last row of the script");
+  command->add_option("--seed", options->seed, "Seed of the sensors' noise; default 0");
+  command->callback([options, &exit_code] {
+    try {
+      exit_code = vehicle(*options);
+    } catch (const std::invalid_argument& error) {
+      std::cerr << "error: " << error.what() << "\n";
+      exit_code = exit_input;
+    }
+  });
+}
+
+}  // namespace jarol::tools
