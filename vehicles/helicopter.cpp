@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/values/seed.h"
 #include "vehicles/helicopter_coefficients.h"
 #include "vehicles/helicopter_plant.h"
 
@@ -23,15 +24,15 @@ std::unique_ptr<HelicopterPlant> make_plant(const HelicopterParameters& p, const
 
 }  // namespace
 
-Helicopter::Helicopter(const HelicopterParameters& parameters, std::uint64_t)
+Helicopter::Helicopter(const HelicopterParameters& parameters, std::uint64_t seed)
     : parameters_(parameters),
       plant_(make_plant(parameters, make_start(parameters))),
       battery_(parameters.battery),
-      wind_(parameters.air),
-      sensors_(parameters.sensors),
+      wind_(parameters.air, spread_seed(seed, "wind")),
+      sensors_(parameters, seed),
       voltage_(battery_.calc_voltage(0.0)) {
   sensors_.sample(0, scene());
-  sensors_.sample_imu(scene());
+  sensors_.sample_imu(0, scene());
   tell_outputs(0.0);
 }
 
@@ -41,7 +42,7 @@ std::chrono::nanoseconds Helicopter::grid() const {
   return std::chrono::nanoseconds(HelicopterPlant::step_nanoseconds);
 }
 
-HelicopterMotion Helicopter::motion() const { return plant_->motion(); }
+const HelicopterMotion& Helicopter::motion() const { return plant_->motion(); }
 
 HelicopterSensors::Scene Helicopter::scene() const { return {plant_->motion(), plant_->specific_force(), voltage_}; }
 
@@ -66,7 +67,7 @@ void Helicopter::step() {
   robostix_.step();
   if (!robostix_.answers()) return;
   answer_ = sensors_.answer(robostix_.id());
-  sensors_.sample_imu(scene());
+  sensors_.sample_imu(nanoseconds_, scene());
 }
 
 void Helicopter::tell_outputs(double current) {
@@ -106,7 +107,7 @@ void Helicopter::place(const VehicleState& s) {
   motion.omega_b = {s.p, s.q, s.r};
   plant_ = make_plant(parameters_, motion);
   sensors_.sample(0, scene());
-  sensors_.sample_imu(scene());
+  sensors_.sample_imu(0, scene());
 }
 
 void Helicopter::command(const void* inputs) {

@@ -23,7 +23,7 @@ class Helicopter : public Vehicle {
   using Inputs = HelicopterInputs;
   using Outputs = HelicopterOutputs;
 
-  /// Throws std::runtime_error if no body can have these parameters.
+  /// `seed`: of all noise. Throws std::runtime_error if no body can have these parameters.
   explicit Helicopter(const HelicopterParameters& parameters, std::uint64_t seed = 0);
   ~Helicopter() override;
 
@@ -39,7 +39,7 @@ class Helicopter : public Vehicle {
   const void* outputs() const override { return &outputs_; }
 
   /// The truth, for tests and for looking on.
-  HelicopterMotion motion() const;
+  const HelicopterMotion& motion() const;
   double voltage() const { return voltage_; }
 
  private:

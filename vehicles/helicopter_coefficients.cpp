@@ -30,6 +30,10 @@ HelicopterBody make_body(const HelicopterParameters& parameters) {
   need(feet.height > 0.0 && feet.stiffness > 0.0 && feet.dissipation >= 0.0 && feet.friction >= 0.0,
        "its feet need height and stiffness above zero, dissipation and friction not below zero");
 
+  need(parameters.sensors.sonars == 1 || parameters.sensors.sonars == 4, "it has one sonar or four");
+  need(parameters.battery.capacity > 0.0 && parameters.air.gust_time > 0.0,
+       "its battery's capacity and the time of gusts have to be above zero");
+
   HelicopterBody body;
   body.mass = frame.mass;
   body.gravity = parameters.air.gravity;

@@ -21,8 +21,9 @@ struct HelicopterInputs {
 
   static constexpr auto fields() {
     using S = HelicopterInputs;
-    return describe(field<&S::front>("", "motor signal, front rotor"), field<&S::right>("", "motor signal, right rotor"),
-                    field<&S::rear>("", "motor signal, rear rotor"), field<&S::left>("", "motor signal, left rotor"));
+    return describe(field<&S::front>("", "motor signal, front rotor"),
+                    field<&S::right>("", "motor signal, right rotor"), field<&S::rear>("", "motor signal, rear rotor"),
+                    field<&S::left>("", "motor signal, left rotor"));
   }
 };
 

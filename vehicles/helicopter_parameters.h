@@ -2,9 +2,8 @@
 // plant that its recorded flight was made with; the rest measured on the V2 or estimated, as helicopter.yaml says.
 #pragma once
 
-#include <cstdint>
-
 #include "graph/values/describe.h"
+#include "vehicles/helicopter_sensor_parameters.h"
 
 namespace jarol::vehicles {
 
@@ -110,7 +109,6 @@ struct AirParameters {
   double down = 0.0;
   double gusts = 0.0;
   double gust_time = 1.0;
-  std::uint64_t seed = 0;
 
   static constexpr auto fields() {
     using S = AirParameters;
@@ -119,39 +117,7 @@ struct AirParameters {
                     field<&S::north>("m/s", "mean wind to the north"), field<&S::east>("m/s", "mean wind to the east"),
                     field<&S::down>("m/s", "mean wind downwards"),
                     field<&S::gusts>("m/s", "standard deviation of the gusts, per axis"),
-                    field<&S::gust_time>("s", "over which gusts stay alike"), field<&S::seed>("", "of the gusts"));
-  }
-};
-
-/// Places of the sensors in body axes. Lasers measure to walls north and east.
-struct SensorParameters {
-  double sonar_x = -0.095;
-  double sonar_y = -0.095;
-  double sonar_z = 0.055;
-  double wall_north = 8.0;
-  double wall_east = 8.0;
-  double laser_north_x = 0.070;
-  double laser_north_y = -0.075;
-  double laser_north_z = -0.080;
-  double laser_east_x = -0.050;
-  double laser_east_y = 0.077;
-  double laser_east_z = -0.080;
-  double temperature = 25.0;
-  double pressure = 101325.0;
-
-  static constexpr auto fields() {
-    using S = SensorParameters;
-    return describe(field<&S::sonar_x>("m", "of the sonar, forward"), field<&S::sonar_y>("m", "of the sonar, right"),
-                    field<&S::sonar_z>("m", "of the sonar, down"), field<&S::wall_north>("m", "north of the origin"),
-                    field<&S::wall_east>("m", "east of the origin"),
-                    field<&S::laser_north_x>("m", "of the laser that looks north, forward"),
-                    field<&S::laser_north_y>("m", "of the laser that looks north, right"),
-                    field<&S::laser_north_z>("m", "of the laser that looks north, down"),
-                    field<&S::laser_east_x>("m", "of the laser that looks east, forward"),
-                    field<&S::laser_east_y>("m", "of the laser that looks east, right"),
-                    field<&S::laser_east_z>("m", "of the laser that looks east, down"),
-                    field<&S::temperature>("degC", "of the air"),
-                    field<&S::pressure>("Pa", "of the air where the vehicle stands at rest"));
+                    field<&S::gust_time>("s", "over which gusts stay alike"));
   }
 };
 
@@ -179,6 +145,8 @@ struct HelicopterParameters {
   BatteryParameters battery{};
   AirParameters air{};
   SensorParameters sensors{};
+  NoiseParameters noise{};
+  FailureParameters failures{};
   LiftOffParameters start{};
 
   static constexpr auto fields() {
@@ -186,6 +154,7 @@ struct HelicopterParameters {
     return describe(field<&S::frame>("", "the rigid body"), field<&S::rotors>("", "the four rotors"),
                     field<&S::feet>("", "the four feet"), field<&S::battery>("", "the battery"),
                     field<&S::air>("", "the air"), field<&S::sensors>("", "places of the sensors"),
+                    field<&S::noise>("", "of the sensors"), field<&S::failures>("", "of the sensors"),
                     field<&S::start>("", "the start"));
   }
 };

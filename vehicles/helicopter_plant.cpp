@@ -97,7 +97,7 @@ struct HelicopterPlant::Simulation {
     // longer than any part of the grid: each part is one step, with no remainder of a rounding error
     integrator.setFixedStepSize(2e-9 * step_nanoseconds);
     stepper.initialize(initial);
-    const HelicopterMotion motion = motion_of(body, integrator.getAdvancedState());
+    motion = motion_of(body, integrator.getAdvancedState());
     for (std::size_t i = 0; i < 4; ++i) {
       const FootMotion foot = foot_motion(motion, helicopter.feet.r_b[i]);
       input.anchors[i] = {foot.p_n[0], foot.p_n[1]};
@@ -106,7 +106,6 @@ struct HelicopterPlant::Simulation {
 
   // Simbody may notice a number that is not finite itself, or not at all; it must not be asked again after that
   void advance_to(long nanoseconds) {
-    if (!failure.empty()) throw std::runtime_error(failure);
     const double t = 1e-9 * static_cast<double>(nanoseconds);
     loads->set_input(integrator.updAdvancedState(), input);
     try {
@@ -118,21 +117,16 @@ struct HelicopterPlant::Simulation {
       throw std::runtime_error(failure);
     }
     now = nanoseconds;
+    motion = motion_of(body, integrator.getAdvancedState());
     const double remaining = calc_remaining(helicopter, t - input.begin);
     for (std::size_t i = 0; i < 4; ++i) input.from[i] = input.to[i] + (input.from[i] - input.to[i]) * remaining;
     input.begin = t;
-    drag_feet();
-  }
-
-  void drag_feet() {
-    const HelicopterMotion motion = motion_of(body, integrator.getAdvancedState());
     for (std::size_t i = 0; i < 4; ++i)
       input.anchors[i] = drag_along(helicopter.feet, foot_motion(motion, helicopter.feet.r_b[i]), input.anchors[i]);
   }
 
   // could a foot touch the ground within a step?
   bool near_ground() const {
-    const HelicopterMotion motion = motion_of(body, integrator.getAdvancedState());
     for (const fossen::Vector3& r_b : helicopter.feet.r_b) {
       const FootMotion foot = foot_motion(motion, r_b);
       if (foot.p_n[2] > -0.02 - 2e-9 * step_nanoseconds * std::abs(foot.v_n[2])) return true;
@@ -150,6 +144,7 @@ struct HelicopterPlant::Simulation {
   SimTK::RungeKutta3Integrator integrator;
   SimTK::TimeStepper stepper;
   HelicopterInput input;
+  HelicopterMotion motion;
   long now = 0;
   std::string failure;
 };
@@ -164,15 +159,14 @@ HelicopterPlant::~HelicopterPlant() = default;
 
 void HelicopterPlant::step(const HelicopterCommand& command) {
   Simulation& s = *simulation_;
+  if (!s.failure.empty()) throw std::runtime_error(s.failure);
   s.input.to = command.settings;
   s.input.wind_n = command.wind_n;
   const long parts = s.near_ground() ? 5 : 1;
   for (long i = 0; i < parts; ++i) s.advance_to(s.now + step_nanoseconds / parts);
 }
 
-HelicopterMotion HelicopterPlant::motion() const {
-  return motion_of(simulation_->body, simulation_->integrator.getAdvancedState());
-}
+const HelicopterMotion& HelicopterPlant::motion() const { return simulation_->motion; }
 
 const std::array<double, 4>& HelicopterPlant::settings() const { return simulation_->input.from; }
 

@@ -27,7 +27,7 @@ class HelicopterPlant {
   /// is not finite after it.
   void step(const HelicopterCommand& command);
 
-  HelicopterMotion motion() const;
+  const HelicopterMotion& motion() const;
   /// The rotors' settings reached.
   const std::array<double, 4>& settings() const;
   /// What an accelerometer in the centre of gravity measures in body axes: all forces but the weight, per mass.

@@ -1,16 +1,15 @@
-// Wind with gusts: a first-order Gauss-Markov process about the mean, from a seed.
+// Wind with gusts: a first-order Gauss-Markov process about the mean.
 #pragma once
-
-#include <cstdint>
 
 #include "vehicles/fossen.h"
 #include "vehicles/helicopter_parameters.h"
+#include "vehicles/noise.h"
 
 namespace jarol::vehicles {
 
 class Wind {
  public:
-  explicit Wind(const AirParameters& parameters) : parameters_(parameters) {}
+  Wind(const AirParameters& parameters, std::uint64_t seed) : parameters_(parameters), noise_(seed) {}
 
   void step(double seconds);
 
@@ -18,11 +17,9 @@ class Wind {
   fossen::Vector3 now() const;
 
  private:
-  double draw_normal();
-
   AirParameters parameters_;
+  Noise noise_;
   fossen::Vector3 gust_{};
-  std::uint64_t drawn_ = 0;
 };
 
 }  // namespace jarol::vehicles

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tests/vehicles/helicopter_oracle.h"
 #include "vehicles/helicopter_coefficients.h"
@@ -144,6 +145,40 @@ TEST_SUITE("vehicles/helicopter_plant") {
     CHECK(plant.motion().omega_b[1] > 0.01);
     for (int i = 0; i < 200; ++i) plant.step({{0.5, 0.5, 0.5, 0.5}, {}});
     CHECK((momentum() - before).norm() < 1e-4 * before.norm());
+  }
+
+  TEST_CASE("tumbling without air it keeps its energy and its angular momentum") {
+    HelicopterParameters parameters;
+    parameters.frame.drag_area = 0;
+    parameters.frame.I_y = 0.02;
+    HelicopterMotion start = high(500);
+    start.v_b = {3, -2, -5};
+    start.omega_b = {4, 0.1, 2};
+    const HelicopterBody body = make_body(parameters);
+    HelicopterPlant plant(body, start);
+    const auto momentum = [&] {
+      const HelicopterMotion m = plant.motion();
+      return vector(to_ned(
+          m.R_nb, {body.inertia[0] * m.omega_b[0], body.inertia[1] * m.omega_b[1], body.inertia[2] * m.omega_b[2]}));
+    };
+    const auto energy = [&] {
+      const HelicopterMotion m = plant.motion();
+      double twice = body.mass * vector(m.v_b).squaredNorm();
+      for (std::size_t i = 0; i < 3; ++i) twice += body.inertia[i] * m.omega_b[i] * m.omega_b[i];
+      return 0.5 * twice - body.mass * body.gravity * m.p_n[2];
+    };
+    const double energy_before = energy();
+    const Vector3d momentum_before = momentum();
+    for (int i = 0; i < 1000; ++i) plant.step({});
+    CHECK(energy() == doctest::Approx(energy_before).epsilon(1e-6));
+    CHECK((momentum() - momentum_before).norm() < 1e-5 * momentum_before.norm());
+  }
+
+  TEST_CASE("a setting that is not a number is told, then and ever after") {
+    HelicopterPlant plant(make_body({}), high(10));
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (int i = 0; i < 2; ++i) CHECK_THROWS_AS(plant.step({{nan, 0, 0, 0}, {}}), std::runtime_error);
+    CHECK_THROWS_AS(plant.step({}), std::runtime_error);
   }
 
   TEST_CASE("the same inputs give the same bits, whoever looks") {

@@ -1,0 +1,24 @@
+// Random numbers of one source of noise. Each source has a seed of its own, so that none depends on how often another
+// draws.
+#pragma once
+
+#include <cstdint>
+
+namespace jarol::vehicles {
+
+class Noise {
+ public:
+  explicit Noise(std::uint64_t seed) : seed_(seed) {}
+
+  /// Between 0 and 1, neither of them reached.
+  double uniform();
+
+  /// Mean 0, standard deviation 1.
+  double normal();
+
+ private:
+  std::uint64_t seed_;
+  std::uint64_t drawn_ = 0;
+};
+
+}  // namespace jarol::vehicles
