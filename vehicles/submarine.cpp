@@ -47,9 +47,9 @@ void Submarine::command_servo(std::size_t servo, double angle) {
 void Submarine::accept(messages::MessageRef command) {
   namespace imc = messages::imc;
   if (const auto* thruster = command.as<imc::SetThrusterActuation>()) {
-    if (thruster->thruster == 0) command_thruster(static_cast<double>(thruster->value));
+    if (thruster->id == 0) command_thruster(static_cast<double>(thruster->value));
   } else if (const auto* servo = command.as<imc::SetServoPosition>()) {
-    command_servo(servo->servo, static_cast<double>(servo->value));
+    command_servo(servo->id, static_cast<double>(servo->value));
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "distributers/messages/message.h"
 #include "graph/values/describe.h"
+#include "graph/values/type.h"
 #include "vehicles/no_state.h"
 
 namespace jarol::vehicles {

@@ -1,26 +1,63 @@
-// A message of a message set, passed by reference: the same whether it came over a socket or from a vehicle in process.
+// A message of a message set: one passed by reference, the same whether it came over a socket or from a vehicle in
+// process, and one that is kept.
 #pragma once
 
-#include "graph/values/type_of.h"
+#include <memory>
+
+#include "distributers/messages/form.h"
 
 namespace jarol::messages {
 
 /// A message where it lies; whoever keeps it copies it.
 struct MessageRef {
-  const Type* type = nullptr;
+  const MessageForm* form = nullptr;
   const void* value = nullptr;
 
   /// The message as an M, or null if it is another.
   template <class M>
   const M* as() const {
-    return type == &type_of<M>() ? static_cast<const M*>(value) : nullptr;
+    return static_cast<const M*>(if_of(M::form));
   }
+  // out of line: g++ 12 would look at the value as the wrong type, and warn
+  const void* if_of(const MessageForm& wanted) const;
 };
 
 template <class M>
 MessageRef refer_to(const M& message) {
-  return {&type_of<M>(), &message};
+  return {&M::form, &message};
 }
+
+/// A message of a form known at run time only, in memory of its own.
+class Message {
+ public:
+  Message() = default;
+  /// The default message of that form.
+  explicit Message(const MessageForm& form);
+  explicit Message(MessageRef message);
+  Message(const Message& other) : Message(MessageRef(other)) {}
+  Message& operator=(const Message& other) { return *this = Message(other); }
+  Message(Message&&) = default;
+  Message& operator=(Message&&) = default;
+  ~Message() = default;
+
+  const MessageForm* form() const { return form_; }
+  void* value() { return memory_.get(); }
+  const void* value() const { return memory_.get(); }
+  operator MessageRef() const { return {form_, memory_.get()}; }
+
+  template <class M>
+  const M* as() const {
+    return MessageRef(*this).as<M>();
+  }
+
+ private:
+  struct Release {
+    const MessageForm* form;  // not initialized here: a nested deleter must be complete without it
+    void operator()(std::byte* memory) const;
+  };
+  const MessageForm* form_ = nullptr;
+  std::unique_ptr<std::byte, Release> memory_;
+};
 
 /// Takes messages one by one as they arrive.
 class Receiver {

@@ -48,7 +48,7 @@ TEST_SUITE("distributers/lauv_vehicle") {
     REQUIRE(sent.thruster.size() == 1);
     CHECK(sent.thruster[0].value == 0.5F);
     REQUIRE(sent.servos.size() == 4);
-    CHECK(sent.servos[2].servo == 2);
+    CHECK(sent.servos[2].id == 2);
     CHECK(sent.servos[2].value == 0.3F);
   }
 

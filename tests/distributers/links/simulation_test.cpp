@@ -16,7 +16,7 @@ class Steps : public vehicles::Vehicle {
  public:
   Duration grid() const override { return 10ms; }
   void accept(messages::MessageRef command) override {
-    if (const auto* servo = command.as<imc::SetServoPosition>(); servo != nullptr && servo->servo == 0)
+    if (const auto* servo = command.as<imc::SetServoPosition>(); servo != nullptr && servo->id == 0)
       held_ = servo->value;
   }
   void step() override { depth_ += 1 + held_; }

@@ -1,0 +1,67 @@
+// Packets: header, payload and checksum to bytes and back. Whatever the bytes are, there is an answer.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "distributers/messages/message.h"
+#include "distributers/messages/message_set.h"
+
+namespace jarol::messages {
+
+/// Why bytes are no packet that can be used.
+enum class Flaw : std::uint8_t { none, garbage, truncated, oversized, checksum, unknown_id, payload };
+constexpr std::size_t flaw_count = 7;
+
+/// In words, as in "bad checksum".
+std::string_view name_of(Flaw flaw);
+
+/// The parts of a packet where they lie.
+struct Frame {
+  ByteOrder order = ByteOrder::little;
+  std::uint32_t id = 0;
+  std::span<const std::byte> header, payload;
+};
+
+/// Looks at bytes that should be one packet and nothing else, but not at its fields. With a wrong checksum the frame is
+/// told all the same. `why`, where given, says what is wrong.
+Flaw read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& to, std::string* why = nullptr);
+
+/// The byte order that the sync at the begin of the bytes tells, if it is one; there are bytes enough for it.
+std::optional<ByteOrder> order_of(const MessageSet& set, const std::byte* bytes);
+
+/// The length of the whole packet that its header tells, which is there.
+std::size_t size_of_packet(const MessageSet& set, const std::byte* header, ByteOrder order);
+
+/// Reads packets into messages that it keeps, one of each form: of a form that came before, nothing is allocated but for
+/// longer texts and lists.
+class PacketReader {
+ public:
+  explicit PacketReader(const MessageSet& set);
+
+  /// Reads bytes that should be one packet and nothing else. With a wrong checksum, header and message are there all the
+  /// same, so that they can be shown, if they could be read; with any other flaw the message has no form.
+  Flaw read(std::span<const std::byte> bytes, std::string* why = nullptr);
+
+  const MessageSet& set() const { return set_; }
+  ByteOrder order() const { return order_; }
+  MessageRef header() const { return header_; }
+  MessageRef message() const { return message_; }
+
+ private:
+  const MessageSet& set_;
+  ByteOrder order_ = ByteOrder::little;
+  Message header_;
+  std::vector<Message> kept_;  // of the form of the same index in the set
+  MessageRef message_;
+};
+
+/// Replaces `to` by the packet; sync, id, size and checksum are set here, whatever the header says. False if it can't be
+/// written: then `to` is empty, and `why`, where given, says what is wrong.
+bool write_packet(MessageRef header, MessageRef message, ByteOrder order, std::vector<std::byte>& to,
+                  std::string* why = nullptr);
+
+}  // namespace jarol::messages
