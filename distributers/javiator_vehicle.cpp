@@ -47,7 +47,7 @@ void JaviatorVehicle::receive(messages::MessageRef message) {
   const auto* d = message.as<javiator::JaviatorData>();
   if (d == nullptr) return;
   tasks::JaviatorSensors& s = sensors_;
-  const auto has = [&](std::uint16_t bit) { return (d->state & bit) != 0; };
+  const auto has = [&](std::uint16_t bit) { return (d->flags & bit) != 0; };
   // what was new and has not been taken yet is new still
   const auto is_new = [&](bool before, std::uint16_t bit) { return (fresh_ && before) || has(bit); };
   s = {.roll = angle * d->roll,
@@ -65,11 +65,11 @@ void JaviatorVehicle::receive(messages::MessageRef message) {
        .pressure = 115e3 / 16777216 * d->maps,
        .temperature = 100.0 / 4096 * d->temp - 7,
        .battery = 18.0 / 1024 * d->batt,
-       .new_imu = is_new(s.new_imu, javiator::JaviatorData::new_imu),
-       .new_bmu = is_new(s.new_bmu, javiator::JaviatorData::new_bmu),
-       .new_sonar = is_new(s.new_sonar, javiator::JaviatorData::new_sonar),
-       .new_x = is_new(s.new_x, javiator::JaviatorData::new_x),
-       .new_y = is_new(s.new_y, javiator::JaviatorData::new_y),
+       .new_imu = is_new(s.new_imu, javiator::JaviatorData::Flags::IMU),
+       .new_bmu = is_new(s.new_bmu, javiator::JaviatorData::Flags::BMU),
+       .new_sonar = is_new(s.new_sonar, javiator::JaviatorData::Flags::SONAR),
+       .new_x = is_new(s.new_x, javiator::JaviatorData::Flags::X_POS),
+       .new_y = is_new(s.new_y, javiator::JaviatorData::Flags::Y_POS),
        .answers = s.answers + 1};
   fresh_ = true;
 }

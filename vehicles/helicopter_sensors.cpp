@@ -23,11 +23,11 @@ bool due(std::int64_t before, std::int64_t now, std::int64_t half_hertz) {
 
 // Lets a sensor measure with its bias, tell its last reading again, or say nothing.
 template <class Measure>
-void sample_with(const SensorFailure& failure, std::int64_t nanoseconds, std::uint16_t bit, JaviatorData& data,
+void sample_with(const SensorFailure& failure, std::int64_t nanoseconds, std::int64_t bit, JaviatorData& data,
                  const Measure& measure) {
   const FailureKind kind = failure.now(1e-9 * static_cast<double>(nanoseconds));
   if (kind == FailureKind::lost) return;
-  data.state |= bit;
+  data.flags = static_cast<std::uint16_t>(data.flags | bit);
   if (kind != FailureKind::stuck) measure(kind == FailureKind::biased ? failure.by : 0.0);
 }
 
@@ -73,16 +73,16 @@ void HelicopterSensors::sample(std::int64_t nanoseconds, const Scene& scene) {
   if (sampled_ < 0) ground_z_ = scene.motion.p_n[2];
   const SensorParameters& p = parameters_;
   if (due(sampled_, nanoseconds, bmu_half_hertz))
-    sample_with(failures_.bmu, nanoseconds, JaviatorData::new_bmu, data_,
+    sample_with(failures_.bmu, nanoseconds, JaviatorData::Flags::BMU, data_,
                 [&](double bias) { sample_pressure(scene, bias); });
   if (due(sampled_, nanoseconds, sonar_half_hertz))
-    sample_with(failures_.sonar, nanoseconds, JaviatorData::new_sonar, data_,
+    sample_with(failures_.sonar, nanoseconds, JaviatorData::Flags::SONAR, data_,
                 [&](double bias) { sample_sonars(scene, bias); });
   if (due(sampled_, nanoseconds, laser_half_hertz)) {
-    sample_with(failures_.laser_north, nanoseconds, JaviatorData::new_x, data_, [&](double bias) {
+    sample_with(failures_.laser_north, nanoseconds, JaviatorData::Flags::X_POS, data_, [&](double bias) {
       data_.x_pos = range_of(scene, 0, p.wall_north, {p.laser_north_x, p.laser_north_y, p.laser_north_z}, bias);
     });
-    sample_with(failures_.laser_east, nanoseconds, JaviatorData::new_y, data_, [&](double bias) {
+    sample_with(failures_.laser_east, nanoseconds, JaviatorData::Flags::Y_POS, data_, [&](double bias) {
       data_.y_pos = range_of(scene, 1, p.wall_east, {p.laser_east_x, p.laser_east_y, p.laser_east_z}, bias);
     });
   }
@@ -124,7 +124,7 @@ std::array<std::uint8_t, 8> HelicopterSensors::range_of(const Scene& scene, std:
 }
 
 void HelicopterSensors::sample_imu(std::int64_t nanoseconds, const Scene& scene) {
-  sample_with(failures_.imu, nanoseconds, JaviatorData::new_imu, data_, [&](double bias) {
+  sample_with(failures_.imu, nanoseconds, JaviatorData::Flags::IMU, data_, [&](double bias) {
     const HelicopterMotion& m = scene.motion;
     const auto angle = [&](double value) { return to_angle(value + deviations_.attitude * imu_noise_.normal()); };
     data_.roll = angle(std::atan2(m.R_nb[2][1], m.R_nb[2][2]) + bias);
@@ -150,7 +150,7 @@ void HelicopterSensors::sample_imu(std::int64_t nanoseconds, const Scene& scene)
 JaviatorData HelicopterSensors::answer(std::uint16_t id) {
   data_.id = id;
   const JaviatorData answer = data_;
-  data_.state = 0;
+  data_.flags = 0;
   return answer;
 }
 

@@ -47,19 +47,19 @@ struct NamedValue {
 struct FieldForm {
   std::string_view name;
   Wire wire = Wire::uint8;
-  std::size_t offset = 0;   // of the member in the struct
-  std::uint32_t count = 0;  // elements of a fixed array; 0: a single value
-  bool digits = false;      // an array of ASCII digits and a NUL, shown as a number
-  std::string_view type = {};    // as the definition spells it
+  std::size_t offset = 0;      // of the member in the struct
+  std::uint32_t count = 0;     // elements of a fixed array; 0: a single value
+  bool digits = false;         // an array of ASCII digits and a NUL, shown as a number
+  std::string_view type = {};  // as the definition spells it
   std::string_view unit = {};
   std::string_view text = {};
   std::string_view least = {};  // as the definition spells them; nothing checks them
   std::string_view most = {};
-  std::string_view standard = {};                 // default
-  bool bits = false;                         // `values` are bits that may be combined
-  std::span<const NamedValue> values = {};   // of an enumeration or bitfield
-  std::string_view message_type = {};             // message or group that a nested message has to be of
-  std::span<const std::uint32_t> ids = {};   // their ids; empty: any message of the set
+  std::string_view standard = {};           // default
+  bool bits = false;                        // `values` are bits that may be combined
+  std::span<const NamedValue> values = {};  // of an enumeration or bitfield
+  std::string_view message_type = {};       // message or group that a nested message has to be of
+  std::span<const std::uint32_t> ids = {};  // their ids; empty: any message of the set
 };
 
 /// A message: its fields, and its C++ struct for those who know only its form.
@@ -81,8 +81,8 @@ struct MessageForm {
 
 /// The form of the struct M.
 template <class M>
-constexpr MessageForm form_of(std::string_view name, std::uint32_t id, std::size_t index, std::string_view text, std::int64_t wire_size,
-                              std::span<const FieldForm> fields, const MessageSet& (*set)()) {
+constexpr MessageForm form_of(std::string_view name, std::uint32_t id, std::size_t index, std::string_view text,
+                              std::int64_t wire_size, std::span<const FieldForm> fields, const MessageSet& (*set)()) {
   return {name,
           id,
           index,

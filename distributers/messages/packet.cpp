@@ -70,7 +70,8 @@ Flaw read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& 
   const std::size_t around = set.header_size() + set.footer_size();
   if (bytes.size() < around)
     return flawed(Flaw::truncated, why, [&] {
-      return "the packet has " + bytes_text(bytes.size()) + "; header and checksum alone take " + std::to_string(around);
+      return "the packet has " + bytes_text(bytes.size()) + "; header and checksum alone take " +
+             std::to_string(around);
     });
   const auto order = order_of(set, bytes.data());
   if (!order)
@@ -112,8 +113,9 @@ Flaw PacketReader::read(std::span<const std::byte> bytes, std::string* why) {
   if (flaw != Flaw::none && flaw != Flaw::checksum) return flaw;
   const MessageForm* const form = set_.find(frame.id, frame.payload.size());
   if (form == nullptr)
-    return flawed(Flaw::unknown_id, why,
-                  [&] { return "message id " + std::to_string(frame.id) + " is not in set " + std::string(set_.name); });
+    return flawed(Flaw::unknown_id, why, [&] {
+      return "message id " + std::to_string(frame.id) + " is not in set " + std::string(set_.name);
+    });
   Message& kept = kept_[form->index];
   if (kept.form() == nullptr) kept = Message(*form);
   order_ = frame.order;

@@ -36,14 +36,14 @@ std::optional<ByteOrder> order_of(const MessageSet& set, const std::byte* bytes)
 /// The length of the whole packet that its header tells, which is there.
 std::size_t size_of_packet(const MessageSet& set, const std::byte* header, ByteOrder order);
 
-/// Reads packets into messages that it keeps, one of each form: of a form that came before, nothing is allocated but for
-/// longer texts and lists.
+/// Reads packets into messages that it keeps, one of each form: of a form that came before, nothing is allocated but
+/// for longer texts and lists.
 class PacketReader {
  public:
   explicit PacketReader(const MessageSet& set);
 
-  /// Reads bytes that should be one packet and nothing else. With a wrong checksum, header and message are there all the
-  /// same, so that they can be shown, if they could be read; with any other flaw the message has no form.
+  /// Reads bytes that should be one packet and nothing else. With a wrong checksum, header and message are there all
+  /// the same, so that they can be shown, if they could be read; with any other flaw the message has no form.
   Flaw read(std::span<const std::byte> bytes, std::string* why = nullptr);
 
   const MessageSet& set() const { return set_; }
@@ -59,8 +59,8 @@ class PacketReader {
   MessageRef message_;
 };
 
-/// Replaces `to` by the packet; sync, id, size and checksum are set here, whatever the header says. False if it can't be
-/// written: then `to` is empty, and `why`, where given, says what is wrong.
+/// Replaces `to` by the packet; sync, id, size and checksum are set here, whatever the header says. False if it can't
+/// be written: then `to` is empty, and `why`, where given, says what is wrong.
 bool write_packet(MessageRef header, MessageRef message, ByteOrder order, std::vector<std::byte>& to,
                   std::string* why = nullptr);
 

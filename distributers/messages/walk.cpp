@@ -100,7 +100,9 @@ bool may_hold(const FieldForm& field, const MessageForm* form, std::uint64_t id,
     if (why != nullptr) *why = text;
     return false;
   };
-  if (form == nullptr) return fail("holds message id " + std::to_string(id) + ", which is not in the set or can't stand in another message");
+  if (form == nullptr)
+    return fail("holds message id " + std::to_string(id) +
+                ", which is not in the set or can't stand in another message");
   if (field.ids.empty() || std::find(field.ids.begin(), field.ids.end(), id) != field.ids.end()) return true;
   return fail("holds " + std::string(form->name) + ", which is no " + std::string(field.message_type));
 }

@@ -40,7 +40,7 @@ std::array<int, 5> count_news(const HelicopterParameters& parameters, int second
     if (i % 3 != 0) continue;
     sensors.sample_imu(5 * i * ms, level(0, 0, 0));
     const JaviatorData data = sensors.answer(0);
-    for (std::size_t bit = 0; bit < 5; ++bit) counts[bit] += (data.state >> bit) & 1;
+    for (std::size_t bit = 0; bit < 5; ++bit) counts[bit] += (data.flags >> bit) & 1;
   }
   return counts;
 }
@@ -56,7 +56,7 @@ TEST_SUITE("vehicles/helicopter_sensors") {
     CHECK(data.temp == 1311);
     CHECK(data.batt == 853);
     CHECK(data.sonar == 49);
-    CHECK(data.state == 31);
+    CHECK(data.flags == 31);
     CHECK(data.id == 3);
     CHECK(text(data.x_pos) == std::string("0008070\0", 8));
     CHECK(text(data.y_pos) == std::string("0008077\0", 8));
@@ -150,7 +150,7 @@ TEST_SUITE("vehicles/helicopter_sensors") {
       for (int second = 0; second < 4; ++second) {
         sensors.sample(second * 1000 * ms, level(0, 0, -1 - 0.1 * second));
         const JaviatorData data = sensors.answer(0);
-        all.emplace_back((data.state & JaviatorData::new_sonar) != 0, data.sonar);
+        all.emplace_back((data.flags & JaviatorData::Flags::SONAR) != 0, data.sonar);
       }
       return all;
     };

@@ -30,9 +30,9 @@ struct Field {
   std::string unit;
   std::string text;
   std::string least, most, standard;
-  std::string message_type;      // of parts and nested messages
+  std::string message_type;        // of parts and nested messages
   std::vector<std::uint32_t> ids;  // that `message_type` stands for
-  std::uint32_t count = 0;       // of a fixed array; 0: a single value
+  std::uint32_t count = 0;         // of a fixed array; 0: a single value
   bool bits = false;
   std::vector<NamedValue> values;
   std::string shared_values;  // name of the shared ones, else the field's own
@@ -51,7 +51,7 @@ struct Message {
 struct Definition {
   Location where;
   std::string name, title, version, text;
-  std::vector<Values> shared;                                      // enumerations and bitfields
+  std::vector<Values> shared;                              // enumerations and bitfields
   std::map<std::string, std::vector<std::string>> groups;  // names of messages
   Message header;
   std::size_t id_field = 0, size_field = 0;

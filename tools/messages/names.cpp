@@ -15,16 +15,16 @@ const std::set<std::string>& reserved() {
       "const_cast", "continue", "co_await", "co_return", "co_yield", "decltype", "default", "delete", "do", "double",
       "dynamic_cast", "else", "enum", "explicit", "export", "extern", "false", "float", "for", "friend", "goto", "if",
       "inline", "int", "long", "mutable", "namespace", "new", "noexcept", "not", "not_eq", "nullptr", "operator", "or",
-      "or_eq", "private", "protected", "public", "register", "reinterpret_cast", "requires", "return", "short", "signed",
-      "sizeof", "static", "static_assert", "static_cast", "struct", "switch", "template", "this", "thread_local",
-      "throw", "true", "try", "typedef", "typeid", "typename", "union", "unsigned", "using", "virtual", "void",
-      "volatile", "wchar_t", "while", "xor", "xor_eq",
+      "or_eq", "private", "protected", "public", "register", "reinterpret_cast", "requires", "return", "short",
+      "signed", "sizeof", "static", "static_assert", "static_cast", "struct", "switch", "template", "this",
+      "thread_local", "throw", "true", "try", "typedef", "typeid", "typename", "union", "unsigned", "using", "virtual",
+      "void", "volatile", "wchar_t", "while", "xor", "xor_eq",
       // macros
       "BUFSIZ", "CHAR_BIT", "CHAR_MAX", "CHAR_MIN", "DOMAIN", "EDOM", "EILSEQ", "EOF", "ERANGE", "EXIT_FAILURE",
-      "EXIT_SUCCESS", "FP_INFINITE", "FP_NAN", "FP_NORMAL", "FP_SUBNORMAL", "FP_ZERO", "HUGE_VAL", "INFINITY", "INT_MAX",
-      "INT_MIN", "LC_ALL", "LC_TIME", "LONG_MAX", "LONG_MIN", "NAN", "NULL", "OVERFLOW", "PLOSS", "RAND_MAX", "SEEK_CUR",
-      "SEEK_END", "SEEK_SET", "SHRT_MAX", "SHRT_MIN", "SING", "TLOSS", "TMP_MAX", "UNDERFLOW", "assert", "errno",
-      "major", "makedev", "minor", "offsetof", "stderr", "stdin", "stdout",
+      "EXIT_SUCCESS", "FP_INFINITE", "FP_NAN", "FP_NORMAL", "FP_SUBNORMAL", "FP_ZERO", "HUGE_VAL", "INFINITY",
+      "INT_MAX", "INT_MIN", "LC_ALL", "LC_TIME", "LONG_MAX", "LONG_MIN", "NAN", "NULL", "OVERFLOW", "PLOSS", "RAND_MAX",
+      "SEEK_CUR", "SEEK_END", "SEEK_SET", "SHRT_MAX", "SHRT_MIN", "SING", "TLOSS", "TMP_MAX", "UNDERFLOW", "assert",
+      "errno", "major", "makedev", "minor", "offsetof", "stderr", "stdin", "stdout",
       // ours
       "fields", "form", "message_id", "jarol", "std"};
   return words;

@@ -31,13 +31,15 @@ class XmlReader {
     if (!result) {
       std::string what = result.description();
       what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
-      problems_.add(place(result.offset), "the XML can't be read: " + what + "; a definition is one element <messages>");
+      problems_.add(place(result.offset),
+                    "the XML can't be read: " + what + "; a definition is one element <messages>");
       return definition;
     }
     const pugi::xml_node root = document.document_element();
     definition.where = place(root);
     if (std::string_view(root.name()) != "messages") {
-      problems_.add(place(root), "the definition is an element <" + std::string(root.name()) + ">; it needs <messages>");
+      problems_.add(place(root),
+                    "the definition is an element <" + std::string(root.name()) + ">; it needs <messages>");
       return definition;
     }
     definition.title = needed(root, "name", "the definition");
@@ -46,7 +48,8 @@ class XmlReader {
     definition.order = one_of(root, "byte-order", {"either", "little", "big"}, "the definition");
     definition.checksum = one_of(root, "checksum", {"crc16_ibm", "sum16"}, "the definition");
     definition.checksum_from = static_cast<std::size_t>(integer(root, "checksum-from", 0, 0xffff, 0, "the definition"));
-    definition.most_payload = static_cast<std::size_t>(integer(root, "most-bytes", 1, 0xffff, 0xffff, "the definition"));
+    definition.most_payload =
+        static_cast<std::size_t>(integer(root, "most-bytes", 1, 0xffff, 0xffff, "the definition"));
     for (const pugi::xml_node list : root.children("enumerations")) read_shared(list, false, definition);
     for (const pugi::xml_node list : root.children("bitfields")) read_shared(list, true, definition);
     for (const pugi::xml_node group : root.child("message-groups").children("message-group"))
@@ -54,8 +57,10 @@ class XmlReader {
         definition.groups[needed(group, "abbrev", "a message group")].push_back(
             needed(type, "abbrev", "a message-type of a group"));
     read_frame(root, definition);
-    for (const pugi::xml_node node : root.children("message")) definition.messages.push_back(read_message(node, definition));
-    if (definition.messages.empty()) problems_.add(place(root), "the definition has no <message>; it needs one at least");
+    for (const pugi::xml_node node : root.children("message"))
+      definition.messages.push_back(read_message(node, definition));
+    if (definition.messages.empty())
+      problems_.add(place(root), "the definition has no <message>; it needs one at least");
     return definition;
   }
 
@@ -132,7 +137,8 @@ class XmlReader {
       footer.push_back(read_field(field, "the footer", definition));
     if (footer.size() == 1 && footer[0].type == "uint16_t") definition.checksum_name = footer[0].name;
     if (footer.size() > 1 || (footer.size() == 1 && footer[0].type != "uint16_t"))
-      problems_.add(footer.back().where, "the footer has more than a checksum; it needs one field of type uint16_t, or none");
+      problems_.add(footer.back().where,
+                    "the footer has more than a checksum; it needs one field of type uint16_t, or none");
   }
 
   Message read_message(pugi::xml_node node, const Definition& definition) {
@@ -172,9 +178,9 @@ class XmlReader {
     field.where = place(node);
     field.name = needed(node, "abbrev", "a field of " + owner);
     const std::string subject = owner + " field '" + field.name + "'";
-    static const std::vector<std::string> types{"int8_t",   "uint8_t", "int16_t", "uint16_t",  "int32_t",
-                                                "uint32_t", "int64_t", "uint64_t", "fp32_t",   "fp64_t",
-                                                "plaintext", "rawdata", "rest",    "message", "message-list"};
+    static const std::vector<std::string> types{"int8_t",    "uint8_t", "int16_t",  "uint16_t", "int32_t",
+                                                "uint32_t",  "int64_t", "uint64_t", "fp32_t",   "fp64_t",
+                                                "plaintext", "rawdata", "rest",     "message",  "message-list"};
     needed(node, "type", subject);
     field.type = one_of(node, "type", types, subject);
     field.unit = node.attribute("unit").value();
@@ -192,7 +198,8 @@ class XmlReader {
     if (field.count > 0 && size_of(field.type) == 0)
       problems_.add(field.where, subject + " is an array of " + field.type + "; only numbers have a 'count'");
     if (!field.message_type.empty() && field.type != "message" && field.type != "message-list")
-      problems_.add(field.where, subject + " of type " + field.type + " has a message-type; only message and message-list may");
+      problems_.add(field.where,
+                    subject + " of type " + field.type + " has a message-type; only message and message-list may");
     return field;
   }
 
@@ -219,9 +226,9 @@ class XmlReader {
 }  // namespace
 
 std::size_t size_of(const std::string& type) {
-  static const std::map<std::string, std::size_t> sizes{{"int8_t", 1},   {"uint8_t", 1}, {"int16_t", 2}, {"uint16_t", 2},
-                                                        {"int32_t", 4},  {"uint32_t", 4}, {"int64_t", 8},
-                                                        {"uint64_t", 8}, {"fp32_t", 4},  {"fp64_t", 8}};
+  static const std::map<std::string, std::size_t> sizes{
+      {"int8_t", 1},   {"uint8_t", 1}, {"int16_t", 2},  {"uint16_t", 2}, {"int32_t", 4},
+      {"uint32_t", 4}, {"int64_t", 8}, {"uint64_t", 8}, {"fp32_t", 4},   {"fp64_t", 8}};
   const auto found = sizes.find(type);
   return found == sizes.end() ? 0 : found->second;
 }

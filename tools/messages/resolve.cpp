@@ -56,7 +56,8 @@ class Resolver {
         problems_.add(message.where, "message '" + message.name + "' is defined twice; a name stands for one message");
     for (const auto& [group, members] : definition_.groups)
       if (names.contains(group))
-        problems_.add(definition_.where, "message group '" + group + "' has the name of a message; it needs one of its own");
+        problems_.add(definition_.where,
+                      "message group '" + group + "' has the name of a message; it needs one of its own");
   }
 
   // The header's fields have their roles by the names of the IMC definition.
@@ -73,9 +74,11 @@ class Resolver {
     definition_.id_field = id;
     definition_.size_field = size;
     if (std::max({sync, id, size}) == none) return;
-    if (sync != 0) problems_.add(header.fields[sync].where, "the header's field 'sync' is not its first; it needs to be");
+    if (sync != 0)
+      problems_.add(header.fields[sync].where, "the header's field 'sync' is not its first; it needs to be");
     for (const std::size_t i : {sync, id, size})
-      if (header.fields[i].type != "uint8_t" && header.fields[i].type != "uint16_t" && header.fields[i].type != "uint32_t")
+      if (header.fields[i].type != "uint8_t" && header.fields[i].type != "uint16_t" &&
+          header.fields[i].type != "uint32_t")
         problems_.add(header.fields[i].where, "the header's field '" + header.fields[i].name + "' is of type " +
                                                   header.fields[i].type + "; it needs uint8_t, uint16_t or uint32_t");
     std::size_t around = definition_.checksum_name.empty() ? 0 : 2;
@@ -86,18 +89,16 @@ class Resolver {
     }
     header.wire_size = static_cast<std::int64_t>(around - (definition_.checksum_name.empty() ? 0 : 2));
     if (definition_.checksum_from >= static_cast<std::size_t>(header.wire_size))
-      problems_.add(definition_.where, "the definition has the checksum-from " +
-                                           std::to_string(definition_.checksum_from) +
-                                           "; it needs to be within the header of " +
-                                           std::to_string(header.wire_size) + " bytes");
+      problems_.add(definition_.where,
+                    "the definition has the checksum-from " + std::to_string(definition_.checksum_from) +
+                        "; it needs to be within the header of " + std::to_string(header.wire_size) + " bytes");
     check_sync(header.fields[sync]);
     if (definition_.most_payload <= around) {
       problems_.add(definition_.where, "the definition has the most-bytes " + std::to_string(definition_.most_payload) +
                                            "; header and checksum alone take " + std::to_string(around));
       return;
     }
-    definition_.most_payload =
-        std::min<std::size_t>(definition_.most_payload - around, largest(header.fields[size]));
+    definition_.most_payload = std::min<std::size_t>(definition_.most_payload - around, largest(header.fields[size]));
   }
 
   static std::size_t largest(const Field& field) {
@@ -118,14 +119,16 @@ class Resolver {
     const std::size_t size = definition::size_of(sync.type);
     for (std::size_t i = 0; i < size; ++i) swapped |= ((value >> (8 * i)) & 0xff) << (8 * (size - 1 - i));
     if (definition_.order == "either" && swapped == value)
-      problems_.add(sync.where, "the sync " + sync.standard + " is the same in both byte orders; the definition needs a "
-                                "byte-order, little or big");
+      problems_.add(sync.where, "the sync " + sync.standard +
+                                    " is the same in both byte orders; the definition needs a "
+                                    "byte-order, little or big");
   }
 
   void resolve_message(Message& message) {
     const std::string subject = "message '" + message.name + "'";
-    const std::uint64_t null_id =
-        definition_.id_field < definition_.header.fields.size() ? largest(definition_.header.fields[definition_.id_field]) : 0;
+    const std::uint64_t null_id = definition_.id_field < definition_.header.fields.size()
+                                      ? largest(definition_.header.fields[definition_.id_field])
+                                      : 0;
     if (null_id != 0 && message.id >= null_id)
       problems_.add(message.where, subject + " has the id " + std::to_string(message.id) + "; it needs one below " +
                                        std::to_string(null_id));
@@ -138,7 +141,8 @@ class Resolver {
         field.ids = {named->id};
         const bool ends = !named->fields.empty() && named->fields.back().type == "rest";
         if (field.type == "part" && ends)
-          problems_.add(field.where, field_subject + " is " + named->name + ", which ends only with its packet; a part has an end");
+          problems_.add(field.where,
+                        field_subject + " is " + named->name + ", which ends only with its packet; a part has an end");
       } else if (field.type != "part" && definition_.groups.contains(field.message_type)) {
         for (const std::string& member : definition_.groups[field.message_type])
           if (const Message* of_group = find(member)) field.ids.push_back(of_group->id);
@@ -157,9 +161,9 @@ class Resolver {
     within.push_back(message.name);
     std::int64_t sum = 0;
     for (const Field& field : message.fields) {
-      const std::int64_t size = field.type == "part"
-                                    ? size_of_message(*find(field.message_type), within)
-                                    : static_cast<std::int64_t>(definition::size_of(field.type) * std::max(field.count, 1U));
+      const std::int64_t size =
+          field.type == "part" ? size_of_message(*find(field.message_type), within)
+                               : static_cast<std::int64_t>(definition::size_of(field.type) * std::max(field.count, 1U));
       if (size < 0 || (size == 0 && field.type != "part")) return -1;
       sum += size;
     }
@@ -185,7 +189,8 @@ class Resolver {
     add_names(message, message.where, message.name, names);
   }
 
-  void add_names(const Message& message, const Location& where, const std::string& owner, std::set<std::string>& names) {
+  void add_names(const Message& message, const Location& where, const std::string& owner,
+                 std::set<std::string>& names) {
     for (const Field& field : message.fields) {
       if (field.type == "part") {
         add_names(*find(field.message_type), field.where, owner, names);

@@ -18,9 +18,9 @@ std::string write_catalogue(const std::vector<std::string>& sets);
 /// keeps for itself, or what is taken, gets an underscore.
 struct Names {
   explicit Names(const Definition& definition);
-  std::map<std::string, std::string> structs;                           // by name of the message
-  std::map<std::string, std::string> shared;                            // by name of the enumeration or bitfield
-  std::map<std::string, std::map<std::string, std::string>> members;    // by names of message and field
+  std::map<std::string, std::string> structs;                            // by name of the message
+  std::map<std::string, std::string> shared;                             // by name of the enumeration or bitfield
+  std::map<std::string, std::map<std::string, std::string>> members;     // by names of message and field
   std::map<std::string, std::map<std::string, std::string>> own_values;  // the same: struct of a field's own values
 };
 

@@ -52,12 +52,22 @@ std::string initial(const Field& field) {
   return "{" + std::string(negative ? "-" : "") + std::to_string(value) + (has_sign ? "}" : "U}");
 }
 
+// True if the integer type has room for the value.
+bool fits(const std::string& type, std::int64_t value) {
+  const auto bits = static_cast<int>(8 * size_of(type));
+  if (type[0] == 'u') return value >= 0 && (bits == 64 || value >> bits == 0);
+  return bits == 64 || (value >> (bits - 1) == (value < 0 ? -1 : 0));
+}
+
+// `type` is that of the field, where there is one: constants are of it if all values fit
 void write_values(const std::string& name, const std::vector<NamedValue>& values, const std::string& indent,
-                  std::string& to) {
+                  std::string& to, const std::string& type = "int64_t") {
+  const bool fit = std::all_of(values.begin(), values.end(), [&](const NamedValue& v) { return fits(type, v.value); });
   to += indent + "struct " + name + " {\n";
   const std::vector<std::string> names = value_names(values);
   for (std::size_t i = 0; i < values.size(); ++i)
-    to += indent + "  static constexpr ::std::int64_t " + names[i] + " = " + std::to_string(values[i].value) + ";\n";
+    to += indent + "  static constexpr ::std::" + (fit ? type : "int64_t") + " " + names[i] + " = " +
+          std::to_string(values[i].value) + ";\n";
   to += indent + "};\n";
 }
 
@@ -101,11 +111,10 @@ class HeaderWriter {
     to_ += "\n";
     if (!message.text.empty()) to_ += "/// " + message.text + (message.text.ends_with('\\') ? "." : "") + "\n";
     to_ += "struct " + name + " {\n";
-    if (key != "Header")
-      to_ += "  static constexpr ::std::uint32_t message_id = " + std::to_string(message.id) + ";\n";
+    if (key != "Header") to_ += "  static constexpr ::std::uint32_t message_id = " + std::to_string(message.id) + ";\n";
     for (const Field& f : message.fields)
       if (!f.values.empty() && f.shared_values.empty())
-        write_values(names_.own_values.at(key).at(f.name), f.values, "  ", to_);
+        write_values(names_.own_values.at(key).at(f.name), f.values, "  ", to_, f.type);
     std::string described;
     for (const Field& f : message.fields) {
       const std::string& member = names_.members.at(key).at(f.name);
@@ -114,8 +123,9 @@ class HeaderWriter {
         problems_.add(f.where, "message '" + message.name + "' field '" + f.name + "' of type " + f.type +
                                    " has the default '" + f.standard + "', which is none of its values");
       to_ += "  " + member_type(f, names_) + " " + member + value + ";\n";
-      described += (described.empty() ? "" : ",\n        ") + std::string("::jarol::field<&Described::") + member + ">(" +
-                   quoted(f.unit == "Enumerated" || f.unit == "Bitfield" ? "" : f.unit) + ", " + quoted(f.text) + ")";
+      described += (described.empty() ? "" : ",\n        ") + std::string("::jarol::field<&Described::") + member +
+                   ">(" + quoted(f.unit == "Enumerated" || f.unit == "Bitfield" ? "" : f.unit) + ", " + quoted(f.text) +
+                   ")";
     }
     // a template, so that only who uses the description pays for it
     to_ += "  template <class Described = " + name +

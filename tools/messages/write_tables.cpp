@@ -37,8 +37,8 @@ class TableWriter {
   void write_form(const Message& message, std::size_t index, const std::string& key, const std::string& table) {
     const std::string& name = names_.structs.at(key);
     to_ += "constinit const MessageForm " + name + "::form = form_of<" + name + ">(" + quoted(message.name) + ", " +
-           std::to_string(message.id) + "U, " + std::to_string(index) + ", " + quoted(message.text) + ", " + std::to_string(message.wire_size) + ", " +
-           (message.fields.empty() ? "{}" : table) + ", &message_set);\n";
+           std::to_string(message.id) + "U, " + std::to_string(index) + ", " + quoted(message.text) + ", " +
+           std::to_string(message.wire_size) + ", " + (message.fields.empty() ? "{}" : table) + ", &message_set);\n";
   }
 
   void write_values(const std::string& name, const std::vector<NamedValue>& values) {
@@ -130,14 +130,16 @@ std::string write_tables(const Definition& definition, const std::string& set) {
 }
 
 std::string write_catalogue(const std::vector<std::string>& sets) {
-  std::string to = "// Made from the list of message sets.\n#include \"distributers/messages/message_set.h\"\n\nnamespace jarol::messages {\n\n";
+  std::string to =
+      "// Made from the list of message sets.\n#include \"distributers/messages/message_set.h\"\n\nnamespace "
+      "jarol::messages {\n\n";
   std::string list;
   for (const std::string& set : sets) {
     to += "namespace " + set + " {\nconst MessageSet& message_set();\n}\n";
     list += (list.empty() ? "" : ", ") + std::string("&") + set + "::message_set()";
   }
-  return to + "\nstd::span<const MessageSet* const> message_sets() {\n  static const MessageSet* const sets[] = {" + list +
-         "};\n  return sets;\n}\n\n}  // namespace jarol::messages\n";
+  return to + "\nstd::span<const MessageSet* const> message_sets() {\n  static const MessageSet* const sets[] = {" +
+         list + "};\n  return sets;\n}\n\n}  // namespace jarol::messages\n";
 }
 
 }  // namespace jarol::definition
