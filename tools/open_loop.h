@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "graph/values/type_of.h"
 #include "graph/values/value.h"
 #include "graph/yaml/problems.h"
 #include "vehicles/vehicle.h"
