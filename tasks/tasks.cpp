@@ -5,6 +5,8 @@
 #include "tasks/javiator_control.h"
 #include "tasks/javiator_filter.h"
 #include "tasks/lauv_control.h"
+#include "tasks/original_control.h"
+#include "tasks/original_filter.h"
 
 namespace jarol::tasks {
 namespace {
@@ -20,6 +22,7 @@ void add_tasks(Registry& registry) {
   add<Accumulate, Counter, Mean, Relay, Sum, Window, Work>(registry);
   add<AltitudeControl, AttitudeControl, FlightLogic, HelicopterReporter, JaviatorFilter, MotorMixer, PositionControl>(
       registry);
+  add<OriginalAltitude, OriginalAttitude, OriginalFilter, OriginalLogic, OriginalMixer, OriginalPosition>(registry);
   add<DepthControl, FinAllocator, HeadingControl, LauvForward, LauvReport, SpeedControl>(registry);
 }
 

@@ -123,6 +123,7 @@ struct FlightEstimate {
   double p = 0, q = 0, r = 0;
   double x = 0, y = 0, altitude = 0;
   double v_x = 0, v_y = 0, climb = 0;
+  double a_x = 0, a_y = 0, a_up = 0;
   double battery = 0;
   bool attitude_known = false, altitude_known = false, position_known = false;
 
@@ -133,8 +134,9 @@ struct FlightEstimate {
                     field<&E::r>("rad/s", "about z"), field<&E::x>("m", "north of the start"),
                     field<&E::y>("m", "east of the start"), field<&E::altitude>("m", "above the start"),
                     field<&E::v_x>("m/s", "to the north"), field<&E::v_y>("m/s", "to the east"),
-                    field<&E::climb>("m/s", "upwards"), field<&E::battery>("V", "voltage"),
-                    field<&E::attitude_known>("", "the IMU has answered of late"),
+                    field<&E::climb>("m/s", "upwards"), field<&E::a_x>("m/s^2", "to the north"),
+                    field<&E::a_y>("m/s^2", "to the east"), field<&E::a_up>("m/s^2", "upwards"),
+                    field<&E::battery>("V", "voltage"), field<&E::attitude_known>("", "the IMU has answered of late"),
                     field<&E::altitude_known>("", "the sonar has"), field<&E::position_known>("", "both lasers have"));
   }
 };

@@ -57,19 +57,23 @@ class PilotChannels : public Channels {
   double now_ = 0;
 };
 
-class Directives : public RecordSink {
+// Keeps every value of one output.
+template <class T>
+class Keep : public RecordSink {
  public:
-  Directives(std::uint32_t output, Flight& flight) : output_(output), flight_(flight) {}
+  Keep(const Plan& plan, const std::string& output, std::vector<std::pair<double, T>>& to) : to_(to) {
+    const auto found =
+        std::find_if(plan.outputs.begin(), plan.outputs.end(), [&](const Output& o) { return o.name == output; });
+    output_ = static_cast<std::uint32_t>(found - plan.outputs.begin());
+  }
   void take(Duration instant, std::uint32_t output, const void* value) override {
-    if (output == output_)
-      flight_.directives.emplace_back(1e-9 * static_cast<double>(instant.count()),
-                                      *static_cast<const tasks::FlightDirective*>(value));
+    if (output == output_) to_.emplace_back(1e-9 * static_cast<double>(instant.count()), *static_cast<const T*>(value));
   }
   void finish() override {}
 
  private:
-  std::uint32_t output_;
-  Flight& flight_;
+  std::uint32_t output_ = 0;
+  std::vector<std::pair<double, T>>& to_;
 };
 
 }  // namespace
@@ -95,10 +99,9 @@ Flight fly(const FlightPlan& plan) {
     }
   }
   const Plan order(*loaded.graph);
-  const auto directive = std::find_if(order.outputs.begin(), order.outputs.end(),
-                                      [](const Output& o) { return o.name == "logic.directive"; });
-  Directives directives(static_cast<std::uint32_t>(directive - order.outputs.begin()), flight);
-  Recorder recorder({&directives});
+  Keep directives(order, "logic.directive", flight.directives);
+  Keep estimates(order, "filter.estimate", flight.estimates);
+  Recorder recorder({&directives, &estimates});
   Executor executor(*loaded.graph, std::move(channels), {.digest = true, .recorder = &recorder});
   executor.run_until(end);
   recorder.close();

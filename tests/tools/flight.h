@@ -22,6 +22,7 @@ struct Glimpse {
 struct Flight {
   std::vector<Glimpse> path;
   std::vector<std::pair<double, tasks::FlightDirective>> directives;
+  std::vector<std::pair<double, tasks::FlightEstimate>> estimates;  // what its own filter takes for true
   Report report;
 
   /// The greatest |value - of| within [from, to].
