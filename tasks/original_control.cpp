@@ -95,10 +95,10 @@ void OriginalAttitude::run(const Param& p, const Tick& tick, const In& in, State
   const double rate_r = 1e3 * turning;
   // what it calls acceleration is less than a third of it at 15 ms
   constexpr double per_period = 19.79;
-  const double roll = calc_pidd(p.lean, 1e3 * in.goal.roll, 1e3 * e.roll, rate_p, per_period * (rate_p - state.p),
-                                state.roll, dt);
-  const double pitch = calc_pidd(p.lean, 1e3 * in.goal.pitch, 1e3 * e.pitch, rate_q, per_period * (rate_q - state.q),
-                                 state.pitch, dt);
+  const double roll =
+      calc_pidd(p.lean, 1e3 * in.goal.roll, 1e3 * e.roll, rate_p, per_period * (rate_p - state.p), state.roll, dt);
+  const double pitch =
+      calc_pidd(p.lean, 1e3 * in.goal.pitch, 1e3 * e.pitch, rate_q, per_period * (rate_q - state.q), state.pitch, dt);
   const double yaw =
       calc_pidd(p.yaw, 1e3 * in.goal.yaw, 1e3 * e.yaw, rate_r, per_period * (rate_r - state.r), state.yaw, dt);
   state.p = rate_p;
@@ -115,8 +115,8 @@ void OriginalAltitude::run(const Param& p, const Tick& tick, const In& in, State
     return;
   }
   const double goal = 1e3 * in.directive.altitude;
-  const double demand = calc_pidd(p.gains, goal, 1e3 * e.altitude, 1e3 * e.climb, 1e3 * e.a_up, state.z,
-                                  seconds(tick.period));
+  const double demand =
+      calc_pidd(p.gains, goal, 1e3 * e.altitude, 1e3 * e.climb, 1e3 * e.a_up, state.z, seconds(tick.period));
   // helps it to settle
   if (goal < 10 && state.z.integral >= 0) state.z.integral -= 10;
   out.lift.thrust = 1 + demand / (std::cos(e.roll) * std::cos(e.pitch)) / p.idle;

@@ -110,7 +110,8 @@ struct OriginalAttitude {
     static constexpr auto fields() {
       using P = Param;
       return describe(field<&P::lean>("", "of roll and pitch, for mrad and signals"),
-                      field<&P::yaw>("", "for mrad and signals"), field<&P::idle>("", "signal that flight starts from"));
+                      field<&P::yaw>("", "for mrad and signals"),
+                      field<&P::idle>("", "signal that flight starts from"));
     }
   };
   struct In {

@@ -19,6 +19,11 @@ inline fossen::Vector6 to_body(const SimTK::Rotation& R_nb, const SimTK::Spatial
   return {linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]};
 }
 
+inline fossen::Vector3 to_body(const SimTK::Rotation& R_nb, const fossen::Vector3& v_n) {
+  const SimTK::Vec3 v_b = ~R_nb * SimTK::Vec3(v_n[0], v_n[1], v_n[2]);
+  return {v_b[0], v_b[1], v_b[2]};
+}
+
 /// The unit vector down, in body axes.
 inline fossen::Vector3 down_in_body(const SimTK::Rotation& R_nb) { return {R_nb[2][0], R_nb[2][1], R_nb[2][2]}; }
 

@@ -1,22 +1,22 @@
 #include "vehicles/submarine.h"
 
-#include <algorithm>
-#include <cmath>
+#include <stdexcept>
 
 #include "distributers/messages/imc.h"
 #include "vehicles/submarine_coefficients.h"
 #include "vehicles/submarine_plant.h"
+#include "vehicles/vsim_plant.h"
 
 namespace jarol::vehicles {
 namespace {
 
-constexpr double step_seconds = SubmarinePlant::step_seconds;
+constexpr double step_seconds = SubmarineMotion::step_seconds;
 
-VehicleState start_of(const SubmarineParameters& parameters, const SubmarineBody& body) {
+VehicleState start_of(const SubmarineParameters& parameters) {
   VehicleState start;
   start.x = parameters.start.north;
   start.y = parameters.start.east;
-  start.z = calc_floating_depth(body.hull) + parameters.start.depth;
+  start.z = calc_floating_depth(make_body(parameters).hull) + parameters.start.depth;
   start.psi = parameters.start.heading;
   start.u = parameters.start.surge;
   return start;
@@ -25,85 +25,67 @@ VehicleState start_of(const SubmarineParameters& parameters, const SubmarineBody
 }  // namespace
 
 Submarine::Submarine(const SubmarineParameters& parameters, std::uint64_t)
-    : parameters_(parameters), body_(make_body(parameters)) {
-  Submarine::place(start_of(parameters, body_));
+    : parameters_(parameters), actuation_(parameters) {
+  Submarine::place(start_of(parameters));
 }
 
 Submarine::~Submarine() = default;
 
 std::chrono::nanoseconds Submarine::grid() const { return std::chrono::milliseconds(10); }
 
-void Submarine::command_thruster(double actuation) {
-  if (!std::isfinite(actuation)) return;
-  thruster_command_ = std::clamp(actuation, -1.0, 1.0);
-}
-
-void Submarine::command_servo(std::size_t servo, double angle) {
-  if (servo >= servo_commands_.size() || !std::isfinite(angle)) return;
-  const double limit = parameters_.servos.limit;
-  servo_commands_[servo] = std::clamp(angle, -limit, limit);
-}
-
 void Submarine::accept(messages::MessageRef command) {
   namespace imc = messages::imc;
   if (const auto* thruster = command.as<imc::SetThrusterActuation>()) {
-    if (thruster->id == 0) command_thruster(static_cast<double>(thruster->value));
+    if (thruster->id == 0) actuation_.command_thruster(static_cast<double>(thruster->value));
   } else if (const auto* servo = command.as<imc::SetServoPosition>()) {
-    command_servo(servo->id, static_cast<double>(servo->value));
+    actuation_.command_servo(servo->id, static_cast<double>(servo->value));
   }
 }
 
 void Submarine::command(const void* inputs) {
   const auto& in = *static_cast<const SubmarineInputs*>(inputs);
-  command_thruster(in.thruster);
+  actuation_.command_thruster(in.thruster);
   const double fins[] = {in.fin0, in.fin1, in.fin2, in.fin3};
-  for (std::size_t i = 0; i < 4; ++i) command_servo(i, fins[i]);
+  for (std::size_t i = 0; i < 4; ++i) actuation_.command_servo(i, fins[i]);
 }
 
 void Submarine::step() {
-  // the plant sees what the actuators are on average over the step
-  SubmarineInput input;
-  const double reach = parameters_.servos.slew * step_seconds;
-  for (std::size_t i = 0; i < servos_.size(); ++i) {
-    const double before = servos_[i];
-    servos_[i] += std::clamp(servo_commands_[i] - before, -reach, reach);
-    input.fins[i] = 0.5 * (before + servos_[i]);
-  }
-
-  // first-order lag, solved exactly
-  const ThrusterParameters& thruster = parameters_.thruster;
-  const double command = thruster_command_ * thruster.full_speed;
-  const double before = propeller_;
-  propeller_ = command + (before - command) * std::exp(-step_seconds / thruster.time_constant);
-  const double n = 0.5 * (before + propeller_);
-  input.thrust = std::clamp(thruster.thrust_coefficient * n * std::abs(n), -thruster.max_thrust, thruster.max_thrust);
-
-  plant_->step(input);
+  motion_->step(actuation_.step());
   ++steps_;
-  outputs_.actuators = {propeller_, servos_[0], servos_[1], servos_[2], servos_[3]};
+  at_ = motion_->state();
+  const auto& servos = actuation_.servos();
+  outputs_.actuators = {actuation_.propeller(), servos[0], servos[1], servos[2], servos[3]};
 }
 
-// a uniform current carries all the water along: the plant moves in it as in water at rest
+// the plant moves in water that the current carries along
 VehicleState Submarine::state() const {
-  const PlantState at = plant_->state();
   const double t = static_cast<double>(steps_) * step_seconds;
-  return {at.eta[0] + parameters_.sea.current_north * t,
-          at.eta[1] + parameters_.sea.current_east * t,
-          at.eta[2],
-          at.eta[3],
-          at.eta[4],
-          at.eta[5],
-          at.nu[0],
-          at.nu[1],
-          at.nu[2],
-          at.nu[3],
-          at.nu[4],
-          at.nu[5]};
+  return {at_.eta[0] + parameters_.sea.current_north * t,
+          at_.eta[1] + parameters_.sea.current_east * t,
+          at_.eta[2],
+          at_.eta[3],
+          at_.eta[4],
+          at_.eta[5],
+          at_.nu[0],
+          at_.nu[1],
+          at_.nu[2],
+          at_.nu[3],
+          at_.nu[4],
+          at_.nu[5]};
 }
 
 void Submarine::place(const VehicleState& s) {
-  plant_ = std::make_unique<SubmarinePlant>(
-      body_, PlantState{{s.x, s.y, s.z, s.phi, s.theta, s.psi}, {s.u, s.v, s.w, s.p, s.q, s.r}});
+  PlantState start;
+  start.eta = {s.x, s.y, s.z, s.phi, s.theta, s.psi};
+  start.nu = {s.u, s.v, s.w, s.p, s.q, s.r};
+  const SeaParameters& sea = parameters_.sea;
+  if (parameters_.vsim_compatible) {
+    motion_ = std::make_unique<VsimPlant>(parameters_, start);
+  } else {
+    const Waves waves(sea.wave_height, sea.wave_period, sea.wave_direction);
+    motion_ = std::make_unique<SubmarinePlant>(make_body(parameters_), waves, start);
+  }
+  at_ = start;
 }
 
 void Submarine::sense(messages::Receiver& receiver) const {

@@ -2,18 +2,16 @@
 // SimulatedState.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 
-#include "vehicles/submarine_body.h"
+#include "vehicles/submarine_actuation.h"
 #include "vehicles/submarine_io.h"
+#include "vehicles/submarine_motion.h"
 #include "vehicles/submarine_parameters.h"
 #include "vehicles/vehicle.h"
 
 namespace jarol::vehicles {
-
-class SubmarinePlant;
 
 /// Steps of 10 ms. Starts with fins neutral and propeller still; commands that are not finite numbers are not taken.
 class Submarine : public Vehicle {
@@ -36,16 +34,10 @@ class Submarine : public Vehicle {
   const void* outputs() const override { return &outputs_; }
 
  private:
-  void command_thruster(double actuation);
-  void command_servo(std::size_t servo, double angle);
-
   SubmarineParameters parameters_;
-  SubmarineBody body_;
-  std::unique_ptr<SubmarinePlant> plant_;
-  std::array<double, 4> servo_commands_{};
-  std::array<double, 4> servos_{};
-  double thruster_command_ = 0.0;
-  double propeller_ = 0.0;  // rad/s
+  std::unique_ptr<SubmarineMotion> motion_;
+  SubmarineActuation actuation_;
+  PlantState at_;
   std::int64_t steps_ = 0;
   SubmarineOutputs outputs_;
 };

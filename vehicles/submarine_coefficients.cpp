@@ -57,32 +57,50 @@ fossen::Damping make_damping(const SubmarineParameters& parameters) {
   return D;
 }
 
+void scale(fossen::Matrix6& M, double factor) {
+  for (fossen::Vector6& row : M)
+    for (double& element : row) element *= factor;
+}
+
 }  // namespace
 
 SubmarineBody make_body(const SubmarineParameters& parameters) {
   const HullParameters& hull = parameters.hull;
+  const SeaParameters& sea = parameters.sea;
   require_positive(hull.mass, "hull.mass");
   require_positive(hull.length, "hull.length");
   require_positive(hull.diameter, "hull.diameter");
   require_positive(hull.I_x, "hull.I_x");
   require_positive(hull.I_y, "hull.I_y");
   require_positive(hull.I_z, "hull.I_z");
+  require_positive(hull.water_density, "hull.water_density");
   require_positive(parameters.fins.half_span, "fins.half_span");
   require_positive(parameters.thruster.radius, "thruster.radius");
+  require_positive(sea.density, "sea.density");
+  require_positive(sea.gravity, "sea.gravity");
+  require_positive(sea.floor, "sea.floor");
 
+  // all that water does grows with its density
+  const double density = sea.density / hull.water_density;
   SubmarineBody body;
-  body.hull = {hull.mass * parameters.sea.gravity,
-               hull.buoyancy,
+  body.hull = {hull.mass * sea.gravity,
+               density * hull.buoyancy,
                {0.0, 0.0, hull.z_g},
                {0.5 * hull.length, 0.5 * hull.diameter, 0.5 * hull.diameter}};
+  body.displaced = body.hull.B / sea.gravity;
+  body.floor = {sea.floor, 0.5 * hull.length, 0.5 * hull.diameter};
   body.M_rb = fossen::rigid_body_mass(hull.mass, body.hull.r_bg, {hull.I_x, hull.I_y, hull.I_z});
   body.M_a = make_added_mass(parameters.added_mass);
+  scale(body.M_a, density);
   fossen::Matrix6 M = body.M_rb;
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) M[i][j] += body.M_a[i][j];
   }
   body.M_inverse = fossen::inverse(M);
   body.D = make_damping(parameters);
+  scale(body.D.linear, density);
+  scale(body.D.lift, density);
+  scale(body.D.quadratic, density);
 
   // lift of the vertical fins to starboard, of the horizontal ones up: at the tail, that is to port and nose down
   const FinParameters& fins = parameters.fins;
@@ -90,12 +108,13 @@ SubmarineBody make_body(const SubmarineParameters& parameters) {
                 {{fins.x, -fins.radius, 0.0}, {0.0, 0.0, -1.0}},
                 {{fins.x, fins.radius, 0.0}, {0.0, 0.0, -1.0}},
                 {{fins.x, 0.0, -fins.radius}, {0.0, 1.0, 0.0}}}};
-  body.fin_lift = fins.lift;
-  body.fin_drag = fins.drag;
+  body.fin_lift = density * fins.lift;
+  body.fin_drag = density * fins.drag;
   body.fin_stall = fins.stall;
   body.fin_half_span = fins.half_span;
-  body.propeller_x = parameters.thruster.x;
-  body.propeller_radius = parameters.thruster.radius;
+  const ThrusterParameters& thruster = parameters.thruster;
+  body.propeller = {thruster.x, thruster.radius, density * thruster.thrust_coefficient,
+                    density * thruster.advance_coefficient, thruster.max_thrust};
   return body;
 }
 

@@ -3,13 +3,9 @@
 // them.
 #pragma once
 
-#include <numbers>
-
-#include "graph/values/describe.h"
+#include "vehicles/sea_parameters.h"
 
 namespace jarol::vehicles {
-
-inline constexpr double degree = std::numbers::pi / 180.0;
 
 /// The rigid body. Its origin b is the centre of buoyancy; b is forward, right, down.
 struct HullParameters {
@@ -17,6 +13,7 @@ struct HullParameters {
   double diameter = 0.15;
   double mass = 18.0;
   double buoyancy = 177.58;
+  double water_density = 1000.0;
   double z_g = 0.01;
   // a homogeneous spheroid of this mass and size: 2/5 m b^2 and 1/5 m (a^2 + b^2)
   double I_x = 0.04;
@@ -28,6 +25,7 @@ struct HullParameters {
     return describe(field<&S::length>("m", "length over all"), field<&S::diameter>("m", "greatest diameter"),
                     field<&S::mass>("kg", "mass in air, flooded spaces excluded"),
                     field<&S::buoyancy>("N", "buoyancy when fully immersed"),
+                    field<&S::water_density>("kg/m^3", "of the water in which buoyancy and all coefficients hold"),
                     field<&S::z_g>("m", "centre of gravity below the centre of buoyancy"),
                     field<&S::I_x>("kg m^2", "moment of inertia in roll, about the centre of buoyancy"),
                     field<&S::I_y>("kg m^2", "moment of inertia in pitch, about the centre of buoyancy"),
@@ -164,21 +162,24 @@ struct FinParameters {
   }
 };
 
-/// One propeller on the axis. Thrust = thrust_coefficient n|n|, no more than max_thrust; no torque on the hull.
+/// One propeller on the axis. Thrust = (thrust_coefficient n - advance_coefficient u) |n|, no more than max_thrust; no
+/// torque on the hull.
 struct ThrusterParameters {
   double x = -0.555;
   double radius = 0.05;
   double full_speed = 261.8;
   double time_constant = 0.05;
   double thrust_coefficient = 2.0e-4;
+  double advance_coefficient = 0.0;
   double max_thrust = 10.0;
 
   static constexpr auto fields() {
     using S = ThrusterParameters;
     return describe(field<&S::x>("m", "position along the hull"), field<&S::radius>("m", "radius of the propeller"),
                     field<&S::full_speed>("rad/s", "speed at actuation 1"),
-                    field<&S::time_constant>("s", "first-order lag of the speed"),
+                    field<&S::time_constant>("s", "first-order lag of the speed; 0 for none"),
                     field<&S::thrust_coefficient>("N s^2/rad^2", "thrust per speed squared"),
+                    field<&S::advance_coefficient>("N s^2/(m rad)", "less thrust per speed and speed ahead"),
                     field<&S::max_thrust>("N", "greatest thrust, ahead and astern"));
   }
 };
@@ -194,21 +195,21 @@ struct ServoParameters {
   }
 };
 
-/// The sea. The current is the same at all depths, so the motion through the water does not depend on it.
-struct SeaParameters {
-  double gravity = 9.81;
-  double current_north = 0.0;
-  double current_east = 0.0;
-  double latitude = 41.1850 * degree;
-  double longitude = -8.7062 * degree;
+/// With `vsim_compatible`: what each acceleration is a force over, whatever hull and added mass are.
+struct VsimParameters {
+  double M_u = 19.0;
+  double M_v = 34.0;
+  double M_w = 34.0;
+  double I_p = 0.04;
+  double I_q = 2.1;
+  double I_r = 2.1;
 
   static constexpr auto fields() {
-    using S = SeaParameters;
-    return describe(field<&S::gravity>("m/s^2", "acceleration of gravity"),
-                    field<&S::current_north>("m/s", "current to the north"),
-                    field<&S::current_east>("m/s", "current to the east"),
-                    field<&S::latitude>("rad", "latitude of the origin (WGS-84)"),
-                    field<&S::longitude>("rad", "longitude of the origin"));
+    using S = VsimParameters;
+    return describe(
+        field<&S::M_u>("kg", "effective mass in surge"), field<&S::M_v>("kg", "effective mass in sway"),
+        field<&S::M_w>("kg", "effective mass in heave"), field<&S::I_p>("kg m^2", "effective inertia in roll"),
+        field<&S::I_q>("kg m^2", "effective inertia in pitch"), field<&S::I_r>("kg m^2", "effective inertia in yaw"));
   }
 };
 
@@ -230,6 +231,9 @@ struct StartParameters {
 };
 
 struct SubmarineParameters {
+  bool vsim_compatible = false;
+  VsimParameters vsim{};
+  Duration command_timeout = std::chrono::seconds(2);
   HullParameters hull{};
   AddedMassParameters added_mass{};
   LinearDampingParameters linear_damping{};
@@ -243,7 +247,10 @@ struct SubmarineParameters {
 
   static constexpr auto fields() {
     using S = SubmarineParameters;
-    return describe(field<&S::hull>("", "the rigid body and its buoyancy"), field<&S::added_mass>("", "added mass"),
+    return describe(field<&S::vsim_compatible>("", "moves as DUNE's simulator has it, errors and all"),
+                    field<&S::vsim>("", "numbers of that simulator alone"),
+                    field<&S::command_timeout>("", "without a command for so long an actuator goes to rest; 0 never"),
+                    field<&S::hull>("", "the rigid body and its buoyancy"), field<&S::added_mass>("", "added mass"),
                     field<&S::linear_damping>("", "damping per velocity"),
                     field<&S::quadratic_damping>("", "damping per velocity squared"),
                     field<&S::lift>("", "lift of hull and undeflected fins"), field<&S::fins>("", "the four fins"),

@@ -21,20 +21,30 @@ using SimTK::Vec3;
 // here, and Simbody's rigid body gets the one force that gives it this acceleration: M_rb nu_dot + C_rb nu.
 class Hydrodynamics : public SimTK::Force::Custom::Implementation {
  public:
-  Hydrodynamics(const SimTK::GeneralForceSubsystem& forces, const SimTK::MobilizedBody& mobilized, SubmarineBody body)
-      : forces_(forces), mobilized_(mobilized), body_(std::move(body)) {}
+  Hydrodynamics(const SimTK::GeneralForceSubsystem& forces, const SimTK::MobilizedBody& mobilized,
+                const SubmarineBody& body, const Waves& waves)
+      : forces_(forces), mobilized_(mobilized), body_(body), waves_(waves) {}
 
   void calcForce(const State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces, SimTK::Vector_<Vec3>&,
                  SimTK::Vector&) const override {
     const SimTK::Rotation& R_nb = mobilized_.getBodyRotation(state);
     const fossen::Vector6 nu = to_body(R_nb, mobilized_.getBodyVelocity(state));
-    const Immersion at = {mobilized_.getBodyOriginLocation(state)[2], down_in_body(R_nb)};
-    const auto& input = Value<SubmarineInput>::downcast(forces_.getDiscreteVariable(state, input_)).get();
-
-    fossen::Vector6 tau = fossen::multiply(body_.M_rb, calc_nu_dot(body_, at, nu, input));
+    fossen::Vector6 tau = fossen::multiply(body_.M_rb, acceleration(state));
     const fossen::Vector6 coriolis = fossen::coriolis(body_.M_rb, nu);
     for (std::size_t i = 0; i < 6; ++i) tau[i] += coriolis[i];
     mobilized_.applyBodyForce(state, to_ground(R_nb, tau), body_forces);
+  }
+
+  fossen::Vector6 acceleration(const State& state) const {
+    const SimTK::Rotation& R_nb = mobilized_.getBodyRotation(state);
+    const Vec3& p_n = mobilized_.getBodyOriginLocation(state);
+    const Water water = waves_.at({p_n[0], p_n[1], p_n[2]}, state.getTime());
+    const Surroundings around = {{p_n[2] - water.surface, down_in_body(R_nb)},
+                                 p_n[2],
+                                 to_body(R_nb, water.velocity_n),
+                                 to_body(R_nb, water.acceleration_n)};
+    const auto& input = Value<SubmarineInput>::downcast(forces_.getDiscreteVariable(state, input_)).get();
+    return calc_nu_dot(body_, around, to_body(R_nb, mobilized_.getBodyVelocity(state)), input);
   }
 
   double calcPotentialEnergy(const State&) const override { return 0.0; }
@@ -52,6 +62,7 @@ class Hydrodynamics : public SimTK::Force::Custom::Implementation {
   const SimTK::GeneralForceSubsystem& forces_;
   const SimTK::MobilizedBody& mobilized_;
   SubmarineBody body_;
+  Waves waves_;
   mutable DiscreteVariableIndex input_;
 };
 
@@ -64,11 +75,11 @@ SimTK::MassProperties mass_properties(const SubmarineBody& body) {
 }  // namespace
 
 struct SubmarinePlant::Simulation {
-  Simulation(const SubmarineBody& properties, const PlantState& start)
+  Simulation(const SubmarineBody& properties, const Waves& waves, const PlantState& start)
       : matter(system),
         forces(system),
         body(matter.Ground(), SimTK::Transform(), SimTK::Body::Rigid(mass_properties(properties)), SimTK::Transform()),
-        hydrodynamics(new Hydrodynamics(forces, body, properties)),  // adopted by the force
+        hydrodynamics(new Hydrodynamics(forces, body, properties, waves)),  // adopted by the force
         force(forces, hydrodynamics),
         integrator(system),
         stepper(system, integrator) {
@@ -78,14 +89,14 @@ struct SubmarinePlant::Simulation {
     body.setQToFitTransform(initial, {R_nb, Vec3(start.eta[0], start.eta[1], start.eta[2])});
     body.setUToFitVelocity(
         initial, to_ground(R_nb, {start.nu[0], start.nu[1], start.nu[2], start.nu[3], start.nu[4], start.nu[5]}));
-    integrator.setFixedStepSize(step_seconds);
+    integrator.setFixedStepSize(SubmarineMotion::step_seconds);
     stepper.initialize(initial);
   }
 
   // Simbody may notice a number that is not finite itself, or not at all; it must not be asked again after that
   void advance() {
     if (!failure.empty()) throw NoState(failure);
-    const double t = static_cast<double>(++steps) * step_seconds;
+    const double t = static_cast<double>(++steps) * SubmarineMotion::step_seconds;
     try {
       stepper.stepTo(t);
       if (!SimTK::isFinite(integrator.getAdvancedState().getY().normSqr())) failure = "a number in it is not finite";
@@ -107,8 +118,8 @@ struct SubmarinePlant::Simulation {
   std::string failure;
 };
 
-SubmarinePlant::SubmarinePlant(const SubmarineBody& body, const PlantState& start)
-    : simulation_(std::make_unique<Simulation>(body, start)) {}
+SubmarinePlant::SubmarinePlant(const SubmarineBody& body, const Waves& waves, const PlantState& start)
+    : simulation_(std::make_unique<Simulation>(body, waves, start)) {}
 
 SubmarinePlant::~SubmarinePlant() = default;
 
@@ -122,14 +133,14 @@ PlantState SubmarinePlant::state() const {
   const State& state = simulation_->integrator.getAdvancedState();
   const SimTK::Rotation& R_nb = simulation_->body.getBodyRotation(state);
   const Vec3& p_n = simulation_->body.getBodyOriginLocation(state);
-  const fossen::Vector6 nu = to_body(R_nb, simulation_->body.getBodyVelocity(state));
 
   PlantState out;
-  for (int i = 0; i < 3; ++i) out.eta[i] = p_n[i];
+  for (std::size_t i = 0; i < 3; ++i) out.eta[i] = p_n[static_cast<int>(i)];
   out.eta[3] = std::atan2(R_nb[2][1], R_nb[2][2]);
   out.eta[4] = -std::asin(std::clamp(R_nb[2][0], -1.0, 1.0));
   out.eta[5] = std::atan2(R_nb[1][0], R_nb[0][0]);
-  for (std::size_t i = 0; i < 6; ++i) out.nu[i] = nu[i];
+  out.nu = to_body(R_nb, simulation_->body.getBodyVelocity(state));
+  out.nu_dot = simulation_->hydrodynamics->acceleration(state);
   return out;
 }
 

@@ -53,7 +53,8 @@ TEST_SUITE("tasks/original_control") {
     }
   }
 
-  TEST_CASE("rolling right takes from the right rotor, noses up give to the front, yaw to the right to right and left") {
+  TEST_CASE(
+      "rolling right takes from the right rotor, noses up give to the front, yaw to the right to right and left") {
     OriginalMixer::Out out;
     OriginalMixer::In in{.turn = {0.01, 0, 0}, .lift = {1}, .directive = {.state = FlightState::flying}};
     using Signals = std::array<double, 4>;

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/tools/csv_rows.h"
 #include "tests/tools/run_command.h"
 
 namespace {
@@ -21,13 +22,6 @@ std::vector<std::string> lines_of(const std::string& text) {
 std::vector<std::string> lines_of_file(const std::string& path) {
   std::ifstream file(path);
   return lines_of({std::istreambuf_iterator<char>(file), {}});
-}
-
-std::vector<double> numbers_of(const std::string& row) {
-  std::vector<double> numbers;
-  std::istringstream stream(row);
-  for (std::string cell; std::getline(stream, cell, ',');) numbers.push_back(cell.empty() ? 0 : std::stod(cell));
-  return numbers;
 }
 
 const std::string title = "time,x,y,z,phi,theta,psi,u,v,w,p,q,r";
@@ -57,7 +51,8 @@ TEST_SUITE("tools/vehicle") {
     const auto lines = lines_of_file(folder / "out.csv");
     REQUIRE(lines.size() == 402);
     CHECK(lines[0].substr(0, title.size() + 1) == title + ",");
-    const auto first = numbers_of(lines[1]), last = numbers_of(lines.back());
+    const auto rows = command::rows_of(folder / "out.csv");
+    const auto &first = rows.front(), &last = rows.back();
     CHECK(first[0] == 0);
     CHECK(first[3] == 4);
     CHECK(first[5] == doctest::Approx(0.1));
@@ -119,9 +114,10 @@ TEST_SUITE("tools/vehicle") {
     check_refused(script, "--initial z=4,foo=1",
                   "--initial:1:5: error: the state has no 'foo'; it has: x, y, z, phi, theta, psi, u, v, w, p, q, r\n"
                   "  z=4,foo=1\n      ^\n1 error\n");
-    check_refused(script, "--set hull.mas=3",
-                  "--set:1:1: error: vehicle 'submarine' parameter 'hull' has no field 'mas'; did you mean 'mass'?; it "
-                  "has: length, diameter, mass, buoyancy, z_g, I_x, I_y, I_z\n  hull.mas=3\n  ^\n1 error\n");
+    check_refused(
+        script, "--set hull.mas=3",
+        "--set:1:1: error: vehicle 'submarine' parameter 'hull' has no field 'mas'; did you mean 'mass'?; it "
+        "has: length, diameter, mass, buoyancy, water_density, z_g, I_x, I_y, I_z\n  hull.mas=3\n  ^\n1 error\n");
     check_refused(script, "--set hull.mass=-3",
                   "error: vehicle 'submarine' can't be made: submarine: hull.mass must be above zero\n");
     check_refused(script, "--rate 30",

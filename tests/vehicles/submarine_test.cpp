@@ -35,6 +35,7 @@ imc::SimulatedState after_ten_seconds(const std::array<float, 4>& fins) {
   SubmarineParameters parameters;
   parameters.start.depth = 20;
   parameters.start.surge = 1.2;
+  parameters.command_timeout = {};  // commanded once
   Submarine submarine(parameters);
   command(submarine, 0.6F, fins);
   for (int i = 0; i < 1000; ++i) submarine.step();
@@ -66,6 +67,7 @@ TEST_SUITE("vehicles/submarine") {
   TEST_CASE("a command is held until the next, and what is not finite or not its own is not taken") {
     SubmarineParameters parameters;
     parameters.start.depth = 20;
+    parameters.command_timeout = {};
     Submarine once(parameters), often(parameters);
     command(once, 0.5F, {0.1F, 0, 0, 0.1F});
     for (int i = 0; i < 300; ++i) {
@@ -80,6 +82,33 @@ TEST_SUITE("vehicles/submarine") {
     CHECK(sense(once).x == sense(often).x);
     CHECK(sense(once).psi == sense(often).psi);
     CHECK(sense(once).x > 0.5F);
+  }
+
+  TEST_CASE("without commands for the time-out the propeller stops and the fins go to neutral, each on its own") {
+    SubmarineParameters parameters;
+    parameters.start.depth = 20;
+    parameters.command_timeout = std::chrono::milliseconds(500);
+    Submarine submarine(parameters);
+    const auto* out = static_cast<const SubmarineOutputs*>(submarine.outputs());
+    command(submarine, 0.5F, {0.2F, 0.1F, 0.1F, 0.2F});
+    for (int i = 0; i < 50; ++i) submarine.step();
+    CHECK(out->actuators.fin0 == doctest::Approx(0.2));
+    CHECK(out->actuators.propeller == doctest::Approx(130.9).epsilon(0.001));
+    submarine.accept(messages::refer_to(imc::SetServoPosition{1, 0.1F}));
+    for (int i = 0; i < 40; ++i) submarine.step();
+    CHECK(out->actuators.fin0 == 0);
+    CHECK(out->actuators.fin1 == doctest::Approx(0.1));
+    CHECK(out->actuators.propeller < 1);
+  }
+
+  TEST_CASE("fins slew no faster than their servos and no further than their limit") {
+    Submarine submarine({});
+    const auto* out = static_cast<const SubmarineOutputs*>(submarine.outputs());
+    command(submarine, 0, {2.0F, 0, 0, 0});
+    submarine.step();
+    CHECK(out->actuators.fin0 == doctest::Approx(3.333 * degree));
+    for (int i = 0; i < 20; ++i) submarine.step();
+    CHECK(out->actuators.fin0 == doctest::Approx(45 * degree));
   }
 
   TEST_CASE("results do not depend on who looks or how often") {

@@ -43,13 +43,17 @@ const TypeField* field_at(const Type& type, const std::string& path) {
   return field == nullptr || dot == std::string::npos ? field : field_at(*field->type, path.substr(dot + 1));
 }
 
+std::string value_text(const Leaf& leaf, const void* value) {
+  return leaf.type->kind == Kind::duration ? duration_text(Duration(read_integer(*leaf.type, value)))
+                                           : scalar_text(*leaf.type, value);
+}
+
 std::vector<Entry> entries_of(const Type& type, const void* values) {
   std::vector<Entry> entries;
   for (const Leaf& leaf : leaves_of(type)) {
     const TypeField* field = field_at(type, leaf.path);
-    entries.push_back(
-        {leaf.path, leaf.unit, field == nullptr ? "" : field->text,
-         values == nullptr ? "" : scalar_text(*leaf.type, static_cast<const std::byte*>(values) + leaf.offset)});
+    entries.push_back({leaf.path, leaf.unit, field == nullptr ? "" : field->text,
+                       values == nullptr ? "" : value_text(leaf, static_cast<const std::byte*>(values) + leaf.offset)});
   }
   return entries;
 }
