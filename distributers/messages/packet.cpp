@@ -62,8 +62,9 @@ std::optional<ByteOrder> order_of(const MessageSet& set, const std::byte* bytes)
   return std::nullopt;
 }
 
-std::size_t size_of_packet(const MessageSet& set, const std::byte* header, ByteOrder order) {
-  return set.header_size() + header_field(set, set.size_field, header, order) + set.footer_size();
+Announced read_header(const MessageSet& set, const std::byte* header, ByteOrder order) {
+  return {static_cast<std::uint32_t>(header_field(set, set.id_field, header, order)),
+          header_field(set, set.size_field, header, order)};
 }
 
 Flaw read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& to, std::string* why) {
@@ -80,10 +81,11 @@ Flaw read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& 
       return "the packet begins with " + hex(header_field(set, set.sync_field, bytes.data(), set.order), size) +
              ", not with " + hex(set.sync, size);
     });
-  const std::size_t whole = size_of_packet(set, bytes.data(), *order);
-  if (whole - around > set.most_payload)
+  const Announced announced = read_header(set, bytes.data(), *order);
+  const std::size_t whole = around + announced.payload;
+  if (announced.payload > set.most_payload)
     return flawed(Flaw::oversized, why, [&] {
-      return "the header tells of " + bytes_text(whole - around) + " of payload; at most " +
+      return "the header tells of " + bytes_text(announced.payload) + " of payload; at most " +
              std::to_string(set.most_payload) + " are allowed";
     });
   if (bytes.size() != whole)
@@ -91,9 +93,9 @@ Flaw read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& 
       return "the packet has " + bytes_text(bytes.size()) + "; by its header it has " + std::to_string(whole);
     });
   to.order = *order;
-  to.id = static_cast<std::uint32_t>(header_field(set, set.id_field, bytes.data(), *order));
+  to.id = announced.id;
   to.header = bytes.first(set.header_size());
-  to.payload = bytes.subspan(set.header_size(), whole - around);
+  to.payload = bytes.subspan(set.header_size(), announced.payload);
   if (set.checksum == Checksum::none) return Flaw::none;
   const auto summed = bytes.first(whole - set.footer_size());
   const std::uint64_t told = load_unsigned(bytes.data() + summed.size(), set.footer_size(), *order);
@@ -112,6 +114,7 @@ Flaw PacketReader::read(std::span<const std::byte> bytes, std::string* why) {
   const Flaw flaw = read_frame(set_, bytes, frame, why);
   if (flaw != Flaw::none && flaw != Flaw::checksum) return flaw;
   const MessageForm* const form = set_.find(frame.id, frame.payload.size());
+  if (form == nullptr && flaw != Flaw::none) return flaw;
   if (form == nullptr)
     return flawed(Flaw::unknown_id, why, [&] {
       return "message id " + std::to_string(frame.id) + " is not in set " + std::string(set_.name);

@@ -33,8 +33,14 @@ Flaw read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& 
 /// The byte order that the sync at the begin of the bytes tells, if it is one; there are bytes enough for it.
 std::optional<ByteOrder> order_of(const MessageSet& set, const std::byte* bytes);
 
-/// The length of the whole packet that its header tells, which is there.
-std::size_t size_of_packet(const MessageSet& set, const std::byte* header, ByteOrder order);
+/// What a header says of its packet.
+struct Announced {
+  std::uint32_t id = 0;
+  std::size_t payload = 0;  // bytes
+};
+
+/// The header is there as a whole.
+Announced read_header(const MessageSet& set, const std::byte* header, ByteOrder order);
 
 /// Reads packets into messages that it keeps, one of each form: of a form that came before, nothing is allocated but
 /// for longer texts and lists.

@@ -3,39 +3,14 @@
 
 #include <doctest/doctest.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "distributers/messages/imc.h"
 #include "distributers/messages/javiator.h"
+#include "tests/distributers/messages/recorded.h"
 
 using namespace jarol;
 using namespace jarol::messages;
 
 namespace {
-
-std::vector<std::byte> bytes_of(const std::string& hex) {
-  std::vector<std::byte> bytes;
-  for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
-    bytes.push_back(static_cast<std::byte>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  return bytes;
-}
-
-std::string hex_of(std::span<const std::byte> bytes) {
-  std::string hex;
-  for (const std::byte b : bytes) {
-    hex += "0123456789abcdef"[std::to_integer<int>(b) / 16];
-    hex += "0123456789abcdef"[std::to_integer<int>(b) % 16];
-  }
-  return hex;
-}
-
-std::vector<nlohmann::json> recorded(const std::string& file) {
-  std::vector<nlohmann::json> packets;
-  std::ifstream in("tests/data/" + file);
-  for (std::string line; std::getline(in, line);) packets.push_back(nlohmann::json::parse(line));
-  return packets;
-}
 
 // What is wrong with the bytes, in words.
 std::string complaint(const MessageSet& set, const std::vector<std::byte>& bytes) {

@@ -1,0 +1,11 @@
+// The global allocator of a test program that links counted_allocations.cpp.
+#pragma once
+
+#include <cstdint>
+
+namespace jarol::tests {
+
+/// How often memory has been asked for so far.
+std::uint64_t allocations();
+
+}  // namespace jarol::tests
