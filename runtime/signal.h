@@ -10,15 +10,15 @@
 namespace jarol {
 
 /// What came of signalling; `done` alone is no error.
-enum class [[nodiscard]] Signalling { done, not_awaited, during_signalling, interrupted };
+enum class [[nodiscard]] Signalling{done, not_awaited, during_signalling, interrupted};
 /// What came of awaiting.
-enum class [[nodiscard]] Awaiting { signalled, during_signalling, timed_out, interrupted };
+enum class [[nodiscard]] Awaiting{signalled, during_signalling, timed_out, interrupted};
 
 std::string_view to_text(Signalling result);
 std::string_view to_text(Awaiting result);
 
-/// A signalling lasts until all have left who waited when it began. What the signalling thread did before happens before
-/// what they do next. Any number of threads may await and signal; signalling takes no lock.
+/// A signalling lasts until all have left who waited when it began. What the signalling thread did before happens
+/// before what they do next. Any number of threads may await and signal; signalling takes no lock.
 template <class Threads>
 class BasicSignal {
  public:
@@ -50,8 +50,8 @@ class BasicSignal {
       if ((state & interrupted) != 0) return Signalling::interrupted;
       if ((state & signalling) != 0) return Signalling::during_signalling;
       if (state == 0) return Signalling::not_awaited;
-    } while (!state_.compare_exchange_weak(state, state | signalling, std::memory_order_acq_rel,
-                                           std::memory_order_relaxed));
+    } while (
+        !state_.compare_exchange_weak(state, state | signalling, std::memory_order_acq_rel, std::memory_order_relaxed));
     Threads::wake_all(state_);
     return Signalling::done;
   }
@@ -83,8 +83,7 @@ class BasicSignal {
     do {
       if ((state & interrupted) != 0) return Awaiting::interrupted;
       if ((state & signalling) != 0) return Awaiting::during_signalling;
-    } while (
-        !state_.compare_exchange_weak(state, state + 1, std::memory_order_acq_rel, std::memory_order_relaxed));
+    } while (!state_.compare_exchange_weak(state, state + 1, std::memory_order_acq_rel, std::memory_order_relaxed));
     return std::nullopt;
   }
 

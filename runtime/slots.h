@@ -18,14 +18,15 @@ class Slots {
   /// All words are zero at first. Throws std::length_error for more than fits into memory.
   Slots(std::size_t count, std::size_t words, std::size_t bytes) : count_(count), words_(words) {
     constexpr std::size_t most = std::size_t{1} << 40;
-    if (count > most || words > most || bytes > most || count * (line + bytes / line + words / line * sizeof(Word)) > most)
+    if (count > most || words > most || bytes > most ||
+        count * (line + bytes / line + words / line * sizeof(Word)) > most)
       throw std::length_error("the slots of a port take more than a tebibyte");
     stride_ = (words * sizeof(Word) + bytes + line - 1) / line * line;
-    memory_ = static_cast<std::byte*>(::operator new(count * stride_, std::align_val_t{apart}));
+    memory_ = static_cast<std::byte*>(::operator new (count* stride_, std::align_val_t{apart}));
     for (std::size_t slot = 0; slot < count; ++slot)
       for (std::size_t i = 0; i < words; ++i) new (memory_ + slot * stride_ + i * sizeof(Word)) Word(0);
   }
-  ~Slots() { ::operator delete(memory_, std::align_val_t{apart}); }
+  ~Slots() { ::operator delete (memory_, std::align_val_t{apart}); }
   Slots(const Slots&) = delete;
   Slots& operator=(const Slots&) = delete;
 

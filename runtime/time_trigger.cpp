@@ -19,7 +19,6 @@ template class BasicTimeTrigger<Futex>;
 
 TimeTrigger::TimeTrigger(std::chrono::nanoseconds period) : TimeTrigger(period, Futex::now() + above_zero(period)) {}
 
-TimeTrigger::TimeTrigger(std::chrono::nanoseconds period, Time first)
-    : BasicTimeTrigger(above_zero(period), first) {}
+TimeTrigger::TimeTrigger(std::chrono::nanoseconds period, Time first) : BasicTimeTrigger(above_zero(period), first) {}
 
 }  // namespace jarol

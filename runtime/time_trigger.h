@@ -10,8 +10,8 @@
 
 namespace jarol {
 
-/// Ticks at first, first + period, ... for all who wait then. Each who waits sleeps until the tick himself: one wake-up,
-/// where a thread that ticks and signals would take two. Ticks that nobody awaits are counted.
+/// Ticks at first, first + period, ... for all who wait then. Each who waits sleeps until the tick himself: one
+/// wake-up, where a thread that ticks and signals would take two. Ticks that nobody awaits are counted.
 template <class Threads>
 class BasicTimeTrigger {
  public:

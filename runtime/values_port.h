@@ -67,11 +67,8 @@ class PacketsPort {
   }
 
   /// Reader: packets that were overwritten before they were read; push ports only.
-  std::uint64_t lost() const
-    requires requires(const Port& p) { p.lost(); }
-  {
-    return port_.lost();
-  }
+  std::uint64_t lost() const requires requires(const Port& p) { p.lost(); }
+  { return port_.lost(); }
 
  private:
   Port port_;

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   tools::add_bench(app, exit_code);
   tools::add_check(app, exit_code);
   tools::add_graph(app, exit_code);
+  tools::add_messages(app, exit_code);
   tools::add_run(app, exit_code);
   tools::add_schema(app, exit_code);
   tools::add_tasks(app, exit_code);

@@ -91,7 +91,8 @@ void read_integer(const FieldForm& field, const Json& json, void* to) {
     const auto value = json.get<std::int64_t>();
     if (std::in_range<Integer>(value)) integer = static_cast<Integer>(value);
   }
-  if (!integer) fail(json, "an integer from " + std::to_string(least) + " to " + std::to_string(most) + names_text(field));
+  if (!integer)
+    fail(json, "an integer from " + std::to_string(least) + " to " + std::to_string(most) + names_text(field));
   std::memcpy(to, &*integer, sizeof(Integer));
 }
 
@@ -170,7 +171,8 @@ void read_inline(const MessageSet& set, const Json& json, InlineMessage& to, int
   if (form == nullptr) {
     std::vector<std::string> names;
     for (const MessageForm* m : set.messages) names.emplace_back(m->name);
-    throw Wrong{"holds '" + name + "', which is no message of set " + std::string(set.name) + did_you_mean(name, names)};
+    throw Wrong{"holds '" + name + "', which is no message of set " + std::string(set.name) +
+                did_you_mean(name, names)};
   }
   Message message(*form);
   if (json.contains("fields")) read_object(json["fields"], message, depth + 1);
@@ -208,9 +210,11 @@ void read_field(const MessageSet& set, const FieldForm& field, const Json& json,
 void read_object(const Json& object, Message& message, int depth) {
   const MessageForm& form = *message.form();
   const std::string owner(form.name);
-  if (!object.is_object()) throw Wrong{"the fields of " + owner + " are " + shown(object) + "; they need to be an object"};
+  if (!object.is_object())
+    throw Wrong{"the fields of " + owner + " are " + shown(object) + "; they need to be an object"};
   for (const auto& [name, value] : object.items()) {
-    const auto field = std::find_if(form.fields.begin(), form.fields.end(), [&](const auto& f) { return f.name == name; });
+    const auto field =
+        std::find_if(form.fields.begin(), form.fields.end(), [&](const auto& f) { return f.name == name; });
     if (field == form.fields.end()) {
       std::vector<std::string> names;
       for (const FieldForm& f : form.fields) names.emplace_back(f.name);
@@ -228,9 +232,7 @@ bool from_json(std::string_view object, Message& message, std::string& why) {
   try {
     read_object(Json::parse(object), message, 0);
     return true;
-  } catch (const Wrong& wrong) {
-    why = wrong.text;
-  } catch (const Json::exception& error) {
+  } catch (const Wrong& wrong) { why = wrong.text; } catch (const Json::exception& error) {
     why = "is no JSON object";
   }
   return false;

@@ -24,8 +24,8 @@ struct PacketCounts {
 };
 
 /// Finds packets in what arrives piece by piece. Only what has a sync, an id of the set, a size that its message can
-/// have and the right checksum counts as a packet; behind anything else it looks for a sync again, one byte on. Its memory
-/// is taken once, that of its messages when the first of a form comes.
+/// have and the right checksum counts as a packet; behind anything else it looks for a sync again, one byte on. Its
+/// memory is taken once, that of its messages when the first of a form comes.
 class StreamReader {
  public:
   /// Packets of more than `most_packet` bytes are dropped; 0 is what the set allows.
@@ -44,8 +44,8 @@ class StreamReader {
   MessageRef header() const { return reader_.header(); }
   MessageRef message() const { return reader_.message(); }
 
-  /// What has not come of a packet that has begun will not come: the line is closed, or was silent for long. Then `next`
-  /// looks through what there is.
+  /// What has not come of a packet that has begun will not come: the line is closed, or was silent for long. Then
+  /// `next` looks through what there is.
   void give_up() { giving_up_ = true; }
 
   const PacketCounts& counts() const { return counts_; }

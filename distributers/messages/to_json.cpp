@@ -120,8 +120,8 @@ Json json_of_field(const MessageSet& set, const FieldForm& field, const void* fr
 Json json_of(MessageRef message) {
   Json object = Json::object();
   for (const FieldForm& field : message.form->fields)
-    object[std::string(field.name)] = json_of_field(message.form->set(), field,
-                                                    static_cast<const std::byte*>(message.value) + field.offset);
+    object[std::string(field.name)] =
+        json_of_field(message.form->set(), field, static_cast<const std::byte*>(message.value) + field.offset);
   return object;
 }
 

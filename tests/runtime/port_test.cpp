@@ -99,7 +99,5 @@ TEST_SUITE("runtime/port") {
     }
   }
 
-  TEST_CASE("two threads, packets of all lengths") {
-    CHECK(tests::stress_packets<PacketPort>(8) == "");
-  }
+  TEST_CASE("two threads, packets of all lengths") { CHECK(tests::stress_packets<PacketPort>(8) == ""); }
 }

@@ -102,7 +102,5 @@ TEST_SUITE("runtime/push_port") {
     }
   }
 
-  TEST_CASE("two threads, packets of all lengths") {
-    CHECK(tests::stress_packets<PushPacketPort>(8) == "");
-  }
+  TEST_CASE("two threads, packets of all lengths") { CHECK(tests::stress_packets<PushPacketPort>(8) == ""); }
 }

@@ -11,7 +11,8 @@ using namespace jarol;
 using namespace jarol::messages;
 
 TEST_SUITE("distributers/messages/allocation") {
-  TEST_CASE("the second reading of a conversation and its writing allocate nothing, garbage and broken packets included") {
+  TEST_CASE(
+      "the second reading of a conversation and its writing allocate nothing, garbage and broken packets included") {
     for (const auto& [set, file] : {std::pair{&imc::message_set(), "imc-packets.jsonl"},
                                     std::pair{&javiator::message_set(), "javiator-packets.jsonl"}}) {
       std::vector<std::vector<std::byte>> packets;
@@ -27,8 +28,7 @@ TEST_SUITE("distributers/messages/allocation") {
         for (const std::vector<std::byte>& packet : packets) {
           std::copy(packet.begin(), packet.end(), reader.room().begin());
           reader.filled(packet.size());
-          while (reader.next())
-            REQUIRE(write_packet(reader.header(), reader.message(), reader.order(), written));
+          while (reader.next()) REQUIRE(write_packet(reader.header(), reader.message(), reader.order(), written));
         }
       };
       converse();

@@ -56,7 +56,7 @@ struct Protocol {
 };
 
 const std::array<Protocol, 2> protocols{Protocol{imc::message_set(), "imc-packets.jsonl", true},
-                                Protocol{javiator::message_set(), "javiator-packets.jsonl", false}};
+                                        Protocol{javiator::message_set(), "javiator-packets.jsonl", false}};
 
 std::size_t below(Random& random, std::size_t limit) { return random() % limit; }
 
@@ -118,7 +118,8 @@ TEST_SUITE("distributers/messages/mutations") {
           for (std::byte& b : bytes) b = static_cast<std::byte>(random());
           // half of them begin like a packet
           const Bytes& like = packets[below(random, packets.size())];
-          if (i % 4 == 0) std::copy_n(like.begin(), std::min(like.size(), std::min<std::size_t>(bytes.size(), 6)), bytes.begin());
+          if (i % 4 == 0)
+            std::copy_n(like.begin(), std::min(like.size(), std::min<std::size_t>(bytes.size(), 6)), bytes.begin());
         } else {
           bytes = packets[below(random, packets.size())];
           damage(bytes, random);
@@ -177,12 +178,10 @@ TEST_SUITE("distributers/messages/mutations") {
         std::copy_n(stream.begin() + static_cast<std::ptrdiff_t>(fed), size, room.begin());
         reader.filled(size);
         fed += size;
-        while (reader.next()) {
-        }
+        while (reader.next()) {}
       }
       reader.give_up();
-      while (reader.next()) {
-      }
+      while (reader.next()) {}
       const PacketCounts& counts = reader.counts();
       CHECK(counts.bytes + counts.dropped_bytes == stream.size());
       CHECK(counts.packets >= good);

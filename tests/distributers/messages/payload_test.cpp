@@ -40,14 +40,28 @@ TEST_SUITE("distributers/messages/payload") {
     reference.flags = imc::Reference::Flags::SPEED | imc::Reference::Flags::Z;
     reference.speed = inlined(imc::DesiredSpeed{1.0, imc::SpeedUnits::METERS_PS});
     reference.lat = 0.5;
-    const std::string tail = "000000000000e03f" "0000000000000000" "00000000";
-    CHECK(written(refer_to(reference)) == "06" "9201" "000000000000f03f00" "ffff" + tail);
+    const std::string tail =
+        "000000000000e03f"
+        "0000000000000000"
+        "00000000";
+    CHECK(written(refer_to(reference)) ==
+          "06"
+          "9201"
+          "000000000000f03f00"
+          "ffff" +
+              tail);
     CHECK(written(refer_to(reference), ByteOrder::big) ==
-          "06" "0192" "3ff000000000000000" "ffff" "3fe0000000000000" "0000000000000000" "00000000");
+          "06"
+          "0192"
+          "3ff000000000000000"
+          "ffff"
+          "3fe0000000000000"
+          "0000000000000000"
+          "00000000");
 
     imc::Reference back;
-    REQUIRE(read_payload(imc::Reference::form, ByteOrder::big,
-                         bytes_of(written(refer_to(reference), ByteOrder::big)), &back));
+    REQUIRE(read_payload(imc::Reference::form, ByteOrder::big, bytes_of(written(refer_to(reference), ByteOrder::big)),
+                         &back));
     CHECK(back.z.empty());
     Message speed;
     REQUIRE(take_inline(imc::message_set(), back.speed, speed));
@@ -81,33 +95,39 @@ TEST_SUITE("distributers/messages/payload") {
     imc::Reference reference;
     reference.z = inlined(imc::DesiredSpeed{});
     CHECK(written(refer_to(reference)) == "field 'z' of Reference holds DesiredSpeed, which is no DesiredZ");
-    CHECK(complaint<imc::Reference>("00ffff9201") ==
-          "field 'z' of Reference holds DesiredSpeed, which is no DesiredZ");
+    CHECK(complaint<imc::Reference>("00ffff9201") == "field 'z' of Reference holds DesiredSpeed, which is no DesiredZ");
     imc::VehicleCommand command;
     command.maneuver = inlined(imc::Abort{});
     CHECK(written(refer_to(command)) == "field 'maneuver' of VehicleCommand holds Abort, which is no Maneuver");
-    CHECK(complaint<imc::Reference>("000f27") ==
-          "field 'speed' of Reference holds message id 9999, which is not in the set or can't stand in another message");
+    CHECK(
+        complaint<imc::Reference>("000f27") ==
+        "field 'speed' of Reference holds message id 9999, which is not in the set or can't stand in another message");
     reference.z.payload.pop_back();
     reference.z.id = imc::DesiredZ::message_id;
     reference.z.payload.resize(4);
-    CHECK(written(refer_to(reference)) ==
-          "field 'z' of Reference holds a message that can't be read: field 'z_units' of DesiredZ needs 1 bytes where 0 "
-          "are left");
+    CHECK(
+        written(refer_to(reference)) ==
+        "field 'z' of Reference holds a message that can't be read: field 'z_units' of DesiredZ needs 1 bytes where 0 "
+        "are left");
     reference.z.payload.resize(7);
     CHECK(written(refer_to(reference)) == "field 'z' of Reference holds DesiredZ with 2 bytes too many");
   }
 
   TEST_CASE("every length is held against what is there and what can be sent") {
-    CHECK(complaint<imc::EntityState>("0000" "0500" "61") ==
-          "field 'description' of EntityState needs 5 bytes where 1 are left");
-    CHECK(complaint<imc::EntityState>("0000" "05") ==
-          "field 'description' of EntityState needs 2 bytes where 1 are left");
-    CHECK(complaint<imc::EntityState>("0000" "0100" "6162") ==
-          "EntityState has 5 bytes of fields, but 6 of payload");
-    CHECK(complaint<imc::Distance>("00" "0100" "ff") == "field 'location' of Distance needs 2 bytes where 1 are left");
-    CHECK(complaint<imc::Distance>("00" "ffff" "ffffffff") ==
-          "field 'location' of Distance needs 131070 bytes where 4 are left");
+    CHECK(complaint<imc::EntityState>("0000"
+                                      "0500"
+                                      "61") == "field 'description' of EntityState needs 5 bytes where 1 are left");
+    CHECK(complaint<imc::EntityState>("0000"
+                                      "05") == "field 'description' of EntityState needs 2 bytes where 1 are left");
+    CHECK(complaint<imc::EntityState>("0000"
+                                      "0100"
+                                      "6162") == "EntityState has 5 bytes of fields, but 6 of payload");
+    CHECK(complaint<imc::Distance>("00"
+                                   "0100"
+                                   "ff") == "field 'location' of Distance needs 2 bytes where 1 are left");
+    CHECK(complaint<imc::Distance>("00"
+                                   "ffff"
+                                   "ffffffff") == "field 'location' of Distance needs 131070 bytes where 4 are left");
 
     imc::TransmissionRequest request;
     request.raw_data.resize(65536);
@@ -115,8 +135,7 @@ TEST_SUITE("distributers/messages/payload") {
           "field 'raw_data' of TransmissionRequest has 65536 bytes; at most 65535 can be sent");
     imc::Distance distance;
     distance.location.resize(65536);
-    CHECK(written(refer_to(distance)) ==
-          "field 'location' of Distance has 65536 messages; at most 65535 can be sent");
+    CHECK(written(refer_to(distance)) == "field 'location' of Distance has 65536 messages; at most 65535 can be sent");
   }
 
   TEST_CASE("messages are nested sixteen deep, and no deeper") {

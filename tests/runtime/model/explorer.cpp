@@ -10,8 +10,12 @@ constexpr std::size_t stack_size = 64 * 1024;
 
 Explorer* explorer = nullptr;
 
-bool acquires(std::memory_order order) { return order != std::memory_order_relaxed && order != std::memory_order_release; }
-bool releases(std::memory_order order) { return order != std::memory_order_relaxed && order != std::memory_order_acquire; }
+bool acquires(std::memory_order order) {
+  return order != std::memory_order_relaxed && order != std::memory_order_release;
+}
+bool releases(std::memory_order order) {
+  return order != std::memory_order_relaxed && order != std::memory_order_acquire;
+}
 
 }  // namespace
 

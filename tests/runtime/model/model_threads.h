@@ -19,12 +19,12 @@ struct ModelMemory {
       Explorer::current().store(place_, static_cast<std::uint64_t>(value), weak(order));
     }
     T fetch_or(T bits, std::memory_order order) {
-      return static_cast<T>(
-          Explorer::current().change(place_, [&](std::uint64_t old) { return old | bits; }, weak(order)));
+      return static_cast<T>(Explorer::current().change(
+          place_, [&](std::uint64_t old) { return old | bits; }, weak(order)));
     }
     T fetch_add(T more, std::memory_order order) {
-      return static_cast<T>(
-          Explorer::current().change(place_, [&](std::uint64_t old) { return old + more; }, weak(order)));
+      return static_cast<T>(Explorer::current().change(
+          place_, [&](std::uint64_t old) { return old + more; }, weak(order)));
     }
     bool compare_exchange_strong(T& expected, T value, std::memory_order success, std::memory_order failure) {
       auto old = static_cast<std::uint64_t>(expected);
