@@ -14,6 +14,8 @@ inline constexpr double degree = std::numbers::pi / 180.0;
 struct SeaParameters {
   double gravity = 9.81;
   double density = 1000.0;
+  double temperature = 14.0;
+  double salinity = 35.0;
   double current_north = 0.0;
   double current_east = 0.0;
   double wave_height = 0.0;
@@ -27,6 +29,7 @@ struct SeaParameters {
     using S = SeaParameters;
     return describe(
         field<&S::gravity>("m/s^2", "acceleration of gravity"), field<&S::density>("kg/m^3", "of the water"),
+        field<&S::temperature>("degC", "of the water"), field<&S::salinity>("", "practical salinity"),
         field<&S::current_north>("m/s", "current to the north"), field<&S::current_east>("m/s", "current to the east"),
         field<&S::wave_height>("m", "of the waves, crest to trough"),
         field<&S::wave_period>("s", "from crest to crest"),

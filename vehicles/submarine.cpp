@@ -1,5 +1,7 @@
 #include "vehicles/submarine.h"
 
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "distributers/messages/imc.h"
@@ -12,11 +14,22 @@ namespace {
 
 constexpr double step_seconds = SubmarineMotion::step_seconds;
 
+double floating_depth(const SubmarineParameters& parameters) { return calc_floating_depth(make_body(parameters).hull); }
+
+// R_bn of Euler angles ZYX times a vector
+fossen::Vector3 to_body_axes(const fossen::Vector3& angles, const fossen::Vector3& v) {
+  const double c_phi = std::cos(angles[0]), s_phi = std::sin(angles[0]), c_theta = std::cos(angles[1]),
+               s_theta = std::sin(angles[1]), c_psi = std::cos(angles[2]), s_psi = std::sin(angles[2]);
+  const double along = c_psi * v[0] + s_psi * v[1], across = c_psi * v[1] - s_psi * v[0];
+  const double lifted = s_theta * along + c_theta * v[2];
+  return {c_theta * along - s_theta * v[2], c_phi * across + s_phi * lifted, c_phi * lifted - s_phi * across};
+}
+
 VehicleState start_of(const SubmarineParameters& parameters) {
   VehicleState start;
   start.x = parameters.start.north;
   start.y = parameters.start.east;
-  start.z = calc_floating_depth(make_body(parameters).hull) + parameters.start.depth;
+  start.z = floating_depth(parameters) + parameters.start.depth;
   start.psi = parameters.start.heading;
   start.u = parameters.start.surge;
   return start;
@@ -24,8 +37,13 @@ VehicleState start_of(const SubmarineParameters& parameters) {
 
 }  // namespace
 
-Submarine::Submarine(const SubmarineParameters& parameters, std::uint64_t)
-    : parameters_(parameters), actuation_(parameters) {
+Submarine::Submarine(const SubmarineParameters& parameters, std::uint64_t seed)
+    : parameters_(parameters),
+      seed_(seed),
+      actuation_(parameters),
+      sensors_(parameters.sensors, parameters.sea, floating_depth(parameters), seed),
+      power_(parameters.power),
+      waves_(parameters.sea.wave_height, parameters.sea.wave_period, parameters.sea.wave_direction) {
   Submarine::place(start_of(parameters));
 }
 
@@ -55,6 +73,29 @@ void Submarine::step() {
   at_ = motion_->state();
   const auto& servos = actuation_.servos();
   outputs_.actuators = {actuation_.propeller(), servos[0], servos[1], servos[2], servos[3]};
+  power_.draw(actuation_.propeller() / parameters_.thruster.full_speed, step_seconds);
+  sample();
+}
+
+void Submarine::sample() {
+  const VehicleState over_ground = state();
+  const fossen::Vector6& eta = at_.eta;
+  const double t = static_cast<double>(steps_) * step_seconds;
+  const Water water = waves_.at({eta[0], eta[1], eta[2]}, t);
+
+  SubmarineScene scene;
+  scene.at = at_;
+  scene.north = over_ground.x;
+  scene.east = over_ground.y;
+  scene.depth = eta[2] - water.surface;
+  scene.water_b = to_body_axes({eta[3], eta[4], eta[5]}, water.velocity_n);
+  scene.rpm = actuation_.propeller() * 30.0 / std::numbers::pi;
+  scene.leak = parameters_.leak_at > Duration{} && steps_ * grid() >= parameters_.leak_at;
+  scene.hull_warmth = power_.warmth();
+  scene.voltage = power_.voltage();
+  scene.current = power_.current();
+  sensors_.step(steps_, scene);
+  outputs_.sensors = sensors_.readings();
 }
 
 // the plant moves in water that the current carries along
@@ -78,14 +119,15 @@ void Submarine::place(const VehicleState& s) {
   PlantState start;
   start.eta = {s.x, s.y, s.z, s.phi, s.theta, s.psi};
   start.nu = {s.u, s.v, s.w, s.p, s.q, s.r};
-  const SeaParameters& sea = parameters_.sea;
   if (parameters_.vsim_compatible) {
     motion_ = std::make_unique<VsimPlant>(parameters_, start);
   } else {
-    const Waves waves(sea.wave_height, sea.wave_period, sea.wave_direction);
-    motion_ = std::make_unique<SubmarinePlant>(make_body(parameters_), waves, start);
+    motion_ = std::make_unique<SubmarinePlant>(make_body(parameters_), waves_, start);
   }
-  at_ = start;
+  at_ = motion_->state();
+  // what the sensors tell at the start; they begin anew
+  sensors_ = SubmarineSensors(parameters_.sensors, parameters_.sea, floating_depth(parameters_), seed_);
+  sample();
 }
 
 void Submarine::sense(messages::Receiver& receiver) const {
@@ -109,6 +151,7 @@ void Submarine::sense(messages::Receiver& receiver) const {
   m.svx = static_cast<float>(sea.current_north);
   m.svy = static_cast<float>(sea.current_east);
   receiver.receive(messages::refer_to(m));
+  sensors_.tell(receiver);
 }
 
 }  // namespace jarol::vehicles

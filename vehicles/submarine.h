@@ -1,5 +1,5 @@
-// The submarine as a vehicle: takes IMC commands for its thruster and its four servos, tells its state as
-// SimulatedState.
+// The submarine as a vehicle: takes IMC commands for its thruster and its four servos, tells what its
+// sensors read, and its true state as SimulatedState.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,9 @@
 #include "vehicles/submarine_io.h"
 #include "vehicles/submarine_motion.h"
 #include "vehicles/submarine_parameters.h"
+#include "vehicles/submarine_sensors.h"
 #include "vehicles/vehicle.h"
+#include "vehicles/waves.h"
 
 namespace jarol::vehicles {
 
@@ -34,9 +36,15 @@ class Submarine : public Vehicle {
   const void* outputs() const override { return &outputs_; }
 
  private:
+  void sample();
+
   SubmarineParameters parameters_;
+  std::uint64_t seed_;
   std::unique_ptr<SubmarineMotion> motion_;
   SubmarineActuation actuation_;
+  SubmarineSensors sensors_;
+  Power power_;
+  Waves waves_;
   PlantState at_;
   std::int64_t steps_ = 0;
   SubmarineOutputs outputs_;

@@ -4,6 +4,8 @@
 #pragma once
 
 #include "vehicles/sea_parameters.h"
+#include "vehicles/submarine_power.h"
+#include "vehicles/submarine_sensor_parameters.h"
 
 namespace jarol::vehicles {
 
@@ -242,6 +244,9 @@ struct SubmarineParameters {
   FinParameters fins{};
   ThrusterParameters thruster{};
   ServoParameters servos{};
+  PowerParameters power{};
+  SubmarineSensorParameters sensors{};
+  Duration leak_at{};
   SeaParameters sea{};
   StartParameters start{};
 
@@ -255,7 +260,9 @@ struct SubmarineParameters {
                     field<&S::quadratic_damping>("", "damping per velocity squared"),
                     field<&S::lift>("", "lift of hull and undeflected fins"), field<&S::fins>("", "the four fins"),
                     field<&S::thruster>("", "the propeller"), field<&S::servos>("", "the servos of the fins"),
-                    field<&S::sea>("", "the sea"), field<&S::start>("", "the start"));
+                    field<&S::power>("", "battery, and warmth of the hull"), field<&S::sensors>("", "the sensors"),
+                    field<&S::leak_at>("", "when water enters the hull; 0 never"), field<&S::sea>("", "the sea"),
+                    field<&S::start>("", "the start"));
   }
 };
 
