@@ -4,11 +4,20 @@
 #include <cstddef>
 
 #include "distributers/messages/message.h"
+#include "distributers/messages/message_set.h"
+#include "graph/yaml/quantities.h"
 
 namespace jarol::distributers {
 
 class Adapter : public messages::Receiver {
  public:
+  /// The message set that the external system speaks.
+  virtual const messages::MessageSet& message_set() const = 0;
+
+  /// An instant of a run; what the external system expects from time to time can be sent. Messages that arrived before
+  /// it have been received.
+  virtual void reach(Duration, messages::Receiver&) {}
+
   /// Copies the newest value of an `in` channel if a message brought one since the last call.
   virtual bool take(std::size_t channel, void* value) = 0;
 

@@ -5,6 +5,8 @@
 
 #include "distributers/javiator_vehicle.h"
 #include "distributers/lauv_vehicle.h"
+#include "distributers/links/link_spec.h"
+#include "distributers/links/linked.h"
 #include "distributers/links/script.h"
 #include "distributers/links/simulation.h"
 #include "distributers/vehicle_file.h"
@@ -19,14 +21,16 @@ namespace {
 struct DistributerKind {
   DistributerClass description;
   std::unique_ptr<Adapter> (*make_adapter)() = nullptr;
+  bool is_vehicle = false;  // and can be simulated
 };
 
 const std::vector<DistributerKind>& kinds() {
   static const std::vector<DistributerKind> all{
       {JaviatorVehicle::describe_class(),
-       []() -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorVehicle>(); }},
+       []() -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorVehicle>(); }, true},
       {describe_javiator_operator(), nullptr},
-      {LauvVehicle::describe_class(), []() -> std::unique_ptr<Adapter> { return std::make_unique<LauvVehicle>(); }},
+      {LauvVehicle::describe_class(), []() -> std::unique_ptr<Adapter> { return std::make_unique<LauvVehicle>(); },
+       true},
       {describe_lauv_operator(), nullptr},
   };
   return all;
@@ -127,6 +131,14 @@ std::unique_ptr<Channels> make_script(const Graph& graph, std::size_t index, Pro
   return std::make_unique<ScriptChannels>(source, *distributer.distributer_class, problems);
 }
 
+std::vector<std::string> links_of(const DistributerKind& kind) {
+  std::vector<std::string> links;
+  if (kind.is_vehicle) links.emplace_back("simulation");
+  links.emplace_back("script");
+  if (kind.make_adapter != nullptr) links.insert(links.end(), link_types().begin(), link_types().end());
+  return links;
+}
+
 }  // namespace
 
 void add_distributers(Registry& registry) {
@@ -141,21 +153,24 @@ std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
     const Distributer& distributer = graph.distributers[i];
     all.emplace_back();
     if (distributer.distributer_class == nullptr || distributer.link.kind != Yaml::Kind::mapping) continue;
-    const bool speaks_messages = kind_of(distributer).make_adapter != nullptr;
-    const std::vector<std::string> links =
-        speaks_messages ? std::vector<std::string>{"simulation", "script"} : std::vector<std::string>{"script"};
+    const auto make_adapter = kind_of(distributer).make_adapter;
+    const std::vector<std::string> links = links_of(kind_of(distributer));
     const std::string subject = "link of distributer '" + distributer.name + "'";
     const Yaml* type = distributer.link.find("type");
     if (type == nullptr) {
       problems.add(distributer.link.where, subject + " lacks the key 'type'; a " + distributer.distributer_class->name +
                                                " can have: " + list_of(links));
-    } else if (type->text == "simulation" && speaks_messages) {
+    } else if (std::find(links.begin(), links.end(), type->text) == links.end()) {
+      problems.add(type->where, subject + " has type '" + type->text + "'" + did_you_mean(type->text, links) + "; a " +
+                                    distributer.distributer_class->name + " can have: " + list_of(links));
+    } else if (type->text == "simulation") {
       all.back() = make_simulation(graph, i, vehicles, spread_seed(seed, distributer.name), problems);
     } else if (type->text == "script") {
       all.back() = make_script(graph, i, problems);
     } else {
-      problems.add(type->where, subject + " has type '" + type->text + "'" + did_you_mean(type->text, links) + "; a " +
-                                    distributer.distributer_class->name + " can have: " + list_of(links));
+      auto adapter = make_adapter();
+      if (auto link = make_link(distributer.link, adapter->message_set(), subject, problems))
+        all.back() = std::make_unique<LinkedChannels>(std::move(link), std::move(adapter));
     }
   }
   return all;

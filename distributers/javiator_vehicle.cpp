@@ -43,6 +43,8 @@ DistributerClass describe_javiator_operator() {
            {"report", Direction::out, &type_of<tasks::HelicopterReport>(), "attitude, altitude, position and state"}}};
 }
 
+const messages::MessageSet& JaviatorVehicle::message_set() const { return javiator::message_set(); }
+
 void JaviatorVehicle::receive(messages::MessageRef message) {
   const auto* d = message.as<javiator::JaviatorData>();
   if (d == nullptr) return;

@@ -12,6 +12,7 @@ class JaviatorVehicle : public Adapter {
  public:
   static DistributerClass describe_class();
 
+  const messages::MessageSet& message_set() const override;
   void receive(messages::MessageRef message) override;
   bool take(std::size_t channel, void* value) override;
   void hand_over(std::size_t channel, const void* value, messages::Receiver& system) override;

@@ -21,6 +21,8 @@ DistributerClass describe_lauv_operator() {
            {"motion", Direction::out, &type_of<tasks::Motion>(), "the vehicle's motion as it came"}}};
 }
 
+const messages::MessageSet& LauvVehicle::message_set() const { return imc::message_set(); }
+
 void LauvVehicle::receive(messages::MessageRef message) {
   const auto* s = message.as<imc::SimulatedState>();
   if (s == nullptr) return;

@@ -1,15 +1,36 @@
 // The channels of one distributer while a graph runs: how values of the core reach an external system and come from it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "graph/values/type_of.h"
 
 namespace jarol {
 
+/// What a link to another process or device has carried, and what it dropped and why.
+struct LinkReport {
+  std::string link;
+  std::vector<std::pair<std::string, std::uint64_t>> counts;
+};
+
 class Channels {
  public:
   virtual ~Channels() = default;
+
+  /// Before the first instant of a run. Throws std::runtime_error if there is no way to the external system.
+  virtual void begin() {}
+  /// After the last instant; what is under way is completed.
+  virtual void finish() {}
+
+  /// The external system goes on by itself, whatever the logical clock says.
+  virtual bool needs_real_clock() const { return false; }
+
+  /// What was carried until now, for channels that are on a link.
+  virtual std::optional<LinkReport> link_report() const { return std::nullopt; }
 
   /// Step 0 of an instant: the external system reaches it with the inputs that it held before; sensors sample.
   virtual void reach(Duration instant) = 0;

@@ -27,8 +27,7 @@ std::string refused(const std::string& what, int error, const std::string& remed
 
 }  // namespace
 
-RealClock::RealClock(const Graph& graph, RealTimeOptions options)
-    : options_(std::move(options)), timings_(graph.tasks.size()) {}
+RealClock::RealClock(std::size_t tasks, RealTimeOptions options) : options_(std::move(options)), timings_(tasks) {}
 
 std::int64_t RealClock::monotonic() {
   timespec now{};

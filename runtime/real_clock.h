@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "graph/graph.h"
 #include "runtime/histogram.h"
 
 namespace jarol {
@@ -27,7 +26,8 @@ struct TaskTiming {
 
 class RealClock {
  public:
-  RealClock(const Graph& graph, RealTimeOptions options);
+  /// For a graph of so many tasks.
+  explicit RealClock(std::size_t tasks, RealTimeOptions options = {});
 
   /// Gives the calling thread its priority, CPUs, timer slack of 1 ns and locked memory; a plain sentence for each that
   /// this machine does not permit.

@@ -31,7 +31,18 @@ class BasicSignal {
   /// Waits to be signalled, interrupted, or until the deadline. Who waits when it is signalled was signalled, whatever
   /// else happens before he has left.
   Awaiting await(std::optional<Time> deadline = {}) {
+    return await_unless([] { return false; }, deadline);
+  }
+
+  /// The same, but looks once more whether there is a reason to wait, after whoever signals would find him waiting:
+  /// what becomes `ready` before it is signalled is never slept through. It counts as signalled then.
+  template <class Ready>
+  Awaiting await_unless(Ready ready, std::optional<Time> deadline = {}) {
     if (const std::optional<Awaiting> refused = enter()) return *refused;
+    if (ready()) {
+      const std::optional<Awaiting> result = leave(state_.load(std::memory_order_acquire), false);
+      return *result == Awaiting::timed_out ? Awaiting::signalled : *result;
+    }
     for (;;) {
       std::uint32_t state = state_.load(std::memory_order_acquire);
       bool in_time = true;
@@ -45,7 +56,8 @@ class BasicSignal {
 
   /// Wakes all who wait.
   Signalling signal() {
-    std::uint32_t state = state_.load(std::memory_order_relaxed);
+    // in one order with `enter` and what `ready` looks at
+    std::uint32_t state = state_.load(std::memory_order_seq_cst);
     do {
       if ((state & interrupted) != 0) return Signalling::interrupted;
       if ((state & signalling) != 0) return Signalling::during_signalling;
@@ -83,7 +95,7 @@ class BasicSignal {
     do {
       if ((state & interrupted) != 0) return Awaiting::interrupted;
       if ((state & signalling) != 0) return Awaiting::during_signalling;
-    } while (!state_.compare_exchange_weak(state, state + 1, std::memory_order_acq_rel, std::memory_order_relaxed));
+    } while (!state_.compare_exchange_weak(state, state + 1, std::memory_order_seq_cst, std::memory_order_relaxed));
     return std::nullopt;
   }
 

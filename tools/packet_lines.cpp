@@ -116,7 +116,8 @@ int decode_lines(const messages::MessageSet& set, std::istream& in, std::ostream
     if (reader.message().form == nullptr) throw Wrong{why};
     out << R"({"name":)" << Json(reader.message().form->name) << R"(,"header":)" << messages::to_json(reader.header())
         << R"(,"fields":)" << messages::to_json(reader.message()) << R"(,"crc_ok":)" << Json(flaw == Flaw::none);
-    if (reader.order() != set.order) out << R"(,"order":)" << (reader.order() == ByteOrder::big ? R"("big")" : R"("little")");
+    if (reader.order() != set.order)
+      out << R"(,"order":)" << (reader.order() == ByteOrder::big ? R"("big")" : R"("little")");
     out << R"(,"hex":")" << hex_of(bytes) << "\"}" << std::endl;  // whoever listens may be waiting for it
     return flaw == Flaw::none ? exit_good : exit_negative;
   });
@@ -125,7 +126,8 @@ int decode_lines(const messages::MessageSet& set, std::istream& in, std::ostream
 int encode_lines(const messages::MessageSet& set, std::istream& in, std::ostream& out, std::ostream& errors) {
   return for_each_line(in, errors, [&](const std::string& line) -> int {
     const Json packet = Json::parse(line, nullptr, false);
-    if (!packet.is_object()) throw Wrong{R"(the line is no JSON object; it needs {"name": ..., "header": ..., "fields": ...})"};
+    if (!packet.is_object())
+      throw Wrong{R"(the line is no JSON object; it needs {"name": ..., "header": ..., "fields": ...})"};
     check_keys(packet);
     const messages::Message message = message_of(form_in(packet, set), packet, "fields");
     const messages::Message header = message_of(*set.header, packet, "header");

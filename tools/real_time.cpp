@@ -110,4 +110,17 @@ nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock) {
           {"tasks", tasks}};
 }
 
+std::string to_text(const LinkReport& link) {
+  std::string counts;
+  for (const auto& [name, count] : link.counts)
+    if (count > 0) counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  return "  link        " + link.link + ": " + (counts.empty() ? "nothing came and nothing went" : counts) + "\n";
+}
+
+nlohmann::ordered_json to_json(const LinkReport& link) {
+  auto counts = nlohmann::ordered_json::object();
+  for (const auto& [name, count] : link.counts) counts[name] = count;
+  return {{"link", link.link}, {"counts", counts}};
+}
+
 }  // namespace jarol::tools

@@ -5,6 +5,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "graph/graph.h"
+#include "runtime/channels.h"
 #include "runtime/real_clock.h"
 
 namespace jarol::tools {
@@ -28,5 +30,9 @@ void require_executable(const std::string& file, const Graph& graph, const RealT
 /// How well the run kept to real time.
 std::string to_text(const Graph& graph, const RealClock& clock);
 nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock);
+
+/// What a link has carried; in the text only what there was.
+std::string to_text(const LinkReport& link);
+nlohmann::ordered_json to_json(const LinkReport& link);
 
 }  // namespace jarol::tools

@@ -1,5 +1,7 @@
 #include "vehicles/catalogue.h"
 
+#include "distributers/messages/imc.h"
+#include "distributers/messages/javiator.h"
 #include "graph/values/type_of.h"
 #include "vehicles/helicopter.h"
 #include "vehicles/submarine.h"
@@ -9,8 +11,9 @@ namespace {
 
 // A vehicle class names its Parameters, Inputs and Outputs, and the ranges of its inputs.
 template <class V>
-VehicleClass entry(std::string name, std::string summary) {
+VehicleClass entry(std::string name, const messages::MessageSet& set, std::string summary) {
   VehicleClass made;
+  made.message_set = &set;
   made.name = std::move(name);
   made.summary = std::move(summary);
   made.parameters = &type_of<typename V::Parameters>();
@@ -27,8 +30,10 @@ VehicleClass entry(std::string name, std::string summary) {
 
 const std::vector<VehicleClass>& catalogue() {
   static const std::vector<VehicleClass> all = {
-      entry<Helicopter>("helicopter", "quadrotor with a Robostix between signals and sensors (JAviator)"),
-      entry<Submarine>("submarine", "torpedo-shaped AUV with four fins and one propeller (LAUV)"),
+      entry<Helicopter>("helicopter", messages::javiator::message_set(),
+                        "quadrotor with a Robostix between signals and sensors (JAviator)"),
+      entry<Submarine>("submarine", messages::imc::message_set(),
+                       "torpedo-shaped AUV with four fins and one propeller (LAUV)"),
   };
   return all;
 }

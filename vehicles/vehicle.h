@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "distributers/messages/message.h"
+#include "distributers/messages/message_set.h"
 #include "graph/values/describe.h"
 #include "graph/values/type.h"
 #include "vehicles/no_state.h"
@@ -75,8 +76,9 @@ struct VehicleClass {
   std::string name;
   std::string summary;
   const Type* parameters = nullptr;
-  const Type* inputs = nullptr;   // a struct of doubles
-  std::vector<Range> ranges;      // of the inputs
+  const Type* inputs = nullptr;  // a struct of doubles
+  std::vector<Range> ranges;     // of the inputs
+  const messages::MessageSet* message_set = nullptr;
   const Type* outputs = nullptr;  // a struct of structs of numbers
   // from a value of the type of parameters; throws std::runtime_error if there can be no such vehicle
   std::unique_ptr<Vehicle> (*make)(const void* parameters, std::uint64_t seed) = nullptr;

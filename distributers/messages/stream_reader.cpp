@@ -42,6 +42,7 @@ bool StreamReader::next() {
       continue;
     }
     counts_.count(flaw, size);
+    packet_ = bytes().first(size);
     begin_ += size;
     candidate_left_ = 0;
     in_garbage_ = false;

@@ -39,7 +39,8 @@ class StreamReader {
   /// Reads the next packet, if it is there as a whole. A length that is wrong may make it wait for as many bytes.
   bool next();
 
-  /// Of the packet that `next` has read.
+  /// Of the packet that `next` has read; its bytes are there until there is room for others.
+  std::span<const std::byte> packet() const { return packet_; }
   ByteOrder order() const { return reader_.order(); }
   MessageRef header() const { return reader_.header(); }
   MessageRef message() const { return reader_.message(); }
@@ -63,6 +64,7 @@ class StreamReader {
   std::size_t most_packet_;
   std::vector<std::byte> buffer_;
   std::size_t begin_ = 0, end_ = 0;
+  std::span<const std::byte> packet_;
   std::size_t candidate_left_ = 0;  // bytes of a dropped packet still ahead: what looks like another within counts not
   bool in_garbage_ = false;
   bool giving_up_ = false;

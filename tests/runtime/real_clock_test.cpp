@@ -57,7 +57,7 @@ struct RealRun : tests::Run {
 RealRun run(const Graph& graph, Duration end) {
   tests::TraceLines lines(graph);
   Recorder recorder({&lines});
-  RealClock clock(graph, {});
+  RealClock clock(graph.tasks.size());
   Executor executor(graph, {}, {.digest = true, .recorder = &recorder, .clock = &clock});
   clock.start();
   executor.run_until(end);
@@ -94,7 +94,7 @@ TEST_SUITE("runtime/real_clock") {
 
   TEST_CASE("an instant is never begun before the clock has reached it") {
     const Graph graph = graph_with(", parameters: {slow: -1}");
-    RealClock clock(graph, {});
+    RealClock clock(graph.tasks.size());
     Executor executor(graph, {}, {.clock = &clock});
     clock.start();
     executor.run_until(101ms);
@@ -137,7 +137,7 @@ TEST_SUITE("runtime/real_clock") {
 
   TEST_CASE("an interrupt ends the wait for an instant far away") {
     const Graph graph = graph_with(", parameters: {slow: -1}", "1h");
-    RealClock clock(graph, {});
+    RealClock clock(graph.tasks.size());
     Executor executor(graph, {}, {.clock = &clock});
     std::thread other([&] {
       std::this_thread::sleep_for(20ms);

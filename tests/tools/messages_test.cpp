@@ -16,13 +16,14 @@ TEST_SUITE("tools/messages") {
     CHECK(imc.find("\n  401   DesiredZ") != std::string::npos);
     const auto one = jarol("messages imc DesiredZ");
     CHECK(one.exit_code == 0);
-    CHECK(one.output == "DesiredZ, id 401, 5 bytes: Reference of depth, altitude or height.\n\n"
-                        "  value    fp32_t [m]            distance\n"
-                        "  z_units  uint8_t [Enumerated]  what it is measured from\n"
-                        "                                 0 NONE\n"
-                        "                                 1 DEPTH\n"
-                        "                                 2 ALTITUDE\n"
-                        "                                 3 HEIGHT\n");
+    CHECK(one.output ==
+          "DesiredZ, id 401, 5 bytes: Reference of depth, altitude or height.\n\n"
+          "  value    fp32_t [m]            distance\n"
+          "  z_units  uint8_t [Enumerated]  what it is measured from\n"
+          "                                 0 NONE\n"
+          "                                 1 DEPTH\n"
+          "                                 2 ALTITUDE\n"
+          "                                 3 HEIGHT\n");
   }
 
   TEST_CASE("the same as JSON") {

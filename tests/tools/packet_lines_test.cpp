@@ -97,8 +97,8 @@ TEST_SUITE("tools/packet_lines") {
 
   TEST_CASE("a bad line is named, and the rest goes on") {
     const std::string good = "ffff11000011";
-    const Result result = decode(good + "\nffff1x\n\nffff1\n" + good + "\nffff17000017\nffff0f011f002f\n  " + good + "  \n",
-                                 javiator_set);
+    const Result result = decode(
+        good + "\nffff1x\n\nffff1\n" + good + "\nffff17000017\nffff0f011f002f\n  " + good + "  \n", javiator_set);
     CHECK(result.exit_code == 2);
     CHECK(result.lines.size() == 3);
     CHECK(result.errors ==
@@ -118,22 +118,26 @@ TEST_SUITE("tools/packet_lines") {
 
   TEST_CASE("what can't be encoded is said") {
     const auto error = [](const std::string& line) { return encode(line).errors; };
-    CHECK(error("{") == "line 1: error: the line is no JSON object; it needs {\"name\": ..., \"header\": ..., \"fields\": ...}\n");
+    CHECK(error("{") ==
+          "line 1: error: the line is no JSON object; it needs {\"name\": ..., \"header\": ..., \"fields\": ...}\n");
     CHECK(error("{}") == "line 1: error: the packet has no \"name\"; it needs that of a message of set imc\n");
     CHECK(error(R"({"name":"Dept"})") == "line 1: error: set imc has no message 'Dept'; did you mean 'Depth'?\n");
     CHECK(error(R"({"name":"Depth","field":{}})") ==
-          "line 1: error: the packet has a key 'field'; did you mean 'fields'?; it may have: name, header, fields, order, "
+          "line 1: error: the packet has a key 'field'; did you mean 'fields'?; it may have: name, header, fields, "
+          "order, "
           "crc_ok, hex\n");
     CHECK(error(R"({"name":"DesiredZ","fields":{"valu":1}})") ==
           "line 1: error: DesiredZ has no field 'valu'; did you mean 'value'?; it has: value, z_units\n");
     CHECK(error(R"({"name":"DesiredZ","fields":{"value":"deep"}})") ==
-          "line 1: error: field 'value' of DesiredZ is \"deep\"; it needs a number, \"NaN\", \"Infinity\", \"-Infinity\", or "
+          "line 1: error: field 'value' of DesiredZ is \"deep\"; it needs a number, \"NaN\", \"Infinity\", "
+          "\"-Infinity\", or "
           "bits as in \"0x7fc00001\"\n");
     CHECK(error(R"({"name":"DesiredZ","fields":{"value":1e39}})") ==
           "line 1: error: field 'value' of DesiredZ is 1e+39; it needs a number that the type can hold\n");
-    CHECK(error(R"({"name":"DesiredZ","fields":{"z_units":256}})") ==
-          "line 1: error: field 'z_units' of DesiredZ is 256; it needs an integer from 0 to 255, or one of: NONE, DEPTH, "
-          "ALTITUDE, HEIGHT\n");
+    CHECK(
+        error(R"({"name":"DesiredZ","fields":{"z_units":256}})") ==
+        "line 1: error: field 'z_units' of DesiredZ is 256; it needs an integer from 0 to 255, or one of: NONE, DEPTH, "
+        "ALTITUDE, HEIGHT\n");
     CHECK(error(R"({"name":"DesiredZ","fields":[1]})") ==
           "line 1: error: the fields of DesiredZ are [1]; they need to be an object\n");
     CHECK(error(R"({"name":"Reference","fields":{"z":{"abbrev":"DesiredSpeed"}}})") ==
@@ -160,7 +164,8 @@ TEST_SUITE("tools/packet_lines") {
   }
 
   TEST_CASE("what is no number, no text or no digits comes back to the bit") {
-    const auto there_and_back = [](const std::string& fields, const std::string& name, const messages::MessageSet& set) {
+    const auto there_and_back = [](const std::string& fields, const std::string& name,
+                                   const messages::MessageSet& set) {
       const Result encoded = encode(R"({"name":")" + name + R"(","fields":)" + fields + "}", set);
       CHECK(encoded.errors == "");
       REQUIRE(encoded.lines.size() == 1);
@@ -171,7 +176,8 @@ TEST_SUITE("tools/packet_lines") {
     };
     for (const char* value : {"NaN", "Infinity", "-Infinity", "0x7fc00001"})
       CHECK(there_and_back(R"({"value":")" + std::string(value) + "\"}", "Depth", imc_set)["value"] == value);
-    CHECK(there_and_back(R"({"value":"0xfff8000000000001"})", "DesiredHeading", imc_set)["value"] == "0xfff8000000000001");
+    CHECK(there_and_back(R"({"value":"0xfff8000000000001"})", "DesiredHeading", imc_set)["value"] ==
+          "0xfff8000000000001");
     CHECK(there_and_back(R"({"actions":{"hex":"ff00"}})", "RemoteActions", imc_set)["actions"]["hex"] == "ff00");
     CHECK(there_and_back(R"({"x_pos":{"hex":"3132333435363738"}})", "JAVIATOR_DATA", javiator_set)["x_pos"]["hex"] ==
           "3132333435363738");

@@ -131,7 +131,9 @@ TEST_SUITE("tools/vehicle") {
                                0) == 0);
     const auto idle = jarol("vehicle submarine");
     CHECK(idle.exit_code == 2);
-    CHECK(idle.output == "error: say --describe, or --script and --csv: what to do, and where the motion goes\n");
+    CHECK(idle.output ==
+          "error: say --describe; or --script and --csv: what to do, and where the motion goes; or --link: who "
+          "steers it\n");
   }
 
   TEST_CASE("a motion that no number can tell ends with exit code 3 and without a file") {

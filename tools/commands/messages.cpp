@@ -123,7 +123,8 @@ int list_messages(const Options& options) {
   std::vector<std::string> names;
   std::vector<const MessageForm*> listed;
   if (options.set.empty()) {
-    if (options.decode || options.encode) return complain("--decode and --encode need a set; jarol messages lists them");
+    if (options.decode || options.encode)
+      return complain("--decode and --encode need a set; jarol messages lists them");
     for (const MessageSet* set : messages::message_sets())
       listed.insert(listed.end(), set->messages.begin(), set->messages.end());
     options.json ? print_json(listed) : print_sets();

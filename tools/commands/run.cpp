@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <csignal>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include "runtime/executor.h"
 #include "tools/commanded.h"
 #include "tools/commands/commands.h"
+#include "tools/interrupt.h"
 #include "tools/load_graph.h"
 #include "tools/plot_svg.h"
 #include "tools/progress.h"
@@ -35,31 +35,39 @@ struct Options {
   std::string plot;
 };
 
-std::atomic<Executor*> running{nullptr};
-
-extern "C" void interrupt_run(int) {
-  if (Executor* executor = running.load()) executor->interrupt();
-}
-
-// Ctrl-C ends the run cleanly while this lives.
-class Interruptible {
+// Channels that are on links run while this lives.
+class Linked {
  public:
-  explicit Interruptible(Executor& executor) {
-    running.store(&executor);
-    before_ = std::signal(SIGINT, interrupt_run);
+  explicit Linked(std::vector<Channels*> channels) : channels_(std::move(channels)) {
+    for (Channels* each : channels_) each->begin();
   }
-  ~Interruptible() {
-    std::signal(SIGINT, before_);
-    running.store(nullptr);
+  ~Linked() { finish(); }
+  Linked(const Linked&) = delete;
+  Linked& operator=(const Linked&) = delete;
+
+  void finish() {
+    for (Channels* channels : channels_) channels->finish();
   }
-  Interruptible(const Interruptible&) = delete;
-  Interruptible& operator=(const Interruptible&) = delete;
+  std::vector<LinkReport> reports() const {
+    std::vector<LinkReport> reports;
+    for (const Channels* channels : channels_)
+      if (auto report = channels->link_report()) reports.push_back(std::move(*report));
+    return reports;
+  }
 
  private:
-  void (*before_)(int) = nullptr;
+  std::vector<Channels*> channels_;
 };
 
-// --for, else the end of the longest mission.
+void require_clock(const Options& options, const Loaded& loaded) {
+  if (options.clock == "real") return;
+  for (std::size_t i = 0; i < loaded.channels.size(); ++i)
+    if (loaded.channels[i]->needs_real_clock())
+      throw std::invalid_argument("distributer '" + loaded.graph->distributers[i].name +
+                                  "' has a link to what goes on by itself; run it with --clock real");
+}
+
+// --for, else the end of the longest mission; on the real clock a graph without one runs until it is interrupted.
 Duration end_of_run(const Options& options, const Loaded& loaded) {
   Duration end{};
   if (!options.duration.empty()) {
@@ -69,6 +77,7 @@ Duration end_of_run(const Options& options, const Loaded& loaded) {
     return end;
   }
   for (const auto& channels : loaded.channels) end = std::max(end, channels->end().value_or(Duration{}));
+  if (end == Duration{} && options.clock == "real") return Duration::max();
   if (end == Duration{})
     throw std::invalid_argument("'" + options.file +
                                 "' has no mission that ends; say how long to run, as in --for 10s");
@@ -119,7 +128,7 @@ void print_reached(const Graph& graph, const Executor& executor) {
 }
 
 void print_text(const Options& options, const Graph& graph, const Executor& executor, const RealClock* clock,
-                double seconds, bool interrupted) {
+                const std::vector<LinkReport>& links, double seconds, bool interrupted) {
   const Report& report = executor.report();
   const double simulated = static_cast<double>(report.simulated.count()) * 1e-9;
   const char* const ended_early = interrupted ? " (interrupted)" : "";
@@ -140,6 +149,7 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
       std::cout << "  heap        " << graph.tasks[i].name << ": at most " << heap->most_used() << " of "
                 << heap->size() << " bytes in use\n";
   if (clock != nullptr) std::cout << to_text(graph, *clock);
+  for (const LinkReport& link : links) std::cout << to_text(link);
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
   if (const StageTeam* team = executor.team())
@@ -152,7 +162,8 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
     std::cerr << "fault: and " << report.fault_count - report.faults.size() << " more\n";
 }
 
-void print_json(const Graph& graph, const Executor& executor, const RealClock* clock, double seconds) {
+void print_json(const Graph& graph, const Executor& executor, const RealClock* clock,
+                const std::vector<LinkReport>& links, double seconds) {
   const Report& report = executor.report();
   auto faults = nlohmann::ordered_json::array();
   for (const Fault& f : report.faults)
@@ -180,6 +191,7 @@ void print_json(const Graph& graph, const Executor& executor, const RealClock* c
                               {"heaps", heaps},
                               {"outputs", outputs}};
   if (clock != nullptr) json["real_time"] = to_json(graph, *clock);
+  for (const LinkReport& link : links) json["links"].push_back(to_json(link));
   std::cout << json << "\n";
 }
 
@@ -200,28 +212,34 @@ int run(const Options& options) {
   if (options.clock == "real") {
     if (options.workers > 1) throw std::invalid_argument("--workers: the real clock runs tasks on one thread");
     require_executable(options.file, graph, options.real_time);
-    clock.emplace(graph, options_of(options.real_time));
+    clock.emplace(graph.tasks.size(), options_of(options.real_time));
   }
+  require_clock(options, loaded);
+  std::vector<Channels*> channels;
+  for (const auto& each : loaded.channels) channels.push_back(each.get());
   Executor executor(
       graph, std::move(loaded.channels),
       {.digest = true, .recorder = recorder.get(), .workers = options.workers, .clock = clock ? &*clock : nullptr});
+  Linked linked(std::move(channels));
   if (clock) {
     for (const std::string& refusal : clock->prepare_thread()) std::cerr << "note: " << refusal << "\n";
     clock->start();
   }
   const auto start = std::chrono::steady_clock::now();
   {
-    const Interruptible interruptible(executor);
-    const Progress progress(!options.json && isatty(STDERR_FILENO) != 0, end, [&] { return executor.now(); });
+    const Interruptible interruptible([&] { executor.interrupt(); });
+    const bool shown = !options.json && isatty(STDERR_FILENO) != 0 && end != Duration::max();
+    const Progress progress(shown, end, [&] { return executor.now(); });
     executor.run_until(end);
   }
+  linked.finish();
   if (recorder) recorder->close();
   const double seconds =
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   const bool interrupted = !executor.report().stopped && executor.now() < end;
   const RealClock* const real = clock ? &*clock : nullptr;
-  options.json ? print_json(graph, executor, real, seconds)
-               : print_text(options, graph, executor, real, seconds, interrupted);
+  options.json ? print_json(graph, executor, real, linked.reports(), seconds)
+               : print_text(options, graph, executor, real, linked.reports(), seconds, interrupted);
   if (executor.report().stopped) return exit_unfinished;
   return interrupted ? exit_interrupted : exit_good;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "distributers/links/link_spec.h"
 #include "distributers/vehicle_file.h"
 #include "graph/registry.h"
 #include "graph/spec/override.h"
@@ -15,6 +16,7 @@
 #include "tools/commands/commands.h"
 #include "tools/load_graph.h"
 #include "tools/open_loop.h"
+#include "tools/serve_vehicle.h"
 
 namespace jarol::tools {
 namespace {
@@ -31,6 +33,8 @@ struct Options {
   std::string duration;
   double rate = 100;
   std::uint64_t seed = 0;
+  // of a link
+  std::vector<std::pair<std::string, std::string>> link;  // as its keys are written in a graph
 };
 
 struct Entry {
@@ -201,9 +205,8 @@ Duration end_of(const Options& options, const std::vector<Commands>& commands) {
   return end;
 }
 
-int drive(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
-          Problems& problems) {
-  const auto commands = read_commands(read_source(options.script), vehicle_class, problems);
+std::unique_ptr<vehicles::Vehicle> make_vehicle(const Options& options, const vehicles::VehicleClass& vehicle_class,
+                                                const Value& parameters, Problems& problems) {
   std::unique_ptr<vehicles::Vehicle> vehicle;
   try {
     vehicle = vehicle_class.make(parameters.data(), spread_seed(options.seed, vehicle_class.name));
@@ -222,6 +225,13 @@ int drive(const Options& options, const vehicles::VehicleClass& vehicle_class, c
     }
   }
   problems.throw_if_any();
+  return vehicle;
+}
+
+int drive(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
+          Problems& problems) {
+  const auto commands = read_commands(read_source(options.script), vehicle_class, problems);
+  const auto vehicle = make_vehicle(options, vehicle_class, parameters, problems);
   const Duration period = period_of(options, vehicle->grid()), end = end_of(options, commands);
   try {
     run_open_loop(*vehicle, vehicle_class, commands, period, end, options.csv);
@@ -232,6 +242,31 @@ int drive(const Options& options, const vehicles::VehicleClass& vehicle_class, c
   return exit_good;
 }
 
+// The options of a link as the mapping that a graph would have.
+Yaml link_of(const Options& options) {
+  Yaml mapping;
+  mapping.kind = Yaml::Kind::mapping;
+  mapping.where = {std::make_shared<Source>(Source{"--link", "--link"}), 1, 1};
+  for (const auto& [key, text] : options.link) {
+    Yaml child;
+    child.kind = Yaml::Kind::scalar;
+    child.text = text;
+    child.key = key;
+    child.where = {std::make_shared<Source>(Source{key == "type" ? "--link" : "--" + key, text}), 1, 1};
+    child.key_where = child.where;
+    mapping.children.push_back(std::move(child));
+  }
+  return mapping;
+}
+
+int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
+          Problems& problems) {
+  const auto link = distributers::make_link(link_of(options), *vehicle_class.message_set, "link", problems);
+  const auto vehicle = make_vehicle(options, vehicle_class, parameters, problems);
+  const Duration end = options.duration.empty() ? Duration::max() : end_of(options, {});
+  return serve_vehicle(*vehicle, vehicle_class, *link, end);
+}
+
 int vehicle(const Options& options) {
   const auto& known = known_vehicles();
   const auto found = std::find_if(known.begin(), known.end(), [&](const auto& v) { return v.name == options.name; });
@@ -240,8 +275,13 @@ int vehicle(const Options& options) {
     throw std::invalid_argument("there is no vehicle '" + options.name + "'" + did_you_mean(options.name, names) +
                                 "; this build has: " + list_of(names));
   }
-  if (!options.describe && (options.script.empty() || options.csv.empty()))
-    throw std::invalid_argument("say --describe, or --script and --csv: what to do, and where the motion goes");
+  const bool linked = !options.link.empty();
+  if (!options.describe && !linked && (options.script.empty() || options.csv.empty()))
+    throw std::invalid_argument(
+        "say --describe; or --script and --csv: what to do, and where the motion goes; or --link: who steers it");
+  if (linked && (options.link.front().first != "type" || !options.script.empty()))
+    throw std::invalid_argument(options.script.empty() ? "--" + options.link.front().first + " needs --link"
+                                                       : "--script and --link: either a script steers it or a peer");
   Problems problems;
   const Value parameters = read_parameters(options, *found, problems);
   if (options.describe) {
@@ -249,6 +289,7 @@ int vehicle(const Options& options) {
     const auto sections = sections_of(*found, parameters);
     options.json ? print_json(*found, sections) : print_text(*found, sections);
   }
+  if (linked) return serve(options, *found, parameters, problems);
   return options.script.empty() ? exit_good : drive(options, *found, parameters, problems);
 }
 
@@ -256,7 +297,9 @@ int vehicle(const Options& options) {
 
 void add_vehicle(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("vehicle", "Tell all about a simulated vehicle, or drive it by a script");
+  CLI::App* command = app.add_subcommand("vehicle",
+                                         "Tell all about a simulated vehicle, drive it by a script, or let another\n"
+                                         "process steer it in real time over a link");
   command->add_option("NAME", options->name, "A vehicle, as in submarine")->required();
   command->add_flag("--describe", options->describe, "Print state, inputs, outputs and parameters, with units");
   command->add_flag("--json", options->json, "With --describe: one JSON object instead of text");
@@ -270,6 +313,28 @@ void add_vehicle(CLI::App& app, int& exit_code) {
   command->add_option("--rate", options->rate, "Rows per second of that file; default 100");
   command->add_option("--for", options->duration, "How long, as in 10s; default: to the last row of the script");
   command->add_option("--seed", options->seed, "Seed of the sensors' noise; default 0");
+  struct LinkKey {
+    const char *key, *text;
+  };
+  const LinkKey link_keys[] = {
+      {"listen", "Link: port to listen at, with an address where not the loopback, as in 6002"},
+      {"peer", "Link: address and port of the other end, as in 127.0.0.1:7002"},
+      {"device", "Link: the serial line, as in /dev/ttyS0"},
+      {"baud", "Link: rate of the serial line; default 115200"},
+      {"id", "Link: the sender's id in what is sent, as in 0x00D1"},
+  };
+  command
+      ->add_option_function<std::string>(
+          "--link",
+          [options](const std::string& type) {
+            options->link.insert(options->link.begin(), {"type", type});
+          },
+          "Run in real time, steered over a link: " + list_of(distributers::link_types()))
+      ->check(CLI::IsMember(distributers::link_types()));
+  for (const LinkKey& key : link_keys)
+    command->add_option_function<std::string>(
+        std::string("--") + key.key,
+        [options, name = key.key](const std::string& text) { options->link.emplace_back(name, text); }, key.text);
   command->callback([options, &exit_code] {
     try {
       exit_code = vehicle(*options);

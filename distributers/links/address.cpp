@@ -1,0 +1,72 @@
+#include "distributers/links/address.h"
+
+#include <netdb.h>
+#include <netinet/in.h>
+
+#include <cstring>
+#include <stdexcept>
+
+namespace jarol::distributers {
+namespace {
+
+constexpr const char* forms = "write it as in 7000, 192.168.2.3:7000 or \"[::1]:7000\"";
+
+bool is_port(const std::string& text) {
+  return !text.empty() && text.size() <= 5 && text.find_first_not_of("0123456789") == std::string::npos &&
+         std::stoi(text) <= 65535;
+}
+
+}  // namespace
+
+Address Address::parse(const std::string& text) {
+  std::string host = "127.0.0.1", port = text;
+  if (const std::size_t colon = text.rfind(':'); colon != std::string::npos) {
+    host = text.substr(0, colon);
+    port = text.substr(colon + 1);
+  }
+  const bool brackets = host.size() > 1 && host.front() == '[' && host.back() == ']';
+  if (!is_port(port) || host.empty() || (!brackets && host.find(':') != std::string::npos))
+    throw std::invalid_argument("'" + text + "' is not an address with a port; " + forms);
+  if (brackets) host = host.substr(1, host.size() - 2);
+  addrinfo hints{};
+  hints.ai_family = AF_UNSPEC;
+  hints.ai_socktype = SOCK_DGRAM;
+  hints.ai_flags = AI_NUMERICSERV;
+  addrinfo* found = nullptr;
+  if (const int error = getaddrinfo(host.c_str(), port.c_str(), &hints, &found); error != 0)
+    throw std::invalid_argument("the host '" + host + "' can't be found: " + gai_strerror(error));
+  Address address;
+  std::memcpy(&address.storage_, found->ai_addr, found->ai_addrlen);
+  address.size_ = found->ai_addrlen;
+  freeaddrinfo(found);
+  return address;
+}
+
+Address Address::of(const sockaddr_storage& storage, socklen_t size) {
+  Address address;
+  address.storage_ = storage;
+  address.size_ = size;
+  return address;
+}
+
+int Address::port() const {
+  if (family() == AF_INET6) return ntohs(reinterpret_cast<const sockaddr_in6*>(&storage_)->sin6_port);
+  return ntohs(reinterpret_cast<const sockaddr_in*>(&storage_)->sin_port);
+}
+
+bool Address::operator==(const Address& other) const {
+  if (family() != other.family() || port() != other.port()) return false;
+  if (family() == AF_INET6)
+    return std::memcmp(&reinterpret_cast<const sockaddr_in6*>(&storage_)->sin6_addr,
+                       &reinterpret_cast<const sockaddr_in6*>(&other.storage_)->sin6_addr, sizeof(in6_addr)) == 0;
+  return reinterpret_cast<const sockaddr_in*>(&storage_)->sin_addr.s_addr ==
+         reinterpret_cast<const sockaddr_in*>(&other.storage_)->sin_addr.s_addr;
+}
+
+std::string Address::text() const {
+  char host[NI_MAXHOST];
+  if (getnameinfo(get(), size_, host, sizeof host, nullptr, 0, NI_NUMERICHOST) != 0) return "?";
+  return (family() == AF_INET6 ? "[" + std::string(host) + "]" : std::string(host)) + ":" + std::to_string(port());
+}
+
+}  // namespace jarol::distributers

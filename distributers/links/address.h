@@ -1,0 +1,35 @@
+// Where a socket is: an IPv4 or IPv6 address and a port.
+#pragma once
+
+#include <sys/socket.h>
+
+#include <string>
+
+namespace jarol::distributers {
+
+class Address {
+ public:
+  Address() = default;
+
+  /// Of "7000", "192.168.2.3:7000", "[::1]:7000" or "name:7000"; without a host it is the loopback 127.0.0.1. Throws
+  /// std::invalid_argument that says what would be right.
+  static Address parse(const std::string& text);
+  /// As the socket functions give it.
+  static Address of(const sockaddr_storage& storage, socklen_t size);
+
+  const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&storage_); }
+  socklen_t size() const { return size_; }
+  int family() const { return storage_.ss_family; }
+  int port() const;
+  explicit operator bool() const { return size_ > 0; }
+  bool operator==(const Address& other) const;
+
+  /// "127.0.0.1:7000", "[::1]:7000".
+  std::string text() const;
+
+ private:
+  sockaddr_storage storage_{};
+  socklen_t size_ = 0;
+};
+
+}  // namespace jarol::distributers

@@ -1,0 +1,43 @@
+#include "distributers/links/descriptor.h"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <system_error>
+
+namespace jarol::distributers {
+
+void Descriptor::close() {
+  if (fd_ >= 0) ::close(fd_);
+  fd_ = -1;
+}
+
+Interrupter::Interrupter() : event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  if (!event_) throw std::system_error(errno, std::generic_category(), "eventfd");
+}
+
+void Interrupter::interrupt() {
+  const std::uint64_t one = 1;
+  // it can fail only where it is set already
+  [[maybe_unused]] const auto written = ::write(event_.get(), &one, sizeof one);
+}
+
+void Interrupter::reset() {
+  std::uint64_t count = 0;
+  [[maybe_unused]] const auto got = ::read(event_.get(), &count, sizeof count);
+}
+
+Interrupter::Woken Interrupter::wait(int fd, std::chrono::milliseconds time, bool write) const {
+  std::array<pollfd, 2> polled{
+      {{event_.get(), POLLIN, 0}, {fd, static_cast<short>(write ? POLLOUT : POLLIN), 0}}};
+  const int ready = poll(polled.data(), polled.size(), static_cast<int>(time.count()));
+  if (ready > 0 && polled[0].revents != 0) return Woken::interrupted;
+  if (ready > 0) return Woken::ready;
+  return ready == 0 ? Woken::timed_out : Woken::ready;  // a signal: look again
+}
+
+}  // namespace jarol::distributers

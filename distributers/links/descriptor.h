@@ -1,0 +1,44 @@
+// Owned file descriptors, and waiting for one of them while another thread may end the wait.
+#pragma once
+
+#include <chrono>
+#include <utility>
+
+namespace jarol::distributers {
+
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int fd) : fd_(fd) {}
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+  ~Descriptor() { close(); }
+
+  int get() const { return fd_; }
+  explicit operator bool() const { return fd_ >= 0; }
+  void close();
+
+ private:
+  int fd_ = -1;
+};
+
+/// Ends all waits, now and from now on, until it is reset.
+class Interrupter {
+ public:
+  Interrupter();
+  void interrupt();
+  void reset();
+
+  enum class Woken { ready, timed_out, interrupted };
+  /// Waits until `fd` can be read (or, with `write`, written), has failed, or the time is over. A negative `fd` is never
+  /// ready; a negative time is no limit.
+  Woken wait(int fd, std::chrono::milliseconds time, bool write = false) const;
+
+ private:
+  Descriptor event_;
+};
+
+}  // namespace jarol::distributers

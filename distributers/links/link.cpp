@@ -1,0 +1,242 @@
+#include "distributers/links/link.h"
+
+#include <signal.h>
+
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+
+#include "graph/yaml/problems.h"
+
+namespace jarol::distributers {
+namespace {
+
+using messages::Flaw;
+
+// Signals to the process go to its other threads.
+void take_no_signals() {
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+}
+
+std::size_t longest_packet(const messages::MessageSet& set) {
+  return set.header_size() + set.most_payload + set.footer_size();
+}
+
+std::vector<std::string> names_of_fields(const messages::MessageForm& form) {
+  std::vector<std::string> names;
+  for (const messages::FieldForm& field : form.fields) names.emplace_back(field.name);
+  return names;
+}
+
+void set_field(messages::Message& header, const std::string& name, std::uint64_t value) {
+  for (const messages::FieldForm& field : header.form()->fields) {
+    if (field.name != name || field.wire > messages::Wire::uint64) continue;
+    const std::size_t size = size_of(field.wire);
+    if (size < 8 && value >> (8 * size) != 0)
+      throw std::invalid_argument("field '" + name + "' of the header has no room for " + std::to_string(value));
+    std::memcpy(static_cast<std::byte*>(header.value()) + field.offset, &value, size);  // little-endian machines only
+    return;
+  }
+  throw std::invalid_argument("the header has no integer field '" + name + "'; it has: " +
+                              list_of(names_of_fields(*header.form())));
+}
+
+}  // namespace
+
+// What the receiving thread does with bytes: packets that are valid go into the input port.
+class Link::Translator : public ByteSink {
+ public:
+  Translator(const messages::MessageSet& set, PacketPorts& input) : set_(set), datagrams_(set), input_(input) {}
+
+  bool take(std::span<const std::byte> bytes) override { return stream_ ? take_stream(bytes) : take_datagram(bytes); }
+
+  void begin_stream() override {
+    if (stream_) {
+      stream_->give_up();
+      while (stream_->next()) write(stream_->packet());
+      store(stream_->counts());
+      before_ = told_;
+    }
+    stream_ = std::make_unique<messages::StreamReader>(set_);
+  }
+
+  // read by other threads
+  struct Counts {
+    std::atomic<std::uint64_t> packets{0}, bytes{0}, refused{0};
+    std::array<std::atomic<std::uint64_t>, messages::flaw_count> dropped{};
+  };
+  const Counts& counts() const { return counts_; }
+
+ private:
+  bool take_datagram(std::span<const std::byte> bytes) {
+    const Flaw flaw = datagrams_.read(bytes);
+    told_.count(flaw, bytes.size());
+    store(told_);
+    if (flaw == Flaw::none) write(bytes);
+    return flaw == Flaw::none;
+  }
+
+  bool take_stream(std::span<const std::byte> bytes) {
+    bool valid = false;
+    while (!bytes.empty()) {
+      const std::span<std::byte> room = stream_->room();
+      const std::size_t part = std::min(room.size(), bytes.size());
+      std::memcpy(room.data(), bytes.data(), part);
+      stream_->filled(part);
+      bytes = bytes.subspan(part);
+      for (; stream_->next(); valid = true) write(stream_->packet());
+    }
+    store(stream_->counts());
+    return valid;
+  }
+
+  void write(std::span<const std::byte> packet) {
+    if (!std::visit([&](auto& port) { return port.write(packet); }, input_)) ++counts_.refused;
+  }
+
+  void store(const messages::PacketCounts& now) {
+    if (stream_) {
+      told_ = before_;
+      told_.packets += now.packets;
+      told_.bytes += now.bytes;
+      for (std::size_t i = 0; i < now.dropped.size(); ++i) told_.dropped[i] += now.dropped[i];
+    }
+    counts_.packets.store(told_.packets, std::memory_order_relaxed);
+    counts_.bytes.store(told_.bytes, std::memory_order_relaxed);
+    for (std::size_t i = 0; i < told_.dropped.size(); ++i)
+      counts_.dropped[i].store(told_.dropped[i], std::memory_order_relaxed);
+  }
+
+  const messages::MessageSet& set_;
+  messages::PacketReader datagrams_;
+  std::unique_ptr<messages::StreamReader> stream_;
+  PacketPorts& input_;
+  messages::PacketCounts told_, before_;  // before_: of the streams that have ended
+  Counts counts_;
+};
+
+Link::PacketPorts Link::make_port(const PortOptions& options, std::size_t longest) {
+  if (options.kind == PortKind::push) return PacketPorts(std::in_place_type<PushPacketPort>, options.packets, longest);
+  return PacketPorts(std::in_place_type<PacketPort>, options.packets, longest);
+}
+
+Link::Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set, const LinkOptions& options)
+    : set_(set),
+      transport_(std::move(transport)),
+      longest_(longest_packet(set)),
+      input_(make_port(options.input, longest_)),
+      output_(make_port(options.output, longest_)),
+      translator_(std::make_unique<Translator>(set, input_)),
+      reader_(set),
+      header_(*set.header) {
+  packet_.reserve(longest_);
+  room_.resize(longest_);
+  for (const auto& [name, value] : options.header) set_field(header_, name, value);
+  for (const messages::FieldForm& field : set.header->fields)
+    if (field.name == "timestamp" && field.wire == messages::Wire::fp64)
+      timestamp_ = static_cast<std::byte*>(header_.value()) + field.offset;
+}
+
+Link::~Link() { disconnect(); }
+
+void Link::connect() {
+  if (connected_) return;
+  transport_->open();
+  interrupter_.reset();
+  send_signal_.resume();
+  ending_ = false;
+  receiver_ = std::thread([this] {
+    take_no_signals();
+    transport_->receive(interrupter_, *translator_);
+  });
+  sender_ = std::thread([this] {
+    take_no_signals();
+    run_sender();
+  });
+  connected_ = true;
+}
+
+void Link::disconnect() {
+  if (!connected_) return;
+  ending_ = true;
+  send_signal_.interrupt();
+  sender_.join();
+  interrupter_.interrupt();
+  receiver_.join();
+  transport_->close();
+  connected_ = false;
+}
+
+void Link::receive(messages::Receiver& receiver) {
+  const auto read = [&](auto& port) { return port.read(room_); };
+  while (const auto length = std::visit(read, input_)) {
+    if (reader_.read(std::span(room_).first(*length)) != Flaw::none) continue;  // it was valid when it arrived
+    ++received_;
+    receiver.receive(reader_.message());
+  }
+}
+
+void Link::send(messages::MessageRef message) {
+  if (timestamp_ != nullptr) {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const double seconds = std::chrono::duration<double>(now).count();
+    std::memcpy(timestamp_, &seconds, sizeof seconds);
+  }
+  if (!write_packet(header_, message, set_.order, packet_) ||
+      !std::visit([&](auto& port) { return port.write(packet_); }, output_)) {
+    ++refused_;
+    return;
+  }
+  ++given_;
+}
+
+void Link::flush() {
+  if (queued_.load(std::memory_order_relaxed) == given_) return;
+  queued_.store(given_, std::memory_order_seq_cst);
+  // a sender that is busy looks again before it waits
+  static_cast<void>(send_signal_.signal());
+}
+
+void Link::run_sender() {
+  std::vector<std::byte> room(longest_);
+  while (!ending_.load(std::memory_order_acquire)) {
+    const std::uint64_t queued = queued_.load(std::memory_order_seq_cst);
+    send_pending(room);
+    static_cast<void>(send_signal_.await_unless([&] { return queued_.load(std::memory_order_seq_cst) != queued; }));
+  }
+  send_pending(room);
+}
+
+void Link::send_pending(std::vector<std::byte>& room) {
+  const auto read = [&](auto& port) { return port.read(room); };
+  while (const auto length = std::visit(read, output_)) {
+    if (!transport_->send(std::span(room).first(*length))) continue;
+    packets_out_.fetch_add(1, std::memory_order_relaxed);
+    bytes_out_.fetch_add(*length, std::memory_order_relaxed);
+  }
+}
+
+LinkReport Link::report() const {
+  const Translator::Counts& in = translator_->counts();
+  const TransportCounts& t = transport_->counts;
+  LinkReport report{transport_->text(), {}};
+  const auto add = [&](std::string name, std::uint64_t count) { report.counts.emplace_back(std::move(name), count); };
+  add("packets in", in.packets);
+  add("bytes in", in.bytes);
+  add("packets out", packets_out_);
+  add("bytes out", bytes_out_);
+  add("peers", t.connected);
+  add("ends of stream", t.disconnected);
+  for (std::size_t i = 1; i < messages::flaw_count; ++i)
+    add("dropped: " + std::string(name_of(static_cast<Flaw>(i))), in.dropped[i]);
+  add("dropped: stranger", t.strangers);
+  add("dropped: input port full", in.refused);
+  if (const auto* push = std::get_if<PushPacketPort>(&input_)) add("dropped: overwritten by newer", push->lost());
+  add("unsent: output port full", refused_);
+  add("unsent: no peer", t.unsent);
+  return report;
+}
+
+}  // namespace jarol::distributers

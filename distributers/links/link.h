@@ -1,0 +1,89 @@
+// A link: packets of a message set to a peer and from it, by threads of its own.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "distributers/links/transport.h"
+#include "distributers/messages/packet.h"
+#include "distributers/messages/stream_reader.h"
+#include "runtime/channels.h"
+#include "runtime/port.h"
+#include "runtime/push_port.h"
+#include "runtime/signal.h"
+
+namespace jarol::distributers {
+
+enum class PortKind { plain, push };
+
+struct PortOptions {
+  PortKind kind = PortKind::plain;
+  std::size_t packets = 64;
+};
+
+struct LinkOptions {
+  PortOptions input{PortKind::push};
+  PortOptions output{PortKind::plain};
+  std::vector<std::pair<std::string, std::uint64_t>> header;  // fields of the packets sent, as the sender's id
+};
+
+/// Connect, disconnect, send and receive belong to one thread, which never waits but in `disconnect`.
+class Link {
+ public:
+  /// Throws std::invalid_argument if the set's header has no such integer field.
+  Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set, const LinkOptions& options);
+  ~Link();
+
+  /// Begins to receive and to send; nothing if it has begun. Throws std::runtime_error if a port or line is not to be had.
+  void connect();
+  /// Sends what is pending and ends; nothing if it has ended.
+  void disconnect();
+
+  /// Gives the receiver the packets that have arrived, oldest first.
+  void receive(messages::Receiver& receiver);
+
+  /// Has the message sent as a packet soon. One that finds no room is counted and dropped.
+  void send(messages::MessageRef message);
+  /// Wakes the sending thread for what was given to `send` since the last call.
+  void flush();
+
+  const Transport& transport() const { return *transport_; }
+  LinkReport report() const;
+
+ private:
+  using PacketPorts = std::variant<PacketPort, PushPacketPort>;
+  class Translator;
+
+  static PacketPorts make_port(const PortOptions& options, std::size_t longest);
+  void run_sender();
+  void send_pending(std::vector<std::byte>& room);
+
+  const messages::MessageSet& set_;
+  std::unique_ptr<Transport> transport_;
+  std::size_t longest_;
+  PacketPorts input_, output_;
+  std::unique_ptr<Translator> translator_;  // used by the receiving thread
+  Interrupter interrupter_;
+  Signal send_signal_;
+  std::thread receiver_, sender_;
+  bool connected_ = false;
+
+  // of the thread that sends and receives
+  messages::PacketReader reader_;
+  messages::Message header_;
+  void* timestamp_ = nullptr;  // in the header: seconds since 1970
+  std::vector<std::byte> packet_, room_;
+  std::uint64_t given_ = 0;
+  std::uint64_t refused_ = 0;  // the output port was full
+  std::uint64_t received_ = 0;
+
+  std::atomic<std::uint64_t> queued_{0};  // packets in the output port so far
+  std::atomic<bool> ending_{false};
+  std::atomic<std::uint64_t> packets_out_{0}, bytes_out_{0};
+};
+
+}  // namespace jarol::distributers

@@ -1,0 +1,22 @@
+// Links as they are written: in the `link` of a distributer, and in the options of a command.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "distributers/links/link.h"
+#include "graph/yaml/problems.h"
+#include "graph/yaml/yaml.h"
+
+namespace jarol::distributers {
+
+/// The types of links to other processes and devices.
+const std::vector<std::string>& link_types();
+
+/// The link that a mapping describes; it has a type that is one of `link_types`. What is wrong goes to `problems`, and
+/// then there is none. `subject` is what the messages call it.
+std::unique_ptr<Link> make_link(const Yaml& yaml, const messages::MessageSet& set, const std::string& subject,
+                                Problems& problems);
+
+}  // namespace jarol::distributers

@@ -1,0 +1,37 @@
+// Channels on a link: an adapter speaks with a peer in another process or device, in real time.
+#pragma once
+
+#include <memory>
+
+#include "distributers/adapter.h"
+#include "distributers/links/link.h"
+
+namespace jarol::distributers {
+
+class LinkedChannels : public Channels {
+ public:
+  LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<Adapter> adapter);
+
+  void begin() override { link_->connect(); }
+  void finish() override { link_->disconnect(); }
+  bool needs_real_clock() const override { return true; }
+  std::optional<LinkReport> link_report() const override { return link_->report(); }
+
+  void reach(Duration instant) override;
+  bool take(std::size_t channel, void* value) override { return adapter_->take(channel, value); }
+  void hand_over(std::size_t channel, const void* value) override;
+
+ private:
+  // What the adapter sends goes to the peer.
+  struct ToPeer : messages::Receiver {
+    explicit ToPeer(Link& to) : link(to) {}
+    void receive(messages::MessageRef message) override { link.send(message); }
+    Link& link;
+  };
+
+  std::unique_ptr<Link> link_;
+  std::unique_ptr<Adapter> adapter_;
+  ToPeer to_peer_;
+};
+
+}  // namespace jarol::distributers

@@ -1,0 +1,23 @@
+// A serial line, 8 bits, no parity, 1 stop bit, no flow control.
+#pragma once
+
+#include "distributers/links/stream.h"
+
+namespace jarol::distributers {
+
+class SerialTransport : public StreamTransport {
+ public:
+  /// Throws std::invalid_argument for a rate that no line has.
+  SerialTransport(std::string device, int baud);
+  std::string text() const override { return "serial " + device_ + " at " + std::to_string(baud_) + " baud"; }
+  void open() override;
+
+ protected:
+  Descriptor get_stream() override;
+
+ private:
+  std::string device_;
+  int baud_;
+};
+
+}  // namespace jarol::distributers

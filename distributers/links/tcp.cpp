@@ -1,0 +1,69 @@
+#include "distributers/links/tcp.h"
+
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+namespace jarol::distributers {
+namespace {
+
+constexpr int connect_limit = 1000;  // ms
+
+// Packets are small and wait for nothing.
+void send_at_once(int fd) {
+  const int on = 1;
+  setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+}
+
+bool finish_connecting(int fd) {
+  pollfd polled{fd, POLLOUT, 0};
+  if (poll(&polled, 1, connect_limit) != 1) return false;
+  int error = 0;
+  socklen_t size = sizeof error;
+  return getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0;
+}
+
+}  // namespace
+
+Descriptor TcpClient::get_stream() {
+  Descriptor made(socket(peer_.family(), SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!made) return {};
+  if (connect(made.get(), peer_.get(), peer_.size()) != 0 && (errno != EINPROGRESS || !finish_connecting(made.get())))
+    return {};
+  send_at_once(made.get());
+  return made;
+}
+
+void TcpServer::open() {
+  Descriptor made(socket(listen_.family(), SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  const int on = 1;
+  if (made) setsockopt(made.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (!made || bind(made.get(), listen_.get(), listen_.size()) != 0 || listen(made.get(), 1) != 0)
+    throw std::runtime_error("can't listen at " + text() + ": " + std::strerror(errno));
+  socket_ = std::move(made);
+}
+
+void TcpServer::close() {
+  StreamTransport::close();
+  socket_.close();
+}
+
+int TcpServer::port() const {
+  sockaddr_storage storage{};
+  socklen_t size = sizeof storage;
+  if (getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return 0;
+  return Address::of(storage, size).port();
+}
+
+Descriptor TcpServer::get_stream() {
+  Descriptor stream(accept4(socket_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+  if (stream) send_at_once(stream.get());
+  return stream;
+}
+
+}  // namespace jarol::distributers

@@ -1,0 +1,54 @@
+// How bytes get to a peer and from it: UDP, TCP, serial. What they mean is not known here.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "distributers/links/descriptor.h"
+
+namespace jarol::distributers {
+
+/// Takes what a transport receives, in its receiving thread.
+class ByteSink {
+ public:
+  virtual ~ByteSink() = default;
+  /// One datagram, or the next piece of a stream. True if there was anything valid in it: its sender is the peer.
+  virtual bool take(std::span<const std::byte> bytes) = 0;
+  /// A stream begins anew: what was left of the one before is lost.
+  virtual void begin_stream() = 0;
+};
+
+/// Counted by the transport, told by its link.
+struct TransportCounts {
+  std::atomic<std::uint64_t> connected{0};     // how often there was a new peer
+  std::atomic<std::uint64_t> disconnected{0};  // how often a stream ended or failed
+  std::atomic<std::uint64_t> strangers{0};     // datagrams from another than the peer that was named
+  std::atomic<std::uint64_t> unsent{0};        // packets that could not be sent
+};
+
+class Transport {
+ public:
+  virtual ~Transport() = default;
+
+  /// As in "udp 127.0.0.1:7000".
+  virtual std::string text() const = 0;
+
+  /// Takes hold of what must be there from the begin, as a port to listen at. Throws std::runtime_error with the cause.
+  virtual void open() = 0;
+
+  /// Receives until interrupted; a peer that is lost is looked for again, at growing intervals up to a second.
+  virtual void receive(const Interrupter& interrupter, ByteSink& sink) = 0;
+
+  /// Sends one packet, from one other thread. False if there is no peer or it can't be sent.
+  virtual bool send(std::span<const std::byte> packet) = 0;
+
+  /// Lets go of everything; after that it can be opened again.
+  virtual void close() = 0;
+
+  TransportCounts counts;
+};
+
+}  // namespace jarol::distributers

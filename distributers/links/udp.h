@@ -1,0 +1,36 @@
+// Datagrams, one packet each.
+#pragma once
+
+#include <mutex>
+
+#include "distributers/links/address.h"
+#include "distributers/links/transport.h"
+
+namespace jarol::distributers {
+
+/// With a peer named, only its datagrams count. Without, the sender of the last valid one is the peer, so that one that
+/// was started anew is found again.
+class UdpTransport : public Transport {
+ public:
+  UdpTransport(const Address& listen, const Address& peer) : listen_(listen), named_peer_(peer) {}
+
+  std::string text() const override;
+  void open() override;
+  void receive(const Interrupter& interrupter, ByteSink& sink) override;
+  bool send(std::span<const std::byte> packet) override;
+  void close() override;
+
+  /// The port that it listens at; of "0" the one that the system chose.
+  int port() const;
+
+ private:
+  void associate(const Address& peer);
+
+  Address listen_;
+  Address named_peer_;
+  Descriptor socket_;
+  std::mutex peer_mutex_;
+  Address peer_;
+};
+
+}  // namespace jarol::distributers

@@ -1,0 +1,315 @@
+// One suite over all kinds of links, and what is special to some.
+#include "distributers/links/link.h"
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <functional>
+#include <optional>
+
+#include "distributers/links/serial.h"
+#include "distributers/links/tcp.h"
+#include "distributers/links/udp.h"
+#include "distributers/messages/javiator.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+using namespace std::chrono_literals;
+namespace javiator = messages::javiator;
+
+constexpr auto patience = 20s;  // a busy machine may take long; nothing here waits so long otherwise
+
+bool wait_for(const std::function<bool()>& done) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!done()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(1ms);
+  }
+  return true;
+}
+
+// Keeps the ids of the motor signals that came.
+struct Ids : messages::Receiver {
+  void receive(messages::MessageRef message) override {
+    if (const auto* motors = message.as<javiator::MotorSignals>()) ids.push_back(motors->id);
+  }
+  std::vector<int> ids;
+};
+
+std::uint64_t count_of(const Link& link, const std::string& name) {
+  for (const auto& [counted, count] : link.report().counts)
+    if (counted == name) return count;
+  FAIL("no count of " << name);
+  return 0;
+}
+
+void send_id(Link& link, int id) {
+  link.send(messages::refer_to(javiator::MotorSignals{1, 2, 3, 4, static_cast<std::uint16_t>(id)}));
+  link.flush();
+}
+
+// Two pseudo terminals, each the other's line.
+class Line {
+ public:
+  Line() : ends_{open_end(names_[0]), open_end(names_[1])} {
+    thread_ = std::thread([this] {
+      while (interrupter_.wait(-1, 0ms) != Interrupter::Woken::interrupted) {
+        pollfd polled[] = {{ends_[0].get(), POLLIN, 0}, {ends_[1].get(), POLLIN, 0}};
+        poll(polled, 2, 5);
+        for (int i = 0; i < 2; ++i) {
+          char room[4096];
+          const auto length = ::read(ends_[static_cast<std::size_t>(i)].get(), room, sizeof room);
+          if (length > 0 && ::write(ends_[static_cast<std::size_t>(1 - i)].get(), room, static_cast<std::size_t>(length)) != length) FAIL("a line lost bytes");
+        }
+      }
+    });
+  }
+  ~Line() {
+    interrupter_.interrupt();
+    thread_.join();
+  }
+  const std::string& name(std::size_t end) const { return names_[end]; }
+
+ private:
+  static Descriptor open_end(std::string& name) {
+    Descriptor end(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK));
+    REQUIRE(grantpt(end.get()) == 0);
+    REQUIRE(unlockpt(end.get()) == 0);
+    name = ptsname(end.get());
+    return end;
+  }
+  std::string names_[2];
+  std::array<Descriptor, 2> ends_;
+  Interrupter interrupter_;
+  std::thread thread_;
+};
+
+struct Pair {
+  std::unique_ptr<Line> line;
+  std::unique_ptr<Link> one, other;
+};
+
+std::unique_ptr<Link> make(std::unique_ptr<Transport> transport, const LinkOptions& options = {}) {
+  return std::make_unique<Link>(std::move(transport), javiator::message_set(), options);
+}
+
+// The one that listens is connected first, so that the system chooses its port.
+template <class Listens>
+Pair connected(std::unique_ptr<Listens> listens, const std::string& host,
+               const std::function<std::unique_ptr<Transport>(const Address&)>& dials, const LinkOptions& options) {
+  Pair pair;
+  const Listens& transport = *listens;
+  pair.one = make(std::move(listens), options);
+  pair.one->connect();
+  pair.other = make(dials(Address::parse(host + ":" + std::to_string(transport.port()))), options);
+  pair.other->connect();
+  return pair;
+}
+
+Pair udp(const std::string& host, const LinkOptions& options = {}) {
+  const Address any = Address::parse(host + ":0");
+  return connected(std::make_unique<UdpTransport>(any, Address{}), host,
+                   [&](const Address& peer) { return std::make_unique<UdpTransport>(any, peer); }, options);
+}
+
+Pair tcp(const std::string& host, const LinkOptions& options = {}) {
+  return connected(std::make_unique<TcpServer>(Address::parse(host + ":0")), host,
+                   [](const Address& peer) { return std::make_unique<TcpClient>(peer); }, options);
+}
+
+Pair serial(const LinkOptions& options = {}) {
+  Pair pair;
+  pair.line = std::make_unique<Line>();
+  pair.one = make(std::make_unique<SerialTransport>(pair.line->name(0), 115200), options);
+  pair.other = make(std::make_unique<SerialTransport>(pair.line->name(1), 115200), options);
+  pair.one->connect();
+  pair.other->connect();
+  return pair;
+}
+
+// The other end speaks first: some learn their peer from that.
+bool meet(Pair& pair) {
+  Ids at_one, at_other;
+  return wait_for([&] {
+    send_id(*pair.other, 60000);
+    pair.one->receive(at_one);
+    if (!at_one.ids.empty()) send_id(*pair.one, 60000);
+    pair.other->receive(at_other);
+    return !at_one.ids.empty() && !at_other.ids.empty();
+  });
+}
+
+void check_carries_all(Pair pair) {
+  REQUIRE(meet(pair));
+  Ids at_one, at_other;
+  constexpr int packets = 512;
+  for (int id = 0; id < packets; ++id) {
+    send_id(*pair.one, id);
+    send_id(*pair.other, id);
+    // no more under way than fits the ports
+    REQUIRE(wait_for([&] {
+      pair.one->receive(at_one);
+      pair.other->receive(at_other);
+      const auto newest = [](const Ids& ids) { return ids.ids.empty() ? -1 : ids.ids.back(); };
+      return id % 16 != 15 || (newest(at_one) == id && newest(at_other) == id);
+    }));
+  }
+  std::vector<int> expected;
+  for (int id = 0; id < packets; ++id) expected.push_back(id);
+  for (Ids* ids : {&at_one, &at_other}) {
+    std::erase(ids->ids, 60000);
+    CHECK(ids->ids == expected);
+  }
+  CHECK(count_of(*pair.one, "packets in") >= packets);
+  CHECK(count_of(*pair.one, "packets out") >= packets);
+  CHECK(count_of(*pair.one, "dropped: bad checksum") == 0);
+}
+
+void check_disconnects(Pair pair) {
+  REQUIRE(meet(pair));
+  pair.one->connect();  // already is
+  Ids got;
+  for (int id = 0; id < 20; ++id) pair.other->send(messages::refer_to(javiator::MotorSignals{0, 0, 0, 0, static_cast<std::uint16_t>(id)}));
+  pair.other->disconnect();  // sends what is pending
+  pair.other->disconnect();  // already is
+  REQUIRE(wait_for([&] {
+    pair.one->receive(got);
+    return !got.ids.empty() && got.ids.back() == 19;
+  }));
+  std::erase(got.ids, 60000);
+  CHECK(got.ids.size() == 20);
+}
+
+void check_meets_again(Pair pair) {
+  REQUIRE(meet(pair));
+  for (int i = 0; i < 3; ++i) {
+    pair.other->disconnect();
+    pair.other->connect();
+    CHECK(meet(pair));
+  }
+}
+}  // namespace
+
+TEST_SUITE("distributers/links/link") {
+  TEST_CASE("packets arrive both ways, in order and whole: UDP") { check_carries_all(udp("127.0.0.1")); }
+  TEST_CASE("packets arrive both ways, in order and whole: UDP over IPv6") { check_carries_all(udp("[::1]")); }
+  TEST_CASE("packets arrive both ways, in order and whole: TCP") { check_carries_all(tcp("127.0.0.1")); }
+  TEST_CASE("packets arrive both ways, in order and whole: TCP over IPv6") { check_carries_all(tcp("[::1]")); }
+  TEST_CASE("packets arrive both ways, in order and whole: serial line") { check_carries_all(serial()); }
+
+  TEST_CASE("connect and disconnect are idempotent; disconnect sends what is pending: UDP") {
+    check_disconnects(udp("127.0.0.1"));
+  }
+  TEST_CASE("connect and disconnect are idempotent; disconnect sends what is pending: TCP") {
+    check_disconnects(tcp("127.0.0.1"));
+  }
+  TEST_CASE("connect and disconnect are idempotent; disconnect sends what is pending: serial line") {
+    check_disconnects(serial());
+  }
+
+  TEST_CASE("a peer that comes back is found again: UDP") { check_meets_again(udp("127.0.0.1")); }
+  TEST_CASE("a peer that comes back is found again: TCP") { check_meets_again(tcp("127.0.0.1")); }
+  TEST_CASE("a peer that comes back is found again: serial line") { check_meets_again(serial()); }
+
+  TEST_CASE("a plain output port refuses when it is full, and that is counted") {
+    Pair pair = udp("127.0.0.1", {.input = {}, .output = {PortKind::plain, 4}, .header = {}});
+    // nobody has spoken yet: the sender has no peer, but takes what is in the port; it is filled faster
+    for (int id = 0; id < 2000; ++id) pair.one->send(messages::refer_to(javiator::MotorSignals{}));
+    pair.one->flush();
+    CHECK(count_of(*pair.one, "unsent: output port full") == 1996);
+    CHECK(wait_for([&] { return count_of(*pair.one, "unsent: no peer") == 4; }));
+  }
+
+  TEST_CASE("a push port keeps the newest packets; those overwritten are counted") {
+    Pair pair = udp("127.0.0.1", {.input = {PortKind::push, 4}, .output = {}, .header = {}});
+    for (int id = 0; id < 50; ++id) send_id(*pair.other, id);
+    REQUIRE(wait_for([&] { return count_of(*pair.one, "packets in") == 50; }));
+    Ids got;
+    pair.one->receive(got);
+    CHECK(got.ids == std::vector<int>{46, 47, 48, 49});
+    CHECK(count_of(*pair.one, "dropped: overwritten by newer") == 46);
+  }
+
+  TEST_CASE("what is no valid packet is dropped, counted by reason, and makes nobody the peer") {
+    Pair pair = udp("127.0.0.1");
+    const Descriptor stranger(socket(AF_INET, SOCK_DGRAM, 0));
+    const Address to = Address::parse(
+        "127.0.0.1:" + std::to_string(static_cast<const UdpTransport&>(pair.one->transport()).port()));
+    const auto throw_in = [&](const std::vector<unsigned char>& bytes) {
+      REQUIRE(sendto(stranger.get(), bytes.data(), bytes.size(), 0, to.get(), to.size()) ==
+              static_cast<ssize_t>(bytes.size()));
+    };
+    throw_in({});
+    throw_in({1, 2, 3});
+    throw_in({0xff, 0xff, 0x11, 0, 0, 0x12});        // a wrong checksum
+    throw_in({0xff, 0xff, 0x11, 9, 0, 0x11});        // nine bytes of payload that are not there
+    throw_in({0xff, 0xff, 0x63, 0, 0, 0x63});        // no message has this id
+    REQUIRE(wait_for([&] {
+      return count_of(*pair.one, "dropped: bad checksum") == 1 && count_of(*pair.one, "dropped: unknown id") == 1;
+    }));
+    CHECK(count_of(*pair.one, "packets in") == 0);
+    CHECK(count_of(*pair.one, "peers") == 0);
+    Ids got;
+    pair.one->receive(got);
+    CHECK(got.ids.empty());
+    throw_in({0xff, 0xff, 0x11, 0, 0, 0x11});
+    CHECK(wait_for([&] { return count_of(*pair.one, "peers") == 1; }));
+  }
+
+  TEST_CASE("with a peer named, datagrams of others are strangers") {
+    Pair pair = udp("127.0.0.1");
+    const Descriptor stranger(socket(AF_INET, SOCK_DGRAM, 0));
+    const Address to = Address::parse(
+        "127.0.0.1:" + std::to_string(static_cast<const UdpTransport&>(pair.other->transport()).port()));
+    const unsigned char bytes[] = {0xff, 0xff, 0x11, 0, 0, 0x11};
+    sendto(stranger.get(), bytes, sizeof bytes, 0, to.get(), to.size());
+    CHECK(wait_for([&] { return count_of(*pair.other, "dropped: stranger") == 1; }));
+    CHECK(count_of(*pair.other, "packets in") == 0);
+  }
+
+  TEST_CASE("garbage within a stream is passed over, and what follows is read") {
+    Pair pair = tcp("127.0.0.1");
+    REQUIRE(meet(pair));
+    const int port = static_cast<const TcpServer&>(pair.one->transport()).port();
+    const Descriptor raw(socket(AF_INET, SOCK_STREAM, 0));
+    const Address to = Address::parse("127.0.0.1:" + std::to_string(port));
+    pair.other->disconnect();
+    REQUIRE(connect(raw.get(), to.get(), to.size()) == 0);
+    const unsigned char bytes[] = {7, 7, 7, 0xff, 0xff, 0x05, 0x0a, 0, 1, 0, 2, 0, 3, 0, 4, 0, 42, 0, 0x43, 9, 9};
+    REQUIRE(::write(raw.get(), bytes, sizeof bytes) == sizeof bytes);
+    Ids got;
+    CHECK(wait_for([&] {
+      pair.one->receive(got);
+      return !got.ids.empty() && got.ids.back() == 42;
+    }));
+    CHECK(count_of(*pair.one, "dropped: garbage") >= 1);
+  }
+
+  TEST_CASE("what can't be had from the begin is an error that says why") {
+    Pair pair = udp("127.0.0.1");
+    const int port = static_cast<const UdpTransport&>(pair.one->transport()).port();
+    const std::string at = "127.0.0.1:" + std::to_string(port);
+    const auto second = make(std::make_unique<UdpTransport>(Address::parse(at), Address{}));
+    CHECK_THROWS_WITH(second->connect(), ("can't listen at udp " + at + ": Address already in use").c_str());
+    const auto line = make(std::make_unique<SerialTransport>("/dev/no_such_line", 9600));
+    CHECK_THROWS_WITH(line->connect(), "can't open serial /dev/no_such_line at 9600 baud: No such file or directory");
+    CHECK_THROWS_WITH(SerialTransport("/dev/ttyS0", 12345),
+                      "no serial line has 12345 baud; there are: 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600");
+  }
+
+  TEST_CASE("an address that can't be is told with what would be right") {
+    const std::string forms = "; write it as in 7000, 192.168.2.3:7000 or \"[::1]:7000\"";
+    for (const char* bad : {"", "x", "70000", "127.0.0.1:", "::1:7000", ":7000", "127.0.0.1:-1"}) {
+      CAPTURE(bad);
+      CHECK_THROWS_WITH(Address::parse(bad), ("'" + std::string(bad) + "' is not an address with a port" + forms).c_str());
+    }
+    CHECK(Address::parse("7000").text() == "127.0.0.1:7000");
+    CHECK(Address::parse("[::1]:7000").text() == "[::1]:7000");
+    CHECK(Address::parse("192.168.2.3:1").text() == "192.168.2.3:1");
+  }
+}
