@@ -38,32 +38,33 @@ class BasicSignal {
   /// what becomes `ready` before it is signalled is never slept through. It counts as signalled then.
   template <class Ready>
   Awaiting await_unless(Ready ready, std::optional<Time> deadline = {}) {
-    if (const std::optional<Awaiting> refused = enter()) return *refused;
+    std::uint32_t state = 0;  // mostly nobody else waits; the exchange tells what is true
+    // in one order with the exchange of `signal`, and with what `ready` looks at
+    while (!state_.compare_exchange_weak(state, state + 1, std::memory_order_seq_cst, std::memory_order_acquire)) {
+      if ((state & interrupted) != 0) return Awaiting::interrupted;
+      if ((state & signalling) != 0) return Awaiting::during_signalling;
+    }
+    ++state;
     if (ready()) {
-      const std::optional<Awaiting> result = leave(state_.load(std::memory_order_acquire), false);
-      return *result == Awaiting::timed_out ? Awaiting::signalled : *result;
+      const Awaiting result = *leave(state, false);
+      return result == Awaiting::timed_out ? Awaiting::signalled : result;
     }
     for (;;) {
-      std::uint32_t state = state_.load(std::memory_order_acquire);
-      bool in_time = true;
-      if ((state & (signalling | interrupted)) == 0) {
-        in_time = Threads::wait(state_, state, deadline);
-        state = state_.load(std::memory_order_acquire);
-      }
+      const bool in_time = Threads::wait(state_, state, deadline);
+      state = state_.load(std::memory_order_acquire);
       if (const std::optional<Awaiting> result = leave(state, in_time)) return *result;
     }
   }
 
   /// Wakes all who wait.
   Signalling signal() {
-    // in one order with `enter` and what `ready` looks at
-    std::uint32_t state = state_.load(std::memory_order_seq_cst);
-    do {
+    std::uint32_t state = 1;  // mostly one waits
+    while (!state_.compare_exchange_weak(state, state | signalling, std::memory_order_seq_cst,
+                                         std::memory_order_seq_cst)) {
       if ((state & interrupted) != 0) return Signalling::interrupted;
       if ((state & signalling) != 0) return Signalling::during_signalling;
       if (state == 0) return Signalling::not_awaited;
-    } while (
-        !state_.compare_exchange_weak(state, state | signalling, std::memory_order_acq_rel, std::memory_order_relaxed));
+    }
     Threads::wake_all(state_);
     return Signalling::done;
   }
@@ -90,17 +91,8 @@ class BasicSignal {
   static constexpr std::uint32_t interrupted = 1U << 30;
   static constexpr std::uint32_t count = interrupted - 1;
 
-  std::optional<Awaiting> enter() {
-    std::uint32_t state = state_.load(std::memory_order_relaxed);
-    do {
-      if ((state & interrupted) != 0) return Awaiting::interrupted;
-      if ((state & signalling) != 0) return Awaiting::during_signalling;
-    } while (!state_.compare_exchange_weak(state, state + 1, std::memory_order_seq_cst, std::memory_order_relaxed));
-    return std::nullopt;
-  }
-
   // The last one to leave ends the signalling.
-  std::optional<Awaiting> leave(std::uint32_t state, bool in_time) {
+  std::optional<Awaiting> leave(std::uint32_t& state, bool in_time) {
     for (;;) {
       const bool was_signalled = (state & signalling) != 0;
       if (!was_signalled && (state & interrupted) == 0 && in_time) return std::nullopt;

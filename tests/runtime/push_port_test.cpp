@@ -82,12 +82,13 @@ TEST_SUITE("runtime/push_port") {
 
   TEST_CASE("a writer and a reader in every interleaving" * doctest::skip(!model::available)) {
     using Explored = BasicPushPort<model::ModelMemory<>>;
-    for (const std::size_t capacity : {1, 2, 3})
-      for (const int before : {0, 2, 3}) {
+    const bool full = std::getenv("JAROL_FULL") != nullptr;
+    for (const int capacity : {1, 2, 3})
+      for (const int before : {0, capacity, capacity + 1}) {
         CAPTURE(capacity);
         CAPTURE(before);
-        const bool full = std::getenv("JAROL_FULL") != nullptr;
-        const model::Result result = model::explore_port<Explored>(capacity, before, full ? 5 : 4, full ? 4 : 3);
+        const model::Result result =
+            model::explore_port<Explored>(static_cast<std::size_t>(capacity), before, full ? 5 : 3, full ? 4 : 3);
         CHECK(result.failure == "");
         CHECK(result.states > 300);
       }

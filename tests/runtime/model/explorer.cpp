@@ -163,7 +163,7 @@ std::uint64_t Explorer::state() const {
     h = t.now.hash(h);
   }
   for (const auto& place : places_)
-    for (const Message& message : place) h = message.view.hash(mix(h, message.value));
+    for (const Message& message : place) h = mix(h, message.hash);
   for (const Plain& plain : plains_) {
     h = mix(h, plain.writer.thread * 65536 + plain.writer.number);
     for (const std::uint16_t reader : plain.readers) h = mix(h, reader);
@@ -189,7 +189,7 @@ void Explorer::note(const char* what, std::size_t place, std::uint64_t value) {
 
 std::size_t Explorer::new_place(std::uint64_t value) {
   if (places_.size() == most_places) throw std::length_error("too many places for the model");
-  places_.push_back({{value, {}}});
+  places_.push_back({{value, {}, value}});
   return places_.size() - 1;
 }
 
@@ -205,9 +205,10 @@ void Explorer::see(std::size_t place, std::size_t message, std::memory_order ord
 void Explorer::add(std::size_t place, std::uint64_t value, std::memory_order order, const View* before) {
   Thread& t = self();
   t.now.seen[place] = static_cast<std::uint16_t>(places_[place].size());
-  Message made{value, {}};
+  Message made{value, {}, 0};
   if (releases(order)) made.view = t.now;
   if (before != nullptr) made.view.join(*before);
+  made.hash = made.view.hash(value);
   places_[place].push_back(made);
 }
 
@@ -237,18 +238,13 @@ std::uint64_t Explorer::change(std::size_t place, const std::function<std::uint6
   return before.value;
 }
 
-// Fails with any value that a load could return and is not the expected one; succeeds on the newest only.
+// Looks at the newest value even if it fails, as processors do; C++ would let it fail with an older one.
 bool Explorer::compare_exchange(std::size_t place, std::uint64_t& expected, std::uint64_t value,
                                 std::memory_order success, std::memory_order failure) {
   step();
-  std::vector<std::size_t> candidates;
-  const std::size_t newest = places_[place].size() - 1;
-  for (std::size_t i = newest + 1; i-- > self().now.seen[place];)
-    if (i == newest || places_[place][i].value != expected) candidates.push_back(i);
-  const std::size_t message = candidates[choose(candidates.size())];
-  const Message before = places_[place][message];
+  const Message before = places_[place].back();
   const bool succeeds = before.value == expected;
-  see(place, message, succeeds ? success : failure);
+  see(place, places_[place].size() - 1, succeeds ? success : failure);
   note(succeeds ? "exchanges" : "fails to exchange", place, before.value);
   if (succeeds) add(place, value, success, &before.view);
   expected = before.value;

@@ -2,7 +2,8 @@
 // of values from stores that come later in that order (load buffering). Threads are fibres; each operation on shared
 // memory is a step. States that were met before are not gone through again.
 // Memory: views and messages, as in Kang et al., "A promising semantics for relaxed-memory concurrency", 2017, without
-// the promises; release sequences are those of C++20. No fences.
+// the promises; release sequences are those of C++20. No fences;
+// and an exchange that fails sees the newest value.
 #pragma once
 
 #include <ucontext.h>
@@ -80,6 +81,7 @@ class Explorer {
   struct Message {
     std::uint64_t value;
     View view;
+    std::uint64_t hash;
   };
   struct Plain {
     const void* at;

@@ -1,0 +1,303 @@
+#include "runtime/signal.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/runtime/model/model_threads.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+
+void await_waiting(const Signal& signal, std::uint32_t count) {
+  while (signal.waiting() != count) std::this_thread::yield();
+}
+
+using Explored = BasicSignal<model::ModelFutex>;
+
+// What the threads of a program were told, in the order of their numbers.
+struct Told {
+  Explored signal;
+  std::vector<std::vector<std::string>> of;
+
+  explicit Told(std::size_t threads) : of(threads) {}
+  void await(std::size_t thread, std::optional<std::int64_t> deadline = {}) {
+    of[thread].emplace_back(to_text(signal.await(deadline)));
+  }
+  void notify(std::size_t thread) { of[thread].emplace_back(to_text(signal.signal())); }
+  std::size_t count(const std::string& text) const {
+    std::size_t found = 0;
+    for (const auto& list : of) found += static_cast<std::size_t>(std::count(list.begin(), list.end(), text));
+    return found;
+  }
+  std::string all() const {
+    std::string text;
+    for (const auto& list : of)
+      for (const std::string& t : list) text += (text.empty() ? "" : "; ") + t;
+    return text;
+  }
+};
+
+// Explores and gathers all that the threads may be told.
+std::set<std::string> outcomes(std::size_t threads, const std::function<void(Told&, std::size_t)>& thread,
+                               const std::function<void(const Told&)>& check = {}) {
+  std::set<std::string> all;
+  const model::Result result = model::explore([&] {
+    auto told = std::make_shared<Told>(threads);
+    model::Program program;
+    for (std::size_t i = 0; i < threads; ++i) program.threads.emplace_back([=] { thread(*told, i); });
+    program.at_end = [&all, told, check] {
+      model::check(told->signal.waiting() == 0, "somebody is still counted");
+      if (check) check(*told);
+      all.insert(told->all());
+    };
+    return program;
+  });
+  CHECK(result.failure == "");
+  return all;
+}
+}  // namespace
+
+TEST_SUITE("runtime/signal") {
+  TEST_CASE("signalling with no one waiting is an error") {
+    Signal signal;
+    CHECK(signal.signal() == Signalling::not_awaited);
+    CHECK(signal.waiting() == 0);
+  }
+
+  TEST_CASE("signalling wakes all who wait, and they see what was done before") {
+    Signal signal;
+    int value = 0;
+    std::atomic<int> woken{0};
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i)
+      threads.emplace_back([&] {
+        if (signal.await() == Awaiting::signalled && value == 7) ++woken;
+      });
+    await_waiting(signal, 4);
+    value = 7;
+    CHECK(signal.signal() == Signalling::done);
+    for (std::thread& thread : threads) thread.join();
+    CHECK(woken == 4);
+    CHECK(signal.signal() == Signalling::not_awaited);
+  }
+
+  TEST_CASE("a timed await ends at its deadline, on the monotonic clock") {
+    Signal signal;
+    const auto before = MachineClock::now();
+    CHECK(signal.await(before + 20ms) == Awaiting::timed_out);
+    CHECK(MachineClock::now() - before >= 20ms);
+    CHECK(signal.await(before) == Awaiting::timed_out);
+    CHECK(signal.await(MachineClock::time_point{} - 1h) == Awaiting::timed_out);
+    CHECK(signal.waiting() == 0);
+    CHECK(signal.signal() == Signalling::not_awaited);
+  }
+
+  TEST_CASE("an interruption wakes who waits and turns away who comes, until it is over") {
+    Signal signal;
+    Awaiting result = Awaiting::signalled;
+    std::thread thread([&] { result = signal.await(); });
+    await_waiting(signal, 1);
+    signal.interrupt();
+    thread.join();
+    CHECK(result == Awaiting::interrupted);
+    CHECK(signal.await() == Awaiting::interrupted);
+    CHECK(signal.signal() == Signalling::interrupted);
+    CHECK(signal.resume());
+    CHECK(signal.resume());
+    CHECK(signal.signal() == Signalling::not_awaited);
+    CHECK(signal.await(MachineClock::now()) == Awaiting::timed_out);
+  }
+
+  TEST_CASE("each error has its text") {
+    CHECK(to_text(Signalling::not_awaited) == "signalled with no one waiting");
+    CHECK(to_text(Signalling::during_signalling) == "signalled during a signalling");
+    CHECK(to_text(Awaiting::during_signalling) == "awaited during a signalling");
+  }
+
+  TEST_CASE("one who waits in time and one who signals: all that can happen" * doctest::skip(!model::available)) {
+    const auto all = outcomes(2, [](Told& told, std::size_t thread) {
+      if (thread == 0) told.await(0, 0);
+      if (thread == 1) told.notify(1);
+    });
+    CHECK(all == std::set<std::string>{"was signalled; signalled", "waited in vain; signalled with no one waiting"});
+  }
+
+  TEST_CASE("nobody is missed by a signalling, whoever comes and goes" * doctest::skip(!model::available)) {
+    const auto fits = [](const Told& told) {
+      const std::size_t done = told.count("signalled"), woken = told.count("was signalled");
+      model::check(woken >= done && woken <= 2 * done, "signallings and those they woke do not fit");
+    };
+    const auto two = outcomes(
+        3,
+        [](Told& told, std::size_t thread) {
+          if (thread <= 1) told.await(thread, 0);
+          if (thread == 2)
+            for (int i = 0; i < 2; ++i) told.notify(thread);
+        },
+        fits);
+    CHECK(two == std::set<std::string>{
+                     "was signalled; was signalled; signalled; signalled",
+                     "was signalled; was signalled; signalled; signalled during a signalling",
+                     "was signalled; was signalled; signalled; signalled with no one waiting",
+                     "was signalled; was signalled; signalled with no one waiting; signalled",
+                     "was signalled; awaited during a signalling; signalled with no one waiting; signalled",
+                     "awaited during a signalling; was signalled; signalled with no one waiting; signalled",
+                     "was signalled; awaited during a signalling; signalled; signalled during a signalling",
+                     "was signalled; awaited during a signalling; signalled; signalled with no one waiting",
+                     "awaited during a signalling; was signalled; signalled; signalled during a signalling",
+                     "awaited during a signalling; was signalled; signalled; signalled with no one waiting",
+                     "was signalled; waited in vain; signalled; signalled during a signalling",
+                     "was signalled; waited in vain; signalled; signalled with no one waiting",
+                     "was signalled; waited in vain; signalled with no one waiting; signalled",
+                     "waited in vain; was signalled; signalled; signalled during a signalling",
+                     "waited in vain; was signalled; signalled; signalled with no one waiting",
+                     "waited in vain; was signalled; signalled with no one waiting; signalled",
+                     "waited in vain; waited in vain; signalled with no one waiting; signalled with no one waiting",
+                 });
+    const auto one = outcomes(
+        2,
+        [](Told& told, std::size_t thread) {
+          for (int i = 0; i < 3; ++i) thread == 0 ? told.await(0, 0) : told.notify(1);
+        },
+        fits);
+    CHECK(one.contains("was signalled; was signalled; was signalled; signalled; signalled; signalled"));
+    CHECK(one.contains("was signalled; waited in vain; was signalled; signalled; signalled with no one waiting; "
+                       "signalled"));
+    CHECK(one.contains("waited in vain; was signalled; was signalled; signalled; signalled during a signalling; "
+                       "signalled"));
+  }
+
+  TEST_CASE("of two who signal at once, one is told") {
+    if (!model::available) return;
+    const auto all = outcomes(3, [](Told& told, std::size_t thread) {
+      if (thread == 0) {
+        told.await(0);
+        told.signal.interrupt();
+      } else {
+        told.notify(thread);
+        if (thread == 1 && told.of[1].back() == to_text(Signalling::not_awaited)) told.signal.interrupt();
+      }
+    });
+    CHECK(all.contains("was signalled; signalled; signalled during a signalling"));
+    CHECK(all.contains("was signalled; signalled during a signalling; signalled"));
+    CHECK(all.contains("was signalled; signalled; signalled with no one waiting"));
+    CHECK(all.contains("was signalled; signalled with no one waiting; signalled"));
+    CHECK(all.contains("was interrupted while awaiting; signalled with no one waiting; signalled with no one waiting"));
+    CHECK(!all.contains("was signalled; signalled; signalled"));
+  }
+
+  TEST_CASE("an interruption reaches everybody, whenever it comes" * doctest::skip(!model::available)) {
+    const auto fits = [](const Told& told) {
+      model::check((told.count("signalled") == 1) == (told.count("was signalled") > 0), "signalled, and nobody was");
+    };
+    const auto two = outcomes(
+        3,
+        [](Told& told, std::size_t thread) {
+          if (thread <= 1) told.await(thread);
+          if (thread == 2) {
+            told.notify(2);
+            told.signal.interrupt();
+          }
+        },
+        fits);
+    CHECK(two.contains("was signalled; was signalled; signalled"));
+    CHECK(two.contains("was signalled; was interrupted while awaiting; signalled"));
+    CHECK(two.contains("was interrupted while awaiting; was signalled; signalled"));
+    CHECK(two.contains("was interrupted while awaiting; was interrupted while awaiting; signalled with no one waiting"));
+    CHECK(two.contains("was signalled; awaited during a signalling; signalled"));
+
+    const auto resumed = outcomes(
+        3,
+        [](Told& told, std::size_t thread) {
+          if (thread == 0) told.await(0);
+          if (thread == 1) told.notify(1);
+          if (thread == 2) {
+            told.signal.interrupt();
+            static_cast<void>(told.signal.resume());
+            told.signal.interrupt();
+          }
+        },
+        fits);
+    CHECK(resumed == std::set<std::string>{"was signalled; signalled",
+                                           "was interrupted while awaiting; signalled while interrupted",
+                                           "was interrupted while awaiting; signalled with no one waiting"});
+  }
+
+  TEST_CASE("what is done before a signalling has happened for who was signalled" *
+            doctest::skip(!model::available)) {
+    const model::Result result = model::explore([] {
+      struct Run {
+        Explored signal;
+        std::byte place{};
+      };
+      auto run = std::make_shared<Run>();
+      return model::Program{{[run] {
+                               const auto awaited = run->signal.await(0);
+                               std::byte value{};
+                               if (awaited == Awaiting::signalled) model::ModelMemory<>::copy_out(&value, &run->place, 1);
+                             },
+                             [run] {
+                               const std::byte value{1};
+                               model::ModelMemory<>::copy_in(&run->place, &value, 1);
+                               static_cast<void>(run->signal.signal());
+                             }},
+                            {}};
+    });
+    CHECK(result.failure == "");
+  }
+
+  TEST_CASE("two threads that signal each other, many times") {
+    const bool full = std::getenv("JAROL_FULL") != nullptr;
+    const std::uint64_t most = full ? 10'000'000 : 20'000;
+    Signal there, back;
+    std::uint64_t value = 0, wrong = 0;
+    std::thread other([&] {
+      for (;;) {
+        if (there.await() == Awaiting::interrupted) return;
+        value = 2 * value;
+        while (back.signal() != Signalling::done) std::this_thread::yield();
+      }
+    });
+    const auto end = MachineClock::now() + 300ms;
+    for (std::uint64_t i = 1; i <= most && (full || MachineClock::now() < end); ++i) {
+      value = i;
+      while (there.signal() != Signalling::done) std::this_thread::yield();
+      if (back.await() != Awaiting::signalled || value != 2 * i) ++wrong;
+    }
+    there.interrupt();
+    other.join();
+    CHECK(wrong == 0);
+  }
+
+  TEST_CASE("many who wait for moments and many who signal: every signalling is somebody's") {
+    const auto end = MachineClock::now() + (std::getenv("JAROL_FULL") != nullptr ? 30000ms : 300ms);
+    Signal signal;
+    std::atomic<std::uint64_t> done{0}, woken{0};
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 3; ++i)
+      threads.emplace_back([&] {
+        while (MachineClock::now() < end)
+          if (signal.await(MachineClock::now() + 20us) == Awaiting::signalled) ++woken;
+      });
+    for (int i = 0; i < 2; ++i)
+      threads.emplace_back([&] {
+        while (MachineClock::now() < end)
+          if (signal.signal() == Signalling::done) ++done;
+      });
+    for (std::thread& thread : threads) thread.join();
+    CHECK(signal.waiting() == 0);
+    CHECK(done > 0);
+    CHECK(woken >= done);
+    CHECK(woken <= 3 * done);
+  }
+}
