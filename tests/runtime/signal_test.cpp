@@ -171,10 +171,12 @@ TEST_SUITE("runtime/signal") {
         },
         fits);
     CHECK(one.contains("was signalled; was signalled; was signalled; signalled; signalled; signalled"));
-    CHECK(one.contains("was signalled; waited in vain; was signalled; signalled; signalled with no one waiting; "
-                       "signalled"));
-    CHECK(one.contains("waited in vain; was signalled; was signalled; signalled; signalled during a signalling; "
-                       "signalled"));
+    CHECK(
+        one.contains("was signalled; waited in vain; was signalled; signalled; signalled with no one waiting; "
+                     "signalled"));
+    CHECK(
+        one.contains("waited in vain; was signalled; was signalled; signalled; signalled during a signalling; "
+                     "signalled"));
   }
 
   TEST_CASE("of two who signal at once, one is told") {
@@ -213,7 +215,8 @@ TEST_SUITE("runtime/signal") {
     CHECK(two.contains("was signalled; was signalled; signalled"));
     CHECK(two.contains("was signalled; was interrupted while awaiting; signalled"));
     CHECK(two.contains("was interrupted while awaiting; was signalled; signalled"));
-    CHECK(two.contains("was interrupted while awaiting; was interrupted while awaiting; signalled with no one waiting"));
+    CHECK(
+        two.contains("was interrupted while awaiting; was interrupted while awaiting; signalled with no one waiting"));
     CHECK(two.contains("was signalled; awaited during a signalling; signalled"));
 
     const auto resumed = outcomes(
@@ -233,8 +236,7 @@ TEST_SUITE("runtime/signal") {
                                            "was interrupted while awaiting; signalled with no one waiting"});
   }
 
-  TEST_CASE("what is done before a signalling has happened for who was signalled" *
-            doctest::skip(!model::available)) {
+  TEST_CASE("what is done before a signalling has happened for who was signalled" * doctest::skip(!model::available)) {
     const model::Result result = model::explore([] {
       struct Run {
         Explored signal;
@@ -244,7 +246,8 @@ TEST_SUITE("runtime/signal") {
       return model::Program{{[run] {
                                const auto awaited = run->signal.await(0);
                                std::byte value{};
-                               if (awaited == Awaiting::signalled) model::ModelMemory<>::copy_out(&value, &run->place, 1);
+                               if (awaited == Awaiting::signalled)
+                                 model::ModelMemory<>::copy_out(&value, &run->place, 1);
                              },
                              [run] {
                                const std::byte value{1};

@@ -138,7 +138,6 @@ TEST_SUITE("runtime/time_trigger") {
     CHECK(explore(nothing, nothing) == std::set<std::int64_t>{2});
     CHECK(explore(twice, nothing) == std::set<std::int64_t>{0, 1, 2});
     CHECK(explore([](Run& run) { run.await(0); }, [](Run& run) { run.await(1); }) == std::set<std::int64_t>{0, 1, 2});
-    CHECK(explore([](Run& run) { run.await(0); }, [](Run& run) { run.await(1, 1); }) ==
-          std::set<std::int64_t>{1, 2});
+    CHECK(explore([](Run& run) { run.await(0); }, [](Run& run) { run.await(1, 1); }) == std::set<std::int64_t>{1, 2});
   }
 }
