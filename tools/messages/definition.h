@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,17 @@ struct Definition {
 
 /// Bytes of a number on the wire; 0 for all other types.
 std::size_t size_of(const std::string& type);
+
+struct Integer {
+  bool negative = false;
+  std::uint64_t magnitude = 0;
+};
+
+/// Decimal, negative or hexadecimal; nothing if it is none or has no place in 64 bits.
+std::optional<Integer> parse_integer(std::string_view text);
+
+/// Has a field of that integer type room for it?
+bool fits(const Integer& integer, const std::string& type);
 
 /// Reads and checks a definition; throws SpecError with all that is wrong.
 Definition read_definition(const Source& source);

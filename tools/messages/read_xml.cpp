@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <pugixml.hpp>
 
 #include "tools/messages/definition.h"
@@ -42,6 +41,12 @@ class XmlReader {
                     "the definition is an element <" + std::string(root.name()) + ">; it needs <messages>");
       return definition;
     }
+    check_attributes(root, {"name", "long-name", "version", "byte-order", "checksum", "checksum-from", "most-bytes"},
+                     "the definition");
+    check_children(root,
+                   {"description", "types", "serialization", "units", "enumerations", "bitfields", "message-groups",
+                    "flags", "header", "footer", "categories", "message"},
+                   "the definition");
     definition.title = needed(root, "name", "the definition");
     definition.version = root.attribute("version").value();
     definition.text = root.attribute("long-name").value();
@@ -74,6 +79,25 @@ class XmlReader {
   // of the name after the bracket
   Location place(pugi::xml_node node) const { return place(node.offset_debug()); }
 
+  void check_attributes(pugi::xml_node node, const std::vector<std::string>& known, const std::string& subject) {
+    for (const pugi::xml_attribute attribute : node.attributes()) {
+      const std::string name = attribute.name();
+      if (name.find(':') != std::string::npos || name == "xmlns") continue;  // of XML itself
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        problems_.add(place(node), subject + " has the attribute '" + name + "'" + did_you_mean(name, known) +
+                                       "; it may have: " + list_of(known));
+    }
+  }
+
+  void check_children(pugi::xml_node node, const std::vector<std::string>& known, const std::string& subject) {
+    for (const pugi::xml_node child : node.children()) {
+      const std::string name = child.name();
+      if (child.type() == pugi::node_element && std::find(known.begin(), known.end(), name) == known.end())
+        problems_.add(place(child), subject + " has an element <" + name + ">" + did_you_mean(name, known) +
+                                        "; it may have: " + list_of(known));
+    }
+  }
+
   std::string needed(pugi::xml_node node, const char* attribute, const std::string& subject) {
     const std::string text = node.attribute(attribute).value();
     if (text.empty()) problems_.add(place(node), subject + " has no '" + attribute + "'; it needs one");
@@ -94,19 +118,15 @@ class XmlReader {
   std::int64_t integer(pugi::xml_node node, const char* attribute, std::int64_t least, std::int64_t most,
                        std::int64_t standard, const std::string& subject) {
     if (!node.attribute(attribute)) return standard;
-    std::string_view text = node.attribute(attribute).value();
-    const std::string_view whole = text;
-    const bool negative = text.starts_with('-');
-    if (negative) text.remove_prefix(1);
-    const int base = text.starts_with("0x") || text.starts_with("0X") ? 16 : 10;
-    if (base == 16) text.remove_prefix(2);
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
-    if (negative) value = -value;
-    if (error == std::errc() && end == text.data() + text.size() && value >= least && value <= most) return value;
-    problems_.add(place(node), subject + " has the " + attribute + " '" + std::string(whole) +
-                                   "'; it needs an integer from " + std::to_string(least) + " to " +
-                                   std::to_string(most));
+    const std::string text = node.attribute(attribute).value();
+    const auto integer = parse_integer(text);
+    if (integer && fits(*integer, "int64_t")) {
+      // modulo 2^64, so that the least of all comes out right
+      const auto value = static_cast<std::int64_t>(integer->negative ? 0 - integer->magnitude : integer->magnitude);
+      if (value >= least && value <= most) return value;
+    }
+    problems_.add(place(node), subject + " has the " + attribute + " '" + text + "'; it needs an integer from " +
+                                   std::to_string(least) + " to " + std::to_string(most));
     return standard;
   }
 
@@ -127,6 +147,8 @@ class XmlReader {
 
   void read_frame(pugi::xml_node root, Definition& definition) {
     const pugi::xml_node header = root.child("header");
+    check_children(header, {"description", "field"}, "the header");
+    check_children(root.child("footer"), {"description", "field"}, "the footer");
     definition.header.where = header ? place(header) : place(root);
     definition.header.name = definition.header.struct_name = "Header";
     definition.header.text = "What stands before every payload.";
@@ -146,6 +168,9 @@ class XmlReader {
     message.where = place(node);
     message.name = needed(node, "abbrev", "a message");
     const std::string subject = "message '" + message.name + "'";
+    check_attributes(node, {"id", "name", "abbrev", "struct", "category", "source", "flags", "stable", "used-by"},
+                     subject);
+    check_children(node, {"description", "field", "part"}, subject);
     message.struct_name = node.attribute("struct") ? node.attribute("struct").value() : message.name;
     needed(node, "id", subject);
     message.id = static_cast<std::uint32_t>(integer(node, "id", 0, UINT32_MAX, 0, subject));
@@ -155,10 +180,6 @@ class XmlReader {
       const std::string name = child.name();
       if (name == "field") message.fields.push_back(read_field(child, subject, definition));
       if (name == "part") message.fields.push_back(read_part(child, subject));
-      if (child.type() == pugi::node_element && name != "field" && name != "part" && name != "description")
-        problems_.add(place(child), subject + " has an element <" + name + ">" +
-                                        did_you_mean(name, {"description", "field", "part"}) +
-                                        "; it may have: description, field, part");
     }
     return message;
   }
@@ -168,6 +189,8 @@ class XmlReader {
     part.where = place(node);
     part.type = "part";
     part.name = needed(node, "abbrev", "a part of " + subject);
+    check_attributes(node, {"abbrev", "message-type", "name"}, subject + " part '" + part.name + "'");
+    check_children(node, {"description"}, subject + " part '" + part.name + "'");
     part.message_type = needed(node, "message-type", subject + " part '" + part.name + "'");
     part.text = one_line(node.child("description").text().get());
     return part;
@@ -181,6 +204,11 @@ class XmlReader {
     static const std::vector<std::string> types{"int8_t",    "uint8_t", "int16_t",  "uint16_t", "int32_t",
                                                 "uint32_t",  "int64_t", "uint64_t", "fp32_t",   "fp64_t",
                                                 "plaintext", "rawdata", "rest",     "message",  "message-list"};
+    check_attributes(node,
+                     {"name", "abbrev", "type", "unit", "min", "max", "prefix", "enum-def", "bitfield-def",
+                      "message-type", "value", "note", "fixed", "count"},
+                     subject);
+    check_children(node, {"description", "value"}, subject);
     needed(node, "type", subject);
     field.type = one_of(node, "type", types, subject);
     field.unit = node.attribute("unit").value();
@@ -224,14 +252,6 @@ class XmlReader {
 };
 
 }  // namespace
-
-std::size_t size_of(const std::string& type) {
-  static const std::map<std::string, std::size_t> sizes{
-      {"int8_t", 1},   {"uint8_t", 1}, {"int16_t", 2},  {"uint16_t", 2}, {"int32_t", 4},
-      {"uint32_t", 4}, {"int64_t", 8}, {"uint64_t", 8}, {"fp32_t", 4},   {"fp64_t", 8}};
-  const auto found = sizes.find(type);
-  return found == sizes.end() ? 0 : found->second;
-}
 
 Definition read_xml(const std::shared_ptr<const Source>& source, Problems& problems) {
   return XmlReader(source, problems).read();

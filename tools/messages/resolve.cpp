@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <set>
 
 #include "tools/messages/definition.h"
@@ -110,11 +109,14 @@ class Resolver {
       problems_.add(sync.where, "the header's field 'sync' has no 'value'; it needs one");
       return;
     }
+    const auto integer = parse_integer(sync.standard);
+    if (!integer || integer->negative || !fits(*integer, sync.type)) {
+      problems_.add(sync.where, "the header's field 'sync' has the value '" + sync.standard +
+                                    "'; it needs an integer that fits " + sync.type);
+      return;
+    }
     // the same in both orders: it can't tell them apart
-    std::uint64_t value = 0;
-    const bool is_hex = sync.standard.starts_with("0x");
-    std::from_chars(sync.standard.data() + (is_hex ? 2 : 0), sync.standard.data() + sync.standard.size(), value,
-                    is_hex ? 16 : 10);
+    const std::uint64_t value = integer->magnitude;
     std::uint64_t swapped = 0;
     const std::size_t size = definition::size_of(sync.type);
     for (std::size_t i = 0; i < size; ++i) swapped |= ((value >> (8 * i)) & 0xff) << (8 * (size - 1 - i));

@@ -42,27 +42,28 @@ std::string initial(const Field& field) {
     return "{static_cast<" + type + ">(" + text + ")}";
   }
   if (size_of(field.type) == 0 || field.count > 0) return "";
-  const bool negative = text[0] == '-', hex = text.find("0x") == (negative ? 1U : 0U);
-  std::uint64_t value = 0;
-  const auto [stop, error] = std::from_chars(begin + (negative ? 1 : 0) + (hex ? 2 : 0), end, value, hex ? 16 : 10);
-  const std::uint64_t bits = 8 * size_of(field.type);
-  const bool has_sign = field.type[0] == 'i';
-  const std::uint64_t most = (~std::uint64_t{0} >> (64 - bits)) >> (has_sign ? 1 : 0);
-  if (error != std::errc() || stop != end || value > most || (negative && !has_sign)) return "";
-  return "{" + std::string(negative ? "-" : "") + std::to_string(value) + (has_sign ? "}" : "U}");
+  const auto integer = parse_integer(text);
+  if (!integer || !fits(*integer, field.type)) return "";
+  if (!integer->negative) return "{" + std::to_string(integer->magnitude) + (field.type[0] == 'u' ? "U}" : "}");
+  if (integer->magnitude >> 63 != 0) return "{::std::numeric_limits<::std::int64_t>::min()}";  // has no literal
+  return "{-" + std::to_string(integer->magnitude) + "}";
 }
 
-// True if the integer type has room for the value.
-bool fits(const std::string& type, std::int64_t value) {
-  const auto bits = static_cast<int>(8 * size_of(type));
-  if (type[0] == 'u') return value >= 0 && (bits == 64 || value >> bits == 0);
-  return bits == 64 || (value >> (bits - 1) == (value < 0 ? -1 : 0));
+// What a default may be.
+std::string default_text(const Field& field) {
+  if (size_of(field.type) == 0 || field.count > 0) return "none, which only texts and single numbers have";
+  std::vector<std::string> names;
+  for (const NamedValue& v : field.values) names.push_back(v.name);
+  const std::string number = field.type[0] == 'f' ? "a number" : "an integer that fits " + field.type;
+  return number + (names.empty() ? "" : ", or one of: " + list_of(names));
 }
 
 // `type` is that of the field, where there is one: constants are of it if all values fit
 void write_values(const std::string& name, const std::vector<NamedValue>& values, const std::string& indent,
                   std::string& to, const std::string& type = "int64_t") {
-  const bool fit = std::all_of(values.begin(), values.end(), [&](const NamedValue& v) { return fits(type, v.value); });
+  const bool fit = std::all_of(values.begin(), values.end(), [&](const NamedValue& v) {
+    return fits(*parse_integer(std::to_string(v.value)), type);
+  });
   to += indent + "struct " + name + " {\n";
   const std::vector<std::string> names = value_names(values);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -121,7 +122,7 @@ class HeaderWriter {
       const std::string value = f.type == "part" ? "{}" : initial(f);
       if (value.empty())
         problems_.add(f.where, "message '" + message.name + "' field '" + f.name + "' of type " + f.type +
-                                   " has the default '" + f.standard + "', which is none of its values");
+                                   " has the default '" + f.standard + "'; it needs " + default_text(f));
       to_ += "  " + member_type(f, names_) + " " + member + value + ";\n";
       described += (described.empty() ? "" : ",\n        ") + std::string("::jarol::field<&Described::") + member +
                    ">(" + quoted(f.unit == "Enumerated" || f.unit == "Bitfield" ? "" : f.unit) + ", " + quoted(f.text) +
