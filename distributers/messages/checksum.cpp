@@ -5,21 +5,33 @@
 namespace jarol::messages {
 namespace {
 
-constexpr auto crc_table = [] {
-  std::array<std::uint16_t, 256> table{};
-  for (std::uint32_t i = 0; i < 256; ++i) {
-    std::uint32_t crc = i;
+// tables[k][b]: what byte b adds to the remainder when k bytes follow it, so that eight are looked up at once
+constexpr auto crc_tables = [] {
+  std::array<std::array<std::uint16_t, 256>, 8> tables{};
+  for (std::uint32_t b = 0; b < 256; ++b) {
+    std::uint32_t crc = b;
     for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xa001U : 0);
-    table[i] = static_cast<std::uint16_t>(crc);
+    tables[0][b] = static_cast<std::uint16_t>(crc);
   }
-  return table;
+  for (std::size_t k = 1; k < 8; ++k)
+    for (std::size_t b = 0; b < 256; ++b) {
+      const std::uint32_t before = tables[k - 1][b];
+      tables[k][b] = static_cast<std::uint16_t>((before >> 8) ^ tables[0][before & 0xff]);
+    }
+  return tables;
 }();
 
 }  // namespace
 
 std::uint16_t crc16_ibm(std::span<const std::byte> bytes) {
   std::uint32_t crc = 0;
-  for (const std::byte b : bytes) crc = (crc >> 8) ^ crc_table[(crc ^ std::to_integer<std::uint32_t>(b)) & 0xff];
+  const auto at = [&](std::size_t i) { return std::to_integer<std::uint32_t>(bytes[i]); };
+  for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
+    const auto& t = crc_tables;
+    crc = static_cast<std::uint32_t>(t[7][at(0) ^ (crc & 0xff)] ^ t[6][at(1) ^ (crc >> 8)] ^ t[5][at(2)] ^ t[4][at(3)] ^
+                                     t[3][at(4)] ^ t[2][at(5)] ^ t[1][at(6)] ^ t[0][at(7)]);
+  }
+  for (const std::byte b : bytes) crc = (crc >> 8) ^ crc_tables[0][(crc ^ std::to_integer<std::uint32_t>(b)) & 0xff];
   return static_cast<std::uint16_t>(crc);
 }
 

@@ -33,6 +33,15 @@ TEST_SUITE("tools/readme") {
     CHECK(readme().find(verdict) != std::string::npos);
   }
 
+  TEST_CASE("the README shows a message and a packet as the command tells them") {
+    for (const char* arguments : {"messages imc DesiredZ", "messages javiator --decode"}) {
+      const bool decode = std::string(arguments).ends_with("--decode");
+      const std::string output = output_of(std::string(arguments) + (decode ? " <<END\nffff0f021f400070\nEND" : ""));
+      CHECK(output.size() > 100);
+      CHECK(readme().find(std::string(arguments) + "\n" + output) != std::string::npos);
+    }
+  }
+
   TEST_CASE("the README shows what the demo reaches as it is") {
     const std::string run = output_of("run specs/exolauv.yaml");
     const std::size_t begin = run.find("               commanded"), end = run.find("  digest");

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "graph/yaml/yaml.h"
 #include "tools/messages/write.h"
 
 using namespace jarol;
@@ -229,5 +230,13 @@ TEST_SUITE("tools/messages/definition") {
     CHECK(report_on_messages("<message abbrev=\"A\"/>\n<message id=\"2\"/>") ==
           "t.xml:2:2: error: message 'A' has no 'id'; it needs one\n"
           "t.xml:3:2: error: a message has no 'abbrev'; it needs one");
+  }
+
+  TEST_CASE("the definition that the README shows is one") {
+    const std::string readme = read_source("specs/messages/README.md")->text;
+    const std::size_t begin = readme.find("<messages"), end = readme.find("```", begin);
+    REQUIRE(begin < end);
+    CHECK(report_on(readme.substr(begin, end - begin)) == "");
+    CHECK(read(readme.substr(begin, end - begin)).messages[0].wire_size == 5);
   }
 }
