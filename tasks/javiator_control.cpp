@@ -13,17 +13,30 @@ double limited(double value, double limit) { return std::clamp(value, -limit, li
 double seconds(Duration duration) { return 1e-9 * static_cast<double>(duration.count()); }
 
 // critically damped, s^2 + 2 w s + w^2, but for its bounds
-template <class Param>
-void approach(Approach& a, double goal, const Param& p, double dt) {
-  const double speed = limited(0.5 * p.bandwidth * (goal - a.place), p.speed_limit);
-  a.acceleration = limited(2 * p.bandwidth * (speed - a.speed), p.acceleration_limit);
-  a.place += a.speed * dt + 0.5 * a.acceleration * dt * dt;
-  a.speed += a.acceleration * dt;
+void approach(Approach& a, double goal, const ApproachLimits& p, double dt) {
+  const double speed = limited(0.5 * p.bandwidth * (goal - a.place), p.speed);
+  const double wanted = limited(2 * p.bandwidth * (speed - a.speed), p.acceleration);
+  a.demand += limited(wanted - a.demand, p.jerk * dt);
+  a.felt += (a.demand - a.felt) * dt / (p.lag + dt);
+  a.place += a.speed * dt + 0.5 * a.felt * dt * dt;
+  a.speed += a.felt * dt;
 }
 
-double hold(const PositionControl::Param& p, const Approach& a, double place, double speed, double& trim, double dt) {
-  trim = limited(trim + p.ki * (a.place - place) * dt, 3);
-  return a.acceleration + p.kp * (a.place - place) + p.kd * (a.speed - speed) + trim;
+double hold(const PositionControl::Param& p, const Approach& a, double place, double speed, double drag, double& trim,
+            double dt) {
+  trim = limited(trim + p.ki * (a.place - place) * dt, 1);
+  return a.demand + p.kp * (a.place - place) + p.kd * (a.speed - speed) - drag + trim;
+}
+
+double turn(const TurnGains& g, TurnModel& model, double goal, double angle, double rate, double dt) {
+  const double w = g.bandwidth;
+  const double most = 0.8 * g.limit * g.effect;
+  const double acceleration = limited(w * w * (goal - model.angle) - 2 * w * model.rate, most);
+  model.angle += model.rate * dt + 0.5 * acceleration * dt * dt;
+  model.rate += acceleration * dt;
+  const double error = model.angle - angle;
+  model.trim = limited(model.trim + g.ki * error * dt, 0.2 * g.limit);
+  return limited(acceleration / g.effect + g.kp * error + g.kd * (model.rate - rate) + model.trim, g.limit);
 }
 
 }  // namespace
@@ -43,22 +56,30 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
     return;
   }
   if (!state.holding)
-    state = {.x = {e.x, e.v_x, 0}, .y = {e.y, e.v_y, 0}, .trim_x = state.trim_x, .trim_y = state.trim_y};
+    state = {.x = {e.x, e.v_x},
+             .y = {e.y, e.v_y},
+             .drag_x = e.drag_x,
+             .drag_y = e.drag_y,
+             .trim_x = state.trim_x,
+             .trim_y = state.trim_y};
   state.holding = true;
-  approach(state.x, d.x, p, dt);
-  approach(state.y, d.y, p, dt);
-  const double a_x = hold(p, state.x, e.x, e.v_x, state.trim_x, dt);
-  const double a_y = hold(p, state.y, e.y, e.v_y, state.trim_y, dt);
+  state.drag_x += (e.drag_x - state.drag_x) * dt / (p.drag_time + dt);
+  state.drag_y += (e.drag_y - state.drag_y) * dt / (p.drag_time + dt);
+  approach(state.x, d.x, p.approach, dt);
+  approach(state.y, d.y, p.approach, dt);
+  const double a_x = hold(p, state.x, e.x, e.v_x, state.drag_x, state.trim_x, dt);
+  const double a_y = hold(p, state.y, e.y, e.v_y, state.drag_y, state.trim_y, dt);
   // to the right by rolling right, forward by nosing down
   out.goal.roll = limited(std::atan((c * a_y - s * a_x) / gravity), p.lean_limit);
   out.goal.pitch = limited(-std::atan((c * a_x + s * a_y) / gravity), p.lean_limit);
 }
 
-void AttitudeControl::run(const Param& p, const Tick&, const In& in, Out& out) {
+void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const FlightEstimate& e = in.estimate;
-  out.turn.roll = limited(p.kp * (in.goal.roll - e.roll) - p.kd * e.p, p.limit);
-  out.turn.pitch = limited(p.kp * (in.goal.pitch - e.pitch) - p.kd * e.q, p.limit);
-  out.turn.yaw = limited(p.yaw_kp * (in.goal.yaw - e.yaw) - p.yaw_kd * e.r, p.yaw_limit);
+  const double dt = seconds(tick.period);
+  out.turn.roll = turn(p.lean, state.roll, in.goal.roll, e.roll, e.p, dt);
+  out.turn.pitch = turn(p.lean, state.pitch, in.goal.pitch, e.pitch, e.q, dt);
+  out.turn.yaw = turn(p.yaw, state.yaw, in.goal.yaw, e.yaw, e.r, dt);
 }
 
 void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
@@ -84,28 +105,33 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     const bool wants_up = d.state == FlightState::flying && d.altitude > ground;
     state.trim = std::clamp(state.trim + (wants_up ? p.lift_rate : -p.lift_rate) * dt, p.idle, 1.5);
     state.lifted = wants_up && e.altitude > ground;
-    state.z = {e.altitude, std::max(e.climb, 0.0), 0};
+    state.z = {e.altitude, std::max(e.climb, 0.0)};
+    state.expected = state.sunk = 0;
     thrust = state.trim;
     return;
   }
   if (d.state == FlightState::landing) {
     const double speed = e.altitude > 0.5 ? p.descent : p.touch_speed;
-    state.z.acceleration = limited(3 * (-speed - state.z.speed), 1);
-    state.z.speed += state.z.acceleration * dt;
+    state.z.demand = limited(3 * (-speed - state.z.speed), 1);
+    state.z.speed += state.z.demand * dt;
     // never far below: on the ground it would wind down all at once
     state.z.place = std::max(state.z.place + state.z.speed * dt, e.altitude - 0.15);
   } else {
-    approach(state.z, d.altitude, p, dt);
+    approach(state.z, d.altitude, p.approach, dt);
     if (d.altitude <= ground && e.altitude < ground && std::abs(e.climb) < 0.05) state.lifted = false;
   }
+  // sag of the battery, flow through the rotors, the ground: whatever thrust is lost or gained is felt at once
+  const double felt = e.lift / gravity;
+  state.trim = std::clamp(state.trim + p.lift_bandwidth * dt * (1 + state.expected - felt), 0.4, 1.7);
   const double error = state.z.place - e.altitude;
-  state.trim = std::clamp(state.trim + p.ki / gravity * error * dt, 0.3, 1.7);
-  const double a = state.z.acceleration + p.kp * error + p.kd * (state.z.speed - e.climb);
+  state.sunk = limited(state.sunk + p.ki * error * dt, 1);
+  const double a = state.z.demand + p.kp * error + p.kd * (state.z.speed - e.climb) + state.sunk;
   const double upright = std::max(std::cos(e.roll) * std::cos(e.pitch), 0.5);
-  thrust = std::clamp((state.trim + a / gravity) / upright, 0.1, 2.0);
+  thrust = std::clamp(state.trim + (1 + a / gravity) / upright - 1, 0.1, 2.0);
+  state.expected += (thrust - state.trim - state.expected) * dt / (p.lift_lag + dt);
 }
 
-void MotorMixer::run(const Param& p, const Tick&, const In& in, Out& out) {
+void MotorMixer::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const FlightState doing = in.directive.state;
   out.motors.unlocked = doing != FlightState::halt;
   const bool steers = doing == FlightState::flying || doing == FlightState::landing;
@@ -116,9 +142,15 @@ void MotorMixer::run(const Param& p, const Tick&, const In& in, Out& out) {
                                        lift - turn.yaw - turn.pitch, lift + turn.yaw + turn.roll};
   const double battery = in.estimate.battery;
   const double made_up = battery > 0 ? std::clamp(p.voltage / battery, 0.8, 1.3) : 1.0;
+  const double dt = seconds(tick.period);
+  const double part = -std::expm1(-dt / p.lag), quick_part = -std::expm1(-dt / p.quick_lag);
   for (std::size_t i = 0; i < 4; ++i) {
-    const double signal = made_up * p.hover * std::pow(std::max(parts[i], 0.0), 1 / p.exponent);
-    out.motors.signals[i] = doing == FlightState::halt ? 0 : std::clamp(signal, 0.0, 16000.0);
+    double& reached = state.reached[i];
+    double& signal = out.motors.signals[i];
+    const double due = made_up * p.hover * std::pow(std::max(parts[i], 0.0), 1 / p.exponent);
+    const double quick = reached + (due - reached) * quick_part / part;
+    signal = doing == FlightState::halt ? 0 : std::clamp(quick, 0.0, 16000.0);
+    reached += (signal - reached) * part;
   }
 }
 

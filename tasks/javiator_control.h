@@ -9,13 +9,30 @@
 
 namespace jarol::tasks {
 
-/// A goal approached with bounded speed and acceleration, without overshoot.
+/// A goal approached with bounded speed, acceleration and jerk, without overshoot. What is demanded is felt a little
+/// later, for rotors and attitude need their time: place and speed follow what is felt.
 struct Approach {
-  double place = 0, speed = 0, acceleration = 0;
+  double place = 0, speed = 0, felt = 0, demand = 0;
 
   static constexpr auto fields() {
     using A = Approach;
-    return describe(field<&A::place>("m"), field<&A::speed>("m/s"), field<&A::acceleration>("m/s^2"));
+    return describe(field<&A::place>("m"), field<&A::speed>("m/s"), field<&A::felt>("m/s^2"),
+                    field<&A::demand>("m/s^2"));
+  }
+};
+
+struct ApproachLimits {
+  double bandwidth = 1;
+  double speed = 1;
+  double acceleration = 1;
+  double jerk = 10;
+  double lag = 0.1;
+
+  static constexpr auto fields() {
+    using L = ApproachLimits;
+    return describe(field<&L::bandwidth>("rad/s", "near the goal"), field<&L::speed>("m/s", "greatest"),
+                    field<&L::acceleration>("m/s^2", "greatest"), field<&L::jerk>("m/s^3", "greatest"),
+                    field<&L::lag>("s", "until an acceleration demanded is felt"));
   }
 };
 
@@ -24,19 +41,17 @@ struct PositionControl {
   struct Param {
     double kp = 2.0;
     double kd = 2.4;
-    double ki = 0.6;
-    double bandwidth = 1.6;
-    double speed_limit = 2.5;
-    double acceleration_limit = 2.5;
-    double lean_limit = 0.35;
+    double ki = 0.3;
+    double drag_time = 0.3;
+    ApproachLimits approach{.bandwidth = 1.6, .speed = 2.5, .acceleration = 2.5, .jerk = 12, .lag = 0.2};
+    double lean_limit = 0.4;
     static constexpr auto fields() {
       using P = Param;
       return describe(field<&P::kp>("1/s^2", "acceleration per error of place"),
                       field<&P::kd>("1/s", "acceleration per error of speed"),
                       field<&P::ki>("1/s^3", "acceleration per integral of the error of place"),
-                      field<&P::bandwidth>("rad/s", "of the approach to a new place"),
-                      field<&P::speed_limit>("m/s", "of the approach"),
-                      field<&P::acceleration_limit>("m/s^2", "of the approach"),
+                      field<&P::drag_time>("s", "over which the drag that is leant against is averaged"),
+                      field<&P::approach>("", "to a new place"),
                       field<&P::lean_limit>("rad", "greatest roll and pitch demanded"));
     }
   };
@@ -47,11 +62,13 @@ struct PositionControl {
   };
   struct State {
     Approach x{}, y{};
+    double drag_x = 0, drag_y = 0;
     double trim_x = 0, trim_y = 0;
     bool holding = false;
     static constexpr auto fields() {
       using S = State;
-      return describe(field<&S::x>(), field<&S::y>(), field<&S::trim_x>("m/s^2", "that holds the place, learnt"),
+      return describe(field<&S::x>(), field<&S::y>(), field<&S::drag_x>("m/s^2", "averaged"),
+                      field<&S::drag_y>("m/s^2"), field<&S::trim_x>("m/s^2", "that holds the place, learnt"),
                       field<&S::trim_y>("m/s^2"), field<&S::holding>("", "a place"));
     }
   };
@@ -62,46 +79,69 @@ struct PositionControl {
   static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };
 
+/// One axis of attitude: it follows a critically damped model of the second order, whose effort it knows.
+struct TurnGains {
+  double bandwidth = 1;
+  double effect = 1;
+  double kp = 0;
+  double kd = 0;
+  double ki = 0;
+  double limit = 1;
+
+  static constexpr auto fields() {
+    using G = TurnGains;
+    return describe(field<&G::bandwidth>("rad/s", "of the model followed"),
+                    field<&G::effect>("rad/s^2", "angular acceleration per demand"),
+                    field<&G::kp>("1/rad", "demand per error"), field<&G::kd>("s/rad", "demand per error of rate"),
+                    field<&G::ki>("1/(rad s)", "demand per integral of the error"),
+                    field<&G::limit>("", "greatest demand"));
+  }
+};
+
+struct TurnModel {
+  double angle = 0, rate = 0, trim = 0;
+
+  static constexpr auto fields() {
+    using M = TurnModel;
+    return describe(field<&M::angle>("rad"), field<&M::rate>("rad/s"), field<&M::trim>("", "demand at rest, learnt"));
+  }
+};
+
 struct AttitudeControl {
   static constexpr std::string_view summary = "turns to a commanded roll, pitch and yaw";
   struct Param {
-    double kp = 0.19;
-    double kd = 0.066;
-    double limit = 0.5;
-    double yaw_kp = 0.26;
-    double yaw_kd = 0.26;
-    double yaw_limit = 0.25;
-    static constexpr auto fields() {
-      using P = Param;
-      return describe(field<&P::kp>("1/rad", "demand per error of roll and pitch"),
-                      field<&P::kd>("s/rad", "demand per rate of roll and pitch"),
-                      field<&P::limit>("", "greatest demand of roll and pitch"),
-                      field<&P::yaw_kp>("1/rad", "demand per error of yaw"),
-                      field<&P::yaw_kd>("s/rad", "demand per rate of yaw"),
-                      field<&P::yaw_limit>("", "greatest demand of yaw"));
-    }
+    TurnGains lean{.bandwidth = 10, .effect = 153, .kp = 0.35, .kd = 0.09, .ki = 1.5, .limit = 0.5};
+    TurnGains yaw{.bandwidth = 4, .effect = 12.3, .kp = 1.0, .kd = 0.55, .ki = 0.1, .limit = 0.25};
+    static constexpr auto fields() { return describe(field<&Param::lean>("", "roll and pitch"), field<&Param::yaw>()); }
   };
   struct In {
     FlightEstimate estimate{};
     AttitudeGoal goal{};
     static constexpr auto fields() { return describe(field<&In::estimate>(), field<&In::goal>()); }
   };
+  struct State {
+    TurnModel roll{}, pitch{}, yaw{};
+    static constexpr auto fields() {
+      using S = State;
+      return describe(field<&S::roll>(), field<&S::pitch>(), field<&S::yaw>());
+    }
+  };
   struct Out {
     TurnDemand turn{};
     static constexpr auto fields() { return describe(field<&Out::turn>()); }
   };
-  static void run(const Param& p, const Tick&, const In& in, Out& out);
+  static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };
 
 struct AltitudeControl {
   static constexpr std::string_view summary = "takes off softly, holds a commanded altitude, and lands softly";
   struct Param {
-    double kp = 7;
-    double kd = 5;
-    double ki = 4;
-    double bandwidth = 2.2;
-    double speed_limit = 1;
-    double acceleration_limit = 2;
+    double kp = 12;
+    double kd = 7;
+    double ki = 1;
+    double lift_bandwidth = 10;
+    double lift_lag = 0.06;
+    ApproachLimits approach{.bandwidth = 2.2, .speed = 1, .acceleration = 2, .jerk = 15, .lag = 0.08};
     double idle = 0.5;
     double lift_rate = 0.25;
     double descent = 0.5;
@@ -112,9 +152,9 @@ struct AltitudeControl {
       return describe(field<&P::kp>("1/s^2", "acceleration per error of altitude"),
                       field<&P::kd>("1/s", "acceleration per error of climb"),
                       field<&P::ki>("1/s^3", "acceleration per integral of the error of altitude"),
-                      field<&P::bandwidth>("rad/s", "of the approach to a new altitude"),
-                      field<&P::speed_limit>("m/s", "of the approach"),
-                      field<&P::acceleration_limit>("m/s^2", "of the approach"),
+                      field<&P::lift_bandwidth>("rad/s", "at which thrust is learnt from the lift that is felt"),
+                      field<&P::lift_lag>("s", "until thrust demanded is felt"),
+                      field<&P::approach>("", "to a new altitude"),
                       field<&P::idle>("", "thrust while standing ready, in parts of that of hover"),
                       field<&P::lift_rate>("1/s", "at which thrust grows until it lifts off"),
                       field<&P::descent>("m/s", "of a landing"), field<&P::touch_speed>("m/s", "of its last part"),
@@ -129,10 +169,14 @@ struct AltitudeControl {
   struct State {
     Approach z{};
     double trim = 0;
+    double expected = 0;
+    double sunk = 0;
     bool lifted = false;
     static constexpr auto fields() {
       using S = State;
       return describe(field<&S::z>(), field<&S::trim>("", "thrust at rest, learnt"),
+                      field<&S::expected>("", "thrust that should be felt now, less the trim"),
+                      field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
                       field<&S::lifted>("", "it has left the ground"));
     }
   };
@@ -149,11 +193,15 @@ struct MotorMixer {
     double hover = 8000;
     double exponent = 1.415;
     double voltage = 15.887;
+    double lag = 0.05;
+    double quick_lag = 0.02;
     static constexpr auto fields() {
       using P = Param;
       return describe(field<&P::hover>("", "signal that hovers"),
                       field<&P::exponent>("", "thrust grows with the signal to this power"),
-                      field<&P::voltage>("V", "of the battery at which it does; a lower one is made up for"));
+                      field<&P::voltage>("V", "of the battery at which it does; a lower one is made up for"),
+                      field<&P::lag>("s", "of the rotors"),
+                      field<&P::quick_lag>("s", "that they get instead, by more signal than is due while they change"));
     }
   };
   struct In {
@@ -165,11 +213,17 @@ struct MotorMixer {
       return describe(field<&In::turn>(), field<&In::lift>(), field<&In::directive>(), field<&In::estimate>());
     }
   };
+  struct State {
+    std::array<double, 4> reached{};
+    static constexpr auto fields() {
+      return describe(field<&State::reached>("", "signals that the rotors have followed"));
+    }
+  };
   struct Out {
     MotorCommand motors{};
     static constexpr auto fields() { return describe(field<&Out::motors>()); }
   };
-  static void run(const Param& p, const Tick&, const In& in, Out& out);
+  static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };
 
 struct HelicopterReporter {

@@ -111,6 +111,14 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   e.v_x = state.x.speed;
   e.v_y = state.y.speed;
   e.climb = state.z.speed;
+  e.a_x = a.x() - state.x.bias;
+  e.a_y = a.y() - state.y.bias;
+  e.a_up = -a.z() - state.z.bias;
+  // an accelerometer in flight feels the rotors along their axis, and drag across it
+  const Vector3d drag = R * Vector3d(s.a_x, s.a_y, 0);
+  e.lift = -s.a_z;
+  e.drag_x = drag.x();
+  e.drag_y = drag.y();
   e.battery = e.battery == 0 ? s.battery : e.battery + dt * (s.battery - e.battery);
 }
 

@@ -24,7 +24,7 @@ struct AxisObserver {
 struct JaviatorFilter {
   static constexpr std::string_view summary = "estimates attitude, position and velocity from the helicopter's sensors";
   struct Param {
-    double sonar_x = -0.095, sonar_y = -0.095, sonar_z = 0.055;
+    double sonar_x = 0, sonar_y = 0, sonar_z = 0.055;
     double laser_x_x = 0.070, laser_x_y = -0.075, laser_x_z = -0.080;
     double laser_y_x = -0.050, laser_y_y = 0.077, laser_y_z = -0.080;
     double bandwidth = 6;

@@ -124,6 +124,7 @@ struct FlightEstimate {
   double x = 0, y = 0, altitude = 0;
   double v_x = 0, v_y = 0, climb = 0;
   double a_x = 0, a_y = 0, a_up = 0;
+  double lift = 0, drag_x = 0, drag_y = 0;
   double battery = 0;
   bool attitude_known = false, altitude_known = false, position_known = false;
 
@@ -136,7 +137,10 @@ struct FlightEstimate {
                     field<&E::v_x>("m/s", "to the north"), field<&E::v_y>("m/s", "to the east"),
                     field<&E::climb>("m/s", "upwards"), field<&E::a_x>("m/s^2", "to the north"),
                     field<&E::a_y>("m/s^2", "to the east"), field<&E::a_up>("m/s^2", "upwards"),
-                    field<&E::battery>("V", "voltage"), field<&E::attitude_known>("", "the IMU has answered of late"),
+                    field<&E::lift>("m/s^2", "specific force upwards along the rotors' axis"),
+                    field<&E::drag_x>("m/s^2", "to the north, of all else: drag and wind"),
+                    field<&E::drag_y>("m/s^2", "to the east"), field<&E::battery>("V", "voltage"),
+                    field<&E::attitude_known>("", "the IMU has answered of late"),
                     field<&E::altitude_known>("", "the sonar has"), field<&E::position_known>("", "both lasers have"));
   }
 };

@@ -16,7 +16,9 @@ std::vector<Glimpse>* watching = nullptr;
 
 class Watched : public vehicles::Helicopter {
  public:
-  explicit Watched(const vehicles::HelicopterParameters& parameters) : Helicopter(parameters) { look(); }
+  Watched(const vehicles::HelicopterParameters& parameters, std::uint64_t seed) : Helicopter(parameters, seed) {
+    look();
+  }
 
   void step() override {
     Helicopter::step();
@@ -81,13 +83,13 @@ class Keep : public RecordSink {
 Flight fly(const FlightPlan& plan) {
   auto loaded = tools::load_graph(plan.graph, {.profile = plan.profile, .set = plan.set});
   vehicles::VehicleClass watched = *vehicles::find_vehicle("helicopter");
-  watched.make = [](const void* parameters, std::uint64_t) -> std::unique_ptr<vehicles::Vehicle> {
-    return std::make_unique<Watched>(*static_cast<const vehicles::HelicopterParameters*>(parameters));
+  watched.make = [](const void* parameters, std::uint64_t seed) -> std::unique_ptr<vehicles::Vehicle> {
+    return std::make_unique<Watched>(*static_cast<const vehicles::HelicopterParameters*>(parameters), seed);
   };
   Flight flight;
   watching = &flight.path;
   Problems problems;
-  auto channels = distributers::make_channels(*loaded.graph, {watched}, 0, problems);
+  auto channels = distributers::make_channels(*loaded.graph, {watched}, plan.seed, problems);
   problems.throw_if_any();
   Duration end(std::llround(1e9 * plan.seconds));
   for (std::size_t i = 0; i < channels.size(); ++i) {

@@ -44,6 +44,7 @@ struct FlightPlan {
   /// What the operator wants at that second; without one, the graph's own script.
   std::function<tasks::PilotCommand(double)> pilot{};
   double seconds = 20;
+  std::uint64_t seed = 0;
 };
 
 Flight fly(const FlightPlan& plan);
