@@ -7,8 +7,6 @@ namespace {
 
 using Cause = LandingCause;
 
-bool in_the_air(FlightState state) { return state == FlightState::flying || state == FlightState::landing; }
-
 // Why it can't go on flying as it is told, if so.
 Cause find_cause(const FlightLogic::Param& p, const FlightEstimate& e, bool wants_position, double unheard) {
   if (std::abs(e.roll) > p.roll_limit) return Cause::roll;
@@ -16,7 +14,10 @@ Cause find_cause(const FlightLogic::Param& p, const FlightEstimate& e, bool want
   if (std::abs(e.yaw) > p.yaw_limit) return Cause::yaw;
   if (e.altitude > p.altitude_limit) return Cause::altitude;
   if (unheard > p.patience) return Cause::operator_lost;
+  if (!e.attitude_known) return Cause::imu_lost;
   if (!e.altitude_known) return Cause::sonar_lost;
+  if (!e.pressure_known) return Cause::bmu_lost;
+  if (e.battery < p.battery_limit) return Cause::battery_low;
   if (wants_position && !e.position_known) return Cause::position_lost;
   return Cause::none;
 }
@@ -29,7 +30,7 @@ void enter(FlightState next, Cause cause, FlightLogic::State& state, FlightDirec
 
 void begin_landing(Cause cause, const FlightEstimate& e, FlightLogic::State& state, FlightDirective& d) {
   enter(FlightState::landing, cause, state, d);
-  // straight down from here, or level where the place is not known
+  // straight down from where it can stop
   d.roll = d.pitch = 0;
   d.x = e.x + 0.5 * e.v_x;
   d.y = e.y + 0.5 * e.v_y;
@@ -77,10 +78,6 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   state.shut_downs = command.shut_downs;
   state.state_switches = command.state_switches;
 
-  // without attitude nothing can be steered: motors off is what remains
-  if (!e.attitude_known && (in_the_air(d.state) || d.state == FlightState::starting))
-    enter(FlightState::halt, Cause::imu_lost, state, d);
-
   if (d.state == FlightState::starting) {
     const Cause cause = find_cause(p, e, wants_position, state.unheard);
     if (cause != Cause::none) {
@@ -99,8 +96,9 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   }
   if (d.state == FlightState::landing) {
     d.hold_position = e.position_known;
-    // once it descends, only the ground can stop it
-    state.still = e.altitude < 0.5 && std::abs(e.climb) < p.still ? state.still + dt : 0;
+    // once it descends, only the ground can stop it or take its weight
+    const bool still = e.altitude_known && e.altitude < 0.5 && std::abs(e.climb) < p.still;
+    state.still = still || in.lift.thrust < p.light ? state.still + dt : 0;
     if (state.since > 1 && state.still > p.touch_time) enter(FlightState::ground, d.cause, state, d);
   }
 }

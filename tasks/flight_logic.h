@@ -16,8 +16,10 @@ struct FlightLogic {
     double pitch_limit = 0.6;
     double yaw_limit = 4;
     double altitude_limit = 2.8;
+    double battery_limit = 13.4;
     double patience = 0.525;
     double still = 0.08;
+    double light = 0.6;
     double touch_time = 0.3;
     static constexpr auto fields() {
       using P = Param;
@@ -26,15 +28,21 @@ struct FlightLogic {
                       field<&P::pitch_limit>("rad", "beyond which it lands"),
                       field<&P::yaw_limit>("rad", "from the take-off heading, beyond which it lands"),
                       field<&P::altitude_limit>("m", "beyond which it lands"),
+                      field<&P::battery_limit>("V", "below which it lands"),
                       field<&P::patience>("s", "without the operator, before it lands"),
                       field<&P::still>("m/s", "rate of descent below which it may have touched down"),
-                      field<&P::touch_time>("s", "for which it is still when it has touched down"));
+                      field<&P::light>("", "thrust below which the ground must carry"),
+                      field<&P::touch_time>("s", "for which it is still or light when it has touched down"));
     }
   };
   struct In {
     FlightEstimate estimate{};
     PilotCommand command{};
-    static constexpr auto fields() { return describe(field<&In::estimate>(), field<&In::command>()); }
+    LiftDemand lift{};
+    static constexpr auto fields() {
+      return describe(field<&In::estimate>(), field<&In::command>(),
+                      field<&In::lift>("", "little of it while landing: the ground carries"));
+    }
   };
   struct State {
     double since = 0, unheard = 0, still = 0;

@@ -47,7 +47,19 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
   const double dt = seconds(tick.period);
   const double c = std::cos(e.yaw), s = std::sin(e.yaw);
   out.goal.yaw = d.yaw;
+  state.drag_x += (e.drag_x - state.drag_x) * dt / (p.drag_time + dt);
+  state.drag_y += (e.drag_y - state.drag_y) * dt / (p.drag_time + dt);
+  // to the right by rolling right, forward by nosing down
+  const auto lean = [&](double a_x, double a_y) {
+    out.goal.roll = limited(std::atan((c * a_y - s * a_x) / gravity), p.lean_limit);
+    out.goal.pitch = limited(-std::atan((c * a_x + s * a_y) / gravity), p.lean_limit);
+  };
 
+  // landing without a place it brakes by what it still knows of its speed
+  if (d.state == FlightState::landing && !d.hold_position) {
+    lean(-e.v_x - state.drag_x, -e.v_y - state.drag_y);
+    return;
+  }
   // by hand; commands are meant from the take-off heading, not from the nose
   if (!d.hold_position || d.state == FlightState::starting || d.state == FlightState::ground) {
     state.holding = false;
@@ -63,20 +75,21 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
              .trim_x = state.trim_x,
              .trim_y = state.trim_y};
   state.holding = true;
-  state.drag_x += (e.drag_x - state.drag_x) * dt / (p.drag_time + dt);
-  state.drag_y += (e.drag_y - state.drag_y) * dt / (p.drag_time + dt);
   approach(state.x, d.x, p.approach, dt);
   approach(state.y, d.y, p.approach, dt);
   const double a_x = hold(p, state.x, e.x, e.v_x, state.drag_x, state.trim_x, dt);
   const double a_y = hold(p, state.y, e.y, e.v_y, state.drag_y, state.trim_y, dt);
-  // to the right by rolling right, forward by nosing down
-  out.goal.roll = limited(std::atan((c * a_y - s * a_x) / gravity), p.lean_limit);
-  out.goal.pitch = limited(-std::atan((c * a_x + s * a_y) / gravity), p.lean_limit);
+  lean(a_x, a_y);
 }
 
 void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const FlightEstimate& e = in.estimate;
   const double dt = seconds(tick.period);
+  // blind, it keeps what held it level: the rotors damp what is left
+  if (!e.rates_known) {
+    out.turn = {state.roll.trim, state.pitch.trim, state.yaw.trim};
+    return;
+  }
   out.turn.roll = turn(p.lean, state.roll, in.goal.roll, e.roll, e.p, dt);
   out.turn.pitch = turn(p.lean, state.pitch, in.goal.pitch, e.pitch, e.q, dt);
   out.turn.yaw = turn(p.yaw, state.yaw, in.goal.yaw, e.yaw, e.r, dt);
@@ -107,12 +120,18 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     state.lifted = wants_up && e.altitude > ground;
     state.z = {e.altitude, std::max(e.climb, 0.0)};
     state.expected = state.sunk = 0;
+    state.mean_trim = state.trim;
     thrust = state.trim;
     return;
   }
+  // blind, near what carried it, with the sonar alone; the flow through the rotors damps
+  if (!e.rates_known) {
+    thrust = state.mean_trim - 0.03 + limited(p.blind_gain * (-p.blind_speed - e.climb), 0.06);
+    return;
+  }
   if (d.state == FlightState::landing) {
-    const double speed = e.altitude > 0.5 ? p.descent : p.touch_speed;
-    state.z.demand = limited(3 * (-speed - state.z.speed), 1);
+    const double speed = e.altitude > 0.5 && e.altitude_known ? p.descent : p.touch_speed;
+    state.z.demand = limited(3 * (-speed - state.z.speed), 2);
     state.z.speed += state.z.demand * dt;
     // never far below: on the ground it would wind down all at once
     state.z.place = std::max(state.z.place + state.z.speed * dt, e.altitude - 0.15);
@@ -123,6 +142,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   // sag of the battery, flow through the rotors, the ground: whatever thrust is lost or gained is felt at once
   const double felt = e.lift / gravity;
   state.trim = std::clamp(state.trim + p.lift_bandwidth * dt * (1 + state.expected - felt), 0.4, 1.7);
+  state.mean_trim += (state.trim - state.mean_trim) * dt / 1.0;
   const double error = state.z.place - e.altitude;
   state.sunk = limited(state.sunk + p.ki * error * dt, 1);
   const double a = state.z.demand + p.kp * error + p.kd * (state.z.speed - e.climb) + state.sunk;

@@ -39,10 +39,10 @@ struct ApproachLimits {
 struct PositionControl {
   static constexpr std::string_view summary = "holds a place by leaning towards it, or leans as the pilot says";
   struct Param {
-    double kp = 2.0;
-    double kd = 2.4;
+    double kp = 4.0;
+    double kd = 3.6;
     double ki = 0.3;
-    double drag_time = 0.3;
+    double drag_time = 0.1;
     ApproachLimits approach{.bandwidth = 1.6, .speed = 2.5, .acceleration = 2.5, .jerk = 12, .lag = 0.2};
     double lean_limit = 0.4;
     static constexpr auto fields() {
@@ -110,7 +110,7 @@ struct TurnModel {
 struct AttitudeControl {
   static constexpr std::string_view summary = "turns to a commanded roll, pitch and yaw";
   struct Param {
-    TurnGains lean{.bandwidth = 10, .effect = 153, .kp = 0.35, .kd = 0.09, .ki = 1.5, .limit = 0.5};
+    TurnGains lean{.bandwidth = 16, .effect = 153, .kp = 0.35, .kd = 0.09, .ki = 1.5, .limit = 0.5};
     TurnGains yaw{.bandwidth = 4, .effect = 12.3, .kp = 1.0, .kd = 0.55, .ki = 0.1, .limit = 0.25};
     static constexpr auto fields() { return describe(field<&Param::lean>("", "roll and pitch"), field<&Param::yaw>()); }
   };
@@ -147,6 +147,8 @@ struct AltitudeControl {
     double descent = 0.5;
     double touch_speed = 0.2;
     double spin_up = 1.5;
+    double blind_gain = 0.15;
+    double blind_speed = 0.25;
     static constexpr auto fields() {
       using P = Param;
       return describe(field<&P::kp>("1/s^2", "acceleration per error of altitude"),
@@ -158,7 +160,9 @@ struct AltitudeControl {
                       field<&P::idle>("", "thrust while standing ready, in parts of that of hover"),
                       field<&P::lift_rate>("1/s", "at which thrust grows until it lifts off"),
                       field<&P::descent>("m/s", "of a landing"), field<&P::touch_speed>("m/s", "of its last part"),
-                      field<&P::spin_up>("s", "from rest to idle"));
+                      field<&P::spin_up>("s", "from rest to idle"),
+                      field<&P::blind_gain>("s/m", "thrust per error of descent when the IMU is lost"),
+                      field<&P::blind_speed>("m/s", "of descent then"));
     }
   };
   struct In {
@@ -168,13 +172,14 @@ struct AltitudeControl {
   };
   struct State {
     Approach z{};
-    double trim = 0;
+    double trim = 0, mean_trim = 0;
     double expected = 0;
     double sunk = 0;
     bool lifted = false;
     static constexpr auto fields() {
       using S = State;
       return describe(field<&S::z>(), field<&S::trim>("", "thrust at rest, learnt"),
+                      field<&S::mean_trim>("", "over a second"),
                       field<&S::expected>("", "thrust that should be felt now, less the trim"),
                       field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
                       field<&S::lifted>("", "it has left the ground"));

@@ -1,4 +1,4 @@
-// From the helicopter's raw sensors to how it moves.
+// From the helicopter's raw sensors to how it moves, and which of them can be believed.
 #pragma once
 
 #include <string_view>
@@ -8,16 +8,30 @@
 
 namespace jarol::tasks {
 
+/// Whether a sensor can be believed. One that is lost in flight stays so until the vehicle stands again.
+struct SensorTrust {
+  double silent = 0;
+  double last = 0;
+  std::uint32_t repeats = 0;
+  bool lost = false;
+
+  static constexpr auto fields() {
+    using S = SensorTrust;
+    return describe(field<&S::silent>("s", "since it told something credible"), field<&S::last>("", "reading"),
+                    field<&S::repeats>("", "of that reading"), field<&S::lost>());
+  }
+};
+
 /// One axis of a fixed-gain observer: acceleration is integrated, and each measurement corrects place, speed and the
 /// bias of the accelerometer.
 struct AxisObserver {
   double place = 0, speed = 0, bias = 0;
-  double silent = 0;
+  double since = 0;
 
   static constexpr auto fields() {
     using A = AxisObserver;
     return describe(field<&A::place>("m"), field<&A::speed>("m/s"), field<&A::bias>("m/s^2", "of the accelerometer"),
-                    field<&A::silent>("s", "since the last measurement"));
+                    field<&A::since>("s", "the last measurement"));
   }
 };
 
@@ -29,19 +43,34 @@ struct JaviatorFilter {
     double laser_y_x = -0.050, laser_y_y = 0.077, laser_y_z = -0.080;
     double bandwidth = 6;
     double age = 0.02;
+    double angle_gain = 0.5;
     double patience = 0.3;
-    double jump = 0.3;
+    double imu_patience = 0.04;
+    double range_jump = 0.3;
+    double angle_jump = 0.1;
+    double pressure_jump = 15;
+    double disagreement = 0.6;
+    std::uint32_t imu_repeats = 3;
+    std::uint32_t repeats = 40;
     static constexpr auto fields() {
       using P = Param;
       return describe(
-          field<&P::sonar_x>("m", "of the sonar, forward of the centre of gravity"), field<&P::sonar_y>("m", "right"),
-          field<&P::sonar_z>("m", "down"), field<&P::laser_x_x>("m", "of the laser to the north, forward"),
-          field<&P::laser_x_y>("m", "right"), field<&P::laser_x_z>("m", "down"),
-          field<&P::laser_y_x>("m", "of the laser to the east, forward"), field<&P::laser_y_y>("m", "right"),
-          field<&P::laser_y_z>("m", "down"), field<&P::bandwidth>("rad/s", "of the observers of place and speed"),
+          field<&P::sonar_x>("m", "of the sonar, or the middle of four, forward of the centre of gravity"),
+          field<&P::sonar_y>("m", "right"), field<&P::sonar_z>("m", "down"),
+          field<&P::laser_x_x>("m", "of the laser to the north, forward"), field<&P::laser_x_y>("m", "right"),
+          field<&P::laser_x_z>("m", "down"), field<&P::laser_y_x>("m", "of the laser to the east, forward"),
+          field<&P::laser_y_y>("m", "right"), field<&P::laser_y_z>("m", "down"),
+          field<&P::bandwidth>("rad/s", "of the observers of place and speed"),
           field<&P::age>("s", "of the attitude when it is used; it is turned on by the rates"),
-          field<&P::patience>("s", "without a new measurement before a sensor counts as lost"),
-          field<&P::jump>("m", "from the estimate at which a range is taken for an outlier"));
+          field<&P::angle_gain>("", "part of a measured angle in the new one, the rest is the rate's"),
+          field<&P::patience>("s", "without a credible measurement before a sensor counts as lost"),
+          field<&P::imu_patience>("s", "the same, for the IMU"),
+          field<&P::range_jump>("m", "from the estimate at which a range is not credible"),
+          field<&P::angle_jump>("rad", "the same, for roll and pitch"),
+          field<&P::pressure_jump>("Pa", "from one reading to the next, which is not credible"),
+          field<&P::disagreement>("m", "between sonar and pressure from which on the sonar is not credible"),
+          field<&P::imu_repeats>("", "of all its angles and rates at which the IMU counts as stuck; 0: never"),
+          field<&P::repeats>("", "the same, for each other sensor"));
     }
   };
   struct In {
@@ -53,16 +82,19 @@ struct JaviatorFilter {
   };
   struct State {
     AxisObserver x{}, y{}, z{};
+    SensorTrust imu{}, angles{}, laser_x{}, laser_y{}, sonar{}, pressure{};
     double zero_x = 0, zero_y = 0, zero_z = 0, zero_yaw = 0, zero_pressure = 0;
-    double yaw = 0;
-    double imu_silent = 0;
+    double roll = 0, pitch = 0, yaw = 0;
+    double disagreement = 0;
     std::uint32_t answers = 0;
     static constexpr auto fields() {
       using S = State;
-      return describe(field<&S::x>(), field<&S::y>(), field<&S::z>("", "upwards"),
-                      field<&S::zero_x>("m", "measured where it stands"), field<&S::zero_y>("m"),
+      return describe(field<&S::x>(), field<&S::y>(), field<&S::z>("", "upwards"), field<&S::imu>(),
+                      field<&S::angles>(), field<&S::laser_x>(), field<&S::laser_y>(), field<&S::sonar>(),
+                      field<&S::pressure>(), field<&S::zero_x>("m", "measured where it stands"), field<&S::zero_y>("m"),
                       field<&S::zero_z>("m"), field<&S::zero_yaw>("rad"), field<&S::zero_pressure>("Pa"),
-                      field<&S::yaw>("rad", "all turns counted"), field<&S::imu_silent>("s", "since the IMU answered"),
+                      field<&S::roll>("rad"), field<&S::pitch>("rad"), field<&S::yaw>("rad", "all turns counted"),
+                      field<&S::disagreement>("m", "of pressure and altitude, averaged"),
                       field<&S::answers>("", "of the Robostix, up to now"));
     }
   };

@@ -45,8 +45,10 @@ struct OriginalLogic {
   struct In {
     FlightEstimate estimate{};
     PilotCommand command{};
+    LiftDemand lift{};
     static constexpr auto fields() {
-      return describe(field<&In::estimate>("", "not looked at: nothing makes it land"), field<&In::command>());
+      return describe(field<&In::estimate>("", "not looked at: nothing makes it land"), field<&In::command>(),
+                      field<&In::lift>("", "not looked at"));
     }
   };
   struct State {

@@ -109,9 +109,11 @@ void OriginalFilter::run(const Tick& tick, const In& in, State& state, Out& out)
        .a_y = 1e-3 * state.y.acceleration,
        .a_up = 1e-3 * state.z.acceleration,
        .battery = s.battery,
+       .rates_known = true,
        .attitude_known = true,
        .altitude_known = true,
-       .position_known = true};
+       .position_known = true,
+       .pressure_known = true};
 }
 
 }  // namespace jarol::tasks

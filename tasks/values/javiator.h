@@ -87,19 +87,23 @@ enum class LandingCause : std::uint8_t {
   operator_lost,
   sonar_lost,
   position_lost,
-  imu_lost
+  imu_lost,
+  bmu_lost,
+  battery_low
 };
 
 constexpr auto enumerators(LandingCause) {
-  return std::array<Enumerator<LandingCause>, 9>{{{"none", LandingCause::none},
-                                                  {"roll", LandingCause::roll},
-                                                  {"pitch", LandingCause::pitch},
-                                                  {"yaw", LandingCause::yaw},
-                                                  {"altitude", LandingCause::altitude},
-                                                  {"operator_lost", LandingCause::operator_lost},
-                                                  {"sonar_lost", LandingCause::sonar_lost},
-                                                  {"position_lost", LandingCause::position_lost},
-                                                  {"imu_lost", LandingCause::imu_lost}}};
+  return std::array<Enumerator<LandingCause>, 11>{{{"none", LandingCause::none},
+                                                   {"roll", LandingCause::roll},
+                                                   {"pitch", LandingCause::pitch},
+                                                   {"yaw", LandingCause::yaw},
+                                                   {"altitude", LandingCause::altitude},
+                                                   {"operator_lost", LandingCause::operator_lost},
+                                                   {"sonar_lost", LandingCause::sonar_lost},
+                                                   {"position_lost", LandingCause::position_lost},
+                                                   {"imu_lost", LandingCause::imu_lost},
+                                                   {"bmu_lost", LandingCause::bmu_lost},
+                                                   {"battery_low", LandingCause::battery_low}}};
 }
 
 /// What the operator is told.
@@ -126,7 +130,8 @@ struct FlightEstimate {
   double a_x = 0, a_y = 0, a_up = 0;
   double lift = 0, drag_x = 0, drag_y = 0;
   double battery = 0;
-  bool attitude_known = false, altitude_known = false, position_known = false;
+  bool rates_known = false, attitude_known = false, altitude_known = false, position_known = false;
+  bool pressure_known = false;
 
   static constexpr auto fields() {
     using E = FlightEstimate;
@@ -140,8 +145,10 @@ struct FlightEstimate {
                     field<&E::lift>("m/s^2", "specific force upwards along the rotors' axis"),
                     field<&E::drag_x>("m/s^2", "to the north, of all else: drag and wind"),
                     field<&E::drag_y>("m/s^2", "to the east"), field<&E::battery>("V", "voltage"),
-                    field<&E::attitude_known>("", "the IMU has answered of late"),
-                    field<&E::altitude_known>("", "the sonar has"), field<&E::position_known>("", "both lasers have"));
+                    field<&E::rates_known>("", "the IMU tells something new"),
+                    field<&E::attitude_known>("", "and its angles agree with its rates"),
+                    field<&E::altitude_known>("", "the sonar tells something credible"),
+                    field<&E::position_known>("", "both lasers do"), field<&E::pressure_known>("", "the BMU does"));
   }
 };
 

@@ -143,9 +143,10 @@ Glimpse Flight::at(double time) const {
 }
 
 double Flight::touch_down() const {
-  for (std::size_t i = path.size() - 1; i > 0; --i)
-    if (path[i].altitude < 0.002 && path[i - 1].altitude >= 0.002) return -path[i - 1].climb;
-  return 0;
+  double speed = 0;
+  for (std::size_t i = path.size() - 1; i > 0 && path[i].altitude < 0.1; --i)
+    if (path[i].altitude < 0.002 && path[i - 1].altitude >= 0.002) speed = std::max(speed, -path[i - 1].climb);
+  return speed;
 }
 
 tasks::PilotCommand hover_command(double time) {

@@ -32,7 +32,7 @@ struct Flight {
   /// The last instant at which |value - of| exceeds the band.
   double settled(double Glimpse::*value, double of, double band) const;
   Glimpse at(double time) const;
-  /// The speed of descent when the ground was reached for the last time.
+  /// The greatest speed at which it met the ground since it was last 0.1 m above it; 0 if it is in the air.
   double touch_down() const;
   tasks::FlightDirective last() const { return directives.back().second; }
 };

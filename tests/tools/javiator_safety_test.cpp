@@ -1,0 +1,134 @@
+// The helicopter lands of its own accord, safely, whatever fails.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "tests/tools/flight.h"
+
+namespace {
+using namespace jarol;
+using tasks::LandingCause;
+using tests::Flight;
+using tests::Glimpse;
+
+constexpr double fails_at = 9;  // s, in hover at 1 m
+
+// Which sensor fails how, and why it has to land.
+struct Failing {
+  std::string sensor, kind, by;
+  LandingCause cause;
+};
+
+Flight fly_failing(const Failing& f, const std::string& profile = "") {
+  const std::string path = "distributers.robostix.link.parameters.failures." + f.sensor;
+  return tests::fly({.set = {path + ".kind=" + f.kind, path + ".at=9s", path + ".by=" + f.by},
+                     .profile = profile,
+                     .pilot = tests::hover_command,
+                     .seconds = 18});
+}
+
+void check_safe(const Flight& flight, LandingCause cause) {
+  CHECK(flight.at(fails_at).altitude == doctest::Approx(1).epsilon(0.03));
+  CHECK(flight.report.fault_count == 0);
+  CHECK(flight.last().state == tasks::FlightState::ground);
+  CHECK(flight.last().cause == cause);
+  CHECK(std::abs(flight.path.back().altitude) < 0.002);
+  CHECK(flight.touch_down() < 0.5);
+  CHECK(flight.furthest(&Glimpse::roll, 0, fails_at, 18) < 0.3);
+  CHECK(flight.furthest(&Glimpse::pitch, 0, fails_at, 18) < 0.3);
+  CHECK(flight.most(&Glimpse::altitude, fails_at, 18) < 1.7);
+  CHECK(flight.furthest(&Glimpse::x, 0, fails_at, 18) < 1);
+  CHECK(flight.furthest(&Glimpse::y, 0, fails_at, 18) < 1);
+  MESSAGE("touches down with " << flight.touch_down() << " m/s at " << flight.settled(&Glimpse::altitude, 0, 0.01)
+                               << " s, " << std::hypot(flight.path.back().x, flight.path.back().y) << " m away");
+}
+
+// Hovers until it wants something that a limit forbids.
+Flight exceed(const std::string& limit, const std::function<void(tasks::PilotCommand&)>& want) {
+  const auto pilot = [&](double time) {
+    tasks::PilotCommand command = tests::hover_command(time);
+    if (time >= fails_at) want(command);
+    return command;
+  };
+  return tests::fly({.set = {"tasks.logic.parameters." + limit}, .pilot = pilot, .seconds = 20});
+}
+}  // namespace
+
+TEST_SUITE("tools/javiator_safety") {
+  TEST_CASE("it lands safely whichever sensor is lost") {
+    check_safe(fly_failing({"sonar", "lost", "0", LandingCause::sonar_lost}), LandingCause::sonar_lost);
+    check_safe(fly_failing({"laser_north", "lost", "0", LandingCause::position_lost}), LandingCause::position_lost);
+    check_safe(fly_failing({"laser_east", "lost", "0", LandingCause::position_lost}), LandingCause::position_lost);
+    check_safe(fly_failing({"bmu", "lost", "0", LandingCause::bmu_lost}), LandingCause::bmu_lost);
+    check_safe(fly_failing({"imu", "lost", "0", LandingCause::imu_lost}), LandingCause::imu_lost);
+  }
+
+  TEST_CASE("it lands safely whichever sensor is stuck") {
+    check_safe(fly_failing({"sonar", "stuck", "0", LandingCause::sonar_lost}), LandingCause::sonar_lost);
+    check_safe(fly_failing({"laser_north", "stuck", "0", LandingCause::position_lost}), LandingCause::position_lost);
+    check_safe(fly_failing({"laser_east", "stuck", "0", LandingCause::position_lost}), LandingCause::position_lost);
+    check_safe(fly_failing({"bmu", "stuck", "0", LandingCause::bmu_lost}), LandingCause::bmu_lost);
+    check_safe(fly_failing({"imu", "stuck", "0", LandingCause::imu_lost}), LandingCause::imu_lost);
+  }
+
+  TEST_CASE("it lands safely whichever sensor is suddenly far off") {
+    check_safe(fly_failing({"sonar", "biased", "0.8", LandingCause::sonar_lost}), LandingCause::sonar_lost);
+    check_safe(fly_failing({"laser_north", "biased", "1", LandingCause::position_lost}), LandingCause::position_lost);
+    check_safe(fly_failing({"laser_east", "biased", "-1", LandingCause::position_lost}), LandingCause::position_lost);
+    check_safe(fly_failing({"bmu", "biased", "60", LandingCause::bmu_lost}), LandingCause::bmu_lost);
+    check_safe(fly_failing({"imu", "biased", "0.3", LandingCause::imu_lost}), LandingCause::imu_lost);
+  }
+
+  TEST_CASE("it lands safely when a limit of roll, pitch, yaw or altitude is exceeded") {
+    const auto by_hand = [](auto member) {
+      return [member](tasks::PilotCommand& command) {
+        command.mode_switches = 2;
+        command.*member = 0.15;
+      };
+    };
+    CHECK(exceed("roll_limit=0.1", by_hand(&tasks::PilotCommand::roll)).last().cause == LandingCause::roll);
+    CHECK(exceed("pitch_limit=0.1", by_hand(&tasks::PilotCommand::pitch)).last().cause == LandingCause::pitch);
+    const auto yaw = [](tasks::PilotCommand& command) { command.yaw = 1; };
+    check_safe(exceed("yaw_limit=0.5", yaw), LandingCause::yaw);
+    const auto altitude = [](tasks::PilotCommand& command) { command.altitude = 2; };
+    check_safe(exceed("altitude_limit=1.5", altitude), LandingCause::altitude);
+  }
+
+  TEST_CASE("an exceeded roll ends in a landing, not in a drop") {
+    const Flight flight = exceed("roll_limit=0.1", [](tasks::PilotCommand& command) {
+      command.mode_switches = 2;
+      command.roll = 0.15;
+    });
+    CHECK(flight.last().state == tasks::FlightState::ground);
+    CHECK(flight.touch_down() < 0.5);
+    CHECK(flight.furthest(&Glimpse::roll, 0, fails_at, 20) < 0.25);
+    CHECK(std::abs(flight.path.back().altitude) < 0.002);
+  }
+
+  TEST_CASE("it lands safely when its operator is lost, after 525 ms") {
+    const Flight flight = exceed("patience=0.525s", [](tasks::PilotCommand& command) { command.heard = false; });
+    check_safe(flight, LandingCause::operator_lost);
+    double landing = 0;
+    for (const auto& [time, directive] : flight.directives)
+      if (directive.state == tasks::FlightState::flying) landing = time;
+    CHECK(landing == doctest::Approx(fails_at + 0.525).epsilon(0.005));
+  }
+
+  TEST_CASE("it lands safely when its battery runs low") {
+    const Flight flight =
+        tests::fly({.set = {"distributers.robostix.link.parameters.battery.capacity=0.05 A h",
+                            "tasks.logic.parameters.battery_limit=15.3 V"},
+                    .pilot = tests::hover_command,
+                    .seconds = 30});
+    CHECK(flight.last().state == tasks::FlightState::ground);
+    CHECK(flight.last().cause == LandingCause::battery_low);
+    CHECK(flight.touch_down() < 0.5);
+  }
+
+  TEST_CASE("a shut-down stops the motors at once, whatever that means") {
+    const Flight flight = exceed("patience=0.525s", [](tasks::PilotCommand& command) { command.shut_downs = 1; });
+    CHECK(flight.last().state == tasks::FlightState::halt);
+    CHECK(flight.touch_down() > 2);
+  }
+}
