@@ -7,6 +7,7 @@
 #include "distributers/lauv_vehicle.h"
 #include "distributers/links/link_spec.h"
 #include "distributers/links/linked.h"
+#include "distributers/links/lockstep.h"
 #include "distributers/links/script.h"
 #include "distributers/links/simulation.h"
 #include "distributers/vehicle_file.h"
@@ -81,16 +82,19 @@ std::shared_ptr<const Source> read_beside(const Graph& graph, const Located<std:
   }
 }
 
-// Periods and offsets of what touches the vehicle fall on its grid.
-void check_grid(const Graph& graph, std::size_t distributer, const vehicles::Vehicle& vehicle, Problems& problems) {
+// What is not on the grid of the vehicle: periods and offsets of what touches it have to be.
+std::vector<Problem> off_grid(const Graph& graph, std::size_t distributer, Duration grid) {
+  std::vector<Problem> found;
   for (const Communicator& c : graph.communicators) {
     if (c.distributer != distributer) continue;
     for (const auto& [what, duration] : {std::pair("period", c.period), std::pair("offset", c.offset)})
-      if (duration.count() % vehicle.grid().count() != 0)
-        problems.add(c.where, "communicator '" + c.name + "' has " + what + " " + duration_text(duration) +
-                                  "; it has to be a multiple of the vehicle's step of " +
-                                  duration_text(vehicle.grid()));
+      if (duration.count() % grid.count() != 0)
+        found.push_back({c.where,
+                         "communicator '" + c.name + "' has " + what + " " + duration_text(duration) +
+                             "; it has to be a multiple of the vehicle's step of " + duration_text(grid),
+                         {}});
   }
+  return found;
 }
 
 std::unique_ptr<Channels> make_simulation(const Graph& graph, std::size_t index,
@@ -113,10 +117,40 @@ std::unique_ptr<Channels> make_simulation(const Graph& graph, std::size_t index,
   if (problems.size() > before) return nullptr;
   try {
     auto made = file->vehicle->make(file->parameters.data(), seed);
-    check_grid(graph, index, *made, problems);
+    for (const Problem& problem : off_grid(graph, index, made->grid())) problems.add(problem.where, problem.text);
     return std::make_unique<SimulationChannels>(std::move(made), kind_of(distributer).make_adapter());
   } catch (const std::exception& error) {
     problems.add(spec.vehicle->where, name + " can't be made: " + error.what());
+    return nullptr;
+  }
+}
+
+struct LockstepSpec {
+  Maybe<std::string> type, peer;
+};
+
+const std::vector<Key<LockstepSpec>>& lockstep_keys() {
+  static const std::vector<Key<LockstepSpec>> keys{
+      key<&LockstepSpec::type>("type", Form::word, "lockstep: a vehicle in another process, on the logical clock",
+                               true),
+      key<&LockstepSpec::peer>("peer", Form::word, "address and port where it listens", true),
+  };
+  return keys;
+}
+
+std::unique_ptr<Channels> make_lockstep(const Graph& graph, std::size_t index, std::uint64_t seed, Problems& problems) {
+  const Distributer& distributer = graph.distributers[index];
+  LockstepSpec spec;
+  read_keys(distributer.link, lockstep_keys(), spec, "link of distributer '" + distributer.name + "'", problems);
+  if (!spec.peer) return nullptr;
+  try {
+    return std::make_unique<LockstepChannels>(Address::parse(spec.peer->value), seed,
+                                              kind_of(distributer).make_adapter(), [&graph, index](Duration grid) {
+                                                const std::vector<Problem> wrong = off_grid(graph, index, grid);
+                                                return wrong.empty() ? std::string() : wrong.front().text;
+                                              });
+  } catch (const std::invalid_argument& error) {
+    problems.add(spec.peer->where, error.what());
     return nullptr;
   }
 }
@@ -133,7 +167,7 @@ std::unique_ptr<Channels> make_script(const Graph& graph, std::size_t index, Pro
 
 std::vector<std::string> links_of(const DistributerKind& kind) {
   std::vector<std::string> links;
-  if (kind.is_vehicle) links.emplace_back("simulation");
+  if (kind.is_vehicle) links.insert(links.end(), {"simulation", "lockstep"});
   links.emplace_back("script");
   if (kind.make_adapter != nullptr) links.insert(links.end(), link_types().begin(), link_types().end());
   return links;
@@ -165,6 +199,8 @@ std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
                                     distributer.distributer_class->name + " can have: " + list_of(links));
     } else if (type->text == "simulation") {
       all.back() = make_simulation(graph, i, vehicles, spread_seed(seed, distributer.name), problems);
+    } else if (type->text == "lockstep") {
+      all.back() = make_lockstep(graph, i, spread_seed(seed, distributer.name), problems);
     } else if (type->text == "script") {
       all.back() = make_script(graph, i, problems);
     } else {

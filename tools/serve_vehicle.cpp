@@ -2,6 +2,8 @@
 
 #include <iostream>
 
+#include "distributers/links/lockstep.h"
+#include "distributers/links/tcp.h"
 #include "graph/yaml/quantities.h"
 #include "runtime/real_clock.h"
 #include "tools/commands/commands.h"
@@ -58,6 +60,25 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
   std::cout << vehicle_class.name << ": " << seconds_text(Duration(instant)) << " s in real time\n"
             << to_text(link.report());
   return exit_code == exit_good && interrupted ? exit_interrupted : exit_code;
+}
+
+int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,
+                              const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make) {
+  const distributers::Descriptor socket = distributers::listen_at(listen);
+  distributers::Interrupter interrupter;
+  const Interruptible interruptible([&] { interrupter.interrupt(); });
+  std::cerr << vehicle_class.name << ": in lockstep at " << listen.text() << ", until Ctrl-C\n";
+  using Woken = distributers::Interrupter::Woken;
+  while (interrupter.wait(socket.get(), std::chrono::milliseconds(-1)) != Woken::interrupted) {
+    distributers::Descriptor runner = distributers::accept_from(socket);
+    if (!runner) continue;
+    try {
+      serve_lockstep(distributers::FrameStream(std::move(runner)), *vehicle_class.message_set, make, interrupter);
+    } catch (const distributers::FrameEnd&) {
+      // the run is over
+    } catch (const distributers::FrameError& error) { std::cerr << "note: " << error.what() << "\n"; }
+  }
+  return exit_interrupted;
 }
 
 }  // namespace jarol::tools

@@ -1,6 +1,10 @@
 // A simulated vehicle as a process of its own, in real time: messages over a link steer it, its sensors answer.
 #pragma once
 
+#include <functional>
+#include <memory>
+
+#include "distributers/links/address.h"
 #include "distributers/links/link.h"
 #include "vehicles/vehicle.h"
 
@@ -9,5 +13,10 @@ namespace jarol::tools {
 /// Runs until `end` or Ctrl-C and tells what was carried; the exit code.
 int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
                   std::chrono::nanoseconds end);
+
+/// On the logical clocks of those who connect, one after the other, each with a vehicle of its own from the start;
+/// until Ctrl-C. Throws std::runtime_error if it can't listen there.
+int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,
+                              const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make);
 
 }  // namespace jarol::tools

@@ -35,10 +35,10 @@ struct VehicleState {
   }
 };
 
-/// Stands at a whole number of its own grid steps since the start. Who looks, or how often, changes nothing.
-class Vehicle {
+/// What stands at a whole number of its own grid steps since the start. Who looks, or how often, changes nothing.
+class Stepped {
  public:
-  virtual ~Vehicle() = default;
+  virtual ~Stepped() = default;
 
   /// Length of one step; instants at which anything touches the vehicle are multiples of it.
   virtual std::chrono::nanoseconds grid() const = 0;
@@ -51,7 +51,11 @@ class Vehicle {
 
   /// Sends what its sensors tell at the present instant.
   virtual void sense(messages::Receiver& receiver) const = 0;
+};
 
+/// A simulated vehicle in this process.
+class Vehicle : public Stepped {
+ public:
   /// The true state.
   virtual VehicleState state() const = 0;
 

@@ -69,4 +69,11 @@ std::string Address::text() const {
   return (family() == AF_INET6 ? "[" + std::string(host) + "]" : std::string(host)) + ":" + std::to_string(port());
 }
 
+int port_of(const Descriptor& socket) {
+  sockaddr_storage storage{};
+  socklen_t size = sizeof storage;
+  if (getsockname(socket.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return 0;
+  return Address::of(storage, size).port();
+}
+
 }  // namespace jarol::distributers

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "distributers/links/descriptor.h"
+
 namespace jarol::distributers {
 
 class Address {
@@ -31,5 +33,8 @@ class Address {
   sockaddr_storage storage_{};
   socklen_t size_ = 0;
 };
+
+/// The port to which a socket is bound; of "0" the one that the system chose.
+int port_of(const Descriptor& socket);
 
 }  // namespace jarol::distributers

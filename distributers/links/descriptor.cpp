@@ -32,8 +32,7 @@ void Interrupter::reset() {
 }
 
 Interrupter::Woken Interrupter::wait(int fd, std::chrono::milliseconds time, bool write) const {
-  std::array<pollfd, 2> polled{
-      {{event_.get(), POLLIN, 0}, {fd, static_cast<short>(write ? POLLOUT : POLLIN), 0}}};
+  std::array<pollfd, 2> polled{{{event_.get(), POLLIN, 0}, {fd, static_cast<short>(write ? POLLOUT : POLLIN), 0}}};
   const int ready = poll(polled.data(), polled.size(), static_cast<int>(time.count()));
   if (ready > 0 && polled[0].revents != 0) return Woken::interrupted;
   if (ready > 0) return Woken::ready;

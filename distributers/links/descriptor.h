@@ -33,8 +33,8 @@ class Interrupter {
   void reset();
 
   enum class Woken { ready, timed_out, interrupted };
-  /// Waits until `fd` can be read (or, with `write`, written), has failed, or the time is over. A negative `fd` is never
-  /// ready; a negative time is no limit.
+  /// Waits until `fd` can be read (or, with `write`, written), has failed, or the time is over. A negative `fd` is
+  /// never ready; a negative time is no limit.
   Woken wait(int fd, std::chrono::milliseconds time, bool write = false) const;
 
  private:

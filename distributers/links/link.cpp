@@ -39,8 +39,8 @@ void set_field(messages::Message& header, const std::string& name, std::uint64_t
     std::memcpy(static_cast<std::byte*>(header.value()) + field.offset, &value, size);  // little-endian machines only
     return;
   }
-  throw std::invalid_argument("the header has no integer field '" + name + "'; it has: " +
-                              list_of(names_of_fields(*header.form())));
+  throw std::invalid_argument("the header has no integer field '" + name +
+                              "'; it has: " + list_of(names_of_fields(*header.form())));
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ class Link {
   Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set, const LinkOptions& options);
   ~Link();
 
-  /// Begins to receive and to send; nothing if it has begun. Throws std::runtime_error if a port or line is not to be had.
+  /// Begins to receive and to send; nothing if it has begun. Throws std::runtime_error if a port or line is not to be
+  /// had.
   void connect();
   /// Sends what is pending and ends; nothing if it has ended.
   void disconnect();

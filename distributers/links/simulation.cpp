@@ -2,7 +2,7 @@
 
 namespace jarol::distributers {
 
-SimulationChannels::SimulationChannels(std::unique_ptr<vehicles::Vehicle> vehicle, std::unique_ptr<Adapter> adapter)
+SimulationChannels::SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle, std::unique_ptr<Adapter> adapter)
     : vehicle_(std::move(vehicle)), adapter_(std::move(adapter)), to_vehicle_(*vehicle_) {}
 
 void SimulationChannels::reach(Duration instant) {

@@ -1,4 +1,4 @@
-// The link to a vehicle that is simulated in this process, in lockstep with the logical clock.
+// The link to a vehicle that is simulated in lockstep with the logical clock.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace jarol::distributers {
 
 class SimulationChannels : public Channels {
  public:
-  SimulationChannels(std::unique_ptr<vehicles::Vehicle> vehicle, std::unique_ptr<Adapter> adapter);
+  SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle, std::unique_ptr<Adapter> adapter);
 
   void reach(Duration instant) override;
   bool take(std::size_t channel, void* value) override;
@@ -20,12 +20,12 @@ class SimulationChannels : public Channels {
  private:
   // What the adapter sends goes straight to the vehicle.
   struct ToVehicle : messages::Receiver {
-    explicit ToVehicle(vehicles::Vehicle& to) : vehicle(to) {}
+    explicit ToVehicle(vehicles::Stepped& to) : vehicle(to) {}
     void receive(messages::MessageRef message) override { vehicle.accept(message); }
-    vehicles::Vehicle& vehicle;
+    vehicles::Stepped& vehicle;
   };
 
-  std::unique_ptr<vehicles::Vehicle> vehicle_;
+  std::unique_ptr<vehicles::Stepped> vehicle_;
   std::unique_ptr<Adapter> adapter_;
   ToVehicle to_vehicle_;
   Duration at_{};

@@ -53,16 +53,12 @@ bool StreamTransport::receive_stream(const Interrupter& interrupter, ByteSink& s
   std::array<std::byte, 65536> room;
   for (;;) {
     // a new peer takes the place of the old one: it may have been started anew without the old stream's ending
-    if (announces_peer() >= 0 &&
-        interrupter.wait(announces_peer(), milliseconds(0)) == Interrupter::Woken::ready)
+    if (announces_peer() >= 0 && interrupter.wait(announces_peer(), milliseconds(0)) == Interrupter::Woken::ready)
       return true;
     switch (interrupter.wait(stream_.get(), milliseconds(announces_peer() >= 0 ? 100 : -1))) {
-      case Interrupter::Woken::interrupted:
-        return false;
-      case Interrupter::Woken::timed_out:
-        continue;
-      case Interrupter::Woken::ready:
-        break;
+      case Interrupter::Woken::interrupted: return false;
+      case Interrupter::Woken::timed_out: continue;
+      case Interrupter::Woken::ready: break;
     }
     const auto length = ::read(stream_.get(), room.data(), room.size());
     if (length < 0 && (errno == EAGAIN || errno == EINTR)) continue;

@@ -39,31 +39,24 @@ Descriptor TcpClient::get_stream() {
   return made;
 }
 
-void TcpServer::open() {
-  Descriptor made(socket(listen_.family(), SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+Descriptor listen_at(const Address& address) {
+  Descriptor made(socket(address.family(), SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const int on = 1;
   if (made) setsockopt(made.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  if (!made || bind(made.get(), listen_.get(), listen_.size()) != 0 || listen(made.get(), 1) != 0)
-    throw std::runtime_error("can't listen at " + text() + ": " + std::strerror(errno));
-  socket_ = std::move(made);
+  if (!made || bind(made.get(), address.get(), address.size()) != 0 || listen(made.get(), 1) != 0)
+    throw std::runtime_error("can't listen at tcp " + address.text() + ": " + std::strerror(errno));
+  return made;
+}
+
+Descriptor accept_from(const Descriptor& socket) {
+  Descriptor stream(accept4(socket.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+  if (stream) send_at_once(stream.get());
+  return stream;
 }
 
 void TcpServer::close() {
   StreamTransport::close();
   socket_.close();
-}
-
-int TcpServer::port() const {
-  sockaddr_storage storage{};
-  socklen_t size = sizeof storage;
-  if (getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return 0;
-  return Address::of(storage, size).port();
-}
-
-Descriptor TcpServer::get_stream() {
-  Descriptor stream(accept4(socket_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  if (stream) send_at_once(stream.get());
-  return stream;
 }
 
 }  // namespace jarol::distributers

@@ -6,6 +6,11 @@
 
 namespace jarol::distributers {
 
+/// A socket that listens and does not block. Throws std::runtime_error with the cause.
+Descriptor listen_at(const Address& address);
+/// Whoever has connected to a socket that listens; none: nobody waits.
+Descriptor accept_from(const Descriptor& socket);
+
 /// Connects, and again when the stream has ended.
 class TcpClient : public StreamTransport {
  public:
@@ -25,14 +30,14 @@ class TcpServer : public StreamTransport {
  public:
   explicit TcpServer(const Address& listen) : listen_(listen) {}
   std::string text() const override { return "tcp at " + listen_.text(); }
-  void open() override;
+  void open() override { socket_ = listen_at(listen_); }
   void close() override;
 
-  /// The port that it listens at; of "0" the one that the system chose.
-  int port() const;
+  /// The port that it listens at.
+  int port() const { return port_of(socket_); }
 
  protected:
-  Descriptor get_stream() override;
+  Descriptor get_stream() override { return accept_from(socket_); }
   int announces_peer() const override { return socket_.get(); }
 
  private:

@@ -20,13 +20,6 @@ void UdpTransport::open() {
   if (peer_) ++counts.connected;
 }
 
-int UdpTransport::port() const {
-  sockaddr_storage storage{};
-  socklen_t size = sizeof storage;
-  if (getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return 0;
-  return Address::of(storage, size).port();
-}
-
 void UdpTransport::associate(const Address& peer) {
   const std::lock_guard lock(peer_mutex_);
   if (peer_ == peer) return;
@@ -40,8 +33,7 @@ void UdpTransport::receive(const Interrupter& interrupter, ByteSink& sink) {
     sockaddr_storage from{};
     socklen_t size = sizeof from;
     // an error is that of a datagram sent before, as by a peer that has gone: the next may arrive all the same
-    const auto length =
-        recvfrom(socket_.get(), room.data(), room.size(), 0, reinterpret_cast<sockaddr*>(&from), &size);
+    const auto length = recvfrom(socket_.get(), room.data(), room.size(), 0, reinterpret_cast<sockaddr*>(&from), &size);
     if (length < 0) continue;
     const Address sender = Address::of(from, size);
     if (named_peer_ && !(sender == named_peer_)) {

@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "distributers/links/address.h"
+#include "distributers/links/descriptor.h"
 #include "distributers/links/transport.h"
 
 namespace jarol::distributers {
@@ -21,7 +22,7 @@ class UdpTransport : public Transport {
   void close() override;
 
   /// The port that it listens at; of "0" the one that the system chose.
-  int port() const;
+  int port() const { return port_of(socket_); }
 
  private:
   void associate(const Address& peer);

@@ -116,11 +116,10 @@ TEST_SUITE("tools/javiator_safety") {
   }
 
   TEST_CASE("it lands safely when its battery runs low") {
-    const Flight flight =
-        tests::fly({.set = {"distributers.robostix.link.parameters.battery.capacity=0.05 A h",
-                            "tasks.logic.parameters.battery_limit=15.3 V"},
-                    .pilot = tests::hover_command,
-                    .seconds = 30});
+    const Flight flight = tests::fly({.set = {"distributers.robostix.link.parameters.battery.capacity=0.05 A h",
+                                              "tasks.logic.parameters.battery_limit=15.3 V"},
+                                      .pilot = tests::hover_command,
+                                      .seconds = 30});
     CHECK(flight.last().state == tasks::FlightState::ground);
     CHECK(flight.last().cause == LandingCause::battery_low);
     CHECK(flight.touch_down() < 0.5);

@@ -226,11 +226,15 @@ int run(const Options& options) {
     clock->start();
   }
   const auto start = std::chrono::steady_clock::now();
-  {
+  try {
     const Interruptible interruptible([&] { executor.interrupt(); });
     const bool shown = !options.json && isatty(STDERR_FILENO) != 0 && end != Duration::max();
     const Progress progress(shown, end, [&] { return executor.now(); });
     executor.run_until(end);
+  } catch (const std::runtime_error& error) {
+    // a vehicle that is lost, or can't be simulated any further
+    std::cerr << "error: at " << seconds_text(executor.now()) << " s: " << error.what() << "\n";
+    return exit_unfinished;
   }
   linked.finish();
   if (recorder) recorder->close();

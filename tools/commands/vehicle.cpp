@@ -206,10 +206,10 @@ Duration end_of(const Options& options, const std::vector<Commands>& commands) {
 }
 
 std::unique_ptr<vehicles::Vehicle> make_vehicle(const Options& options, const vehicles::VehicleClass& vehicle_class,
-                                                const Value& parameters, Problems& problems) {
+                                                const Value& parameters, std::uint64_t seed, Problems& problems) {
   std::unique_ptr<vehicles::Vehicle> vehicle;
   try {
-    vehicle = vehicle_class.make(parameters.data(), spread_seed(options.seed, vehicle_class.name));
+    vehicle = vehicle_class.make(parameters.data(), seed);
   } catch (const std::runtime_error& error) {
     problems.throw_if_any();
     throw std::invalid_argument("vehicle '" + vehicle_class.name + "' can't be made: " + error.what());
@@ -228,10 +228,14 @@ std::unique_ptr<vehicles::Vehicle> make_vehicle(const Options& options, const ve
   return vehicle;
 }
 
+std::uint64_t own_seed(const Options& options, const vehicles::VehicleClass& vehicle_class) {
+  return spread_seed(options.seed, vehicle_class.name);
+}
+
 int drive(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
           Problems& problems) {
   const auto commands = read_commands(read_source(options.script), vehicle_class, problems);
-  const auto vehicle = make_vehicle(options, vehicle_class, parameters, problems);
+  const auto vehicle = make_vehicle(options, vehicle_class, parameters, own_seed(options, vehicle_class), problems);
   const Duration period = period_of(options, vehicle->grid()), end = end_of(options, commands);
   try {
     run_open_loop(*vehicle, vehicle_class, commands, period, end, options.csv);
@@ -259,10 +263,29 @@ Yaml link_of(const Options& options) {
   return mapping;
 }
 
+int serve_in_lockstep(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
+                      Problems& problems) {
+  std::string listen;
+  for (const auto& [key, text] : options.link) {
+    if (key == "listen")
+      listen = text;
+    else if (key != "type")
+      throw std::invalid_argument("--link lockstep has no --" + key + "; it needs --listen");
+  }
+  if (listen.empty()) throw std::invalid_argument("--link lockstep needs --listen, as in --listen 7010");
+  make_vehicle(options, vehicle_class, parameters, own_seed(options, vehicle_class),
+               problems);  // what is wrong with it is told at once
+  return serve_vehicle_in_lockstep(vehicle_class, distributers::Address::parse(listen), [&](std::uint64_t seed) {
+    Problems none;
+    return make_vehicle(options, vehicle_class, parameters, seed, none);
+  });
+}
+
 int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
           Problems& problems) {
+  if (options.link.front().second == "lockstep") return serve_in_lockstep(options, vehicle_class, parameters, problems);
   const auto link = distributers::make_link(link_of(options), *vehicle_class.message_set, "link", problems);
-  const auto vehicle = make_vehicle(options, vehicle_class, parameters, problems);
+  const auto vehicle = make_vehicle(options, vehicle_class, parameters, own_seed(options, vehicle_class), problems);
   const Duration end = options.duration.empty() ? Duration::max() : end_of(options, {});
   return serve_vehicle(*vehicle, vehicle_class, *link, end);
 }
@@ -316,6 +339,8 @@ void add_vehicle(CLI::App& app, int& exit_code) {
   struct LinkKey {
     const char *key, *text;
   };
+  std::vector<std::string> links = distributers::link_types();
+  links.emplace_back("lockstep");
   const LinkKey link_keys[] = {
       {"listen", "Link: port to listen at, with an address where not the loopback, as in 6002"},
       {"peer", "Link: address and port of the other end, as in 127.0.0.1:7002"},
@@ -329,8 +354,8 @@ void add_vehicle(CLI::App& app, int& exit_code) {
           [options](const std::string& type) {
             options->link.insert(options->link.begin(), {"type", type});
           },
-          "Run in real time, steered over a link: " + list_of(distributers::link_types()))
-      ->check(CLI::IsMember(distributers::link_types()));
+          "Run steered over a link: " + list_of(links) + "; in lockstep on the runner's clock, else in real time")
+      ->check(CLI::IsMember(links));
   for (const LinkKey& key : link_keys)
     command->add_option_function<std::string>(
         std::string("--") + key.key,

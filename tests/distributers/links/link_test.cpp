@@ -64,7 +64,9 @@ class Line {
         for (int i = 0; i < 2; ++i) {
           char room[4096];
           const auto length = ::read(ends_[static_cast<std::size_t>(i)].get(), room, sizeof room);
-          if (length > 0 && ::write(ends_[static_cast<std::size_t>(1 - i)].get(), room, static_cast<std::size_t>(length)) != length) FAIL("a line lost bytes");
+          if (length > 0 &&
+              ::write(ends_[static_cast<std::size_t>(1 - i)].get(), room, static_cast<std::size_t>(length)) != length)
+            FAIL("a line lost bytes");
         }
       }
     });
@@ -113,13 +115,15 @@ Pair connected(std::unique_ptr<Listens> listens, const std::string& host,
 
 Pair udp(const std::string& host, const LinkOptions& options = {}) {
   const Address any = Address::parse(host + ":0");
-  return connected(std::make_unique<UdpTransport>(any, Address{}), host,
-                   [&](const Address& peer) { return std::make_unique<UdpTransport>(any, peer); }, options);
+  return connected(
+      std::make_unique<UdpTransport>(any, Address{}), host,
+      [&](const Address& peer) { return std::make_unique<UdpTransport>(any, peer); }, options);
 }
 
 Pair tcp(const std::string& host, const LinkOptions& options = {}) {
-  return connected(std::make_unique<TcpServer>(Address::parse(host + ":0")), host,
-                   [](const Address& peer) { return std::make_unique<TcpClient>(peer); }, options);
+  return connected(
+      std::make_unique<TcpServer>(Address::parse(host + ":0")), host,
+      [](const Address& peer) { return std::make_unique<TcpClient>(peer); }, options);
 }
 
 Pair serial(const LinkOptions& options = {}) {
@@ -174,7 +178,8 @@ void check_disconnects(Pair pair) {
   REQUIRE(meet(pair));
   pair.one->connect();  // already is
   Ids got;
-  for (int id = 0; id < 20; ++id) pair.other->send(messages::refer_to(javiator::MotorSignals{0, 0, 0, 0, static_cast<std::uint16_t>(id)}));
+  for (int id = 0; id < 20; ++id)
+    pair.other->send(messages::refer_to(javiator::MotorSignals{0, 0, 0, 0, static_cast<std::uint16_t>(id)}));
   pair.other->disconnect();  // sends what is pending
   pair.other->disconnect();  // already is
   REQUIRE(wait_for([&] {
@@ -238,17 +243,17 @@ TEST_SUITE("distributers/links/link") {
   TEST_CASE("what is no valid packet is dropped, counted by reason, and makes nobody the peer") {
     Pair pair = udp("127.0.0.1");
     const Descriptor stranger(socket(AF_INET, SOCK_DGRAM, 0));
-    const Address to = Address::parse(
-        "127.0.0.1:" + std::to_string(static_cast<const UdpTransport&>(pair.one->transport()).port()));
+    const Address to =
+        Address::parse("127.0.0.1:" + std::to_string(static_cast<const UdpTransport&>(pair.one->transport()).port()));
     const auto throw_in = [&](const std::vector<unsigned char>& bytes) {
       REQUIRE(sendto(stranger.get(), bytes.data(), bytes.size(), 0, to.get(), to.size()) ==
               static_cast<ssize_t>(bytes.size()));
     };
     throw_in({});
     throw_in({1, 2, 3});
-    throw_in({0xff, 0xff, 0x11, 0, 0, 0x12});        // a wrong checksum
-    throw_in({0xff, 0xff, 0x11, 9, 0, 0x11});        // nine bytes of payload that are not there
-    throw_in({0xff, 0xff, 0x63, 0, 0, 0x63});        // no message has this id
+    throw_in({0xff, 0xff, 0x11, 0, 0, 0x12});  // a wrong checksum
+    throw_in({0xff, 0xff, 0x11, 9, 0, 0x11});  // nine bytes of payload that are not there
+    throw_in({0xff, 0xff, 0x63, 0, 0, 0x63});  // no message has this id
     REQUIRE(wait_for([&] {
       return count_of(*pair.one, "dropped: bad checksum") == 1 && count_of(*pair.one, "dropped: unknown id") == 1;
     }));
@@ -264,8 +269,8 @@ TEST_SUITE("distributers/links/link") {
   TEST_CASE("with a peer named, datagrams of others are strangers") {
     Pair pair = udp("127.0.0.1");
     const Descriptor stranger(socket(AF_INET, SOCK_DGRAM, 0));
-    const Address to = Address::parse(
-        "127.0.0.1:" + std::to_string(static_cast<const UdpTransport&>(pair.other->transport()).port()));
+    const Address to =
+        Address::parse("127.0.0.1:" + std::to_string(static_cast<const UdpTransport&>(pair.other->transport()).port()));
     const unsigned char bytes[] = {0xff, 0xff, 0x11, 0, 0, 0x11};
     sendto(stranger.get(), bytes, sizeof bytes, 0, to.get(), to.size());
     CHECK(wait_for([&] { return count_of(*pair.other, "dropped: stranger") == 1; }));
@@ -298,15 +303,17 @@ TEST_SUITE("distributers/links/link") {
     CHECK_THROWS_WITH(second->connect(), ("can't listen at udp " + at + ": Address already in use").c_str());
     const auto line = make(std::make_unique<SerialTransport>("/dev/no_such_line", 9600));
     CHECK_THROWS_WITH(line->connect(), "can't open serial /dev/no_such_line at 9600 baud: No such file or directory");
-    CHECK_THROWS_WITH(SerialTransport("/dev/ttyS0", 12345),
-                      "no serial line has 12345 baud; there are: 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600");
+    CHECK_THROWS_WITH(
+        SerialTransport("/dev/ttyS0", 12345),
+        "no serial line has 12345 baud; there are: 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600");
   }
 
   TEST_CASE("an address that can't be is told with what would be right") {
     const std::string forms = "; write it as in 7000, 192.168.2.3:7000 or \"[::1]:7000\"";
     for (const char* bad : {"", "x", "70000", "127.0.0.1:", "::1:7000", ":7000", "127.0.0.1:-1"}) {
       CAPTURE(bad);
-      CHECK_THROWS_WITH(Address::parse(bad), ("'" + std::string(bad) + "' is not an address with a port" + forms).c_str());
+      CHECK_THROWS_WITH(Address::parse(bad),
+                        ("'" + std::string(bad) + "' is not an address with a port" + forms).c_str());
     }
     CHECK(Address::parse("7000").text() == "127.0.0.1:7000");
     CHECK(Address::parse("[::1]:7000").text() == "[::1]:7000");

@@ -1,0 +1,149 @@
+#include "distributers/links/lockstep.h"
+
+#include <cstring>
+
+#include "distributers/messages/packet.h"
+
+namespace jarol::distributers {
+namespace {
+
+constexpr std::uint64_t version = 1;
+
+// Both ends are this program, which runs on little-endian machines only.
+std::vector<std::byte> numbers(std::initializer_list<std::uint64_t> all, const std::string& text = "") {
+  std::vector<std::byte> bytes(8 * all.size() + text.size());
+  std::memcpy(bytes.data(), all.begin(), 8 * all.size());
+  std::memcpy(bytes.data() + 8 * all.size(), text.data(), text.size());
+  return bytes;
+}
+
+std::uint64_t number(const FrameStream::Frame& frame, std::size_t index) {
+  std::uint64_t value = 0;
+  if (frame.bytes.size() < 8 * (index + 1)) throw FrameError("the other end does not speak the lockstep protocol");
+  std::memcpy(&value, frame.bytes.data() + 8 * index, 8);
+  return value;
+}
+
+std::string text_after(const FrameStream::Frame& frame, std::size_t count) {
+  const auto* characters = reinterpret_cast<const char*>(frame.bytes.data());
+  return {characters + 8 * count, characters + frame.bytes.size()};
+}
+
+// Puts messages into frames.
+class Putter : public messages::Receiver {
+ public:
+  Putter(const messages::MessageSet& set, FrameStream& stream) : set_(set), header_(*set.header), stream_(stream) {}
+  void receive(messages::MessageRef message) override {
+    if (write_packet(header_, message, set_.order, packet_)) stream_.put(FrameKind::message, packet_);
+  }
+
+ private:
+  const messages::MessageSet& set_;
+  messages::Message header_;
+  std::vector<std::byte> packet_;
+  FrameStream& stream_;
+};
+
+// Takes messages out of them.
+class Taker {
+ public:
+  explicit Taker(const messages::MessageSet& set) : reader_(set) {}
+  messages::MessageRef message(const FrameStream::Frame& frame) {
+    if (reader_.read(frame.bytes) != messages::Flaw::none)
+      throw FrameError("the other end has sent a message that can't be read");
+    return reader_.message();
+  }
+
+ private:
+  messages::PacketReader reader_;
+};
+
+// The vehicle as its runner sees it: commands and steps go out together with the next look at its sensors.
+class RemoteVehicle : public vehicles::Stepped {
+ public:
+  RemoteVehicle(FrameStream stream, Duration grid, const messages::MessageSet& set)
+      : stream_(std::move(stream)), grid_(grid), putter_(set, stream_), taker_(set) {}
+
+  std::chrono::nanoseconds grid() const override { return grid_; }
+  void accept(messages::MessageRef command) override { putter_.receive(command); }
+  void step() override { stream_.put(FrameKind::step); }
+
+  void sense(messages::Receiver& receiver) const override {
+    stream_.put(FrameKind::sense);
+    stream_.flush();
+    for (;;) {
+      const FrameStream::Frame frame = stream_.read();
+      if (frame.kind == FrameKind::sensed) return;
+      if (frame.kind == FrameKind::no_state) throw vehicles::NoState(text_after(frame, 0));
+      if (frame.kind != FrameKind::message) throw FrameError("the other end does not speak the lockstep protocol");
+      receiver.receive(taker_.message(frame));
+    }
+  }
+
+ private:
+  mutable FrameStream stream_;
+  Duration grid_;
+  Putter putter_;
+  mutable Taker taker_;
+};
+
+}  // namespace
+
+LockstepChannels::LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<Adapter> adapter,
+                                   CheckGrid check_grid)
+    : peer_(peer), seed_(seed), adapter_(std::move(adapter)), check_grid_(std::move(check_grid)) {}
+
+LockstepChannels::~LockstepChannels() = default;
+
+void LockstepChannels::begin() {
+  FrameStream stream = FrameStream::connect(peer_);
+  const FrameStream::Frame welcome = stream.read();
+  const auto refuse = [&](const std::string& why) {
+    throw FrameError("the vehicle at " + peer_.text() + " does not fit: " + why);
+  };
+  if (welcome.kind != FrameKind::welcome || number(welcome, 0) != version)
+    refuse("it does not speak version " + std::to_string(version) + " of the lockstep protocol");
+  const Duration grid(static_cast<std::int64_t>(number(welcome, 1)));
+  const std::string set = text_after(welcome, 2);
+  if (set != adapter_->message_set().name)
+    refuse("it speaks '" + set + "', not '" + std::string(adapter_->message_set().name) + "'");
+  if (const std::string wrong = check_grid_(grid); !wrong.empty()) refuse(wrong);
+  stream.put(FrameKind::begin, numbers({seed_}));
+  auto vehicle = std::make_unique<RemoteVehicle>(std::move(stream), grid, adapter_->message_set());
+  simulation_ = std::make_unique<SimulationChannels>(std::move(vehicle), std::move(adapter_));
+}
+
+void serve_lockstep(FrameStream stream, const messages::MessageSet& set,
+                    const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
+                    const Interrupter& interrupter) {
+  const auto grid = static_cast<std::uint64_t>(make(0)->grid().count());
+  stream.put(FrameKind::welcome, numbers({version, grid}, std::string(set.name)));
+  stream.flush();
+  Putter putter(set, stream);
+  Taker taker(set);
+  std::unique_ptr<vehicles::Vehicle> vehicle;
+  std::optional<std::string> no_state;
+  while (stream.wait(interrupter)) {
+    const FrameStream::Frame frame = stream.read();
+    if (vehicle == nullptr) {
+      if (frame.kind != FrameKind::begin) throw FrameError("the other end does not speak the lockstep protocol");
+      vehicle = make(number(frame, 0));
+    } else if (frame.kind == FrameKind::message) {
+      vehicle->accept(taker.message(frame));
+    } else if (frame.kind == FrameKind::step) {
+      try {
+        if (!no_state) vehicle->step();
+      } catch (const vehicles::NoState& error) { no_state = error.what(); }
+    } else if (frame.kind == FrameKind::sense) {
+      if (no_state)
+        stream.put(FrameKind::no_state, std::as_bytes(std::span(*no_state)));
+      else
+        vehicle->sense(putter), stream.put(FrameKind::sensed);
+      stream.flush();
+    } else {
+      throw FrameError("the other end does not speak the lockstep protocol");
+    }
+  }
+}
+
+}  // namespace jarol::distributers

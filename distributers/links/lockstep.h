@@ -1,0 +1,44 @@
+// The link to a vehicle that is simulated in another process, in lockstep with the logical clock: each grid step is
+// granted, so that the digest is that of the same vehicle in this process.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "distributers/links/frames.h"
+#include "distributers/links/simulation.h"
+
+namespace jarol::distributers {
+
+/// Says what is wrong with a vehicle that has that grid, or nothing.
+using CheckGrid = std::function<std::string(Duration grid)>;
+
+class LockstepChannels : public Channels {
+ public:
+  LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<Adapter> adapter, CheckGrid check_grid);
+  ~LockstepChannels() override;
+
+  /// Connects, and has the vehicle begin. Throws FrameError, also if it is not one for this adapter and grid.
+  void begin() override;
+  void finish() override { simulation_.reset(); }
+
+  void reach(Duration instant) override { simulation_->reach(instant); }
+  bool take(std::size_t channel, void* value) override { return simulation_->take(channel, value); }
+  void hand_over(std::size_t channel, const void* value) override { simulation_->hand_over(channel, value); }
+
+ private:
+  Address peer_;
+  std::uint64_t seed_;
+  std::unique_ptr<Adapter> adapter_;  // until it begins
+  CheckGrid check_grid_;
+  std::unique_ptr<SimulationChannels> simulation_;
+};
+
+/// The other end: what a vehicle's process does with one runner, until that one has gone or it is interrupted. `make`
+/// gives a vehicle with that seed.
+void serve_lockstep(FrameStream stream, const messages::MessageSet& set,
+                    const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
+                    const Interrupter& interrupter);
+
+}  // namespace jarol::distributers

@@ -1,0 +1,128 @@
+#include "distributers/links/lockstep.h"
+
+#include <doctest/doctest.h>
+
+#include <thread>
+
+#include "distributers/links/tcp.h"
+#include "distributers/vehicle_file.h"
+#include "runtime/executor.h"
+#include "tests/tools/run_command.h"
+#include "tools/load_graph.h"
+#include "vehicles/catalogue.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+using namespace std::chrono_literals;
+
+// A vehicle's process, as a thread; each runner gets a vehicle from the start.
+class Process {
+ public:
+  Process(const std::string& file, std::size_t runners) {
+    Problems problems;
+    file_ = read_vehicle_file(read_source(file), vehicles::catalogue(), problems);
+    problems.throw_if_any();
+    thread_ = std::thread([this, runners] {
+      for (std::size_t i = 0; i < runners; ++i) {
+        Descriptor runner;
+        while (!runner && interrupter_.wait(socket_.get(), -1ms) != Interrupter::Woken::interrupted)
+          runner = accept_from(socket_);
+        if (!runner) return;
+        try {
+          serve_lockstep(FrameStream(std::move(runner)), *file_->vehicle->message_set,
+                         [&](std::uint64_t seed) { return file_->vehicle->make(file_->parameters.data(), seed); },
+                         interrupter_);
+        } catch (const FrameError& error) { ended.push_back(error.what()); }
+      }
+    });
+  }
+  ~Process() { end(); }
+
+  void end() {
+    interrupter_.interrupt();
+    if (thread_.joinable()) thread_.join();
+  }
+
+  std::string link() const { return "={type: lockstep, peer: '127.0.0.1:" + std::to_string(port_of(socket_)) + "'}"; }
+
+  std::vector<std::string> ended;
+
+ private:
+  std::optional<VehicleFile> file_;
+  Descriptor socket_ = listen_at(Address::parse("0"));
+  Interrupter interrupter_;
+  std::thread thread_;
+};
+
+std::uint64_t digest_of(const std::string& graph, const std::vector<std::string>& set, std::uint64_t seed,
+                        Duration end) {
+  tools::Loaded loaded = tools::load_graph(graph, {.profile = "", .set = set}, seed);
+  for (const auto& channels : loaded.channels) channels->begin();
+  Executor executor(*loaded.graph, std::move(loaded.channels));
+  executor.run_until(end);
+  return executor.report().digest;
+}
+}  // namespace
+
+TEST_SUITE("tools/lockstep") {
+  TEST_CASE("a vehicle in another process gives the digest of the same vehicle in this one, run after run") {
+    Process submarine("specs/vehicles/submarine.yaml", 2);
+    Process helicopter("specs/vehicles/helicopter.yaml", 2);
+    for (const std::uint64_t seed : {0, 7}) {
+      CAPTURE(seed);
+      CHECK(digest_of("specs/exolauv.yaml", {"distributers.dune.link" + submarine.link()}, seed, 10s) ==
+            digest_of("specs/exolauv.yaml", {}, seed, 10s));
+      CHECK(digest_of("specs/javiator.yaml", {"distributers.robostix.link" + helicopter.link()}, seed, 6s) ==
+            digest_of("specs/javiator.yaml", {}, seed, 6s));
+    }
+    submarine.end();
+    CHECK(submarine.ended ==
+          std::vector<std::string>(2, "the other end has ended the connection"));
+  }
+
+  TEST_CASE("a vehicle that is lost ends the run, and is told") {
+    auto process = std::make_unique<Process>("specs/vehicles/submarine.yaml", 1);
+    tools::Loaded loaded = tools::load_graph(
+        "specs/exolauv.yaml", {.profile = "", .set = {"distributers.dune.link" + process->link()}}, 0);
+    for (const auto& channels : loaded.channels) channels->begin();
+    Executor executor(*loaded.graph, std::move(loaded.channels));
+    executor.run_until(3s);
+    process.reset();
+    CHECK_THROWS_WITH_AS(executor.run_until(6s), "the other end has ended the connection", FrameError);
+    CHECK(executor.now() == 3s);
+  }
+
+  TEST_CASE("a vehicle that does not fit is refused, and so is no vehicle at all") {
+    Process helicopter("specs/vehicles/helicopter.yaml", 1);
+    const auto begin = [](const std::string& link) {
+      tools::Loaded loaded =
+          tools::load_graph("specs/exolauv.yaml", {.profile = "", .set = {"distributers.dune.link" + link}}, 0);
+      for (const auto& channels : loaded.channels) channels->begin();
+    };
+    const std::string link = helicopter.link();
+    const std::string address = link.substr(link.find("127"), link.rfind('\'') - link.find("127"));
+    CHECK_THROWS_WITH(begin(link), ("the vehicle at " + address + " does not fit: it speaks 'javiator', not 'imc'").c_str());
+    helicopter.end();
+    const std::string port = std::to_string(port_of(listen_at(Address::parse("0"))));  // free again at once
+    CHECK_THROWS_WITH(begin("={type: lockstep, peer: " + port + "}"),
+                      ("there is no vehicle at 127.0.0.1:" + port +
+                       ": Connection refused; start one by 'jarol vehicle NAME --link lockstep --listen " + port + "'")
+                          .c_str());
+  }
+
+  TEST_CASE("periods that do not fall on the vehicle's steps are refused") {
+    Process helicopter("specs/vehicles/helicopter.yaml", 1);
+    tools::Loaded loaded = tools::load_graph("specs/javiator.yaml",
+                                             {.profile = "",
+                                              .set = {"distributers.robostix.link" + helicopter.link(),
+                                                      "communicators.from_robostix.offset=1ms"}},
+                                             0);
+    std::string error;
+    try {
+      for (const auto& channels : loaded.channels) channels->begin();
+    } catch (const FrameError& refused) { error = refused.what(); }
+    CHECK(error.substr(error.find("fit: ")) ==
+          "fit: communicator 'from_robostix' has offset 1ms; it has to be a multiple of the vehicle's step of 5ms");
+  }
+}
