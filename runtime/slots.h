@@ -21,7 +21,7 @@ class Slots {
     if (count > most || words > most || bytes > most ||
         count * (line + bytes / line + words / line * sizeof(Word)) > most)
       throw std::length_error("the slots of a port take more than a tebibyte");
-    stride_ = (words * sizeof(Word) + bytes + line - 1) / line * line;
+    stride_ = (words * sizeof(Word) + bytes + alignof(Word) - 1) / alignof(Word) * alignof(Word);
     memory_ = static_cast<std::byte*>(::operator new (count* stride_, std::align_val_t{apart}));
     for (std::size_t slot = 0; slot < count; ++slot)
       for (std::size_t i = 0; i < words; ++i) new (memory_ + slot * stride_ + i * sizeof(Word)) Word(0);

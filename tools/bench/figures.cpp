@@ -10,6 +10,7 @@
 #include "tools/bench/deep.h"
 #include "tools/bench/floors.h"
 #include "tools/bench/graphs.h"
+#include "tools/bench/ports.h"
 #include "tools/bench/sharing.h"
 #include "tools/bench/timing.h"
 #include "tools/bench/yaml_floor.h"
@@ -78,9 +79,23 @@ Figure load_figure(int repeats) {
 }  // namespace
 
 std::vector<std::string> figure_names() {
-  return {"chain_10",  "chain_100",      "chain_100_digest", "multirate_100", "let_multirate_100",
-          "fan_100",   "workers_2_tiny", "workers_2_10us",   "deep_1k",       "fault",
-          "load_1000", "check_1000",     "check_10000"};
+  return {"chain_10",
+          "chain_100",
+          "chain_100_digest",
+          "multirate_100",
+          "let_multirate_100",
+          "fan_100",
+          "workers_2_tiny",
+          "workers_2_10us",
+          "deep_1k",
+          "fault",
+          "load_1000",
+          "check_1000",
+          "check_10000",
+          "port_throughput",
+          "port_round_trip",
+          "push_port_throughput",
+          "push_port_round_trip"};
 }
 
 Figure measure(const std::string& name, int repeats) {
@@ -103,6 +118,10 @@ Figure measure(const std::string& name, int repeats) {
   if (name == "load_1000") return load_figure(repeats);
   if (name == "check_1000") return measure_check(name, 1000, 100, repeats);
   if (name == "check_10000") return measure_check(name, 10'000, 1000, repeats);
+  if (name == "port_throughput") return measure_port_throughput(name, repeats);
+  if (name == "port_round_trip") return measure_port_round_trip(name, repeats);
+  if (name == "push_port_throughput") return measure_push_port_throughput(name, repeats);
+  if (name == "push_port_round_trip") return measure_push_port_round_trip(name, repeats);
   throw std::invalid_argument("there is no figure '" + name + "'" + did_you_mean(name, figure_names()) +
                               "; there are: " + list_of(figure_names()));
 }

@@ -32,7 +32,7 @@ int run_bench(const Options& options) {
   auto figures = nlohmann::ordered_json::array();
   bool all_met = true;
   if (!options.json)
-    std::cout << fmt::format("{:<20}{:>10}{:>10}{:>8}{:>8}  {}\n", "figure", "value", "floor", "ratio", "goal", "what");
+    std::cout << fmt::format("{:<22}{:>10}{:>10}{:>8}{:>8}  {}\n", "figure", "value", "floor", "ratio", "goal", "what");
   for (const std::string& name : names) {
     if (isatty(STDERR_FILENO) != 0) std::cerr << "\r\033[Kmeasuring " << name << " " << std::flush;
     const bench::Figure f = bench::measure(name, options.repeats);
@@ -46,7 +46,7 @@ int run_bench(const Options& options) {
                          {"ratio", f.ratio},
                          {"goal", f.goal}});
     } else {
-      std::cout << fmt::format("{:<20}{:>7.2f} {:<2}{:>7.2f} {:<2}{:>8.2f}{:>8.2f}  {}{}\n", f.name, f.value, f.unit,
+      std::cout << fmt::format("{:<22}{:>7.2f} {:<2}{:>7.2f} {:<2}{:>8.2f}{:>8.2f}  {}{}\n", f.name, f.value, f.unit,
                                f.floor, f.unit, f.ratio, f.goal, f.text, f.ratio <= f.goal ? "" : "  NOT MET");
     }
   }
