@@ -39,8 +39,7 @@ class BasicSignal {
   template <class Ready>
   Awaiting await_unless(Ready ready, std::optional<Time> deadline = {}) {
     std::uint32_t state = 0;  // mostly nobody else waits; the exchange tells what is true
-    // in one order with the exchange of `signal`, and with what `ready` looks at
-    while (!state_.compare_exchange_weak(state, state + 1, std::memory_order_seq_cst, std::memory_order_acquire)) {
+    while (!state_.compare_exchange_weak(state, state + 1, std::memory_order_acq_rel, std::memory_order_acquire)) {
       if ((state & interrupted) != 0) return Awaiting::interrupted;
       if ((state & signalling) != 0) return Awaiting::during_signalling;
     }
@@ -59,14 +58,14 @@ class BasicSignal {
   /// Wakes all who wait.
   Signalling signal() {
     std::uint32_t state = 1;  // mostly one waits
-    while (!state_.compare_exchange_weak(state, state | signalling, std::memory_order_seq_cst,
-                                         std::memory_order_seq_cst)) {
-      if ((state & interrupted) != 0) return Signalling::interrupted;
-      if ((state & signalling) != 0) return Signalling::during_signalling;
-      if (state == 0) return Signalling::not_awaited;
+    for (;;) {
+      const Signalling result = signalling_in(state);
+      // what is refused is exchanged for itself: who comes to wait next has seen what the refused thread did before
+      const std::uint32_t next = result == Signalling::done ? state | signalling : state;
+      if (!state_.compare_exchange_weak(state, next, std::memory_order_acq_rel, std::memory_order_acquire)) continue;
+      if (result == Signalling::done) Threads::wake_all(state_);
+      return result;
     }
-    Threads::wake_all(state_);
-    return Signalling::done;
   }
 
   /// From now on nobody waits: who does is woken, who comes is turned away, until `resume`.
@@ -90,6 +89,12 @@ class BasicSignal {
   static constexpr std::uint32_t signalling = 1U << 31;
   static constexpr std::uint32_t interrupted = 1U << 30;
   static constexpr std::uint32_t count = interrupted - 1;
+
+  static Signalling signalling_in(std::uint32_t state) {
+    if ((state & interrupted) != 0) return Signalling::interrupted;
+    if ((state & signalling) != 0) return Signalling::during_signalling;
+    return state == 0 ? Signalling::not_awaited : Signalling::done;
+  }
 
   // The last one to leave ends the signalling.
   std::optional<Awaiting> leave(std::uint32_t& state, bool in_time) {

@@ -259,6 +259,30 @@ TEST_SUITE("runtime/signal") {
     CHECK(result.failure == "");
   }
 
+  TEST_CASE("what is there before a signalling that nobody awaits is never slept through" *
+            doctest::skip(!model::available)) {
+    const model::Result result = model::explore([] {
+      struct Run {
+        Explored signal;
+        model::ModelMemory<>::Atomic<std::uint32_t> there{0};
+        Signalling signalled{};
+      };
+      auto run = std::make_shared<Run>();
+      return model::Program{{[run] {
+                               const auto ready = [&] { return run->there.load(std::memory_order_acquire) == 1; };
+                               model::check(run->signal.await_unless(ready) == Awaiting::signalled, "not signalled");
+                             },
+                             [run] {
+                               run->there.store(1, std::memory_order_release);
+                               run->signalled = run->signal.signal();
+                               model::check(run->signalled != Signalling::during_signalling, "of one who signals");
+                             }},
+                            [run] { model::check(run->signal.waiting() == 0, "somebody is still counted"); }};
+    });
+    CHECK(result.failure == "");
+    CHECK(result.states > 20);
+  }
+
   TEST_CASE("two threads that signal each other, many times") {
     const bool full = std::getenv("JAROL_FULL") != nullptr;
     const std::uint64_t most = full ? 10'000'000 : 20'000;
