@@ -1,15 +1,33 @@
 #include "distributers/lauv_vehicle.h"
 
+#include <cmath>
+
 #include "distributers/messages/imc.h"
 
 namespace jarol::distributers {
 namespace imc = messages::imc;
+namespace {
+
+void note(bool& fresh, tasks::Reading& reading, double value) {
+  if (!std::isfinite(value)) return;
+  reading = {value, reading.count + 1};
+  fresh = true;
+}
+
+void note(bool& fresh, tasks::VectorReading& reading, double x, double y, double z) {
+  if (!std::isfinite(x + y + z)) return;
+  reading = {x, y, z, reading.count + 1};
+  fresh = true;
+}
+
+}  // namespace
 
 DistributerClass LauvVehicle::describe_class() {
   return {"LauvVehicle",
           "the submarine, over IMC",
           {{"motion", Direction::in, &type_of<tasks::Motion>(), "position, attitude and velocities"},
-           {"actuation", Direction::out, &type_of<tasks::Actuation>(), "commands for propeller and fins"}}};
+           {"actuation", Direction::out, &type_of<tasks::Actuation>(), "commands for propeller and fins"},
+           {"instruments", Direction::in, &type_of<tasks::Instruments>(), "what the instruments tell"}}};
 }
 
 DistributerClass describe_lauv_operator() {
@@ -17,6 +35,7 @@ DistributerClass describe_lauv_operator() {
           "the submarine's operator",
           {{"setpoint", Direction::in, &type_of<tasks::Setpoint>(), "commanded depth, heading and speed"},
            {"actuation", Direction::in, &type_of<tasks::Actuation>(), "propeller and fins, steered by hand"},
+           {"contact", Direction::in, &type_of<tasks::Contact>(), "how long the operator was not heard"},
            {"report", Direction::out, &type_of<tasks::VehicleReport>(), "depth, pitch, heading and speed reached"},
            {"motion", Direction::out, &type_of<tasks::Motion>(), "the vehicle's motion as it came"}}};
 }
@@ -24,16 +43,74 @@ DistributerClass describe_lauv_operator() {
 const messages::MessageSet& LauvVehicle::message_set() const { return imc::message_set(); }
 
 void LauvVehicle::receive(messages::MessageRef message) {
-  const auto* s = message.as<imc::SimulatedState>();
-  if (s == nullptr) return;
-  motion_ = {s->x, s->y, s->z, s->phi, s->theta, s->psi, s->u, s->v, s->w, s->p, s->q, s->r};
-  fresh_ = true;
+  receive_motion(message);
+  receive_hull(message);
 }
 
-bool LauvVehicle::take(std::size_t, void* value) {
-  if (!fresh_) return false;
-  *static_cast<tasks::Motion*>(value) = motion_;
-  fresh_ = false;
+void LauvVehicle::receive_motion(messages::MessageRef message) {
+  tasks::Instruments& i = instruments_;
+  if (const auto* s = message.as<imc::SimulatedState>()) {
+    motion_ = {s->x, s->y, s->z, s->phi, s->theta, s->psi, s->u, s->v, s->w, s->p, s->q, s->r};
+    motion_fresh_ = true;
+  } else if (const auto* angles = message.as<imc::EulerAngles>()) {
+    note(instruments_fresh_, i.attitude, angles->phi, angles->theta, angles->psi);
+    note(instruments_fresh_, i.heading, angles->psi_magnetic);
+  } else if (const auto* rates = message.as<imc::AngularVelocity>()) {
+    note(instruments_fresh_, i.rates, rates->x, rates->y, rates->z);
+  } else if (const auto* force = message.as<imc::Acceleration>()) {
+    note(instruments_fresh_, i.forces, force->x, force->y, force->z);
+  } else if (const auto* speed = message.as<imc::WaterVelocity>()) {
+    note(instruments_fresh_, i.velocity, speed->x, speed->y, speed->z);
+  } else if (const auto* rpm = message.as<imc::Rpm>()) {
+    note(instruments_fresh_, i.rpm, rpm->value);
+  } else if (const auto* fix = message.as<imc::GpsFix>()) {
+    if ((fix->validity & imc::GpsFix::Validity::VALID_POS) != 0) place(fix->lat, fix->lon);
+  }
+}
+
+void LauvVehicle::receive_hull(messages::MessageRef message) {
+  tasks::Instruments& i = instruments_;
+  if (const auto* depth = message.as<imc::Depth>()) {
+    note(instruments_fresh_, i.depth, depth->value);
+  } else if (const auto* pressure = message.as<imc::Pressure>()) {
+    note(instruments_fresh_, i.pressure, pressure->value);
+  } else if (const auto* conductivity = message.as<imc::Conductivity>()) {
+    note(instruments_fresh_, i.conductivity, conductivity->value);
+  } else if (const auto* temperature = message.as<imc::Temperature>()) {
+    note(instruments_fresh_, i.water_temperature, temperature->value);
+  } else if (const auto* range = message.as<imc::Distance>()) {
+    if (range->validity == imc::Distance::Validity::VALID) note(instruments_fresh_, i.altitude, range->value);
+  } else if (const auto* entity = message.as<imc::EntityState>()) {
+    note(instruments_fresh_, i.leak, entity->state == imc::EntityState::State::FAILURE ? 1 : 0);
+  } else if (const auto* voltage = message.as<imc::Voltage>()) {
+    note(instruments_fresh_, i.voltage, voltage->value);
+  } else if (const auto* current = message.as<imc::Current>()) {
+    note(instruments_fresh_, i.current, current->value);
+  }
+}
+
+// offsets from the first fix along meridian and parallel, WGS-84
+void LauvVehicle::place(double latitude, double longitude) {
+  if (!std::isfinite(latitude) || !std::isfinite(longitude)) return;
+  if (instruments_.place.count == 0) {
+    latitude_ = latitude;
+    longitude_ = longitude;
+  }
+  constexpr double equatorial_radius = 6378137.0, eccentricity_squared = 6.69437999014e-3;
+  const double s = std::sin(latitude_), w = 1 - eccentricity_squared * s * s;
+  const double east_radius = equatorial_radius / std::sqrt(w);
+  note(instruments_fresh_, instruments_.place, (latitude - latitude_) * east_radius * (1 - eccentricity_squared) / w,
+       (longitude - longitude_) * east_radius * std::cos(latitude_), 0);
+}
+
+bool LauvVehicle::take(std::size_t channel, void* value) {
+  bool& fresh = channel == 0 ? motion_fresh_ : instruments_fresh_;
+  if (!fresh) return false;
+  if (channel == 0)
+    *static_cast<tasks::Motion*>(value) = motion_;
+  else
+    *static_cast<tasks::Instruments*>(value) = instruments_;
+  fresh = false;
   return true;
 }
 

@@ -3,11 +3,13 @@
 
 #include "distributers/adapter.h"
 #include "graph/registry.h"
+#include "tasks/values/instruments.h"
 #include "tasks/values/lauv.h"
 
 namespace jarol::distributers {
 
-/// Speaks IMC: SimulatedState in, SetThrusterActuation and SetServoPosition out.
+/// Speaks IMC: SimulatedState and what instruments tell in, SetThrusterActuation and SetServoPosition out. A field that
+/// is no number is one that the instrument does not measure.
 class LauvVehicle : public Adapter {
  public:
   static DistributerClass describe_class();
@@ -18,8 +20,14 @@ class LauvVehicle : public Adapter {
   void hand_over(std::size_t channel, const void* value, messages::Receiver& system) override;
 
  private:
+  void receive_motion(messages::MessageRef message);
+  void receive_hull(messages::MessageRef message);
+  void place(double latitude, double longitude);
+
   tasks::Motion motion_{};
-  bool fresh_ = false;
+  tasks::Instruments instruments_{};
+  bool motion_fresh_ = false, instruments_fresh_ = false;
+  double latitude_ = 0, longitude_ = 0;  // of the first fix
 };
 
 /// The submarine's operator: setpoints or a bare actuation come in, reports or the bare motion go out.

@@ -125,10 +125,11 @@ struct FinAllocator {
 };
 
 struct LauvReport {
-  static constexpr std::string_view summary = "tells the operator depth, pitch, heading and speed";
+  static constexpr std::string_view summary = "tells the operator depth, pitch, heading, speed and alarm";
   struct In {
     Motion motion{};
-    static constexpr auto fields() { return describe(field<&In::motion>()); }
+    Condition condition{};
+    static constexpr auto fields() { return describe(field<&In::motion>(), field<&In::condition>()); }
   };
   struct Out {
     VehicleReport report{};

@@ -5,6 +5,8 @@
 #include "tasks/javiator_control.h"
 #include "tasks/javiator_filter.h"
 #include "tasks/lauv_control.h"
+#include "tasks/lauv_navigation.h"
+#include "tasks/lauv_supervisor.h"
 #include "tasks/original_control.h"
 #include "tasks/original_filter.h"
 
@@ -23,7 +25,8 @@ void add_tasks(Registry& registry) {
   add<AltitudeControl, AttitudeControl, FlightLogic, HelicopterReporter, JaviatorFilter, MotorMixer, PositionControl>(
       registry);
   add<OriginalAltitude, OriginalAttitude, OriginalFilter, OriginalLogic, OriginalMixer, OriginalPosition>(registry);
-  add<DepthControl, FinAllocator, HeadingControl, LauvForward, LauvReport, SpeedControl>(registry);
+  add<DepthControl, FinAllocator, HeadingControl, LauvForward, LauvNavigation, LauvReport, LauvSupervisor,
+      SpeedControl>(registry);
 }
 
 }  // namespace jarol::tasks

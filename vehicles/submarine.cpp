@@ -88,6 +88,7 @@ void Submarine::sample() {
   scene.north = over_ground.x;
   scene.east = over_ground.y;
   scene.depth = eta[2] - water.surface;
+  scene.head = water.head;
   scene.water_b = to_body_axes({eta[3], eta[4], eta[5]}, water.velocity_n);
   scene.rpm = actuation_.propeller() * 30.0 / std::numbers::pi;
   scene.leak = parameters_.leak_at > Duration{} && steps_ * grid() >= parameters_.leak_at;

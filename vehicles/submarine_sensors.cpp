@@ -67,8 +67,10 @@ void SubmarineSensors::step(std::int64_t step, const SubmarineScene& scene) {
   const fossen::Vector3 down_b = {-std::sin(eta[4]), c_theta * std::sin(eta[3]), c_theta * std::cos(eta[3])};
   seconds_ = static_cast<double>(step) * step_seconds;
 
-  depth_.step(step, Values{scene.depth});
-  pressure_.step(step, Values{air_pressure + 0.01 * sea_.density * sea_.gravity * std::max(scene.depth, 0.0)});
+  // both gauges feel pressure
+  const double head = std::max(eta[2] + scene.head, 0.0);
+  depth_.step(step, Values{scene.depth > 0.0 ? head : scene.depth});
+  pressure_.step(step, Values{air_pressure + 0.01 * sea_.density * sea_.gravity * (scene.depth > 0.0 ? head : 0.0)});
   conductivity_cell_.step(step, Values{conductivity_});
   water_temperature_.step(step, Values{sea_.temperature});
 
@@ -139,14 +141,16 @@ void SubmarineSensors::tell(messages::Receiver& receiver) const {
 }
 
 void SubmarineSensors::tell_motion(messages::Receiver& receiver) const {
-  // the IMU knows true north, the compass the magnetic one; here they are the same
+  // the IMU tells true north, the compass the magnetic one; here they are the same. What a device does not measure is
+  // no number
   if (attitude_.told() || compass_.told()) {
+    constexpr double unknown = SubmarineReadings::unknown;
     imc::EulerAngles angles;
     angles.time = seconds_;
-    angles.phi = readings_.phi;
-    angles.theta = readings_.theta;
-    angles.psi = readings_.psi;
-    angles.psi_magnetic = readings_.heading;
+    angles.phi = attitude_.told() ? readings_.phi : unknown;
+    angles.theta = attitude_.told() ? readings_.theta : unknown;
+    angles.psi = attitude_.told() ? readings_.psi : unknown;
+    angles.psi_magnetic = compass_.told() ? readings_.heading : unknown;
     receiver.receive(messages::refer_to(angles));
   }
   imc::AngularVelocity rates;

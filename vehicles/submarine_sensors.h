@@ -14,6 +14,7 @@ struct SubmarineScene {
   PlantState at;
   double north = 0.0, east = 0.0;  // over ground
   double depth = 0.0;              // below the surface as it is there
+  double head = 0.0;               // of the waves' pressure
   fossen::Vector3 water_b{};       // velocity of the water
   double rpm = 0.0;
   bool leak = false;

@@ -26,14 +26,17 @@ Water Waves::at(const fossen::Vector3& p_n, double seconds) const {
   const double phase = number_ * (north_ * p_n[0] + east_ * p_n[1]) - frequency_ * seconds;
   const double c = std::cos(phase), s = std::sin(phase);
   // no higher than a crest: linear theory knows no water above
-  const double speed = amplitude_ * frequency_ * std::exp(-number_ * std::max(p_n[2], -amplitude_));
+  const double here = amplitude_ * std::exp(-number_ * std::max(p_n[2], -amplitude_)), speed = frequency_ * here;
   const double along = speed * c, down = -speed * s;
   // d/dt + along d/ds + down d/dz; the second part is of the order of the steepness
   const double along_s = -number_ * speed * s, along_z = -number_ * speed * c;
   const double down_s = -number_ * speed * c, down_z = number_ * speed * s;
   const double along_dot = frequency_ * speed * s + along * along_s + down * along_z;
   const double down_dot = frequency_ * speed * c + along * down_s + down * down_z;
-  return {-amplitude_ * c, {north_ * along, east_ * along, down}, {north_ * along_dot, east_ * along_dot, down_dot}};
+  return {-amplitude_ * c,
+          here * c,
+          {north_ * along, east_ * along, down},
+          {north_ * along_dot, east_ * along_dot, down_dot}};
 }
 
 }  // namespace jarol::vehicles

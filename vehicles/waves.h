@@ -10,6 +10,7 @@ namespace jarol::vehicles {
 /// The water at one place, NED.
 struct Water {
   double surface = 0.0;              // z of the surface above or below the place
+  double head = 0.0;                 // of the pressure there over that of still water, m of water
   fossen::Vector3 velocity_n{};      // orbital
   fossen::Vector3 acceleration_n{};  // of the water there as it moves: material derivative
 };

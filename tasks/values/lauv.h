@@ -4,6 +4,7 @@
 #include <array>
 
 #include "graph/values/describe.h"
+#include "tasks/values/alarm.h"
 
 namespace jarol::tasks {
 
@@ -44,11 +45,13 @@ struct VehicleReport {
   double pitch = 0;
   double heading = 0;
   double speed = 0;
+  Alarm alarm = Alarm::none;
 
   static constexpr auto fields() {
     using S = VehicleReport;
     return describe(field<&S::depth>("m", "below the surface"), field<&S::pitch>("rad", "nose up"),
-                    field<&S::heading>("rad", "clockwise from north"), field<&S::speed>("m/s", "through the water"));
+                    field<&S::heading>("rad", "clockwise from north"), field<&S::speed>("m/s", "through the water"),
+                    field<&S::alarm>("", "why it comes up, or none"));
   }
 };
 

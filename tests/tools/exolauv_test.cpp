@@ -1,8 +1,11 @@
 // The dive, from the file that users run: what it has to reach.
 #include <doctest/doctest.h>
 
+#include "tests/tools/dive.h"
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <vector>
 
@@ -14,46 +17,9 @@ namespace {
 using namespace jarol;
 using namespace std::chrono_literals;
 
-struct Sample {
-  double time = 0;
-  tasks::Motion motion;
-};
-
-// Every motion of the run, in order.
-class Motions : public RecordSink {
- public:
-  explicit Motions(std::uint32_t output) : output_(output) {}
-  void take(Duration instant, std::uint32_t output, const void* value) override {
-    if (output == output_)
-      samples.push_back({1e-9 * static_cast<double>(instant.count()), *static_cast<const tasks::Motion*>(value)});
-  }
-  void finish() override {}
-  std::vector<Sample> samples;
-
- private:
-  std::uint32_t output_;
-};
-
-struct Dive {
-  std::vector<Sample> samples;
-  Report report;
-};
-
-Dive dive(const std::string& file) {
-  auto loaded = tools::load_graph(file, {});
-  const Plan plan(*loaded.graph);
-  const auto at =
-      std::find_if(plan.outputs.begin(), plan.outputs.end(), [](const Output& o) { return o.name == "from_dune"; });
-  REQUIRE(at != plan.outputs.end());
-  Motions motions(static_cast<std::uint32_t>(at - plan.outputs.begin()));
-  Recorder recorder({&motions});
-  Duration end{};
-  for (const auto& channels : loaded.channels) end = std::max(end, channels->end().value_or(Duration{}));
-  Executor executor(*loaded.graph, std::move(loaded.channels), {.digest = true, .recorder = &recorder});
-  executor.run_until(end);
-  recorder.close();
-  return {motions.samples, executor.report()};
-}
+using test::Dive;
+using test::dive;
+using test::Sample;
 
 const Dive& the_dive() {
   static const Dive done = dive("specs/exolauv.yaml");
@@ -89,6 +55,54 @@ TEST_SUITE("tools/exolauv") {
       CHECK(s.motion.u < 1.32);
       if (s.time >= command_at + 10) CHECK(std::abs(s.motion.u - 1.2) < 0.05);
     }
+  }
+
+  // What is left of the goals at sea: how far the true depth, heading and speed are from those commanded, settled.
+  struct Errors {
+    double depth = 0, heading = 0, speed = 0;
+  };
+  Errors errors_of(const Dive& done) {
+    Errors worst;
+    for (const Sample& s : done.samples) {
+      if (s.time >= command_at + 30) worst.depth = std::max(worst.depth, std::abs(s.motion.z - 3));
+      if (s.time >= turn_at + 20) worst.heading = std::max(worst.heading, std::abs(s.motion.psi - 90 * degree));
+      if (s.time >= command_at + 15) worst.speed = std::max(worst.speed, std::abs(s.motion.u - 1.2));
+    }
+    return worst;
+  }
+
+  TEST_CASE("at sea, with noise, current and small waves, it keeps depth within 5 cm and heading within 2 degrees") {
+    const std::uint64_t seeds = std::getenv("JAROL_FULL") != nullptr ? 20 : 1;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+      CAPTURE(seed);
+      const Dive done = dive("specs/exolauv.yaml:at_sea", {}, seed);
+      const Errors worst = errors_of(done);
+      MESSAGE("depth " << worst.depth << " m, heading " << worst.heading / degree << " deg, speed " << worst.speed);
+      CHECK(worst.depth < 0.05);
+      CHECK(worst.heading < 2 * degree);
+      CHECK(worst.speed < 0.1);
+      CHECK(done.alarm == tasks::Alarm::none);
+    }
+  }
+
+  TEST_CASE("in waves of half a metre it moves with the water and fails to keep depth within 5 cm") {
+    const Dive done = dive("specs/exolauv.yaml:at_sea",
+                           {"distributers.dune.link.parameters={sea: {wave_height: 0.5, wave_period: 5}}"}, 1);
+    const Errors worst = errors_of(done);
+    MESSAGE("depth " << worst.depth << " m, heading " << worst.heading / degree << " deg, speed " << worst.speed);
+    CHECK(worst.depth > 0.05);
+    CHECK(worst.depth < 0.25);  // water there moves by 0.15 m
+    CHECK(worst.heading < 4 * degree);
+    CHECK(done.alarm == tasks::Alarm::none);
+  }
+
+  TEST_CASE("at sea another seed gives another digest, the same the same") {
+    const auto digest = [](std::uint64_t seed) {
+      return dive("specs/exolauv.yaml:at_sea", {}, seed, 5s).report.digest;
+    };
+    CHECK(digest(1) == digest(1));
+    CHECK(digest(1) != digest(2));
+    CHECK(dive("specs/exolauv.yaml", {}, 1, 5s).report.digest == dive("specs/exolauv.yaml", {}, 2, 5s).report.digest);
   }
 
   TEST_CASE("ten dives have one digest") {

@@ -80,7 +80,7 @@ TEST_SUITE("distributers/links/script") {
           "'setpoint.depth'?; "
           "there are: setpoint.depth, setpoint.heading, setpoint.speed, actuation.thruster, actuation.fins.0, "
           "actuation.fins.1, "
-          "actuation.fins.2, actuation.fins.3\n"
+          "actuation.fins.2, actuation.fins.3, contact.silence\n"
           "  time,setpoint.deep\n"
           "       ^");
     CHECK(report_on("t,setpoint.depth\n0,x\n0,1\n1,1,1\n-1,2\n") ==

@@ -1,0 +1,104 @@
+// Watches over the submarine: lets the operator's setpoint through while all is well, and brings it up when not.
+#pragma once
+
+#include <array>
+#include <numbers>
+#include <string_view>
+
+#include "graph/task.h"
+#include "tasks/values/alarm.h"
+#include "tasks/values/instruments.h"
+#include "tasks/values/lauv.h"
+
+namespace jarol::tasks {
+
+/// An instrument that tells no more is lost. One that lies is found by another that knows better: depth gauge and
+/// pressure, compass and IMU, attitude and rates, attitude and specific force, speed log and propeller, altitude and
+/// depth over a floor without steps. Once alarmed it comes up for good: nose up at some speed until GPS finds the
+/// surface, or, where attitude or speed are in doubt, with propeller off, by buoyancy.
+struct LauvSupervisor {
+  static constexpr std::string_view summary = "passes the operator's setpoint on, or brings the submarine up";
+  struct Param {
+    double sensor_timeout = 2.5;
+    double gps_timeout = 4;
+    double operator_timeout = 5;
+    double max_depth = 12;
+    double min_altitude = 2;
+    double max_pitch = 50 * std::numbers::pi / 180;
+    double min_voltage = 20;
+    double depth_error = 0.3;
+    double heading_error = 15 * std::numbers::pi / 180;
+    double angle_error = 6 * std::numbers::pi / 180;
+    double force_error = 2.5;
+    double speed_error = 0.5;
+    double floor_error = 1.5;
+    double error_time = 1;
+    double speed_error_time = 3;
+    double thrust_coefficient = 2e-4;
+    double max_thrust = 10;
+    double surge_drag = 2.4;
+    double surge_mass = 19;
+    double climb_speed = 1;
+    double climb_time = 60;
+    static constexpr auto fields() {
+      using P = Param;
+      return describe(
+          field<&P::sensor_timeout>("s", "an instrument that tells nothing for so long is lost"),
+          field<&P::gps_timeout>("s", "the same for GPS at the surface"),
+          field<&P::operator_timeout>("s", "greatest silence of the operator"), field<&P::max_depth>("m", "limit"),
+          field<&P::min_altitude>("m", "limit, over the sea floor"),
+          field<&P::max_pitch>("rad", "limit, to either side"), field<&P::min_voltage>("V", "limit"),
+          field<&P::depth_error>("m", "greatest difference of gauge and pressure"),
+          field<&P::heading_error>("rad", "greatest difference of compass and IMU"),
+          field<&P::angle_error>("rad", "greatest difference of attitude and what the rates add up to in 2 s"),
+          field<&P::force_error>("m/s^2", "greatest difference of specific force and gravity"),
+          field<&P::speed_error>("m/s", "greatest difference of speed log and propeller"),
+          field<&P::floor_error>("m", "greatest step of the sea floor"),
+          field<&P::error_time>("s", "how long a difference has to last"),
+          field<&P::speed_error_time>("s", "the same for speed"),
+          field<&P::thrust_coefficient>("N s^2/rad^2", "of the propeller"), field<&P::max_thrust>("N", "of the same"),
+          field<&P::surge_drag>("N s/m", "per speed, and per speed squared"),
+          field<&P::surge_mass>("kg", "with added mass"), field<&P::climb_speed>("m/s", "on the way up"),
+          field<&P::climb_time>("s", "after which it stops the propeller in any case"));
+    }
+  };
+  struct In {
+    Setpoint setpoint{};
+    Contact contact{};
+    Instruments instruments{};
+    static constexpr auto fields() {
+      return describe(field<&In::setpoint>(), field<&In::contact>(), field<&In::instruments>());
+    }
+  };
+  struct State {
+    Alarm alarm = Alarm::none;
+    double since_alarm = 0;
+    std::int64_t fixes_at_alarm = 0;
+    bool surfaced = false;
+    std::array<std::int64_t, 14> counts{};
+    std::array<double, 14> silences{};
+    double since_fix = 0;
+    std::int64_t fixes = 0;
+    std::array<double, 7> wrong_for{};
+    bool started = false;
+    double theta = 0, psi = 0, speed = 0, floor = 0;
+    static constexpr auto fields() {
+      using S = State;
+      return describe(
+          field<&S::alarm>(), field<&S::since_alarm>("s"), field<&S::fixes_at_alarm>(), field<&S::surfaced>(),
+          field<&S::counts>("", "of each instrument"), field<&S::silences>("s", "of each instrument"),
+          field<&S::since_fix>("s", "at the surface"), field<&S::fixes>(),
+          field<&S::wrong_for>("s", "each difference, for so long"), field<&S::started>(),
+          field<&S::theta>("rad", "that the rates add up to"), field<&S::psi>("rad", "that the rates add up to"),
+          field<&S::speed>("m/s", "that the propeller gives"), field<&S::floor>("m", "depth of the sea floor"));
+    }
+  };
+  struct Out {
+    Setpoint setpoint{};
+    Condition condition{};
+    static constexpr auto fields() { return describe(field<&Out::setpoint>(), field<&Out::condition>()); }
+  };
+  static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
+};
+
+}  // namespace jarol::tasks

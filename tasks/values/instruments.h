@@ -1,0 +1,72 @@
+// What the submarine's instruments tell, as it comes.
+#pragma once
+
+#include <cstdint>
+
+#include "graph/values/describe.h"
+
+namespace jarol::tasks {
+
+/// The newest reading of an instrument, and how many came so far: one that counts no further is lost.
+struct Reading {
+  double value = 0;
+  std::int64_t count = 0;
+
+  static constexpr auto fields() {
+    return describe(field<&Reading::value>("", "in the instrument's unit"), field<&Reading::count>("", "so far"));
+  }
+};
+
+struct VectorReading {
+  double x = 0, y = 0, z = 0;
+  std::int64_t count = 0;
+
+  static constexpr auto fields() {
+    using V = VectorReading;
+    return describe(field<&V::x>("", "in the instrument's unit"), field<&V::y>(), field<&V::z>(),
+                    field<&V::count>("", "so far"));
+  }
+};
+
+struct Instruments {
+  Reading depth{};
+  Reading pressure{};
+  VectorReading attitude{};
+  VectorReading rates{};
+  VectorReading forces{};
+  Reading heading{};
+  VectorReading velocity{};
+  Reading rpm{};
+  VectorReading place{};
+  Reading altitude{};
+  Reading conductivity{};
+  Reading water_temperature{};
+  Reading leak{};
+  Reading voltage{};
+  Reading current{};
+
+  static constexpr auto fields() {
+    using I = Instruments;
+    return describe(
+        field<&I::depth>("", "m, of the depth gauge"), field<&I::pressure>("", "hPa, of the CTD"),
+        field<&I::attitude>("", "rad: roll, pitch, yaw of the IMU"),
+        field<&I::rates>("", "rad/s: body rates of the IMU"),
+        field<&I::forces>("", "m/s^2: specific forces of the IMU"), field<&I::heading>("", "rad, of the compass"),
+        field<&I::velocity>("", "m/s through the water, body axes"), field<&I::rpm>("", "rpm, of the propeller"),
+        field<&I::place>("", "m north and east of the first fix, of GPS"),
+        field<&I::altitude>("", "m over the sea floor"), field<&I::conductivity>("", "S/m, of the CTD"),
+        field<&I::water_temperature>("", "degC, of the CTD"), field<&I::leak>("", "1 for water in the hull"),
+        field<&I::voltage>("", "V, of the battery"), field<&I::current>("", "A, from the battery"));
+  }
+};
+
+/// The line to the operator.
+struct Contact {
+  double silence = 0;
+
+  static constexpr auto fields() {
+    return describe(field<&Contact::silence>("s", "since the operator was heard last"));
+  }
+};
+
+}  // namespace jarol::tasks

@@ -1,0 +1,111 @@
+// What goes wrong on a dive ends at the surface.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/tools/dive.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+using tasks::Alarm;
+using test::Dive;
+using test::dive;
+
+// The dive with these parameters of the vehicle, long enough to come up by buoyancy, 3 m at 3.9 cm/s.
+Dive dive_with(const std::string& parameters) {
+  return dive("specs/exolauv.yaml", {"distributers.dune.link.parameters={" + parameters + "}"}, 0, 140s);
+}
+
+// One of many that take long each; all with JAROL_FULL.
+template <class Case, std::size_t N>
+std::vector<Case> chosen_of(const Case (&cases)[N]) {
+  if (std::getenv("JAROL_FULL") != nullptr) return {cases, cases + N};
+  return {cases[N / 2]};
+}
+
+struct Case {
+  const char* sensor;
+  double at, by;
+  Alarm alarm;
+};
+
+// It came up after the alarm, and stayed.
+void check_surfaces(const Dive& done, Alarm alarm, double alarm_by) {
+  CHECK(static_cast<int>(done.alarm) == static_cast<int>(alarm));
+  CHECK(done.alarmed_at <= alarm_by);
+  CHECK(done.samples.back().motion.z < 0.3);
+  CHECK(std::abs(done.samples.back().motion.u) < 0.1);
+}
+
+std::string failing(const std::string& sensor, const std::string& kind, double at, double by = 0) {
+  return "sensors: {" + sensor + ": {failure: {kind: " + kind + ", at: " + std::to_string(at) +
+         ", by: " + std::to_string(by) + "}}}";
+}
+
+void check_failures(const std::string& kind, const std::vector<Case>& cases) {
+  for (const Case& each : cases) {
+    CAPTURE(std::string(each.sensor));
+    check_surfaces(dive_with(failing(each.sensor, kind, each.at, each.by)), each.alarm, each.at + 20);
+  }
+}
+}  // namespace
+
+TEST_SUITE("tools/surfacing") {
+  TEST_CASE("a sensor that is lost ends the dive") {
+    static constexpr Case cases[] = {{"depth", 30, 0, Alarm::depth_gauge},     {"pressure", 30, 0, Alarm::ctd},
+                                     {"imu_attitude", 30, 0, Alarm::attitude}, {"imu_rates", 30, 0, Alarm::attitude},
+                                     {"imu_forces", 30, 0, Alarm::forces},     {"compass", 30, 0, Alarm::heading},
+                                     {"speed_log", 30, 0, Alarm::speed},       {"rpm", 30, 0, Alarm::speed},
+                                     {"altitude", 30, 0, Alarm::altimeter},    {"conductivity", 30, 0, Alarm::ctd},
+                                     {"water_temperature", 30, 0, Alarm::ctd}, {"leak", 30, 0, Alarm::leak},
+                                     {"voltage", 30, 0, Alarm::battery},       {"current", 30, 0, Alarm::battery}};
+    check_failures("lost", chosen_of(cases));
+  }
+
+  TEST_CASE("a sensor that lies ends the dive") {
+    static constexpr Case cases[] = {
+        {"depth", 30, 0.5, Alarm::depth_gauge},     {"pressure", 30, -60, Alarm::depth_gauge},
+        {"imu_attitude", 30, 0.3, Alarm::attitude}, {"imu_rates", 30, 0.3, Alarm::attitude},
+        {"imu_forces", 30, 4, Alarm::forces},       {"compass", 30, 0.5, Alarm::heading},
+        {"speed_log", 30, 0.8, Alarm::speed},       {"rpm", 30, -1500, Alarm::speed},
+        {"altitude", 30, -5, Alarm::altimeter},     {"leak", 30, 1, Alarm::leak},
+        {"voltage", 30, -10, Alarm::voltage_limit}};
+    check_failures("biased", chosen_of(cases));
+  }
+
+  TEST_CASE("a sensor that is stuck while the vehicle moves ends the dive") {
+    static constexpr Case cases[] = {{"depth", 5, 0, Alarm::depth_gauge},     {"pressure", 5, 0, Alarm::depth_gauge},
+                                     {"imu_attitude", 3, 0, Alarm::attitude}, {"imu_rates", 3, 0, Alarm::attitude},
+                                     {"imu_forces", 3, 0, Alarm::forces},     {"compass", 49, 0, Alarm::heading},
+                                     {"speed_log", 2.5, 0, Alarm::speed},     {"rpm", 2.1, 0, Alarm::speed},
+                                     {"altitude", 3, 0, Alarm::altimeter}};
+    check_failures("stuck", chosen_of(cases));
+  }
+
+  TEST_CASE("without GPS it does not leave the surface") {
+    const Dive done = dive("specs/exolauv.yaml",
+                           {"distributers.dune.link.parameters={sensors: {gps: {failure: {kind: lost}}}}",
+                            "distributers.neptus.link.file=missions/late.csv"},
+                           0, 40s);
+    check_surfaces(done, Alarm::gps, 6);
+  }
+
+  TEST_CASE("water in the hull ends the dive") { check_surfaces(dive_with("leak_at: 30s"), Alarm::leak, 32); }
+
+  TEST_CASE("an operator who is lost ends the dive") {
+    check_surfaces(dive("specs/exolauv.yaml", {"distributers.neptus.link.file=missions/lost_operator.csv"}, 0, 100s),
+                   Alarm::operator_lost, 41.2);
+  }
+
+  TEST_CASE("a limit that is exceeded ends the dive") {
+    const auto limited = [](const std::string& limit) {
+      return dive("specs/exolauv.yaml", {"tasks.supervisor.parameters={" + limit + "}"}, 0, 140s);
+    };
+    check_surfaces(limited("max_depth: 2"), Alarm::depth_limit, 20);
+    check_surfaces(limited("min_altitude: 48"), Alarm::altitude_limit, 20);
+    check_surfaces(limited("max_pitch: 20deg"), Alarm::pitch_limit, 20);
+    check_surfaces(limited("min_voltage: 25"), Alarm::voltage_limit, 20);
+  }
+}
