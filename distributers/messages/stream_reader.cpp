@@ -1,6 +1,6 @@
 #include "distributers/messages/stream_reader.h"
 
-#include <cassert>
+#include <algorithm>
 #include <cstring>
 
 namespace jarol::messages {

@@ -17,11 +17,6 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   if (!file.flush()) throw std::runtime_error("can't write '" + path.string() + "'");
 }
 
-bool is_namespace(const std::string& name) {
-  return !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos &&
-         name[0] > '9';
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -36,8 +31,9 @@ int main(int argc, char** argv) {
   for (int i = 2; i < argc; ++i) {
     try {
       const std::string set = std::filesystem::path(argv[i]).stem().string();
-      if (!is_namespace(set))
-        throw std::runtime_error("'" + set + "' can't name a message set; it needs small letters, digits and _");
+      if (!definition::is_set_name(set))
+        throw std::runtime_error(
+            "'" + set + "' can't name a message set; it needs small letters, digits and _, and to be no word of C++");
       sets.push_back(set);
       const definition::Definition definition = definition::read_definition(*read_source(argv[i]));
       write_file(folder / (set + ".h"), definition::write_header(definition, set));

@@ -80,6 +80,11 @@ std::vector<std::string> value_names(const std::vector<NamedValue>& values) {
   return names;
 }
 
+bool is_set_name(const std::string& name) {
+  return !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos &&
+         name[0] >= 'a' && !reserved().contains(name) && name != "detail";
+}
+
 std::string quoted(const std::string& text) {
   std::string made = "\"";
   for (const char c : text) {

@@ -193,6 +193,7 @@ class XmlReader {
     check_children(node, {"description"}, subject + " part '" + part.name + "'");
     part.message_type = needed(node, "message-type", subject + " part '" + part.name + "'");
     part.text = one_line(node.child("description").text().get());
+    if (part.text.empty()) part.text = node.attribute("name").value();
     return part;
   }
 

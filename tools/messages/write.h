@@ -27,6 +27,9 @@ struct Names {
 /// C++ names for values of one enumeration.
 std::vector<std::string> value_names(const std::vector<NamedValue>& values);
 
+/// Can it be the name of a set, as of its file and namespace?
+bool is_set_name(const std::string& name);
+
 /// A C++ string literal.
 std::string quoted(const std::string& text);
 

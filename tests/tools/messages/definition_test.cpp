@@ -226,6 +226,11 @@ TEST_SUITE("tools/messages/definition") {
         "t.xml:1:2: error: message group 'G' has the name of a message; it needs one of its own");
   }
 
+  TEST_CASE("a set is named by what can be a file and a namespace") {
+    for (const char* good : {"imc", "set_2", "a"}) CHECK(is_set_name(good));
+    for (const char* bad : {"", "Imc", "2nd", "_a", "a-b", "int", "detail"}) CHECK(!is_set_name(bad));
+  }
+
   TEST_CASE("all errors are told at once, in the order of their places") {
     CHECK(report_on_messages("<message abbrev=\"A\"/>\n<message id=\"2\"/>") ==
           "t.xml:2:2: error: message 'A' has no 'id'; it needs one\n"
