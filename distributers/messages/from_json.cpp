@@ -212,7 +212,8 @@ void read_object(const Json& object, Message& message, int depth) {
   const std::string owner(form.name);
   if (!object.is_object())
     throw Wrong{"the fields of " + owner + " are " + shown(object) + "; they need to be an object"};
-  for (const auto& [name, value] : object.items()) {
+  for (const auto& item : object.items()) {
+    const std::string& name = item.key();
     const auto field =
         std::find_if(form.fields.begin(), form.fields.end(), [&](const auto& f) { return f.name == name; });
     if (field == form.fields.end()) {
@@ -221,7 +222,7 @@ void read_object(const Json& object, Message& message, int depth) {
       throw Wrong{owner + " has no field '" + name + "'" + did_you_mean(name, names) + "; it has: " + list_of(names)};
     }
     try {
-      read_field(form.set(), *field, value, static_cast<std::byte*>(message.value()) + field->offset, depth);
+      read_field(form.set(), *field, item.value(), static_cast<std::byte*>(message.value()) + field->offset, depth);
     } catch (const Wrong& wrong) { throw Wrong{"field '" + name + "' of " + owner + " " + wrong.text}; }
   }
 }

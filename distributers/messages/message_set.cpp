@@ -5,14 +5,20 @@
 namespace jarol::messages {
 namespace {
 
-auto those_of(std::span<const MessageForm* const> messages, std::uint32_t id) {
-  return std::ranges::equal_range(messages, id, {}, [](const MessageForm* m) { return m->id; });
+using Forms = std::span<const MessageForm* const>;
+
+Forms those_of(Forms messages, std::uint32_t id) {
+  const auto is_before = [](const MessageForm* form, std::uint32_t wanted) { return form->id < wanted; };
+  const auto first = std::lower_bound(messages.begin(), messages.end(), id, is_before);
+  auto last = first;
+  while (last != messages.end() && (*last)->id == id) ++last;
+  return messages.subspan(static_cast<std::size_t>(first - messages.begin()), static_cast<std::size_t>(last - first));
 }
 
 }  // namespace
 
 const MessageForm* MessageSet::find(std::uint32_t id, std::size_t payload) const {
-  const auto of_id = those_of(messages, id);
+  const Forms of_id = those_of(messages, id);
   if (of_id.empty()) return nullptr;
   for (const MessageForm* m : of_id)
     if (m->wire_size == static_cast<std::int64_t>(payload)) return m;
@@ -26,7 +32,7 @@ const MessageForm* MessageSet::find(std::string_view wanted) const {
 }
 
 const MessageForm* MessageSet::find_nested(std::uint32_t id) const {
-  const auto of_id = those_of(messages, id);
+  const Forms of_id = those_of(messages, id);
   if (of_id.size() != 1) return nullptr;
   const MessageForm* const form = of_id.front();
   return !form->fields.empty() && form->fields.back().wire == Wire::rest ? nullptr : form;
