@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   int exit_code = tools::exit_good;
   tools::add_bench(app, exit_code);
   tools::add_check(app, exit_code);
+  tools::add_doctor(app, exit_code);
   tools::add_graph(app, exit_code);
   tools::add_messages(app, exit_code);
   tools::add_run(app, exit_code);

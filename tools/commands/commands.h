@@ -15,6 +15,7 @@ enum ExitCode { exit_good = 0, exit_negative = 1, exit_input = 2, exit_unfinishe
 // Each adds its subcommand; `exit_code` is what the program returns once it has run.
 void add_bench(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
+void add_doctor(CLI::App& app, int& exit_code);
 void add_graph(CLI::App& app, int& exit_code);
 void add_messages(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
