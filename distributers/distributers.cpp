@@ -22,16 +22,14 @@ namespace {
 struct DistributerKind {
   DistributerClass description;
   std::unique_ptr<Adapter> (*make_adapter)() = nullptr;
-  bool is_vehicle = false;  // and can be simulated
 };
 
 const std::vector<DistributerKind>& kinds() {
   static const std::vector<DistributerKind> all{
       {JaviatorVehicle::describe_class(),
-       []() -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorVehicle>(); }, true},
+       []() -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorVehicle>(); }},
       {describe_javiator_operator(), nullptr},
-      {LauvVehicle::describe_class(), []() -> std::unique_ptr<Adapter> { return std::make_unique<LauvVehicle>(); },
-       true},
+      {LauvVehicle::describe_class(), []() -> std::unique_ptr<Adapter> { return std::make_unique<LauvVehicle>(); }},
       {describe_lauv_operator(), nullptr},
   };
   return all;
@@ -167,7 +165,7 @@ std::unique_ptr<Channels> make_script(const Graph& graph, std::size_t index, Pro
 
 std::vector<std::string> links_of(const DistributerKind& kind) {
   std::vector<std::string> links;
-  if (kind.is_vehicle) links.insert(links.end(), {"simulation", "lockstep"});
+  if (kind.description.is_vehicle) links.insert(links.end(), {"simulation", "lockstep"});
   links.emplace_back("script");
   if (kind.make_adapter != nullptr) links.insert(links.end(), link_types().begin(), link_types().end());
   return links;

@@ -33,7 +33,8 @@ DistributerClass JaviatorVehicle::describe_class() {
   return {"JaviatorVehicle",
           "the helicopter, over the JAviator's protocol",
           {{"sensors", Direction::in, &type_of<tasks::JaviatorSensors>(), "what its sensors tell"},
-           {"motors", Direction::out, &type_of<tasks::MotorCommand>(), "signals for the four motors"}}};
+           {"motors", Direction::out, &type_of<tasks::MotorCommand>(), "signals for the four motors"}},
+          true};
 }
 
 DistributerClass describe_javiator_operator() {

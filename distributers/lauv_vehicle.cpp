@@ -27,7 +27,8 @@ DistributerClass LauvVehicle::describe_class() {
           "the submarine, over IMC",
           {{"motion", Direction::in, &type_of<tasks::Motion>(), "position, attitude and velocities"},
            {"actuation", Direction::out, &type_of<tasks::Actuation>(), "commands for propeller and fins"},
-           {"instruments", Direction::in, &type_of<tasks::Instruments>(), "what the instruments tell"}}};
+           {"instruments", Direction::in, &type_of<tasks::Instruments>(), "what the instruments tell"}},
+          true};
 }
 
 DistributerClass describe_lauv_operator() {

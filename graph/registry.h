@@ -23,6 +23,7 @@ struct DistributerClass {
   std::string name;
   std::string summary;
   std::vector<ChannelClass> channels;
+  bool is_vehicle = false;  // else an operator
 };
 
 class Registry {

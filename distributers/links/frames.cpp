@@ -17,8 +17,7 @@ constexpr std::size_t longest = std::size_t{1} << 20;
 bool wait_for(int fd, short events) {
   pollfd polled{fd, events, 0};
   int ready = 0;
-  while ((ready = poll(&polled, 1, static_cast<int>(FrameStream::patience.count()))) < 0 && errno == EINTR) {
-  }
+  while ((ready = poll(&polled, 1, static_cast<int>(FrameStream::patience.count()))) < 0 && errno == EINTR) {}
   return ready > 0;
 }
 

@@ -30,9 +30,9 @@ class Process {
           runner = accept_from(socket_);
         if (!runner) return;
         try {
-          serve_lockstep(FrameStream(std::move(runner)), *file_->vehicle->message_set,
-                         [&](std::uint64_t seed) { return file_->vehicle->make(file_->parameters.data(), seed); },
-                         interrupter_);
+          serve_lockstep(
+              FrameStream(std::move(runner)), *file_->vehicle->message_set,
+              [&](std::uint64_t seed) { return file_->vehicle->make(file_->parameters.data(), seed); }, interrupter_);
         } catch (const FrameError& error) { ended.push_back(error.what()); }
       }
     });
@@ -77,14 +77,13 @@ TEST_SUITE("tools/lockstep") {
             digest_of("specs/javiator.yaml", {}, seed, 6s));
     }
     submarine.end();
-    CHECK(submarine.ended ==
-          std::vector<std::string>(2, "the other end has ended the connection"));
+    CHECK(submarine.ended == std::vector<std::string>(2, "the other end has ended the connection"));
   }
 
   TEST_CASE("a vehicle that is lost ends the run, and is told") {
     auto process = std::make_unique<Process>("specs/vehicles/submarine.yaml", 1);
-    tools::Loaded loaded = tools::load_graph(
-        "specs/exolauv.yaml", {.profile = "", .set = {"distributers.dune.link" + process->link()}}, 0);
+    tools::Loaded loaded = tools::load_graph("specs/exolauv.yaml",
+                                             {.profile = "", .set = {"distributers.dune.link" + process->link()}}, 0);
     for (const auto& channels : loaded.channels) channels->begin();
     Executor executor(*loaded.graph, std::move(loaded.channels));
     executor.run_until(3s);
@@ -102,7 +101,8 @@ TEST_SUITE("tools/lockstep") {
     };
     const std::string link = helicopter.link();
     const std::string address = link.substr(link.find("127"), link.rfind('\'') - link.find("127"));
-    CHECK_THROWS_WITH(begin(link), ("the vehicle at " + address + " does not fit: it speaks 'javiator', not 'imc'").c_str());
+    CHECK_THROWS_WITH(begin(link),
+                      ("the vehicle at " + address + " does not fit: it speaks 'javiator', not 'imc'").c_str());
     helicopter.end();
     const std::string port = std::to_string(port_of(listen_at(Address::parse("0"))));  // free again at once
     CHECK_THROWS_WITH(begin("={type: lockstep, peer: " + port + "}"),
@@ -113,11 +113,11 @@ TEST_SUITE("tools/lockstep") {
 
   TEST_CASE("periods that do not fall on the vehicle's steps are refused") {
     Process helicopter("specs/vehicles/helicopter.yaml", 1);
-    tools::Loaded loaded = tools::load_graph("specs/javiator.yaml",
-                                             {.profile = "",
-                                              .set = {"distributers.robostix.link" + helicopter.link(),
-                                                      "communicators.from_robostix.offset=1ms"}},
-                                             0);
+    tools::Loaded loaded = tools::load_graph(
+        "specs/javiator.yaml",
+        {.profile = "",
+         .set = {"distributers.robostix.link" + helicopter.link(), "communicators.from_robostix.offset=1ms"}},
+        0);
     std::string error;
     try {
       for (const auto& channels : loaded.channels) channels->begin();

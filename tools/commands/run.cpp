@@ -12,10 +12,12 @@
 #include "tools/commanded.h"
 #include "tools/commands/commands.h"
 #include "tools/interrupt.h"
+#include "tools/linked.h"
 #include "tools/load_graph.h"
 #include "tools/plot_svg.h"
 #include "tools/progress.h"
 #include "tools/real_time.h"
+#include "tools/run_on_threads.h"
 #include "tools/trace_csv.h"
 #include "tools/value_json.h"
 
@@ -29,34 +31,11 @@ struct Options {
   std::uint64_t seed = 0;
   std::size_t workers = 1;
   std::string clock = "virtual";
+  std::string concurrency = "exotasks";
   RealTimeArguments real_time;
   bool json = false;
   std::string trace;
   std::string plot;
-};
-
-// Channels that are on links run while this lives.
-class Linked {
- public:
-  explicit Linked(std::vector<Channels*> channels) : channels_(std::move(channels)) {
-    for (Channels* each : channels_) each->begin();
-  }
-  ~Linked() { finish(); }
-  Linked(const Linked&) = delete;
-  Linked& operator=(const Linked&) = delete;
-
-  void finish() {
-    for (Channels* channels : channels_) channels->finish();
-  }
-  std::vector<LinkReport> reports() const {
-    std::vector<LinkReport> reports;
-    for (const Channels* channels : channels_)
-      if (auto report = channels->link_report()) reports.push_back(std::move(*report));
-    return reports;
-  }
-
- private:
-  std::vector<Channels*> channels_;
 };
 
 void require_clock(const Options& options, const Loaded& loaded) {
@@ -199,6 +178,13 @@ int run(const Options& options) {
   Loaded loaded = load_graph(options.file, options.overrides, options.seed);
   const Graph& graph = *loaded.graph;
   const Duration end = end_of_run(options, loaded);
+  require_clock(options, loaded);
+  if (options.concurrency == "threads") {
+    if (options.clock != "real") throw std::invalid_argument("--concurrency threads needs --clock real");
+    if (!options.trace.empty() || !options.plot.empty() || options.workers > 1)
+      throw std::invalid_argument("--trace, --plot and --workers belong to --concurrency exotasks");
+    return run_on_threads(loaded, end, options_of(options.real_time), options.json);
+  }
   // the plan gives trace and plot their outputs before the executor exists
   const Plan plan(graph);
   std::vector<std::unique_ptr<RecordSink>> sinks;
@@ -214,9 +200,7 @@ int run(const Options& options) {
     require_executable(options.file, graph, options.real_time);
     clock.emplace(graph.tasks.size(), options_of(options.real_time));
   }
-  require_clock(options, loaded);
-  std::vector<Channels*> channels;
-  for (const auto& each : loaded.channels) channels.push_back(each.get());
+  std::vector<Channels*> channels = pointers_to(loaded.channels);
   Executor executor(
       graph, std::move(loaded.channels),
       {.digest = true, .recorder = recorder.get(), .workers = options.workers, .clock = clock ? &*clock : nullptr});
@@ -272,6 +256,12 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 64));
   command->add_option("--clock", options->clock, "virtual (default) or real")
       ->check(CLI::IsMember({"virtual", "real"}));
+  command
+      ->add_option(
+          "--concurrency", options->concurrency,
+          "exotasks (default), or threads: the same graph on ordinary threads, on the real clock, where nothing "
+          "is claimed of the digest")
+      ->check(CLI::IsMember({"exotasks", "threads"}));
   add_real_time_options(*command, options->real_time);
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->add_option("--trace", options->trace, "Write every published value to this CSV file");

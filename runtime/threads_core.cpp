@@ -1,0 +1,235 @@
+#include "runtime/threads_core.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "runtime/copy.h"
+#include "runtime/real_clock.h"
+
+namespace jarol {
+
+ThreadsCore::ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels)
+    : graph_(graph), plan_(graph), channels_(std::move(channels)), period_(choose_period()) {
+  for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::mutex>());
+  last_.resize(graph.communicators.size());
+  gather();
+}
+
+bool ThreadsCore::on_vehicle(std::size_t communicator) const {
+  const auto distributer = graph_.communicators[communicator].distributer;
+  return distributer && graph_.distributers[*distributer].distributer_class->is_vehicle;
+}
+
+Duration ThreadsCore::choose_period() const {
+  Duration vehicle = Duration::max(), any = Duration::max();
+  for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
+    const Duration period = graph_.communicators[i].period;
+    any = std::min(any, period);
+    if (on_vehicle(i)) vehicle = std::min(vehicle, period);
+  }
+  for (const Task& task : graph_.tasks) any = std::min(any, task.period);
+  if (any == Duration::max()) throw std::invalid_argument("a graph without tasks and communicators has nothing to run");
+  return vehicle != Duration::max() ? vehicle : any;
+}
+
+std::int64_t ThreadsCore::rounds_of(const std::string& what, Duration period) const {
+  if (period.count() % period_.count() != 0)
+    throw std::invalid_argument("threads count in periods of the vehicle's channels, " + duration_text(period_) + "; " +
+                                what + " has " + duration_text(period) + ", which is no multiple of it");
+  return period.count() / period_.count();
+}
+
+void ThreadsCore::gather() {
+  std::vector<const Activation*> activations(graph_.tasks.size());
+  std::vector<const Publish*> publishes(graph_.tasks.size());
+  for (const Group& group : plan_.groups) {
+    for (const Segment& segment : group.segments)
+      for (const Activation& activation : segment.activations) {
+        activations[activation.task] = &activation;
+        if (!activation.has_let) publishes[activation.task] = &activation.publish;
+      }
+    for (const LetEnd& end : group.let_ends) publishes[end.task] = &end.publish;
+    for (const auto& [actions, to] : {std::pair(group.ins, &ins_), std::pair(group.outs, &outs_)})
+      for (const CommunicatorAction& action : actions) {
+        const Communicator& c = graph_.communicators[action.communicator];
+        last_[action.communicator] = action.value;
+        if (c.type->is_deep())
+          throw std::invalid_argument("communicator '" + c.name +
+                                      "' carries a value of changing size, which threads can't hand over");
+        Carried carried;
+        carried.communicator = action.communicator;
+        carried.action = &action;
+        carried.every = rounds_of("communicator '" + c.name + "'", c.period);
+        carried.terminal = c.distributer && !on_vehicle(action.communicator);
+        carried.port = std::make_unique<PushBytesPort>(1, c.type->size);
+        carried.room.resize(c.type->size);
+        to->push_back(std::move(carried));
+      }
+  }
+  const auto by_name = [](const Carried& a, const Carried& b) { return a.communicator < b.communicator; };
+  std::sort(ins_.begin(), ins_.end(), by_name);
+  std::sort(outs_.begin(), outs_.end(), by_name);
+  for (const std::size_t i : graph_.order) {
+    const Task& task = graph_.tasks[i];
+    tasks_.push_back({activations[i], publishes[i], rounds_of("task '" + task.name + "'", task.period), task.period, 0});
+  }
+}
+
+void ThreadsCore::run_for(Duration end, const std::function<void()>& prepare) {
+  const std::int64_t start = RealClock::monotonic();
+  TimeTrigger trigger(period_, MachineClock::time_point(Duration(start)));
+  std::vector<std::thread> threads;
+  const auto begin = [&](auto work) {
+    threads.emplace_back([&prepare, work] {
+      prepare();
+      work();
+    });
+  };
+  begin([this] { run_core(); });
+  begin([this] { run_actuator(); });
+  begin([this] { run_terminal(); });
+  // those who are signalled wait before anybody signals
+  while (core_signal_.waiting() == 0 || actuator_signal_.waiting() == 0 || terminal_signal_.waiting() == 0)
+    std::this_thread::yield();
+  begin([this, &trigger] { run_sensor(trigger); });
+  const auto over = [&] {
+    return end != Duration::max() && RealClock::monotonic() - start >= end.count();
+  };
+  constexpr auto look = std::chrono::milliseconds(10);
+  while (!over() && !interrupted_.load(std::memory_order_relaxed) && !stopped_.load(std::memory_order_acquire))
+    std::this_thread::sleep_for(std::min<Duration>(look, end));
+  stopped_ = true;
+  trigger.stop();
+  for (Signal* signal : {&core_signal_, &actuator_signal_, &terminal_signal_}) signal->interrupt();
+  for (std::thread& thread : threads) thread.join();
+  threads_report_.unawaited_ticks = static_cast<std::uint64_t>(trigger.unawaited());
+  report_.simulated = Duration(static_cast<std::int64_t>(threads_report_.rounds) * period_.count());
+}
+
+void ThreadsCore::run_sensor(TimeTrigger& trigger) {
+  for (std::int64_t round = 0; trigger.await() == Awaiting::signalled; ++round) {
+    tick_.store(RealClock::monotonic(), std::memory_order_relaxed);
+    sense(false, round);
+    rounds_begun_.store(round + 1, std::memory_order_release);
+    if (core_signal_.signal() != Signalling::done) ++threads_report_.core_busy;
+  }
+}
+
+// Values from outside into the ports of one side.
+void ThreadsCore::sense(bool terminal, std::int64_t round) {
+  const Duration now(round * period_.count());
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    if (graph_.distributers[i].distributer_class->is_vehicle == terminal) continue;
+    const std::lock_guard lock(*channel_mutexes_[i]);
+    channels_[i]->reach(now);
+    for (Carried& in : ins_) {
+      const Communicator& c = graph_.communicators[in.communicator];
+      if (c.distributer != i || round % in.every != 0 || !channels_[i]->take(c.channel, in.room.data())) continue;
+      if (c.type->finite(in.room.data())) in.port->write(in.room.data());
+    }
+  }
+}
+
+void ThreadsCore::run_core() {
+  const MemoryScope scope(no_heap());
+  std::int64_t done = 0;
+  while (!stopped_.load(std::memory_order_acquire)) {
+    const auto ready = [&] { return rounds_begun_.load(std::memory_order_acquire) > done; };
+    const Awaiting woken = core_signal_.await_unless(ready);
+    if (woken == Awaiting::interrupted) return;
+    if (!ready()) continue;
+    // rounds that were missed are not made up for
+    const std::int64_t round = rounds_begun_.load(std::memory_order_acquire) - 1;
+    done = round + 1;
+    run_round(round);
+    ++threads_report_.rounds;
+    rounds_done_.store(threads_report_.rounds, std::memory_order_seq_cst);
+    threads_report_.round.add(RealClock::monotonic() - tick_.load(std::memory_order_relaxed));
+    static_cast<void>(actuator_signal_.signal());
+    static_cast<void>(terminal_signal_.signal());
+  }
+}
+
+void ThreadsCore::run_round(std::int64_t round) {
+  const std::int64_t instant = round * period_.count();
+  const std::uint64_t instant_term = digest::instant_term(instant);
+  ++report_.instants;
+  for (Carried& in : ins_) {
+    if (round % in.every != 0) continue;
+    while (in.port->read(in.action->value)) {
+    }
+    publish(in.action->publish, instant_term);
+  }
+  for (Counted& task : tasks_)
+    if (round % task.every == 0) run_task(task, instant, instant_term);
+  for (Carried& out : outs_) {
+    if (round % out.every != 0) continue;
+    copy_value(*graph_.communicators[out.communicator].type, out.action->value, out.action->input);
+    publish(out.action->publish, instant_term);
+    out.port->write(out.action->value);
+  }
+}
+
+void ThreadsCore::run_task(Counted& task, std::int64_t instant, std::uint64_t instant_term) {
+  const Tick tick{Duration(instant), task.activations++, task.period};
+  const Outcome outcome = task.activation->run(task.activation->memory, tick);
+  if (outcome == Outcome::left_out) return;
+  ++report_.activations;
+  if (outcome == Outcome::good)
+    publish(*task.publish, instant_term);
+  else
+    on_fault(task, outcome, instant);
+}
+
+void ThreadsCore::publish(const Publish& what, std::uint64_t instant_term) {
+  for (const Copy& c : what.copies) transfer(c);
+  for (const Publication& p : what.publications)
+    report_.digest += digest::publication(p.name_hash, instant_term, p.hash_words(p.value));
+}
+
+void ThreadsCore::on_fault(const Counted& task, Outcome outcome, std::int64_t instant) {
+  const Task& t = graph_.tasks[task.activation->task];
+  TaskStatus& status = plan_.status[task.activation->task];
+  if (outcome == Outcome::non_finite) keep_text(status, "an output is not finite");
+  report_.faults.push_back({t.name, task.activations - 1, Duration(instant), status.text});
+  ++report_.fault_count;
+  if (t.on_fault == OnFault::stop) {
+    report_.stopped = true;
+    stopped_.store(true, std::memory_order_release);
+    return;
+  }
+  status.put_back(task.activation->memory.state);
+  status.skip_next = t.on_fault == OnFault::skip;
+}
+
+// Values of one side from the ports to the outside.
+void ThreadsCore::act(bool terminal) {
+  for (Carried& out : outs_) {
+    const Communicator& c = graph_.communicators[out.communicator];
+    if (!c.distributer || out.terminal != terminal || !out.port->read(out.room.data())) continue;
+    const std::lock_guard lock(*channel_mutexes_[*c.distributer]);
+    channels_[*c.distributer]->hand_over(c.channel, out.room.data());
+  }
+}
+
+void ThreadsCore::run_actuator() {
+  for (std::uint64_t seen = 0; await_core(actuator_signal_, seen);) act(false);
+}
+
+void ThreadsCore::run_terminal() {
+  for (std::uint64_t seen = 0; await_core(terminal_signal_, seen);) {
+    sense(true, std::max<std::int64_t>(0, rounds_begun_.load(std::memory_order_acquire) - 1));
+    act(true);
+  }
+}
+
+// Until the core has done another round; false at the end.
+bool ThreadsCore::await_core(Signal& signal, std::uint64_t& seen) const {
+  const auto ready = [&] { return rounds_done_.load(std::memory_order_seq_cst) != seen; };
+  while (!ready())
+    if (signal.await_unless(ready) == Awaiting::interrupted) return false;
+  seen = rounds_done_.load(std::memory_order_acquire);
+  return !stopped_.load(std::memory_order_acquire);
+}
+
+}  // namespace jarol

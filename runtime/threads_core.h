@@ -1,0 +1,104 @@
+// The Jarol core on ordinary threads, in real time: a sensor thread keeps the time, a core thread runs the tasks, an
+// actuator thread and a terminal thread carry values to and from the outside. Ports and signals tie them. The graph and
+// its tasks are those that run as exotasks; what is not kept is determinism: which value a task reads depends on when
+// threads run.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "runtime/channels.h"
+#include "runtime/executor.h"
+#include "runtime/histogram.h"
+#include "runtime/plan.h"
+#include "runtime/push_port.h"
+#include "runtime/signal.h"
+#include "runtime/time_trigger.h"
+
+namespace jarol {
+
+/// What a run on threads tells beside the report.
+struct ThreadsReport {
+  std::uint64_t rounds = 0;          // of the core
+  std::uint64_t core_busy = 0;       // signals of the sensor thread that found the core at work
+  std::uint64_t unawaited_ticks = 0;  // that found the sensor thread at work
+  Histogram round;                   // ns from the tick to the round's last output
+};
+
+class ThreadsCore {
+ public:
+  /// One Channels per distributer of the graph, in its order. The graph outlives the core. Throws
+  /// std::invalid_argument for a graph whose periods can't be counted in those of the sensor thread, or with deep values
+  /// between threads.
+  ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels);
+
+  /// Runs until that much time has passed, a fault stops it, or it is interrupted. `prepare` is called in each thread.
+  void run_for(Duration end, const std::function<void()>& prepare = [] {});
+
+  void interrupt() { interrupted_.store(true, std::memory_order_relaxed); }
+
+  /// The period of the sensor thread: the shortest of the vehicle's channels, else of all.
+  Duration period() const { return period_; }
+  /// The digest counts rounds as instants; nothing is claimed of it.
+  const Report& report() const { return report_; }
+  const ThreadsReport& threads_report() const { return threads_report_; }
+  Duration now() const { return Duration(rounds_begun_.load(std::memory_order_relaxed) * period_.count()); }
+  const void* last_value(std::size_t communicator) const { return last_[communicator]; }
+
+ private:
+  // A communicator, and the port between the thread that serves its channel and the core.
+  struct Carried {
+    std::size_t communicator = 0;
+    const CommunicatorAction* action = nullptr;
+    std::int64_t every = 1;  // rounds
+    bool terminal = false;   // served by the terminal thread
+    std::unique_ptr<PushBytesPort> port;
+    std::vector<std::byte> room;  // of the thread that serves it
+  };
+  struct Counted {
+    const Activation* activation = nullptr;
+    const Publish* publish = nullptr;
+    std::int64_t every = 1;
+    Duration period{};
+    std::int64_t activations = 0;
+  };
+
+  Duration choose_period() const;
+  std::int64_t rounds_of(const std::string& what, Duration period) const;
+  void gather();
+  bool on_vehicle(std::size_t communicator) const;
+
+  void run_sensor(TimeTrigger& trigger);
+  void run_core();
+  void run_actuator();
+  void run_terminal();
+  bool await_core(Signal& signal, std::uint64_t& seen) const;
+  void sense(bool terminal, std::int64_t round);
+  void act(bool terminal);
+  void run_round(std::int64_t round);
+  void run_task(Counted& task, std::int64_t instant, std::uint64_t instant_term);
+  void publish(const Publish& what, std::uint64_t instant_term);
+  void on_fault(const Counted& task, Outcome outcome, std::int64_t instant);
+
+  const Graph& graph_;
+  Plan plan_;
+  std::vector<std::unique_ptr<Channels>> channels_;
+  std::vector<std::unique_ptr<std::mutex>> channel_mutexes_;  // sensor and actuator thread share a vehicle's
+  Duration period_{};
+  std::vector<Carried> ins_, outs_;
+  std::vector<Counted> tasks_;  // data-flow order
+  std::vector<const std::byte*> last_;
+  Report report_;
+  ThreadsReport threads_report_;
+  Signal core_signal_, actuator_signal_, terminal_signal_;
+  std::atomic<std::int64_t> rounds_begun_{0};
+  std::atomic<std::uint64_t> rounds_done_{0};
+  std::atomic<std::int64_t> tick_{0};  // ns of the monotonic clock
+  std::atomic<bool> interrupted_{false}, stopped_{false};
+};
+
+}  // namespace jarol

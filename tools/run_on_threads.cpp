@@ -1,0 +1,76 @@
+#include "tools/run_on_threads.h"
+
+#include <fmt/format.h>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "runtime/threads_core.h"
+#include "tools/commands/commands.h"
+#include "tools/interrupt.h"
+#include "tools/linked.h"
+#include "tools/real_time.h"
+
+namespace jarol::tools {
+namespace {
+
+void print_text(const Graph& graph, const ThreadsCore& core, const std::vector<LinkReport>& links, bool interrupted) {
+  const Report& report = core.report();
+  const ThreadsReport& threads = core.threads_report();
+  const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
+  std::cout << fmt::format("{}: {} s in real time on threads{}\n", graph.name, seconds_text(report.simulated),
+                           interrupted ? " (interrupted)" : "")
+            << fmt::format("  activations {}, rounds {} of {}\n", report.activations, threads.rounds,
+                           duration_text(core.period()))
+            << fmt::format("  digest      0x{:016x}; nothing is claimed of it\n", report.digest)
+            << fmt::format("  outputs     {:.1f} us after the tick median, {:.1f} us 99 %, {:.1f} us worst\n",
+                           us(threads.round.percentile(0.5)), us(threads.round.percentile(0.99)),
+                           us(threads.round.most()));
+  if (threads.core_busy > 0) std::cout << "  core        " << threads.core_busy << " ticks found it at work\n";
+  if (threads.unawaited_ticks > 0)
+    std::cout << "  sensors     " << threads.unawaited_ticks << " ticks found their thread at work\n";
+  for (const LinkReport& link : links) std::cout << to_text(link);
+  for (const Fault& fault : report.faults) std::cerr << "fault: " << to_text(fault) << "\n";
+}
+
+void print_json(const Graph& graph, const ThreadsCore& core, const std::vector<LinkReport>& links) {
+  const Report& report = core.report();
+  const ThreadsReport& threads = core.threads_report();
+  nlohmann::ordered_json json{{"schema", "jarol.run/1"},
+                              {"graph", graph.name},
+                              {"clock", "real"},
+                              {"concurrency", "threads"},
+                              {"digest", fmt::format("0x{:016x}", report.digest)},
+                              {"simulated_ns", report.simulated.count()},
+                              {"activations", report.activations},
+                              {"rounds", threads.rounds},
+                              {"core_busy", threads.core_busy},
+                              {"unawaited_ticks", threads.unawaited_ticks},
+                              {"outputs_50_ns", threads.round.percentile(0.5)},
+                              {"outputs_99_ns", threads.round.percentile(0.99)},
+                              {"outputs_most_ns", threads.round.most()}};
+  json["faults"] = nlohmann::ordered_json::array();
+  for (const Fault& f : report.faults)
+    json["faults"].push_back(
+        {{"task", f.task}, {"activation", f.activation}, {"instant_ns", f.instant.count()}, {"cause", f.cause}});
+  for (const LinkReport& link : links) json["links"].push_back(to_json(link));
+  std::cout << json << "\n";
+}
+
+}  // namespace
+
+int run_on_threads(Loaded& loaded, Duration end, const RealTimeOptions& options, bool json) {
+  const std::vector<Channels*> channels = pointers_to(loaded.channels);
+  ThreadsCore core(*loaded.graph, std::move(loaded.channels));
+  Linked linked(channels);
+  const RealClock machine(0, options);
+  for (const std::string& refusal : machine.prepare_thread()) std::cerr << "note: " << refusal << "\n";
+  const Interruptible interruptible([&] { core.interrupt(); });
+  core.run_for(end, [&] { machine.prepare_thread(); });
+  linked.finish();
+  const bool interrupted = Interruptible::interrupted().load();
+  json ? print_json(*loaded.graph, core, linked.reports()) : print_text(*loaded.graph, core, linked.reports(), interrupted);
+  if (core.report().stopped) return exit_unfinished;
+  return interrupted ? exit_interrupted : exit_good;
+}
+
+}  // namespace jarol::tools
