@@ -36,7 +36,11 @@ double turn(const TurnGains& g, TurnModel& model, double goal, double angle, dou
   model.rate += acceleration * dt;
   const double error = model.angle - angle;
   model.trim = limited(model.trim + g.ki * error * dt, 0.2 * g.limit);
-  return limited(acceleration / g.effect + g.kp * error + g.kd * (model.rate - rate) + model.trim, g.limit);
+  const double demand =
+      limited(acceleration / g.effect + g.kp * error + g.kd * (model.rate - rate) + model.trim, g.limit);
+  // a zero at 1/spin_time is cancelled
+  model.given += (demand - model.given) * dt / (g.spin_time + dt);
+  return model.given;
 }
 
 }  // namespace

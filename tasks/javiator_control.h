@@ -87,6 +87,7 @@ struct TurnGains {
   double kd = 0;
   double ki = 0;
   double limit = 1;
+  double spin_time = 0;
 
   static constexpr auto fields() {
     using G = TurnGains;
@@ -94,16 +95,18 @@ struct TurnGains {
                     field<&G::effect>("rad/s^2", "angular acceleration per demand"),
                     field<&G::kp>("1/rad", "demand per error"), field<&G::kd>("s/rad", "demand per error of rate"),
                     field<&G::ki>("1/(rad s)", "demand per integral of the error"),
-                    field<&G::limit>("", "greatest demand"));
+                    field<&G::limit>("", "greatest demand"),
+                    field<&G::spin_time>("s", "for which the hull turns more as rotors speed up than by their drag"));
   }
 };
 
 struct TurnModel {
-  double angle = 0, rate = 0, trim = 0;
+  double angle = 0, rate = 0, trim = 0, given = 0;
 
   static constexpr auto fields() {
     using M = TurnModel;
-    return describe(field<&M::angle>("rad"), field<&M::rate>("rad/s"), field<&M::trim>("", "demand at rest, learnt"));
+    return describe(field<&M::angle>("rad"), field<&M::rate>("rad/s"), field<&M::trim>("", "demand at rest, learnt"),
+                    field<&M::given>("", "demand, smoothed"));
   }
 };
 
@@ -111,7 +114,7 @@ struct AttitudeControl {
   static constexpr std::string_view summary = "turns to a commanded roll, pitch and yaw";
   struct Param {
     TurnGains lean{.bandwidth = 16, .effect = 153, .kp = 0.35, .kd = 0.09, .ki = 1.5, .limit = 0.5};
-    TurnGains yaw{.bandwidth = 4, .effect = 12.3, .kp = 1.0, .kd = 0.55, .ki = 0.1, .limit = 0.25};
+    TurnGains yaw{.bandwidth = 4, .effect = 12.3, .kp = 1.0, .kd = 0.55, .ki = 0.1, .limit = 0.25, .spin_time = 0.53};
     static constexpr auto fields() { return describe(field<&Param::lean>("", "roll and pitch"), field<&Param::yaw>()); }
   };
   struct In {

@@ -53,11 +53,23 @@ void correct(AxisObserver& axis, double measured, double bandwidth) {
   axis.since = 0;
 }
 
-// standing still, the measurement is the zero of what follows
-void settle(AxisObserver& axis, double& zero, SensorTrust& trust, bool heard, double measured, double acceleration) {
+// Standing still: what is measured is averaged, as zero before the first flight and as the place after it.
+void settle(AxisObserver& axis, double& zero, SensorTrust& trust, bool heard, double measured, double acceleration,
+            bool has_flown) {
   forgive(trust, heard);
-  if (heard) zero = measured;
-  axis = {.bias = axis.bias + 0.02 * (acceleration - axis.bias)};
+  axis = {.place = axis.place, .bias = axis.bias + 0.02 * (acceleration - axis.bias)};
+  if (!heard) return;
+  if (has_flown) {
+    axis.place += 0.1 * (measured - zero - axis.place);
+  } else {
+    zero += (zero == 0 ? 1 : 0.1) * (measured - zero);
+  }
+}
+
+// where it takes off is zero
+void take_off(AxisObserver& axis, double& zero) {
+  zero += axis.place;
+  axis.place = 0;
 }
 
 void observe(AxisObserver& axis, SensorTrust& trust, bool heard, double measured, double acceleration,
@@ -92,6 +104,16 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   if (settled) forgive(state.imu, imu);
   const bool turns = believe(state.imu, imu, p.imu_patience);
 
+  if (state.stood && !settled) {
+    take_off(state.x, state.zero_x);
+    take_off(state.y, state.zero_y);
+    take_off(state.z, state.zero_z);
+    state.zero_yaw += state.yaw;
+    state.yaw = 0;
+    state.has_flown = true;
+  }
+  state.stood = settled;
+
   // angles follow the rates, and what is measured unless it jumps
   const double turning = turns ? (s.q * std::sin(s.roll) + s.r * std::cos(s.roll)) / std::cos(s.pitch) : 0;
   state.roll += dt * (turns ? s.p + turning * std::sin(s.pitch) : 0);
@@ -100,8 +122,8 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   if (settled) {
     state.roll = s.roll;
     state.pitch = s.pitch;
-    state.zero_yaw = s.yaw;
-    state.yaw = 0;
+    if (!state.has_flown) state.zero_yaw = s.yaw;
+    state.yaw = std::remainder(s.yaw - state.zero_yaw, 2 * std::numbers::pi);
     forgive(state.angles, true);
   }
   const bool smooth = std::abs(s.roll - state.roll) < p.angle_jump && std::abs(s.pitch - state.pitch) < p.angle_jump;
@@ -127,9 +149,9 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   const bool new_z = hear(state.sonar, fresh && s.new_sonar, s.sonar, p.repeats, dt);
   const bool new_pressure = hear(state.pressure, fresh && s.new_bmu, s.pressure, p.repeats, dt);
   if (settled) {
-    settle(state.x, state.zero_x, state.laser_x, new_x, x, a.x());
-    settle(state.y, state.zero_y, state.laser_y, new_y, y, a.y());
-    settle(state.z, state.zero_z, state.sonar, new_z, z, -a.z());
+    settle(state.x, state.zero_x, state.laser_x, new_x, x, a.x(), state.has_flown);
+    settle(state.y, state.zero_y, state.laser_y, new_y, y, a.y(), state.has_flown);
+    settle(state.z, state.zero_z, state.sonar, new_z, z, -a.z(), state.has_flown);
     forgive(state.pressure, new_pressure);
     if (new_pressure) state.zero_pressure += (state.zero_pressure == 0 ? 1 : 0.1) * (s.pressure - state.zero_pressure);
     state.disagreement = 0;

@@ -86,6 +86,7 @@ struct JaviatorFilter {
     double zero_x = 0, zero_y = 0, zero_z = 0, zero_yaw = 0, zero_pressure = 0;
     double roll = 0, pitch = 0, yaw = 0;
     double disagreement = 0;
+    bool stood = false, has_flown = false;
     std::uint32_t answers = 0;
     static constexpr auto fields() {
       using S = State;
@@ -95,6 +96,7 @@ struct JaviatorFilter {
                       field<&S::zero_z>("m"), field<&S::zero_yaw>("rad"), field<&S::zero_pressure>("Pa"),
                       field<&S::roll>("rad"), field<&S::pitch>("rad"), field<&S::yaw>("rad", "all turns counted"),
                       field<&S::disagreement>("m", "of pressure and altitude, averaged"),
+                      field<&S::stood>("", "in the period before"), field<&S::has_flown>(),
                       field<&S::answers>("", "of the Robostix, up to now"));
     }
   };

@@ -43,9 +43,11 @@ TEST_SUITE("tools/readme") {
   }
 
   TEST_CASE("the README shows what the demo reaches as it is") {
-    const std::string run = output_of("run specs/exolauv.yaml");
-    const std::size_t begin = run.find("               commanded"), end = run.find("  digest");
-    REQUIRE(begin < end);
-    CHECK(readme().find(run.substr(begin, end - begin)) != std::string::npos);
+    for (const std::string graph : {"exolauv", "javiator"}) {
+      const std::string run = output_of("run specs/" + graph + ".yaml");
+      const std::size_t begin = run.find("               commanded"), end = run.find("  digest");
+      REQUIRE(begin < end);
+      CHECK(readme().find(run.substr(begin, end - begin)) != std::string::npos);
+    }
   }
 }

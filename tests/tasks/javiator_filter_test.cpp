@@ -1,0 +1,168 @@
+#include "tasks/javiator_filter.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+namespace {
+using namespace jarol;
+using namespace jarol::tasks;
+using namespace std::chrono_literals;
+
+// A filter with what it hears: level and at rest at an altitude, 15 ms a period, every sensor new each period.
+struct Heard {
+  JaviatorFilter::Param param{.imu_repeats = 0, .repeats = 0};
+  JaviatorFilter::State state{};
+  JaviatorFilter::Out out{};
+  JaviatorSensors sensors{.a_z = -9.81,
+                          .sonar = 0.145,
+                          .laser_x = 8.07,
+                          .laser_y = 8.077,
+                          .pressure = 101325,
+                          .battery = 15,
+                          .new_imu = true,
+                          .new_bmu = true,
+                          .new_sonar = true,
+                          .new_x = true,
+                          .new_y = true};
+  FlightDirective directive{.state = FlightState::ground};
+
+  const FlightEstimate& run(int periods) {
+    for (int i = 0; i < periods; ++i) {
+      ++sensors.answers;
+      JaviatorFilter::run(param, {.period = 15ms}, {sensors, directive}, state, out);
+    }
+    return out.estimate;
+  }
+
+  // Takes off, and is lifted slowly to an altitude, as all sensors tell.
+  void lift_to(double altitude) {
+    run(100);
+    directive.state = FlightState::flying;
+    for (int i = 1; i <= 200; ++i) {
+      sensors.sonar = 0.145 + altitude * i / 200;
+      sensors.pressure = 101325 - 12 * altitude * i / 200;
+      run(1);
+    }
+    run(300);
+  }
+};
+}  // namespace
+
+TEST_SUITE("tasks/javiator_filter") {
+  TEST_CASE("where it stands is the origin, and its heading zero") {
+    Heard heard;
+    heard.sensors.yaw = 1;
+    const FlightEstimate& e = heard.run(50);
+    CHECK(e.x == 0);
+    CHECK(e.altitude == 0);
+    CHECK(e.yaw == 0);
+    CHECK(e.lift == doctest::Approx(9.81));
+  }
+
+  TEST_CASE("it finds altitude and place, and rest") {
+    Heard heard;
+    heard.lift_to(1);
+    heard.sensors.laser_x -= 0.2;  // nearer the wall in the north
+    const FlightEstimate& e = heard.run(300);
+    CHECK(e.altitude == doctest::Approx(1).epsilon(1e-3));
+    CHECK(e.x == doctest::Approx(0.2).epsilon(1e-3));
+    CHECK(std::abs(e.climb) < 1e-3);
+    CHECK(std::abs(e.v_x) < 1e-3);
+  }
+
+  TEST_CASE("an acceleration is felt at once, long before places tell") {
+    Heard heard;
+    heard.lift_to(1);
+    heard.sensors.a_z = -10.81;
+    const FlightEstimate& e = heard.run(2);
+    CHECK(e.a_up == doctest::Approx(1).epsilon(0.01));
+    CHECK(e.climb == doctest::Approx(0.03).epsilon(0.1));
+  }
+
+  TEST_CASE("single readings that are far off are not taken, and do no harm") {
+    Heard heard;
+    heard.lift_to(1);
+    for (int i = 0; i < 10; ++i) {
+      heard.sensors.sonar = 2.9;
+      heard.run(1);
+      heard.sensors.sonar = 1.145;
+      CHECK(heard.run(5).altitude == doctest::Approx(1).epsilon(1e-3));
+    }
+    CHECK(heard.out.estimate.altitude_known);
+  }
+
+  TEST_CASE("a sensor that is silent for 0.3 s is lost for this flight, and forgiven on the ground") {
+    Heard heard;
+    heard.lift_to(1);
+    heard.sensors.new_x = false;
+    CHECK(heard.run(19).position_known);
+    CHECK_FALSE(heard.run(2).position_known);
+    heard.sensors.new_x = true;
+    CHECK_FALSE(heard.run(100).position_known);
+    heard.directive.state = FlightState::ground;
+    CHECK(heard.run(1).position_known);
+  }
+
+  TEST_CASE("an IMU that is silent for three periods is lost, and no rates are told") {
+    Heard heard;
+    heard.lift_to(1);
+    heard.sensors.p = 0.5;
+    CHECK(heard.run(1).p == 0.5);
+    heard.sensors.new_imu = false;
+    CHECK(heard.run(1).rates_known);
+    const FlightEstimate& e = heard.run(2);
+    CHECK_FALSE(e.rates_known);
+    CHECK(e.p == 0);
+  }
+
+  TEST_CASE("sensors that repeat themselves are stuck") {
+    Heard heard;
+    heard.lift_to(1);
+    heard.param.repeats = 40;
+    heard.state.sonar.repeats = heard.state.laser_x.repeats = heard.state.laser_y.repeats = 0;
+    heard.state.pressure.repeats = 0;
+    CHECK(heard.run(39).altitude_known);
+    const FlightEstimate& e = heard.run(30);
+    CHECK_FALSE(e.altitude_known);
+    CHECK_FALSE(e.position_known);
+    CHECK_FALSE(e.pressure_known);
+  }
+
+  TEST_CASE("angles that jump against the rates are not believed; the rates go on") {
+    Heard heard;
+    heard.lift_to(1);
+    heard.sensors.roll = 0.3;
+    heard.run(4);
+    CHECK_FALSE(heard.out.estimate.attitude_known);
+    CHECK(heard.out.estimate.rates_known);
+    CHECK(std::abs(heard.out.estimate.roll) < 1e-9);
+    heard.sensors.p = 0.1;
+    CHECK(heard.run(100).roll == doctest::Approx(0.15 + 0.02 * 0.1));  // 1.5 s, and the look-ahead
+  }
+
+  TEST_CASE("a sonar that drifts away from the pressure is lost, and the pressure tells the altitude") {
+    Heard heard;
+    heard.lift_to(1);
+    for (int i = 0; i < 400; ++i) {
+      heard.sensors.sonar -= 0.8 / 400;
+      heard.run(1);
+    }
+    const FlightEstimate& e = heard.run(600);
+    CHECK_FALSE(e.altitude_known);
+    CHECK(e.altitude == doctest::Approx(1).epsilon(0.02));
+  }
+
+  TEST_CASE("after a flight it tells where it stands until the next take-off, which is the new origin") {
+    Heard heard;
+    heard.lift_to(1);
+    heard.sensors.laser_y -= 0.25;
+    heard.run(300);
+    heard.directive.state = FlightState::ground;
+    heard.sensors.sonar = 0.145;
+    CHECK(heard.run(200).y == doctest::Approx(0.25).epsilon(1e-3));
+    CHECK(std::abs(heard.out.estimate.altitude) < 1e-3);
+    heard.directive.state = FlightState::starting;
+    CHECK(std::abs(heard.run(1).y) < 1e-3);
+  }
+}
