@@ -20,7 +20,6 @@ void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& 
   const double dt = 1e-9 * static_cast<double>(tick.period.count());
   if (!state.started) {
     state.started = i.attitude.count > 0 && i.heading.count > 0 && i.depth.count > 0;
-    m = {};
     m.z = i.depth.value;
     m.phi = i.attitude.x;
     m.theta = i.attitude.y;

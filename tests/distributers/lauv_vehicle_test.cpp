@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <vector>
 
 #include "distributers/messages/imc.h"
@@ -50,6 +51,57 @@ TEST_SUITE("distributers/lauv_vehicle") {
     REQUIRE(sent.servos.size() == 4);
     CHECK(sent.servos[2].id == 2);
     CHECK(sent.servos[2].value == 0.3F);
+  }
+
+  TEST_CASE("readings become instruments, counted; what is no number is none") {
+    LauvVehicle adapter;
+    tasks::Instruments i;
+    CHECK_FALSE(adapter.take(2, &i));
+    imc::Depth depth;
+    depth.value = 2.5F;
+    adapter.receive(messages::refer_to(depth));
+    adapter.receive(messages::refer_to(depth));
+    imc::EulerAngles angles;
+    angles.phi = angles.theta = angles.psi = std::numeric_limits<double>::quiet_NaN();
+    angles.psi_magnetic = 1.5;
+    adapter.receive(messages::refer_to(angles));
+    imc::EntityState entity;
+    entity.state = imc::EntityState::State::FAILURE;
+    adapter.receive(messages::refer_to(entity));
+    imc::Distance range;
+    range.value = 30;
+    adapter.receive(messages::refer_to(range));  // not valid
+    CHECK(adapter.take(2, &i));
+    CHECK(i.depth.value == 2.5);
+    CHECK(i.depth.count == 2);
+    CHECK(i.heading.value == 1.5);
+    CHECK(i.attitude.count == 0);
+    CHECK(i.leak.value == 1);
+    CHECK(i.altitude.count == 0);
+    CHECK_FALSE(adapter.take(2, &i));
+    tasks::Motion motion;
+    CHECK_FALSE(adapter.take(0, &motion));
+  }
+
+  TEST_CASE("the first fix is the origin of the place") {
+    LauvVehicle adapter;
+    imc::GpsFix fix;
+    fix.validity = imc::GpsFix::Validity::VALID_POS;
+    fix.lat = 0.7;
+    fix.lon = -0.15;
+    adapter.receive(messages::refer_to(fix));
+    fix.lat += 1e-5;
+    fix.lon -= 1e-5;
+    adapter.receive(messages::refer_to(fix));
+    fix.validity = 0;
+    fix.lat = 0;
+    adapter.receive(messages::refer_to(fix));
+    tasks::Instruments i;
+    CHECK(adapter.take(2, &i));
+    CHECK(i.place.count == 2);
+    // radii of the ellipsoid at 0.7 rad: 6362 km along the meridian, 4889 km of the parallel
+    CHECK(i.place.x == doctest::Approx(63.62).epsilon(1e-3));
+    CHECK(i.place.y == doctest::Approx(-48.85).epsilon(2e-3));
   }
 
   TEST_CASE("other messages change nothing") {

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "distributers/messages/imc.h"
 #include "vehicles/catalogue.h"
@@ -111,17 +113,52 @@ TEST_SUITE("vehicles/submarine") {
     CHECK(out->actuators.fin0 == doctest::Approx(45 * degree));
   }
 
-  TEST_CASE("results do not depend on who looks or how often") {
-    Submarine seen({}), unseen({});
+  TEST_CASE("results do not depend on who looks or how often, with noise and waves neither") {
+    SubmarineParameters parameters;
+    parameters.sensors.depth.noise = 0.1;
+    parameters.sensors.imu_rates.noise = 0.01;
+    parameters.sea.wave_height = 0.3;
+    Submarine seen(parameters, 5), unseen(parameters, 5);
     command(seen, 1.0F, {});
     command(unseen, 1.0F, {});
     for (int i = 0; i < 500; ++i) {
       seen.step();
       unseen.step();
-      for (int look = 0; look < i % 4; ++look) static_cast<void>(sense(seen));
+      for (int look = 0; look < i % 4; ++look) static_cast<void>(sense(seen)), static_cast<void>(seen.state());
     }
     CHECK(sense(seen).x == sense(unseen).x);
     CHECK(sense(seen).theta == sense(unseen).theta);
+    const Type& type = type_of<SubmarineOutputs>();
+    CHECK(type.hash_words(seen.outputs()) == type.hash_words(unseen.outputs()));
+  }
+
+  TEST_CASE("what is no number is not taken as a command, and a state without numbers ends it, for good") {
+    for (const bool vsim : {false, true}) {
+      CAPTURE(vsim);
+      SubmarineParameters parameters;
+      parameters.vsim_compatible = vsim;
+      Submarine submarine(parameters);
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      const SubmarineInputs inputs{nan, nan, nan, nan, nan};
+      submarine.command(&inputs);
+      for (int i = 0; i < 10; ++i) submarine.step();
+      CHECK(std::isfinite(submarine.state().x));
+      Submarine gone(parameters);
+      VehicleState beyond;
+      beyond.u = 1e200;
+      gone.place(beyond);
+      CHECK_THROWS_AS(gone.step(), NoState);
+      CHECK_THROWS_AS(gone.step(), NoState);
+    }
+  }
+
+  TEST_CASE("VSIM's plant knows no waves") {
+    SubmarineParameters parameters;
+    parameters.vsim_compatible = true;
+    parameters.sea.wave_height = 0.3;
+    CHECK_THROWS_WITH_AS(Submarine{parameters},
+                         "submarine: with vsim_compatible there are no waves; sea.wave_height has to be 0",
+                         std::runtime_error);
   }
 
   TEST_CASE("a current carries it along and is told, velocities stay those through the water") {
