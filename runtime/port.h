@@ -13,14 +13,14 @@ namespace jarol {
 
 // A slot belongs to the writer until value i is published, then to the reader until it is counted as taken; both
 // publish with release and look with acquire, so that no byte is ever touched by two threads at once. A value is
-// published twice. A reader that waits looks at the mark in the slot, which comes along with the value; one that has
+// published twice. A reader that waits looks at the mark after the value, which comes along with it; one that has
 // fallen behind looks at the count, and then needs none of the marks. Counts of 64 bits, which no run exhausts.
 template <class Memory>
 class BasicPort {
  public:
   /// Holds up to `capacity` values of `size` bytes; at least one.
   BasicPort(std::size_t capacity, std::size_t size)
-      : slots_(at_least_one(capacity), 1, size), size_(size), capacity_(capacity) {}
+      : slots_(at_least_one(capacity), size, 1), size_(size), capacity_(capacity) {}
 
   std::size_t capacity() const { return capacity_; }
   /// Bytes of a value.

@@ -23,7 +23,7 @@ class BasicPushPort {
  public:
   /// Holds the newest `capacity` values of `size` bytes; at least one.
   BasicPushPort(std::size_t capacity, std::size_t size)
-      : slots_(at_least_one(capacity) + 1, 1 + (size + 7) / 8, 0), size_(size), capacity_(capacity) {}
+      : slots_(at_least_one(capacity) + 1, 0, 1 + (size + 7) / 8), size_(size), capacity_(capacity) {}
 
   std::size_t capacity() const { return capacity_; }
   /// Bytes of a value.
