@@ -11,6 +11,10 @@ namespace jarol::distributers {
 
 class Adapter : public messages::Receiver {
  public:
+  /// What is received from now on comes from another peer than before, as after the external system was started anew.
+  /// Told where a link knows it by the sender's address, as over UDP, and of the first peer too.
+  virtual void peer_changed() {}
+
   /// The message set that the external system speaks.
   virtual const messages::MessageSet& message_set() const = 0;
 

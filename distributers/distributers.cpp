@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "distributers/javiator_operator.h"
 #include "distributers/javiator_vehicle.h"
 #include "distributers/lauv_vehicle.h"
 #include "distributers/links/link_spec.h"
@@ -28,7 +29,8 @@ const std::vector<DistributerKind>& kinds() {
   static const std::vector<DistributerKind> all{
       {JaviatorVehicle::describe_class(),
        []() -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorVehicle>(); }},
-      {describe_javiator_operator(), nullptr},
+      {JaviatorOperator::describe_class(),
+       []() -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorOperator>(); }},
       {LauvVehicle::describe_class(), []() -> std::unique_ptr<Adapter> { return std::make_unique<LauvVehicle>(); }},
       {describe_lauv_operator(), nullptr},
   };

@@ -37,13 +37,6 @@ DistributerClass JaviatorVehicle::describe_class() {
           true};
 }
 
-DistributerClass describe_javiator_operator() {
-  return {"JaviatorOperator",
-          "the helicopter's operator",
-          {{"command", Direction::in, &type_of<tasks::PilotCommand>(), "attitude, altitude, position and switches"},
-           {"report", Direction::out, &type_of<tasks::HelicopterReport>(), "attitude, altitude, position and state"}}};
-}
-
 const messages::MessageSet& JaviatorVehicle::message_set() const { return javiator::message_set(); }
 
 void JaviatorVehicle::receive(messages::MessageRef message) {

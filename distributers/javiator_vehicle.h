@@ -24,7 +24,4 @@ class JaviatorVehicle : public Adapter {
   std::uint16_t id_ = 0;
 };
 
-/// The helicopter's operator: commands come in, reports go out.
-DistributerClass describe_javiator_operator();
-
 }  // namespace jarol::distributers

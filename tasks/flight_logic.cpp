@@ -72,11 +72,12 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
 
   if (command.shut_downs != state.shut_downs) {
     enter(FlightState::halt, Cause::none, state, d);
-  } else if (command.state_switches != state.state_switches && command.heard) {
+  } else if (command.state_switches != state.state_switches) {
     press_switch(e, state, d);
   }
   state.shut_downs = command.shut_downs;
   state.state_switches = command.state_switches;
+  trim(command, e, state.trim, d);
 
   if (d.state == FlightState::starting) {
     const Cause cause = find_cause(p, e, wants_position, state.unheard);

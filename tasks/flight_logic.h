@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/trim.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
@@ -47,12 +48,13 @@ struct FlightLogic {
   struct State {
     double since = 0, unheard = 0, still = 0;
     std::uint32_t state_switches = 0, shut_downs = 0;
+    TrimKeys trim{};
     static constexpr auto fields() {
       using S = State;
       return describe(field<&S::since>("s", "the state began"), field<&S::unheard>("s", "the operator was heard"),
                       field<&S::still>("s", "it has not moved up or down"),
                       field<&S::state_switches>("", "of the operator, up to now"),
-                      field<&S::shut_downs>("", "likewise"));
+                      field<&S::shut_downs>("", "likewise"), field<&S::trim>("", "likewise"));
     }
   };
   struct Out {

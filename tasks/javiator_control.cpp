@@ -180,7 +180,29 @@ void MotorMixer::run(const Param& p, const Tick& tick, const In& in, State& stat
 
 void HelicopterReporter::run(const Tick&, const In& in, Out& out) {
   const FlightEstimate& e = in.estimate;
-  out.report = {e.roll, e.pitch, e.yaw, e.altitude, e.x, e.y, e.battery, in.directive.state, in.directive.cause};
+  out.report = {.roll = e.roll,
+                .pitch = e.pitch,
+                .yaw = e.yaw,
+                .altitude = e.altitude,
+                .x = e.x,
+                .y = e.y,
+                .battery = e.battery,
+                .state = in.directive.state,
+                .cause = in.directive.cause,
+                .p = e.p,
+                .q = e.q,
+                .r = e.r,
+                .v_x = e.v_x,
+                .v_y = e.v_y,
+                .climb = e.climb,
+                .a_x = e.a_x,
+                .a_y = e.a_y,
+                .a_up = e.a_up,
+                .roll_goal = in.goal.roll,
+                .pitch_goal = in.goal.pitch,
+                .signals = in.motors.signals,
+                .pressure = in.sensors.pressure,
+                .temperature = in.sensors.temperature};
 }
 
 }  // namespace jarol::tasks

@@ -239,7 +239,13 @@ struct HelicopterReporter {
   struct In {
     FlightEstimate estimate{};
     FlightDirective directive{};
-    static constexpr auto fields() { return describe(field<&In::estimate>(), field<&In::directive>()); }
+    AttitudeGoal goal{};
+    MotorCommand motors{};
+    JaviatorSensors sensors{};
+    static constexpr auto fields() {
+      return describe(field<&In::estimate>(), field<&In::directive>(), field<&In::goal>(), field<&In::motors>(),
+                      field<&In::sensors>("", "pressure and temperature of the air"));
+    }
   };
   struct Out {
     HelicopterReport report{};

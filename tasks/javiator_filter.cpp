@@ -167,8 +167,8 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   // an accelerometer in flight feels the rotors along their axis, and drag across it
   const Vector3d drag = R * Vector3d(force_b.x(), force_b.y(), 0);
   const Vector3d rates = turns ? Vector3d(s.p, s.q, s.r) : Vector3d::Zero();
-  e = {.roll = state.roll + p.age * rates.x(),
-       .pitch = state.pitch + p.age * rates.y(),
+  e = {.roll = state.roll + p.age * rates.x() - in.directive.trim_roll,
+       .pitch = state.pitch + p.age * rates.y() - in.directive.trim_pitch,
        .yaw = state.yaw + p.age * rates.z(),
        .p = rates.x(),
        .q = rates.y(),

@@ -31,8 +31,11 @@ void OriginalLogic::run(const Param& p, const Tick& tick, const In& in, State& s
   state.state_switches = command.state_switches;
   state.shut_downs = command.shut_downs;
 
-  if (shut_down || state.unheard > p.patience) {
-    d = {.cause = shut_down ? LandingCause::none : LandingCause::operator_lost};
+  // whole periods, as it counts them
+  if (shut_down || state.unheard > p.patience + 0.5 * seconds(tick.period)) {
+    d = {.cause = shut_down ? LandingCause::none : LandingCause::operator_lost,
+         .trim_roll = d.trim_roll,
+         .trim_pitch = d.trim_pitch};
   } else if (switched) {
     d.cause = LandingCause::none;
     if (d.state == FlightState::ground) {
@@ -44,6 +47,7 @@ void OriginalLogic::run(const Param& p, const Tick& tick, const In& in, State& s
   } else if (d.state == FlightState::starting && (state.revs += p.rev_step) >= p.idle) {
     d.state = FlightState::flying;
   }
+  trim(command, in.estimate, state.trim, d);
   if (!command.heard) return;
   d.hold_position = command.mode_switches % 2 == 1;
   smooth(d.roll, command.roll);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/trim.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
@@ -47,18 +48,19 @@ struct OriginalLogic {
     PilotCommand command{};
     LiftDemand lift{};
     static constexpr auto fields() {
-      return describe(field<&In::estimate>("", "not looked at: nothing makes it land"), field<&In::command>(),
+      return describe(field<&In::estimate>("", "for the trim alone: nothing makes it land"), field<&In::command>(),
                       field<&In::lift>("", "not looked at"));
     }
   };
   struct State {
     double unheard = 0, revs = 0;
     std::uint32_t state_switches = 0, shut_downs = 0;
+    TrimKeys trim{};
     static constexpr auto fields() {
       using S = State;
       return describe(field<&S::unheard>("s", "the operator was heard"), field<&S::revs>("", "signals reached"),
                       field<&S::state_switches>("", "of the operator, up to now"),
-                      field<&S::shut_downs>("", "likewise"));
+                      field<&S::shut_downs>("", "likewise"), field<&S::trim>("", "likewise"));
     }
   };
   struct Out {

@@ -93,8 +93,8 @@ void OriginalFilter::run(const Tick& tick, const In& in, State& state, Out& out)
   step(state.z, -a.z(), fresh && s.new_sonar, z, settled, state.zero_z, dt);
   state.z.place = std::max(state.z.place, 0.0);
 
-  e = {.roll = state.roll,
-       .pitch = state.pitch,
+  e = {.roll = state.roll - in.directive.trim_roll,
+       .pitch = state.pitch - in.directive.trim_pitch,
        .yaw = state.yaw,
        .p = s.p,
        .q = s.q,

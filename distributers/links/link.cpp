@@ -20,6 +20,9 @@ void take_no_signals() {
   pthread_sigmask(SIG_BLOCK, &all, nullptr);
 }
 
+// in the input port the number of its peer goes before a packet
+constexpr std::size_t peer_size = sizeof(std::uint32_t);
+
 std::size_t longest_packet(const messages::MessageSet& set) {
   return set.header_size() + set.most_payload + set.footer_size();
 }
@@ -48,14 +51,17 @@ void set_field(messages::Message& header, const std::string& name, std::uint64_t
 // What the receiving thread does with bytes: packets that are valid go into the input port.
 class Link::Translator : public ByteSink {
  public:
-  Translator(const messages::MessageSet& set, PacketPorts& input) : set_(set), datagrams_(set), input_(input) {}
+  Translator(const messages::MessageSet& set, PacketPorts& input)
+      : set_(set), datagrams_(set), input_(input), entry_(peer_size + longest_packet(set)) {}
 
-  bool take(std::span<const std::byte> bytes) override { return stream_ ? take_stream(bytes) : take_datagram(bytes); }
+  bool take(std::span<const std::byte> bytes, std::uint32_t peer) override {
+    return stream_ ? take_stream(bytes) : take_datagram(bytes, peer);
+  }
 
   void begin_stream() override {
     if (stream_) {
       stream_->give_up();
-      while (stream_->next()) write(stream_->packet());
+      while (stream_->next()) write(stream_->packet(), 0);
       store(stream_->counts());
       before_ = told_;
     }
@@ -70,11 +76,11 @@ class Link::Translator : public ByteSink {
   const Counts& counts() const { return counts_; }
 
  private:
-  bool take_datagram(std::span<const std::byte> bytes) {
+  bool take_datagram(std::span<const std::byte> bytes, std::uint32_t peer) {
     const Flaw flaw = datagrams_.read(bytes);
     told_.count(flaw, bytes.size());
     store(told_);
-    if (flaw == Flaw::none) write(bytes);
+    if (flaw == Flaw::none) write(bytes, peer);
     return flaw == Flaw::none;
   }
 
@@ -86,14 +92,17 @@ class Link::Translator : public ByteSink {
       std::memcpy(room.data(), bytes.data(), part);
       stream_->filled(part);
       bytes = bytes.subspan(part);
-      for (; stream_->next(); valid = true) write(stream_->packet());
+      for (; stream_->next(); valid = true) write(stream_->packet(), 0);
     }
     store(stream_->counts());
     return valid;
   }
 
-  void write(std::span<const std::byte> packet) {
-    if (!std::visit([&](auto& port) { return port.write(packet); }, input_)) ++counts_.refused;
+  void write(std::span<const std::byte> packet, std::uint32_t peer) {
+    std::memcpy(entry_.data(), &peer, peer_size);
+    std::memcpy(entry_.data() + peer_size, packet.data(), packet.size());
+    const auto entry = std::span(entry_).first(peer_size + packet.size());
+    if (!std::visit([&](auto& port) { return port.write(entry); }, input_)) ++counts_.refused;
   }
 
   void store(const messages::PacketCounts& now) {
@@ -113,6 +122,7 @@ class Link::Translator : public ByteSink {
   messages::PacketReader datagrams_;
   std::unique_ptr<messages::StreamReader> stream_;
   PacketPorts& input_;
+  std::vector<std::byte> entry_;
   messages::PacketCounts told_, before_;  // before_: of the streams that have ended
   Counts counts_;
 };
@@ -126,13 +136,13 @@ Link::Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set
     : set_(set),
       transport_(std::move(transport)),
       longest_(longest_packet(set)),
-      input_(make_port(options.input, longest_)),
+      input_(make_port(options.input, peer_size + longest_)),
       output_(make_port(options.output, longest_)),
       translator_(std::make_unique<Translator>(set, input_)),
       reader_(set),
       header_(*set.header) {
   packet_.reserve(longest_);
-  room_.resize(longest_);
+  room_.resize(peer_size + longest_);
   for (const auto& [name, value] : options.header) set_field(header_, name, value);
   for (const messages::FieldForm& field : set.header->fields)
     if (field.name == "timestamp" && field.wire == messages::Wire::fp64)
@@ -172,7 +182,9 @@ void Link::disconnect() {
 void Link::receive(messages::Receiver& receiver) {
   const auto read = [&](auto& port) { return port.read(room_); };
   while (const auto length = std::visit(read, input_)) {
-    if (reader_.read(std::span(room_).first(*length)) != Flaw::none) continue;  // it was valid when it arrived
+    const auto packet = std::span<const std::byte>(room_).first(*length).subspan(peer_size);
+    if (reader_.read(packet) != Flaw::none) continue;  // it was valid when it arrived
+    std::memcpy(&peer_, room_.data(), peer_size);
     ++received_;
     receiver.receive(reader_.message());
   }

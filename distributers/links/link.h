@@ -46,6 +46,8 @@ class Link {
 
   /// Gives the receiver the packets that have arrived, oldest first.
   void receive(messages::Receiver& receiver);
+  /// Who sent the packet that was given last: datagrams' peers are numbered from 1; 0: it came in a stream.
+  std::uint32_t peer() const { return peer_; }
 
   /// Has the message sent as a packet soon. One that finds no room is counted and dropped.
   void send(messages::MessageRef message);
@@ -78,6 +80,7 @@ class Link {
   messages::Message header_;
   void* timestamp_ = nullptr;  // in the header: seconds since 1970
   std::vector<std::byte> packet_, room_;
+  std::uint32_t peer_ = 0;
   std::uint64_t given_ = 0;
   std::uint64_t refused_ = 0;  // the output port was full
   std::uint64_t received_ = 0;

@@ -3,10 +3,16 @@
 namespace jarol::distributers {
 
 LinkedChannels::LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<Adapter> adapter)
-    : link_(std::move(link)), adapter_(std::move(adapter)), to_peer_(*link_) {}
+    : link_(std::move(link)), adapter_(std::move(adapter)), from_peer_(*link_, *adapter_), to_peer_(*link_) {}
+
+void LinkedChannels::FromPeer::receive(messages::MessageRef message) {
+  if (link.peer() != peer) adapter.peer_changed();
+  peer = link.peer();
+  adapter.receive(message);
+}
 
 void LinkedChannels::reach(Duration instant) {
-  link_->receive(*adapter_);
+  link_->receive(from_peer_);
   adapter_->reach(instant, to_peer_);
   link_->flush();
 }

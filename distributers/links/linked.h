@@ -29,8 +29,18 @@ class LinkedChannels : public Channels {
     Link& link;
   };
 
+  // What the peer sends goes to the adapter, which learns of a new peer before.
+  struct FromPeer : messages::Receiver {
+    FromPeer(const Link& from, Adapter& to) : link(from), adapter(to) {}
+    void receive(messages::MessageRef message) override;
+    const Link& link;
+    Adapter& adapter;
+    std::uint32_t peer = 0;
+  };
+
   std::unique_ptr<Link> link_;
   std::unique_ptr<Adapter> adapter_;
+  FromPeer from_peer_;
   ToPeer to_peer_;
 };
 

@@ -15,8 +15,9 @@ namespace jarol::distributers {
 class ByteSink {
  public:
   virtual ~ByteSink() = default;
-  /// One datagram, or the next piece of a stream. True if there was anything valid in it: its sender is the peer.
-  virtual bool take(std::span<const std::byte> bytes) = 0;
+  /// One datagram of the peer of that number, or the next piece of a stream, whose peers have none. True if there was
+  /// anything valid in it: its sender is the peer.
+  virtual bool take(std::span<const std::byte> bytes, std::uint32_t peer = 0) = 0;
   /// A stream begins anew: what was left of the one before is lost.
   virtual void begin_stream() = 0;
 };

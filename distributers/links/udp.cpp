@@ -40,7 +40,10 @@ void UdpTransport::receive(const Interrupter& interrupter, ByteSink& sink) {
       ++counts.strangers;
       continue;
     }
-    const bool valid = sink.take(std::span(room).first(static_cast<std::size_t>(length)));
+    // its number goes with the packet, for the packet may be looked at before there is an answer to it
+    const std::uint64_t peer = counts.connected + (peer_ == sender ? 0 : 1);
+    const bool valid =
+        sink.take(std::span(room).first(static_cast<std::size_t>(length)), static_cast<std::uint32_t>(peer));
     if (valid && !named_peer_) associate(sender);
   }
 }

@@ -31,7 +31,7 @@ class UdpTransport : public Transport {
   Address named_peer_;
   Descriptor socket_;
   std::mutex peer_mutex_;
-  Address peer_;
+  Address peer_;  // written by the receiving thread
 };
 
 }  // namespace jarol::distributers

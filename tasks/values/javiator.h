@@ -37,10 +37,11 @@ struct JaviatorSensors {
   }
 };
 
-/// What the operator wants. Switches count how often a key was pressed since the start.
+/// What the operator wants. Switches, stores and the like count how often a key was pressed since the start.
 struct PilotCommand {
   double roll = 0, pitch = 0, yaw = 0, altitude = 0, x = 0, y = 0;
   std::uint32_t state_switches = 0, mode_switches = 0, shut_downs = 0;
+  std::uint32_t trim_stores = 0, trim_clears = 0;
   bool heard = true;
 
   static constexpr auto fields() {
@@ -52,6 +53,8 @@ struct PilotCommand {
                     field<&C::state_switches>("", "unlock, take off, land and so on in turn"),
                     field<&C::mode_switches>("", "odd: position is held, even: by hand"),
                     field<&C::shut_downs>("", "each stops the motors at once"),
+                    field<&C::trim_stores>("", "each makes roll and pitch of that moment the level"),
+                    field<&C::trim_clears>("", "each makes the level what the sensors say"),
                     field<&C::heard>("", "the operator is still there"));
   }
 };
@@ -111,13 +114,26 @@ struct HelicopterReport {
   double roll = 0, pitch = 0, yaw = 0, altitude = 0, x = 0, y = 0, battery = 0;
   FlightState state = FlightState::halt;
   LandingCause cause = LandingCause::none;
+  double p = 0, q = 0, r = 0;
+  double v_x = 0, v_y = 0, climb = 0;
+  double a_x = 0, a_y = 0, a_up = 0;
+  double roll_goal = 0, pitch_goal = 0;
+  std::array<double, 4> signals{};
+  double pressure = 0, temperature = 0;
 
   static constexpr auto fields() {
     using R = HelicopterReport;
     return describe(field<&R::roll>("rad"), field<&R::pitch>("rad"), field<&R::yaw>("rad", "from the take-off heading"),
                     field<&R::altitude>("m", "above the start"), field<&R::x>("m", "north of the start"),
                     field<&R::y>("m", "east of the start"), field<&R::battery>("V", "voltage"), field<&R::state>(),
-                    field<&R::cause>("", "of a landing that nobody wanted"));
+                    field<&R::cause>("", "of a landing that nobody wanted"),
+                    field<&R::p>("rad/s", "rate about the body's x"), field<&R::q>("rad/s", "about y"),
+                    field<&R::r>("rad/s", "about z"), field<&R::v_x>("m/s", "to the north"),
+                    field<&R::v_y>("m/s", "to the east"), field<&R::climb>("m/s", "upwards"),
+                    field<&R::a_x>("m/s^2", "to the north"), field<&R::a_y>("m/s^2", "to the east"),
+                    field<&R::a_up>("m/s^2", "upwards"), field<&R::roll_goal>("rad", "turned by the yaw"),
+                    field<&R::pitch_goal>("rad"), field<&R::signals>("", "of the motors, 0 to 16000"),
+                    field<&R::pressure>("Pa", "of the air"), field<&R::temperature>("degC", "of the air"));
   }
 };
 
@@ -158,6 +174,7 @@ struct FlightDirective {
   LandingCause cause = LandingCause::none;
   bool hold_position = false;
   double roll = 0, pitch = 0, yaw = 0, altitude = 0, x = 0, y = 0;
+  double trim_roll = 0, trim_pitch = 0;
 
   static constexpr auto fields() {
     using D = FlightDirective;
@@ -165,7 +182,8 @@ struct FlightDirective {
                     field<&D::hold_position>("", "else roll and pitch by hand"), field<&D::roll>("rad"),
                     field<&D::pitch>("rad"), field<&D::yaw>("rad", "from the take-off heading"),
                     field<&D::altitude>("m", "above the start"), field<&D::x>("m", "north of the start"),
-                    field<&D::y>("m", "east of the start"));
+                    field<&D::y>("m", "east of the start"), field<&D::trim_roll>("rad", "that counts as level"),
+                    field<&D::trim_pitch>("rad"));
   }
 };
 

@@ -11,6 +11,7 @@
 #include <functional>
 #include <optional>
 
+#include "distributers/links/linked.h"
 #include "distributers/links/serial.h"
 #include "distributers/links/tcp.h"
 #include "distributers/links/udp.h"
@@ -264,6 +265,66 @@ TEST_SUITE("distributers/links/link") {
     CHECK(got.ids.empty());
     throw_in({0xff, 0xff, 0x11, 0, 0, 0x11});
     CHECK(wait_for([&] { return count_of(*pair.one, "peers") == 1; }));
+  }
+
+  TEST_CASE("who sent a datagram is told with it, however many wait together; streams do not tell") {
+    struct Senders : messages::Receiver {
+      explicit Senders(const Link& from) : link(from) {}
+      void receive(messages::MessageRef) override { peers.push_back(link.peer()); }
+      const Link& link;
+      std::vector<std::uint32_t> peers;
+    };
+    Pair pair = udp("127.0.0.1");
+    const Address to =
+        Address::parse("127.0.0.1:" + std::to_string(static_cast<const UdpTransport&>(pair.one->transport()).port()));
+    const auto third = make(std::make_unique<UdpTransport>(Address::parse("127.0.0.1:0"), to));
+    third->connect();
+    std::uint64_t sent = 0;
+    for (Link* sender : {pair.other.get(), third.get(), third.get(), pair.other.get()}) {
+      send_id(*sender, 1);
+      REQUIRE(wait_for([&] { return count_of(*pair.one, "packets in") == sent + 1; }));
+      ++sent;
+    }
+    Senders senders(*pair.one);
+    pair.one->receive(senders);
+    CHECK(senders.peers == std::vector<std::uint32_t>{1, 2, 2, 3});
+
+    Pair streams = tcp("127.0.0.1");
+    REQUIRE(meet(streams));
+    CHECK(streams.one->peer() == 0);
+  }
+
+  TEST_CASE("an adapter learns of a new peer before its first packet") {
+    struct Diary : Adapter {
+      explicit Diary(std::string& to) : text(to) {}
+      const messages::MessageSet& message_set() const override { return javiator::message_set(); }
+      void peer_changed() override { text += "peer "; }
+      void receive(messages::MessageRef message) override {
+        text += std::to_string(message.as<javiator::MotorSignals>()->id) + " ";
+      }
+      bool take(std::size_t, void*) override { return false; }
+      void hand_over(std::size_t, const void*, messages::Receiver&) override {}
+      std::string& text;
+    };
+    auto transport = std::make_unique<UdpTransport>(Address::parse("127.0.0.1:0"), Address{});
+    const UdpTransport& at = *transport;
+    std::string diary;
+    LinkedChannels channels(make(std::move(transport)), std::make_unique<Diary>(diary));
+    channels.begin();
+    const Address to = Address::parse("127.0.0.1:" + std::to_string(at.port()));
+    for (int restart = 0; restart < 2; ++restart) {
+      const auto peer = make(std::make_unique<UdpTransport>(Address::parse("127.0.0.1:0"), to));
+      peer->connect();
+      for (int id = 1; id <= 2; ++id) send_id(*peer, 10 * restart + id);
+      REQUIRE(wait_for([&] { return at.counts.connected == static_cast<std::uint64_t>(restart + 1); }));
+      peer->disconnect();
+    }
+    REQUIRE(wait_for([&] {
+      channels.reach(Duration{});
+      return diary.find("12") != std::string::npos;
+    }));
+    CHECK(diary == "peer 1 2 peer 11 12 ");
+    channels.finish();
   }
 
   TEST_CASE("with a peer named, datagrams of others are strangers") {

@@ -1,0 +1,36 @@
+// The helicopter's operator as the core sees it: commands come in, reports go out.
+#pragma once
+
+#include "distributers/adapter.h"
+#include "graph/registry.h"
+#include "tasks/values/javiator.h"
+
+namespace jarol::distributers {
+
+/// Speaks with the JAviator's control terminal as its flight controller does: GroundReport and TraceData out, which the
+/// terminal answers with CommandData; switches, trim and shut-down in. Gains and idle signal that it sends are not
+/// handed on: the laws have their own. Over UDP, the first SwitchState of a new peer is a hello and switches nothing.
+class JaviatorOperator : public Adapter {
+ public:
+  JaviatorOperator();
+  static DistributerClass describe_class();
+
+  const messages::MessageSet& message_set() const override;
+  void peer_changed() override { hello_due_ = true; }
+  void receive(messages::MessageRef message) override;
+  void reach(Duration instant, messages::Receiver& system) override;
+  /// A command at each instant, for silence is one, too: it is heard if CommandData came since the instant before.
+  bool take(std::size_t channel, void* value) override;
+  void hand_over(std::size_t channel, const void* value, messages::Receiver& system) override;
+
+ private:
+  tasks::PilotCommand command_{.heard = false};
+  bool hello_due_ = false;
+
+  Duration now_{}, taken_{}, period_{}, reported_{};
+  std::array<double, 3> rates_{};  // of roll, pitch, yaw in the report before, mrad/s
+  std::uint8_t state_;             // in the report before
+  std::uint16_t reports_ = 0;
+};
+
+}  // namespace jarol::distributers

@@ -1,0 +1,25 @@
+// The operator's trim: what roll and pitch count as level.
+#pragma once
+
+#include "tasks/values/javiator.h"
+
+namespace jarol::tasks {
+
+struct TrimKeys {
+  std::uint32_t stores = 0, clears = 0;
+
+  static constexpr auto fields() { return describe(field<&TrimKeys::stores>(), field<&TrimKeys::clears>()); }
+};
+
+/// Follows the operator's keys; `pressed` is what they were up to now.
+inline void trim(const PilotCommand& command, const FlightEstimate& estimate, TrimKeys& pressed, FlightDirective& d) {
+  if (command.trim_clears != pressed.clears) d.trim_roll = d.trim_pitch = 0;
+  if (command.trim_stores != pressed.stores) {
+    // the estimate is already less the trim before
+    d.trim_roll += estimate.roll;
+    d.trim_pitch += estimate.pitch;
+  }
+  pressed = {command.trim_stores, command.trim_clears};
+}
+
+}  // namespace jarol::tasks

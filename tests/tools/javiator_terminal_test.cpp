@@ -1,0 +1,284 @@
+// The helicopter's graph and a control terminal of the JAviator: over real sockets, in logical time.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "distributers/javiator_operator.h"
+#include "distributers/links/linked.h"
+#include "distributers/links/tcp.h"
+#include "distributers/links/udp.h"
+#include "runtime/executor.h"
+#include "tests/tools/terminal.h"
+#include "tools/load_graph.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+using namespace std::chrono_literals;
+using tests::Terminal;
+
+constexpr Duration period = 15ms;
+constexpr int ground = 1, flying = 2, halted = 4;
+
+// The graph with a simulated vehicle; its operator is at the other end of a link. Each period waits for the terminal's
+// answer, so that nothing depends on how busy the machine is.
+class Lab {
+ public:
+  Lab(Terminal::Over over, const std::string& profile)
+      : over_(over), loaded_(tools::load_graph("specs/javiator.yaml", {.profile = profile})) {
+    const auto any = Address::parse("127.0.0.1:0");
+    std::unique_ptr<Transport> transport;
+    if (over == Terminal::Over::udp) {
+      auto udp = std::make_unique<UdpTransport>(any, Address{});
+      port_of_ = [at = udp.get()] { return at->port(); };
+      transport = std::move(udp);
+    } else {
+      auto tcp = std::make_unique<TcpServer>(any);
+      port_of_ = [at = tcp.get()] { return at->port(); };
+      transport = std::move(tcp);
+    }
+    auto adapter = std::make_unique<JaviatorOperator>();
+    const auto& set = adapter->message_set();
+    auto channels = std::make_unique<LinkedChannels>(
+        std::make_unique<Link>(std::move(transport), set, LinkOptions{}), std::move(adapter));
+    link_ = channels.get();
+    for (std::size_t i = 0; i < loaded_.channels.size(); ++i)
+      if (loaded_.graph->distributers[i].name == "terminal") loaded_.channels[i] = std::move(channels);
+    executor_ = std::make_unique<Executor>(*loaded_.graph, std::move(loaded_.channels));
+    link_->begin();
+  }
+  ~Lab() { link_->finish(); }
+
+  // One that has been started, and has been heard of.
+  Terminal connect() {
+    Terminal terminal(port_of_(), over_);
+    expected_ += terminal.sent;
+    wait_for("packets in", expected_);
+    if (over_ == Terminal::Over::tcp) wait_for("peers", ++peers_);
+    return terminal;
+  }
+
+  // One period, without an answer of anyone.
+  void pass() {
+    now_ += period;
+    executor_->run_until(now_);
+  }
+
+  Terminal::Report pass(Terminal& terminal) {
+    pass();
+    const std::uint64_t before = terminal.sent;
+    const auto report = terminal.answer();
+    REQUIRE(report);
+    arrived(terminal, before);
+    reports.push_back(*report);
+    return *report;
+  }
+
+  void press(Terminal& terminal, Terminal::Key key) {
+    const std::uint64_t before = terminal.sent;
+    terminal.press(key);
+    arrived(terminal, before);
+  }
+
+  // Seconds of flight.
+  Terminal::Report fly(Terminal& terminal, double seconds) {
+    Terminal::Report last;
+    for (int i = 0; i < seconds / 0.015; ++i) last = pass(terminal);
+    return last;
+  }
+
+  // Raises or lowers the altitude as the key does while it is held, then waits.
+  Terminal::Report go_to(Terminal& terminal, int altitude, double seconds) {
+    while (terminal.needles.altitude != altitude) {
+      const int away = altitude - terminal.needles.altitude;
+      terminal.needles.altitude = static_cast<std::int16_t>(terminal.needles.altitude + std::clamp(away, -7, 7));
+      pass(terminal);
+    }
+    return fly(terminal, seconds);
+  }
+
+  // Periods whose reports the terminal reads and does not answer; the last of them.
+  Terminal::Report pass_unanswered(Terminal& terminal, int periods) {
+    std::optional<Terminal::Report> report;
+    for (int i = 0; i < periods; ++i) {
+      pass();
+      report = terminal.read();
+      REQUIRE(report);
+    }
+    return *report;
+  }
+
+  // What the IMU says, whatever counts as level.
+  double true_roll() const {
+    const auto& all = loaded_.graph->communicators;
+    const auto found = std::find_if(all.begin(), all.end(), [](const auto& c) { return c.name == "from_robostix"; });
+    const void* value = executor_->last_value(static_cast<std::size_t>(found - all.begin()));
+    return static_cast<const tasks::JaviatorSensors*>(value)->roll;
+  }
+
+  std::uint64_t faults() const { return executor_->report().fault_count; }
+
+  std::vector<Terminal::Report> reports;
+
+ private:
+  void arrived(const Terminal& terminal, std::uint64_t before) {
+    expected_ += terminal.sent - before;
+    wait_for("packets in", expected_);
+  }
+
+  void wait_for(const std::string& name, std::uint64_t least) {
+    const auto end = std::chrono::steady_clock::now() + 20s;
+    const auto count = [&] {
+      for (const auto& [counted, count] : link_->link_report()->counts)
+        if (counted == name) return count;
+      return std::uint64_t{0};
+    };
+    while (count() < least) {
+      REQUIRE(std::chrono::steady_clock::now() < end);
+      std::this_thread::sleep_for(20us);
+    }
+  }
+
+  Terminal::Over over_;
+  tools::Loaded loaded_;
+  std::function<int()> port_of_;
+  LinkedChannels* link_ = nullptr;
+  std::unique_ptr<Executor> executor_;
+  Duration now_{};
+  std::uint64_t expected_ = 0, peers_ = 0;
+};
+
+// From halt to the ground state and off, to 0.5 m.
+Terminal::Report take_off(Lab& lab, Terminal& terminal, double wait) {
+  lab.press(terminal, Terminal::switch_state);
+  CHECK(lab.fly(terminal, 0.1).state == ground);
+  lab.press(terminal, Terminal::switch_state);
+  CHECK(lab.fly(terminal, 0.1).state == flying);
+  lab.fly(terminal, 3);
+  return lab.go_to(terminal, 500, wait);
+}
+
+void check_flight(Terminal::Over over, const std::string& profile, double settles) {
+  Lab lab(over, profile);
+  Terminal terminal = lab.connect();
+  CHECK(lab.fly(terminal, 0.5).state == halted);  // a hello is no switch
+  const Terminal::Report hovers = take_off(lab, terminal, settles);
+  CHECK(hovers.z == doctest::Approx(500).epsilon(0.05));
+  CHECK(hovers.front > 6000);
+  CHECK(hovers.mode == 1);
+  terminal.needles.roll = 60;
+  CHECK(lab.fly(terminal, 1).roll == doctest::Approx(60).epsilon(0.3));
+  terminal.needles.roll = 0;
+  lab.fly(terminal, 1);
+  lab.go_to(terminal, 0, 2);
+  lab.press(terminal, Terminal::switch_state);
+  const Terminal::Report landed = lab.fly(terminal, 4);
+  CHECK(landed.state == ground);
+  CHECK(landed.z == 0);
+  CHECK(landed.front == 0);
+  lab.press(terminal, Terminal::shut_down);
+  CHECK(lab.fly(terminal, 0.1).state == halted);
+  CHECK(terminal.bad == 0);
+  CHECK(lab.faults() == 0);
+}
+}  // namespace
+
+TEST_SUITE("tools/javiator_terminal") {
+  TEST_CASE("a terminal takes off, hovers, leans, lands and shuts down: over UDP with the laws of here") {
+    check_flight(Terminal::Over::udp, "", 4);
+  }
+  TEST_CASE("a terminal takes off, hovers, leans, lands and shuts down: over TCP with the original laws") {
+    check_flight(Terminal::Over::tcp, "original", 5);
+  }
+
+  TEST_CASE("without commands the original laws stop the motors after more than 35 periods, and not before") {
+    Lab lab(Terminal::Over::udp, "original");
+    Terminal terminal = lab.connect();
+    lab.fly(terminal, 0.1);
+    REQUIRE(take_off(lab, terminal, 4).z > 400);
+    // the last answer is heard in the first of them, and what is decided shows in the next report
+    const Terminal::Report before = lab.pass_unanswered(terminal, 37);
+    CHECK(before.state == flying);
+    CHECK(before.front > 6000);
+    SUBCASE("in time it flies on") { CHECK(lab.fly(terminal, 1).state == flying); }
+    SUBCASE("too late") {
+      CHECK(lab.pass_unanswered(terminal, 1).state == halted);
+      CHECK(lab.pass_unanswered(terminal, 1).front == 0);
+      CHECK(lab.fly(terminal, 1).state == halted);
+    }
+  }
+
+  TEST_CASE("without commands the laws of here land") {
+    Lab lab(Terminal::Over::udp, "");
+    Terminal terminal = lab.connect();
+    lab.fly(terminal, 0.1);
+    REQUIRE(take_off(lab, terminal, 3).z > 450);
+    CHECK(lab.pass_unanswered(terminal, 45).state == flying);
+    const Terminal::Report landed = lab.pass_unanswered(terminal, 300);
+    CHECK(landed.state == ground);
+    CHECK(landed.z == 0);
+    // it comes back, and nothing has happened meanwhile
+    CHECK(lab.fly(terminal, 0.2).state == ground);
+  }
+
+  TEST_CASE("a terminal that is started anew takes over in flight, and its hello does not land") {
+    for (const auto over : {Terminal::Over::udp, Terminal::Over::tcp}) {
+      Lab lab(over, "");
+      std::optional<Terminal> terminal(lab.connect());
+      lab.fly(*terminal, 0.1);
+      REQUIRE(take_off(lab, *terminal, 2).z > 450);
+      terminal.reset();
+      for (int i = 0; i < 10; ++i) lab.pass();
+      terminal.emplace(lab.connect());
+      terminal->needles.altitude = 500;
+      const Terminal::Report again = lab.fly(*terminal, 2);
+      CHECK(again.state == flying);
+      CHECK(again.z == doctest::Approx(500).epsilon(0.05));
+      lab.press(*terminal, Terminal::switch_state);  // this one does
+      CHECK(lab.fly(*terminal, 4).state == ground);
+      CHECK(terminal->bad == 0);
+    }
+  }
+
+  TEST_CASE("in position mode the first two needles are a place, y and x") {
+    Lab lab(Terminal::Over::udp, "");
+    Terminal terminal = lab.connect();
+    lab.fly(terminal, 0.1);
+    take_off(lab, terminal, 2);
+    lab.press(terminal, Terminal::switch_mode);
+    terminal.needles.roll = 300;
+    terminal.needles.pitch = -200;
+    const Terminal::Report there = lab.fly(terminal, 5);
+    CHECK(there.mode == 2);
+    CHECK(there.y == doctest::Approx(300).epsilon(0.1));
+    CHECK(there.x == doctest::Approx(-200).epsilon(0.15));
+  }
+
+  TEST_CASE("a stored trim is the level from then on, until it is cleared") {
+    for (const std::string profile : {"", "original"}) {
+      Lab lab(Terminal::Over::udp, profile);
+      Terminal terminal = lab.connect();
+      lab.fly(terminal, 0.1);
+      take_off(lab, terminal, 2);
+      terminal.needles.roll = 40;
+      const int leant = lab.fly(terminal, 0.8).roll;
+      CHECK(leant > 25);
+      lab.press(terminal, Terminal::store_trim);
+      terminal.needles.roll = 0;
+      lab.fly(terminal, 0.05);
+      const double before = lab.true_roll();
+      CHECK(before > 0.02);
+      lab.fly(terminal, 0.6);
+      CHECK(std::abs(lab.reports.back().roll) < 12);
+      CHECK(lab.true_roll() == doctest::Approx(1e-3 * leant).epsilon(0.4));
+      lab.press(terminal, Terminal::clear_trim);
+      lab.fly(terminal, 0.8);
+      CHECK(std::abs(lab.reports.back().roll) < 12);
+      CHECK(std::abs(lab.true_roll()) < 0.012);
+    }
+  }
+}
