@@ -87,7 +87,7 @@ class Replay : public Channels, messages::Receiver {
 const std::vector<Answer>& answers() {
   static const std::vector<Answer> all = [] {
     std::vector<Answer> answers;
-    auto loaded = tools::load_graph("specs/javiator.yaml", {.profile = "original"});
+    auto loaded = tools::load_graph("specs/javiator.yaml", {.profile = "original", .set = {}});
     for (std::size_t i = 0; i < loaded.channels.size(); ++i)
       if (loaded.graph->distributers[i].name == "terminal") loaded.channels[i] = std::make_unique<Replay>(answers);
     Executor executor(*loaded.graph, std::move(loaded.channels));
