@@ -13,6 +13,7 @@
 #include "tools/bench/ports.h"
 #include "tools/bench/sharing.h"
 #include "tools/bench/timing.h"
+#include "tools/bench/vehicles.h"
 #include "tools/bench/yaml_floor.h"
 
 namespace jarol::bench {
@@ -79,23 +80,25 @@ Figure load_figure(int repeats) {
 }  // namespace
 
 std::vector<std::string> figure_names() {
-  return {"chain_10",
-          "chain_100",
-          "chain_100_digest",
-          "multirate_100",
-          "let_multirate_100",
-          "fan_100",
-          "workers_2_tiny",
-          "workers_2_10us",
-          "deep_1k",
-          "fault",
-          "load_1000",
-          "check_1000",
-          "check_10000",
-          "port_throughput",
-          "port_round_trip",
-          "push_port_throughput",
-          "push_port_round_trip"};
+  std::vector<std::string> names{"chain_10",
+                                 "chain_100",
+                                 "chain_100_digest",
+                                 "multirate_100",
+                                 "let_multirate_100",
+                                 "fan_100",
+                                 "workers_2_tiny",
+                                 "workers_2_10us",
+                                 "deep_1k",
+                                 "fault",
+                                 "load_1000",
+                                 "check_1000",
+                                 "check_10000",
+                                 "port_throughput",
+                                 "port_round_trip",
+                                 "push_port_throughput",
+                                 "push_port_round_trip"};
+  if (has_dive()) names.push_back("dive");
+  return names;
 }
 
 Figure measure(const std::string& name, int repeats) {
@@ -122,6 +125,7 @@ Figure measure(const std::string& name, int repeats) {
   if (name == "port_round_trip") return measure_port_round_trip(name, repeats);
   if (name == "push_port_throughput") return measure_push_port_throughput(name, repeats);
   if (name == "push_port_round_trip") return measure_push_port_round_trip(name, repeats);
+  if (name == "dive") return measure_dive(repeats);
   throw std::invalid_argument("there is no figure '" + name + "'" + did_you_mean(name, figure_names()) +
                               "; there are: " + list_of(figure_names()));
 }
