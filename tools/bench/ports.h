@@ -5,8 +5,7 @@
 
 namespace jarol::bench {
 
-/// Time per message, of a writer that never pauses. The port beside a plain ring, which waits for its reader as well;
-/// the push port beside a plain ring of seqlocks, which does not either.
+/// Time per message, of a writer that never pauses; beside a plain ring.
 Figure measure_port_throughput(const std::string& name, int repeats);
 Figure measure_push_port_throughput(const std::string& name, int repeats);
 
