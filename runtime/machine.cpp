@@ -15,6 +15,8 @@
 #include <functional>
 #include <thread>
 
+#include "runtime/real_clock.h"
+
 namespace jarol {
 namespace {
 
@@ -26,12 +28,6 @@ std::string refusal(int result) { return result == 0 ? "" : std::strerror(errno)
 void on_a_thread(const std::function<void()>& work) { std::thread(work).join(); }
 
 std::int64_t nanoseconds_of(const timespec& time) { return time.tv_sec * second + time.tv_nsec; }
-
-std::int64_t monotonic() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return nanoseconds_of(now);
-}
 
 std::string use_fifo(int priority) {
   sched_param parameter{};
@@ -112,11 +108,11 @@ std::optional<Histogram> measure_lateness(std::chrono::nanoseconds period, std::
     if (fifo_priority && !use_fifo(*fifo_priority).empty()) return;
     prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
     lateness.emplace();
-    const std::int64_t start = monotonic();
+    const std::int64_t start = RealClock::monotonic();
     for (std::int64_t due = start + period.count(); due <= start + duration.count(); due += period.count()) {
       const timespec until{due / second, due % second};
       while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {}
-      lateness->add(monotonic() - due);
+      lateness->add(RealClock::monotonic() - due);
     }
   });
   return lateness;

@@ -1,7 +1,6 @@
 // The Jarol port: values from one writing thread to one reading thread, bounded, without locks, refusing when full.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
