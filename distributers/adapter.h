@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "distributers/messages/message.h"
 #include "distributers/messages/message_set.h"
@@ -21,6 +22,12 @@ class Adapter : public messages::Receiver {
   /// An instant of a run; what the external system expects from time to time can be sent. Messages that arrived before
   /// it have been received.
   virtual void reach(Duration, messages::Receiver&) {}
+
+  /// Where others reach this end of the link, as in udp://127.0.0.1:6001; told before the first instant.
+  virtual void listen_at(const std::string&) {}
+
+  /// After `reach`, for what goes to all who may look for this system, not to the peer alone.
+  virtual void announce(Duration, messages::Receiver&) {}
 
   /// Copies the newest value of an `in` channel if a message brought one since the last call.
   virtual bool take(std::size_t channel, void* value) = 0;

@@ -5,6 +5,7 @@
 
 #include "distributers/javiator_operator.h"
 #include "distributers/javiator_vehicle.h"
+#include "distributers/lauv_operator.h"
 #include "distributers/lauv_vehicle.h"
 #include "distributers/links/link_spec.h"
 #include "distributers/links/linked.h"
@@ -22,17 +23,21 @@ namespace {
 // A kind of external system; one without an adapter speaks no messages yet and can only be played from a script.
 struct DistributerKind {
   DistributerClass description;
-  std::unique_ptr<Adapter> (*make_adapter)() = nullptr;
+  std::unique_ptr<Adapter> (*make_adapter)(const void* parameters) = nullptr;
 };
 
 const std::vector<DistributerKind>& kinds() {
   static const std::vector<DistributerKind> all{
       {JaviatorVehicle::describe_class(),
-       []() -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorVehicle>(); }},
+       [](const void*) -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorVehicle>(); }},
       {JaviatorOperator::describe_class(),
-       []() -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorOperator>(); }},
-      {LauvVehicle::describe_class(), []() -> std::unique_ptr<Adapter> { return std::make_unique<LauvVehicle>(); }},
-      {describe_lauv_operator(), nullptr},
+       [](const void*) -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorOperator>(); }},
+      {LauvVehicle::describe_class(),
+       [](const void*) -> std::unique_ptr<Adapter> { return std::make_unique<LauvVehicle>(); }},
+      {LauvOperator::describe_class(),
+       [](const void* parameters) -> std::unique_ptr<Adapter> {
+         return std::make_unique<LauvOperator>(*static_cast<const LauvOperatorParameters*>(parameters));
+       }},
   };
   return all;
 }
@@ -118,7 +123,8 @@ std::unique_ptr<Channels> make_simulation(const Graph& graph, std::size_t index,
   try {
     auto made = file->vehicle->make(file->parameters.data(), seed);
     for (const Problem& problem : off_grid(graph, index, made->grid())) problems.add(problem.where, problem.text);
-    return std::make_unique<SimulationChannels>(std::move(made), kind_of(distributer).make_adapter());
+    return std::make_unique<SimulationChannels>(std::move(made),
+                                                kind_of(distributer).make_adapter(distributer.parameters.data()));
   } catch (const std::exception& error) {
     problems.add(spec.vehicle->where, name + " can't be made: " + error.what());
     return nullptr;
@@ -145,7 +151,8 @@ std::unique_ptr<Channels> make_lockstep(const Graph& graph, std::size_t index, s
   if (!spec.peer) return nullptr;
   try {
     return std::make_unique<LockstepChannels>(Address::parse(spec.peer->value), seed,
-                                              kind_of(distributer).make_adapter(), [&graph, index](Duration grid) {
+                                              kind_of(distributer).make_adapter(distributer.parameters.data()),
+                                              [&graph, index](Duration grid) {
                                                 const std::vector<Problem> wrong = off_grid(graph, index, grid);
                                                 return wrong.empty() ? std::string() : wrong.front().text;
                                               });
@@ -204,9 +211,10 @@ std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
     } else if (type->text == "script") {
       all.back() = make_script(graph, i, problems);
     } else {
-      auto adapter = make_adapter();
+      auto adapter = make_adapter(distributer.parameters.data());
       if (auto link = make_link(distributer.link, adapter->message_set(), subject, problems))
-        all.back() = std::make_unique<LinkedChannels>(std::move(link), std::move(adapter));
+        all.back() = std::make_unique<LinkedChannels>(
+            std::move(link), make_announcer(distributer.link, adapter->message_set(), problems), std::move(adapter));
     }
   }
   return all;

@@ -31,16 +31,6 @@ DistributerClass LauvVehicle::describe_class() {
           true};
 }
 
-DistributerClass describe_lauv_operator() {
-  return {"LauvOperator",
-          "the submarine's operator",
-          {{"setpoint", Direction::in, &type_of<tasks::Setpoint>(), "commanded depth, heading and speed"},
-           {"actuation", Direction::in, &type_of<tasks::Actuation>(), "propeller and fins, steered by hand"},
-           {"contact", Direction::in, &type_of<tasks::Contact>(), "how long the operator was not heard"},
-           {"report", Direction::out, &type_of<tasks::VehicleReport>(), "depth, pitch, heading and speed reached"},
-           {"motion", Direction::out, &type_of<tasks::Motion>(), "the vehicle's motion as it came"}}};
-}
-
 const messages::MessageSet& LauvVehicle::message_set() const { return imc::message_set(); }
 
 void LauvVehicle::receive(messages::MessageRef message) {
@@ -52,6 +42,9 @@ void LauvVehicle::receive_motion(messages::MessageRef message) {
   tasks::Instruments& i = instruments_;
   if (const auto* s = message.as<imc::SimulatedState>()) {
     motion_ = {s->x, s->y, s->z, s->phi, s->theta, s->psi, s->u, s->v, s->w, s->p, s->q, s->r};
+    motion_fresh_ = true;
+  } else if (const auto* e = message.as<imc::EstimatedState>()) {
+    motion_ = {e->x, e->y, e->depth, e->phi, e->theta, e->psi, e->u, e->v, e->w, e->p, e->q, e->r};
     motion_fresh_ = true;
   } else if (const auto* angles = message.as<imc::EulerAngles>()) {
     note(instruments_fresh_, i.attitude, angles->phi, angles->theta, angles->psi);

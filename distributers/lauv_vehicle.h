@@ -8,8 +8,9 @@
 
 namespace jarol::distributers {
 
-/// Speaks IMC: SimulatedState and what instruments tell in, SetThrusterActuation and SetServoPosition out. A field that
-/// is no number is one that the instrument does not measure.
+/// Speaks IMC: SimulatedState or EstimatedState, whichever came last, and what instruments tell in;
+/// SetThrusterActuation and SetServoPosition out. A field that is no number is one that the instrument does not
+/// measure.
 class LauvVehicle : public Adapter {
  public:
   static DistributerClass describe_class();
@@ -29,8 +30,5 @@ class LauvVehicle : public Adapter {
   bool motion_fresh_ = false, instruments_fresh_ = false;
   double latitude_ = 0, longitude_ = 0;  // of the first fix
 };
-
-/// The submarine's operator: setpoints or a bare actuation come in, reports or the bare motion go out.
-DistributerClass describe_lauv_operator();
 
 }  // namespace jarol::distributers

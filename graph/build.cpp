@@ -90,7 +90,7 @@ class Builder {
 
   void add_distributers() {
     for (const DistributerSpec& spec : by_name(spec_.distributers)) {
-      Distributer distributer{spec.name, spec.where, nullptr, spec.link ? spec.link->value : Yaml{}};
+      Distributer distributer{spec.name, spec.where, nullptr, spec.link ? spec.link->value : Yaml{}, {}};
       if (spec.type) {
         distributer.distributer_class = registry_.find_distributer(spec.type->value);
         if (distributer.distributer_class == nullptr) {
@@ -98,10 +98,24 @@ class Builder {
           problems_.add(spec.type->where, "distributer '" + spec.name + "' has unknown type '" + spec.type->value +
                                               "'" + did_you_mean(spec.type->value, names) +
                                               "; there are: " + list_of(names));
+        } else {
+          read_parameters(spec, distributer);
         }
       }
       graph_.distributers.push_back(std::move(distributer));
     }
+  }
+
+  void read_parameters(const DistributerSpec& spec, Distributer& distributer) {
+    const Type* type = distributer.distributer_class->parameters;
+    const std::string subject = "distributer '" + spec.name + "' (" + distributer.distributer_class->name + ")";
+    if (type != nullptr) distributer.parameters = Value(*type);
+    if (!spec.parameters) return;
+    if (type == nullptr) {
+      problems_.add(spec.parameters->where, subject + " has no parameters");
+      return;
+    }
+    bind_fields(spec.parameters->value, *type, distributer.parameters.data(), subject, "parameter", problems_);
   }
 
   void add_communicators() {

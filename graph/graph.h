@@ -49,6 +49,7 @@ struct Distributer {
   Location where;
   const DistributerClass* distributer_class = nullptr;
   Yaml link;
+  Value parameters;  // of the class, if it has any
 };
 
 /// One end of a connection: a field of a task's In or Out, or a communicator.

@@ -24,6 +24,7 @@ struct DistributerClass {
   std::string summary;
   std::vector<ChannelClass> channels;
   bool is_vehicle = false;  // else an operator
+  const Type* parameters = nullptr;  // a struct; null: it has none
 };
 
 class Registry {

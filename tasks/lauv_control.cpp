@@ -34,11 +34,16 @@ void DepthControl::run(const Param& p, const Tick& tick, const In& in, State& st
 
 void HeadingControl::run(const Param& p, const Tick&, const In& in, Out& out) {
   const double error = wrapped(in.setpoint.heading - in.motion.psi);
-  const double rate = limited(p.kp * error, p.rate_limit);
+  const double rate = limited(in.setpoint.turn == Turn::rate ? in.setpoint.rate : p.kp * error, p.rate_limit);
   out.moment.angle = limited(p.rate_kp * (rate - in.motion.r), p.fin_limit);
 }
 
 void SpeedControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  if (in.setpoint.drive == Drive::thrust) {
+    state = {};
+    out.thrust.actuation = limited(in.setpoint.thrust, 1);
+    return;
+  }
   if (in.setpoint.speed <= 0) {
     state = {};
     out.thrust.actuation = 0;

@@ -54,6 +54,16 @@ int Address::port() const {
   return ntohs(reinterpret_cast<const sockaddr_in*>(&storage_)->sin_port);
 }
 
+Address Address::with_port(int port) const {
+  Address other = *this;
+  const std::uint16_t wire = htons(static_cast<std::uint16_t>(port));
+  if (family() == AF_INET6)
+    reinterpret_cast<sockaddr_in6*>(&other.storage_)->sin6_port = wire;
+  else
+    reinterpret_cast<sockaddr_in*>(&other.storage_)->sin_port = wire;
+  return other;
+}
+
 bool Address::operator==(const Address& other) const {
   if (family() != other.family() || port() != other.port()) return false;
   if (family() == AF_INET6)

@@ -26,6 +26,9 @@ class Address {
   explicit operator bool() const { return size_ > 0; }
   bool operator==(const Address& other) const;
 
+  /// The same host with that port.
+  Address with_port(int port) const;
+
   /// "127.0.0.1:7000", "[::1]:7000".
   std::string text() const;
 

@@ -33,26 +33,38 @@ std::vector<std::string> names_of_fields(const messages::MessageForm& form) {
   return names;
 }
 
-void set_field(messages::Message& header, const std::string& name, std::uint64_t value) {
-  for (const messages::FieldForm& field : header.form()->fields) {
+// The integer field of a header that has room for the value.
+const messages::FieldForm& find_field(const messages::MessageForm& form, const std::string& name, std::uint64_t value) {
+  for (const messages::FieldForm& field : form.fields) {
     if (field.name != name || field.wire > messages::Wire::uint64) continue;
     const std::size_t size = size_of(field.wire);
     if (size < 8 && value >> (8 * size) != 0)
       throw std::invalid_argument("field '" + name + "' of the header has no room for " + std::to_string(value));
-    std::memcpy(static_cast<std::byte*>(header.value()) + field.offset, &value, size);  // little-endian machines only
-    return;
+    return field;
   }
   throw std::invalid_argument("the header has no integer field '" + name +
-                              "'; it has: " + list_of(names_of_fields(*header.form())));
+                              "'; it has: " + list_of(names_of_fields(form)));
 }
+
+// What a field of a header has to be; little-endian machines only.
+struct Accepted {
+  const messages::FieldForm* field;
+  std::uint64_t value;
+  bool accepts(messages::MessageRef header) const {
+    return std::memcmp(static_cast<const std::byte*>(header.value) + field->offset, &value, size_of(field->wire)) == 0;
+  }
+};
 
 }  // namespace
 
 // What the receiving thread does with bytes: packets that are valid go into the input port.
 class Link::Translator : public ByteSink {
  public:
-  Translator(const messages::MessageSet& set, PacketPorts& input)
-      : set_(set), datagrams_(set), input_(input), entry_(peer_size + longest_packet(set)) {}
+  Translator(const messages::MessageSet& set, const LinkOptions& options, PacketPorts& input)
+      : set_(set), datagrams_(set), input_(input), entry_(peer_size + longest_packet(set)) {
+    for (const auto& [name, value] : options.accept)
+      accepted_.push_back({&find_field(*set.header, name, value), value});
+  }
 
   bool take(std::span<const std::byte> bytes, std::uint32_t peer) override {
     return stream_ ? take_stream(bytes) : take_datagram(bytes, peer);
@@ -61,7 +73,7 @@ class Link::Translator : public ByteSink {
   void begin_stream() override {
     if (stream_) {
       stream_->give_up();
-      while (stream_->next()) write(stream_->packet(), 0);
+      while (stream_->next()) write(stream_->header(), stream_->packet(), 0);
       store(stream_->counts());
       before_ = told_;
     }
@@ -70,7 +82,7 @@ class Link::Translator : public ByteSink {
 
   // read by other threads
   struct Counts {
-    std::atomic<std::uint64_t> packets{0}, bytes{0}, refused{0};
+    std::atomic<std::uint64_t> packets{0}, bytes{0}, refused{0}, others{0};
     std::array<std::atomic<std::uint64_t>, messages::flaw_count> dropped{};
   };
   const Counts& counts() const { return counts_; }
@@ -80,8 +92,7 @@ class Link::Translator : public ByteSink {
     const Flaw flaw = datagrams_.read(bytes);
     told_.count(flaw, bytes.size());
     store(told_);
-    if (flaw == Flaw::none) write(bytes, peer);
-    return flaw == Flaw::none;
+    return flaw == Flaw::none && write(datagrams_.header(), bytes, peer);
   }
 
   bool take_stream(std::span<const std::byte> bytes) {
@@ -92,17 +103,24 @@ class Link::Translator : public ByteSink {
       std::memcpy(room.data(), bytes.data(), part);
       stream_->filled(part);
       bytes = bytes.subspan(part);
-      for (; stream_->next(); valid = true) write(stream_->packet(), 0);
+      while (stream_->next()) valid |= write(stream_->header(), stream_->packet(), 0);
     }
     store(stream_->counts());
     return valid;
   }
 
-  void write(std::span<const std::byte> packet, std::uint32_t peer) {
+  // False: it is from another sender than the one that counts.
+  bool write(messages::MessageRef header, std::span<const std::byte> packet, std::uint32_t peer) {
+    for (const Accepted& accepted : accepted_) {
+      if (accepted.accepts(header)) continue;
+      ++counts_.others;
+      return false;
+    }
     std::memcpy(entry_.data(), &peer, peer_size);
     std::memcpy(entry_.data() + peer_size, packet.data(), packet.size());
     const auto entry = std::span(entry_).first(peer_size + packet.size());
     if (!std::visit([&](auto& port) { return port.write(entry); }, input_)) ++counts_.refused;
+    return true;
   }
 
   void store(const messages::PacketCounts& now) {
@@ -123,6 +141,7 @@ class Link::Translator : public ByteSink {
   std::unique_ptr<messages::StreamReader> stream_;
   PacketPorts& input_;
   std::vector<std::byte> entry_;
+  std::vector<Accepted> accepted_;
   messages::PacketCounts told_, before_;  // before_: of the streams that have ended
   Counts counts_;
 };
@@ -138,12 +157,15 @@ Link::Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set
       longest_(longest_packet(set)),
       input_(make_port(options.input, peer_size + longest_)),
       output_(make_port(options.output, longest_)),
-      translator_(std::make_unique<Translator>(set, input_)),
+      translator_(std::make_unique<Translator>(set, options, input_)),
       reader_(set),
       header_(*set.header) {
   packet_.reserve(longest_);
   room_.resize(peer_size + longest_);
-  for (const auto& [name, value] : options.header) set_field(header_, name, value);
+  for (const auto& [name, value] : options.header) {
+    const messages::FieldForm& field = find_field(*set.header, name, value);
+    std::memcpy(static_cast<std::byte*>(header_.value()) + field.offset, &value, size_of(field.wire));
+  }
   for (const messages::FieldForm& field : set.header->fields)
     if (field.name == "timestamp" && field.wire == messages::Wire::fp64)
       timestamp_ = static_cast<std::byte*>(header_.value()) + field.offset;
@@ -244,6 +266,7 @@ LinkReport Link::report() const {
   for (std::size_t i = 1; i < messages::flaw_count; ++i)
     add("dropped: " + std::string(name_of(static_cast<Flaw>(i))), in.dropped[i]);
   add("dropped: stranger", t.strangers);
+  add("dropped: other source", in.others);
   add("dropped: input port full", in.refused);
   if (const auto* push = std::get_if<PushPacketPort>(&input_)) add("dropped: overwritten by newer", push->lost());
   add("unsent: output port full", refused_);

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "distributers/links/announcer.h"
 #include "distributers/links/serial.h"
 #include "distributers/links/tcp.h"
 #include "distributers/links/udp.h"
@@ -43,13 +44,15 @@ const std::vector<Key<PortsSpec>>& ports_keys() {
 }
 
 struct LinkSpec {
-  Maybe<std::string> type, listen, peer, device;
-  Maybe<std::int64_t> baud, id;
+  Maybe<std::string> type, listen, peer, device, announce;
+  Maybe<std::int64_t> baud, id, source;
   Maybe<Yaml> port;
 };
 
 const Key<LinkSpec> type_key = key<&LinkSpec::type>("type", Form::word, "kind of link", true);
 const Key<LinkSpec> id_key = key<&LinkSpec::id>("id", Form::integer, "the sender's id in what is sent");
+const Key<LinkSpec> source_key =
+    key<&LinkSpec::source>("source", Form::integer, "the sender's id in what counts; default: any");
 const Key<LinkSpec> ports_key = key<&LinkSpec::port>("port", Form::mapping, "kind and size of the link's ports");
 
 const std::vector<Key<LinkSpec>>& udp_keys() {
@@ -59,7 +62,10 @@ const std::vector<Key<LinkSpec>>& udp_keys() {
                              "port to listen at, with an address where not the loopback; default: any port"),
       key<&LinkSpec::peer>("peer", Form::word,
                            "address and port of the other end; default: whoever sent the last valid packet"),
+      key<&LinkSpec::announce>("announce", Form::word,
+                               "where to announce itself, as in 127.0.0.1:30100-30104; default: nowhere"),
       id_key,
+      source_key,
       ports_key,
   };
   return keys;
@@ -67,7 +73,8 @@ const std::vector<Key<LinkSpec>>& udp_keys() {
 
 const std::vector<Key<LinkSpec>>& client_keys() {
   static const std::vector<Key<LinkSpec>> keys{
-      type_key, key<&LinkSpec::peer>("peer", Form::word, "address and port to connect to", true), id_key, ports_key};
+      type_key, key<&LinkSpec::peer>("peer", Form::word, "address and port to connect to", true), id_key, source_key,
+      ports_key};
   return keys;
 }
 
@@ -76,6 +83,7 @@ const std::vector<Key<LinkSpec>>& server_keys() {
       type_key,
       key<&LinkSpec::listen>("listen", Form::word, "port to listen at, with an address where not the loopback", true),
       id_key,
+      source_key,
       ports_key,
   };
   return keys;
@@ -87,6 +95,7 @@ const std::vector<Key<LinkSpec>>& serial_keys() {
       key<&LinkSpec::device>("device", Form::word, "the line, as in /dev/ttyS0", true),
       key<&LinkSpec::baud>("baud", Form::integer, "its rate; default 115200"),
       id_key,
+      source_key,
       ports_key,
   };
   return keys;
@@ -178,10 +187,28 @@ std::unique_ptr<Link> make_link(const Yaml& yaml, const messages::MessageSet& se
   }
   if (problems.size() > before) return nullptr;
   if (spec.id) options.header.emplace_back("src", static_cast<std::uint64_t>(spec.id->value));
+  const Maybe<std::int64_t>& last = spec.source ? spec.source : spec.id;
+  if (spec.source) options.accept.emplace_back("src", static_cast<std::uint64_t>(spec.source->value));
   try {
     return std::make_unique<Link>(std::move(transport), set, options);
   } catch (const std::invalid_argument& error) {
-    problems.add(spec.id->where, subject + ": " + error.what());
+    problems.add(last->where, subject + ": " + error.what());
+    return nullptr;
+  }
+}
+
+std::unique_ptr<Link> make_announcer(const Yaml& yaml, const messages::MessageSet& set, Problems& problems) {
+  const Yaml *to = yaml.find("announce"), *id = yaml.find("id");
+  if (to == nullptr) return nullptr;
+  LinkOptions options;
+  std::int64_t sender = 0;
+  Problems told;  // what is wrong with the link's keys was reported with the link
+  if (id != nullptr && detail::read_integer(*id, sender, "id", told))
+    options.header.emplace_back("src", static_cast<std::uint64_t>(sender));
+  try {
+    return std::make_unique<Link>(std::make_unique<Announcer>(Announcer::parse(to->text)), set, options);
+  } catch (const std::invalid_argument& error) {
+    problems.add(to->where, error.what());
     return nullptr;
   }
 }

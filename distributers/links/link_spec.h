@@ -19,4 +19,7 @@ const std::vector<std::string>& link_types();
 std::unique_ptr<Link> make_link(const Yaml& yaml, const messages::MessageSet& set, const std::string& subject,
                                 Problems& problems);
 
+/// The link by which a system announces itself where the mapping of a good link says so, or none.
+std::unique_ptr<Link> make_announcer(const Yaml& yaml, const messages::MessageSet& set, Problems& problems);
+
 }  // namespace jarol::distributers

@@ -10,10 +10,11 @@ namespace jarol::distributers {
 
 class LinkedChannels : public Channels {
  public:
-  LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<Adapter> adapter);
+  /// `announcer` is for what goes to all who may look for this system, or null.
+  LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<Link> announcer, std::unique_ptr<Adapter> adapter);
 
-  void begin() override { link_->connect(); }
-  void finish() override { link_->disconnect(); }
+  void begin() override;
+  void finish() override;
   bool needs_real_clock() const override { return true; }
   std::optional<LinkReport> link_report() const override { return link_->report(); }
 
@@ -22,9 +23,9 @@ class LinkedChannels : public Channels {
   void hand_over(std::size_t channel, const void* value) override;
 
  private:
-  // What the adapter sends goes to the peer.
-  struct ToPeer : messages::Receiver {
-    explicit ToPeer(Link& to) : link(to) {}
+  // What the adapter sends goes to a link.
+  struct ToLink : messages::Receiver {
+    explicit ToLink(Link& to) : link(to) {}
     void receive(messages::MessageRef message) override { link.send(message); }
     Link& link;
   };
@@ -39,9 +40,10 @@ class LinkedChannels : public Channels {
   };
 
   std::unique_ptr<Link> link_;
+  std::unique_ptr<Link> announcer_;
   std::unique_ptr<Adapter> adapter_;
   FromPeer from_peer_;
-  ToPeer to_peer_;
+  ToLink to_link_;
 };
 
 }  // namespace jarol::distributers

@@ -30,6 +30,7 @@ class TcpServer : public StreamTransport {
  public:
   explicit TcpServer(const Address& listen) : listen_(listen) {}
   std::string text() const override { return "tcp at " + listen_.text(); }
+  std::string address() const override { return "tcp://" + listen_.with_port(port()).text(); }
   void open() override { socket_ = listen_at(listen_); }
   void close() override;
 

@@ -37,6 +37,9 @@ class Transport {
   /// As in "udp 127.0.0.1:7000".
   virtual std::string text() const = 0;
 
+  /// Where others reach it once it is open, as in "udp://127.0.0.1:6001"; empty: nowhere.
+  virtual std::string address() const { return {}; }
+
   /// Takes hold of what must be there from the begin, as a port to listen at. Throws std::runtime_error with the cause.
   virtual void open() = 0;
 

@@ -16,6 +16,7 @@ class UdpTransport : public Transport {
   UdpTransport(const Address& listen, const Address& peer) : listen_(listen), named_peer_(peer) {}
 
   std::string text() const override;
+  std::string address() const override { return "udp://" + listen_.with_port(port()).text(); }
   void open() override;
   void receive(const Interrupter& interrupter, ByteSink& sink) override;
   bool send(std::span<const std::byte> packet) override;

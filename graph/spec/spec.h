@@ -67,7 +67,7 @@ struct DistributerSpec {
   std::string name;
   Location where;
   Maybe<std::string> type;
-  Maybe<Yaml> link;
+  Maybe<Yaml> link, parameters;
 };
 
 enum class Grammar { let };

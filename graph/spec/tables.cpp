@@ -32,6 +32,7 @@ const std::vector<Key<DistributerSpec>>& distributer_keys() {
       key<&DistributerSpec::type>("type", Form::word, "a registered distributer class, which defines the channels",
                                   true),
       key<&DistributerSpec::link>("link", Form::mapping, "how the external system is reached", true),
+      key<&DistributerSpec::parameters>("parameters", Form::mapping, "parameters of the distributer class"),
   };
   return keys;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "graph/values/describe.h"
 #include "tasks/values/alarm.h"
@@ -26,16 +27,34 @@ struct Motion {
   }
 };
 
-/// What the operator wants.
+/// Which of two commands steers.
+enum class Turn : std::uint8_t { heading, rate };
+enum class Drive : std::uint8_t { speed, thrust };
+
+constexpr auto enumerators(Turn) {
+  return std::array<Enumerator<Turn>, 2>{{{"heading", Turn::heading}, {"rate", Turn::rate}}};
+}
+constexpr auto enumerators(Drive) {
+  return std::array<Enumerator<Drive>, 2>{{{"speed", Drive::speed}, {"thrust", Drive::thrust}}};
+}
+
+/// What the operator wants: a heading or a rate of turn, a speed or a thrust.
 struct Setpoint {
   double depth = 0;
   double heading = 0;
   double speed = 0;
+  Turn turn = Turn::heading;
+  double rate = 0;
+  Drive drive = Drive::speed;
+  double thrust = 0;
 
   static constexpr auto fields() {
     using S = Setpoint;
     return describe(field<&S::depth>("m", "below the surface"), field<&S::heading>("rad", "clockwise from north"),
-                    field<&S::speed>("m/s", "through the water, 0 stops the propeller"));
+                    field<&S::speed>("m/s", "through the water, 0 stops the propeller"),
+                    field<&S::turn>("", "what steers: heading or rate"), field<&S::rate>("rad/s", "to starboard"),
+                    field<&S::drive>("", "what drives: speed or thrust"),
+                    field<&S::thrust>("", "-1 (full astern) to 1 (full ahead)"));
   }
 };
 

@@ -82,7 +82,10 @@ nlohmann::ordered_json distributer_json(const DistributerClass& distributer) {
                         {"direction", c.direction == Direction::in ? "in" : "out"},
                         {"type", c.type->name},
                         {"text", c.text}});
-  return {{"name", distributer.name}, {"summary", distributer.summary}, {"channels", channels}};
+  const auto parameters =
+      distributer.parameters != nullptr ? fields_json(*distributer.parameters) : nlohmann::ordered_json::array();
+  return {
+      {"name", distributer.name}, {"summary", distributer.summary}, {"parameters", parameters}, {"channels", channels}};
 }
 
 void print_json(const std::vector<TaskClass>& tasks, const std::vector<DistributerClass>& distributers) {
@@ -102,7 +105,9 @@ void print_task(const TaskClass& task) {
 }
 
 void print_distributer(const DistributerClass& distributer) {
-  std::cout << distributer.name << ": " << distributer.summary << "\n\nchannels\n";
+  std::cout << distributer.name << ": " << distributer.summary << "\n";
+  if (distributer.parameters != nullptr) print_fields("parameters", *distributer.parameters, true);
+  std::cout << "\nchannels\n";
   std::size_t width = 0;
   for (const ChannelClass& c : distributer.channels) width = std::max(width, c.name.size());
   for (const ChannelClass& c : distributer.channels)

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "distributers/lauv_vehicle.h"
+#include "distributers/lauv_operator.h"
 
 namespace {
 using namespace jarol;
@@ -10,7 +10,7 @@ using namespace jarol::distributers;
 using namespace std::chrono_literals;
 
 const DistributerClass& operator_class() {
-  static const DistributerClass made = describe_lauv_operator();
+  static const DistributerClass made = LauvOperator::describe_class();
   return made;
 }
 
