@@ -1,10 +1,10 @@
 // Messages of IMC that are made from values of the core.
 #pragma once
 
-#include <string>
 #include <string_view>
 
 #include "distributers/messages/imc.h"
+#include "graph/yaml/quantities.h"
 #include "tasks/values/lauv.h"
 
 namespace jarol::distributers {
@@ -17,9 +17,15 @@ inline constexpr std::string_view entities_known = "Daemon=0;Operator=1;Supervis
 /// EstimatedState about an origin, latitude and longitude in rad; the altitude is not known.
 messages::imc::EstimatedState estimate_state(const tasks::Motion& motion, double latitude, double longitude);
 
-/// Announce of an unmanned underwater vehicle that can be reached at an address as in "udp://127.0.0.1:6001", or
-/// nowhere if that is empty.
-messages::imc::Announce make_announce(std::string_view name, double latitude, double longitude,
-                                      const std::string& address);
+/// Who announces itself; the address as in "udp://127.0.0.1:6001", empty where it can't be reached.
+struct System {
+  std::string_view name;
+  std::int64_t type = 0;  // SystemType
+  double latitude = 0, longitude = 0;
+  std::string_view address;
+};
+
+constexpr Duration announce_period = std::chrono::seconds(10);
+messages::imc::Announce make_announce(const System& system);
 
 }  // namespace jarol::distributers

@@ -293,10 +293,13 @@ void LauvOperator::tell_state(messages::Receiver& system) const {
 }
 
 void LauvOperator::announce(Duration instant, messages::Receiver& all) {
-  if (announced_ && instant - *announced_ < 10s) return;
+  if (announced_ && instant - *announced_ < announce_period) return;
   announced_ = instant;
-  all.receive(
-      messages::refer_to(make_announce(parameters_.name, parameters_.latitude, parameters_.longitude, address_)));
+  all.receive(messages::refer_to(make_announce({.name = parameters_.name,
+                                                .type = imc::SystemType::UUV,
+                                                .latitude = parameters_.latitude,
+                                                .longitude = parameters_.longitude,
+                                                .address = address_})));
 }
 
 bool LauvOperator::take(std::size_t channel, void* value) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "distributers/lauv_messages.h"
 #include "distributers/messages/imc.h"
 
 namespace jarol::distributers {
@@ -95,6 +96,13 @@ void LauvVehicle::place(double latitude, double longitude) {
   const double east_radius = equatorial_radius / std::sqrt(w);
   note(instruments_fresh_, instruments_.place, (latitude - latitude_) * east_radius * (1 - eccentricity_squared) / w,
        (longitude - longitude_) * east_radius * std::cos(latitude_), 0);
+}
+
+// DUNE listens to systems that have announced themselves only.
+void LauvVehicle::announce(Duration instant, messages::Receiver& all) {
+  if (announced_ && instant - *announced_ < announce_period) return;
+  announced_ = instant;
+  all.receive(messages::refer_to(make_announce({.name = "jarol", .type = imc::SystemType::CCU, .address = address_})));
 }
 
 bool LauvVehicle::take(std::size_t channel, void* value) {

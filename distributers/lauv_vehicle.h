@@ -1,6 +1,9 @@
 // The submarine as the core sees it: its motion comes in, its actuation goes out.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "distributers/adapter.h"
 #include "graph/registry.h"
 #include "tasks/values/instruments.h"
@@ -17,6 +20,8 @@ class LauvVehicle : public Adapter {
 
   const messages::MessageSet& message_set() const override;
   void receive(messages::MessageRef message) override;
+  void listen_at(const std::string& address) override { address_ = address; }
+  void announce(Duration instant, messages::Receiver& all) override;
   bool take(std::size_t channel, void* value) override;
   void hand_over(std::size_t channel, const void* value, messages::Receiver& system) override;
 
@@ -29,6 +34,8 @@ class LauvVehicle : public Adapter {
   tasks::Instruments instruments_{};
   bool motion_fresh_ = false, instruments_fresh_ = false;
   double latitude_ = 0, longitude_ = 0;  // of the first fix
+  std::string address_;
+  std::optional<Duration> announced_;
 };
 
 }  // namespace jarol::distributers

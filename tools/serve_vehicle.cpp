@@ -25,12 +25,38 @@ struct ToPeer : messages::Receiver {
   distributers::Link& link;
 };
 
+// Passes on messages of one form only.
+struct Only : messages::Receiver {
+  Only(const messages::MessageForm& one, messages::Receiver& receiver) : form(one), to(receiver) {}
+  void receive(messages::MessageRef message) override {
+    if (message.form == &form) to.receive(message);
+  }
+  const messages::MessageForm& form;
+  messages::Receiver& to;
+};
+
+struct All : messages::Receiver {
+  explicit All(messages::Receiver& receiver) : to(receiver) {}
+  void receive(messages::MessageRef message) override { to.receive(message); }
+  messages::Receiver& to;
+};
+
+std::unique_ptr<messages::Receiver> make_telemetry(const vehicles::Vehicle& vehicle,
+                                                   const vehicles::VehicleClass& vehicle_class, messages::Receiver& to,
+                                                   Told told) {
+  if (told == Told::true_state) return std::make_unique<Only>(*vehicle_class.true_state, to);
+  if (vehicle_class.make_telemetry != nullptr) return vehicle_class.make_telemetry(vehicle, to);
+  return std::make_unique<All>(to);
+}
+
 }  // namespace
 
 int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
-                  std::chrono::nanoseconds end) {
+                  std::chrono::nanoseconds end, Told told) {
   ToVehicle to_vehicle(vehicle);
-  ToPeer to_peer(link);
+  ToPeer to_link(link);
+  const auto telemetry = make_telemetry(vehicle, vehicle_class, to_link, told);
+  messages::Receiver& to_peer = *telemetry;
   RealClock clock(0);
   clock.prepare_thread();
   const Interruptible interruptible;

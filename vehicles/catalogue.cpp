@@ -5,6 +5,7 @@
 #include "graph/values/type_of.h"
 #include "vehicles/helicopter.h"
 #include "vehicles/submarine.h"
+#include "vehicles/submarine_telemetry.h"
 
 namespace jarol::vehicles {
 namespace {
@@ -26,14 +27,23 @@ VehicleClass entry(std::string name, const messages::MessageSet& set, std::strin
   return made;
 }
 
+VehicleClass submarine() {
+  VehicleClass made = entry<Submarine>("submarine", messages::imc::message_set(),
+                                       "torpedo-shaped AUV with four fins and one propeller (LAUV)");
+  made.make_telemetry = [](const Vehicle& vehicle, messages::Receiver& to) -> std::unique_ptr<messages::Receiver> {
+    return std::make_unique<SubmarineTelemetry>(vehicle, to);
+  };
+  made.true_state = &messages::imc::SimulatedState::form;
+  return made;
+}
+
 }  // namespace
 
 const std::vector<VehicleClass>& catalogue() {
   static const std::vector<VehicleClass> all = {
       entry<Helicopter>("helicopter", messages::javiator::message_set(),
                         "quadrotor with a Robostix between signals and sensors (JAviator)"),
-      entry<Submarine>("submarine", messages::imc::message_set(),
-                       "torpedo-shaped AUV with four fins and one propeller (LAUV)"),
+      submarine(),
   };
   return all;
 }

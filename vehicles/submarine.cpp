@@ -57,6 +57,9 @@ void Submarine::accept(messages::MessageRef command) {
     if (thruster->id == 0) actuation_.command_thruster(static_cast<double>(thruster->value));
   } else if (const auto* servo = command.as<imc::SetServoPosition>()) {
     actuation_.command_servo(servo->id, static_cast<double>(servo->value));
+  } else if (const auto* position = command.as<imc::ServoPosition>()) {
+    // what DUNE's servos have come to where it has no plant of its own
+    actuation_.command_servo(position->id, static_cast<double>(position->value));
   }
 }
 

@@ -86,6 +86,9 @@ struct VehicleClass {
   const Type* outputs = nullptr;  // a struct of structs of numbers
   // from a value of the type of parameters; throws std::runtime_error if there can be no such vehicle
   std::unique_ptr<Vehicle> (*make)(const void* parameters, std::uint64_t seed) = nullptr;
+  // passes on what the vehicle tells and adds what a peer expects beside it; null: nothing
+  std::unique_ptr<messages::Receiver> (*make_telemetry)(const Vehicle& vehicle, messages::Receiver& to) = nullptr;
+  const messages::MessageForm* true_state = nullptr;  // the message that tells it; null: there is none
 };
 
 }  // namespace jarol::vehicles

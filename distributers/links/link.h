@@ -28,8 +28,8 @@ struct PortOptions {
 struct LinkOptions {
   PortOptions input{PortKind::push};
   PortOptions output{PortKind::plain};
-  std::vector<std::pair<std::string, std::uint64_t>> header;  // fields of the packets sent, as the sender's id
-  std::vector<std::pair<std::string, std::uint64_t>> accept;  // fields of packets received; others are dropped
+  std::vector<std::pair<std::string, std::uint64_t>> header;    // fields of the packets sent, as the sender's id
+  std::vector<std::pair<std::string, std::uint64_t>> accept{};  // of packets received; others are dropped
 };
 
 /// Connect, disconnect, send and receive belong to one thread, which never waits but in `disconnect`.

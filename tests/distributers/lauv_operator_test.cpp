@@ -365,7 +365,7 @@ TEST_SUITE("distributers/lauv_operator") {
     CHECK_FALSE(c.adapter.take(1, &value));
     c.say(imc::SetThrusterActuation{0, 0.5F});
     c.say(imc::SetServoPosition{2, 0.25F});
-    c.say(imc::SetServoPosition{4, 1});     // there is no such fin
+    c.say(imc::SetServoPosition{4, 1});      // there is no such fin
     c.say(imc::SetThrusterActuation{1, 1});  // nor such a thruster
     CHECK(c.adapter.take(1, &value));
     CHECK(value.thruster == 0.5);

@@ -41,6 +41,46 @@ TEST_SUITE("distributers/lauv_vehicle") {
     CHECK_FALSE(adapter.take(0, &motion));
   }
 
+  TEST_CASE("an estimated state becomes motion as well, whichever came last; its depth counts") {
+    LauvVehicle adapter;
+    tasks::Motion motion;
+    imc::SimulatedState truth;
+    truth.z = 2.5F;
+    imc::EstimatedState estimate;
+    estimate.x = 1;
+    estimate.z = 7;
+    estimate.depth = 3;
+    estimate.u = 1.5F;
+    estimate.vx = 9;
+    estimate.q = 0.25F;
+    adapter.receive(messages::refer_to(truth));
+    adapter.receive(messages::refer_to(estimate));
+    CHECK(adapter.take(0, &motion));
+    CHECK(motion.x == 1);
+    CHECK(motion.z == 3);
+    CHECK(motion.u == 1.5);
+    CHECK(motion.q == 0.25);
+    adapter.receive(messages::refer_to(truth));
+    CHECK(adapter.take(0, &motion));
+    CHECK(motion.z == 2.5);
+  }
+
+  TEST_CASE("it announces itself as a control unit, for DUNE listens to nobody else") {
+    struct Heard : messages::Receiver {
+      void receive(messages::MessageRef message) override {
+        if (const auto* a = message.as<imc::Announce>()) announces.push_back(*a);
+      }
+      std::vector<imc::Announce> announces;
+    } heard;
+    LauvVehicle adapter;
+    adapter.listen_at("udp://127.0.0.1:7002");
+    for (Duration now{}; now < std::chrono::seconds(11); now += std::chrono::seconds(1)) adapter.announce(now, heard);
+    REQUIRE(heard.announces.size() == 2);
+    CHECK(heard.announces[0].sys_name == "jarol");
+    CHECK(heard.announces[0].sys_type == imc::SystemType::CCU);
+    CHECK(heard.announces[0].services == "imc+info://0.0.0.0/version/5.4.31;imc+udp://127.0.0.1:7002/");
+  }
+
   TEST_CASE("an actuation becomes one thruster and four servo messages") {
     LauvVehicle adapter;
     Sent sent;

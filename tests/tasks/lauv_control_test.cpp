@@ -45,6 +45,21 @@ TEST_SUITE("tasks/lauv_control") {
     CHECK(out.moment.angle < 0);
   }
 
+  TEST_CASE("a commanded rate turns whatever the heading") {
+    HeadingControl::Out out;
+    HeadingControl::In in;
+    in.setpoint = {.heading = -1, .turn = Turn::rate, .rate = 0.1};
+    HeadingControl::run({}, tick, in, out);
+    CHECK(out.moment.angle == doctest::Approx(HeadingControl::Param{}.rate_kp * 0.1));
+    in.motion.r = 0.1;
+    HeadingControl::run({}, tick, in, out);
+    CHECK(out.moment.angle == 0);
+    in.setpoint.rate = 10;
+    in.motion.r = HeadingControl::Param{}.rate_limit;
+    HeadingControl::run({}, tick, in, out);
+    CHECK(out.moment.angle == 0);
+  }
+
   TEST_CASE("a demand never exceeds the fins' limit") {
     HeadingControl::Out out;
     HeadingControl::In in;
@@ -60,6 +75,19 @@ TEST_SUITE("tasks/lauv_control") {
     SpeedControl::run({}, tick, {}, state, out);
     CHECK(out.thrust.actuation == 0);
     CHECK(state.integral == 0);
+  }
+
+  TEST_CASE("a commanded thrust goes to the propeller as it is, within its limits, and forgets the integral") {
+    SpeedControl::State state{0.4};
+    SpeedControl::Out out;
+    SpeedControl::In in;
+    in.setpoint = {.speed = 1.2, .drive = Drive::thrust, .thrust = -0.4};
+    SpeedControl::run({}, tick, in, state, out);
+    CHECK(out.thrust.actuation == -0.4);
+    CHECK(state.integral == 0);
+    in.setpoint.thrust = 3;
+    SpeedControl::run({}, tick, in, state, out);
+    CHECK(out.thrust.actuation == 1);
   }
 
   TEST_CASE("the integral of speed is held while the propeller is saturated") {

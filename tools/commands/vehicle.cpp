@@ -25,6 +25,7 @@ struct Options {
   std::string name;
   bool describe = false;
   bool json = false;
+  bool bare = false;
   std::string parameters;
   std::string initial;
   std::vector<std::string> set;
@@ -287,7 +288,8 @@ int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, c
   const auto link = distributers::make_link(link_of(options), *vehicle_class.message_set, "link", problems);
   const auto vehicle = make_vehicle(options, vehicle_class, parameters, own_seed(options, vehicle_class), problems);
   const Duration end = options.duration.empty() ? Duration::max() : end_of(options, {});
-  return serve_vehicle(*vehicle, vehicle_class, *link, end);
+  const Told told = options.bare ? Told::true_state : Told::all;
+  return serve_vehicle(*vehicle, vehicle_class, *link, end, told);
 }
 
 int vehicle(const Options& options) {
@@ -305,6 +307,10 @@ int vehicle(const Options& options) {
   if (linked && (options.link.front().first != "type" || !options.script.empty()))
     throw std::invalid_argument(options.script.empty() ? "--" + options.link.front().first + " needs --link"
                                                        : "--script and --link: either a script steers it or a peer");
+  if (options.bare && (!linked || options.link.front().second == "lockstep"))
+    throw std::invalid_argument("--bare needs --link, and one in real time");
+  if (options.bare && found->true_state == nullptr)
+    throw std::invalid_argument("--bare: there is no message of a " + found->name + "'s true state");
   Problems problems;
   const Value parameters = read_parameters(options, *found, problems);
   if (options.describe) {
@@ -336,6 +342,7 @@ void add_vehicle(CLI::App& app, int& exit_code) {
   command->add_option("--rate", options->rate, "Rows per second of that file; default 100");
   command->add_option("--for", options->duration, "How long, as in 10s; default: to the last row of the script");
   command->add_option("--seed", options->seed, "Seed of the sensors' noise; default 0");
+  command->add_flag("--bare", options->bare, "Link: tell the true state only, as SimulatedState of a submarine");
   struct LinkKey {
     const char *key, *text;
   };

@@ -1,0 +1,104 @@
+#include "distributers/links/announcer.h"
+
+#include <doctest/doctest.h>
+#include <poll.h>
+
+#include <string>
+
+#include "distributers/links/link.h"
+#include "distributers/links/udp.h"
+#include "distributers/messages/imc.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+namespace imc = messages::imc;
+
+std::string texts(const std::vector<Address>& addresses) {
+  std::string text;
+  for (const Address& address : addresses) text += address.text() + " ";
+  return text;
+}
+
+struct Socket {
+  Socket() : descriptor(socket(AF_INET, SOCK_DGRAM, 0)) {
+    const Address any = Address::parse("0");
+    REQUIRE(bind(descriptor.get(), any.get(), any.size()) == 0);
+  }
+  // Bytes of the next datagram; -1: none comes.
+  long next() {
+    pollfd polled{descriptor.get(), POLLIN, 0};
+    if (poll(&polled, 1, 5000) != 1) return -1;
+    char room[1024];
+    return recv(descriptor.get(), room, sizeof room, 0);
+  }
+  std::string port() const { return std::to_string(port_of(descriptor)); }
+  Descriptor descriptor;
+};
+}  // namespace
+
+TEST_SUITE("distributers/links/announcer") {
+  TEST_CASE("addresses are listed, each with a port or a range of ports") {
+    CHECK(texts(Announcer::parse("30100")) == "127.0.0.1:30100 ");
+    CHECK(texts(Announcer::parse("127.0.0.1:30100-30102, 10.0.0.255:5")) ==
+          "127.0.0.1:30100 127.0.0.1:30101 127.0.0.1:30102 10.0.0.255:5 ");
+    CHECK(texts(Announcer::parse("7-8,[::1]:9")) == "127.0.0.1:7 127.0.0.1:8 [::1]:9 ");
+  }
+
+  TEST_CASE("what is no list of addresses is told with what would be right") {
+    CHECK_THROWS_WITH(Announcer::parse("30104-30100"),
+                      "'30104-30100' is no range of ports; write the first and the last of no more than 64");
+    CHECK_THROWS_WITH(Announcer::parse("1-65535"),
+                      "'1-65535' is no range of ports; write the first and the last of no more than 64");
+    CHECK_THROWS_WITH(Announcer::parse(""),
+                      "'' is not an address with a port; write it as in 7000, 192.168.2.3:7000 or \"[::1]:7000\"");
+  }
+
+  TEST_CASE("what is announced arrives at each address, where somebody listens or not") {
+    Socket one, other;
+    const std::string nobody = Socket().port();  // free again at once
+    Link link(std::make_unique<Announcer>(Announcer::parse(one.port() + "," + nobody + "," + other.port())),
+              imc::message_set(), {});
+    link.connect();
+    for (int i = 0; i < 3; ++i) {
+      link.send(messages::refer_to(imc::Heartbeat{}));
+      link.flush();
+      CHECK(one.next() == 22);
+      CHECK(other.next() == 22);
+    }
+    link.disconnect();
+  }
+
+  TEST_CASE("only packets of the source that was named count, and make their sender the peer") {
+    const auto make = [](std::uint64_t id, const Address& listen, const Address& peer, const LinkOptions& options) {
+      LinkOptions its = options;
+      its.header.emplace_back("src", id);
+      auto link = std::make_unique<Link>(std::make_unique<UdpTransport>(listen, peer), imc::message_set(), its);
+      link->connect();
+      return link;
+    };
+    LinkOptions options;
+    options.accept.emplace_back("src", 0xd1);
+    const auto link = make(0x4001, Address::parse("0"), {}, options);
+    const Address at = Address::parse(link->transport().address().substr(6));
+    const auto right = make(0xd1, Address::parse("0"), at, {}), wrong = make(0xd2, Address::parse("0"), at, {});
+    const auto count = [&](const std::string& name) {
+      for (const auto& [counted, n] : link->report().counts)
+        if (counted == name) return n;
+      return std::uint64_t{0};
+    };
+    const auto waits = [&](const std::string& name, std::uint64_t wanted) {
+      for (int i = 0; i < 5000 && count(name) != wanted; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      return count(name);
+    };
+    wrong->send(messages::refer_to(imc::Heartbeat{}));
+    wrong->flush();
+    CHECK(waits("dropped: other source", 1) == 1);
+    CHECK(count("peers") == 0);
+    right->send(messages::refer_to(imc::Heartbeat{}));
+    right->flush();
+    CHECK(waits("peers", 1) == 1);
+    CHECK(count("dropped: other source") == 1);
+  }
+}
