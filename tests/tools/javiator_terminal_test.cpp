@@ -1,10 +1,11 @@
 // The helicopter's graph and a control terminal of the JAviator: over real sockets, in logical time.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <functional>
+#include <optional>
 #include <thread>
 
 #include "distributers/javiator_operator.h"
@@ -12,6 +13,7 @@
 #include "distributers/links/tcp.h"
 #include "distributers/links/udp.h"
 #include "runtime/executor.h"
+#include "tests/tools/run_command.h"
 #include "tests/tools/terminal.h"
 #include "tools/load_graph.h"
 
@@ -43,8 +45,8 @@ class Lab {
     }
     auto adapter = std::make_unique<JaviatorOperator>();
     const auto& set = adapter->message_set();
-    auto channels = std::make_unique<LinkedChannels>(
-        std::make_unique<Link>(std::move(transport), set, LinkOptions{}), std::move(adapter));
+    auto channels = std::make_unique<LinkedChannels>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
+                                                     std::move(adapter));
     link_ = channels.get();
     for (std::size_t i = 0; i < loaded_.channels.size(); ++i)
       if (loaded_.graph->distributers[i].name == "terminal") loaded_.channels[i] = std::move(channels);
@@ -133,7 +135,8 @@ class Lab {
   void wait_for(const std::string& name, std::uint64_t least) {
     const auto end = std::chrono::steady_clock::now() + 20s;
     const auto count = [&] {
-      for (const auto& [counted, count] : link_->link_report()->counts)
+      const LinkReport report = *link_->link_report();
+      for (const auto& [counted, count] : report.counts)
         if (counted == name) return count;
       return std::uint64_t{0};
     };
@@ -193,6 +196,44 @@ TEST_SUITE("tools/javiator_terminal") {
   }
   TEST_CASE("a terminal takes off, hovers, leans, lands and shuts down: over TCP with the original laws") {
     check_flight(Terminal::Over::tcp, "original", 5);
+  }
+
+  TEST_CASE("on the real clock, the command serves a terminal") {
+    const auto bind_to = [](int port) {
+      UdpTransport probe(Address::parse("127.0.0.1:" + std::to_string(port)), Address{});
+      probe.open();
+      return probe.port();
+    };
+    const int port = bind_to(0);
+    command::Result run;
+    std::thread running([&] {
+      run = command::jarol(
+          "run specs/javiator.yaml --clock real --force --for 4s --profile terminal "
+          "--set distributers.terminal.link.listen=" +
+          std::to_string(port));
+    });
+    const auto begin = std::chrono::steady_clock::now();
+    const auto elapsed = [&] { return std::chrono::steady_clock::now() - begin; };
+    // it listens as soon as nobody else can
+    for (bool listens = false; !listens && elapsed() < 20s; std::this_thread::sleep_for(5ms)) {
+      try {
+        bind_to(port);
+      } catch (const std::runtime_error&) { listens = true; }
+    }
+    Terminal terminal(port, Terminal::Over::udp);
+    std::vector<int> states;
+    for (int i = 0; i < 100; ++i) {
+      if (i == 20) terminal.press(Terminal::switch_state);
+      if (i == 60) terminal.press(Terminal::shut_down);
+      const auto report = terminal.answer();
+      if (!report) break;
+      if (states.empty() || states.back() != report->state) states.push_back(report->state);
+    }
+    running.join();
+    CHECK(states == std::vector<int>{halted, ground, halted});
+    CHECK(run.exit_code == 0);
+    CHECK(run.output.find("  link        udp 127.0.0.1:" + std::to_string(port) + ": ") != std::string::npos);
+    CHECK(terminal.bad == 0);
   }
 
   TEST_CASE("without commands the original laws stop the motors after more than 35 periods, and not before") {
