@@ -241,12 +241,14 @@ TEST_SUITE("tools/javiator_terminal") {
     Terminal terminal = lab.connect();
     lab.fly(terminal, 0.1);
     REQUIRE(take_off(lab, terminal, 4).z > 400);
-    // the last answer is heard in the first of them, and what is decided shows in the next report
-    const Terminal::Report before = lab.pass_unanswered(terminal, 37);
-    CHECK(before.state == flying);
-    CHECK(before.front > 6000);
-    SUBCASE("in time it flies on") { CHECK(lab.fly(terminal, 1).state == flying); }
+    // the last answer is heard in the first of them, the next one in the period after it
+    SUBCASE("in time it flies on") {
+      lab.pass_unanswered(terminal, 35);
+      CHECK(lab.fly(terminal, 1).state == flying);
+    }
     SUBCASE("too late") {
+      // what is decided in the last shows in the next report
+      CHECK(lab.pass_unanswered(terminal, 37).state == flying);
       CHECK(lab.pass_unanswered(terminal, 1).state == halted);
       CHECK(lab.pass_unanswered(terminal, 1).front == 0);
       CHECK(lab.fly(terminal, 1).state == halted);
@@ -271,7 +273,7 @@ TEST_SUITE("tools/javiator_terminal") {
       Lab lab(over, "");
       std::optional<Terminal> terminal(lab.connect());
       lab.fly(*terminal, 0.1);
-      REQUIRE(take_off(lab, *terminal, 2).z > 450);
+      REQUIRE(take_off(lab, *terminal, 3).z > 450);
       terminal.reset();
       for (int i = 0; i < 10; ++i) lab.pass();
       terminal.emplace(lab.connect());
@@ -314,12 +316,12 @@ TEST_SUITE("tools/javiator_terminal") {
       const double before = lab.true_roll();
       CHECK(before > 0.02);
       lab.fly(terminal, 0.6);
-      CHECK(std::abs(lab.reports.back().roll) < 12);
+      CHECK(std::abs(lab.reports.back().roll) < 25);
       CHECK(lab.true_roll() == doctest::Approx(1e-3 * leant).epsilon(0.4));
       lab.press(terminal, Terminal::clear_trim);
       lab.fly(terminal, 0.8);
-      CHECK(std::abs(lab.reports.back().roll) < 12);
-      CHECK(std::abs(lab.true_roll()) < 0.012);
+      CHECK(std::abs(lab.reports.back().roll) < 25);
+      CHECK(std::abs(lab.true_roll()) < 0.025);
     }
   }
 }
