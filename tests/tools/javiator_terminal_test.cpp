@@ -31,7 +31,7 @@ constexpr int ground = 1, flying = 2, halted = 4;
 class Lab {
  public:
   Lab(Terminal::Over over, const std::string& profile)
-      : over_(over), loaded_(tools::load_graph("specs/javiator.yaml", {.profile = profile})) {
+      : over_(over), loaded_(tools::load_graph("specs/javiator.yaml", {.profile = profile, .set = {}})) {
     const auto any = Address::parse("127.0.0.1:0");
     std::unique_ptr<Transport> transport;
     if (over == Terminal::Over::udp) {
@@ -46,7 +46,7 @@ class Lab {
     auto adapter = std::make_unique<JaviatorOperator>();
     const auto& set = adapter->message_set();
     auto channels = std::make_unique<LinkedChannels>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
-                                                     std::move(adapter));
+                                                     nullptr, std::move(adapter));
     link_ = channels.get();
     for (std::size_t i = 0; i < loaded_.channels.size(); ++i)
       if (loaded_.graph->distributers[i].name == "terminal") loaded_.channels[i] = std::move(channels);

@@ -309,7 +309,7 @@ TEST_SUITE("distributers/links/link") {
     auto transport = std::make_unique<UdpTransport>(Address::parse("127.0.0.1:0"), Address{});
     const UdpTransport& at = *transport;
     std::string diary;
-    LinkedChannels channels(make(std::move(transport)), std::make_unique<Diary>(diary));
+    LinkedChannels channels(make(std::move(transport)), nullptr, std::make_unique<Diary>(diary));
     channels.begin();
     const Address to = Address::parse("127.0.0.1:" + std::to_string(at.port()));
     for (int restart = 0; restart < 2; ++restart) {
