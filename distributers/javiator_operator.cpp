@@ -10,7 +10,9 @@ namespace javiator = messages::javiator;
 namespace {
 
 // its numbers have 16 bits and no fractions
-std::int16_t to_wire(double value) { return static_cast<std::int16_t>(std::clamp(std::trunc(value), -32768.0, 32767.0)); }
+std::int16_t to_wire(double value) {
+  return static_cast<std::int16_t>(std::clamp(std::trunc(value), -32768.0, 32767.0));
+}
 
 std::int16_t milli(double value) { return to_wire(1e3 * value); }
 
@@ -42,9 +44,7 @@ javiator::MotorOffsets effort(const std::array<double, 4>& signals) {
           to_wire((front + right + rear + left) / 4)};
 }
 
-std::uint32_t clock_of(Duration instant) {
-  return static_cast<std::uint32_t>(instant.count() / 1000 % 1'000'000'000);
-}
+std::uint32_t clock_of(Duration instant) { return static_cast<std::uint32_t>(instant.count() / 1000 % 1'000'000'000); }
 
 }  // namespace
 

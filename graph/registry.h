@@ -23,7 +23,7 @@ struct DistributerClass {
   std::string name;
   std::string summary;
   std::vector<ChannelClass> channels;
-  bool is_vehicle = false;  // else an operator
+  bool is_vehicle = false;           // else an operator
   const Type* parameters = nullptr;  // a struct; null: it has none
 };
 

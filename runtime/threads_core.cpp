@@ -71,7 +71,8 @@ void ThreadsCore::gather() {
   std::sort(outs_.begin(), outs_.end(), by_name);
   for (const std::size_t i : graph_.order) {
     const Task& task = graph_.tasks[i];
-    tasks_.push_back({activations[i], publishes[i], rounds_of("task '" + task.name + "'", task.period), task.period, 0});
+    tasks_.push_back(
+        {activations[i], publishes[i], rounds_of("task '" + task.name + "'", task.period), task.period, 0});
   }
 }
 
@@ -92,9 +93,7 @@ void ThreadsCore::run_for(Duration end, const std::function<void()>& prepare) {
   while (core_signal_.waiting() == 0 || actuator_signal_.waiting() == 0 || terminal_signal_.waiting() == 0)
     std::this_thread::yield();
   begin([this, &trigger] { run_sensor(trigger); });
-  const auto over = [&] {
-    return end != Duration::max() && RealClock::monotonic() - start >= end.count();
-  };
+  const auto over = [&] { return end != Duration::max() && RealClock::monotonic() - start >= end.count(); };
   constexpr auto look = std::chrono::milliseconds(10);
   while (!over() && !interrupted_.load(std::memory_order_relaxed) && !stopped_.load(std::memory_order_acquire))
     std::this_thread::sleep_for(std::min<Duration>(look, end));
@@ -156,8 +155,7 @@ void ThreadsCore::run_round(std::int64_t round) {
   ++report_.instants;
   for (Carried& in : ins_) {
     if (round % in.every != 0) continue;
-    while (in.port->read(in.action->value)) {
-    }
+    while (in.port->read(in.action->value)) {}
     publish(in.action->publish, instant_term);
   }
   for (Counted& task : tasks_)

@@ -23,21 +23,22 @@ namespace jarol {
 
 /// What a run on threads tells beside the report.
 struct ThreadsReport {
-  std::uint64_t rounds = 0;          // of the core
-  std::uint64_t core_busy = 0;       // signals of the sensor thread that found the core at work
+  std::uint64_t rounds = 0;           // of the core
+  std::uint64_t core_busy = 0;        // signals of the sensor thread that found the core at work
   std::uint64_t unawaited_ticks = 0;  // that found the sensor thread at work
-  Histogram round;                   // ns from the tick to the round's last output
+  Histogram round;                    // ns from the tick to the round's last output
 };
 
 class ThreadsCore {
  public:
   /// One Channels per distributer of the graph, in its order. The graph outlives the core. Throws
-  /// std::invalid_argument for a graph whose periods can't be counted in those of the sensor thread, or with deep values
-  /// between threads.
+  /// std::invalid_argument for a graph whose periods can't be counted in those of the sensor thread, or with deep
+  /// values between threads.
   ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels);
 
   /// Runs until that much time has passed, a fault stops it, or it is interrupted. `prepare` is called in each thread.
-  void run_for(Duration end, const std::function<void()>& prepare = [] {});
+  void run_for(
+      Duration end, const std::function<void()>& prepare = [] {});
 
   void interrupt() { interrupted_.store(true, std::memory_order_relaxed); }
 

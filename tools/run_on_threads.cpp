@@ -68,7 +68,8 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeOptions& options,
   core.run_for(end, [&] { machine.prepare_thread(); });
   linked.finish();
   const bool interrupted = Interruptible::interrupted().load();
-  json ? print_json(*loaded.graph, core, linked.reports()) : print_text(*loaded.graph, core, linked.reports(), interrupted);
+  json ? print_json(*loaded.graph, core, linked.reports())
+       : print_text(*loaded.graph, core, linked.reports(), interrupted);
   if (core.report().stopped) return exit_unfinished;
   return interrupted ? exit_interrupted : exit_good;
 }

@@ -46,7 +46,8 @@ TEST_SUITE("runtime/threads_core") {
   }
 
   TEST_CASE("periods that can't be counted in those of the sensor thread are refused") {
-    const Graph graph = graph_of("graph: t\ntasks: {a: {type: Counter, period: 10ms}, b: {type: Counter, period: 15ms}}\n");
+    const Graph graph =
+        graph_of("graph: t\ntasks: {a: {type: Counter, period: 10ms}, b: {type: Counter, period: 15ms}}\n");
     CHECK_THROWS_WITH_AS(
         ThreadsCore(graph, {}),
         "threads count in periods of the vehicle's channels, 10ms; task 'b' has 15ms, which is no multiple of it",

@@ -93,7 +93,8 @@ TEST_SUITE("tasks/javiator_control") {
     CHECK_FALSE(out.motors.unlocked);
   }
 
-  TEST_CASE("rolling right takes from the right rotor, noses up give to the front, yaw to the right to right and left") {
+  TEST_CASE(
+      "rolling right takes from the right rotor, noses up give to the front, yaw to the right to right and left") {
     const MotorMixer::State hovering{.reached = {8000, 8000, 8000, 8000}};
     MotorMixer::State state = hovering;
     MotorMixer::Out out;

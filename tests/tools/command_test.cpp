@@ -333,7 +333,8 @@ connections: [i -> sum.in]
     const Result command = jarol("chek x");
     CHECK(command.exit_code == 2);
     CHECK(command.output ==
-          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, graph, messages, run, "
+          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, doctor, graph, messages, "
+          "run, "
           "schema, "
           "tasks, vehicle\n");
     const Result missing = jarol("run no/such.yaml");

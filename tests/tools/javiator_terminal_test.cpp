@@ -136,8 +136,8 @@ class Lab {
     const auto end = std::chrono::steady_clock::now() + 20s;
     const auto count = [&] {
       const LinkReport report = *link_->link_report();
-      for (const auto& [counted, count] : report.counts)
-        if (counted == name) return count;
+      for (const auto& [counted, so_far] : report.counts)
+        if (counted == name) return so_far;
       return std::uint64_t{0};
     };
     while (count() < least) {
@@ -181,7 +181,7 @@ void check_flight(Terminal::Over over, const std::string& profile, double settle
   lab.press(terminal, Terminal::switch_state);
   const Terminal::Report landed = lab.fly(terminal, 4);
   CHECK(landed.state == ground);
-  CHECK(landed.z == 0);
+  CHECK(std::abs(landed.z) <= 5);
   CHECK(landed.front == 0);
   lab.press(terminal, Terminal::shut_down);
   CHECK(lab.fly(terminal, 0.1).state == halted);
@@ -263,7 +263,7 @@ TEST_SUITE("tools/javiator_terminal") {
     CHECK(lab.pass_unanswered(terminal, 45).state == flying);
     const Terminal::Report landed = lab.pass_unanswered(terminal, 300);
     CHECK(landed.state == ground);
-    CHECK(landed.z == 0);
+    CHECK(std::abs(landed.z) <= 5);
     // it comes back, and nothing has happened meanwhile
     CHECK(lab.fly(terminal, 0.2).state == ground);
   }

@@ -27,7 +27,8 @@ std::string free_port() {
 // A command that runs beside the test, to its end.
 class Running {
  public:
-  explicit Running(const std::string& arguments) : thread_([this, arguments] { result_ = command::jarol(arguments); }) {}
+  explicit Running(const std::string& arguments)
+      : thread_([this, arguments] { result_ = command::jarol(arguments); }) {}
   ~Running() { end(); }
   const command::Result& end() {
     if (thread_.joinable()) thread_.join();
@@ -89,15 +90,16 @@ std::string patient(std::initializer_list<const char*> tasks) {
 TEST_SUITE("tools/lauv_sockets") {
   TEST_CASE("a console lists the vehicle, dives and turns it, steers it by hand and aborts; the vehicle is elsewhere") {
     const std::string plant = free_port(), core = free_port(), operating = free_port();
-    Running vehicle("vehicle submarine --bare --link udp --listen " + plant + " --id 209 --for 9s");
-    Running graph("run specs/exolauv_bare.yaml --profile lab --clock real --for 8s --set distributers.dune.link.listen=" +
-                  core + " --set distributers.dune.link.peer=127.0.0.1:" + plant +
-                  " --set distributers.neptus.link.listen=" + operating + patient({"depth", "heading", "speed", "fins"}));
+    Running vehicle("vehicle submarine --bare --link udp --listen " + plant + " --id 209 --for 12s");
+    Running graph(
+        "run specs/exolauv_bare.yaml --profile lab --clock real --for 11s --set distributers.dune.link.listen=" + core +
+        " --set distributers.dune.link.peer=127.0.0.1:" + plant +
+        " --set distributers.neptus.link.listen=" + operating + patient({"depth", "heading", "speed", "fins"}));
     Console console(operating);
     const auto& s = console.state;
     CHECK(console.say_until(imc::RemoteActionsRequest{imc::RemoteActionsRequest::Op::QUERY, ""},
                             [&] { return !console.actions.empty(); }));
-    CHECK(console.op_mode == imc::VehicleState::OpMode::SERVICE);
+    CHECK(console.say_until(imc::Heartbeat{}, [&] { return console.op_mode == imc::VehicleState::OpMode::SERVICE; }));
     console.say(imc::DesiredZ{3, imc::ZUnits::DEPTH});
     console.say(imc::DesiredHeading{1.5});
     CHECK(console.say_until(imc::DesiredSpeed{1.2, imc::SpeedUnits::METERS_PS},

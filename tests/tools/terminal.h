@@ -13,14 +13,20 @@ namespace jarol::tests {
 class Terminal {
  public:
   enum class Over { udp, tcp };
-  enum Key : std::uint8_t { switch_state = 0x11, switch_mode = 0x12, store_trim = 0x13, clear_trim = 0x14, shut_down = 0x15 };
+  enum Key : std::uint8_t {
+    switch_state = 0x11,
+    switch_mode = 0x12,
+    store_trim = 0x13,
+    clear_trim = 0x14,
+    shut_down = 0x15
+  };
 
   struct Needles {
     std::int16_t roll = 0, pitch = 0, yaw = 0, altitude = 0;  // mrad, mm
   };
   struct Report {
     std::int16_t roll = 0, pitch = 0, yaw = 0, x = 0, y = 0, z = 0;  // mrad, mm
-    std::int16_t front = 0;                                         // signal of that motor
+    std::int16_t front = 0;                                          // signal of that motor
     int state = 0, mode = 0;
   };
 

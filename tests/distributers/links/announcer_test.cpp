@@ -88,8 +88,7 @@ TEST_SUITE("distributers/links/announcer") {
       return std::uint64_t{0};
     };
     const auto waits = [&](const std::string& name, std::uint64_t wanted) {
-      for (int i = 0; i < 5000 && count(name) != wanted; ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      for (int i = 0; i < 5000 && count(name) != wanted; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       return count(name);
     };
     wrong->send(messages::refer_to(imc::Heartbeat{}));

@@ -78,7 +78,8 @@ TEST_SUITE("distributers/links/script") {
     CHECK(report_on("time,setpoint.deep\n0,1\n") ==
           "m.csv:1:6: error: column 'setpoint.deep' is no field of an 'in' channel of LauvOperator; did you mean "
           "'setpoint.depth'?; "
-          "there are: setpoint.depth, setpoint.heading, setpoint.speed, actuation.thruster, actuation.fins.0, "
+          "there are: setpoint.depth, setpoint.heading, setpoint.speed, setpoint.turn, setpoint.rate, "
+          "setpoint.drive, setpoint.thrust, actuation.thruster, actuation.fins.0, "
           "actuation.fins.1, "
           "actuation.fins.2, actuation.fins.3, contact.silence\n"
           "  time,setpoint.deep\n"
