@@ -97,7 +97,7 @@ std::vector<std::string> figure_names() {
                                  "port_round_trip",
                                  "push_port_throughput",
                                  "push_port_round_trip"};
-  if (has_dive()) names.push_back("dive");
+  if (has_vehicles()) names.insert(names.end(), {"dive", "hover"});
   return names;
 }
 
@@ -126,6 +126,7 @@ Figure measure(const std::string& name, int repeats) {
   if (name == "push_port_throughput") return measure_push_port_throughput(name, repeats);
   if (name == "push_port_round_trip") return measure_push_port_round_trip(name, repeats);
   if (name == "dive") return measure_dive(repeats);
+  if (name == "hover") return measure_hover(repeats);
   throw std::invalid_argument("there is no figure '" + name + "'" + did_you_mean(name, figure_names()) +
                               "; there are: " + list_of(figure_names()));
 }

@@ -6,6 +6,7 @@
 #include "tools/bench/timing.h"
 #include "tools/load_graph.h"
 #ifdef JAROL_VEHICLES
+#include "tools/bench/plain_helicopter.h"
 #include "tools/bench/plain_submarine.h"
 #endif
 
@@ -14,42 +15,75 @@ namespace jarol::bench {
 #ifdef JAROL_VEHICLES
 
 namespace {
+
 constexpr const char* dive = "specs/exolauv.yaml";
-}
+constexpr const char* flight = "specs/javiator.yaml";
 
-bool has_dive() { return std::filesystem::exists(dive); }
+// One period of a graph after it has run up to a beginning: the microseconds that it takes in the loop, and that the
+// plain vehicle takes. Slices are short, so that neighbours on the machine miss some.
+struct Loop {
+  const char* file;
+  Duration beginning, period;
+  int periods;  // of a slice
+  double goal;  // times real time
+};
 
-Figure measure_dive(int repeats) {
-  constexpr int steps = 50;  // of 10 ms, per repeat: short, so that neighbours on the machine miss some
-  auto loaded = tools::load_graph(dive, {});
+Figure measure_loop(const std::string& name, const std::string& text, const Loop& loop, int repeats,
+                    const std::function<double()>& plain_period) {
+  auto loaded = tools::load_graph(loop.file, {});
   Executor executor(*loaded.graph, std::move(loaded.channels), {.digest = true});
-  Duration until = std::chrono::seconds(10);
-  executor.run_until(until);  // to the depth
-  PlainSubmarine plain(vehicles::SubmarineParameters{});
+  Duration until = loop.beginning;
+  executor.run_until(until);
   const auto closed_loop = [&] {
-    until += steps * std::chrono::milliseconds(10);
-    return 1e6 * seconds_of([&] { executor.run_until(until); }) / steps;
+    until += loop.periods * loop.period;
+    return 1e6 * seconds_of([&] { executor.run_until(until); }) / loop.periods;
   };
   const auto alone = [&] {
     const double seconds = seconds_of([&] {
-      for (int i = 0; i < steps; ++i) plain.step(0.01, 180.0);
+      for (int i = 0; i < loop.periods; ++i) keep(plain_period());
     });
-    keep(plain.surge());
-    return 1e6 * seconds / steps;
+    return 1e6 * seconds / loop.periods;
   };
-  Figure figure =
-      compare("dive", "10 ms of the dive, all tasks and sensors (100 us: 100 times real time) / plain Eigen model", 0,
-              repeats, closed_loop, alone);
+  Figure figure = compare(name, text, 0, repeats, closed_loop, alone);
   figure.unit = "us";
-  figure.goal = 100.0 / figure.floor;
+  figure.goal = 1e-3 * static_cast<double>(loop.period.count()) / loop.goal / figure.floor;
   return figure;
+}
+
+}  // namespace
+
+bool has_vehicles() { return std::filesystem::exists(dive) && std::filesystem::exists(flight); }
+
+Figure measure_dive(int repeats) {
+  PlainSubmarine plain(vehicles::SubmarineParameters{});
+  const Loop loop{dive, std::chrono::seconds(10), std::chrono::milliseconds(10), 50, 100};
+  return measure_loop("dive",
+                      "10 ms of the dive, all tasks and sensors (100 us: 100 times real time) / plain Eigen model",
+                      loop, repeats, [&] {
+                        plain.step(0.01, 180.0);
+                        return plain.surge();
+                      });
+}
+
+Figure measure_hover(int repeats) {
+  PlainHelicopter plain(vehicles::HelicopterParameters{}, 1.0);
+  // in the air from 8 s to 28 s
+  const int periods = std::max(1, std::min(10, 1300 / std::max(1, repeats)));
+  const Loop loop{flight, std::chrono::milliseconds(7995), std::chrono::milliseconds(15), periods, 60};
+  return measure_loop("hover",
+                      "15 ms in the air, all tasks and sensors (250 us: 60 times real time) / plain Eigen model", loop,
+                      std::min(repeats, 1300), [&] {
+                        for (int i = 0; i < 3; ++i) plain.step(0.005);
+                        return plain.height();
+                      });
 }
 
 #else
 
-bool has_dive() { return false; }
+bool has_vehicles() { return false; }
 
 Figure measure_dive(int) { throw std::logic_error("no vehicles are built"); }
+Figure measure_hover(int) { throw std::logic_error("no vehicles are built"); }
 
 #endif
 

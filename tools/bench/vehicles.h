@@ -1,14 +1,18 @@
-// The figure of a closed loop: the submarine's dive, beside plain code for the vehicle alone.
+// The figures of closed loops: the submarine's dive and the helicopter's hover, beside plain code for the vehicle
+// alone.
 #pragma once
 
 #include "tools/bench/figures.h"
 
 namespace jarol::bench {
 
-/// True where specs/exolauv.yaml is at hand and vehicles are built.
-bool has_dive();
+/// True where the graphs' files are at hand and vehicles are built.
+bool has_vehicles();
 
 /// Microseconds for 10 ms of the dive; 100 of them are 100 times real time.
 Figure measure_dive(int repeats);
+
+/// Microseconds for 15 ms of the hover; 250 of them are 60 times real time.
+Figure measure_hover(int repeats);
 
 }  // namespace jarol::bench
