@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "graph/values/seed.h"
 #include "vehicles/helicopter_coefficients.h"
@@ -20,6 +21,34 @@ std::unique_ptr<HelicopterPlant> make_plant(const HelicopterParameters& p, const
   const double setting = setting_of(p, p.start.signal, p.rotors.reference_voltage);
   return std::make_unique<HelicopterPlant>(make_body(p), start,
                                            std::array<double, 4>{setting, setting, setting, setting});
+}
+
+double metres(const std::array<std::uint8_t, 8>& digits) {
+  double millimetres = 0;
+  for (std::size_t i = 0; i < 7; ++i) millimetres = 10 * millimetres + (digits[i] - '0');
+  return 1e-3 * millimetres;
+}
+
+// Scales as the flight controller has them.
+HelicopterReadings readings_of(const messages::javiator::JaviatorData& data) {
+  constexpr double angle = 2 * std::numbers::pi / 65536, rate = 8.5 / 32768, force = 9.81 / 4681;
+  HelicopterReadings r;
+  r.roll = angle * data.roll;
+  r.pitch = angle * data.pitch;
+  r.yaw = angle * data.yaw;
+  r.droll = rate * data.droll;
+  r.dpitch = rate * data.dpitch;
+  r.dyaw = rate * data.dyaw;
+  r.ddx = force * data.ddx;
+  r.ddy = force * data.ddy;
+  r.ddz = force * data.ddz;
+  r.sonar = 3.0 / 1024 * data.sonar;
+  r.x_laser = metres(data.x_pos);
+  r.y_laser = metres(data.y_pos);
+  r.pressure = 115e3 / 0x1p24 * data.maps;
+  r.temperature = 100.0 / 4096 * data.temp - 7;
+  r.voltage = 18.0 / 1024 * data.batt;
+  return r;
 }
 
 }  // namespace
@@ -67,6 +96,7 @@ void Helicopter::step() {
   robostix_.step();
   if (!robostix_.answers()) return;
   answer_ = sensors_.answer(robostix_.id());
+  outputs_.sensors = readings_of(answer_);
   sensors_.sample_imu(nanoseconds_, scene());
 }
 

@@ -164,4 +164,10 @@ TEST_SUITE("tools/vehicle") {
     }
     CHECK(found);
   }
+
+  TEST_CASE("the helicopter's sensors are described") {
+    const auto described = jarol("vehicle helicopter --describe");
+    CHECK(described.output.find("\nsensors\n") != std::string::npos);
+    CHECK(described.output.find("  sensors.sonar         [m]      range to the ground\n") != std::string::npos);
+  }
 }

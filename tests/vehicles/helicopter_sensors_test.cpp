@@ -1,4 +1,5 @@
 #include "vehicles/helicopter_sensors.h"
+#include "vehicles/helicopter.h"
 
 #include <doctest/doctest.h>
 
@@ -159,5 +160,22 @@ TEST_SUITE("vehicles/helicopter_sensors") {
     CHECK(readings(FailureKind::lost) == Readings{{true, 322}, {true, 356}, {false, 356}, {false, 356}});
     CHECK(readings(FailureKind::stuck) == Readings{{true, 322}, {true, 356}, {true, 356}, {true, 356}});
     CHECK(readings(FailureKind::biased) == Readings{{true, 322}, {true, 356}, {true, 493}, {true, 527}});
+  }
+
+  TEST_CASE("a helicopter that is driven tells what its sensors measure, in SI units") {
+    vehicles::Helicopter helicopter(vehicles::HelicopterParameters{});
+    const auto& sensors = static_cast<const vehicles::HelicopterOutputs*>(helicopter.outputs())->sensors;
+    CHECK(std::isnan(sensors.sonar));  // nobody has asked yet
+    const vehicles::HelicopterInputs still{};
+    for (int i = 0; i < 40; ++i) {
+      helicopter.command(&still);
+      helicopter.step();
+    }
+    CHECK(sensors.ddz == doctest::Approx(-9.81).epsilon(0.02));
+    CHECK(sensors.pressure == doctest::Approx(101325).epsilon(0.001));
+    CHECK(sensors.temperature == doctest::Approx(25).epsilon(0.01));
+    CHECK(sensors.voltage == doctest::Approx(helicopter.voltage()).epsilon(0.01));
+    CHECK(sensors.x_laser == doctest::Approx(8).epsilon(0.05));
+    CHECK(std::abs(sensors.roll) < 0.02);
   }
 }
