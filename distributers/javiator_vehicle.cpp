@@ -2,26 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "distributers/messages/javiator.h"
+#include "distributers/messages/javiator_units.h"
 
 namespace jarol::distributers {
 namespace javiator = messages::javiator;
 namespace {
-
-constexpr double angle = 2 * std::numbers::pi / 65536;
-constexpr double rate = 8.5 / 32768;
-constexpr double force = 9.81 / 4681;
-
-double metres(const std::array<std::uint8_t, 8>& digits) {
-  double millimetres = 0;
-  for (const std::uint8_t digit : digits) {
-    if (digit < '0' || digit > '9') break;
-    millimetres = 10 * millimetres + (digit - '0');
-  }
-  return 1e-3 * millimetres;
-}
 
 std::int16_t to_signal(double signal) {
   return static_cast<std::int16_t>(std::clamp(std::trunc(signal), 0.0, 16000.0));
@@ -46,21 +33,21 @@ void JaviatorVehicle::receive(messages::MessageRef message) {
   const auto has = [&](std::uint16_t bit) { return (d->flags & bit) != 0; };
   // what was new and has not been taken yet is new still
   const auto is_new = [&](bool before, std::uint16_t bit) { return (fresh_ && before) || has(bit); };
-  s = {.roll = angle * d->roll,
-       .pitch = angle * d->pitch,
-       .yaw = angle * d->yaw,
-       .p = rate * d->droll,
-       .q = rate * d->dpitch,
-       .r = rate * d->dyaw,
-       .a_x = force * d->ddx,
-       .a_y = force * d->ddy,
-       .a_z = force * d->ddz,
-       .sonar = 3.0 / 1024 * d->sonar,
-       .laser_x = metres(d->x_pos),
-       .laser_y = metres(d->y_pos),
-       .pressure = 115e3 / 16777216 * d->maps,
-       .temperature = 100.0 / 4096 * d->temp - 7,
-       .battery = 18.0 / 1024 * d->batt,
+  s = {.roll = javiator::radians_per_count * d->roll,
+       .pitch = javiator::radians_per_count * d->pitch,
+       .yaw = javiator::radians_per_count * d->yaw,
+       .p = javiator::radians_per_second_per_count * d->droll,
+       .q = javiator::radians_per_second_per_count * d->dpitch,
+       .r = javiator::radians_per_second_per_count * d->dyaw,
+       .a_x = javiator::newtons_per_kilogram_per_count * d->ddx,
+       .a_y = javiator::newtons_per_kilogram_per_count * d->ddy,
+       .a_z = javiator::newtons_per_kilogram_per_count * d->ddz,
+       .sonar = javiator::sonar_metres_per_count * d->sonar,
+       .laser_x = javiator::metres_of(d->x_pos),
+       .laser_y = javiator::metres_of(d->y_pos),
+       .pressure = javiator::pascals_per_count * d->maps,
+       .temperature = javiator::celsius_of(d->temp),
+       .battery = javiator::volts_per_count * d->batt,
        .new_imu = is_new(s.new_imu, javiator::JaviatorData::Flags::IMU),
        .new_bmu = is_new(s.new_bmu, javiator::JaviatorData::Flags::BMU),
        .new_sonar = is_new(s.new_sonar, javiator::JaviatorData::Flags::SONAR),

@@ -58,7 +58,7 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
   const auto telemetry = make_telemetry(vehicle, vehicle_class, to_link, told);
   messages::Receiver& to_peer = *telemetry;
   RealClock clock(0);
-  clock.prepare_thread();
+  for (const std::string& refusal : clock.prepare_thread()) std::cerr << "note: " << refusal << "\n";
   const Interruptible interruptible;
   const std::atomic<bool>& interrupted = Interruptible::interrupted();
   link.connect();

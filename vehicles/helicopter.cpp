@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "distributers/messages/javiator_units.h"
 #include "graph/values/seed.h"
 #include "vehicles/helicopter_coefficients.h"
 #include "vehicles/helicopter_plant.h"
@@ -23,31 +23,24 @@ std::unique_ptr<HelicopterPlant> make_plant(const HelicopterParameters& p, const
                                            std::array<double, 4>{setting, setting, setting, setting});
 }
 
-double metres(const std::array<std::uint8_t, 8>& digits) {
-  double millimetres = 0;
-  for (std::size_t i = 0; i < 7; ++i) millimetres = 10 * millimetres + (digits[i] - '0');
-  return 1e-3 * millimetres;
-}
-
-// Scales as the flight controller has them.
 HelicopterReadings readings_of(const messages::javiator::JaviatorData& data) {
-  constexpr double angle = 2 * std::numbers::pi / 65536, rate = 8.5 / 32768, force = 9.81 / 4681;
+  namespace javiator = messages::javiator;
   HelicopterReadings r;
-  r.roll = angle * data.roll;
-  r.pitch = angle * data.pitch;
-  r.yaw = angle * data.yaw;
-  r.droll = rate * data.droll;
-  r.dpitch = rate * data.dpitch;
-  r.dyaw = rate * data.dyaw;
-  r.ddx = force * data.ddx;
-  r.ddy = force * data.ddy;
-  r.ddz = force * data.ddz;
-  r.sonar = 3.0 / 1024 * data.sonar;
-  r.x_laser = metres(data.x_pos);
-  r.y_laser = metres(data.y_pos);
-  r.pressure = 115e3 / 0x1p24 * data.maps;
-  r.temperature = 100.0 / 4096 * data.temp - 7;
-  r.voltage = 18.0 / 1024 * data.batt;
+  r.roll = javiator::radians_per_count * data.roll;
+  r.pitch = javiator::radians_per_count * data.pitch;
+  r.yaw = javiator::radians_per_count * data.yaw;
+  r.droll = javiator::radians_per_second_per_count * data.droll;
+  r.dpitch = javiator::radians_per_second_per_count * data.dpitch;
+  r.dyaw = javiator::radians_per_second_per_count * data.dyaw;
+  r.ddx = javiator::newtons_per_kilogram_per_count * data.ddx;
+  r.ddy = javiator::newtons_per_kilogram_per_count * data.ddy;
+  r.ddz = javiator::newtons_per_kilogram_per_count * data.ddz;
+  r.sonar = javiator::sonar_metres_per_count * data.sonar;
+  r.x_laser = javiator::metres_of(data.x_pos);
+  r.y_laser = javiator::metres_of(data.y_pos);
+  r.pressure = javiator::pascals_per_count * data.maps;
+  r.temperature = javiator::celsius_of(data.temp);
+  r.voltage = javiator::volts_per_count * data.batt;
   return r;
 }
 
