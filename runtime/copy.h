@@ -22,12 +22,15 @@ inline void copy_deep(const Copy& c) {
 
 /// Copies of the common sizes are a few moves; the compiler can't know sizes that come from a graph.
 inline void transfer(const Copy& c) {
+  if (c.size == 64) {
+    std::memcpy(c.to, c.from, 64);
+    return;
+  }
   switch (c.size) {
     case 0: return copy_deep(c);
     case 8: std::memcpy(c.to, c.from, 8); return;
     case 16: std::memcpy(c.to, c.from, 16); return;
     case 32: std::memcpy(c.to, c.from, 32); return;
-    case 64: std::memcpy(c.to, c.from, 64); return;
     default: std::memcpy(c.to, c.from, c.size);
   }
 }

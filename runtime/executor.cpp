@@ -119,17 +119,14 @@ void Executor::step_instant(std::int64_t instant) {
     for (const auto& channels : channels_) channels->reach(Duration(instant));
   }
   // step 1: outputs of LET tasks that end now
-  Outcome* const outcomes = plan_.outcomes.data();  // read once: the copies may alias anything
-  for (const std::uint32_t g : due_)
-    for (const LetEnd& let_end : plan_.groups[g].let_ends) {
-      Outcome& outcome = outcomes[let_end.task];
-      if (outcome == Outcome::good) [[likely]] {
-        publish<Digest, Record>(let_end.publish, instant, instant_term);
-      } else {
-        if (outcome != Outcome::left_out) record_fault(let_end.task, instant);
-        outcome = Outcome::good;  // at most one activation waits for its end
-      }
+  for (const std::uint32_t g : due_) {
+    const Group& group = plan_.groups[g];
+    if (bad_outcomes_ == 0) [[likely]] {
+      publish<Digest, Record>(group.let_publish, instant, instant_term);
+    } else {
+      publish_one_by_one<Digest, Record>(group, instant, instant_term);
     }
+  }
   // steps 2 and 3: communicators, by name
   for (const CommunicatorAction* out : outs_) {
     hand_over(*out);
@@ -149,6 +146,21 @@ void Executor::step_instant(std::int64_t instant) {
     report_.activations += group.activations;
   } else {
     run_stages<Digest, Record, Real>(instant, instant_term);
+  }
+}
+
+// As a LET task among those that are under way has a fault.
+template <bool Digest, bool Record>
+void Executor::publish_one_by_one(const Group& group, std::int64_t instant, std::uint64_t instant_term) {
+  for (const LetEnd& let_end : group.let_ends) {
+    Outcome& outcome = plan_.outcomes[let_end.task];
+    if (outcome == Outcome::good) {
+      publish<Digest, Record>(let_end.publish, instant, instant_term);
+    } else {
+      if (outcome != Outcome::left_out) record_fault(let_end.task, instant);
+      outcome = Outcome::good;  // at most one activation waits for its end
+      --bad_outcomes_;
+    }
   }
 }
 
@@ -236,7 +248,7 @@ void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64
   for (const Activation& activation : segment.activations) {
     const Outcome outcome = Real ? run_in_time(activation, tick) : activation.run(activation.memory, tick);
     if (outcome == Outcome::good) [[likely]] {
-      publish<Digest, Record>(activation.publish, tick.now.count(), instant_term);
+      if (!activation.has_let) publish<Digest, Record>(activation.publish, tick.now.count(), instant_term);
     } else {
       on_bad_outcome(activation, outcome, tick);
     }
@@ -305,7 +317,10 @@ Outcome Executor::run_in_time(const Activation& activation, const Tick& tick) {
 void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick) {
   const Task& task = graph_.tasks[activation.task];
   TaskStatus& status = plan_.status[activation.task];
-  if (activation.has_let) plan_.outcomes[activation.task] = outcome;
+  if (activation.has_let) {
+    plan_.outcomes[activation.task] = outcome;
+    ++bad_outcomes_;
+  }
   if (outcome == Outcome::left_out) {
     --report_.activations;
     return;

@@ -84,6 +84,8 @@ class Executor {
   void run_stages_shared(std::int64_t instant, std::uint64_t instant_term);
   template <bool Digest, bool Record>
   void run_level_shared(std::ptrdiff_t level, std::uint64_t instant_term);
+  template <bool Digest, bool Record>
+  void publish_one_by_one(const Group& group, std::int64_t instant, std::uint64_t instant_term);
   void record(const Publish& what, std::int64_t instant);
   void start_groups(std::int64_t instant);
   void gather_communicators();
@@ -103,6 +105,7 @@ class Executor {
   std::vector<const Segment*> in_stage_;               // of the groups due now, null where none
   std::vector<Tick> ticks_;                            // of the groups due now
   std::vector<const CommunicatorAction*> outs_, ins_;  // due now
+  std::size_t bad_outcomes_ = 0;                       // in the plan's outcomes: of LET tasks, until their LETs end
   std::vector<std::int64_t> releases_;                 // per group: how often it was due
   std::vector<const std::byte*> last_;                 // per communicator
   std::unique_ptr<StageTeam> team_;                    // null: one worker

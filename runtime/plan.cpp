@@ -332,9 +332,11 @@ class PlanBuilder {
       group.first = key.second;
       group.activations = members.tasks.size();
       std::size_t first = plan_.let_ends_.size();
+      const std::size_t first_copy = plan_.copies_.size(), first_publication = plan_.publications_.size();
       for (const std::size_t i : members.let_ends)
         plan_.let_ends_.push_back({publish_task(i), static_cast<std::uint32_t>(i)});
       group.let_ends = range(plan_.let_ends_, first);
+      group.let_publish = {short_range(plan_.copies_, first_copy), short_range(plan_.publications_, first_publication)};
       first = plan_.outs_.size();
       for (const std::size_t i : members.outs) plan_.outs_.push_back(communicator_action(i));
       group.outs = range(plan_.outs_, first);

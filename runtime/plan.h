@@ -120,7 +120,8 @@ struct Segment {
 struct Group {
   Duration first{};
   Duration period{};
-  Range<LetEnd> let_ends;          // step 1
+  Publish let_publish;             // step 1: of all let_ends in one go
+  Range<LetEnd> let_ends;          // the same one by one
   Range<CommunicatorAction> outs;  // step 2
   Range<CommunicatorAction> ins;   // step 3
   Range<Segment> segments;         // step 4
