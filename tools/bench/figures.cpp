@@ -7,7 +7,9 @@
 
 #include "graph/yaml/quantities.h"
 #include "tools/bench/checking.h"
+#include "tools/bench/clock.h"
 #include "tools/bench/deep.h"
+#include "tools/bench/echo.h"
 #include "tools/bench/floors.h"
 #include "tools/bench/graphs.h"
 #include "tools/bench/ports.h"
@@ -96,7 +98,10 @@ std::vector<std::string> figure_names() {
                                  "port_throughput",
                                  "port_round_trip",
                                  "push_port_throughput",
-                                 "push_port_round_trip"};
+                                 "push_port_round_trip",
+                                 "clock_1khz_p50",
+                                 "clock_1khz_p99",
+                                 "udp_echo"};
   if (has_vehicles()) names.insert(names.end(), {"dive", "hover"});
   return names;
 }
@@ -125,6 +130,9 @@ Figure measure(const std::string& name, int repeats) {
   if (name == "port_round_trip") return measure_port_round_trip(name, repeats);
   if (name == "push_port_throughput") return measure_push_port_throughput(name, repeats);
   if (name == "push_port_round_trip") return measure_push_port_round_trip(name, repeats);
+  if (name == "clock_1khz_p50") return measure_clock(name, 0.5, repeats);
+  if (name == "clock_1khz_p99") return measure_clock(name, 0.99, repeats);
+  if (name == "udp_echo") return measure_udp_echo(name, repeats);
   if (name == "dive") return measure_dive(repeats);
   if (name == "hover") return measure_hover(repeats);
   throw std::invalid_argument("there is no figure '" + name + "'" + did_you_mean(name, figure_names()) +

@@ -17,6 +17,10 @@ const Registry& registry() {
     made.add(task_class<Stage>());
     made.add(task_class<Thrower>());
     made.add(task_class<Body>());
+    made.add(task_class<Stamp>());
+    const Type* number = &type_of<double>();
+    made.add(
+        DistributerClass{"Echo", "answers", {{"in", Direction::in, number, ""}, {"out", Direction::out, number, ""}}});
     tasks::add_tasks(made);
     return made;
   }();

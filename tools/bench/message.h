@@ -3,8 +3,10 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
 #include "graph/task.h"
+#include "runtime/real_clock.h"
 
 namespace jarol::bench {
 
@@ -66,6 +68,14 @@ struct Body {
   static void run(const Param& p, const Tick&, const In& in, State& state, Out& out) {
     for (std::uint32_t i = 0; i < p.rounds; ++i) pass_on(in.in, state, out.out);
   }
+};
+
+/// Keeps how late each activation begins. What no task of a graph may do: it looks at a clock and at globals.
+struct Stamp {
+  static constexpr std::string_view summary = "looks at the clock";
+  inline static const RealClock* clock = nullptr;
+  inline static std::vector<std::int64_t> begun;  // ns after the release
+  static void run(const Tick& tick) { begun.push_back(clock->now() - tick.now.count()); }
 };
 
 /// Throws at every activation.

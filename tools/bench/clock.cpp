@@ -1,0 +1,70 @@
+#include "tools/bench/clock.h"
+
+#include <sys/mman.h>
+#include <time.h>
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "runtime/executor.h"
+#include "tools/bench/graphs.h"
+#include "tools/bench/message.h"
+
+namespace jarol::bench {
+namespace {
+
+constexpr std::int64_t second = 1'000'000'000;
+constexpr std::int64_t period = 1'000'000;  // ns
+constexpr int ticks = 25;                   // of a slice
+
+using Samples = std::vector<std::int64_t>;
+
+void sleep_bare(Samples& lateness) {
+  const std::int64_t start = RealClock::monotonic();
+  for (int tick = 1; tick <= ticks; ++tick) {
+    const std::int64_t due = start + tick * period;
+    const timespec until{due / second, due % second};
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+    lateness.push_back(RealClock::monotonic() - due);
+  }
+}
+
+// The task tells when it began; activation 0, before which nobody sleeps, does not count.
+void run_engine(const Graph& graph, Samples& lateness) {
+  RealClock clock(graph.tasks.size());
+  Executor executor(graph, {}, {.clock = &clock});
+  Stamp::clock = &clock;
+  Stamp::begun.clear();
+  clock.start();
+  executor.run_until(Duration((ticks + 1) * period));
+  lateness.insert(lateness.end(), Stamp::begun.begin() + 1, Stamp::begun.end());
+}
+
+double percentile(Samples& samples, double part) {
+  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(samples.size() - 1));
+  std::nth_element(samples.begin(), at, samples.end());
+  return 1e-3 * static_cast<double>(*at);
+}
+
+}  // namespace
+
+Figure measure_clock(const std::string& name, double part, int repeats) {
+  const Graph graph = graph_of("graph: clock\ntasks:\n  t: {type: Stamp, period: 1ms}\n");
+  Samples engine, bare;
+  Stamp::begun.reserve(ticks + 1);
+  // a thread of its own: the figures after this one keep their timer slack
+  std::thread([&] {
+    static_cast<void>(RealClock(0).prepare_thread());
+    for (int i = 0; i < repeats; ++i) {
+      sleep_bare(bare);
+      run_engine(graph, engine);
+    }
+  }).join();
+  munlockall();
+  const double value = percentile(engine, part), floor = percentile(bare, part);
+  return {name, value, "us", floor, value / floor, 1.1, "lateness of a task at 1 kHz / of a bare sleeping loop"};
+}
+
+}  // namespace jarol::bench
