@@ -50,9 +50,9 @@ struct LinkSpec {
 };
 
 const Key<LinkSpec> type_key = key<&LinkSpec::type>("type", Form::word, "kind of link", true);
-const Key<LinkSpec> id_key = key<&LinkSpec::id>("id", Form::integer, "the sender's id in what is sent");
+const Key<LinkSpec> id_key = key<&LinkSpec::id>("id", Form::id, "the sender's id in what is sent, as in 0x00D1");
 const Key<LinkSpec> source_key =
-    key<&LinkSpec::source>("source", Form::integer, "the sender's id in what counts; default: any");
+    key<&LinkSpec::source>("source", Form::id, "the sender's id in what counts, as in 0x00D1; default: any");
 const Key<LinkSpec> ports_key = key<&LinkSpec::port>("port", Form::mapping, "kind and size of the link's ports");
 
 const std::vector<Key<LinkSpec>>& udp_keys() {
@@ -203,7 +203,7 @@ std::unique_ptr<Link> make_announcer(const Yaml& yaml, const messages::MessageSe
   LinkOptions options;
   std::int64_t sender = 0;
   Problems told;  // what is wrong with the link's keys was reported with the link
-  if (id != nullptr && detail::read_integer(*id, sender, "id", told))
+  if (id != nullptr && detail::read_id(*id, sender, "id", told))
     options.header.emplace_back("src", static_cast<std::uint64_t>(sender));
   try {
     return std::make_unique<Link>(std::make_unique<Announcer>(Announcer::parse(to->text)), set, options);

@@ -40,6 +40,11 @@ bool read_integer(const Yaml& yaml, std::int64_t& to, const std::string& subject
   return passes(yaml, parse_integer(yaml.text, 0, std::numeric_limits<std::int32_t>::max(), to), subject, problems);
 }
 
+bool read_id(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems) {
+  if (!is_scalar(yaml, "an id, as in 0x00D1", subject, problems)) return false;
+  return passes(yaml, parse_id(yaml.text, std::numeric_limits<std::int32_t>::max(), to), subject, problems);
+}
+
 bool read_bytes(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems) {
   if (!is_scalar(yaml, "a size, as in 64KiB", subject, problems)) return false;
   return passes(yaml, parse_bytes(yaml.text, to), subject, problems);

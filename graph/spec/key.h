@@ -13,7 +13,7 @@
 namespace jarol {
 
 /// How the value of a key is written.
-enum class Form { word, duration, positive_duration, integer, bytes, frequency, choice, mapping, any, section };
+enum class Form { word, duration, positive_duration, integer, id, bytes, frequency, choice, mapping, any, section };
 
 /// One key of a mapping that is read into an S.
 template <class S>
@@ -62,6 +62,7 @@ namespace detail {
 bool read_word(const Yaml& yaml, std::string& to, const std::string& subject, Problems& problems);
 bool read_duration(const Yaml& yaml, bool positive, Duration& to, const std::string& subject, Problems& problems);
 bool read_integer(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems);
+bool read_id(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems);
 bool read_bytes(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems);
 bool read_frequency(const Yaml& yaml, double& to, const std::string& subject, Problems& problems);  // rad/s
 bool read_choice(const Yaml& yaml, const std::vector<std::string>& choices, std::size_t& to, const std::string& subject,
@@ -80,6 +81,7 @@ void read_member(const Key<S>& key, const Yaml& yaml, S& to, const std::string& 
     good = read_duration(yaml, key.form == Form::positive_duration, value.value, what, problems);
   } else if constexpr (std::is_same_v<T, std::int64_t>) {
     good = key.form == Form::bytes ? read_bytes(yaml, value.value, what, problems)
+           : key.form == Form::id  ? read_id(yaml, value.value, what, problems)
                                    : detail::read_integer(yaml, value.value, what, problems);
   } else if constexpr (std::is_same_v<T, double>) {
     good = read_frequency(yaml, value.value, what, problems);

@@ -31,7 +31,9 @@ const std::vector<Key<DistributerSpec>>& distributer_keys() {
   static const std::vector<Key<DistributerSpec>> keys{
       key<&DistributerSpec::type>("type", Form::word, "a registered distributer class, which defines the channels",
                                   true),
-      key<&DistributerSpec::link>("link", Form::mapping, "how the external system is reached", true),
+      key<&DistributerSpec::link>(
+          "link", Form::mapping,
+          "how the external system is reached: a type, and its keys; ids in hex or decimal, as in 0x00D1", true),
       key<&DistributerSpec::parameters>("parameters", Form::mapping, "parameters of the distributer class"),
   };
   return keys;

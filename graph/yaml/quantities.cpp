@@ -186,6 +186,20 @@ std::string parse_integer(std::string_view text, std::int64_t least, std::int64_
   return "";
 }
 
+std::string parse_id(std::string_view text, std::int64_t most, std::int64_t& to) {
+  const bool hex = text.starts_with("0x") || text.starts_with("0X");
+  if (!hex && has_leading_zero(text)) return "begins with a zero; write it without, or in hex, as in 0x00D1";
+  const std::string_view digits = hex ? text.substr(2) : text;
+  std::uint64_t value = 0;
+  const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value, hex ? 16 : 10);
+  if (result.ec == std::errc::invalid_argument || result.ptr != digits.data() + digits.size())
+    return "is not an id; write it in hex or decimal, as in 0x00D1 or 209";
+  if (result.ec == std::errc::result_out_of_range || value > static_cast<std::uint64_t>(most))
+    return "is not from 0 to " + std::to_string(most);
+  to = static_cast<std::int64_t>(value);
+  return "";
+}
+
 std::string parse_bytes(std::string_view text, std::int64_t& to) {
   const auto [number, unit] = split_unit(text);
   if (number.empty() || number[0] == '-' || number.find_first_of("eE") != std::string_view::npos)

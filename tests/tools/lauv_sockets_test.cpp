@@ -90,7 +90,7 @@ std::string patient(std::initializer_list<const char*> tasks) {
 TEST_SUITE("tools/lauv_sockets") {
   TEST_CASE("a console lists the vehicle, dives and turns it, steers it by hand and aborts; the vehicle is elsewhere") {
     const std::string plant = free_port(), core = free_port(), operating = free_port();
-    Running vehicle("vehicle submarine --bare --link udp --listen " + plant + " --id 209 --for 12s");
+    Running vehicle("vehicle submarine --bare --link udp --listen " + plant + " --id 0x00D1 --for 12s");
     Running graph(
         "run specs/exolauv_bare.yaml --profile lab --clock real --for 11s --set distributers.dune.link.listen=" + core +
         " --set distributers.dune.link.peer=127.0.0.1:" + plant +

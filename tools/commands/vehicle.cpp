@@ -353,7 +353,7 @@ void add_vehicle(CLI::App& app, int& exit_code) {
       {"peer", "Link: address and port of the other end, as in 127.0.0.1:7002"},
       {"device", "Link: the serial line, as in /dev/ttyS0"},
       {"baud", "Link: rate of the serial line; default 115200"},
-      {"id", "Link: the sender's id in what is sent, as in 209"},
+      {"id", "Link: the sender's id in what is sent, in hex or decimal, as in 0x00D1"},
   };
   command
       ->add_option_function<std::string>(

@@ -77,6 +77,27 @@ TEST_SUITE("graph/yaml/quantities") {
     CHECK(parse_bytes("-1B", integer) == "is not a size; write a number and a unit, as in 64KiB");
   }
 
+  TEST_CASE("ids are written in hex or decimal") {
+    std::int64_t id = 0;
+    for (const char* text : {"0x00D1", "0x00d1", "0XD1", "209"}) {
+      CAPTURE(text);
+      id = 0;
+      CHECK(parse_id(text, 65535, id) == "");
+      CHECK(id == 209);
+    }
+    CHECK(parse_id("0", 65535, id) == "");
+    CHECK(id == 0);
+    const std::string no_id = "is not an id; write it in hex or decimal, as in 0x00D1 or 209";
+    for (const char* text : {"", "0x", "0xG1", "0x 1", "0x-1", "-1", "+1", "D1", "1.5", "209 ", "0x0x1"}) {
+      CAPTURE(text);
+      CHECK(parse_id(text, 65535, id) == no_id);
+    }
+    CHECK(parse_id("0209", 65535, id) == "begins with a zero; write it without, or in hex, as in 0x00D1");
+    CHECK(parse_id("0x10000", 65535, id) == "is not from 0 to 65535");
+    CHECK(parse_id("0x10000000000000000", 65535, id) == "is not from 0 to 65535");
+    CHECK(id == 0);
+  }
+
   TEST_CASE("durations and numbers come back as text") {
     CHECK(duration_text(Duration(1'500'000)) == "1.5ms");
     CHECK(duration_text(Duration(20'000)) == "20us");
