@@ -7,17 +7,72 @@
 namespace jarol::vehicles {
 namespace imc = messages::imc;
 namespace {
-constexpr std::int64_t states_an_estimate = 5, states_a_heartbeat = 100;
+
+constexpr std::int64_t states_a_second = 100;
+
+// Body-fixed components of a velocity in the earth frame: R_nb of Euler angles ZYX, transposed.
+std::array<double, 3> to_body(const imc::SimulatedState& s, double north, double east, double down) {
+  const double c_psi = std::cos(s.psi), s_psi = std::sin(s.psi), c_theta = std::cos(s.theta),
+               s_theta = std::sin(s.theta), c_phi = std::cos(s.phi), s_phi = std::sin(s.phi);
+  const double along = c_psi * north + s_psi * east, across = c_psi * east - s_psi * north;
+  const double below = s_theta * along + c_theta * down;
+  return {c_theta * along - s_theta * down, c_phi * across + s_phi * below, c_phi * below - s_phi * across};
 }
 
+}  // namespace
+
+// more than a device's readings where DUNE has two that tell the same
+SubmarineTelemetry::SubmarineTelemetry(const Vehicle& vehicle, messages::Receiver& to)
+    : vehicle_(vehicle),
+      to_(to),
+      readings_{{{&imc::Depth::form, 16},
+                 {&imc::Pressure::form, 6},
+                 {&imc::Conductivity::form, 6},
+                 {&imc::Salinity::form, 6},
+                 {&imc::Temperature::form, 7},
+                 {&imc::SoundSpeed::form, 8},
+                 {&imc::WaterVelocity::form, 5},
+                 {&imc::EntityState::form, 30}}} {}
+
 void SubmarineTelemetry::receive(messages::MessageRef message) {
-  to_.receive(message);
   const auto* truth = message.as<imc::SimulatedState>();
-  if (truth == nullptr) return;
-  tell_servos();
-  if (states_ % states_an_estimate == 0) tell_estimate(*truth);
-  if (states_ % states_a_heartbeat == 0) to_.receive(messages::refer_to(imc::Heartbeat{}));
+  if (truth == nullptr) {
+    if (!keep(message)) to_.receive(message);
+    return;
+  }
   ++states_;
+  tell_readings();  // that came with the state before
+  to_.receive(message);
+  tell_servos();
+  if (is_due(20)) tell_estimate(*truth);
+  if (is_due(5)) tell_water(*truth);
+  if (is_due(1)) {
+    to_.receive(messages::refer_to(imc::EstimatedStreamVelocity{truth->svx, truth->svy, truth->svz}));
+    to_.receive(messages::refer_to(imc::Heartbeat{}));
+  }
+}
+
+// Is it one more of `rate` within the second?
+bool SubmarineTelemetry::is_due(std::int64_t rate) const {
+  return states_ * rate / states_a_second != (states_ - 1) * rate / states_a_second;
+}
+
+bool SubmarineTelemetry::keep(messages::MessageRef message) {
+  for (Reading& reading : readings_) {
+    if (message.form != reading.form) continue;
+    reading.interval = reading.newest.form() == nullptr ? states_a_second : states_ - reading.at;
+    reading.at = states_;
+    reading.newest = messages::Message(message);
+    return true;
+  }
+  return false;
+}
+
+void SubmarineTelemetry::tell_readings() {
+  for (const Reading& reading : readings_) {
+    const bool overdue = 2 * (states_ - reading.at) > 3 * reading.interval;
+    if (reading.newest.form() != nullptr && !overdue && is_due(reading.rate)) to_.receive(reading.newest);
+  }
 }
 
 void SubmarineTelemetry::tell_servos() {
@@ -53,6 +108,14 @@ void SubmarineTelemetry::tell_estimate(const imc::SimulatedState& s) {
   e.r = s.r;
   e.alt = -1;
   to_.receive(messages::refer_to(e));
+}
+
+void SubmarineTelemetry::tell_water(const imc::SimulatedState& s) {
+  using Validity = imc::GroundVelocity::Validity;
+  const auto [x, y, z] = to_body(s, s.svx, s.svy, s.svz);
+  to_.receive(messages::refer_to(imc::GroundVelocity{Validity::VAL_VEL_X | Validity::VAL_VEL_Y | Validity::VAL_VEL_Z,
+                                                     static_cast<double>(s.u) + x, static_cast<double>(s.v) + y,
+                                                     static_cast<double>(s.w) + z}));
 }
 
 }  // namespace jarol::vehicles

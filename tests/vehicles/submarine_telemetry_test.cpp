@@ -19,35 +19,90 @@ struct Peer : messages::Receiver {
     ++counts[std::string(message.form->name)];
     if (const auto* e = message.as<imc::EstimatedState>()) estimate = *e;
     if (const auto* s = message.as<imc::SimulatedState>()) truth = *s;
+    if (const auto* g = message.as<imc::GroundVelocity>()) ground = *g;
+    if (const auto* v = message.as<imc::EstimatedStreamVelocity>()) stream = *v;
     if (const auto* p = message.as<imc::ServoPosition>()) servos[p->id] = p->value;
   }
   std::map<std::string, int> counts;
   imc::EstimatedState estimate;
   imc::SimulatedState truth;
+  imc::GroundVelocity ground;
+  imc::EstimatedStreamVelocity stream;
   std::map<int, float> servos;
 };
 }  // namespace
 
 TEST_SUITE("vehicles/submarine_telemetry") {
-  TEST_CASE("in ten seconds a peer is told as often as DUNE tells") {
+  TEST_CASE("in each of ten seconds a peer is told as often as DUNE tells, and nothing else") {
     Submarine submarine({});
     Peer peer;
     SubmarineTelemetry telemetry(submarine, peer);
-    for (int i = 0; i < 1000; ++i) {
-      submarine.step();
-      submarine.sense(telemetry);
+    for (int second = 0; second < 10; ++second) {
+      CAPTURE(second);
+      peer.counts.clear();
+      for (int i = 0; i < 100; ++i) {
+        submarine.sense(telemetry);
+        submarine.step();
+      }
+      CHECK(peer.counts == std::map<std::string, int>{{"ServoPosition", 400},
+                                                      {"SimulatedState", 100},
+                                                      {"EulerAngles", 100},
+                                                      {"AngularVelocity", 100},
+                                                      {"Acceleration", 100},
+                                                      {"EntityState", 30},
+                                                      {"EstimatedState", 20},
+                                                      {"Rpm", 20},
+                                                      {"Depth", 16},
+                                                      {"Distance", 10},
+                                                      {"SoundSpeed", 8},
+                                                      {"Temperature", 7},
+                                                      {"Conductivity", 6},
+                                                      {"Pressure", 6},
+                                                      {"Salinity", 6},
+                                                      {"WaterVelocity", 5},
+                                                      {"GroundVelocity", 5},
+                                                      {"GpsFix", 1},
+                                                      {"EstimatedStreamVelocity", 1},
+                                                      {"Heartbeat", 1},
+                                                      // of the battery, which DUNE's simulator has not
+                                                      {"Voltage", 1},
+                                                      {"Current", 1}});
     }
-    CHECK(peer.counts["SimulatedState"] == 1000);
-    CHECK(peer.counts["ServoPosition"] == 4000);
-    CHECK(peer.counts["EulerAngles"] == 1000);
-    CHECK(peer.counts["AngularVelocity"] == 1000);
-    CHECK(peer.counts["Acceleration"] == 1000);
-    CHECK(peer.counts["EstimatedState"] == 200);
-    CHECK(peer.counts["Rpm"] == 200);
-    CHECK(peer.counts["Depth"] == 100);
-    CHECK(peer.counts["Distance"] == 100);
-    CHECK(peer.counts["GpsFix"] == 10);
-    CHECK(peer.counts["Heartbeat"] == 10);
+  }
+
+  TEST_CASE("a sensor that tells no more is silent soon, whatever its rate") {
+    SubmarineParameters parameters;
+    parameters.sensors.depth.failure = {.kind = FailureKind::lost, .at = 2};
+    Submarine submarine(parameters);
+    Peer peer;
+    SubmarineTelemetry telemetry(submarine, peer);
+    for (int i = 0; i < 500; ++i) {
+      submarine.sense(telemetry);
+      submarine.step();
+    }
+    CHECK(peer.counts["Depth"] == 32);
+    CHECK(peer.counts["Pressure"] == 30);
+  }
+
+  TEST_CASE("velocity over ground is that through the water and the current, along the body's axes") {
+    SubmarineParameters parameters;
+    parameters.sea.current_north = 0.25;
+    parameters.sea.current_east = 0.5;
+    Submarine submarine(parameters);
+    VehicleState state;
+    state.z = 4;
+    state.psi = 1;
+    state.u = 1.5;
+    submarine.place(state);
+    Peer peer;
+    SubmarineTelemetry telemetry(submarine, peer);
+    for (int i = 0; i < 100; ++i) submarine.sense(telemetry);
+    CHECK(peer.ground.validity == 7);
+    CHECK(peer.ground.x == doctest::Approx(1.5 + 0.25 * std::cos(1.0) + 0.5 * std::sin(1.0)));
+    CHECK(peer.ground.y == doctest::Approx(0.5 * std::cos(1.0) - 0.25 * std::sin(1.0)));
+    CHECK(peer.ground.z == 0);
+    CHECK(peer.stream.x == 0.25);
+    CHECK(peer.stream.y == 0.5);
   }
 
   TEST_CASE("servo positions are where the fins are, and as commands move them") {
@@ -76,7 +131,7 @@ TEST_SUITE("vehicles/submarine_telemetry") {
     submarine.place(state);
     Peer peer;
     SubmarineTelemetry telemetry(submarine, peer);
-    submarine.sense(telemetry);
+    for (int i = 0; i < 5; ++i) submarine.sense(telemetry);
     CHECK(peer.estimate.lat == peer.truth.lat);
     CHECK(peer.estimate.depth == 4.0F);
     CHECK(peer.estimate.theta == 0.25F);
