@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "distributers/messages/json.h"
+#include "distributers/messages/limits.h"
 #include "distributers/messages/packet.h"
 #include "graph/yaml/problems.h"
 #include "tools/commands/commands.h"
@@ -99,7 +100,7 @@ const messages::MessageForm& form_in(const Json& packet, const messages::Message
 }
 
 void check_keys(const Json& packet) {
-  static const std::vector<std::string> keys{"name", "header", "fields", "order", "crc_ok", "hex"};
+  static const std::vector<std::string> keys{"name", "header", "fields", "order", "crc_ok", "outside", "hex"};
   for (const auto& [key, value] : packet.items())
     if (std::find(keys.begin(), keys.end(), key) == keys.end())
       throw Wrong{"the packet has a key '" + key + "'" + did_you_mean(key, keys) + "; it may have: " + list_of(keys)};
@@ -118,6 +119,8 @@ int decode_lines(const messages::MessageSet& set, std::istream& in, std::ostream
         << R"(,"fields":)" << messages::to_json(reader.message()) << R"(,"crc_ok":)" << Json(flaw == Flaw::none);
     if (reader.order() != set.order)
       out << R"(,"order":)" << (reader.order() == ByteOrder::big ? R"("big")" : R"("little")");
+    const std::vector<std::string> outside = messages::find_outside(reader.message());
+    if (!outside.empty()) out << R"(,"outside":)" << Json(outside);
     out << R"(,"hex":")" << hex_of(bytes) << "\"}" << std::endl;  // whoever listens may be waiting for it
     return flaw == Flaw::none ? exit_good : exit_negative;
   });

@@ -53,7 +53,7 @@ struct FieldForm {
   std::string_view type = {};  // as the definition spells it
   std::string_view unit = {};
   std::string_view text = {};
-  std::string_view least = {};  // as the definition spells them; nothing checks them
+  std::string_view least = {};  // as the definition spells them; find_outside alone looks at them
   std::string_view most = {};
   std::string_view standard = {};           // default
   bool bits = false;                        // `values` are bits that may be combined

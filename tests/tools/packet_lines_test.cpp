@@ -116,6 +116,18 @@ TEST_SUITE("tools/packet_lines") {
     CHECK(json::parse(result.lines[0])["fields"]["idle"] == 8000);
   }
 
+  TEST_CASE("values outside the limits of the definition are told beside the fields; the packet is good all the same") {
+    const Result wild = encode(R"({"name":"SetThrusterActuation","fields":{"id":0,"value":1.5}})");
+    REQUIRE(wild.lines.size() == 1);
+    const Result decoded = decode(wild.lines[0]);
+    CHECK(decoded.exit_code == 0);
+    REQUIRE(decoded.lines.size() == 1);
+    CHECK(json::parse(decoded.lines[0])["outside"] == json{"value: 1.5 is above 1"});
+    CHECK(encode(decoded.lines[0]).lines == wild.lines);
+    const Result tame = encode(R"({"name":"SetThrusterActuation","fields":{"id":0,"value":1}})");
+    CHECK_FALSE(json::parse(decode(tame.lines.at(0)).lines.at(0)).contains("outside"));
+  }
+
   TEST_CASE("what can't be encoded is said") {
     const auto error = [](const std::string& line) { return encode(line).errors; };
     CHECK(error("{") ==
@@ -125,7 +137,7 @@ TEST_SUITE("tools/packet_lines") {
     CHECK(error(R"({"name":"Depth","field":{}})") ==
           "line 1: error: the packet has a key 'field'; did you mean 'fields'?; it may have: name, header, fields, "
           "order, "
-          "crc_ok, hex\n");
+          "crc_ok, outside, hex\n");
     CHECK(error(R"({"name":"DesiredZ","fields":{"valu":1}})") ==
           "line 1: error: DesiredZ has no field 'valu'; did you mean 'value'?; it has: value, z_units\n");
     CHECK(error(R"({"name":"DesiredZ","fields":{"value":"deep"}})") ==
