@@ -41,16 +41,22 @@ class XmlReader {
                     "the definition is an element <" + std::string(root.name()) + ">; it needs <messages>");
       return definition;
     }
-    check_attributes(root, {"name", "long-name", "version", "byte-order", "checksum", "checksum-from", "most-bytes"},
+    check_attributes(root,
+                     {"name", "long-name", "version", "creation", "revision", "byte-order", "checksum", "checksum-from",
+                      "most-bytes"},
                      "the definition");
     check_children(root,
                    {"description", "types", "serialization", "units", "enumerations", "bitfields", "message-groups",
-                    "flags", "header", "footer", "categories", "message"},
+                    "flags", "header", "footer", "groups", "categories", "message"},
                    "the definition");
     definition.title = needed(root, "name", "the definition");
     definition.version = root.attribute("version").value();
     definition.text = root.attribute("long-name").value();
-    definition.order = one_of(root, "byte-order", {"either", "little", "big"}, "the definition");
+    definition.order =
+        one_of(root, "byte-order", {"either", "little", "big", "LITTLE_ENDIAN", "BIG_ENDIAN"}, "the definition");
+    // as the schema of the public definition spells them
+    if (definition.order == "LITTLE_ENDIAN") definition.order = "little";
+    if (definition.order == "BIG_ENDIAN") definition.order = "big";
     definition.checksum = one_of(root, "checksum", {"crc16_ibm", "sum16"}, "the definition");
     definition.checksum_from = static_cast<std::size_t>(integer(root, "checksum-from", 0, 0xffff, 0, "the definition"));
     definition.most_payload =
@@ -168,8 +174,9 @@ class XmlReader {
     message.where = place(node);
     message.name = needed(node, "abbrev", "a message");
     const std::string subject = "message '" + message.name + "'";
-    check_attributes(node, {"id", "name", "abbrev", "struct", "category", "source", "flags", "stable", "used-by"},
-                     subject);
+    check_attributes(
+        node, {"id", "name", "abbrev", "struct", "category", "source", "flags", "stable", "used-by", "deprecated"},
+        subject);
     check_children(node, {"description", "field", "part"}, subject);
     message.struct_name = node.attribute("struct") ? node.attribute("struct").value() : message.name;
     needed(node, "id", subject);
@@ -223,7 +230,7 @@ class XmlReader {
     field.bits = field.unit == "Bitfield";
     field.values = read_values(node, subject);
     for (const char* attribute : {"enum-def", "bitfield-def"})
-      if (node.attribute(attribute)) read_reference(node, attribute, subject, definition, field);
+      if (*node.attribute(attribute).value() != 0) read_reference(node, attribute, subject, definition, field);
     if (field.count > 0 && size_of(field.type) == 0)
       problems_.add(field.where, subject + " is an array of " + field.type + "; only numbers have a 'count'");
     if (!field.message_type.empty() && field.type != "message" && field.type != "message-list")

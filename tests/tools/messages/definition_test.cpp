@@ -59,6 +59,53 @@ TEST_SUITE("tools/messages/definition") {
     CHECK(d.messages[0].wire_size == 1);
   }
 
+  TEST_CASE("what the public definition has beside messages is passed over") {
+    const std::string text = R"(<?xml version="1.0" encoding="UTF-8"?>
+<!-- a comment -->
+<messages xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="IMC.xsd" name="T"
+          long-name="Test" version="5.3.x" creation="2020" revision="r1">
+  <description>What it is.</description>
+  <types><description>All.</description><type name="int8_t" size="1"><description>Small.</description></type></types>
+  <serialization><type name="rawdata"><description>With a count.</description></type></serialization>
+  <units><unit abbrev="°C" name="Degree"/><unit abbrev="TupleList" name="Tuples"><description>=</description></unit></units>
+  <enumerations><def name="Type" abbrev="Type" prefix="T"><value id="0" name="Sensor" abbrev="SENSOR" note="old"/></def></enumerations>
+  <bitfields><def prefix="L" name="Loops" abbrev="Loops"><value id="0xFFFFFFFF" abbrev="ALL" name="All"/></def></bitfields>
+  <message-groups><message-group name="Some" abbrev="Some"><message-type abbrev="A"/></message-group></message-groups>
+  <flags><flag abbrev="deprecated" name="Deprecated"/></flags>
+)" + header + footer + R"(
+  <groups><group name="Core" abbrev="GroupCore" min="0" max="49"/></groups>
+  <categories><category name="Core"/></categories>
+  <message id="1" name="A of A" abbrev="A" category="Core" source="vehicle,ccu" flags="deprecated" stable="false"
+           used-by="ccu" deprecated="true">
+    <field name="Type" abbrev="type" type="uint8_t" unit="Enumerated" enum-def="Type" bitfield-def="" message-type=""/>
+    <field name="Loops" abbrev="loops" type="uint32_t" unit="Bitfield" bitfield-def="Loops" note="a mask"/>
+    <field name="Own" abbrev="own" type="int8_t" prefix="O" min="-23" max="23" value="-1">
+      <description/>
+      <value id="-1" name="Less" abbrev="LESS"><description>Less.</description></value>
+      <value id="0x01" name="More" abbrev="MORE"></value>
+    </field>
+    <field name="Any" abbrev="message" type="message"/>
+    <field name="Some" abbrev="message_id" type="message-list" message-type="Some"/>
+  </message>
+  <message id="2" name="No field" abbrev="B" category="Core"/>
+</messages>)";
+    CHECK(report_on(text) == "");
+    const Definition d = read(text);
+    REQUIRE(d.messages.size() == 2);
+    CHECK(d.messages[0].fields[0].values.size() == 1);
+    CHECK(d.messages[0].fields[1].bits);
+    CHECK(d.messages[0].fields[2].values[0].value == -1);
+    CHECK(d.messages[0].fields[4].ids == std::vector<std::uint32_t>{1});
+  }
+
+  TEST_CASE("the byte order may be spelt as the schema of the public definition spells it") {
+    const auto order = [](const std::string& spelt) {
+      return read("<messages name=\"T\" byte-order=\"" + spelt + "\">" + header + footer + one + "</messages>").order;
+    };
+    CHECK(order("LITTLE_ENDIAN") == "little");
+    CHECK(order("BIG_ENDIAN") == "big");
+  }
+
   TEST_CASE("an error shows the line with a caret") {
     CHECK_THROWS_WITH_AS(read("<messages name=\"T\">" + header + footer + "\n  <message abbrev=\"One\"/>\n</messages>"),
                          "t.xml:2:4: error: message 'One' has no 'id'; it needs one\n"
@@ -80,14 +127,14 @@ TEST_SUITE("tools/messages/definition") {
     CHECK(
         report_on_messages(one, "<mesage/>") ==
         "t.xml:1:21: error: the definition has an element <mesage>; did you mean 'message'?; it may have: description, "
-        "types, serialization, units, enumerations, bitfields, message-groups, flags, header, footer, categories, "
-        "message");
+        "types, serialization, units, enumerations, bitfields, message-groups, flags, header, footer, groups, "
+        "categories, message");
     CHECK(report_on_messages(one, "", " checksum=\"crc32\"") ==
           "t.xml:1:2: error: the definition has the checksum 'crc32'; it may be: crc16_ibm, sum16");
     CHECK(report_on_messages(one, "", " byteorder=\"big\"") ==
           "t.xml:1:2: error: the definition has the attribute 'byteorder'; did you mean 'byte-order'?; it may have: "
           "name, "
-          "long-name, version, byte-order, checksum, checksum-from, most-bytes");
+          "long-name, version, creation, revision, byte-order, checksum, checksum-from, most-bytes");
     CHECK(report_on_messages(one, "", " checksum-from=\"6\"") ==
           "t.xml:1:2: error: the definition has the checksum-from 6; it needs to be within the header of 6 bytes");
     CHECK(report_on_messages(one, "", " most-bytes=\"8\"") ==
@@ -140,7 +187,7 @@ TEST_SUITE("tools/messages/definition") {
     CHECK(report_on_messages(R"(<message id="1" abbrev="A" strukt="B"/>)") ==
           "t.xml:2:2: error: message 'A' has the attribute 'strukt'; did you mean 'struct'?; it may have: id, name, "
           "abbrev, "
-          "struct, category, source, flags, stable, used-by");
+          "struct, category, source, flags, stable, used-by, deprecated");
     CHECK(report_on_messages(R"(<message id="1" abbrev="A"><feild abbrev="a" type="int8_t"/></message>)") ==
           "t.xml:2:29: error: message 'A' has an element <feild>; did you mean 'field'?; it may have: description, "
           "field, "
