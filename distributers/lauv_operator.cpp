@@ -36,7 +36,8 @@ DistributerClass LauvOperator::describe_class() {
           "the submarine's operator, over IMC",
           {{"setpoint", Direction::in, &type_of<tasks::Setpoint>(), "commanded depth, heading and speed"},
            {"actuation", Direction::in, &type_of<tasks::Actuation>(), "propeller and fins, steered by hand"},
-           {"contact", Direction::in, &type_of<tasks::Contact>(), "how long the operator was not heard"},
+           {"contact", Direction::in, &type_of<tasks::Contact>(),
+            "how long the operator was not heard, and demands of a stop"},
            {"report", Direction::out, &type_of<tasks::VehicleReport>(), "depth, pitch, heading and speed reached"},
            {"motion", Direction::out, &type_of<tasks::Motion>(), "the vehicle's motion as it came"}},
           false,
@@ -106,7 +107,7 @@ void LauvOperator::receive_plan(messages::MessageRef message) {
     if (plan->op == imc::PlanControl::Op::START) {
       reply.info = execute(plan->arg.id);
     } else if (plan->op == imc::PlanControl::Op::STOP) {
-      stop();
+      demand_stop();
     } else {
       reply.info = "plans are not stored here";
     }
@@ -120,7 +121,7 @@ void LauvOperator::receive_plan(messages::MessageRef message) {
     if (command->command == imc::VehicleCommand::Command::EXEC_MANEUVER) {
       reply.info = execute(command->maneuver.id);
     } else if (command->command == imc::VehicleCommand::Command::STOP_MANEUVER) {
-      stop();
+      demand_stop();
     } else {
       reply.info = "there is nothing to calibrate";
     }
@@ -163,7 +164,7 @@ void LauvOperator::receive_actions(const TupleList& actions) {
 }
 
 void LauvOperator::receive_abort() {
-  stop();
+  demand_stop();
   set_mode(Mode::error);
   aborted_ = now_;
   let_go_ = false;
@@ -187,6 +188,11 @@ void LauvOperator::start_teleoperation() {
   let_go_ = true;
   setpoint_fresh_ = true;
   set_mode(Mode::teleoperation);
+}
+
+void LauvOperator::demand_stop() {
+  ++stops_;
+  stop();
 }
 
 // The propeller stops; a little lighter than water, the vehicle comes up.
@@ -280,7 +286,7 @@ void LauvOperator::tell_state(messages::Receiver& system) const {
       plan.state = imc::PlanControlState::State::BLOCKED;
       break;
   }
-  // whatever the operator commands, it comes up
+  // whatever the operator commands but a stop, it comes up
   if (alarm_ != tasks::Alarm::none) {
     state.op_mode = imc::VehicleState::OpMode::ERROR;
     state.error_count = 1;
@@ -310,7 +316,7 @@ bool LauvOperator::take(std::size_t channel, void* value) {
   if (channel == contact_channel) {
     // nobody has to be there as long as nothing was asked for
     const bool steered = mode_ == Mode::external || mode_ == Mode::teleoperation;
-    static_cast<tasks::Contact*>(value)->silence = steered ? seconds(now_ - heard_) : 0;
+    *static_cast<tasks::Contact*>(value) = {.silence = steered ? seconds(now_ - heard_) : 0, .stops = stops_};
     return true;
   }
   *static_cast<tasks::Actuation*>(value) = actuation_;

@@ -37,7 +37,9 @@ struct LauvOperatorParameters {
 };
 
 /// The newest command wins: a Desired... has the autopilot steer, a RemoteActions the operator's hand, an Abort stops
-/// the propeller, so that the vehicle comes up. What is asked is answered at the next instant.
+/// the propeller, so that the vehicle comes up. An Abort, and the stop of a plan or maneuver, also has an alarm of the
+/// vehicle forgotten whose cause is gone; until then its state is an error. What is asked is answered at the next
+/// instant.
 class LauvOperator : public Adapter {
  public:
   static DistributerClass describe_class();
@@ -63,6 +65,7 @@ class LauvOperator : public Adapter {
   void receive_abort();
   bool use_autopilot();
   void start_teleoperation();
+  void demand_stop();
   void stop();
   void set_mode(Mode mode);
   std::string execute(std::uint32_t maneuver);
@@ -91,6 +94,7 @@ class LauvOperator : public Adapter {
 
   std::optional<Duration> aborted_;
   Duration heard_{};
+  std::uint32_t stops_ = 0;  // demanded by the operator
   tasks::Alarm alarm_ = tasks::Alarm::none;
   double heading_ = 0;        // of the vehicle, as told last
   bool motion_told_ = false;  // by channel `motion`, which tells more than `report`

@@ -128,10 +128,17 @@ bool steerable(Alarm alarm) {
 void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const double dt = 1e-9 * static_cast<double>(tick.period.count());
   const Alarm lost = find_lost(p, in.instruments, dt, state), liar = find_liar(p, in.instruments, dt, state);
-  if (state.alarm == Alarm::none) {
+  const bool stopped = in.contact.stops != state.stops;
+  state.stops = in.contact.stops;
+  if (state.alarm == Alarm::none || stopped) {
     const Alarm exceeded = find_exceeded(p, in);
-    state.alarm = lost != Alarm::none ? lost : liar != Alarm::none ? liar : exceeded;
-    state.fixes_at_alarm = in.instruments.place.count;
+    const Alarm found = lost != Alarm::none ? lost : liar != Alarm::none ? liar : exceeded;
+    if (state.alarm == Alarm::none || found == Alarm::none) {
+      state.alarm = found;
+      state.fixes_at_alarm = in.instruments.place.count;
+      state.since_alarm = 0;
+      state.surfaced = false;
+    }
     if (state.alarm == Alarm::none) {
       out = {in.setpoint, {}};
       return;

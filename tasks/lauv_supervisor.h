@@ -14,8 +14,10 @@ namespace jarol::tasks {
 
 /// An instrument that tells no more is lost. One that lies is found by another that knows better: depth gauge and
 /// pressure, compass and IMU, attitude and rates, attitude and specific force, speed log and propeller, altitude and
-/// depth over a floor without steps. Once alarmed it comes up for good: nose up at some speed until GPS finds the
-/// surface, or, where attitude or speed are in doubt, with propeller off, by buoyancy.
+/// depth over a floor without steps. Once alarmed it comes up: nose up at some speed until GPS finds the surface, or,
+/// where attitude or speed are in doubt, with propeller off, by buoyancy. It stays alarmed, whatever becomes of the
+/// cause, until the operator demands a stop when there is none any more: then it is a vehicle at rest, to be commanded
+/// anew.
 struct LauvSupervisor {
   static constexpr std::string_view summary = "passes the operator's setpoint on, or brings the submarine up";
   struct Param {
@@ -74,6 +76,7 @@ struct LauvSupervisor {
     Alarm alarm = Alarm::none;
     double since_alarm = 0;
     std::int64_t fixes_at_alarm = 0;
+    std::uint32_t stops = 0;
     bool surfaced = false;
     std::array<std::int64_t, 14> counts{};
     std::array<double, 14> silences{};
@@ -85,7 +88,8 @@ struct LauvSupervisor {
     static constexpr auto fields() {
       using S = State;
       return describe(
-          field<&S::alarm>(), field<&S::since_alarm>("s"), field<&S::fixes_at_alarm>(), field<&S::surfaced>(),
+          field<&S::alarm>(), field<&S::since_alarm>("s"), field<&S::fixes_at_alarm>(),
+          field<&S::stops>("", "of the operator, up to now"), field<&S::surfaced>(),
           field<&S::counts>("", "of each instrument"), field<&S::silences>("s", "of each instrument"),
           field<&S::since_fix>("s", "at the surface"), field<&S::fixes>(),
           field<&S::wrong_for>("s", "each difference, for so long"), field<&S::started>(),

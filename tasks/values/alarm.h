@@ -8,7 +8,7 @@
 
 namespace jarol::tasks {
 
-/// Why the vehicle comes up; the first cause stays.
+/// Why the vehicle comes up; the first cause stays until the operator has it forgotten.
 enum class Alarm : std::uint8_t {
   none,
   operator_lost,

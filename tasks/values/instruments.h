@@ -63,9 +63,11 @@ struct Instruments {
 /// The line to the operator.
 struct Contact {
   double silence = 0;
+  std::uint32_t stops = 0;
 
   static constexpr auto fields() {
-    return describe(field<&Contact::silence>("s", "since the operator was heard last"));
+    return describe(field<&Contact::silence>("s", "since the operator was heard last"),
+                    field<&Contact::stops>("", "of all that goes on, that the operator demanded so far"));
   }
 };
 

@@ -53,11 +53,12 @@ struct Conversation {
     adapter.take(0, &value);
     return value;
   }
-  double silence() {
+  tasks::Contact contact() {
     tasks::Contact contact;
     REQUIRE(adapter.take(2, &contact));
-    return contact.silence;
+    return contact;
   }
+  double silence() { return contact().silence; }
   std::uint8_t op_mode() const { return to.last<imc::VehicleState>().op_mode; }
 
   LauvOperator adapter;

@@ -85,4 +85,31 @@ TEST_SUITE("distributers/lauv_operator_plans") {
     c.say(imc::DesiredSpeed{1.2, imc::SpeedUnits::METERS_PS});
     check(c.setpoint(), {0, 0.5, 1.2});
   }
+
+  TEST_CASE("an alarm of the vehicle is an error until the vehicle has none; stops and aborts ask it to forget") {
+    Conversation c;
+    c.report({.alarm = tasks::Alarm::leak});
+    c.pass(2s);
+    CHECK(c.op_mode() == OpMode::ERROR);
+    CHECK(c.contact().stops == 0);
+    imc::PlanControl plan;
+    plan.op = imc::PlanControl::Op::STOP;
+    c.say(plan);
+    CHECK(c.contact().stops == 1);
+    imc::VehicleCommand maneuver;
+    maneuver.command = imc::VehicleCommand::Command::STOP_MANEUVER;
+    c.say(maneuver);
+    CHECK(c.contact().stops == 2);
+    c.say(imc::Abort{});
+    CHECK(c.contact().stops == 3);
+    check(c.setpoint(), {0, 0, 0});
+    c.pass(2s);
+    CHECK(c.op_mode() == OpMode::ERROR);  // the vehicle has not forgotten it
+    c.report({.alarm = tasks::Alarm::none});
+    c.pass(50ms);
+    CHECK(c.op_mode() == OpMode::SERVICE);
+    CHECK(c.to.last<imc::PlanControlState>().state == imc::PlanControlState::State::READY);
+    c.act("Exit=1");  // lets go of the stick, and no more
+    CHECK(c.contact().stops == 3);
+  }
 }

@@ -103,6 +103,31 @@ TEST_SUITE("tasks/lauv_supervisor") {
     CHECK(out.condition.alarm == Alarm::leak);
   }
 
+  TEST_CASE("a stop of the operator has an alarm forgotten whose cause is gone, and no other") {
+    LauvSupervisor::State state;
+    LauvSupervisor::Out out;
+    std::int64_t k = 0;
+    const auto run = [&](double leak, std::uint32_t stops) {
+      LauvSupervisor::In in = calm(++k);
+      in.instruments.leak.value = leak;
+      in.contact.stops = stops;
+      LauvSupervisor::run({}, every_50_ms, in, state, out);
+      return out.condition.alarm;
+    };
+    CHECK(run(1, 0) == Alarm::leak);
+    CHECK(run(1, 1) == Alarm::leak);  // water still there
+    CHECK(run(0, 1) == Alarm::leak);  // one stop counts once
+    CHECK(out.setpoint.speed == 1);
+    CHECK(run(0, 2) == Alarm::none);
+    CHECK(out.setpoint.depth == wanted.depth);
+    CHECK(out.setpoint.speed == wanted.speed);
+    CHECK(run(0, 2) == Alarm::none);
+    // and the next alarm begins as the first did
+    CHECK(run(1, 2) == Alarm::leak);
+    CHECK(out.setpoint.speed == 1);
+    CHECK(state.since_alarm == doctest::Approx(0.05));
+  }
+
   TEST_CASE("GPS ends the climb, and so does a climb that takes too long or goes blind") {
     const auto climb = [](double seconds, auto change) {
       return after(seconds, [&](LauvSupervisor::In& in) {

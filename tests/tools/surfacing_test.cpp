@@ -99,6 +99,21 @@ TEST_SUITE("tools/surfacing") {
                    Alarm::operator_lost, 41.2);
   }
 
+  TEST_CASE("it stays at the surface when the operator is heard again, and dives again after a stop was demanded") {
+    const Dive done =
+        dive("specs/exolauv.yaml", {"distributers.neptus.link.file=../tests/data/lauv-recovered.csv"}, 0, 110s);
+    CHECK(done.alarm == Alarm::none);
+    const auto depth = [&](double time) {
+      for (const auto& sample : done.samples)
+        if (sample.time >= time) return sample.motion.z;
+      return -1.0;
+    };
+    CHECK(depth(36) == doctest::Approx(3).epsilon(0.05));
+    CHECK(depth(60) < 0.3);
+    CHECK(depth(72) < 0.3);
+    CHECK(depth(109) == doctest::Approx(3).epsilon(0.05));
+  }
+
   TEST_CASE("a limit that is exceeded ends the dive") {
     const auto limited = [](const std::string& limit) {
       return dive("specs/exolauv.yaml", {"tasks.supervisor.parameters={" + limit + "}"}, 0, 140s);
