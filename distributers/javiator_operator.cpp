@@ -44,6 +44,15 @@ javiator::MotorOffsets effort(const std::array<double, 4>& signals) {
           to_wire((front + right + rear + left) / 4)};
 }
 
+// in the order of describe_class
+enum Channel : std::size_t { command_channel, report_channel, gains_channel };
+
+// all of them are told as thousandths
+template <class Params>
+tasks::ToldGains gains_of(const Params& p) {
+  return {{1e-3 * p.kp, 1e-3 * p.ki, 1e-3 * p.kd, 1e-3 * p.kdd}, true};
+}
+
 std::uint32_t clock_of(Duration instant) { return static_cast<std::uint32_t>(instant.count() / 1000 % 1'000'000'000); }
 
 }  // namespace
@@ -54,12 +63,31 @@ DistributerClass JaviatorOperator::describe_class() {
   return {"JaviatorOperator",
           "the helicopter's operator, over the JAviator's protocol",
           {{"command", Direction::in, &type_of<tasks::PilotCommand>(), "attitude, altitude, position and switches"},
-           {"report", Direction::out, &type_of<tasks::HelicopterReport>(), "motion, motor signals and state"}}};
+           {"report", Direction::out, &type_of<tasks::HelicopterReport>(), "motion, motor signals and state"},
+           {"gains", Direction::in, &type_of<tasks::OperatorGains>(), "of the JAviator's own laws"}}};
 }
 
 const messages::MessageSet& JaviatorOperator::message_set() const { return javiator::message_set(); }
 
+bool JaviatorOperator::receive_gains(messages::MessageRef message) {
+  if (const auto* lean = message.as<javiator::RollPitchParams>()) {
+    gains_.lean = gains_of(*lean);
+  } else if (const auto* yaw = message.as<javiator::YawParams>()) {
+    gains_.yaw = gains_of(*yaw);
+  } else if (const auto* altitude = message.as<javiator::AltParams>()) {
+    gains_.altitude = gains_of(*altitude);
+  } else if (const auto* position = message.as<javiator::XYParams>()) {
+    gains_.position = gains_of(*position);
+  } else if (const auto* limit = message.as<javiator::IdleLimit>()) {
+    gains_.idle = {static_cast<double>(limit->idle), true};
+  } else {
+    return false;
+  }
+  return gains_fresh_ = true;
+}
+
 void JaviatorOperator::receive(messages::MessageRef message) {
+  if (receive_gains(message)) return;
   if (const auto* c = message.as<javiator::CommandData>()) {
     // the same two numbers say how it shall lean, or where it shall be
     command_.roll = 1e-3 * c->roll;
@@ -85,7 +113,11 @@ void JaviatorOperator::receive(messages::MessageRef message) {
 
 void JaviatorOperator::reach(Duration instant, messages::Receiver&) { now_ = instant; }
 
-bool JaviatorOperator::take(std::size_t, void* value) {
+bool JaviatorOperator::take(std::size_t channel, void* value) {
+  if (channel == gains_channel) {
+    *static_cast<tasks::OperatorGains*>(value) = gains_;
+    return std::exchange(gains_fresh_, false);
+  }
   *static_cast<tasks::PilotCommand*>(value) = command_;
   command_.heard = false;
   period_ = now_ - taken_;

@@ -3,13 +3,14 @@
 
 #include "distributers/adapter.h"
 #include "graph/registry.h"
+#include "tasks/values/gains.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::distributers {
 
 /// Speaks with the JAviator's control terminal as its flight controller does: GroundReport and TraceData out, which the
-/// terminal answers with CommandData; switches, trim and shut-down in. Gains and idle signal that it sends are not
-/// handed on: the laws have their own. Over UDP, the first SwitchState of a new peer is a hello and switches nothing.
+/// terminal answers with CommandData; switches, trim and shut-down in. Gains and idle signal that it sends are for
+/// the JAviator's own laws. Over UDP, the first SwitchState of a new peer is a hello and switches nothing.
 class JaviatorOperator : public Adapter {
  public:
   JaviatorOperator();
@@ -20,11 +21,16 @@ class JaviatorOperator : public Adapter {
   void receive(messages::MessageRef message) override;
   void reach(Duration instant, messages::Receiver& system) override;
   /// A command at each instant, for silence is one, too: it is heard if CommandData came since the instant before.
+  /// Gains when some came.
   bool take(std::size_t channel, void* value) override;
   void hand_over(std::size_t channel, const void* value, messages::Receiver& system) override;
 
  private:
+  bool receive_gains(messages::MessageRef message);
+
   tasks::PilotCommand command_{.heard = false};
+  tasks::OperatorGains gains_;
+  bool gains_fresh_ = false;
   bool hello_due_ = false;
 
   Duration now_{}, taken_{}, period_{}, reported_{};

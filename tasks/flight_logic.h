@@ -5,6 +5,7 @@
 
 #include "graph/task.h"
 #include "tasks/trim.h"
+#include "tasks/values/gains.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
@@ -40,9 +41,11 @@ struct FlightLogic {
     FlightEstimate estimate{};
     PilotCommand command{};
     LiftDemand lift{};
+    OperatorGains gains{};
     static constexpr auto fields() {
       return describe(field<&In::estimate>(), field<&In::command>(),
-                      field<&In::lift>("", "little of it while landing: the ground carries"));
+                      field<&In::lift>("", "little of it while landing: the ground carries"),
+                      field<&In::gains>("", "of other laws: not looked at"));
     }
   };
   struct State {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/values/gains.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
@@ -58,7 +59,11 @@ struct PositionControl {
   struct In {
     FlightEstimate estimate{};
     FlightDirective directive{};
-    static constexpr auto fields() { return describe(field<&In::estimate>(), field<&In::directive>()); }
+    OperatorGains gains{};
+    static constexpr auto fields() {
+      return describe(field<&In::estimate>(), field<&In::directive>(),
+                      field<&In::gains>("", "of other laws: not looked at"));
+    }
   };
   struct State {
     Approach x{}, y{};
@@ -120,7 +125,11 @@ struct AttitudeControl {
   struct In {
     FlightEstimate estimate{};
     AttitudeGoal goal{};
-    static constexpr auto fields() { return describe(field<&In::estimate>(), field<&In::goal>()); }
+    OperatorGains gains{};
+    static constexpr auto fields() {
+      return describe(field<&In::estimate>(), field<&In::goal>(),
+                      field<&In::gains>("", "of other laws: not looked at"));
+    }
   };
   struct State {
     TurnModel roll{}, pitch{}, yaw{};
@@ -171,7 +180,11 @@ struct AltitudeControl {
   struct In {
     FlightEstimate estimate{};
     FlightDirective directive{};
-    static constexpr auto fields() { return describe(field<&In::estimate>(), field<&In::directive>()); }
+    OperatorGains gains{};
+    static constexpr auto fields() {
+      return describe(field<&In::estimate>(), field<&In::directive>(),
+                      field<&In::gains>("", "of other laws: not looked at"));
+    }
   };
   struct State {
     Approach z{};

@@ -44,7 +44,7 @@ void OriginalLogic::run(const Param& p, const Tick& tick, const In& in, State& s
     } else {
       d.state = FlightState::ground;
     }
-  } else if (d.state == FlightState::starting && (state.revs += p.rev_step) >= p.idle) {
+  } else if (d.state == FlightState::starting && (state.revs += p.rev_step) >= in.gains.idle.value_or(p.idle)) {
     d.state = FlightState::flying;
   }
   trim(command, in.estimate, state.trim, d);
@@ -64,6 +64,7 @@ void OriginalPosition::run(const Param& p, const Tick& tick, const In& in, State
   const double dt = seconds(tick.period);
   double roll = d.roll, pitch = d.pitch;
   if (d.hold_position && d.state == FlightState::flying) {
+    const PiddGains& gains = in.gains.position.value_or(p.gains);
     const double most = 1e3 * p.lean_limit;
     // near its goal it corrects seldom
     const auto hold = [&](double error, double speed, double acceleration, double& integral, std::uint32_t& waited,
@@ -72,8 +73,7 @@ void OriginalPosition::run(const Param& p, const Tick& tick, const In& in, State
       if (static_cast<double>(++waited) < periods) return;
       waited = 0;
       integral = std::clamp(integral + error * dt, -160.0, 160.0);
-      const double demand =
-          p.gains.kp * error + p.gains.ki * integral + p.gains.kd * speed + p.gains.kdd * acceleration;
+      const double demand = gains.kp * error + gains.ki * integral + gains.kd * speed + gains.kdd * acceleration;
       lean = std::clamp(demand, -most, most);
     };
     hold(1e3 * (d.y - e.y), 1e3 * e.v_y, 1e3 * e.a_y, state.integral_y, state.waited_y, state.roll);
@@ -99,12 +99,13 @@ void OriginalAttitude::run(const Param& p, const Tick& tick, const In& in, State
   const double rate_r = 1e3 * turning;
   // what it calls acceleration is less than a third of it at 15 ms
   constexpr double per_period = 19.79;
+  const PiddGains& lean = in.gains.lean.value_or(p.lean);
   const double roll =
-      calc_pidd(p.lean, 1e3 * in.goal.roll, 1e3 * e.roll, rate_p, per_period * (rate_p - state.p), state.roll, dt);
+      calc_pidd(lean, 1e3 * in.goal.roll, 1e3 * e.roll, rate_p, per_period * (rate_p - state.p), state.roll, dt);
   const double pitch =
-      calc_pidd(p.lean, 1e3 * in.goal.pitch, 1e3 * e.pitch, rate_q, per_period * (rate_q - state.q), state.pitch, dt);
-  const double yaw =
-      calc_pidd(p.yaw, 1e3 * in.goal.yaw, 1e3 * e.yaw, rate_r, per_period * (rate_r - state.r), state.yaw, dt);
+      calc_pidd(lean, 1e3 * in.goal.pitch, 1e3 * e.pitch, rate_q, per_period * (rate_q - state.q), state.pitch, dt);
+  const double yaw = calc_pidd(in.gains.yaw.value_or(p.yaw), 1e3 * in.goal.yaw, 1e3 * e.yaw, rate_r,
+                               per_period * (rate_r - state.r), state.yaw, dt);
   state.p = rate_p;
   state.q = rate_q;
   state.r = rate_r;
@@ -119,11 +120,12 @@ void OriginalAltitude::run(const Param& p, const Tick& tick, const In& in, State
     return;
   }
   const double goal = 1e3 * in.directive.altitude;
-  const double demand =
-      calc_pidd(p.gains, goal, 1e3 * e.altitude, 1e3 * e.climb, 1e3 * e.a_up, state.z, seconds(tick.period));
+  const double demand = calc_pidd(in.gains.altitude.value_or(p.gains), goal, 1e3 * e.altitude, 1e3 * e.climb,
+                                  1e3 * e.a_up, state.z, seconds(tick.period));
   // helps it to settle
   if (goal < 10 && state.z.integral >= 0) state.z.integral -= 10;
-  out.lift.thrust = 1 + demand / (std::cos(e.roll) * std::cos(e.pitch)) / p.idle;
+  const double idle = in.gains.idle.value_or(p.idle);
+  out.lift.thrust = (idle + demand / (std::cos(e.roll) * std::cos(e.pitch))) / p.idle;
 }
 
 void OriginalMixer::run(const Param& p, const Tick&, const In& in, Out& out) {

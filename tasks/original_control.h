@@ -1,25 +1,17 @@
 // The JAviator's own control laws, as its flight controller's "original" loop has them; the project's control loop and
-// its PIDD controller are the source. Gains are those that its terminal sends, for mrad, mm and motor signals; demands
-// leave here in parts of the idle signal.
+// its PIDD controller are the source. Gains are those that its terminal ships with, for mrad, mm and motor signals,
+// until it sends others; these count at once, whatever the integrals have summed up. Demands leave here in parts of the
+// idle signal.
 #pragma once
 
 #include <string_view>
 
 #include "graph/task.h"
 #include "tasks/trim.h"
+#include "tasks/values/gains.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
-
-/// kp e + ki int(e) + kd (rate of the goal - velocity) + kdd acceleration.
-struct PiddGains {
-  double kp = 0, ki = 0, kd = 0, kdd = 0;
-
-  static constexpr auto fields() {
-    using G = PiddGains;
-    return describe(field<&G::kp>(), field<&G::ki>("1/s"), field<&G::kd>("s"), field<&G::kdd>("s^2"));
-  }
-};
 
 struct PiddState {
   double integral = 0, goal = 0;
@@ -47,9 +39,10 @@ struct OriginalLogic {
     FlightEstimate estimate{};
     PilotCommand command{};
     LiftDemand lift{};
+    OperatorGains gains{};
     static constexpr auto fields() {
       return describe(field<&In::estimate>("", "for the trim alone: nothing makes it land"), field<&In::command>(),
-                      field<&In::lift>("", "not looked at"));
+                      field<&In::lift>("", "not looked at"), field<&In::gains>("", "the idle signal of them"));
     }
   };
   struct State {
@@ -85,7 +78,10 @@ struct OriginalPosition {
   struct In {
     FlightEstimate estimate{};
     FlightDirective directive{};
-    static constexpr auto fields() { return describe(field<&In::estimate>(), field<&In::directive>()); }
+    OperatorGains gains{};
+    static constexpr auto fields() {
+      return describe(field<&In::estimate>(), field<&In::directive>(), field<&In::gains>());
+    }
   };
   struct State {
     double integral_x = 0, integral_y = 0;
@@ -121,7 +117,8 @@ struct OriginalAttitude {
   struct In {
     FlightEstimate estimate{};
     AttitudeGoal goal{};
-    static constexpr auto fields() { return describe(field<&In::estimate>(), field<&In::goal>()); }
+    OperatorGains gains{};
+    static constexpr auto fields() { return describe(field<&In::estimate>(), field<&In::goal>(), field<&In::gains>()); }
   };
   struct State {
     PiddState roll{}, pitch{}, yaw{};
@@ -153,7 +150,10 @@ struct OriginalAltitude {
   struct In {
     FlightEstimate estimate{};
     FlightDirective directive{};
-    static constexpr auto fields() { return describe(field<&In::estimate>(), field<&In::directive>()); }
+    OperatorGains gains{};
+    static constexpr auto fields() {
+      return describe(field<&In::estimate>(), field<&In::directive>(), field<&In::gains>());
+    }
   };
   struct State {
     PiddState z{};

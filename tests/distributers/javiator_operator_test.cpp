@@ -104,7 +104,7 @@ TEST_SUITE("distributers/javiator_operator") {
     CHECK(silent.altitude == doctest::Approx(0.5));
   }
 
-  TEST_CASE("every key counts, however many come between two periods; gains change nothing") {
+  TEST_CASE("every key counts, however many come between two periods") {
     JaviatorOperator adapter;
     send<javiator::SwitchState>(adapter);
     send<javiator::SwitchState>(adapter);
@@ -115,8 +115,6 @@ TEST_SUITE("distributers/javiator_operator") {
     send<javiator::StoreTrim>(adapter);
     send<javiator::StoreTrim>(adapter);
     send<javiator::ClearTrim>(adapter);
-    send(adapter, javiator::RollPitchParams{1700, 0, 500, -70});
-    send(adapter, javiator::IdleLimit{8000});
     const tasks::PilotCommand command = take(adapter);
     CHECK(command.state_switches == 2);
     CHECK(command.mode_switches == 3);
@@ -124,6 +122,34 @@ TEST_SUITE("distributers/javiator_operator") {
     CHECK(command.trim_stores == 2);
     CHECK(command.trim_clears == 1);
     CHECK_FALSE(command.heard);
+  }
+
+  TEST_CASE("gains and idle signal are told once after each change, those that never came as not told") {
+    JaviatorOperator adapter;
+    tasks::OperatorGains gains;
+    CHECK_FALSE(adapter.take(2, &gains));
+    send(adapter, javiator::RollPitchParams{1700, 0, 500, -70});
+    send(adapter, javiator::AltParams{1500, 500, 1000, 50});
+    REQUIRE(adapter.take(2, &gains));
+    CHECK(gains.lean.told);
+    CHECK(gains.lean.gains.kp == doctest::Approx(1.7));
+    CHECK(gains.lean.gains.kd == doctest::Approx(0.5));
+    CHECK(gains.lean.gains.kdd == doctest::Approx(-0.07));
+    CHECK(gains.altitude.told);
+    CHECK(gains.altitude.gains.ki == doctest::Approx(0.5));
+    CHECK_FALSE(gains.yaw.told);
+    CHECK_FALSE(gains.idle.told);
+    CHECK_FALSE(adapter.take(2, &gains));
+    send(adapter, javiator::YawParams{1500, 0, 500, 0});
+    send(adapter, javiator::XYParams{210, 30, -60, 1});
+    send(adapter, javiator::IdleLimit{8000});
+    REQUIRE(adapter.take(2, &gains));
+    CHECK(gains.yaw.gains.kp == doctest::Approx(1.5));
+    CHECK(gains.position.gains.kdd == doctest::Approx(0.001));
+    CHECK(gains.idle.told);
+    CHECK(gains.idle.signal == 8000);
+    CHECK(gains.lean.told);
+    CHECK_FALSE(take(adapter).heard);  // they are no command
   }
 
   TEST_CASE("a report has the recorded one's bytes") {
