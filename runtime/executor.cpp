@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "graph/values/bind.h"
-#include "runtime/copy.h"
+#include "runtime/faults.h"
+#include "runtime/publish.h"
 
 namespace jarol {
 namespace {
@@ -19,24 +19,6 @@ void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
   if (actions.size() < 2) return;
   std::sort(actions.begin(), actions.end(),
             [](const auto* a, const auto* b) { return a->communicator < b->communicator; });
-}
-
-// The first number that is not finite, for the fault's text: "output 'a.b' is nan".
-std::string find_non_finite(const Type& type, const void* value, const std::string& path) {
-  const auto* bytes = static_cast<const std::byte*>(value);
-  const std::string prefix = path.empty() ? "" : path + ".";
-  const auto find_element = [&](std::size_t count, const std::byte* elements) -> std::string {
-    for (std::size_t i = 0; i < count; ++i)
-      if (const std::byte* element = elements + i * type.element->size; !type.element->finite(element))
-        return find_non_finite(*type.element, element, prefix + std::to_string(i));
-    return "";
-  };
-  if (type.kind == Kind::array) return find_element(type.count, bytes);
-  if (type.kind == Kind::sequence)
-    return find_element(type.length(value), static_cast<const std::byte*>(type.elements(value)));
-  for (const TypeField& f : type.fields)
-    if (!f.type->finite(bytes + f.offset)) return find_non_finite(*f.type, bytes + f.offset, prefix + f.name);
-  return "output '" + path + "' is " + scalar_text(type, value);
 }
 
 // More than there are processors never pay.
@@ -56,6 +38,7 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
     : graph_(graph), plan_(graph), channels_(std::move(channels)), options_(options) {
   assert(channels_.size() == graph.distributers.size());
   if (options.recorder != nullptr) options.recorder->expect(plan_.outputs);
+  if (!options.threads.empty()) begin_threads();
   if (options.workers > 1 || options.sharing == Sharing::measure)
     team_ = std::make_unique<StageTeam>(useful_workers(options.workers, options.sharing), options.sharing, plan_);
   const std::size_t groups = plan_.groups.size();
@@ -82,6 +65,7 @@ void Executor::run_until(Duration end) {
   const bool record = options_.recorder != nullptr;
   if (options_.clock != nullptr) {
     record ? walk<true, true, true>(end) : walk<true, false, true>(end);
+    if (threads_ != nullptr) drain_threads();
   } else if (options_.digest) {
     record ? walk<true, true, false>(end) : walk<true, false, false>(end);
   } else {
@@ -97,6 +81,8 @@ void Executor::walk(Duration end) {
     if constexpr (Real) {
       options_.clock->wait_until(instant, interrupted_);
       if (interrupted_.load(std::memory_order_relaxed)) return;
+      if (threads_ != nullptr) settle(instant);
+      if (report_.stopped) return;
     }
     now_.store(instant, std::memory_order_relaxed);
     due_ = calendar_.take();
@@ -121,7 +107,9 @@ void Executor::step_instant(std::int64_t instant) {
   // step 1: outputs of LET tasks that end now
   for (const std::uint32_t g : due_) {
     const Group& group = plan_.groups[g];
-    if (bad_outcomes_ == 0) [[likely]] {
+    if (Real && threads_ != nullptr) {
+      for (const LetEnd& let_end : group.let_ends) end_let(let_end, instant);
+    } else if (bad_outcomes_ == 0) [[likely]] {
       publish<Digest, Record>(group.let_publish, instant, instant_term);
     } else {
       publish_one_by_one<Digest, Record>(group, instant, instant_term);
@@ -137,7 +125,9 @@ void Executor::step_instant(std::int64_t instant) {
     publish<Digest, Record>(in->publish, instant, instant_term);
   }
   // step 4: tasks released now
-  if (team_ != nullptr && team_->may_share(plan_.groups, due_)) {
+  if (Real && threads_ != nullptr) {
+    release_on_threads(instant);
+  } else if (team_ != nullptr && team_->may_share(plan_.groups, due_)) {
     run_stages_shared<Digest, Record>(instant, instant_term);
   } else if (due_.size() == 1) {
     const Group& group = plan_.groups[due_[0]];
@@ -238,7 +228,7 @@ void Executor::run_level_shared(std::ptrdiff_t level, std::uint64_t instant_term
     } else if (item.activation->publishes_deep) {
       publish<Digest, Record>(item.activation->publish, instant, instant_term);
     } else if constexpr (Record) {
-      record(item.activation->publish, instant);
+      record(*options_.recorder, item.activation->publish, instant);
     }
   }
 }
@@ -257,21 +247,8 @@ void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64
 
 template <bool Digest, bool Record>
 inline void Executor::publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term) {
-  for (const Copy& c : what.copies) transfer(c);
-  if constexpr (Digest)
-    for (const Publication& p : what.publications)
-      report_.digest += digest::publication(p.name_hash, instant_term, p.hash_words(p.value));
-  if constexpr (Record) record(what, instant);
-}
-
-inline void Executor::record(const Publish& what, std::int64_t instant) {
-  for (const Publication& p : what.publications) {
-    if (p.size > 0) [[likely]] {
-      options_.recorder->append(instant, p.output, p.value, p.size);
-    } else {
-      options_.recorder->append_deep(instant, p.output, p.value);
-    }
-  }
+  report_.digest += make_visible<Digest>(what, instant_term);
+  if constexpr (Record) record(*options_.recorder, what, instant);
 }
 
 void Executor::hand_over(const CommunicatorAction& out) {
@@ -327,13 +304,12 @@ void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, con
   }
   if (outcome == Outcome::overrun) {
     --report_.activations;
-    keep_text(status, "left out: an activation before it still ran at its release");
+    keep_text(status, overrun_text);
   } else if (outcome == Outcome::late) {
     const Duration took(options_.clock->timing(activation.task).busy_until - tick.now.count());
-    keep_text(status,
-              "late: ended " + duration_text(took) + " after its release, deadline " + duration_text(task.deadline));
+    keep_text(status, late_text(took, task.deadline));
   } else if (outcome == Outcome::non_finite) {
-    keep_text(status, find_non_finite(*task.task_class->out, activation.memory.out, ""));
+    keep_text(status, find_non_finite(*task.task_class->out, activation.memory.out));
   }
   status.activation = tick.activation;
   if (outcome == Outcome::overrun) {
@@ -347,8 +323,12 @@ void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, con
 
 void Executor::record_fault(std::uint32_t task, std::int64_t instant) {
   const TaskStatus& status = plan_.status[task];
+  add_fault(task, status.activation, instant, status.text);
+}
+
+void Executor::add_fault(std::uint32_t task, std::int64_t activation, std::int64_t instant, const std::string& cause) {
   if (report_.faults.size() < faults_kept)
-    report_.faults.push_back({graph_.tasks[task].name, status.activation, Duration(instant), status.text});
+    report_.faults.push_back({graph_.tasks[task].name, activation, Duration(instant), cause});
   ++report_.fault_count;
   if (graph_.tasks[task].on_fault == OnFault::stop) report_.stopped = true;
 }

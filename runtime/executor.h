@@ -13,6 +13,7 @@
 #include "runtime/real_clock.h"
 #include "runtime/recorder.h"
 #include "runtime/stage_team.h"
+#include "runtime/task_threads.h"
 
 namespace jarol {
 
@@ -43,7 +44,8 @@ struct ExecutorOptions {
   Recorder* recorder = nullptr;
   std::size_t workers = 1;  // threads that run tasks, the caller's among them; the outcome is the same for any number
   Sharing sharing = Sharing::if_it_pays;
-  RealClock* clock = nullptr;  // none: the virtual clock; with one there is a single worker
+  RealClock* clock = nullptr;                       // none: the virtual clock; with one there is a single worker
+  std::span<const analysis::TaskThread> threads{};  // on the real clock: who runs the tasks; none: the caller
 };
 
 class Executor {
@@ -66,6 +68,9 @@ class Executor {
   /// How the stages were shared among several workers; null with one.
   const StageTeam* team() const { return team_.get(); }
 
+  /// What this machine does not permit the threads that run tasks; a plain sentence each.
+  std::vector<std::string> refusals() const;
+
   /// What a communicator last published, or its initial value.
   const void* last_value(std::size_t communicator) const;
 
@@ -86,14 +91,23 @@ class Executor {
   void run_level_shared(std::ptrdiff_t level, std::uint64_t instant_term);
   template <bool Digest, bool Record>
   void publish_one_by_one(const Group& group, std::int64_t instant, std::uint64_t instant_term);
-  void record(const Publish& what, std::int64_t instant);
   void start_groups(std::int64_t instant);
   void gather_communicators();
   void hand_over(const CommunicatorAction& out);
   void take(const CommunicatorAction& in);
   Outcome run_in_time(const Activation& activation, const Tick& tick);
-  void on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick);
-  void record_fault(std::uint32_t task, std::int64_t instant);
+  [[gnu::cold]] void on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick);
+  [[gnu::cold]] void record_fault(std::uint32_t task, std::int64_t instant);
+  void add_fault(std::uint32_t task, std::int64_t activation, std::int64_t instant, const std::string& cause);
+
+  // with threads that run tasks
+  void begin_threads();
+  void settle(std::int64_t instant);
+  void end_let(const LetEnd& let_end, std::int64_t instant);
+  void release_on_threads(std::int64_t instant);
+  void drain_threads();
+  void publish_in_time(const Publish& what, std::int64_t instant);
+  void on_bad_outcome_in_time(std::uint32_t task, Outcome outcome, std::int64_t instant);
 
   const Graph& graph_;
   Plan plan_;
@@ -112,6 +126,8 @@ class Executor {
   Report report_;
   std::atomic<std::int64_t> now_{0};
   std::atomic<bool> interrupted_{false};
+  std::unique_ptr<TaskThreads> threads_;      // null: tasks run on the caller's
+  std::vector<const Activation*> under_way_;  // data-flow tasks on threads that were not yet seen to end
 };
 
 }  // namespace jarol

@@ -27,36 +27,44 @@ std::string refused(const std::string& what, int error, const std::string& remed
 
 }  // namespace
 
+RealTimeOptions RealTimeOptions::of_thread(std::size_t core, std::size_t urgency) const {
+  RealTimeOptions options = *this;
+  if (priority) options.priority = *priority - 1 - static_cast<int>(urgency);
+  if (core < core_cpus.size()) options.cpus = {core_cpus[core]};
+  return options;
+}
+
+std::vector<std::string> prepare_thread(const RealTimeOptions& options) {
+  std::vector<std::string> refusals;
+  prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
+    refusals.push_back(
+        refused("memory can't be locked", errno, "a page fault may delay a task; allow it by 'ulimit -l unlimited'"));
+  if (!options.cpus.empty()) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    for (const int cpu : options.cpus) CPU_SET(static_cast<std::size_t>(cpu), &set);
+    if (sched_setaffinity(0, sizeof set, &set) != 0)
+      refusals.push_back(refused("the thread can't be bound to the CPUs of --cpus", errno,
+                                 "name CPUs that this machine has and lets the process use"));
+  }
+  if (options.priority) {
+    sched_param parameter{};
+    parameter.sched_priority = *options.priority;
+    if (sched_setscheduler(0, SCHED_FIFO, &parameter) != 0)
+      refusals.push_back(refused("SCHED_FIFO is refused", errno,
+                                 "no task goes before another or before other programs; allow it by 'ulimit -r 99' or "
+                                 "run as root"));
+  }
+  return refusals;
+}
+
 RealClock::RealClock(std::size_t tasks, RealTimeOptions options) : options_(std::move(options)), timings_(tasks) {}
 
 std::int64_t RealClock::monotonic() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   return now.tv_sec * second + now.tv_nsec;
-}
-
-std::vector<std::string> RealClock::prepare_thread() const {
-  std::vector<std::string> refusals;
-  prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
-  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
-    refusals.push_back(
-        refused("memory can't be locked", errno, "a page fault may delay a task; allow it by 'ulimit -l unlimited'"));
-  if (!options_.cpus.empty()) {
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    for (const int cpu : options_.cpus) CPU_SET(static_cast<std::size_t>(cpu), &set);
-    if (sched_setaffinity(0, sizeof set, &set) != 0)
-      refusals.push_back(refused("the thread can't be bound to the CPUs of --cpus", errno,
-                                 "name CPUs that this machine has and lets the process use"));
-  }
-  if (options_.priority) {
-    sched_param parameter{};
-    parameter.sched_priority = *options_.priority;
-    if (sched_setscheduler(0, SCHED_FIFO, &parameter) != 0)
-      refusals.push_back(refused("SCHED_FIFO priority " + std::to_string(*options_.priority) + " is refused", errno,
-                                 "other programs may delay tasks; allow it by 'ulimit -r 99' or run as root"));
-  }
-  return refusals;
 }
 
 void RealClock::start() { start_ = monotonic(); }

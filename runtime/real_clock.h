@@ -14,7 +14,16 @@ struct RealTimeOptions {
   std::optional<int> priority;  // SCHED_FIFO, 1 to 99; none: the ordinary scheduler
   std::vector<int> cpus;        // where it may run; empty: anywhere
   bool spin = false;            // wait without sleeping at the end, for less lateness at the cost of a CPU
+  std::vector<int> core_cpus;   // where several threads run tasks: the CPU of each core; empty: anywhere
+
+  /// Of a thread that runs tasks while another one, that of these options, keeps the time: below it in priority, the
+  /// less urgent the lower.
+  RealTimeOptions of_thread(std::size_t core, std::size_t urgency) const;
 };
+
+/// Gives the calling thread its priority, CPUs, timer slack of 1 ns and locked memory; a plain sentence for each that
+/// this machine does not permit.
+std::vector<std::string> prepare_thread(const RealTimeOptions& options);
 
 /// How long the activations of one task took, and how many were not in time.
 struct TaskTiming {
@@ -29,9 +38,10 @@ class RealClock {
   /// For a graph of so many tasks.
   explicit RealClock(std::size_t tasks, RealTimeOptions options = {});
 
-  /// Gives the calling thread its priority, CPUs, timer slack of 1 ns and locked memory; a plain sentence for each that
-  /// this machine does not permit.
-  std::vector<std::string> prepare_thread() const;
+  const RealTimeOptions& options() const { return options_; }
+
+  /// The calling thread keeps the time.
+  std::vector<std::string> prepare_thread() const { return jarol::prepare_thread(options_); }
 
   /// Instant 0 is now.
   void start();

@@ -1,5 +1,6 @@
 #include "runtime/recorder.h"
 
+#include <algorithm>
 #include <cassert>
 #include <stdexcept>
 
@@ -94,6 +95,7 @@ void Recorder::run() {
     read_.notify_one();
   }
   try {
+    if (!failure_) hand_on_held(newest_);
     for (RecordSink* sink : sinks_) sink->finish();
   } catch (...) {
     if (!failure_) failure_ = std::current_exception();
@@ -106,11 +108,27 @@ void Recorder::drain(const std::byte* chunk, std::size_t bytes) {
     for (std::size_t at = 0; at < bytes;) {
       RecordHeader header;
       std::memcpy(&header, chunk + at, sizeof header);
-      const void* value = value_of(header, chunk + at + sizeof header);
-      for (RecordSink* sink : sinks_) sink->take(Duration(header.instant), header.output, value);
+      const std::byte* packed = chunk + at + sizeof header;
+      disorder_ ? hold(header, packed) : hand_on(header, packed);
       at += sizeof header + ((header.size + 7U) & ~std::size_t{7});
     }
   } catch (...) { failure_ = std::current_exception(); }
+}
+
+void Recorder::hold(const RecordHeader& header, const std::byte* packed) {
+  held_.emplace(header.instant, Held{header, {packed, packed + header.size}});
+  newest_ = std::max(newest_, header.instant);
+  hand_on_held(newest_ - disorder_->count());
+}
+
+void Recorder::hand_on_held(std::int64_t until) {
+  for (auto first = held_.begin(); first != held_.end() && first->first <= until; first = held_.erase(first))
+    hand_on(first->second.header, first->second.packed.data());
+}
+
+void Recorder::hand_on(const RecordHeader& header, const std::byte* packed) {
+  const void* value = value_of(header, packed);
+  for (RecordSink* sink : sinks_) sink->take(Duration(header.instant), header.output, value);
 }
 
 const void* Recorder::value_of(const RecordHeader& header, const std::byte* packed) {

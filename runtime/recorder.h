@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <thread>
@@ -41,6 +43,10 @@ class Recorder {
   /// What will be recorded, before the first of it. Throws std::length_error for flat values beyond most_bytes.
   void expect(const std::vector<Output>& outputs);
 
+  /// Sinks get values in order of instants though they may be appended out of order, up to that long after a later one.
+  /// Before the first value.
+  void put_in_order(Duration longest) { disorder_ = longest; }
+
   /// Values up to this size can be recorded.
   static constexpr std::size_t most_bytes = (std::size_t{256} << 10) - sizeof(RecordHeader);
 
@@ -72,12 +78,22 @@ class Recorder {
   void publish_chunk();
   void run();
   void drain(const std::byte* chunk, std::size_t bytes);
+  void hold(const RecordHeader& header, const std::byte* packed);
+  void hand_on_held(std::int64_t until);
+  void hand_on(const RecordHeader& header, const std::byte* packed);
   const void* value_of(const RecordHeader& header, const std::byte* packed);
 
   std::vector<RecordSink*> sinks_;
   std::vector<Output> outputs_;
   std::vector<Value> deep_values_;  // per output: what the sinks see, empty for flat ones
   std::string lost_;                // the first value that was too large
+  struct Held {
+    RecordHeader header;
+    std::vector<std::byte> packed;
+  };
+  std::optional<Duration> disorder_;        // none: all comes in order
+  std::multimap<std::int64_t, Held> held_;  // by instant, then as they came
+  std::int64_t newest_ = 0;                 // instant of a value held
   std::unique_ptr<std::byte[]> memory_;
   std::size_t bytes_[chunks] = {};  // filled part of each chunk
   std::byte* now_ = nullptr;

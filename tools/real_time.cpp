@@ -1,6 +1,8 @@
 #include "tools/real_time.h"
 
 #include <fmt/format.h>
+#include <sched.h>
+
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -9,6 +11,7 @@
 #include "graph/analysis/check.h"
 #include "graph/spec/key.h"
 #include "graph/yaml/quantities.h"
+#include "runtime/machine.h"
 
 namespace jarol::tools {
 namespace {
@@ -35,10 +38,15 @@ void add_cpus(const std::string& part, const std::string& list, std::vector<int>
 
 void add_real_time_options(CLI::App& command, RealTimeArguments& arguments) {
   command
-      .add_option("--rt-priority", arguments.priority,
-                  "Real clock: SCHED_FIFO priority of the thread that runs tasks; default: the ordinary scheduler")
+      .add_option(
+          "--rt-priority", arguments.priority,
+          "Real clock: SCHED_FIFO priority of the thread that keeps the time, and of tasks where these have no thread "
+          "of their "
+          "own, else those are below it; default: the ordinary scheduler, but with the policy fixed_priority the "
+          "least that leaves one for each thread")
       ->check(CLI::Range(1, 99));
-  command.add_option("--cpus", arguments.cpus, "Real clock: CPUs on which tasks may run, as in 0,2-3; default: any");
+  command.add_option("--cpus", arguments.cpus,
+                     "Real clock: CPUs on which tasks may run, as in 0,2-3, one for each core; default: any");
   command.add_flag("--spin", arguments.spin, "Real clock: wait for the instant without sleeping, at the cost of a CPU");
   command.add_flag("--force", arguments.force, "Real clock: run also what check finds not schedulable");
 }
@@ -55,14 +63,39 @@ RealTimeOptions options_of(const RealTimeArguments& arguments) {
   return options;
 }
 
+std::vector<analysis::TaskThread> threads_for(const std::string& file, const Graph& graph, RealTimeOptions& options) {
+  if (graph.platform.policy == Policy::table && graph.platform.cores == 1) return {};
+  std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
+  std::size_t cores = 0, levels = 0;
+  for (const analysis::TaskThread& thread : threads) {
+    cores = std::max(cores, thread.core + 1);
+    levels = std::max(levels, thread.urgency + 1);
+  }
+  const int needed = static_cast<int>(levels) + 1;  // and one above, for the thread that keeps the time
+  const int most = sched_get_priority_max(SCHED_FIFO);
+  if (needed > most)
+    throw std::invalid_argument("'" + file + "' takes " + std::to_string(needed) + " priorities and SCHED_FIFO has " +
+                                std::to_string(most) + "; use more cores, or choose --set platform.policy=table");
+  if (options.priority && *options.priority < needed)
+    throw std::invalid_argument("--rt-priority " + std::to_string(*options.priority) + ": the tasks of '" + file +
+                                "' take " + std::to_string(levels) + " priorities below it; choose " +
+                                std::to_string(needed) + " or more");
+  if (!options.priority && graph.platform.policy == Policy::fixed_priority) options.priority = needed;
+  const std::vector<int> usable = options.cpus.empty() ? find_machine_facts().usable : options.cpus;
+  if (usable.size() < cores)
+    throw std::invalid_argument("'" + file + "' has tasks on " + std::to_string(cores) + " cores; " +
+                                (options.cpus.empty() ? "this machine lets it use " : "--cpus names ") +
+                                std::to_string(usable.size()) + (usable.size() == 1 ? " CPU" : " CPUs"));
+  options.core_cpus.assign(usable.begin(), usable.begin() + static_cast<std::ptrdiff_t>(cores));
+  return threads;
+}
+
 void require_executable(const std::string& file, const Graph& graph, const RealTimeArguments& arguments) {
-  if (graph.platform.policy != Policy::table)
+  if (graph.platform.policy != Policy::table && graph.platform.policy != Policy::fixed_priority)
     throw std::invalid_argument("'" + file + "' has the policy '" +
                                 Words<Policy>::list()[static_cast<std::size_t>(graph.platform.policy)] +
-                                "'; the real clock executes 'table'; choose it by --set platform.policy=table");
-  if (graph.platform.cores != 1)
-    throw std::invalid_argument("'" + file + "' has " + std::to_string(graph.platform.cores) +
-                                " cores; the real clock executes one; choose it by --set platform.cores=1");
+                                "'; the real clock executes 'table' and 'fixed_priority'; choose one by --set "
+                                "platform.policy=table");
   const analysis::Result result = analysis::check(graph);
   if (result.verdict == analysis::Verdict::schedulable) return;
   if (result.verdict == analysis::Verdict::unknown) {

@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
+#include "graph/analysis/threads.h"
 #include "graph/graph.h"
 #include "runtime/channels.h"
 #include "runtime/real_clock.h"
@@ -22,6 +24,10 @@ void add_real_time_options(CLI::App& command, RealTimeArguments& arguments);
 
 /// Throws std::invalid_argument for a bad list of CPUs.
 RealTimeOptions options_of(const RealTimeArguments& arguments);
+
+/// The threads that run tasks, where it takes more than the one that keeps the time; completes the options for them.
+/// Throws std::invalid_argument where this machine has too few CPUs, or SCHED_FIFO too few priorities.
+std::vector<analysis::TaskThread> threads_for(const std::string& file, const Graph& graph, RealTimeOptions& options);
 
 /// Throws std::invalid_argument for a graph that can't be executed in real time, and unless forced for one that check
 /// finds not schedulable; says on stderr when check can't tell. `file` is what the user called the graph.

@@ -2,32 +2,15 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 #include "graph/analysis/global_edf.h"
 #include "graph/analysis/partition.h"
 #include "graph/analysis/time_table.h"
+#include "graph/analysis/urgency.h"
 #include "graph/yaml/problems.h"
 
 namespace jarol::analysis {
 namespace {
-
-// Most urgent first: stated priorities, then deadlines; of equal ones who is fed comes after who feeds, then by name.
-bool more_urgent(const System& s, std::size_t a, std::size_t b) {
-  const auto key = [&](std::size_t i) {
-    return std::tuple(!s.priority[i].has_value(), s.priority[i].value_or(s.loads[i].deadline), s.rank[i]);
-  };
-  return key(a) < key(b);
-}
-
-std::vector<std::size_t> in_order(const System& system, std::vector<std::size_t> tasks) {
-  const bool by_priority =
-      system.policy == Policy::fixed_priority || system.policy == Policy::fixed_priority_nonpreemptive;
-  std::sort(tasks.begin(), tasks.end(), [&](std::size_t a, std::size_t b) {
-    return by_priority ? more_urgent(system, a, b) : system.rank[a] < system.rank[b];
-  });
-  return tasks;
-}
 
 Loads loads_of(const System& system, const std::vector<std::size_t>& tasks) {
   Loads loads;

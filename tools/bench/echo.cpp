@@ -190,7 +190,8 @@ class BareEcho {
     for (std::uint32_t seen = 0; !ending_;) {
       passed_.wait(seen, std::memory_order_acquire);
       seen = passed_.load(std::memory_order_acquire);
-      sendto(socket_.get(), out_.bytes.data(), out_.length, 0, reinterpret_cast<const sockaddr*>(&out_.from), out_.size);
+      sendto(socket_.get(), out_.bytes.data(), out_.length, 0, reinterpret_cast<const sockaddr*>(&out_.from),
+             out_.size);
     }
   }
 

@@ -195,18 +195,28 @@ int run(const Options& options) {
   for (const auto& sink : sinks) to.push_back(sink.get());
   std::unique_ptr<Recorder> recorder = to.empty() ? nullptr : std::make_unique<Recorder>(to);
   std::optional<RealClock> clock;
+  std::vector<analysis::TaskThread> threads;
   if (options.clock == "real") {
-    if (options.workers > 1) throw std::invalid_argument("--workers: the real clock runs tasks on one thread");
+    if (options.workers > 1)
+      throw std::invalid_argument("--workers belongs to the virtual clock; the real one goes by 'platform'");
     require_executable(options.file, graph, options.real_time);
-    clock.emplace(graph.tasks.size(), options_of(options.real_time));
+    RealTimeOptions real_time = options_of(options.real_time);
+    threads = threads_for(options.file, graph, real_time);
+    clock.emplace(graph.tasks.size(), real_time);
   }
   std::vector<Channels*> channels = pointers_to(loaded.channels);
-  Executor executor(
-      graph, std::move(loaded.channels),
-      {.digest = true, .recorder = recorder.get(), .workers = options.workers, .clock = clock ? &*clock : nullptr});
+  Executor executor(graph, std::move(loaded.channels),
+                    {.digest = true,
+                     .recorder = recorder.get(),
+                     .workers = options.workers,
+                     .clock = clock ? &*clock : nullptr,
+                     .threads = threads});
   Linked linked(std::move(channels));
   if (clock) {
-    for (const std::string& refusal : clock->prepare_thread()) std::cerr << "note: " << refusal << "\n";
+    std::vector<std::string> refusals = clock->prepare_thread();
+    for (const std::string& refusal : executor.refusals())
+      if (std::find(refusals.begin(), refusals.end(), refusal) == refusals.end()) refusals.push_back(refusal);
+    for (const std::string& refusal : refusals) std::cerr << "note: " << refusal << "\n";
     clock->start();
   }
   const auto start = std::chrono::steady_clock::now();

@@ -1,0 +1,33 @@
+#include "graph/analysis/threads.h"
+
+#include "graph/analysis/check.h"
+#include "graph/analysis/urgency.h"
+
+namespace jarol::analysis {
+namespace {
+
+bool released_together(const Load& a, const Load& b) { return a.period == b.period && a.offset == b.offset; }
+
+}  // namespace
+
+std::vector<TaskThread> threads_of(const Graph& graph) {
+  const System system = system_of(graph);
+  const std::vector<std::optional<std::size_t>> core_of = check(system).core;
+  std::vector<TaskThread> threads;
+  for (std::size_t core = 0; core < static_cast<std::size_t>(system.cores); ++core) {
+    std::vector<std::size_t> tasks;
+    for (std::size_t i = 0; i < core_of.size(); ++i)
+      if (core_of[i] == core) tasks.push_back(i);
+    tasks = in_order(system, std::move(tasks));
+    const std::size_t first = threads.size();
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      const bool shares = i > 0 && (system.policy == Policy::table ||
+                                    released_together(system.loads[tasks[i - 1]], system.loads[tasks[i]]));
+      if (!shares) threads.push_back({core, threads.size() - first, {}});
+      threads.back().tasks.push_back(tasks[i]);
+    }
+  }
+  return threads;
+}
+
+}  // namespace jarol::analysis

@@ -1,0 +1,22 @@
+// The threads on which a graph runs in real time, such that what runs is what check analyses.
+#pragma once
+
+#include <vector>
+
+#include "graph/graph.h"
+
+namespace jarol::analysis {
+
+/// Tasks that one thread runs, each to its end. Of those that are released at one instant, in this order.
+struct TaskThread {
+  std::size_t core = 0;
+  std::size_t urgency = 0;  // 0 is the most urgent one of its core, which preempts the others
+  std::vector<std::size_t> tasks;
+};
+
+/// On the cores that check assigns. Of a table: one thread per core. Of fixed priorities: one for each task, but tasks
+/// of a core that are always released together and follow each other in urgency share one, for none of them could
+/// preempt another. In order of core and urgency.
+std::vector<TaskThread> threads_of(const Graph& graph);
+
+}  // namespace jarol::analysis

@@ -1,0 +1,57 @@
+#include "graph/analysis/threads.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/graph/graph_of.h"
+
+namespace {
+using namespace jarol;
+
+// "core.urgency: tasks; ..."
+std::string threads_text(const std::string& text) {
+  const Graph graph = tests::graph_of(text);
+  std::string found;
+  for (const analysis::TaskThread& t : analysis::threads_of(graph)) {
+    found += (found.empty() ? "" : "; ") + std::to_string(t.core) + "." + std::to_string(t.urgency) + ":";
+    for (const std::size_t task : t.tasks) found += " " + graph.tasks[task].name;
+  }
+  return found;
+}
+}  // namespace
+
+TEST_SUITE("graph/analysis/threads") {
+  TEST_CASE("a table has one thread per core, in data-flow order") {
+    const std::string tasks = R"(graph: t
+timing: {period: 10ms}
+tasks:
+  a: {type: Relay, core: 0}
+  b: {type: Counter, core: 0}
+  c: {type: Counter, core: 1}
+connections: [b.out -> a.in]
+)";
+    CHECK(threads_text(tasks + "platform: {cores: 2}\n") == "0.0: b a; 1.0: c");
+    CHECK(threads_text(tasks + "platform: {cores: 3}\n") == "0.0: b a; 1.0: c");
+  }
+
+  TEST_CASE("under fixed priorities tasks share a thread where none could preempt another") {
+    CHECK(threads_text(R"(graph: t
+platform: {policy: fixed_priority}
+tasks:
+  a: {type: Counter, period: 20ms}
+  b: {type: Counter, period: 10ms}
+  c: {type: Counter, period: 10ms}
+  d: {type: Counter, period: 10ms, offset: 5ms}
+  e: {type: Counter, period: 40ms, priority: 1}
+)") == "0.0: e; 0.1: b c; 0.2: d; 0.3: a");
+  }
+
+  TEST_CASE("each core has an order of urgency of its own, on the cores that check assigns") {
+    CHECK(threads_text(R"(graph: t
+platform: {cores: 2, policy: fixed_priority}
+tasks:
+  a: {type: Counter, period: 20ms, wcet: 15ms}
+  b: {type: Counter, period: 10ms, wcet: 6ms}
+  c: {type: Counter, period: 100ms, wcet: 1ms}
+)") == "0.0: a; 0.1: c; 1.0: b");
+  }
+}
