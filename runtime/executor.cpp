@@ -283,6 +283,7 @@ Outcome Executor::run_in_time(const Activation& activation, const Tick& tick) {
   timing.busy_until = options_.clock->now();
   if (outcome == Outcome::left_out) return outcome;
   timing.execution.add(timing.busy_until - begin);
+  timing.response.add(timing.busy_until - tick.now.count());
   if (outcome != Outcome::good ||
       timing.busy_until - tick.now.count() <= graph_.tasks[activation.task].deadline.count())
     return outcome;

@@ -27,7 +27,8 @@ std::string find_in(const Type& type, const void* value, const std::string& path
 std::string find_non_finite(const Type& type, const void* value) { return find_in(type, value, ""); }
 
 std::string late_text(std::optional<Duration> ended, Duration deadline) {
-  return "late: " + (ended ? "ended " + duration_text(*ended) + " after its release" : "had not ended when it was due") +
+  return "late: " +
+         (ended ? "ended " + duration_text(*ended) + " after its release" : "had not ended when it was due") +
          ", deadline " + duration_text(deadline);
 }
 

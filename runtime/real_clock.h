@@ -27,7 +27,8 @@ std::vector<std::string> prepare_thread(const RealTimeOptions& options);
 
 /// How long the activations of one task took, and how many were not in time.
 struct TaskTiming {
-  Histogram execution;
+  Histogram execution;         // without what preempted it
+  Histogram response;          // from the release to the end
   std::uint64_t late = 0;      // finished after the deadline
   std::uint64_t left_out = 0;  // as the one before still ran
   std::int64_t busy_until = 0;

@@ -80,8 +80,8 @@ void TaskThreads::connect_followers() {
     }
     const TypeField& output = graph_.tasks[c.from.index].task_class->out->fields[c.from.field];
     const TypeField& input = graph_.tasks[c.to.index].task_class->in->fields[c.to.field];
-    follower->copies.push_back({static_cast<const std::byte*>(from.memory.out) + output.offset,
-                                to.latched + input.offset, c.type->size});
+    follower->copies.push_back(
+        {static_cast<const std::byte*>(from.memory.out) + output.offset, to.latched + input.offset, c.type->size});
   }
 }
 
@@ -93,9 +93,9 @@ void TaskThreads::begin(std::span<const analysis::TaskThread> threads) {
   }
   const auto priority = clock_.options().priority;
   if (priority && *priority <= static_cast<int>(levels))
-    throw std::invalid_argument("SCHED_FIFO priority " + std::to_string(*priority) +
-                                " is too low; tasks take " + std::to_string(levels) +
-                                " below it, so that it has to be " + std::to_string(levels + 1) + " at least");
+    throw std::invalid_argument("SCHED_FIFO priority " + std::to_string(*priority) + " is too low; tasks take " +
+                                std::to_string(levels) + " below it, so that it has to be " +
+                                std::to_string(levels + 1) + " at least");
   cores_ = std::vector<Core>(cores);
   std::vector<std::future<std::vector<std::string>>> prepared;
   for (std::size_t i = 0; i < threads.size(); ++i) {
@@ -103,7 +103,9 @@ void TaskThreads::begin(std::span<const analysis::TaskThread> threads) {
     thread.ring.resize(std::bit_ceil(threads[i].tasks.size() + 1));
     thread.core = &cores_[threads[i].core];
     std::packaged_task<std::vector<std::string>()> prepare(
-        [options = clock_.options().of_thread(threads[i].core, threads[i].urgency)] { return prepare_thread(options); });
+        [options = clock_.options().of_thread(threads[i].core, threads[i].urgency)] {
+          return prepare_thread(options);
+        });
     prepared.push_back(prepare.get_future());
     try {
       thread.thread = std::thread([this, &thread, prepare = std::move(prepare)]() mutable {
@@ -127,7 +129,7 @@ Outcome TaskThreads::add(std::size_t task, const Tick& tick) {
     job.to_skip = false;  // this was the one to skip
     return job.left_out = Outcome::overrun;
   }
-  if (std::exchange(job.to_undo, false)) plan_.status[task].put_back(job.memory.state);
+  if (std::exchange(job.to_undo, false) && job.began) plan_.status[task].put_back(job.memory.state);
   if (std::exchange(job.to_skip, false)) return job.left_out = Outcome::left_out;
   job.tick = tick;
   job.left_out = Outcome::good;
@@ -215,7 +217,8 @@ void TaskThreads::execute(Job& job, Core& core) {
   const std::int64_t instant = job.tick.now.count();
   Outcome outcome = Outcome::late;
   // what is late before it has begun does not begin
-  if (job.state.load(std::memory_order_relaxed) == State::released) {
+  job.began = job.state.load(std::memory_order_relaxed) == State::released;
+  if (job.began) {
     // in this order, so that what preempts in between is counted to this one rather than left out
     const std::int64_t begin = clock_.now();
     const std::int64_t others = core.busy.load(std::memory_order_relaxed);
@@ -224,7 +227,9 @@ void TaskThreads::execute(Job& job, Core& core) {
     job.end = clock_.now();
     const std::int64_t took = job.end - begin - preempted;
     core.busy.fetch_add(took, std::memory_order_relaxed);
-    clock_.timing(job.task).execution.add(took);
+    TaskTiming& timing = clock_.timing(job.task);
+    timing.execution.add(took);
+    timing.response.add(job.end - instant);
     if (outcome == Outcome::good && job.end - instant > job.deadline) outcome = Outcome::late;
     job.outcome = outcome;
   }

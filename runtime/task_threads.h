@@ -88,6 +88,7 @@ class TaskThreads {
     std::atomic<State> state{State::idle};
     std::atomic<std::uint32_t> awaited{0};  // producers of its instant, in other threads, that have not ended
     // of the thread, then of the dispatcher
+    bool began = false;
     Outcome outcome = Outcome::good;
     std::int64_t end = 0;
   };

@@ -239,7 +239,7 @@ std::string assumptions(const Platform& platform) {
   switch (platform.policy) {
     case Policy::table: how = "tasks run one after the other as released, never interrupted"; break;
     case Policy::fixed_priority:
-      how = "the most urgent task runs, interrupting others; 'run' does not execute this yet";
+      how = "the most urgent task runs, interrupting others, as under 'run --clock real'";
       break;
     case Policy::edf:
       how = "the task with the earliest deadline runs, interrupting others; 'run' does not execute this";

@@ -115,13 +115,13 @@ std::string to_text(const Graph& graph, const RealClock& clock) {
                                  us(late.percentile(0.5)), us(late.percentile(0.99)), us(late.most()));
   std::size_t width = 4;
   for (const Task& task : graph.tasks) width = std::max(width, task.name.size());
-  text += fmt::format("  {:<{}}  {:>11}  {:>10}  {:>10}  {:>6}  {:>8}\n", "task", width, "activations", "99 % us",
-                      "worst us", "late", "left out");
+  text += fmt::format("  {:<{}}  {:>11}  {:>10}  {:>10}  {:>11}  {:>6}  {:>8}\n", "task", width, "activations",
+                      "99 % us", "worst us", "response us", "late", "left out");
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const TaskTiming& t = clock.timing(i);
-    text +=
-        fmt::format("  {:<{}}  {:>11}  {:>10.1f}  {:>10.1f}  {:>6}  {:>8}\n", graph.tasks[i].name, width,
-                    t.execution.count(), us(t.execution.percentile(0.99)), us(t.execution.most()), t.late, t.left_out);
+    text += fmt::format("  {:<{}}  {:>11}  {:>10.1f}  {:>10.1f}  {:>11.1f}  {:>6}  {:>8}\n", graph.tasks[i].name, width,
+                        t.execution.count(), us(t.execution.percentile(0.99)), us(t.execution.most()),
+                        us(t.response.most()), t.late, t.left_out);
   }
   return text;
 }
@@ -134,6 +134,8 @@ nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock) {
     tasks[graph.tasks[i].name] = {{"activations", t.execution.count()},
                                   {"execution_99_ns", t.execution.percentile(0.99)},
                                   {"execution_most_ns", t.execution.most()},
+                                  {"response_99_ns", t.response.percentile(0.99)},
+                                  {"response_most_ns", t.response.most()},
                                   {"late", t.late},
                                   {"left_out", t.left_out}};
   }

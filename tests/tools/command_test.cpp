@@ -169,7 +169,7 @@ tasks:
   fast        5ms        0ns        5ms        2ms  40.00%        2ms        3ms
   slow        7ms        0ns        7ms        4ms  57.14%        8ms       -1ms
   utilisation 97.14%; a task's response is its longest time from release to end when each takes its wcet;
-  assumed: the most urgent task runs, interrupting others; 'run' does not execute this yet, without overhead
+  assumed: the most urgent task runs, interrupting others, as under 'run --clock real', without overhead
   all WCETs together may be 0.875 times as long; alone, 'fast' has least room: up to 1.5ms
   it would hold with a 'wcet' of 1.5ms for 'fast', which has 2ms
                   or a 'wcet' of 3ms for 'slow', which has 4ms

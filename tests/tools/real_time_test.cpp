@@ -1,0 +1,102 @@
+// Runs on the real clock as people start them: who runs the tasks, what is told, what is refused.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "tests/tools/run_command.h"
+
+namespace {
+using command::jarol;
+using command::TemporaryFolder;
+
+// A source feeds two, of which one has a LET; on two cores where there are two.
+const std::string graph = R"(graph: t
+tasks:
+  source: {type: Counter, period: 20ms, wcet: 1ms, on_fault: hold, core: 0}
+  flow: {type: Accumulate, period: 20ms, wcet: 1ms, on_fault: hold, core: 0}
+  timed: {type: Sum, period: 40ms, let: 30ms, wcet: 1ms, on_fault: hold, core: CORE}
+communicators:
+  to: {type: double, direction: out, period: 40ms, offset: 10ms}
+connections: [source.out -> flow.in, flow.out -> timed.a, timed.out -> timed.b, timed.out -> to]
+)";
+
+std::string on_core(int core) {
+  std::string text = graph;
+  return text.replace(text.find("CORE"), 4, std::to_string(core));
+}
+
+// Again where the machine was late for reasons of its own.
+nlohmann::json run_undisturbed(const std::string& arguments) {
+  nlohmann::json run;
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    run = nlohmann::json::parse(jarol("run " + arguments + " --clock real --for 200ms --json", "2>/dev/null").output);
+    if (run["faults"].empty()) break;
+  }
+  return run;
+}
+}  // namespace
+
+TEST_SUITE("tools/real_time") {
+  TEST_CASE("whoever runs the tasks, the digest is that of the virtual clock, and as much is told of each task") {
+    const TemporaryFolder folder;
+    const std::string one = folder.write("one.yaml", on_core(0)), two = folder.write("two.yaml", on_core(1));
+    const auto should = nlohmann::json::parse(jarol("run " + one + " --for 200ms --json").output);
+    std::vector<std::string> modes{one, one + " --set platform.policy=fixed_priority"};
+    if (std::thread::hardware_concurrency() >= 2) {
+      modes.push_back(two + " --set platform.cores=2");
+      modes.push_back(two + " --set platform.cores=2 --set platform.policy=fixed_priority");
+    }
+    for (const std::string& mode : modes) {
+      CAPTURE(mode);
+      const auto run = run_undisturbed(mode);
+      CHECK(run["faults"].size() == 0);
+      CHECK(run["digest"] == should["digest"]);
+      CHECK(run["activations"] == should["activations"]);
+      CHECK(run["outputs"] == should["outputs"]);
+      for (const std::string task : {"flow", "source", "timed"}) {
+        const auto& told = run["real_time"]["tasks"][task];
+        CHECK(told["activations"] == (task == "timed" ? 5 : 10));
+        CHECK(told["execution_most_ns"] > 0);
+        CHECK(told["response_most_ns"] >= told["execution_most_ns"]);
+        CHECK(told["late"] == 0);
+        CHECK(told["left_out"] == 0);
+      }
+    }
+  }
+
+  TEST_CASE("the trace has its rows in order of time, whoever runs the tasks") {
+    const TemporaryFolder folder;
+    const std::string one = folder.write("one.yaml", on_core(0));
+    jarol("run " + one + " --for 200ms --trace " + (folder / "virtual.csv"));
+    const auto run =
+        run_undisturbed(one + " --set platform.policy=fixed_priority --trace " + (folder / "real.csv"));
+    CHECK(run["faults"].size() == 0);
+    const auto content = [&](const std::string& name) {
+      std::ifstream file(folder / name);
+      return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    CHECK(content("virtual.csv").size() > 100);
+    CHECK(content("real.csv") == content("virtual.csv"));
+  }
+
+  TEST_CASE("what can't be executed is refused with what would be right") {
+    const TemporaryFolder folder;
+    const std::string one = folder.write("one.yaml", on_core(0));
+    const auto refusal = [&](const std::string& more) {
+      const auto result = jarol("run " + one + " --clock real --for 200ms " + more);
+      CHECK(result.exit_code == 2);
+      return result.output;
+    };
+    CHECK(refusal("--set platform.policy=edf") ==
+          "error: '" + one + "' has the policy 'edf'; the real clock executes 'table' and 'fixed_priority'; choose one "
+                             "by --set platform.policy=table\n");
+    CHECK(refusal("--set platform.policy=fixed_priority --rt-priority 2") ==
+          "error: --rt-priority 2: the tasks of '" + one + "' take 2 priorities below it; choose 3 or more\n");
+    CHECK(refusal("--set platform.cores=2 --set tasks.timed.core=1 --cpus 0") ==
+          "error: '" + one + "' has tasks on 2 cores; --cpus names 1 CPU\n");
+    CHECK(refusal("--workers 2") ==
+          "error: --workers belongs to the virtual clock; the real one goes by 'platform'\n");
+  }
+}
