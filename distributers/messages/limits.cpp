@@ -87,7 +87,8 @@ class Finder {
     Number number;
     std::memcpy(&number, from, sizeof number);
     const std::optional<Number> least = limit_of<Number>(field.least), most = limit_of<Number>(field.most);
-    if (least && number < *least) found.push_back(path + ": " + text_of(number) + " is below " + std::string(field.least));
+    if (least && number < *least)
+      found.push_back(path + ": " + text_of(number) + " is below " + std::string(field.least));
     if (most && number > *most) found.push_back(path + ": " + text_of(number) + " is above " + std::string(field.most));
   }
 };
