@@ -29,6 +29,9 @@ class Adapter : public messages::Receiver {
   /// After `reach`, for what goes to all who may look for this system, not to the peer alone.
   virtual void announce(Duration, messages::Receiver&) {}
 
+  /// The run is over. Throws std::runtime_error if something can't be kept for the next one.
+  virtual void finish() {}
+
   /// Copies the newest value of an `in` channel if a message brought one since the last call.
   virtual bool take(std::size_t channel, void* value) = 0;
 

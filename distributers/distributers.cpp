@@ -31,7 +31,9 @@ const std::vector<DistributerKind>& kinds() {
       {JaviatorVehicle::describe_class(),
        [](const void*) -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorVehicle>(); }},
       {JaviatorOperator::describe_class(),
-       [](const void*) -> std::unique_ptr<Adapter> { return std::make_unique<JaviatorOperator>(); }},
+       [](const void* parameters) -> std::unique_ptr<Adapter> {
+         return std::make_unique<JaviatorOperator>(*static_cast<const JaviatorOperatorParameters*>(parameters));
+       }},
       {LauvVehicle::describe_class(),
        [](const void*) -> std::unique_ptr<Adapter> { return std::make_unique<LauvVehicle>(); }},
       {LauvOperator::describe_class(),
@@ -172,6 +174,19 @@ std::unique_ptr<Channels> make_script(const Graph& graph, std::size_t index, Pro
   return std::make_unique<ScriptChannels>(source, *distributer.distributer_class, problems);
 }
 
+std::unique_ptr<Channels> make_linked(const Distributer& distributer, const std::string& subject, Problems& problems) {
+  try {
+    auto adapter = kind_of(distributer).make_adapter(distributer.parameters.data());
+    auto link = make_link(distributer.link, adapter->message_set(), subject, problems);
+    if (!link) return nullptr;
+    auto announcer = make_announcer(distributer.link, adapter->message_set(), problems);
+    return std::make_unique<LinkedChannels>(std::move(link), std::move(announcer), std::move(adapter));
+  } catch (const std::invalid_argument& error) {
+    problems.add(distributer.link.where, "distributer '" + distributer.name + "': " + error.what());
+    return nullptr;
+  }
+}
+
 std::vector<std::string> links_of(const DistributerKind& kind) {
   std::vector<std::string> links;
   if (kind.description.is_vehicle) links.insert(links.end(), {"simulation", "lockstep"});
@@ -194,7 +209,6 @@ std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
     const Distributer& distributer = graph.distributers[i];
     all.emplace_back();
     if (distributer.distributer_class == nullptr || distributer.link.kind != Yaml::Kind::mapping) continue;
-    const auto make_adapter = kind_of(distributer).make_adapter;
     const std::vector<std::string> links = links_of(kind_of(distributer));
     const std::string subject = "link of distributer '" + distributer.name + "'";
     const Yaml* type = distributer.link.find("type");
@@ -211,10 +225,7 @@ std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
     } else if (type->text == "script") {
       all.back() = make_script(graph, i, problems);
     } else {
-      auto adapter = make_adapter(distributer.parameters.data());
-      if (auto link = make_link(distributer.link, adapter->message_set(), subject, problems))
-        all.back() = std::make_unique<LinkedChannels>(
-            std::move(link), make_announcer(distributer.link, adapter->message_set(), problems), std::move(adapter));
+      all.back() = make_linked(distributer, subject, problems);
     }
   }
   return all;

@@ -57,14 +57,21 @@ std::uint32_t clock_of(Duration instant) { return static_cast<std::uint32_t>(ins
 
 }  // namespace
 
-JaviatorOperator::JaviatorOperator() : state_(state_of(tasks::FlightState::halt)) {}
+JaviatorOperator::JaviatorOperator(const JaviatorOperatorParameters& parameters)
+    : trim_file_(parameters.trim_file.view()), state_(state_of(tasks::FlightState::halt)) {
+  if (!trim_file_.empty()) kept_ = trim_ = read_trim(trim_file_);
+  command_.kept_trim_roll = kept_.roll;
+  command_.kept_trim_pitch = kept_.pitch;
+}
 
 DistributerClass JaviatorOperator::describe_class() {
   return {"JaviatorOperator",
           "the helicopter's operator, over the JAviator's protocol",
           {{"command", Direction::in, &type_of<tasks::PilotCommand>(), "attitude, altitude, position and switches"},
            {"report", Direction::out, &type_of<tasks::HelicopterReport>(), "motion, motor signals and state"},
-           {"gains", Direction::in, &type_of<tasks::OperatorGains>(), "of the JAviator's own laws"}}};
+           {"gains", Direction::in, &type_of<tasks::OperatorGains>(), "of the JAviator's own laws"}},
+          false,
+          &type_of<JaviatorOperatorParameters>()};
 }
 
 const messages::MessageSet& JaviatorOperator::message_set() const { return javiator::message_set(); }
@@ -109,6 +116,10 @@ void JaviatorOperator::receive(messages::MessageRef message) {
   } else if (message.as<javiator::ClearTrim>() != nullptr) {
     ++command_.trim_clears;
   }
+}
+
+void JaviatorOperator::finish() {
+  if (!trim_file_.empty() && std::exchange(kept_, trim_) != trim_) write_trim(trim_file_, trim_);
 }
 
 void JaviatorOperator::reach(Duration instant, messages::Receiver&) { now_ = instant; }
@@ -169,6 +180,7 @@ void JaviatorOperator::hand_over(std::size_t, const void* value, messages::Recei
                                   .t_terminal_input = clock_of(taken_),
                                   .t_control = clock_of(now_),
                                   .t_report = clock_of(reported_)};
+  trim_ = {report.trim_roll, report.trim_pitch};
   system.receive(messages::refer_to(shown));
   system.receive(messages::refer_to(trace));
   rates_ = rates;

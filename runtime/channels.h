@@ -23,7 +23,8 @@ class Channels {
 
   /// Before the first instant of a run. Throws std::runtime_error if there is no way to the external system.
   virtual void begin() {}
-  /// After the last instant; what is under way is completed.
+  /// After the last instant; what is under way is completed. Throws std::runtime_error if something can't be kept for
+  /// the next run; a second call does nothing.
   virtual void finish() {}
 
   /// The external system goes on by itself, whatever the logical clock says.

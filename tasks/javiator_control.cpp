@@ -202,7 +202,9 @@ void HelicopterReporter::run(const Tick&, const In& in, Out& out) {
                 .pitch_goal = in.goal.pitch,
                 .signals = in.motors.signals,
                 .pressure = in.sensors.pressure,
-                .temperature = in.sensors.temperature};
+                .temperature = in.sensors.temperature,
+                .trim_roll = in.directive.trim_roll,
+                .trim_pitch = in.directive.trim_pitch};
 }
 
 }  // namespace jarol::tasks

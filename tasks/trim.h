@@ -7,19 +7,27 @@ namespace jarol::tasks {
 
 struct TrimKeys {
   std::uint32_t stores = 0, clears = 0;
+  bool begun = false;
 
-  static constexpr auto fields() { return describe(field<&TrimKeys::stores>(), field<&TrimKeys::clears>()); }
+  static constexpr auto fields() {
+    return describe(field<&TrimKeys::stores>(), field<&TrimKeys::clears>(),
+                    field<&TrimKeys::begun>("", "with the trim of the flight before"));
+  }
 };
 
 /// Follows the operator's keys; `pressed` is what they were up to now.
 inline void trim(const PilotCommand& command, const FlightEstimate& estimate, TrimKeys& pressed, FlightDirective& d) {
+  if (!pressed.begun) {
+    d.trim_roll = command.kept_trim_roll;
+    d.trim_pitch = command.kept_trim_pitch;
+  }
   if (command.trim_clears != pressed.clears) d.trim_roll = d.trim_pitch = 0;
   if (command.trim_stores != pressed.stores) {
     // the estimate is already less the trim before
     d.trim_roll += estimate.roll;
     d.trim_pitch += estimate.pitch;
   }
-  pressed = {command.trim_stores, command.trim_clears};
+  pressed = {command.trim_stores, command.trim_clears, true};
 }
 
 }  // namespace jarol::tasks

@@ -1,7 +1,9 @@
 // The channels of a run while they are connected.
 #pragma once
 
+#include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "runtime/channels.h"
@@ -24,8 +26,13 @@ class Linked {
   Linked(const Linked&) = delete;
   Linked& operator=(const Linked&) = delete;
 
+  // what can't be kept for the next run is told, and the rest goes on
   void finish() {
-    for (Channels* channels : channels_) channels->finish();
+    for (Channels* channels : channels_) {
+      try {
+        channels->finish();
+      } catch (const std::runtime_error& error) { std::cerr << "note: " << error.what() << "\n"; }
+    }
   }
   std::vector<LinkReport> reports() const {
     std::vector<LinkReport> reports;

@@ -25,6 +25,7 @@ void LinkedChannels::begin() {
 void LinkedChannels::finish() {
   link_->disconnect();
   if (announcer_) announcer_->disconnect();
+  adapter_->finish();
 }
 
 void LinkedChannels::reach(Duration instant) {

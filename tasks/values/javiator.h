@@ -42,6 +42,7 @@ struct PilotCommand {
   double roll = 0, pitch = 0, yaw = 0, altitude = 0, x = 0, y = 0;
   std::uint32_t state_switches = 0, mode_switches = 0, shut_downs = 0;
   std::uint32_t trim_stores = 0, trim_clears = 0;
+  double kept_trim_roll = 0, kept_trim_pitch = 0;
   bool heard = true;
 
   static constexpr auto fields() {
@@ -55,7 +56,8 @@ struct PilotCommand {
                     field<&C::shut_downs>("", "each stops the motors at once"),
                     field<&C::trim_stores>("", "each makes roll and pitch of that moment the level"),
                     field<&C::trim_clears>("", "each makes the level what the sensors say"),
-                    field<&C::heard>("", "the operator is still there"));
+                    field<&C::kept_trim_roll>("rad", "level at the start, of the flight before"),
+                    field<&C::kept_trim_pitch>("rad"), field<&C::heard>("", "the operator is still there"));
   }
 };
 
@@ -120,6 +122,7 @@ struct HelicopterReport {
   double roll_goal = 0, pitch_goal = 0;
   std::array<double, 4> signals{};
   double pressure = 0, temperature = 0;
+  double trim_roll = 0, trim_pitch = 0;
 
   static constexpr auto fields() {
     using R = HelicopterReport;
@@ -133,7 +136,8 @@ struct HelicopterReport {
                     field<&R::a_x>("m/s^2", "to the north"), field<&R::a_y>("m/s^2", "to the east"),
                     field<&R::a_up>("m/s^2", "upwards"), field<&R::roll_goal>("rad", "turned by the yaw"),
                     field<&R::pitch_goal>("rad"), field<&R::signals>("", "of the motors, 0 to 16000"),
-                    field<&R::pressure>("Pa", "of the air"), field<&R::temperature>("degC", "of the air"));
+                    field<&R::pressure>("Pa", "of the air"), field<&R::temperature>("degC", "of the air"),
+                    field<&R::trim_roll>("rad", "that counts as level"), field<&R::trim_pitch>("rad"));
   }
 };
 

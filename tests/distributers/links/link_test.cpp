@@ -294,7 +294,7 @@ TEST_SUITE("distributers/links/link") {
     CHECK(streams.one->peer() == 0);
   }
 
-  TEST_CASE("an adapter learns of a new peer before its first packet") {
+  TEST_CASE("an adapter learns of a new peer before its first packet, and of the end") {
     struct Diary : Adapter {
       explicit Diary(std::string& to) : text(to) {}
       const messages::MessageSet& message_set() const override { return javiator::message_set(); }
@@ -304,6 +304,7 @@ TEST_SUITE("distributers/links/link") {
       }
       bool take(std::size_t, void*) override { return false; }
       void hand_over(std::size_t, const void*, messages::Receiver&) override {}
+      void finish() override { text += "end "; }
       std::string& text;
     };
     auto transport = std::make_unique<UdpTransport>(Address::parse("127.0.0.1:0"), Address{});
@@ -325,6 +326,7 @@ TEST_SUITE("distributers/links/link") {
     }));
     CHECK(diary == "peer 1 2 peer 11 12 ");
     channels.finish();
+    CHECK(diary == "peer 1 2 peer 11 12 end ");
   }
 
   TEST_CASE("with a peer named, datagrams of others are strangers") {
