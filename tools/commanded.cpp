@@ -1,6 +1,9 @@
 #include "tools/commanded.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <numbers>
 
 namespace jarol::tools {
 namespace {
@@ -14,6 +17,8 @@ std::optional<Reported::Command> find_command(const Graph& graph, const Communic
   }
   return std::nullopt;
 }
+
+double shown(const Leaf& leaf, double value) { return leaf.unit == "rad" ? value * 180.0 / std::numbers::pi : value; }
 
 }  // namespace
 
@@ -29,6 +34,23 @@ std::vector<Reported> find_reported(const Graph& graph) {
       all.insert(all.end(), fields.begin(), fields.end());
   }
   return all;
+}
+
+std::string reached_text(const Graph& graph, const std::function<const void*(std::size_t)>& last_value) {
+  const auto number = [&](std::size_t communicator, const Leaf& leaf) {
+    const auto* value = static_cast<const std::byte*>(last_value(communicator)) + leaf.offset;
+    return leaf.type->kind == Kind::floating ? shown(leaf, read_floating(*leaf.type, value))
+                                             : static_cast<double>(read_integer(*leaf.type, value));
+  };
+  std::string text;
+  for (const Reported& r : find_reported(graph)) {
+    if (!r.command) continue;
+    if (text.empty()) text = fmt::format("  {:<10}  {:>10}  {:>10}\n", "", "commanded", "reached");
+    text +=
+        fmt::format("  {:<10}  {:>10.3f}  {:>10.3f} {}\n", r.title, number(r.command->communicator, r.command->leaf),
+                    number(r.communicator, r.leaf), r.leaf.unit == "rad" ? "deg" : r.leaf.unit);
+  }
+  return text;
 }
 
 }  // namespace jarol::tools

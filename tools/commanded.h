@@ -2,6 +2,7 @@
 // distributer.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,5 +26,8 @@ struct Reported {
 
 /// The fields of every `out` communicator that answers at least one command.
 std::vector<Reported> find_reported(const Graph& graph);
+
+/// A table of what was commanded and reached last; `last_value` gives the newest value of a communicator.
+std::string reached_text(const Graph& graph, const std::function<const void*(std::size_t)>& last_value);
 
 }  // namespace jarol::tools

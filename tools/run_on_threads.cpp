@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/threads_core.h"
+#include "tools/commanded.h"
 #include "tools/commands/commands.h"
 #include "tools/interrupt.h"
 #include "tools/linked.h"
@@ -19,6 +20,7 @@ void print_text(const Graph& graph, const ThreadsCore& core, const std::vector<L
   const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
   std::cout << fmt::format("{}: {} s in real time on threads{}\n", graph.name, seconds_text(report.simulated),
                            interrupted ? " (interrupted)" : "")
+            << reached_text(graph, [&](std::size_t communicator) { return core.last_value(communicator); })
             << fmt::format("  activations {}, rounds {} of {}\n", report.activations, threads.rounds,
                            duration_text(core.period()))
             << fmt::format("  digest      0x{:016x}; nothing is claimed of it\n", report.digest)

@@ -87,25 +87,6 @@ std::vector<Panel> panels_of(const Graph& graph, const Plan& plan) {
   return panels;
 }
 
-double shown(const Leaf& leaf, double value) { return leaf.unit == "rad" ? value * 180.0 / std::numbers::pi : value; }
-
-void print_reached(const Graph& graph, const Executor& executor) {
-  const auto number = [&](std::size_t communicator, const Leaf& leaf) {
-    const auto* value = static_cast<const std::byte*>(executor.last_value(communicator)) + leaf.offset;
-    return leaf.type->kind == Kind::floating ? shown(leaf, read_floating(*leaf.type, value))
-                                             : static_cast<double>(read_integer(*leaf.type, value));
-  };
-  bool title = false;
-  for (const Reported& r : find_reported(graph)) {
-    if (!r.command) continue;
-    if (!title) std::cout << fmt::format("  {:<10}  {:>10}  {:>10}\n", "", "commanded", "reached");
-    title = true;
-    std::cout << fmt::format("  {:<10}  {:>10.3f}  {:>10.3f} {}\n", r.title,
-                             number(r.command->communicator, r.command->leaf), number(r.communicator, r.leaf),
-                             r.leaf.unit == "rad" ? "deg" : r.leaf.unit);
-  }
-}
-
 void print_text(const Options& options, const Graph& graph, const Executor& executor, const RealClock* clock,
                 const std::vector<LinkReport>& links, double seconds, bool interrupted) {
   const Report& report = executor.report();
@@ -117,7 +98,7 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
     std::cout << fmt::format("{}: {} s on the virtual clock in {:.2f} s, {:.0f} times real time{}\n", graph.name,
                              seconds_text(report.simulated), seconds, simulated / seconds, ended_early);
   }
-  print_reached(graph, executor);
+  std::cout << reached_text(graph, [&](std::size_t communicator) { return executor.last_value(communicator); });
   std::cout << fmt::format("  activations {}, instants {}\n  digest      0x{:016x}\n", report.activations,
                            report.instants, report.digest);
   for (const Task& task : graph.tasks)
