@@ -70,8 +70,7 @@ TEST_SUITE("tools/real_time") {
     const TemporaryFolder folder;
     const std::string one = folder.write("one.yaml", on_core(0));
     jarol("run " + one + " --for 200ms --trace " + (folder / "virtual.csv"));
-    const auto run =
-        run_undisturbed(one + " --set platform.policy=fixed_priority --trace " + (folder / "real.csv"));
+    const auto run = run_undisturbed(one + " --set platform.policy=fixed_priority --trace " + (folder / "real.csv"));
     CHECK(run["faults"].size() == 0);
     const auto content = [&](const std::string& name) {
       std::ifstream file(folder / name);
@@ -90,13 +89,13 @@ TEST_SUITE("tools/real_time") {
       return result.output;
     };
     CHECK(refusal("--set platform.policy=edf") ==
-          "error: '" + one + "' has the policy 'edf'; the real clock executes 'table' and 'fixed_priority'; choose one "
-                             "by --set platform.policy=table\n");
+          "error: '" + one +
+              "' has the policy 'edf'; the real clock executes 'table' and 'fixed_priority'; choose one "
+              "by --set platform.policy=table\n");
     CHECK(refusal("--set platform.policy=fixed_priority --rt-priority 2") ==
           "error: --rt-priority 2: the tasks of '" + one + "' take 2 priorities below it; choose 3 or more\n");
     CHECK(refusal("--set platform.cores=2 --set tasks.timed.core=1 --cpus 0") ==
           "error: '" + one + "' has tasks on 2 cores; --cpus names 1 CPU\n");
-    CHECK(refusal("--workers 2") ==
-          "error: --workers belongs to the virtual clock; the real one goes by 'platform'\n");
+    CHECK(refusal("--workers 2") == "error: --workers belongs to the virtual clock; the real one goes by 'platform'\n");
   }
 }
