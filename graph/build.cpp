@@ -7,6 +7,7 @@
 #include "graph/connect.h"
 #include "graph/deadlines.h"
 #include "graph/heaps.h"
+#include "graph/safe_commands.h"
 #include "graph/values/bind.h"
 
 namespace jarol {
@@ -144,6 +145,7 @@ class Builder {
       graph_.communicators.push_back(std::move(communicator));
     }
     check_out_channels();
+    add_safe_commands(spec_, graph_, problems_);
   }
 
   void resolve_channel(const CommunicatorSpec& spec, const std::string& subject, Communicator& communicator) {

@@ -40,6 +40,8 @@ struct Communicator {
   Duration period{};
   Duration offset{};
   Value init;                              // of an `in`
+  std::optional<Duration> timeout;         // of an `in`: without a new value for longer, its distributer is silent
+  std::optional<Value> safe;               // of an `out`: what it hands over while its distributer is silent
   std::optional<std::size_t> distributer;  // none: no channel
   std::size_t channel = 0;                 // of the distributer's class
 };

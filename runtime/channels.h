@@ -33,6 +33,9 @@ class Channels {
   /// What was carried until now, for channels that are on a link.
   virtual std::optional<LinkReport> link_report() const { return std::nullopt; }
 
+  /// What was not finite within what came, and was left out of a channel's value.
+  virtual std::uint64_t non_finite_inputs() const { return 0; }
+
   /// Step 0 of an instant: the external system reaches it with the inputs that it held before; sensors sample.
   virtual void reach(Duration instant) = 0;
 

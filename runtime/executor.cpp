@@ -35,7 +35,7 @@ std::string to_text(const Fault& fault) {
 }
 
 Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options)
-    : graph_(graph), plan_(graph), channels_(std::move(channels)), options_(options) {
+    : graph_(graph), plan_(graph), channels_(std::move(channels)), options_(options), safe_commands_(graph) {
   assert(channels_.size() == graph.distributers.size());
   if (options.recorder != nullptr) options.recorder->expect(plan_.outputs);
   if (!options.threads.empty()) begin_threads();
@@ -71,6 +71,8 @@ void Executor::run_until(Duration end) {
   } else {
     record ? walk<false, true, false>(end) : walk<false, false, false>(end);
   }
+  report_.non_finite_inputs = refused_inputs_;
+  for (const auto& channels : channels_) report_.non_finite_inputs += channels->non_finite_inputs();
 }
 
 template <bool Digest, bool Record, bool Real>
@@ -117,11 +119,11 @@ void Executor::step_instant(std::int64_t instant) {
   }
   // steps 2 and 3: communicators, by name
   for (const CommunicatorAction* out : outs_) {
-    hand_over(*out);
+    hand_over(*out, Duration(instant));
     publish<Digest, Record>(out->publish, instant, instant_term);
   }
   for (const CommunicatorAction* in : ins_) {
-    take(*in);
+    take(*in, Duration(instant));
     publish<Digest, Record>(in->publish, instant, instant_term);
   }
   // step 4: tasks released now
@@ -251,22 +253,24 @@ inline void Executor::publish(const Publish& what, std::int64_t instant, std::ui
   if constexpr (Record) record(*options_.recorder, what, instant);
 }
 
-void Executor::hand_over(const CommunicatorAction& out) {
+void Executor::hand_over(const CommunicatorAction& out, Duration instant) {
   const Communicator& communicator = graph_.communicators[out.communicator];
-  copy_value(*communicator.type, out.value, out.input);
+  const void* const safe = safe_commands_.in_place_of_input(out.communicator, instant);
+  copy_value(*communicator.type, out.value, safe != nullptr ? safe : out.input);
   const MemoryScope outside(nullptr);
   if (communicator.distributer) channels_[*communicator.distributer]->hand_over(communicator.channel, out.value);
 }
 
-void Executor::take(const CommunicatorAction& in) {
+void Executor::take(const CommunicatorAction& in, Duration instant) {
   const Communicator& communicator = graph_.communicators[in.communicator];
   if (!communicator.distributer) return;
   const MemoryScope outside(nullptr);
   if (!channels_[*communicator.distributer]->take(communicator.channel, in.taken)) return;
   if (communicator.type->finite(in.taken)) {
     copy_value(*communicator.type, in.value, in.taken);
+    safe_commands_.took(in.communicator, instant);
   } else {
-    ++report_.non_finite_inputs;
+    ++refused_inputs_;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "runtime/plan.h"
 #include "runtime/real_clock.h"
 #include "runtime/recorder.h"
+#include "runtime/safe_commands.h"
 #include "runtime/stage_team.h"
 #include "runtime/task_threads.h"
 
@@ -63,6 +64,7 @@ class Executor {
   void interrupt() { interrupted_.store(true, std::memory_order_relaxed); }
 
   const Report& report() const { return report_; }
+  const std::vector<SafeCommandReport>& safe_commands() const { return safe_commands_.reports(); }
   const Plan& plan() const { return plan_; }
 
   /// How the stages were shared among several workers; null with one.
@@ -93,8 +95,8 @@ class Executor {
   void publish_one_by_one(const Group& group, std::int64_t instant, std::uint64_t instant_term);
   void start_groups(std::int64_t instant);
   void gather_communicators();
-  void hand_over(const CommunicatorAction& out);
-  void take(const CommunicatorAction& in);
+  void hand_over(const CommunicatorAction& out, Duration instant);
+  void take(const CommunicatorAction& in, Duration instant);
   Outcome run_in_time(const Activation& activation, const Tick& tick);
   [[gnu::cold]] void on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick);
   [[gnu::cold]] void record_fault(std::uint32_t task, std::int64_t instant);
@@ -123,6 +125,8 @@ class Executor {
   std::vector<std::int64_t> releases_;                 // per group: how often it was due
   std::vector<const std::byte*> last_;                 // per communicator
   std::unique_ptr<StageTeam> team_;                    // null: one worker
+  SafeCommands safe_commands_;
+  std::uint64_t refused_inputs_ = 0;  // values of `in` channels that were not finite
   Report report_;
   std::atomic<std::int64_t> now_{0};
   std::atomic<bool> interrupted_{false};

@@ -9,7 +9,7 @@
 namespace jarol {
 
 ThreadsCore::ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels)
-    : graph_(graph), plan_(graph), channels_(std::move(channels)), period_(choose_period()) {
+    : graph_(graph), plan_(graph), channels_(std::move(channels)), period_(choose_period()), safe_commands_(graph) {
   for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::mutex>());
   last_.resize(graph.communicators.size());
   gather();
@@ -102,6 +102,8 @@ void ThreadsCore::run_for(Duration end, const std::function<void()>& prepare) {
   for (Signal* signal : {&core_signal_, &actuator_signal_, &terminal_signal_}) signal->interrupt();
   for (std::thread& thread : threads) thread.join();
   threads_report_.unawaited_ticks = static_cast<std::uint64_t>(trigger.unawaited());
+  report_.non_finite_inputs = refused_inputs_;
+  for (const auto& channels : channels_) report_.non_finite_inputs += channels->non_finite_inputs();
   report_.simulated = Duration(static_cast<std::int64_t>(threads_report_.rounds) * period_.count());
 }
 
@@ -124,7 +126,10 @@ void ThreadsCore::sense(bool terminal, std::int64_t round) {
     for (Carried& in : ins_) {
       const Communicator& c = graph_.communicators[in.communicator];
       if (c.distributer != i || round % in.every != 0 || !channels_[i]->take(c.channel, in.room.data())) continue;
-      if (c.type->finite(in.room.data())) in.port->write(in.room.data());
+      if (c.type->finite(in.room.data()))
+        in.port->write(in.room.data());
+      else
+        refused_inputs_.fetch_add(1, std::memory_order_relaxed);
     }
   }
 }
@@ -155,14 +160,16 @@ void ThreadsCore::run_round(std::int64_t round) {
   ++report_.instants;
   for (Carried& in : ins_) {
     if (round % in.every != 0) continue;
-    while (in.port->read(in.action->value)) {}
+    while (in.port->read(in.action->value)) safe_commands_.took(in.communicator, Duration(instant));
     publish(in.action->publish, instant_term);
   }
   for (Counted& task : tasks_)
     if (round % task.every == 0) run_task(task, instant, instant_term);
   for (Carried& out : outs_) {
     if (round % out.every != 0) continue;
-    copy_value(*graph_.communicators[out.communicator].type, out.action->value, out.action->input);
+    const void* const safe = safe_commands_.in_place_of_input(out.communicator, Duration(instant));
+    copy_value(*graph_.communicators[out.communicator].type, out.action->value,
+               safe != nullptr ? safe : out.action->input);
     publish(out.action->publish, instant_term);
     out.port->write(out.action->value);
   }

@@ -16,6 +16,7 @@
 #include "runtime/histogram.h"
 #include "runtime/plan.h"
 #include "runtime/push_port.h"
+#include "runtime/safe_commands.h"
 #include "runtime/signal.h"
 #include "runtime/time_trigger.h"
 
@@ -47,6 +48,7 @@ class ThreadsCore {
   /// The digest counts rounds as instants; nothing is claimed of it.
   const Report& report() const { return report_; }
   const ThreadsReport& threads_report() const { return threads_report_; }
+  const std::vector<SafeCommandReport>& safe_commands() const { return safe_commands_.reports(); }
   Duration now() const { return Duration(rounds_begun_.load(std::memory_order_relaxed) * period_.count()); }
   const void* last_value(std::size_t communicator) const { return last_[communicator]; }
 
@@ -93,6 +95,8 @@ class ThreadsCore {
   std::vector<Carried> ins_, outs_;
   std::vector<Counted> tasks_;  // data-flow order
   std::vector<const std::byte*> last_;
+  SafeCommands safe_commands_;  // of the core thread
+  std::atomic<std::uint64_t> refused_inputs_{0};
   Report report_;
   ThreadsReport threads_report_;
   Signal core_signal_, actuator_signal_, terminal_signal_;

@@ -145,6 +145,28 @@ nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock) {
           {"tasks", tasks}};
 }
 
+std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands) {
+  std::string text;
+  for (const SafeCommandReport& safe : safe_commands) {
+    const std::string& name = graph.communicators[safe.communicator].name;
+    if (!safe.heard && safe.at_start > 0)
+      text += fmt::format("  safe        {}: all {} commands, for nothing ever came\n", name, safe.at_start);
+    if (safe.commands > 0)
+      text += fmt::format("  safe        {}: {} times for silence, {} commands, the first at {} s, the last at {} s\n",
+                          name, safe.times, safe.commands, seconds_text(safe.first), seconds_text(safe.last));
+  }
+  return text;
+}
+
+nlohmann::ordered_json to_json(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands) {
+  auto json = nlohmann::ordered_json::object();
+  for (const SafeCommandReport& safe : safe_commands)
+    json[graph.communicators[safe.communicator].name] = {
+        {"heard", safe.heard},       {"at_start", safe.at_start},      {"times", safe.times},
+        {"commands", safe.commands}, {"first_ns", safe.first.count()}, {"last_ns", safe.last.count()}};
+  return json;
+}
+
 std::string to_text(const LinkReport& link) {
   std::string counts;
   for (const auto& [name, count] : link.counts)

@@ -10,6 +10,7 @@
 #include "graph/graph.h"
 #include "runtime/channels.h"
 #include "runtime/real_clock.h"
+#include "runtime/safe_commands.h"
 
 namespace jarol::tools {
 
@@ -36,6 +37,10 @@ void require_executable(const std::string& file, const Graph& graph, const RealT
 /// How well the run kept to real time.
 std::string to_text(const Graph& graph, const RealClock& clock);
 nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock);
+
+/// When safe values were handed over; in the text only those that were.
+std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands);
+nlohmann::ordered_json to_json(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands);
 
 /// What a link has carried; in the text only what there was.
 std::string to_text(const LinkReport& link);

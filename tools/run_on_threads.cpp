@@ -31,6 +31,9 @@ void print_text(const Graph& graph, const ThreadsCore& core, const std::vector<L
   if (threads.unawaited_ticks > 0)
     std::cout << "  sensors     " << threads.unawaited_ticks << " ticks found their thread at work\n";
   for (const LinkReport& link : links) std::cout << to_text(link);
+  std::cout << to_text(graph, core.safe_commands());
+  if (report.non_finite_inputs > 0)
+    std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
   for (const Fault& fault : report.faults) std::cerr << "fault: " << to_text(fault) << "\n";
 }
 
@@ -49,7 +52,9 @@ void print_json(const Graph& graph, const ThreadsCore& core, const std::vector<L
                               {"unawaited_ticks", threads.unawaited_ticks},
                               {"outputs_50_ns", threads.round.percentile(0.5)},
                               {"outputs_99_ns", threads.round.percentile(0.99)},
-                              {"outputs_most_ns", threads.round.most()}};
+                              {"outputs_most_ns", threads.round.most()},
+                              {"non_finite_inputs", report.non_finite_inputs},
+                              {"safe_commands", to_json(graph, core.safe_commands())}};
   json["faults"] = nlohmann::ordered_json::array();
   for (const Fault& f : report.faults)
     json["faults"].push_back(

@@ -59,8 +59,8 @@ struct CommunicatorSpec {
   Location where;
   Maybe<std::string> channel, type;
   Maybe<Direction> direction;
-  Maybe<Duration> period, offset;
-  Maybe<Yaml> init;
+  Maybe<Duration> period, offset, timeout;
+  Maybe<Yaml> init, safe;
 };
 
 struct DistributerSpec {

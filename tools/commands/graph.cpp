@@ -2,9 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "tools/commands/commands.h"
 #include "tools/load_graph.h"
+#include "tools/value_json.h"
 
 namespace jarol::tools {
 namespace {
@@ -33,6 +35,8 @@ void print_text(const Graph& graph) {
       const Distributer& d = graph.distributers[*c.distributer];
       std::cout << ", channel " << d.name << "." << d.distributer_class->channels[c.channel].name;
     }
+    if (c.timeout) std::cout << ", silent after " << duration_text(*c.timeout);
+    if (c.safe) std::cout << ", while silent " << to_json(*c.type, c.safe->data());
     std::cout << "\n";
   }
   std::cout << "\ntasks, in the order in which they run when released together\n";

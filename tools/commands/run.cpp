@@ -110,6 +110,7 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
                 << heap->size() << " bytes in use\n";
   if (clock != nullptr) std::cout << to_text(graph, *clock);
   for (const LinkReport& link : links) std::cout << to_text(link);
+  std::cout << to_text(graph, executor.safe_commands());
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
   if (const StageTeam* team = executor.team())
@@ -148,6 +149,8 @@ void print_json(const Graph& graph, const Executor& executor, const RealClock* c
                               {"activations", report.activations},
                               {"instants", report.instants},
                               {"faults", faults},
+                              {"non_finite_inputs", report.non_finite_inputs},
+                              {"safe_commands", to_json(graph, executor.safe_commands())},
                               {"heaps", heaps},
                               {"outputs", outputs}};
   if (clock != nullptr) json["real_time"] = to_json(graph, *clock);

@@ -1,0 +1,52 @@
+// Time-outs of external systems while a graph runs: is one silent, and what do its actuators get then? It hangs on
+// what `in` communicators took at which logical instant, on nothing else.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "graph/graph.h"
+
+namespace jarol {
+
+/// How often a safe value was handed over in place of what the graph had computed.
+struct SafeCommandReport {
+  std::size_t communicator = 0;
+  bool heard = false;          // the external system told something at all
+  std::uint64_t at_start = 0;  // commands before it did
+  std::uint64_t times = 0;     // that it fell silent after that
+  std::uint64_t commands = 0;  // that were handed over meanwhile
+  Duration first{}, last{};    // instants of these, if any
+};
+
+class SafeCommands {
+ public:
+  /// The graph outlives it.
+  explicit SafeCommands(const Graph& graph);
+
+  /// An `in` communicator has a new value.
+  void took(std::size_t in, Duration instant) { newest_[in] = instant; }
+
+  /// What an `out` communicator has to hand over now in place of its input, or null. A channel that never brought
+  /// anything is silent from the start; else one whose newest value is older than its time-out.
+  const void* in_place_of_input(std::size_t out, Duration instant);
+
+  /// Per `out` communicator with a safe value, in their order.
+  const std::vector<SafeCommandReport>& reports() const { return reports_; }
+
+ private:
+  static constexpr Duration never{-1};
+
+  struct Watch {
+    std::vector<std::size_t> ins;
+    std::size_t report = 0;
+    bool in_force = false;
+  };
+
+  const Graph& graph_;
+  std::vector<Duration> newest_;  // per communicator
+  std::vector<Watch> watches_;    // per communicator; nothing to watch: no safe value
+  std::vector<SafeCommandReport> reports_;
+};
+
+}  // namespace jarol
