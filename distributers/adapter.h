@@ -32,6 +32,9 @@ class Adapter : public messages::Receiver {
   /// The run is over. Throws std::runtime_error if something can't be kept for the next one.
   virtual void finish() {}
 
+  /// Readings that were not finite; they are not in the values of `in` channels.
+  virtual std::uint64_t non_finite_inputs() const { return 0; }
+
   /// Copies the newest value of an `in` channel if a message brought one since the last call.
   virtual bool take(std::size_t channel, void* value) = 0;
 

@@ -56,27 +56,33 @@ void LauvOperator::receive(messages::MessageRef message) {
   receive_question(message);
 }
 
+bool LauvOperator::is_finite(double value) {
+  if (std::isfinite(value)) return true;
+  ++non_finite_inputs_;
+  return false;
+}
+
 void LauvOperator::receive_reference(messages::MessageRef message) {
   if (const auto* z = message.as<imc::DesiredZ>()) {
-    if (z->z_units != imc::ZUnits::DEPTH || !std::isfinite(z->value))
+    if (z->z_units != imc::ZUnits::DEPTH || !is_finite(z->value))
       return refuse("DesiredZ is taken as a depth in m only");
     // the hand that steers keeps the propeller and the rudders
     if (mode_ != Mode::teleoperation && !use_autopilot()) return;
     setpoint_.depth = static_cast<double>(z->value);
     setpoint_fresh_ = true;
   } else if (const auto* heading = message.as<imc::DesiredHeading>()) {
-    if (!std::isfinite(heading->value)) return refuse("DesiredHeading is no number");
+    if (!is_finite(heading->value)) return refuse("DesiredHeading is no number");
     if (!use_autopilot()) return;
     setpoint_.turn = Turn::heading;
     setpoint_.heading = heading->value;
   } else if (const auto* rate = message.as<imc::DesiredHeadingRate>()) {
-    if (!std::isfinite(rate->value)) return refuse("DesiredHeadingRate is no number");
+    if (!is_finite(rate->value)) return refuse("DesiredHeadingRate is no number");
     if (!use_autopilot()) return;
     setpoint_.turn = Turn::rate;
     setpoint_.rate = rate->value;
   } else if (const auto* speed = message.as<imc::DesiredSpeed>()) {
     const bool percent = speed->speed_units == imc::SpeedUnits::PERCENTAGE;
-    if ((!percent && speed->speed_units != imc::SpeedUnits::METERS_PS) || !std::isfinite(speed->value))
+    if ((!percent && speed->speed_units != imc::SpeedUnits::METERS_PS) || !is_finite(speed->value))
       return refuse("DesiredSpeed is taken in m/s or % only");
     if (!use_autopilot()) return;
     setpoint_.drive = percent ? Drive::thrust : Drive::speed;
@@ -87,11 +93,11 @@ void LauvOperator::receive_reference(messages::MessageRef message) {
 // An operator who has propeller and fins in hand; a graph that has no use for it does not take the channel.
 void LauvOperator::receive_actuation(messages::MessageRef message) {
   if (const auto* thruster = message.as<imc::SetThrusterActuation>()) {
-    if (thruster->id != 0 || !std::isfinite(thruster->value)) return;
+    if (thruster->id != 0 || !is_finite(thruster->value)) return;
     actuation_.thruster = static_cast<double>(thruster->value);
     actuation_fresh_ = true;
   } else if (const auto* servo = message.as<imc::SetServoPosition>()) {
-    if (servo->id >= actuation_.fins.size() || !std::isfinite(servo->value)) return;
+    if (servo->id >= actuation_.fins.size() || !is_finite(servo->value)) return;
     actuation_.fins[servo->id] = static_cast<double>(servo->value);
     actuation_fresh_ = true;
   }

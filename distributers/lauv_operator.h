@@ -51,6 +51,7 @@ class LauvOperator : public Adapter {
   void receive(messages::MessageRef message) override;
   void reach(Duration instant, messages::Receiver& system) override;
   void announce(Duration instant, messages::Receiver& all) override;
+  std::uint64_t non_finite_inputs() const override { return non_finite_inputs_; }
   bool take(std::size_t channel, void* value) override;
   void hand_over(std::size_t channel, const void* value, messages::Receiver& system) override;
 
@@ -63,6 +64,7 @@ class LauvOperator : public Adapter {
   void receive_question(messages::MessageRef message);
   void receive_actions(const TupleList& actions);
   void receive_abort();
+  bool is_finite(double value);  // else that is counted
   bool use_autopilot();
   void start_teleoperation();
   void demand_stop();
@@ -85,6 +87,7 @@ class LauvOperator : public Adapter {
   tasks::Setpoint setpoint_;
   tasks::Actuation actuation_;
   bool setpoint_fresh_ = false, actuation_fresh_ = false;
+  std::uint64_t non_finite_inputs_ = 0;
 
   // of the hand that steers
   std::optional<Duration> hand_heard_;  // its last RemoteActions

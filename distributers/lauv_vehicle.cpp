@@ -1,6 +1,8 @@
 #include "distributers/lauv_vehicle.h"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "distributers/lauv_messages.h"
 #include "distributers/messages/imc.h"
@@ -9,16 +11,9 @@ namespace jarol::distributers {
 namespace imc = messages::imc;
 namespace {
 
-void note(bool& fresh, tasks::Reading& reading, double value) {
-  if (!std::isfinite(value)) return;
-  reading = {value, reading.count + 1};
-  fresh = true;
-}
-
-void note(bool& fresh, tasks::VectorReading& reading, double x, double y, double z) {
-  if (!std::isfinite(x + y + z)) return;
-  reading = {x, y, z, reading.count + 1};
-  fresh = true;
+// what a device does not measure it writes as no number beside what it does
+bool measured(std::initializer_list<double> values) {
+  return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
 }
 
 }  // namespace
@@ -39,6 +34,24 @@ void LauvVehicle::receive(messages::MessageRef message) {
   receive_hull(message);
 }
 
+void LauvVehicle::note(tasks::Reading& reading, double value) {
+  if (!all_finite({value})) return;
+  reading = {value, reading.count + 1};
+  instruments_fresh_ = true;
+}
+
+void LauvVehicle::note(tasks::VectorReading& reading, double x, double y, double z) {
+  if (!all_finite({x, y, z})) return;
+  reading = {x, y, z, reading.count + 1};
+  instruments_fresh_ = true;
+}
+
+bool LauvVehicle::all_finite(std::initializer_list<double> values) {
+  const bool good = std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  if (!good) ++non_finite_inputs_;
+  return good;
+}
+
 void LauvVehicle::receive_motion(messages::MessageRef message) {
   tasks::Instruments& i = instruments_;
   if (const auto* s = message.as<imc::SimulatedState>()) {
@@ -48,16 +61,18 @@ void LauvVehicle::receive_motion(messages::MessageRef message) {
     motion_ = {e->x, e->y, e->depth, e->phi, e->theta, e->psi, e->u, e->v, e->w, e->p, e->q, e->r};
     motion_fresh_ = true;
   } else if (const auto* angles = message.as<imc::EulerAngles>()) {
-    note(instruments_fresh_, i.attitude, angles->phi, angles->theta, angles->psi);
-    note(instruments_fresh_, i.heading, angles->psi_magnetic);
+    const bool attitude = measured({angles->phi, angles->theta, angles->psi}),
+               heading = measured({angles->psi_magnetic});
+    if (attitude || !heading) note(i.attitude, angles->phi, angles->theta, angles->psi);
+    if (heading || !attitude) note(i.heading, angles->psi_magnetic);
   } else if (const auto* rates = message.as<imc::AngularVelocity>()) {
-    note(instruments_fresh_, i.rates, rates->x, rates->y, rates->z);
+    note(i.rates, rates->x, rates->y, rates->z);
   } else if (const auto* force = message.as<imc::Acceleration>()) {
-    note(instruments_fresh_, i.forces, force->x, force->y, force->z);
+    note(i.forces, force->x, force->y, force->z);
   } else if (const auto* speed = message.as<imc::WaterVelocity>()) {
-    note(instruments_fresh_, i.velocity, speed->x, speed->y, speed->z);
+    note(i.velocity, speed->x, speed->y, speed->z);
   } else if (const auto* rpm = message.as<imc::Rpm>()) {
-    note(instruments_fresh_, i.rpm, rpm->value);
+    note(i.rpm, rpm->value);
   } else if (const auto* fix = message.as<imc::GpsFix>()) {
     if ((fix->validity & imc::GpsFix::Validity::VALID_POS) != 0) place(fix->lat, fix->lon);
   }
@@ -66,27 +81,27 @@ void LauvVehicle::receive_motion(messages::MessageRef message) {
 void LauvVehicle::receive_hull(messages::MessageRef message) {
   tasks::Instruments& i = instruments_;
   if (const auto* depth = message.as<imc::Depth>()) {
-    note(instruments_fresh_, i.depth, depth->value);
+    note(i.depth, depth->value);
   } else if (const auto* pressure = message.as<imc::Pressure>()) {
-    note(instruments_fresh_, i.pressure, pressure->value);
+    note(i.pressure, pressure->value);
   } else if (const auto* conductivity = message.as<imc::Conductivity>()) {
-    note(instruments_fresh_, i.conductivity, conductivity->value);
+    note(i.conductivity, conductivity->value);
   } else if (const auto* temperature = message.as<imc::Temperature>()) {
-    note(instruments_fresh_, i.water_temperature, temperature->value);
+    note(i.water_temperature, temperature->value);
   } else if (const auto* range = message.as<imc::Distance>()) {
-    if (range->validity == imc::Distance::Validity::VALID) note(instruments_fresh_, i.altitude, range->value);
+    if (range->validity == imc::Distance::Validity::VALID) note(i.altitude, range->value);
   } else if (const auto* entity = message.as<imc::EntityState>()) {
-    note(instruments_fresh_, i.leak, entity->state == imc::EntityState::State::FAILURE ? 1 : 0);
+    note(i.leak, entity->state == imc::EntityState::State::FAILURE ? 1 : 0);
   } else if (const auto* voltage = message.as<imc::Voltage>()) {
-    note(instruments_fresh_, i.voltage, voltage->value);
+    note(i.voltage, voltage->value);
   } else if (const auto* current = message.as<imc::Current>()) {
-    note(instruments_fresh_, i.current, current->value);
+    note(i.current, current->value);
   }
 }
 
 // offsets from the first fix along meridian and parallel, WGS-84
 void LauvVehicle::place(double latitude, double longitude) {
-  if (!std::isfinite(latitude) || !std::isfinite(longitude)) return;
+  if (!all_finite({latitude, longitude})) return;
   if (instruments_.place.count == 0) {
     latitude_ = latitude;
     longitude_ = longitude;
@@ -94,7 +109,7 @@ void LauvVehicle::place(double latitude, double longitude) {
   constexpr double equatorial_radius = 6378137.0, eccentricity_squared = 6.69437999014e-3;
   const double s = std::sin(latitude_), w = 1 - eccentricity_squared * s * s;
   const double east_radius = equatorial_radius / std::sqrt(w);
-  note(instruments_fresh_, instruments_.place, (latitude - latitude_) * east_radius * (1 - eccentricity_squared) / w,
+  note(instruments_.place, (latitude - latitude_) * east_radius * (1 - eccentricity_squared) / w,
        (longitude - longitude_) * east_radius * std::cos(latitude_), 0);
 }
 

@@ -17,6 +17,7 @@ class LinkedChannels : public Channels {
   void finish() override;
   bool needs_real_clock() const override { return true; }
   std::optional<LinkReport> link_report() const override { return link_->report(); }
+  std::uint64_t non_finite_inputs() const override { return adapter_->non_finite_inputs(); }
 
   void reach(Duration instant) override;
   bool take(std::size_t channel, void* value) override { return adapter_->take(channel, value); }

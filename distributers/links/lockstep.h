@@ -23,6 +23,7 @@ class LockstepChannels : public Channels {
   void begin() override;
   void finish() override { simulation_.reset(); }
 
+  std::uint64_t non_finite_inputs() const override { return simulation_ ? simulation_->non_finite_inputs() : 0; }
   void reach(Duration instant) override { simulation_->reach(instant); }
   bool take(std::size_t channel, void* value) override { return simulation_->take(channel, value); }
   void hand_over(std::size_t channel, const void* value) override { simulation_->hand_over(channel, value); }

@@ -13,6 +13,7 @@ class SimulationChannels : public Channels {
  public:
   SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle, std::unique_ptr<Adapter> adapter);
 
+  std::uint64_t non_finite_inputs() const override { return adapter_->non_finite_inputs(); }
   void reach(Duration instant) override;
   bool take(std::size_t channel, void* value) override;
   void hand_over(std::size_t channel, const void* value) override;

@@ -60,6 +60,7 @@ TEST_SUITE("distributers/lauv_operator_references") {
     refused(imc::DesiredHeading{NAN}, "DesiredHeading is no number");
     refused(imc::DesiredHeadingRate{INFINITY}, "DesiredHeadingRate is no number");
     refused(imc::DesiredSpeed{1000, imc::SpeedUnits::RPM}, "DesiredSpeed is taken in m/s or % only");
+    CHECK(c.adapter.non_finite_inputs() == 3);
     CHECK_FALSE(c.adapter.take(0, &c.value));
     CHECK(c.op_mode() == OpMode::SERVICE);
   }

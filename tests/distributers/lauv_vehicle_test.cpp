@@ -123,6 +123,44 @@ TEST_SUITE("distributers/lauv_vehicle") {
     CHECK_FALSE(adapter.take(0, &motion));
   }
 
+  TEST_CASE("a reading that is not finite is counted and left out, unless others stand beside it") {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN(), beyond = std::numeric_limits<double>::infinity();
+    LauvVehicle adapter;
+    tasks::Instruments i;
+    imc::EulerAngles angles;
+    angles.phi = angles.theta = angles.psi = none;
+    angles.psi_magnetic = 1.5;
+    adapter.receive(messages::refer_to(angles));  // a compass
+    angles.phi = angles.theta = angles.psi = 0.1;
+    angles.psi_magnetic = none;
+    adapter.receive(messages::refer_to(angles));  // an IMU
+    CHECK(adapter.non_finite_inputs() == 0);
+    CHECK(adapter.take(2, &i));
+    CHECK(i.heading.count == 1);
+    CHECK(i.attitude.count == 1);
+
+    angles.theta = none;  // its roll and heading alone are no attitude
+    adapter.receive(messages::refer_to(angles));
+    angles.theta = beyond;
+    adapter.receive(messages::refer_to(angles));
+    CHECK(adapter.non_finite_inputs() == 2);
+    angles.phi = angles.theta = angles.psi = none;  // nothing at all
+    adapter.receive(messages::refer_to(angles));
+    CHECK(adapter.non_finite_inputs() == 4);
+    imc::Depth depth;
+    depth.value = static_cast<float>(beyond);
+    adapter.receive(messages::refer_to(depth));
+    imc::AngularVelocity rates;
+    rates.y = none;
+    adapter.receive(messages::refer_to(rates));
+    imc::GpsFix fix;
+    fix.validity = imc::GpsFix::Validity::VALID_POS;
+    fix.lat = none;
+    adapter.receive(messages::refer_to(fix));
+    CHECK(adapter.non_finite_inputs() == 7);
+    CHECK_FALSE(adapter.take(2, &i));
+  }
+
   TEST_CASE("the first fix is the origin of the place") {
     LauvVehicle adapter;
     imc::GpsFix fix;
