@@ -56,6 +56,27 @@ struct Faulty {
   }
 };
 
+// Reads its input at its end.
+struct Patient {
+  static constexpr std::string_view summary = "for tests";
+  struct Param {
+    Duration waits{};
+    static constexpr auto fields() { return describe(field<&Param::waits>()); }
+  };
+  struct In {
+    double in = 0;
+    static constexpr auto fields() { return describe(field<&In::in>()); }
+  };
+  struct Out {
+    double out = -1;
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Param& p, const Tick&, const In& in, Out& out) {
+    std::this_thread::sleep_for(p.waits);
+    out.out = in.in;
+  }
+};
+
 // Keeps its processor busy for so long.
 struct Busy {
   static constexpr std::string_view summary = "for tests";
@@ -75,6 +96,7 @@ Graph graph_of(const std::string& text) {
     tasks::add_tasks(made);
     made.add(task_class<Faulty>());
     made.add(task_class<Busy>());
+    made.add(task_class<Patient>());
     return made;
   }();
   Problems problems;
@@ -199,6 +221,24 @@ TEST_SUITE("runtime/task_threads") {
         CHECK(r.report.instants == should.report.instants);
         CHECK(sorted(r.lines) == sorted(should.lines));
       }
+    }
+  }
+
+  TEST_CASE("inputs are those of the release, whatever is published while a task waits or runs") {
+    // `follower` begins when `busy` has ended, and `fast` has published twice more
+    const std::string text = R"(graph: t
+tasks:
+  timed: {type: Counter, period: 10ms, let: 5ms, core: ANY}
+  busy: {type: Patient, period: 60ms, let: 60ms, core: ANY, parameters: {waits: 25ms}}
+  fast: {type: Counter, period: 10ms, core: ANY}
+  follower: {type: Patient, period: 60ms, let: 60ms, core: ANY, parameters: {waits: 1ms}}
+connections: [timed.out -> busy.in, fast.out -> follower.in]
+)";
+    for (const Mode& mode : modes) {
+      CAPTURE(mode.name);
+      const RealRun r = run_undisturbed(on(mode, text), 190ms);
+      CHECK(lines_of(r, "busy.out") == "60ms busy.out=0; 120ms busy.out=5; 180ms busy.out=11");
+      CHECK(lines_of(r, "follower.out") == "60ms follower.out=0; 120ms follower.out=6; 180ms follower.out=12");
     }
   }
 
