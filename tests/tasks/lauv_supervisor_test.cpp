@@ -115,7 +115,8 @@ TEST_SUITE("tasks/lauv_supervisor") {
       return out.condition.alarm;
     };
     CHECK(run(1, 0) == Alarm::leak);
-    CHECK(run(1, 1) == Alarm::leak);  // water still there
+    CHECK(run(1, 1) == Alarm::leak);  // water still there: it goes on coming up
+    CHECK(state.since_alarm == doctest::Approx(0.1));
     CHECK(run(0, 1) == Alarm::leak);  // one stop counts once
     CHECK(out.setpoint.speed == 1);
     CHECK(run(0, 2) == Alarm::none);

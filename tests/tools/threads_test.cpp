@@ -8,7 +8,7 @@ TEST_SUITE("tools/threads") {
     const auto run =
         command::jarol("run specs/exolauv.yaml --clock real --concurrency threads --for 1.2s", "2>/dev/null");
     CHECK(run.exit_code == 0);
-    CHECK(run.output.starts_with("exolauv: 1."));
+    CHECK(run.output.starts_with("exolauv: "));
     CHECK(
         run.output.find(" s in real time on threads\n               commanded     reached\n  depth            0.000") !=
         std::string::npos);
