@@ -144,7 +144,7 @@ class Builder {
       }
       graph_.communicators.push_back(std::move(communicator));
     }
-    check_out_channels();
+    check_channels();
     add_safe_commands(spec_, graph_, problems_);
   }
 
@@ -198,16 +198,20 @@ class Builder {
                                           "; there are: " + list_of(registry_.type_names()));
   }
 
-  // What two communicators handed to one channel at one instant would depend on their order alone.
-  void check_out_channels() {
-    std::map<std::pair<std::size_t, std::size_t>, const Communicator*> writers;
+  // What two communicators handed to one channel at one instant would depend on their order alone; and of two that take
+  // from one, only the first would see what is new.
+  void check_channels() {
+    std::map<std::pair<std::size_t, std::size_t>, const Communicator*> users;
     for (const Communicator& c : graph_.communicators) {
-      if (c.direction != Direction::out || !c.distributer) continue;
-      const auto [at, first] = writers.emplace(std::pair(*c.distributer, c.channel), &c);
+      if (!c.distributer) continue;
+      const auto [at, first] = users.emplace(std::pair(*c.distributer, c.channel), &c);
       if (first) continue;
+      const std::string other = "the same channel as '" + at->second->name + "'; ";
       problems_.add(c.where,
-                    "communicator '" + c.name + "' hands over to the same channel as '" + at->second->name +
-                        "'; a channel has one writer",
+                    "communicator '" + c.name + "' " +
+                        (c.direction == Direction::out
+                             ? "hands over to " + other + "a channel has one writer"
+                             : "takes from " + other + "connect that one to all who read it"),
                     {{at->second->where, "the other one"}});
     }
   }

@@ -112,6 +112,8 @@ class Connector {
   }
 
   void check_connected() {
+    std::set<std::string_view> feeding;
+    for (const ConnectionSpec& s : spec_.connections) feeding.insert(s.from.name);
     for (std::size_t i = 0; i < graph_.tasks.size(); ++i) {
       const Task& task = graph_.tasks[i];
       if (task.task_class == nullptr || misfed_.contains(task.name)) continue;
@@ -128,8 +130,7 @@ class Connector {
       if (c.type == nullptr || misfed_.contains(c.name)) continue;
       const bool used = c.direction == Direction::out
                             ? fed_.contains({End::Kind::communicator, i, 0})
-                            : std::any_of(spec_.connections.begin(), spec_.connections.end(),
-                                          [&](const ConnectionSpec& s) { return s.from.name == c.name; });
+                            : feeding.contains(c.name);
       if (!used)
         problems_.add(c.where, "communicator '" + c.name + "' is not connected; add '" +
                                    (c.direction == Direction::out ? "... -> " + c.name : c.name + " -> ...") + "'");

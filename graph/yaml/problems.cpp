@@ -12,6 +12,8 @@ std::string place(const Location& where) {
 }
 
 constexpr std::size_t most_shown = 160;  // characters of a line
+constexpr std::size_t most_problems = 200;
+constexpr std::size_t most_words = 100;  // of a list
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
@@ -65,6 +67,12 @@ auto order_key(const Problem& p) {
                     p.where.column);
 }
 
+std::vector<Problem> in_order(std::vector<Problem> problems) {
+  std::stable_sort(problems.begin(), problems.end(),
+                   [](const Problem& a, const Problem& b) { return order_key(a) < order_key(b); });
+  return problems;
+}
+
 }  // namespace
 
 std::string_view line_of(const Source& source, int line) {
@@ -83,15 +91,16 @@ SpecError::SpecError(std::vector<Problem> problems)
     : std::runtime_error(report(problems)), problems_(std::move(problems)) {}
 
 void Problems::add(Location where, std::string text, std::vector<Note> notes) {
+  if (problems_.size() == most_problems) {
+    std::vector<Problem> all = in_order(problems_);
+    all.push_back({{}, "there are more problems than these " + std::to_string(most_problems) + "; mend them first", {}});
+    throw SpecError(std::move(all));
+  }
   problems_.push_back({std::move(where), std::move(text), std::move(notes)});
 }
 
 void Problems::throw_if_any() const {
-  if (problems_.empty()) return;
-  std::vector<Problem> sorted = problems_;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Problem& a, const Problem& b) { return order_key(a) < order_key(b); });
-  throw SpecError(std::move(sorted));
+  if (!problems_.empty()) throw SpecError(in_order(problems_));
 }
 
 std::string to_text(const Problem& problem) {
@@ -104,6 +113,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   const std::string* best = nullptr;
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
+    if (candidate.size() >= word.size() + least || word.size() >= candidate.size() + least) continue;
     const std::size_t d = distance(word, candidate);
     if (d < least && d < word.size()) {
       least = d;
@@ -116,7 +126,8 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 std::string list_of(const std::vector<std::string>& words) {
   if (words.empty()) return "nothing";
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  for (std::size_t i = 0; i < std::min(words.size(), most_words); ++i) text += (i == 0 ? "" : ", ") + words[i];
+  if (words.size() > most_words) text += " and " + std::to_string(words.size() - most_words) + " more";
   return text;
 }
 

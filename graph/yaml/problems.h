@@ -32,6 +32,7 @@ class SpecError : public std::runtime_error {
 
 class Problems {
  public:
+  /// Throws SpecError with all so far where there are too many for anyone to read.
   void add(Location where, std::string text, std::vector<Note> notes = {});
   bool empty() const { return problems_.empty(); }
   std::size_t size() const { return problems_.size(); }

@@ -127,7 +127,7 @@ class Builder : public YAML::EventHandler {
 
   void finish(Yaml value, YAML::anchor_t anchor) {
     if (++values_ > most_values) too_much({}, "the text holds more than " + std::to_string(most_values) + " values");
-    if (anchor != 0) anchored_.emplace(anchor, value);
+    if (anchor != 0) keep(anchor, value);
     if (open_.empty()) {
       root_ = std::move(value);
       return;
@@ -142,6 +142,16 @@ class Builder : public YAML::EventHandler {
       parent.has_key = false;
       add_entry(parent, std::move(value));
     }
+  }
+
+  // anchors inside anchored values multiply
+  void keep(YAML::anchor_t anchor, const Yaml& value) {
+    anchored_values_ += count(value);
+    if (anchored_values_ > most_aliased) {
+      problems_.add(value.where, "anchors name more than " + std::to_string(most_aliased) + " values");
+      throw TooMuch();
+    }
+    anchored_.emplace(anchor, value);
   }
 
   void add_entry(Open& mapping, Yaml value) {
@@ -171,7 +181,8 @@ class Builder : public YAML::EventHandler {
   std::vector<Open> open_;
   std::map<YAML::anchor_t, Yaml> anchored_;
   std::size_t values_ = 0;
-  std::size_t aliased_ = 0;  // values that aliases stand for
+  std::size_t aliased_ = 0;          // values that aliases stand for
+  std::size_t anchored_values_ = 0;  // values that anchors keep
 };
 
 }  // namespace
