@@ -209,9 +209,8 @@ class Builder {
       const std::string other = "the same channel as '" + at->second->name + "'; ";
       problems_.add(c.where,
                     "communicator '" + c.name + "' " +
-                        (c.direction == Direction::out
-                             ? "hands over to " + other + "a channel has one writer"
-                             : "takes from " + other + "connect that one to all who read it"),
+                        (c.direction == Direction::out ? "hands over to " + other + "a channel has one writer"
+                                                       : "takes from " + other + "connect that one to all who read it"),
                     {{at->second->where, "the other one"}});
     }
   }

@@ -128,9 +128,8 @@ class Connector {
     for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
       const Communicator& c = graph_.communicators[i];
       if (c.type == nullptr || misfed_.contains(c.name)) continue;
-      const bool used = c.direction == Direction::out
-                            ? fed_.contains({End::Kind::communicator, i, 0})
-                            : feeding.contains(c.name);
+      const bool used =
+          c.direction == Direction::out ? fed_.contains({End::Kind::communicator, i, 0}) : feeding.contains(c.name);
       if (!used)
         problems_.add(c.where, "communicator '" + c.name + "' is not connected; add '" +
                                    (c.direction == Direction::out ? "... -> " + c.name : c.name + " -> ...") + "'");

@@ -39,8 +39,10 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
   assert(channels_.size() == graph.distributers.size());
   if (options.recorder != nullptr) options.recorder->expect(plan_.outputs);
   if (!options.threads.empty()) begin_threads();
-  if (options.workers > 1 || options.sharing == Sharing::measure)
+  if (options.workers > 1 || options.sharing == Sharing::measure) {
+    bad_items_.reserve(graph.tasks.size());
     team_ = std::make_unique<StageTeam>(useful_workers(options.workers, options.sharing), options.sharing, plan_);
+  }
   const std::size_t groups = plan_.groups.size();
   cursors_.resize(groups);
   in_stage_.resize(groups);
@@ -202,13 +204,25 @@ void Executor::run_stages_shared(std::int64_t instant, std::uint64_t instant_ter
   for (std::uint32_t stage = 0; stage != none;) {
     std::uint32_t next = none;
     std::ptrdiff_t levels = 0;
+    std::size_t segments = 0;
+    bool deep = false;
     for (std::size_t i = 0; i < due_.size(); ++i) {
       const Segment* last = plan_.groups[due_[i]].segments.last;
       in_stage_[i] = cursors_[i] != last && cursors_[i]->stage == stage ? cursors_[i]++ : nullptr;
-      if (in_stage_[i] != nullptr) levels = std::max(levels, in_stage_[i]->levels.last - in_stage_[i]->levels.first);
+      if (in_stage_[i] != nullptr) {
+        ++segments;
+        deep = deep || in_stage_[i]->publishes_deep;
+        levels = std::max(levels, in_stage_[i]->levels.last - in_stage_[i]->levels.first);
+      }
       if (cursors_[i] != last) next = std::min(next, cursors_[i]->stage);
     }
-    for (std::ptrdiff_t level = 0; level < levels; ++level) run_level_shared<Digest, Record>(level, instant_term);
+    if (deep && segments > 1) {  // a reader's heap tells which of its producers came first
+      for (std::size_t i = 0; i < due_.size(); ++i)
+        if (in_stage_[i] != nullptr) run_segment<Digest, Record, false>(*in_stage_[i], ticks_[i], instant_term);
+    } else {
+      for (std::ptrdiff_t level = 0; level < levels; ++level) run_level_shared<Digest, Record>(level, instant_term);
+      tell_bad_outcomes();
+    }
     stage = next;
   }
 }
@@ -226,13 +240,21 @@ void Executor::run_level_shared(std::ptrdiff_t level, std::uint64_t instant_term
   for (const StageTeam::Item& item : team_->items()) {
     const std::int64_t instant = item.tick->now.count();
     if (item.outcome != Outcome::good) {
-      on_bad_outcome(*item.activation, item.outcome, *item.tick);
+      bad_items_.push_back(item);
     } else if (item.activation->publishes_deep) {
       publish<Digest, Record>(item.activation->publish, instant, instant_term);
     } else if constexpr (Record) {
       record(*options_.recorder, item.activation->publish, instant);
     }
   }
+}
+
+// In the order in which one worker would have seen them, which is that of the plan.
+void Executor::tell_bad_outcomes() {
+  std::sort(bad_items_.begin(), bad_items_.end(),
+            [](const StageTeam::Item& a, const StageTeam::Item& b) { return a.activation < b.activation; });
+  for (const StageTeam::Item& item : bad_items_) on_bad_outcome(*item.activation, item.outcome, *item.tick);
+  bad_items_.clear();
 }
 
 template <bool Digest, bool Record, bool Real>

@@ -93,6 +93,7 @@ class Executor {
   void run_level_shared(std::ptrdiff_t level, std::uint64_t instant_term);
   template <bool Digest, bool Record>
   void publish_one_by_one(const Group& group, std::int64_t instant, std::uint64_t instant_term);
+  void tell_bad_outcomes();
   void start_groups(std::int64_t instant);
   void gather_communicators();
   void hand_over(const CommunicatorAction& out, Duration instant);
@@ -124,6 +125,7 @@ class Executor {
   std::size_t bad_outcomes_ = 0;                       // in the plan's outcomes: of LET tasks, until their LETs end
   std::vector<std::int64_t> releases_;                 // per group: how often it was due
   std::vector<const std::byte*> last_;                 // per communicator
+  std::vector<StageTeam::Item> bad_items_;             // of the stage under way, where workers share it
   std::unique_ptr<StageTeam> team_;                    // null: one worker
   SafeCommands safe_commands_;
   std::uint64_t refused_inputs_ = 0;  // values of `in` channels that were not finite

@@ -6,7 +6,7 @@
 #include <new>
 #include <tuple>
 
-#include "runtime/stages.h"
+#include "graph/stages.h"
 
 namespace jarol {
 namespace {
@@ -97,11 +97,10 @@ class PlanBuilder {
 
   // Tasks of one group lie in the order in which they run.
   std::vector<std::size_t> execution_order() const {
-    std::vector<std::size_t> order = graph_.order;
+    std::vector<std::size_t> order = turns_of(graph_);
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       const Task &s = graph_.tasks[a], &t = graph_.tasks[b];
-      return std::tuple(s.period, s.offset, stages_.stage[a], stages_.level[a]) <
-             std::tuple(t.period, t.offset, stages_.stage[b], stages_.level[b]);
+      return std::tie(s.period, s.offset) < std::tie(t.period, t.offset);
     });
     return order;
   }
@@ -301,11 +300,12 @@ class PlanBuilder {
   // Appends to the newest segment and level, or begins new ones.
   void add_to_segment(std::size_t task, const std::size_t* before, Range<Activation> activation) {
     const bool same_stage = before != nullptr && stages_.stage[*before] == stages_.stage[task];
-    if (!same_stage) plan_.segments_.push_back({stages_.stage[task], {activation.first, nullptr}, {}});
+    if (!same_stage) plan_.segments_.push_back({stages_.stage[task], false, {activation.first, nullptr}, {}});
     if (!same_stage || stages_.level[*before] != stages_.level[task])
       plan_.levels_.push_back({activation.first, nullptr});
     plan_.levels_.back().last = activation.last;
     Segment& segment = plan_.segments_.back();
+    segment.publishes_deep = segment.publishes_deep || activation.first->publishes_deep;
     segment.activations.last = activation.last;
     if (segment.levels.first == nullptr) segment.levels.first = &plan_.levels_.back();
     segment.levels.last = plan_.levels_.data() + plan_.levels_.size();

@@ -112,6 +112,7 @@ struct CommunicatorAction {
 /// each other; and segments of different groups in one stage do not either.
 struct Segment {
   std::uint32_t stage = 0;
+  bool publishes_deep = false;
   Range<Activation> activations;
   Range<Range<Activation>> levels;  // the same activations, for several workers
 };

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "graph/stages.h"
 #include "graph/values/heap.h"
 #include "runtime/copy.h"
 #include "runtime/futex.h"
@@ -65,7 +66,8 @@ void TaskThreads::make_jobs() {
         job.deadline = task.deadline.count();
         next += rounded(job.in_size);
       }
-  for (std::size_t rank = 0; rank < graph_.order.size(); ++rank) jobs_[graph_.order[rank]].rank = rank;
+  const std::vector<std::size_t> turns = turns_of(graph_);
+  for (std::size_t turn = 0; turn < turns.size(); ++turn) jobs_[turns[turn]].turn = turn;
 }
 
 void TaskThreads::connect_followers() {
@@ -142,7 +144,7 @@ Outcome TaskThreads::add(std::size_t task, const Tick& tick) {
 }
 
 void TaskThreads::release() {
-  std::sort(added_.begin(), added_.end(), [](const Job* a, const Job* b) { return a->rank < b->rank; });
+  std::sort(added_.begin(), added_.end(), [](const Job* a, const Job* b) { return a->turn < b->turn; });
   for (Job* job : added_) {
     const std::int64_t instant = job->instant.load(std::memory_order_relaxed);
     const auto awaited = std::count_if(job->producers.begin(), job->producers.end(), [&](const Job* p) {

@@ -71,7 +71,7 @@ class TaskThreads {
     std::byte* latched = nullptr;
     std::size_t in_size = 0;
     std::size_t task = 0;
-    std::size_t rank = 0;  // in data-flow order
+    std::size_t turn = 0;  // among those released at one instant
     std::size_t thread = 0;
     std::int64_t deadline = 0;
     std::vector<Follower> followers;

@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "graph/stages.h"
+
 namespace jarol::analysis {
 
 System system_of(const Graph& graph) {
@@ -22,6 +24,9 @@ System system_of(const Graph& graph) {
   }
   system.rank.resize(graph.tasks.size());
   for (std::size_t i = 0; i < graph.order.size(); ++i) system.rank[graph.order[i]] = i;
+  const std::vector<std::size_t> turns = turns_of(graph);
+  system.turn.resize(graph.tasks.size());
+  for (std::size_t i = 0; i < turns.size(); ++i) system.turn[turns[i]] = i;
   for (const Connection& c : graph.connections) {
     if (c.from.kind != End::Kind::task || c.to.kind != End::Kind::task) continue;
     const Task &producer = graph.tasks[c.from.index], &reader = graph.tasks[c.to.index];

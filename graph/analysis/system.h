@@ -17,6 +17,7 @@ struct System {
   std::vector<std::optional<std::int64_t>> priority;
   std::vector<std::optional<std::int64_t>> core;
   std::vector<std::size_t> rank;  // in data-flow order
+  std::vector<std::size_t> turn;  // as one thread runs those that are released at one instant
   // data-flow connections between tasks that are released at one instant at times: the second follows the first
   std::vector<std::pair<std::size_t, std::size_t>> follows;
 };

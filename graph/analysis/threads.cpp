@@ -6,7 +6,11 @@
 namespace jarol::analysis {
 namespace {
 
-bool released_together(const Load& a, const Load& b) { return a.period == b.period && a.offset == b.offset; }
+// Is the second always released with the first, and run after it by a thread that has both?
+bool follows(const System& system, std::size_t first, std::size_t second) {
+  const Load &a = system.loads[first], &b = system.loads[second];
+  return a.period == b.period && a.offset == b.offset && system.turn[first] < system.turn[second];
+}
 
 }  // namespace
 
@@ -21,8 +25,7 @@ std::vector<TaskThread> threads_of(const Graph& graph) {
     tasks = in_order(system, std::move(tasks));
     const std::size_t first = threads.size();
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-      const bool shares = i > 0 && (system.policy == Policy::table ||
-                                    released_together(system.loads[tasks[i - 1]], system.loads[tasks[i]]));
+      const bool shares = i > 0 && (system.policy == Policy::table || follows(system, tasks[i - 1], tasks[i]));
       if (!shares) threads.push_back({core, threads.size() - first, {}});
       threads.back().tasks.push_back(tasks[i]);
     }

@@ -11,12 +11,12 @@ namespace {
 
 struct Job {
   std::int64_t release = 0;
-  std::size_t rank = 0;  // in data-flow order
+  std::size_t turn = 0;  // among those released at one instant
   std::size_t task = 0;
   std::int64_t activation = 0;
 };
 
-bool later(const Job& a, const Job& b) { return std::tie(a.release, a.rank) > std::tie(b.release, b.rank); }
+bool later(const Job& a, const Job& b) { return std::tie(a.release, a.turn) > std::tie(b.release, b.turn); }
 
 // Does any core have more to do than there is time?
 bool overloaded(const System& system, const std::vector<std::size_t>& core) {
@@ -57,7 +57,7 @@ CoreResult check_table(const System& system, const std::vector<std::size_t>& cor
   std::vector<std::int64_t> released(n, -1), ended(n, 0), response(n, 0),
       free(static_cast<std::size_t>(system.cores), 0);
   std::priority_queue<Job, std::vector<Job>, decltype(&later)> jobs(&later);
-  for (std::size_t i = 0; i < n; ++i) jobs.push({system.loads[i].offset, system.rank[i], i, 0});
+  for (std::size_t i = 0; i < n; ++i) jobs.push({system.loads[i].offset, system.turn[i], i, 0});
   for (std::uint64_t count = 0; !jobs.empty() && jobs.top().release < end; ++count) {
     if (count == most) {
       if (!too_much)

@@ -1,5 +1,5 @@
 // The static, non-preemptive time table of each core, as `run` walks it: tasks in the order of their releases, those of
-// one instant in data-flow order.
+// one instant stage by stage, so that who is fed comes after who feeds.
 #pragma once
 
 #include "graph/analysis/one_core.h"

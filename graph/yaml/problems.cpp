@@ -93,7 +93,8 @@ SpecError::SpecError(std::vector<Problem> problems)
 void Problems::add(Location where, std::string text, std::vector<Note> notes) {
   if (problems_.size() == most_problems) {
     std::vector<Problem> all = in_order(problems_);
-    all.push_back({{}, "there are more problems than these " + std::to_string(most_problems) + "; mend them first", {}});
+    all.push_back(
+        {{}, "there are more problems than these " + std::to_string(most_problems) + "; mend them first", {}});
     throw SpecError(std::move(all));
   }
   problems_.push_back({std::move(where), std::move(text), std::move(notes)});

@@ -85,6 +85,61 @@ struct Unsteady {
   }
 };
 
+// A sequence of another length each time.
+struct Lengths {
+  static constexpr std::string_view summary = "for tests";
+  struct Param {
+    std::uint32_t salt = 1;
+    static constexpr auto fields() { return describe(field<&Param::salt>()); }
+  };
+  struct In {
+    double in = 0;
+    static constexpr auto fields() { return describe(field<&In::in>()); }
+  };
+  struct Out {
+    Sequence<double> out{};
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Param& p, const Tick& tick, const In&, Out& out) {
+    const auto mixed = (static_cast<std::uint64_t>(tick.activation) + p.salt) * 0x9e3779b97f4a7c15ULL;
+    out.out.resize((mixed >> 32) % 40 + 1);
+  }
+};
+
+struct Both {
+  static constexpr std::string_view summary = "for tests";
+  struct In {
+    Sequence<double> a{}, b{};
+    static constexpr auto fields() { return describe(field<&In::a>(), field<&In::b>()); }
+  };
+  struct Out {
+    double out = 0;
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Tick&, const In& in, Out& out) { out.out = static_cast<double>(in.a.size() + in.b.size()); }
+};
+
+struct Fails {
+  static constexpr std::string_view summary = "for tests";
+  struct In {
+    double in = 0;
+    static constexpr auto fields() { return describe(field<&In::in>()); }
+  };
+  static void run(const Tick&, const In&) { throw std::runtime_error("always"); }
+};
+
+Graph graph_with(const std::string& text) {
+  Registry registry = tests::generic_tasks();
+  registry.add(task_class<Lengths>());
+  registry.add(task_class<Both>());
+  registry.add(task_class<Fails>());
+  Problems problems;
+  Graph graph =
+      build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
+  problems.throw_if_any();
+  return graph;
+}
+
 Graph mixed_graph() {
   static const Registry registry = [] {
     Registry made = tests::generic_tasks();
@@ -116,6 +171,45 @@ TEST_SUITE("runtime/stage_team") {
   TEST_CASE("on a loaded machine too") {
     const Load load(4);
     check_random_graphs(graph_count() / 10);
+  }
+
+  TEST_CASE("deep values of two periods reach one heap in the same order for any number of workers") {
+    std::uint64_t faults = 0;
+    for (int heap = 400; heap <= 800; heap += 48) {
+      CAPTURE(heap);
+      const Graph graph = graph_with(R"(graph: t
+tasks:
+  w: {type: Counter, period: 10ms}
+  x: {type: Lengths, period: 10ms, heap: 64KiB, parameters: {salt: 1}}
+  s: {type: Counter, period: 20ms, let: 20ms}
+  y: {type: Lengths, period: 20ms, heap: 64KiB, parameters: {salt: 2}}
+  r: {type: Both, period: 20ms, on_fault: hold, heap: )" +
+                                     std::to_string(heap) + R"(B}
+connections: [w.out -> x.in, s.out -> y.in, x.out -> r.a, y.out -> r.b]
+)");
+      const Result one = run_with(graph, 1, Sharing::if_it_pays, 4s);
+      CHECK(run_with(graph, 2, Sharing::always, 4s) == one);
+      faults += one.faults;
+    }
+    CHECK(faults > 0);
+  }
+
+  TEST_CASE("faults of one instant stand in the same order for any number of workers") {
+    const Graph graph = graph_with(R"(graph: t
+tasks:
+  w: {type: Counter, period: 10ms}
+  x: {type: Fails, period: 10ms, on_fault: hold}
+  l: {type: Counter, period: 20ms, let: 20ms}
+  y: {type: Fails, period: 20ms, on_fault: hold}
+connections: [w.out -> x.in, l.out -> y.in]
+)");
+    for (const std::size_t workers : {1, 2, 8}) {
+      Executor executor(graph, {}, {.workers = workers, .sharing = Sharing::always});
+      executor.run_until(10ms);
+      REQUIRE(executor.report().faults.size() == 2);
+      CHECK(to_text(executor.report().faults[0]) == "task 'x' activation 0 at 0 s: threw: always");
+      CHECK(to_text(executor.report().faults[1]) == "task 'y' activation 0 at 0 s: threw: always");
+    }
   }
 
   TEST_CASE("faults, deep values and records are the same for any number of workers") {

@@ -60,6 +60,7 @@ System system_of(const Set& set, Policy policy, bool offsets_hold) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     system.loads.push_back({set.wcet[i], set.period[i], set.deadline[i], offsets_hold ? set.offset[i] : 0, 0, 0, 0});
     system.rank.push_back(i);
+    system.turn.push_back(i);
   }
   system.priority.resize(set.size());
   system.core.resize(set.size());

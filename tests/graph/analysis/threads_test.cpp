@@ -45,6 +45,15 @@ tasks:
 )") == "0.0: e; 0.1: b c; 0.2: d; 0.3: a");
   }
 
+  TEST_CASE("what is more urgent than what runs before it has a thread of its own") {
+    CHECK(threads_text(R"(graph: t
+platform: {policy: fixed_priority}
+tasks:
+  a: {type: Counter, period: 40ms, let: 40ms}
+  b: {type: Counter, period: 40ms, let: 6ms}
+)") == "0.0: b; 0.1: a");
+  }
+
   TEST_CASE("each core has an order of urgency of its own, on the cores that check assigns") {
     CHECK(threads_text(R"(graph: t
 platform: {cores: 2, policy: fixed_priority}

@@ -49,6 +49,18 @@ connections: [a.out -> b.in]
 
   using tests::graph_of;
 
+  TEST_CASE("tasks released together take their turns as they are run: by period, not by name") {
+    const Result r = check(graph_of(R"(graph: t
+tasks:
+  a: {type: Counter, period: 400ms, let: 45ms, wcet: 30ms}
+  b: {type: Counter, period: 200ms, let: 200ms, wcet: 80ms}
+)"));
+    CHECK(r.verdict == Verdict::not_schedulable);
+    REQUIRE(r.late);
+    CHECK(r.late->task == 0);
+    CHECK(r.late->finish == 110'000'000);
+  }
+
   TEST_CASE("tasks that fit are schedulable, and their responses are told") {
     const Result r = check(graph_of(R"(graph: t
 tasks:
@@ -65,16 +77,16 @@ tasks:
   TEST_CASE("the first late job is named with its times") {
     const Result r = check(graph_of(R"(graph: t
 tasks:
-  long:  {type: Counter, period: 40ms, wcet: 12ms}
+  long:  {type: Counter, period: 40ms, wcet: 19ms}
   short: {type: Counter, period: 10ms, wcet: 2ms}
 )"));
     CHECK(r.verdict == Verdict::not_schedulable);
     REQUIRE(r.late.has_value());
     CHECK(r.late->task == 1);
-    CHECK(r.late->activation == 0);
-    CHECK(r.late->release == 0);
-    CHECK(r.late->finish == 14'000'000);
-    CHECK(r.late->deadline == 10'000'000);
+    CHECK(r.late->activation == 1);
+    CHECK(r.late->release == 10'000'000);
+    CHECK(r.late->finish == 23'000'000);
+    CHECK(r.late->deadline == 20'000'000);
   }
 
   TEST_CASE("more than the whole core is never schedulable, by however little") {

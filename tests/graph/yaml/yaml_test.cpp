@@ -106,6 +106,15 @@ TEST_SUITE("graph/yaml") {
     CHECK(report_on(text).starts_with("t.yaml:5:45: error: aliases stand for more than 100000 values\n"));
   }
 
+  TEST_CASE("anchors that multiply do too") {
+    std::string text = "a: ";
+    for (int i = 0; i < 60; ++i) text += "&a" + std::to_string(i) + " [";
+    text += "0";
+    for (int i = 0; i < 1700; ++i) text += ",0";
+    CHECK(report_on(text + std::string(60, ']'))
+              .starts_with("t.yaml:1:14: error: anchors name more than 100000 values\n"));
+  }
+
   TEST_CASE("a text of too many values is an error") {
     std::string text = "a: [1";
     for (int i = 0; i < 1'000'000; ++i) text += ",1";

@@ -18,4 +18,8 @@ struct Stages {
 
 Stages stages_of(const Graph& graph);
 
+/// The tasks in the order in which those that are released at one instant run one after the other: by stage, then by
+/// group (period, offset), then by level, then as in the order of the graph.
+std::vector<std::size_t> turns_of(const Graph& graph);
+
 }  // namespace jarol

@@ -1,7 +1,8 @@
-#include "runtime/stages.h"
+#include "graph/stages.h"
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace jarol {
 namespace {
@@ -34,6 +35,16 @@ Stages stages_of(const Graph& graph) {
       if (in_same_group(graph.tasks[i], graph.tasks[reader]) && stages.stage[reader] == stages.stage[i])
         stages.level[reader] = std::max(stages.level[reader], stages.level[i] + 1);
   return stages;
+}
+
+std::vector<std::size_t> turns_of(const Graph& graph) {
+  const Stages stages = stages_of(graph);
+  const auto key = [&](std::size_t i) {
+    return std::tuple(stages.stage[i], graph.tasks[i].period, graph.tasks[i].offset, stages.level[i]);
+  };
+  std::vector<std::size_t> order = graph.order;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return order;
 }
 
 }  // namespace jarol
