@@ -20,7 +20,8 @@ std::vector<std::string> Executor::refusals() const {
 }
 
 // Data-flow tasks that have ended publish, at the instant of their release: nobody has read since. Those that have not
-// ended although somebody may read now are late.
+// ended although somebody may read now are late. A fault with 'stop' ends the run where it is known, before this
+// instant.
 void Executor::settle(std::int64_t instant) {
   std::size_t left = 0;
   for (const Activation* activation : under_way_) {
