@@ -82,7 +82,7 @@ class Link::Translator : public ByteSink {
 
   // read by other threads
   struct Counts {
-    std::atomic<std::uint64_t> packets{0}, bytes{0}, refused{0}, others{0};
+    std::atomic<std::uint64_t> packets{0}, bytes{0}, dropped_bytes{0}, refused{0}, others{0};
     std::array<std::atomic<std::uint64_t>, messages::flaw_count> dropped{};
   };
   const Counts& counts() const { return counts_; }
@@ -128,10 +128,12 @@ class Link::Translator : public ByteSink {
       told_ = before_;
       told_.packets += now.packets;
       told_.bytes += now.bytes;
+      told_.dropped_bytes += now.dropped_bytes;
       for (std::size_t i = 0; i < now.dropped.size(); ++i) told_.dropped[i] += now.dropped[i];
     }
     counts_.packets.store(told_.packets, std::memory_order_relaxed);
     counts_.bytes.store(told_.bytes, std::memory_order_relaxed);
+    counts_.dropped_bytes.store(told_.dropped_bytes, std::memory_order_relaxed);
     for (std::size_t i = 0; i < told_.dropped.size(); ++i)
       counts_.dropped[i].store(told_.dropped[i], std::memory_order_relaxed);
   }
@@ -259,6 +261,7 @@ LinkReport Link::report() const {
   const auto add = [&](std::string name, std::uint64_t count) { report.counts.emplace_back(std::move(name), count); };
   add("packets in", in.packets);
   add("bytes in", in.bytes);
+  add("bytes dropped", in.dropped_bytes);
   add("packets out", packets_out_);
   add("bytes out", bytes_out_);
   add("peers", t.connected);
