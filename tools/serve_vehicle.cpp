@@ -1,6 +1,7 @@
 #include "tools/serve_vehicle.h"
 
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "distributers/links/lockstep.h"
 #include "distributers/links/tcp.h"
@@ -9,14 +10,19 @@
 #include "tools/commands/commands.h"
 #include "tools/interrupt.h"
 #include "tools/real_time.h"
+#include "tools/vehicle_diary.h"
 
 namespace jarol::tools {
 namespace {
 
 struct ToVehicle : messages::Receiver {
   explicit ToVehicle(vehicles::Vehicle& to) : vehicle(to) {}
-  void receive(messages::MessageRef message) override { vehicle.accept(message); }
+  void receive(messages::MessageRef message) override {
+    heard = true;
+    vehicle.accept(message);
+  }
   vehicles::Vehicle& vehicle;
+  bool heard = false;  // since it was made false
 };
 
 struct ToPeer : messages::Receiver {
@@ -52,11 +58,12 @@ std::unique_ptr<messages::Receiver> make_telemetry(const vehicles::Vehicle& vehi
 }  // namespace
 
 int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
-                  std::chrono::nanoseconds end, Told told) {
+                  std::chrono::nanoseconds end, const Telling& telling) {
   ToVehicle to_vehicle(vehicle);
   ToPeer to_link(link);
-  const auto telemetry = make_telemetry(vehicle, vehicle_class, to_link, told);
+  const auto telemetry = make_telemetry(vehicle, vehicle_class, to_link, telling.told);
   messages::Receiver& to_peer = *telemetry;
+  VehicleDiary diary(vehicle, vehicle_class);
   RealClock clock(0);
   for (const std::string& refusal : clock.prepare_thread()) std::cerr << "note: " << refusal << "\n";
   const Interruptible interruptible;
@@ -74,7 +81,9 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
       clock.wait_until(instant + grid, interrupted);
       // commands hold from the instant after they have come
       vehicle.step();
+      to_vehicle.heard = false;
       link.receive(to_vehicle);
+      diary.note(Duration(instant + grid), to_vehicle.heard);
       vehicle.sense(to_peer);
       link.flush();
     }
@@ -83,8 +92,15 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
     exit_code = exit_unfinished;
   }
   link.disconnect();
-  std::cout << vehicle_class.name << ": " << seconds_text(Duration(instant)) << " s in real time\n"
-            << to_text(link.report());
+  if (telling.json) {
+    nlohmann::ordered_json json{{"schema", "jarol.vehicle/1"}};
+    json.update(diary.to_json());
+    json["link"] = to_json(link.report());
+    std::cout << json << "\n";
+  } else {
+    std::cout << vehicle_class.name << ": " << seconds_text(Duration(instant)) << " s in real time\n"
+              << diary.to_text() << to_text(link.report());
+  }
   return exit_code == exit_good && interrupted ? exit_interrupted : exit_code;
 }
 

@@ -13,9 +13,14 @@ namespace jarol::tools {
 /// What a peer is told: all, or the true state only, where its class has such a message.
 enum class Told { all, true_state };
 
-/// Runs until `end` or Ctrl-C and tells what was carried; the exit code.
+struct Telling {
+  Told told = Told::all;
+  bool json = false;  // at the end, instead of text
+};
+
+/// Runs until `end` or Ctrl-C and tells what it did and what was carried; the exit code.
 int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
-                  std::chrono::nanoseconds end, Told told = Told::all);
+                  std::chrono::nanoseconds end, const Telling& telling = {});
 
 /// On the logical clocks of those who connect, one after the other, each with a vehicle of its own from the start;
 /// until Ctrl-C. Throws std::runtime_error if it can't listen there.

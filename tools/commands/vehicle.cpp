@@ -289,7 +289,7 @@ int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, c
   const auto vehicle = make_vehicle(options, vehicle_class, parameters, own_seed(options, vehicle_class), problems);
   const Duration end = options.duration.empty() ? Duration::max() : end_of(options, {});
   const Told told = options.bare ? Told::true_state : Told::all;
-  return serve_vehicle(*vehicle, vehicle_class, *link, end, told);
+  return serve_vehicle(*vehicle, vehicle_class, *link, end, {told, options.json});
 }
 
 int vehicle(const Options& options) {
@@ -331,7 +331,7 @@ void add_vehicle(CLI::App& app, int& exit_code) {
                                          "process steer it in real time over a link");
   command->add_option("NAME", options->name, "A vehicle, as in submarine")->required();
   command->add_flag("--describe", options->describe, "Print state, inputs, outputs and parameters, with units");
-  command->add_flag("--json", options->json, "With --describe: one JSON object instead of text");
+  command->add_flag("--json", options->json, "With --describe or --link: one JSON object instead of text");
   command->add_option("--parameters", options->parameters, "A parameter file, as in specs/vehicles/submarine.yaml");
   command->add_option("--set", options->set, "Change a parameter: path=value, as in sea.density=1025")
       ->allow_extra_args(false);
