@@ -47,8 +47,9 @@ std::vector<double> VehicleDiary::actuators() const {
 
 std::string VehicleDiary::place_text(const VehicleState& s, const std::vector<double>& actuators) const {
   constexpr double degrees = 180 / std::numbers::pi;
-  std::string text = fmt::format("x {:.2f}, y {:.2f}, z {:.2f} m, phi {:.1f}, theta {:.1f}, psi {:.1f} deg, u {:.2f} m/s",
-                                 s.x, s.y, s.z, degrees * s.phi, degrees * s.theta, degrees * s.psi, s.u);
+  std::string text =
+      fmt::format("x {:.2f}, y {:.2f}, z {:.2f} m, phi {:.1f}, theta {:.1f}, psi {:.1f} deg, u {:.2f} m/s", s.x, s.y,
+                  s.z, degrees * s.phi, degrees * s.theta, degrees * s.psi, s.u);
   for (std::size_t i = 0; i < actuators.size(); ++i)
     text += fmt::format("{}{} {:.4g}", i == 0 ? "; " : ", ", actuators_type().fields[i].name, actuators[i]);
   return text;

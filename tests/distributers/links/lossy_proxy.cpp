@@ -157,10 +157,10 @@ bool SerialProxy::carry(std::size_t from) {
   if (length <= 0) return false;
   const std::lock_guard lock(mutex_);
   ProxyCounts& counts = counts_[from];
-  std::vector<std::byte> piece(room.begin(), room.begin() + length), out;
+  std::vector<std::byte> piece(room.begin(), room.begin() + length);
   const auto size = static_cast<std::uint64_t>(length);
   const auto chance = [&] { return static_cast<double>(random_[from]() >> 11) * 0x1p-53; };
-  const double loss = chance(), duplication = chance(), reordering = chance();
+  const double loss = chance(), duplication = chance();
   counts.in += size;
   if (closed_ || loss < disturbance_.loss) {
     counts.lost += size;
@@ -169,15 +169,7 @@ bool SerialProxy::carry(std::size_t from) {
     counts.duplicated += size;
     piece.insert(piece.end(), room.begin(), room.begin() + length);
   }
-  if (kept_[from].empty() && !piece.empty() && reordering < disturbance_.reordering) {
-    counts.reordered += piece.size();
-    kept_[from] = std::move(piece);
-    return true;
-  }
-  out = std::move(piece);
-  out.insert(out.end(), kept_[from].begin(), kept_[from].end());
-  kept_[from].clear();
-  for (std::span<const std::byte> rest = out; !rest.empty();) {
+  for (std::span<const std::byte> rest = piece; !rest.empty();) {
     const auto written = ::write(ends_[1 - from].get(), rest.data(), rest.size());
     if (written > 0) {
       rest = rest.subspan(static_cast<std::size_t>(written));

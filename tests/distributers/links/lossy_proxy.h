@@ -86,7 +86,8 @@ class UdpProxy {
   std::thread thread_;
 };
 
-/// Bytes between two pseudo terminals, whose names the ends of a serial link open.
+/// Bytes between two pseudo terminals, whose names the ends of a serial link open. They are lost and doubled; a line
+/// does not change their order.
 class SerialProxy {
  public:
   SerialProxy(const Disturbance& disturbance, std::uint64_t seed);
@@ -108,7 +109,6 @@ class SerialProxy {
   mutable std::mutex mutex_;
   Disturbance disturbance_;
   std::array<std::mt19937_64, 2> random_;
-  std::array<std::vector<std::byte>, 2> kept_;  // lets the next piece go first
   std::array<ProxyCounts, 2> counts_;
   bool closed_ = false;
   std::thread thread_;

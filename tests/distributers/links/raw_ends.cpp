@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
@@ -115,11 +116,24 @@ std::uint64_t count_of(const Link& link, const std::string& name) {
   return 0;
 }
 
-std::uint64_t flawed(const Link& link) {
-  std::uint64_t sum = 0;
+namespace {
+
+// What was dropped for a flaw, and what was taken.
+std::uint64_t sum_of(const Link& link, bool with_taken) {
+  std::vector<std::string> names;
   for (std::size_t i = 1; i < messages::flaw_count; ++i)
-    sum += count_of(link, "dropped: " + std::string(name_of(static_cast<messages::Flaw>(i))));
+    names.push_back("dropped: " + std::string(name_of(static_cast<messages::Flaw>(i))));
+  if (with_taken) names.emplace_back("packets in");
+  std::uint64_t sum = 0;
+  for (const auto& [name, count] : link.report().counts)
+    if (std::find(names.begin(), names.end(), name) != names.end()) sum += count;
   return sum;
 }
+
+}  // namespace
+
+std::uint64_t flawed(const Link& link) { return sum_of(link, false); }
+
+std::uint64_t looked_at(const Link& link) { return sum_of(link, true); }
 
 }  // namespace jarol::tests

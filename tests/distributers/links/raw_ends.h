@@ -32,4 +32,7 @@ std::uint64_t count_of(const distributers::Link& link, const std::string& name);
 /// All packets that a link dropped for a flaw.
 std::uint64_t flawed(const distributers::Link& link);
 
+/// These, and those that it took.
+std::uint64_t looked_at(const distributers::Link& link);
+
 }  // namespace jarol::tests

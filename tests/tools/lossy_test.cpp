@@ -1,0 +1,253 @@
+// Vehicles flown over links that lose, double, delay and reorder packets: what is lost is counted, all counts add up,
+// and the goals are reached all the same.
+#include <doctest/doctest.h>
+#include <sys/socket.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <future>
+#include <sstream>
+#include <thread>
+
+#include "tests/distributers/links/lossy_proxy.h"
+#include "tests/tools/process.h"
+#include "tests/tools/run_command.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+using distributers::Address;
+using nlohmann::json;
+using tests::Process;
+using tests::ProxyCounts;
+
+bool full() { return std::getenv("JAROL_FULL") != nullptr; }
+
+constexpr tests::Disturbance bad_network{
+    .loss = 0.1, .duplication = 0.05, .reordering = 0.05, .delay = 8ms, .held = 30ms};
+constexpr tests::Disturbance bad_line{.loss = 0.01, .duplication = 0.005};
+
+struct Outcome {
+  int exit_code = -1;
+  std::string errors;
+  json run, vehicle;
+  ProxyCounts to_vehicle, from_vehicle;
+};
+
+const std::string dive = "time,setpoint.depth,setpoint.heading,setpoint.speed\n0,3,0deg,1.2\n90,3,0deg,1.2\n";
+// up to half a metre and down again
+const std::string hop =
+    "time,command.altitude,command.mode_switches,command.state_switches\n"
+    "0,0,1,0\n0.5,0,1,1\n1,0,1,2\n3,0.5,1,2\n8,0.5,1,3\n90,0.5,1,3\n";
+
+// By itself the graph takes three periods without the IMU for its loss.
+const std::string patience = " --set tasks.filter.parameters.imu_patience=0.2";
+
+// The vehicle for so many seconds, and the graph from a little later until after its end. Nothing is let through in the
+// vehicle's last second, so that all that was let through has arrived.
+template <class Proxy>
+Outcome fly(Proxy& proxy, const std::string& vehicle_arguments, const std::string& run_arguments, int seconds) {
+  Outcome o;
+  Process vehicle("vehicle " + vehicle_arguments + " --json --for " + std::to_string(seconds) + "s");
+  if (!vehicle.says("until Ctrl-C")) return o;
+  Process run("run " + run_arguments + " --clock real --json --for " + std::to_string(seconds + 2) + "s");
+  std::this_thread::sleep_for(std::chrono::seconds(seconds) - 1s);
+  proxy.close(true);
+  vehicle.end();
+  o.exit_code = run.end();
+  o.errors = vehicle.errors() + run.errors();
+  if (o.exit_code == 0) o.run = run.json();
+  o.vehicle = vehicle.json();
+  return o;
+}
+
+class Flights {
+ public:
+  Flights() : dive_(folder_.write("dive.csv", dive)), hop_(folder_.write("hop.csv", hop)) {
+    submarine = std::async(std::launch::async, [this] { return submarine_over_udp(); }).share();
+    hasty = std::async(std::launch::async, [this] { return helicopter_over_udp("hasty.csv", ""); }).share();
+    helicopter = std::async(std::launch::async, [this] { return helicopter_over_udp("udp.csv", patience); }).share();
+    on_a_line = std::async(std::launch::async, [this] { return helicopter_on_a_line(); }).share();
+  }
+  std::string trace(const std::string& name) const { return folder_ / name; }
+
+ private:
+  command::TemporaryFolder folder_;
+  std::string dive_, hop_;
+
+ public:
+  std::shared_future<Outcome> submarine, helicopter, hasty, on_a_line;
+
+ private:
+  Outcome submarine_over_udp() const {
+    const std::string port = tests::free_port(SOCK_DGRAM);
+    tests::UdpProxy proxy(Address::parse(port), bad_network, 1);
+    Outcome o = fly(proxy, "submarine --bare --id 209 --link udp --listen " + port,
+                    "specs/exolauv_bare.yaml --profile dune --set distributers.dune.link.listen=0 "
+                    "--set distributers.dune.link.peer=" +
+                        std::to_string(proxy.port()) + " --set distributers.neptus.link.file=" + dive_ +
+                        tests::patient({"depth", "heading", "speed", "fins"}),
+                    full() ? 40 : 11);
+    o.to_vehicle = proxy.to_target();
+    o.from_vehicle = proxy.from_target();
+    return o;
+  }
+
+  std::string helicopter_graph(const std::string& link, const std::string& traced) const {
+    return "specs/javiator.yaml --set 'distributers.robostix.link=" + link + "' --trace " + (folder_ / traced) +
+           " --set distributers.terminal.link.file=" + (full() ? "missions/hover.csv" : hop_);
+  }
+
+  Outcome helicopter_over_udp(const std::string& traced, const std::string& more) const {
+    const std::string port = tests::free_port(SOCK_DGRAM);
+    tests::UdpProxy proxy(Address::parse(port), bad_network, 2);
+    Outcome o = fly(proxy, "helicopter --parameters specs/vehicles/helicopter.yaml --link udp --listen " + port,
+                    helicopter_graph("{type: udp, peer: " + std::to_string(proxy.port()) + "}", traced) + more,
+                    full() ? 38 : 14);
+    o.to_vehicle = proxy.to_target();
+    o.from_vehicle = proxy.from_target();
+    return o;
+  }
+
+  Outcome helicopter_on_a_line() const {
+    tests::SerialProxy proxy(bad_line, 3);
+    Outcome o = fly(proxy, "helicopter --parameters specs/vehicles/helicopter.yaml --link serial --device " + proxy.name(0),
+                    helicopter_graph("{type: serial, device: " + proxy.name(1) + "}", "serial.csv") + patience, full() ? 38 : 14);
+    o.to_vehicle = proxy.from(1);
+    o.from_vehicle = proxy.from(0);
+    return o;
+  }
+};
+
+const Flights& flights() {
+  static const Flights all;
+  return all;
+}
+
+const json& link_of(const json& told) { return told.contains("links") ? told["links"][0] : told["link"]; }
+std::uint64_t count_of(const json& told, const std::string& name) { return link_of(told)["counts"][name]; }
+
+std::uint64_t flawed(const json& told) {
+  std::uint64_t sum = 0;
+  for (const char* why : {"garbage", "truncated", "oversized", "bad checksum", "unknown id", "bad payload"})
+    sum += count_of(told, std::string("dropped: ") + why);
+  return sum;
+}
+
+void tell(const std::string& what, const ProxyCounts& c) {
+  MESSAGE(what << ": " << c.in << " in, " << c.lost << " lost, " << c.duplicated << " doubled, " << c.reordered
+               << " reordered, " << c.out << " out");
+}
+
+// Sent = received + lost - doubled, on either way.
+void check_datagrams(const Outcome& o) {
+  tell("to the vehicle", o.to_vehicle);
+  tell("from the vehicle", o.from_vehicle);
+  CHECK(count_of(o.run, "packets out") == o.to_vehicle.in);
+  CHECK(count_of(o.vehicle, "packets out") == o.from_vehicle.in);
+  for (const ProxyCounts* c : {&o.to_vehicle, &o.from_vehicle}) {
+    CHECK(c->in + c->duplicated == c->lost + c->out);
+    CHECK(c->lost > c->in / 20);
+    CHECK(c->duplicated > 0);
+    CHECK(c->reordered > 0);
+  }
+  CHECK(count_of(o.vehicle, "packets in") == o.to_vehicle.out);
+  CHECK(count_of(o.run, "packets in") == o.from_vehicle.out);
+  CHECK(flawed(o.vehicle) + flawed(o.run) == 0);
+}
+
+// The greatest number in a column of a trace.
+double highest_of(const std::string& trace, const std::string& column) {
+  std::ifstream file(trace);
+  std::string line, cell;
+  std::getline(file, line);
+  std::istringstream titles(line);
+  std::size_t index = 0;
+  while (std::getline(titles, cell, ',') && cell != column) ++index;
+  REQUIRE(cell == column);
+  double highest = 0;
+  while (std::getline(file, line)) {
+    std::istringstream cells(line);
+    for (std::size_t i = 0; i <= index; ++i) std::getline(cells, cell, ',');
+    if (!cell.empty()) highest = std::max(highest, std::stod(cell));
+  }
+  return highest;
+}
+
+// It has been up there, and is down again where it should be, upright, for nothing but the operator's key.
+void check_hop(const Outcome& o, const std::string& trace) {
+  const json &state = o.vehicle["state"], &told = o.run["outputs"]["to_terminal"];
+  MESSAGE("ended at " << state.dump() << ", told " << told["state"].dump() << " " << told["cause"].dump());
+  const double highest = highest_of(trace, "to_terminal.altitude");
+  MESSAGE("highest " << highest << " m");
+  CHECK(highest > (full() ? 0.9 : 0.3));
+  CHECK(highest < 1.5);
+  CHECK(std::abs(state["phi"].get<double>()) < 0.05);
+  CHECK(std::abs(state["theta"].get<double>()) < 0.05);
+  CHECK(std::abs(state["x"].get<double>()) < 0.3);
+  CHECK(std::abs(state["y"].get<double>() - (full() ? 3 : 0)) < 0.3);
+  CHECK(o.vehicle["actuators"]["front"] < 3000);
+}
+}  // namespace
+
+TEST_SUITE("tools/lossy") {
+  TEST_CASE("a submarine over UDP that loses a tenth of all packets comes to its depth") {
+    const Outcome o = flights().submarine.get();
+    INFO(o.errors);
+    REQUIRE(o.exit_code == 0);
+    check_datagrams(o);
+    const json& state = o.vehicle["state"];
+    MESSAGE("ended at " << state.dump());
+    const double depth = state["z"];
+    if (full()) {
+      CHECK(depth == doctest::Approx(3).epsilon(0.05));
+      CHECK(state["u"].get<double>() == doctest::Approx(1.2).epsilon(0.05));
+    } else {
+      CHECK(depth > 1);
+    }
+  }
+
+  TEST_CASE("a helicopter over UDP that loses a tenth of all packets flies its mission and lands") {
+    const Outcome o = flights().helicopter.get();
+    INFO(o.errors);
+    REQUIRE(o.exit_code == 0);
+    check_datagrams(o);
+    check_hop(o, flights().trace("udp.csv"));
+  }
+
+  TEST_CASE("a helicopter over the same UDP that takes a short silence of its IMU for a loss is on the ground, upright") {
+    const Outcome o = flights().hasty.get();
+    INFO(o.errors);
+    REQUIRE(o.exit_code == 0);
+    check_datagrams(o);
+    const json &state = o.vehicle["state"], &told = o.run["outputs"]["to_terminal"];
+    MESSAGE("ended at " << state.dump() << ", told " << told["state"].dump() << " " << told["cause"].dump());
+    MESSAGE("highest " << highest_of(flights().trace("hasty.csv"), "to_terminal.altitude") << " m");
+    CHECK(told["cause"] == "imu_lost");
+    CHECK(std::abs(state["phi"].get<double>()) < 0.1);
+    CHECK(std::abs(state["theta"].get<double>()) < 0.1);
+    CHECK(state["z"] > -0.3);
+  }
+
+  TEST_CASE("a helicopter on a serial line that loses and doubles bytes flies its mission and lands") {
+    const Outcome o = flights().on_a_line.get();
+    INFO(o.errors);
+    REQUIRE(o.exit_code == 0);
+    tell("bytes to the vehicle", o.to_vehicle);
+    tell("bytes from the vehicle", o.from_vehicle);
+    CHECK(count_of(o.run, "bytes out") == o.to_vehicle.in);
+    CHECK(count_of(o.vehicle, "bytes out") == o.from_vehicle.in);
+    // the begin of a packet may be left
+    constexpr std::uint64_t left = 160;
+    for (const auto& [at, c] : {std::pair(&o.vehicle, &o.to_vehicle), std::pair(&o.run, &o.from_vehicle)}) {
+      const std::uint64_t out = c->in + c->duplicated - c->lost, in = count_of(*at, "bytes in") + count_of(*at, "bytes dropped");
+      CHECK(c->lost > 0);
+      CHECK(in <= out);
+      CHECK(out - in <= left);
+      CHECK(flawed(*at) > 0);
+    }
+    check_hop(o, flights().trace("serial.csv"));
+  }
+}

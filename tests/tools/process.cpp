@@ -1,0 +1,91 @@
+#include "tests/tools/process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <stdexcept>
+
+#include "distributers/links/address.h"
+
+namespace jarol::tests {
+
+using distributers::Address;
+using distributers::Descriptor;
+
+Process::Process(const std::string& arguments) {
+  // the shell splits the arguments and gives its place to the command
+  std::string line = std::string("exec ") + JAROL_COMMAND + " " + arguments;
+  std::array<char*, 4> words{const_cast<char*>("sh"), const_cast<char*>("-c"), line.data(), nullptr};
+  int out[2], err[2];
+  if (pipe2(out, O_CLOEXEC) != 0 || pipe2(err, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
+  const int failed = posix_spawn(&id_, "/bin/sh", &actions, nullptr, words.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(out[1]);
+  close(err[1]);
+  out_ = std::thread([this, fd = out[0]] { read(fd, output_); });
+  err_ = std::thread([this, fd = err[0]] { read(fd, errors_); });
+  if (failed != 0) id_ = -1;
+}
+
+Process::~Process() {
+  if (id_ > 0) kill();
+  end();
+}
+
+void Process::read(int fd, std::string& to) {
+  const Descriptor pipe(fd);
+  std::array<char, 4096> room{};
+  for (ssize_t length = 0; (length = ::read(fd, room.data(), room.size())) > 0;) {
+    const std::lock_guard lock(mutex_);
+    to.append(room.data(), static_cast<std::size_t>(length));
+  }
+}
+
+void Process::kill() { ::kill(id_, SIGKILL); }
+
+bool Process::says(const std::string& text, std::chrono::seconds patience) {
+  for (const auto end = std::chrono::steady_clock::now() + patience; std::chrono::steady_clock::now() < end;) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (errors_.find(text) != std::string::npos) return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+int Process::end() {
+  if (id_ > 0) {
+    int status = 0;
+    waitpid(id_, &status, 0);
+    id_ = -1;
+    exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  if (out_.joinable()) out_.join();
+  if (err_.joinable()) err_.join();
+  return exit_code_;
+}
+
+std::string free_port(int type) {
+  const Descriptor probe(socket(AF_INET, type, 0));
+  const Address any = Address::parse("0");
+  if (bind(probe.get(), any.get(), any.size()) != 0) throw std::runtime_error("no free port");
+  return std::to_string(port_of(probe));
+}
+
+std::string patient(std::initializer_list<const char*> tasks) {
+  std::string set;
+  for (const char* task : tasks) set += std::string(" --set tasks.") + task + ".on_fault=hold";
+  return set;
+}
+
+}  // namespace jarol::tests
