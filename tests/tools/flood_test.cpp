@@ -68,8 +68,8 @@ std::uint64_t count_of(const LinkReport& report, const std::string& name) {
 // The helicopter's graph on the real clock; its vehicle is whatever comes over the link.
 template <class MakeFlood>
 void flood(std::unique_ptr<Transport> transport, const MakeFlood& make_flood, bool loses_nothing) {
-  tools::Loaded loaded = tools::load_graph("specs/javiator.yaml",
-                                           {.profile = "", .set = {"distributers.robostix.link={type: udp, listen: 0}"}});
+  tools::Loaded loaded = tools::load_graph(
+      "specs/javiator.yaml", {.profile = "", .set = {"distributers.robostix.link={type: udp, listen: 0}"}});
   const Graph& graph = *loaded.graph;
   auto adapter = std::make_unique<JaviatorVehicle>();
   const auto& set = adapter->message_set();

@@ -113,8 +113,9 @@ class Flights {
 
   Outcome helicopter_on_a_line() const {
     tests::SerialProxy proxy(bad_line, 3);
-    Outcome o = fly(proxy, "helicopter --parameters specs/vehicles/helicopter.yaml --link serial --device " + proxy.name(0),
-                    helicopter_graph("{type: serial, device: " + proxy.name(1) + "}", "serial.csv") + patience, full() ? 38 : 14);
+    Outcome o = fly(
+        proxy, "helicopter --parameters specs/vehicles/helicopter.yaml --link serial --device " + proxy.name(0),
+        helicopter_graph("{type: serial, device: " + proxy.name(1) + "}", "serial.csv") + patience, full() ? 38 : 14);
     o.to_vehicle = proxy.from(1);
     o.from_vehicle = proxy.from(0);
     return o;
@@ -217,7 +218,8 @@ TEST_SUITE("tools/lossy") {
     check_hop(o, flights().trace("udp.csv"));
   }
 
-  TEST_CASE("a helicopter over the same UDP that takes a short silence of its IMU for a loss is on the ground, upright") {
+  TEST_CASE(
+      "a helicopter over the same UDP that takes a short silence of its IMU for a loss is on the ground, upright") {
     const Outcome o = flights().hasty.get();
     INFO(o.errors);
     REQUIRE(o.exit_code == 0);
@@ -242,7 +244,8 @@ TEST_SUITE("tools/lossy") {
     // the begin of a packet may be left
     constexpr std::uint64_t left = 160;
     for (const auto& [at, c] : {std::pair(&o.vehicle, &o.to_vehicle), std::pair(&o.run, &o.from_vehicle)}) {
-      const std::uint64_t out = c->in + c->duplicated - c->lost, in = count_of(*at, "bytes in") + count_of(*at, "bytes dropped");
+      const std::uint64_t out = c->in + c->duplicated - c->lost,
+                          in = count_of(*at, "bytes in") + count_of(*at, "bytes dropped");
       CHECK(c->lost > 0);
       CHECK(in <= out);
       CHECK(out - in <= left);

@@ -1,5 +1,5 @@
-// Peers that are killed, come again, or vanish while the others go on: real processes on real sockets. All scenarios run
-// at the same time, each test looks at the outcome of one.
+// Peers that are killed, come again, or vanish while the others go on: real processes on real sockets. All scenarios
+// run at the same time, each test looks at the outcome of one.
 #include <doctest/doctest.h>
 #include <sys/socket.h>
 
@@ -145,8 +145,10 @@ class Scenarios {
 
   Outcome take_terminal() const {
     const std::string port = tests::free_port(SOCK_DGRAM);
-    Process run("run specs/javiator.yaml --clock real --json --profile terminal --for 12s --set distributers.terminal.link.listen=" +
-                port);
+    Process run(
+        "run specs/javiator.yaml --clock real --json --profile terminal --for 12s --set "
+        "distributers.terminal.link.listen=" +
+        port);
     std::this_thread::sleep_for(1s);
     {
       Terminal terminal(std::stoi(port), Terminal::Over::udp);
@@ -171,8 +173,10 @@ class Scenarios {
   Outcome take_console() const {
     using namespace distributers;
     const std::string port = tests::free_port(SOCK_DGRAM);
-    Process run("run specs/exolauv.yaml --clock real --json --profile console --for 14s --set distributers.neptus.link.listen=" +
-                port + submarine_tasks + tests::patient({"navigation", "supervisor", "report"}));
+    Process run(
+        "run specs/exolauv.yaml --clock real --json --profile console --for 14s --set "
+        "distributers.neptus.link.listen=" +
+        port + submarine_tasks + tests::patient({"navigation", "supervisor", "report"}));
     std::this_thread::sleep_for(500ms);
     {
       Link console(std::make_unique<UdpTransport>(Address::parse("0"), Address::parse(port)), imc::message_set(),
