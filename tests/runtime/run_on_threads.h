@@ -1,0 +1,183 @@
+// Runs with tasks on threads of their own, for tests.
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "graph/analysis/threads.h"
+#include "runtime/executor.h"
+#include "runtime/machine.h"
+#include "tests/runtime/trace_of.h"
+
+namespace jarol::tests::threads {
+
+using namespace std::chrono_literals;
+
+struct Mode {
+  const char* name;
+  int cores;
+  const char* policy;
+};
+inline const Mode table_1{"table on 1 core", 1, "table"};
+inline const Mode table_2{"table on 2 cores", 2, "table"};
+inline const Mode priorities_1{"priorities on 1 core", 1, "fixed_priority"};
+inline const Mode priorities_2{"priorities on 2 cores", 2, "fixed_priority"};
+inline const Mode modes[] = {table_2, priorities_1, priorities_2};
+
+// Publishes how often it ran plus what it reads. Activation `faulty` takes `lasts`, or throws if that is none.
+struct Faulty {
+  static constexpr std::string_view summary = "for tests";
+  struct Param {
+    std::int64_t faulty = -1;
+    Duration lasts{};
+    static constexpr auto fields() { return describe(field<&Param::faulty>(), field<&Param::lasts>()); }
+  };
+  struct In {
+    double in = 0;
+    static constexpr auto fields() { return describe(field<&In::in>()); }
+  };
+  struct State {
+    double runs = 0;
+    static constexpr auto fields() { return describe(field<&State::runs>()); }
+  };
+  struct Out {
+    double out = -1;
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+    state.runs += 1;
+    out.out = 1000 * state.runs + in.in;
+    if (tick.activation != p.faulty) return;
+    if (p.lasts == Duration{}) throw std::runtime_error("on purpose");
+    std::this_thread::sleep_for(p.lasts);
+  }
+};
+
+// Reads its input at its end.
+struct Patient {
+  static constexpr std::string_view summary = "for tests";
+  struct Param {
+    Duration waits{};
+    static constexpr auto fields() { return describe(field<&Param::waits>()); }
+  };
+  struct In {
+    double in = 0;
+    static constexpr auto fields() { return describe(field<&In::in>()); }
+  };
+  struct Out {
+    double out = -1;
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Param& p, const Tick&, const In& in, Out& out) {
+    std::this_thread::sleep_for(p.waits);
+    out.out = in.in;
+  }
+};
+
+// Keeps its processor busy for so long.
+struct Busy {
+  static constexpr std::string_view summary = "for tests";
+  struct Param {
+    Duration lasts{};
+    static constexpr auto fields() { return describe(field<&Param::lasts>()); }
+  };
+  static void run(const Param& p, const Tick&) {
+    const std::int64_t end = RealClock::monotonic() + p.lasts.count();
+    while (RealClock::monotonic() < end) {}
+  }
+};
+
+inline Graph graph_of(const std::string& text) {
+  static const Registry registry = [] {
+    Registry made;
+    tasks::add_tasks(made);
+    made.add(task_class<Faulty>());
+    made.add(task_class<Busy>());
+    made.add(task_class<Patient>());
+    return made;
+  }();
+  Problems problems;
+  Graph graph =
+      build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
+  problems.throw_if_any();
+  return graph;
+}
+
+// Every ANY is a core, one after the other.
+inline Graph on(const Mode& mode, std::string text) {
+  int core = 0;
+  for (std::size_t at; (at = text.find("ANY")) != std::string::npos; core = (core + 1) % mode.cores)
+    text.replace(at, 3, std::to_string(core));
+  return graph_of(text + "platform: {cores: " + std::to_string(mode.cores) + ", policy: " + mode.policy + "}\n");
+}
+
+struct RealRun : tests::Run {
+  std::uint64_t late = 0, left_out = 0;
+  std::vector<std::int64_t> worst;  // execution, per task
+  std::vector<std::string> refusals;
+};
+
+inline const MachineFacts& machine() {
+  static const MachineFacts facts = find_machine_facts();
+  return facts;
+}
+
+// Before other programs where the machine permits it, so that they disturb less.
+inline RealTimeOptions undisturbed() {
+  RealTimeOptions options;
+  if (machine().fifo_priority >= 60) options.priority = 60;
+  return options;
+}
+
+inline RealRun run(const Graph& graph, Duration end, const RealTimeOptions& options = undisturbed(),
+                   Duration piece = Duration::max()) {
+  tests::TraceLines lines(graph);
+  Recorder recorder({&lines});
+  RealClock clock(graph.tasks.size(), options);
+  const std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
+  Executor executor(graph, {}, {.recorder = &recorder, .clock = &clock, .threads = threads});
+  std::thread([&] {  // the test's own thread keeps its scheduler
+    if (options.priority) clock.prepare_thread();
+    clock.start();
+    for (Duration at{}; at < end; at += std::min(piece, end)) executor.run_until(at);
+    executor.run_until(end);
+  })
+      .join();
+  recorder.close();
+  RealRun run;
+  run.report = executor.report();
+  run.lines = lines.lines;
+  run.refusals = executor.refusals();
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    run.late += clock.timing(i).late;
+    run.left_out += clock.timing(i).left_out;
+    run.worst.push_back(clock.timing(i).execution.most());
+  }
+  return run;
+}
+
+// Again when the machine was late for reasons of its own.
+inline RealRun run_undisturbed(const Graph& graph, Duration end, std::uint64_t late = 0, std::uint64_t left_out = 0) {
+  RealRun r;
+  for (int attempt = 0; attempt < 30; ++attempt) {
+    r = run(graph, end);
+    if (r.late == late && r.left_out == left_out) break;
+  }
+  return r;
+}
+
+inline std::string text_of(const std::vector<Fault>& faults) {
+  std::string text;
+  for (const Fault& fault : faults) text += to_text(fault) + "\n";
+  return text;
+}
+
+inline std::vector<std::string> sorted(std::vector<std::string> lines) {
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+}  // namespace jarol::tests::threads
