@@ -40,6 +40,13 @@ void copy_value(const Type& type, void* to, const void* from) {
   std::memcpy(to, from, type.size);
 }
 
+void add_field(Type& structure, std::string_view name, std::string_view unit, std::string_view text, const void* value,
+               const void* member, const Type& type) {
+  const auto offset = static_cast<const std::byte*>(member) - static_cast<const std::byte*>(value);
+  structure.fields.push_back(
+      {std::string(name), std::string(unit), std::string(text), static_cast<std::size_t>(offset), &type});
+}
+
 const TypeField* find_field(const Type& type, std::string_view name) {
   for (const TypeField& f : type.fields)
     if (f.name == name) return &f;

@@ -70,6 +70,11 @@ bool same_type(const Type& a, const Type& b);
 /// Deep copy of a value.
 void copy_value(const Type& type, void* to, const void* from);
 
+/// Adds the description of a member of the struct at `value`. Apart from the templates that describe types: there it
+/// would be compiled again for each member.
+void add_field(Type& structure, std::string_view name, std::string_view unit, std::string_view text, const void* value,
+               const void* member, const Type& type);
+
 /// The field of that name, or null.
 const TypeField* find_field(const Type& type, std::string_view name);
 

@@ -198,14 +198,12 @@ constexpr std::string_view scalar_name() {
   if constexpr (sizeof(T) == 8) return is_signed ? "int64" : "uint64";
 }
 
-template <class T, class F>
-TypeField make_field(F f) {
-  // the offset of the member in a value that exists only for this
+// A default value, for the places of its members.
+template <class T>
+const T& example() {
   alignas(T) static std::byte memory[sizeof(T)];
-  static const T* const origin = new (memory) T{};
-  const auto* member = reinterpret_cast<const std::byte*>(&(origin->*(f.pointer)));
-  return {std::string(f.name), std::string(f.unit), std::string(f.text),
-          static_cast<std::size_t>(member - reinterpret_cast<const std::byte*>(origin)), &type_of<typename F::Value>()};
+  static const T* const value = new (memory) T{};
+  return *value;
 }
 
 template <class T>
@@ -274,7 +272,14 @@ Type make_type() {
     static_assert(each_field_owned_and_in_order<T>(), "fields() may describe members of its own struct only");
     type.name = type_name<T>();
     type.kind = Kind::structure;
-    std::apply([&](auto... f) { (type.fields.push_back(make_field<T>(f)), ...); }, T::fields());
+    const T& value = example<T>();
+    std::apply(
+        [&](auto... f) {
+          (add_field(type, f.name, f.unit, f.text, &value, &(value.*(f.pointer)),
+                     type_of<typename decltype(f)::Value>()),
+           ...);
+        },
+        T::fields());
   }
   return type;
 }
