@@ -12,6 +12,7 @@
 #include "graph/spec/key.h"
 #include "graph/yaml/quantities.h"
 #include "runtime/machine.h"
+#include "tools/command_line.h"
 
 namespace jarol::tools {
 namespace {
@@ -36,7 +37,7 @@ void add_cpus(const std::string& part, const std::string& list, std::vector<int>
 
 }  // namespace
 
-void add_real_time_options(CLI::App& command, RealTimeArguments& arguments) {
+void add_real_time_options(Command& command, RealTimeArguments& arguments) {
   command
       .add_option(
           "--rt-priority", arguments.priority,
@@ -44,7 +45,7 @@ void add_real_time_options(CLI::App& command, RealTimeArguments& arguments) {
           "of their "
           "own, else those are below it; default: the ordinary scheduler, but with the policy fixed_priority the "
           "least that leaves one for each thread")
-      ->check(CLI::Range(1, 99));
+      ->in_range(1, 99);
   command.add_option("--cpus", arguments.cpus,
                      "Real clock: CPUs on which tasks may run, as in 0,2-3, one for each core; default: any");
   command.add_flag("--spin", arguments.spin, "Real clock: wait for the instant without sleeping, at the cost of a CPU");

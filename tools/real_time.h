@@ -1,7 +1,6 @@
 // What commands that run in real time share: their options, what they refuse, and what they tell afterwards.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -14,6 +13,8 @@
 
 namespace jarol::tools {
 
+class Command;
+
 struct RealTimeArguments {
   int priority = 0;  // 0: the ordinary scheduler
   std::string cpus;
@@ -21,7 +22,7 @@ struct RealTimeArguments {
   bool force = false;
 };
 
-void add_real_time_options(CLI::App& command, RealTimeArguments& arguments);
+void add_real_time_options(Command& command, RealTimeArguments& arguments);
 
 /// Throws std::invalid_argument for a bad list of CPUs.
 RealTimeOptions options_of(const RealTimeArguments& arguments);

@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "graph/yaml/problems.h"
 #include "tools/bench/figures.h"
+#include "tools/command_line.h"
 #include "tools/commands/commands.h"
 
 namespace jarol::tools {
@@ -59,15 +59,14 @@ int run_bench(const Options& options) {
 
 }  // namespace
 
-void add_bench(CLI::App& app, int& exit_code) {
+void add_bench(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("bench",
-                         "Measure what running costs, each figure beside the best plain code for the same work.\n"
-                         "Least of interleaved repeats. Exit code: 0 all goals met, 1 not all");
+  Command* command =
+      line.add_subcommand("bench",
+                          "Measure what running costs, each figure beside the best plain code for the same work.\n"
+                          "Least of interleaved repeats. Exit code: 0 all goals met, 1 not all");
   command->add_option("FIGURE", options->names, "Figures to measure; default all: " + list_of(bench::figure_names()));
-  command->add_option("--repeats", options->repeats, "Interleaved repeats per figure; default 60")
-      ->check(CLI::Range(1, 100000));
+  command->add_option("--repeats", options->repeats, "Interleaved repeats per figure; default 60")->in_range(1, 100000);
   command->add_flag("--json", options->json, "One JSON object instead of a table");
   command->callback([options, &exit_code] { exit_code = run_bench(*options); });
 }

@@ -1,6 +1,5 @@
 // jarol check: is the graph right, and can it be scheduled.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -9,6 +8,7 @@
 
 #include "graph/spec/key.h"
 #include "tools/check_report.h"
+#include "tools/command_line.h"
 #include "tools/commands/commands.h"
 #include "tools/gantt.h"
 #include "tools/generate_graphs.h"
@@ -209,15 +209,15 @@ int write_graphs(const Options& options) {
 
 }  // namespace
 
-void add_check(CLI::App& app, int& exit_code) {
+void add_check(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("check",
-                         "Check structure, types and timing of graphs, and whether they can be scheduled.\n"
-                         "Exit code: 0 schedulable, 1 not schedulable, 3 not decided, 2 bad input");
+  Command* command =
+      line.add_subcommand("check",
+                          "Check structure, types and timing of graphs, and whether they can be scheduled.\n"
+                          "Exit code: 0 schedulable, 1 not schedulable, 3 not decided, 2 bad input");
   command->add_option("FILE", options->files, "Graphs, YAML files");
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.wcet=2ms")
-      ->allow_extra_args(false);
+      ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
   command->add_flag("--sensitivity", options->sensitivity,
                     "How much longer each WCET may be, and what would help, also where finding it takes long");
@@ -228,23 +228,22 @@ void add_check(CLI::App& app, int& exit_code) {
                     "Measure, and write the longest times with a margin into the file as 'wcet'");
   command->add_option("--for", options->duration, "How much logical time to measure; default: the mission, else 10s");
   command->add_option("--margin", options->margin, "Percent on top of what was measured; default 20")
-      ->check(CLI::Range(0.0, 10'000.0));
+      ->in_range(0.0, 10'000.0);
   command->add_option("--svg", options->svg, "Draw what ran around the first late activation into this SVG file");
   command
       ->add_option("--generate", options->generate,
                    "Instead of checking, write random graphs: waters (automotive periods) or uunifast")
-      ->check(CLI::IsMember({"waters", "uunifast"}));
+      ->one_of({"waters", "uunifast"});
   command->add_option("-o", options->folder, "Folder of the graphs that --generate writes");
   command->add_option("--count", options->count, "How many graphs, of consecutive seeds; default 1")
-      ->check(CLI::Range(1, 1'000'000));
+      ->in_range(1, 1'000'000);
   command->add_option("--seed", options->generation.seed, "Seed of the first graph; default 0");
-  command->add_option("--tasks", options->generation.tasks, "Tasks of a graph; default 20")
-      ->check(CLI::Range(1, 100'000));
+  command->add_option("--tasks", options->generation.tasks, "Tasks of a graph; default 20")->in_range(1, 100'000);
   command->add_option("--utilisation", options->generation.utilisation, "Of all tasks together; default 0.6")
-      ->check(CLI::Range(0.0, 1e6));
-  command->add_option("--cores", options->generation.cores, "Cores of a graph; default 1")->check(CLI::Range(1, 1024));
+      ->in_range(0.0, 1e6);
+  command->add_option("--cores", options->generation.cores, "Cores of a graph; default 1")->in_range(1, 1024);
   command->add_option("--policy", options->generation.policy, "Policy of a graph; default fixed_priority")
-      ->check(CLI::IsMember(Words<Policy>::list()));
+      ->one_of(Words<Policy>::list());
   command->add_flag("--json", options->json, "One JSON object per file and line instead of text");
   command->callback([options, &exit_code] {
     if (!options->generate.empty()) {

@@ -1,13 +1,13 @@
 // jarol doctor: what this machine allows a program with deadlines, and how late it wakes one.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "graph/yaml/quantities.h"
 #include "runtime/machine.h"
+#include "tools/command_line.h"
 #include "tools/commands/commands.h"
 
 namespace jarol::tools {
@@ -111,9 +111,9 @@ int examine(const Options& options) {
 
 }  // namespace
 
-void add_doctor(CLI::App& app, int& exit_code) {
+void add_doctor(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  Command* command = line.add_subcommand(
       "doctor",
       "Tell what this machine allows a program with deadlines, and how late its bare sleeps at 1 kHz end:\n"
       "on the ordinary scheduler, and with SCHED_FIFO where that is permitted");

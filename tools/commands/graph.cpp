@@ -1,9 +1,9 @@
 // jarol graph: a graph as text or as a DOT drawing.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "tools/command_line.h"
 #include "tools/commands/commands.h"
 #include "tools/load_graph.h"
 #include "tools/value_json.h"
@@ -83,12 +83,12 @@ void print_dot(const Graph& graph) {
 
 }  // namespace
 
-void add_graph(CLI::App& app, int& exit_code) {
+void add_graph(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("graph", "Print a graph as text, or as a drawing for Graphviz");
+  Command* command = line.add_subcommand("graph", "Print a graph as text, or as a drawing for Graphviz");
   command->add_option("FILE", options->file, "The graph, a YAML file")->required();
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.period=100ms")
-      ->allow_extra_args(false);
+      ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
   command->add_flag("--dot", options->dot, "A DOT drawing: jarol graph FILE --dot | dot -Tsvg > graph.svg");
   command->callback([options, &exit_code] {

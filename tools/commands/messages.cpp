@@ -1,11 +1,11 @@
 // jarol messages: message sets, their messages and fields; packets to JSON and back.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "distributers/messages/message_set.h"
 #include "graph/yaml/problems.h"
+#include "tools/command_line.h"
 #include "tools/commands/commands.h"
 #include "tools/packet_lines.h"
 
@@ -156,18 +156,18 @@ int list_messages(const Options& options) {
 
 }  // namespace
 
-void add_messages(CLI::App& app, int& exit_code) {
+void add_messages(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("messages", "List message sets, their messages and fields, or turn packets to JSON and back");
+  Command* command =
+      line.add_subcommand("messages", "List message sets, their messages and fields, or turn packets to JSON and back");
   command->add_option("SET", options->set, "A message set, as in imc");
   auto* name = command->add_option("NAME", options->name, "A message of it, as in EstimatedState");
   auto* json = command->add_flag("--json", options->json, "One JSON object instead of text");
   auto* decode = command->add_flag("--decode", options->decode,
                                    "Packets from stdin, one of hexadecimal digits a line, to JSON objects, one a line");
   auto* encode = command->add_flag("--encode", options->encode, "JSON objects of that form from stdin to packets");
-  for (CLI::Option* one : {decode, encode})
-    for (CLI::Option* other : {name, json}) one->excludes(other);
+  for (Option* one : {decode, encode})
+    for (Option* other : {name, json}) one->excludes(other);
   decode->excludes(encode);
   command->footer(
       "--decode and --encode go on after a line that is wrong, and exit with 2 then, or with 1 if only checksums were "

@@ -2,13 +2,13 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "runtime/executor.h"
+#include "tools/command_line.h"
 #include "tools/commanded.h"
 #include "tools/commands/commands.h"
 #include "tools/interrupt.h"
@@ -228,9 +228,9 @@ int run(const Options& options) {
 
 }  // namespace
 
-void add_run(CLI::App& app, int& exit_code) {
+void add_run(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  Command* command = line.add_subcommand(
       "run",
       "Run a graph: on the virtual clock, as fast as possible and the same to the bit every time, or\n"
       "on the real clock.\n"
@@ -240,22 +240,21 @@ void add_run(CLI::App& app, int& exit_code) {
                       "How long, in logical time, as in 10s; default: until the mission ends");
   command
       ->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.parameters.kp=0.5")
-      ->allow_extra_args(false);
+      ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
   command->add_option("--seed", options->seed, "Seed of vehicles and distributers that have noise; default 0");
   command
       ->add_option("--workers", options->workers,
                    "Threads that run tasks; stages are shared where that pays, and the outcome is the same for any "
                    "number; default 1")
-      ->check(CLI::Range(1, 64));
-  command->add_option("--clock", options->clock, "virtual (default) or real")
-      ->check(CLI::IsMember({"virtual", "real"}));
+      ->in_range(1, 64);
+  command->add_option("--clock", options->clock, "virtual (default) or real")->one_of({"virtual", "real"});
   command
       ->add_option(
           "--concurrency", options->concurrency,
           "exotasks (default), or threads: the same graph on ordinary threads, on the real clock, where nothing "
           "is claimed of the digest")
-      ->check(CLI::IsMember({"exotasks", "threads"}));
+      ->one_of({"exotasks", "threads"});
   add_real_time_options(*command, options->real_time);
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->add_option("--trace", options->trace, "Write every published value to this CSV file");

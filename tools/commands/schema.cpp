@@ -1,17 +1,17 @@
 // jarol schema: the JSON Schema of the graph language.
-#include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "tools/command_line.h"
 #include "tools/commands/commands.h"
 #include "tools/graph_schema.h"
 
 namespace jarol::tools {
 
-void add_schema(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("schema",
-                         "Print the JSON Schema of graphs, for editors: jarol schema > specs/graph.schema.json.\n"
-                         "A file names it in its first line: # yaml-language-server: $schema=graph.schema.json");
+void add_schema(CommandLine& line, int& exit_code) {
+  Command* command =
+      line.add_subcommand("schema",
+                          "Print the JSON Schema of graphs, for editors: jarol schema > specs/graph.schema.json.\n"
+                          "A file names it in its first line: # yaml-language-server: $schema=graph.schema.json");
   command->callback([&exit_code] {
     std::cout << graph_schema();
     exit_code = exit_good;

@@ -1,11 +1,11 @@
 // jarol tasks: what graphs can be made of.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "graph/plugins.h"
 #include "graph/values/bind.h"
+#include "tools/command_line.h"
 #include "tools/commands/commands.h"
 #include "tools/load_graph.h"
 
@@ -157,11 +157,11 @@ int list_tasks(const Options& options) {
 
 }  // namespace
 
-void add_tasks(CLI::App& app, int& exit_code) {
+void add_tasks(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("tasks", "List task types and distributers, or tell all about one");
+  Command* command = line.add_subcommand("tasks", "List task types and distributers, or tell all about one");
   command->add_option("NAME", options->name, "A task type or distributer, as in DepthControl");
-  command->add_option("--plugin", options->plugins, "Also those of this shared library")->allow_extra_args(false);
+  command->add_option("--plugin", options->plugins, "Also those of this shared library")->one_value();
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->callback([options, &exit_code] { exit_code = list_tasks(*options); });
 }

@@ -1,5 +1,4 @@
 // jarol vehicle: a simulated vehicle alone, described or driven open-loop by a script.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -13,6 +12,7 @@
 #include "graph/values/bind.h"
 #include "graph/values/seed.h"
 #include "graph/yaml/quantities.h"
+#include "tools/command_line.h"
 #include "tools/commands/commands.h"
 #include "tools/load_graph.h"
 #include "tools/open_loop.h"
@@ -324,17 +324,16 @@ int vehicle(const Options& options) {
 
 }  // namespace
 
-void add_vehicle(CLI::App& app, int& exit_code) {
+void add_vehicle(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("vehicle",
+  Command* command = line.add_subcommand("vehicle",
                                          "Tell all about a simulated vehicle, drive it by a script, or let another\n"
                                          "process steer it in real time over a link");
   command->add_option("NAME", options->name, "A vehicle, as in submarine")->required();
   command->add_flag("--describe", options->describe, "Print state, inputs, outputs and parameters, with units");
   command->add_flag("--json", options->json, "With --describe or --link: one JSON object instead of text");
   command->add_option("--parameters", options->parameters, "A parameter file, as in specs/vehicles/submarine.yaml");
-  command->add_option("--set", options->set, "Change a parameter: path=value, as in sea.density=1025")
-      ->allow_extra_args(false);
+  command->add_option("--set", options->set, "Change a parameter: path=value, as in sea.density=1025")->one_value();
   command->add_option("--initial", options->initial, "Change the state at the start, as in z=4,theta=0.1");
   command->add_option("--script", options->script,
                       "A CSV of commands: time (s), then inputs; a row holds until the next");
@@ -356,15 +355,15 @@ void add_vehicle(CLI::App& app, int& exit_code) {
       {"id", "Link: the sender's id in what is sent, in hex or decimal, as in 0x00D1"},
   };
   command
-      ->add_option_function<std::string>(
+      ->add_option(
           "--link",
           [options](const std::string& type) {
             options->link.insert(options->link.begin(), {"type", type});
           },
           "Run steered over a link: " + list_of(links) + "; in lockstep on the runner's clock, else in real time")
-      ->check(CLI::IsMember(links));
+      ->one_of(links);
   for (const LinkKey& key : link_keys)
-    command->add_option_function<std::string>(
+    command->add_option(
         std::string("--") + key.key,
         [options, name = key.key](const std::string& text) { options->link.emplace_back(name, text); }, key.text);
   command->callback([options, &exit_code] {

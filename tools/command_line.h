@@ -1,0 +1,70 @@
+// The command line: subcommands and their options. Only command_line.cpp includes the header of CLI11, which takes
+// longer to compile than anything a command does.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace jarol::tools {
+
+/// What may be said about an option once it is added.
+class Option {
+ public:
+  explicit Option(CLI::Option& option) : option_(option) {}
+  Option* required();
+  /// Each use takes one value: the word after it is an argument again.
+  Option* one_value();
+  Option* in_range(int least, int most);
+  Option* in_range(double least, double most);
+  Option* one_of(const std::vector<std::string>& words);
+  Option* excludes(const Option* other);
+
+ private:
+  CLI::Option& option_;
+};
+
+/// A subcommand.
+class Command {
+ public:
+  explicit Command(CLI::App& app) : app_(app) {}
+  /// An option, or an argument if its name is no dash: its value is a std::string, a std::vector<std::string>, an int,
+  /// a std::uint64_t or a double, which must be there when the command line is parsed.
+  template <class T>
+  Option* add_option(const std::string& name, T& value, const std::string& text);
+  /// An option whose word is taken by a function.
+  Option* add_option(const std::string& name, const std::function<void(const std::string&)>& take,
+                     const std::string& text);
+  Option* add_flag(const std::string& name, bool& value, const std::string& text);
+  void footer(const std::string& text);
+  /// What the command does, once all its words are understood.
+  void callback(const std::function<void()>& action);
+
+ private:
+  CLI::App& app_;
+  std::deque<Option> options_;
+};
+
+class CommandLine {
+ public:
+  CommandLine(const std::string& name, const std::string& text, const std::string& version);
+  ~CommandLine();
+  Command* add_subcommand(const std::string& name, const std::string& text);
+  std::vector<std::string> names() const;
+  /// Does what the words say; whether they were understood. Prints what was wrong with them, or the help asked for.
+  bool parse(int argc, char** argv);
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+  std::deque<Command> commands_;
+};
+
+}  // namespace jarol::tools
