@@ -1,7 +1,11 @@
 #include "runtime/threads_core.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
 
 #include "runtime/copy.h"
 #include "runtime/real_clock.h"
@@ -59,7 +63,7 @@ void ThreadsCore::gather() {
         Carried carried;
         carried.communicator = action.communicator;
         carried.action = &action;
-        carried.every = rounds_of("communicator '" + c.name + "'", c.period);
+        carried.core = carried.outside = Cadence(rounds_of("communicator '" + c.name + "'", c.period));
         carried.terminal = c.distributer && !on_vehicle(action.communicator);
         carried.port = std::make_unique<PushBytesPort>(1, c.type->size);
         carried.room.resize(c.type->size);
@@ -71,47 +75,84 @@ void ThreadsCore::gather() {
   std::sort(outs_.begin(), outs_.end(), by_name);
   for (const std::size_t i : graph_.order) {
     const Task& task = graph_.tasks[i];
-    tasks_.push_back(
-        {activations[i], publishes[i], rounds_of("task '" + task.name + "'", task.period), task.period, 0});
+    const Cadence cadence(rounds_of("task '" + task.name + "'", task.period));
+    tasks_.push_back({activations[i], publishes[i], cadence, task.period, 0});
   }
 }
 
 void ThreadsCore::run_for(Duration end, const std::function<void()>& prepare) {
-  const std::int64_t start = RealClock::monotonic();
-  TimeTrigger trigger(period_, MachineClock::time_point(Duration(start)));
-  std::vector<std::thread> threads;
-  const auto begin = [&](auto work) {
-    threads.emplace_back([&prepare, work] {
-      prepare();
+  std::optional<TimeTrigger> trigger;
+  std::thread sensor, core, actuator, terminal;
+  const auto contained = [this](const auto& work) {
+    try {
       work();
-    });
+    } catch (...) { fail(std::current_exception()); }
   };
-  begin([this] { run_core(); });
-  begin([this] { run_actuator(); });
-  begin([this] { run_terminal(); });
-  // those who are signalled wait before anybody signals
-  while (core_signal_.waiting() == 0 || actuator_signal_.waiting() == 0 || terminal_signal_.waiting() == 0)
-    std::this_thread::yield();
-  begin([this, &trigger] { run_sensor(trigger); });
-  const auto over = [&] { return end != Duration::max() && RealClock::monotonic() - start >= end.count(); };
+  const auto begin = [&](std::thread& thread, auto work) {
+    if (stopped()) return;
+    try {
+      thread = std::thread([&, work] {
+        contained([&] {
+          prepare();
+          work();
+        });
+      });
+    } catch (const std::system_error& error) {
+      fail(std::make_exception_ptr(std::runtime_error("there is no thread to be had: " + std::string(error.what()))));
+    }
+  };
+  begin(core, [this] { run_core(); });
+  begin(actuator, [this] { run_actuator(); });
+  begin(terminal, [this] { run_terminal(); });
+  begin(sensor, [&] {
+    if (start_signal_.await() == Awaiting::signalled) run_sensor(*trigger, end);
+  });
+  // the clock starts when all wait to be signalled
+  for (const Signal* signal : {&core_signal_, &actuator_signal_, &terminal_signal_, &start_signal_})
+    while (!stopped() && signal->waiting() == 0) std::this_thread::yield();
+  if (!stopped()) {
+    contained(prepare);
+    trigger.emplace(period_);
+    static_cast<void>(start_signal_.signal());
+  }
   constexpr auto look = std::chrono::milliseconds(10);
-  while (!over() && !interrupted_.load(std::memory_order_relaxed) && !stopped_.load(std::memory_order_acquire))
-    std::this_thread::sleep_for(std::min<Duration>(look, end));
-  stopped_ = true;
-  trigger.stop();
-  for (Signal* signal : {&core_signal_, &actuator_signal_, &terminal_signal_}) signal->interrupt();
-  for (std::thread& thread : threads) thread.join();
-  threads_report_.unawaited_ticks = static_cast<std::uint64_t>(trigger.unawaited());
+  while (!interrupted_.load(std::memory_order_relaxed) && !stopped()) std::this_thread::sleep_for(look);
+  // in the order of the flow: what was sensed is still computed, and what was computed handed over
+  if (trigger) trigger->stop();
+  for (const auto& [signal, thread] :
+       {std::pair(&start_signal_, &sensor), std::pair(&core_signal_, &core), std::pair(&actuator_signal_, &actuator),
+        std::pair(&terminal_signal_, &terminal)}) {
+    signal->interrupt();
+    if (thread->joinable()) thread->join();
+  }
   report_.non_finite_inputs = refused_inputs_;
   for (const auto& channels : channels_) report_.non_finite_inputs += channels->non_finite_inputs();
-  report_.simulated = Duration(static_cast<std::int64_t>(threads_report_.rounds) * period_.count());
+  report_.simulated = now();
+  if (failure_) std::rethrow_exception(failure_);
 }
 
-void ThreadsCore::run_sensor(TimeTrigger& trigger) {
-  for (std::int64_t round = 0; trigger.await() == Awaiting::signalled; ++round) {
+void ThreadsCore::fail(std::exception_ptr failure) {
+  const std::lock_guard lock(failure_mutex_);
+  if (!failure_) failure_ = std::move(failure);
+  stopped_.store(true, std::memory_order_release);
+}
+
+// A round's number goes by the clock, also where ticks found this thread at work.
+void ThreadsCore::run_sensor(TimeTrigger& trigger, Duration end) {
+  const std::int64_t rounds = end / period_ + (end % period_ != Duration{} ? 1 : 0);
+  for (std::int64_t next = 0; !stopped() && trigger.await() == Awaiting::signalled;) {
+    const std::int64_t round = std::min(trigger.ticks() - 1, rounds);
+    threads_report_.unawaited_ticks += static_cast<std::uint64_t>(round - next);
+    next = round + 1;
+    if (round == rounds) {
+      now_.store(end.count(), std::memory_order_relaxed);
+      stopped_.store(true, std::memory_order_release);
+      return;
+    }
+    now_.store(round * period_.count(), std::memory_order_relaxed);
     tick_.store(RealClock::monotonic(), std::memory_order_relaxed);
     sense(false, round);
-    rounds_begun_.store(round + 1, std::memory_order_release);
+    rounds_begun_.store(next, std::memory_order_release);
     if (core_signal_.signal() != Signalling::done) ++threads_report_.core_busy;
   }
 }
@@ -125,7 +166,7 @@ void ThreadsCore::sense(bool terminal, std::int64_t round) {
     channels_[i]->reach(now);
     for (Carried& in : ins_) {
       const Communicator& c = graph_.communicators[in.communicator];
-      if (c.distributer != i || round % in.every != 0 || !channels_[i]->take(c.channel, in.room.data())) continue;
+      if (c.distributer != i || !in.outside.due(round) || !channels_[i]->take(c.channel, in.room.data())) continue;
       if (c.type->finite(in.room.data()))
         in.port->write(in.room.data());
       else
@@ -136,16 +177,16 @@ void ThreadsCore::sense(bool terminal, std::int64_t round) {
 
 void ThreadsCore::run_core() {
   const MemoryScope scope(no_heap());
-  std::int64_t done = 0;
-  while (!stopped_.load(std::memory_order_acquire)) {
+  for (std::int64_t done = 0; !report_.stopped;) {
     const auto ready = [&] { return rounds_begun_.load(std::memory_order_acquire) > done; };
-    const Awaiting woken = core_signal_.await_unless(ready);
-    if (woken == Awaiting::interrupted) return;
-    if (!ready()) continue;
+    const bool over = core_signal_.await_unless(ready) == Awaiting::interrupted;
+    if (!ready()) {
+      if (over) return;
+      continue;
+    }
     // rounds that were missed are not made up for
-    const std::int64_t round = rounds_begun_.load(std::memory_order_acquire) - 1;
-    done = round + 1;
-    run_round(round);
+    done = rounds_begun_.load(std::memory_order_acquire);
+    run_round(done - 1);
     ++threads_report_.rounds;
     rounds_done_.store(threads_report_.rounds, std::memory_order_seq_cst);
     threads_report_.round.add(RealClock::monotonic() - tick_.load(std::memory_order_relaxed));
@@ -159,14 +200,14 @@ void ThreadsCore::run_round(std::int64_t round) {
   const std::uint64_t instant_term = digest::instant_term(instant);
   ++report_.instants;
   for (Carried& in : ins_) {
-    if (round % in.every != 0) continue;
+    if (!in.core.due(round)) continue;
     while (in.port->read(in.action->value)) safe_commands_.took(in.communicator, Duration(instant));
     publish(in.action->publish, instant_term);
   }
   for (Counted& task : tasks_)
-    if (round % task.every == 0) run_task(task, instant, instant_term);
+    if (task.cadence.due(round)) run_task(task, instant, instant_term);
   for (Carried& out : outs_) {
-    if (round % out.every != 0) continue;
+    if (!out.core.due(round)) continue;
     const void* const safe = safe_commands_.in_place_of_input(out.communicator, Duration(instant));
     copy_value(*graph_.communicators[out.communicator].type, out.action->value,
                safe != nullptr ? safe : out.action->input);
@@ -231,10 +272,12 @@ void ThreadsCore::run_terminal() {
 // Until the core has done another round; false at the end.
 bool ThreadsCore::await_core(Signal& signal, std::uint64_t& seen) const {
   const auto ready = [&] { return rounds_done_.load(std::memory_order_seq_cst) != seen; };
-  while (!ready())
-    if (signal.await_unless(ready) == Awaiting::interrupted) return false;
+  for (bool over = false; !ready();) {
+    if (over) return false;
+    over = signal.await_unless(ready) == Awaiting::interrupted;
+  }
   seen = rounds_done_.load(std::memory_order_acquire);
-  return !stopped_.load(std::memory_order_acquire);
+  return true;
 }
 
 }  // namespace jarol

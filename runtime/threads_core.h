@@ -5,10 +5,12 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "runtime/channels.h"
@@ -26,7 +28,7 @@ namespace jarol {
 struct ThreadsReport {
   std::uint64_t rounds = 0;           // of the core
   std::uint64_t core_busy = 0;        // signals of the sensor thread that found the core at work
-  std::uint64_t unawaited_ticks = 0;  // that found the sensor thread at work
+  std::uint64_t unawaited_ticks = 0;  // that found the sensor thread at work; their rounds are left out
   Histogram round;                    // ns from the tick to the round's last output
 };
 
@@ -37,7 +39,9 @@ class ThreadsCore {
   /// values between threads.
   ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels);
 
-  /// Runs until that much time has passed, a fault stops it, or it is interrupted. `prepare` is called in each thread.
+  /// Covers the instants before `end`, unless a fault stops it or it is interrupted; once. `prepare` is called in each
+  /// thread, in the caller's last, before the clock starts. The first exception that a thread ends with is thrown here
+  /// when all have ended; std::runtime_error where the system has no more threads.
   void run_for(
       Duration end, const std::function<void()>& prepare = [] {});
 
@@ -49,23 +53,38 @@ class ThreadsCore {
   const Report& report() const { return report_; }
   const ThreadsReport& threads_report() const { return threads_report_; }
   const std::vector<SafeCommandReport>& safe_commands() const { return safe_commands_.reports(); }
-  Duration now() const { return Duration(rounds_begun_.load(std::memory_order_relaxed) * period_.count()); }
+  /// The instant reached, as of Executor.
+  Duration now() const { return Duration(now_.load(std::memory_order_relaxed)); }
   const void* last_value(std::size_t communicator) const { return last_[communicator]; }
 
  private:
+  // What is due once in so many rounds: in the first that is run of these, as others may be left out.
+  class Cadence {
+   public:
+    explicit Cadence(std::int64_t rounds = 1) : rounds_(rounds) {}
+    bool due(std::int64_t round) {
+      const std::int64_t before = std::exchange(last_, round / rounds_);
+      return last_ != before;
+    }
+
+   private:
+    std::int64_t rounds_;
+    std::int64_t last_ = -1;
+  };
+
   // A communicator, and the port between the thread that serves its channel and the core.
   struct Carried {
     std::size_t communicator = 0;
     const CommunicatorAction* action = nullptr;
-    std::int64_t every = 1;  // rounds
-    bool terminal = false;   // served by the terminal thread
+    Cadence core, outside;  // of the core thread, and of the one that serves it
+    bool terminal = false;  // served by the terminal thread
     std::unique_ptr<PushBytesPort> port;
     std::vector<std::byte> room;  // of the thread that serves it
   };
   struct Counted {
     const Activation* activation = nullptr;
     const Publish* publish = nullptr;
-    std::int64_t every = 1;
+    Cadence cadence;
     Duration period{};
     std::int64_t activations = 0;
   };
@@ -75,7 +94,10 @@ class ThreadsCore {
   void gather();
   bool on_vehicle(std::size_t communicator) const;
 
-  void run_sensor(TimeTrigger& trigger);
+  bool stopped() const { return stopped_.load(std::memory_order_acquire); }
+  void fail(std::exception_ptr failure);
+
+  void run_sensor(TimeTrigger& trigger, Duration end);
   void run_core();
   void run_actuator();
   void run_terminal();
@@ -99,11 +121,15 @@ class ThreadsCore {
   std::atomic<std::uint64_t> refused_inputs_{0};
   Report report_;
   ThreadsReport threads_report_;
-  Signal core_signal_, actuator_signal_, terminal_signal_;
+  Signal start_signal_, core_signal_, actuator_signal_, terminal_signal_;
   std::atomic<std::int64_t> rounds_begun_{0};
   std::atomic<std::uint64_t> rounds_done_{0};
+  std::atomic<std::int64_t> now_{0};
   std::atomic<std::int64_t> tick_{0};  // ns of the monotonic clock
-  std::atomic<bool> interrupted_{false}, stopped_{false};
+  std::atomic<bool> interrupted_{false};
+  std::atomic<bool> stopped_{false};  // at the end, by a fault or a failure
+  std::mutex failure_mutex_;
+  std::exception_ptr failure_;  // the first
 };
 
 }  // namespace jarol

@@ -25,12 +25,15 @@ class BasicTimeTrigger {
 
   Span period() const { return period_; }
 
+  /// Ticks up to now.
+  std::int64_t ticks() const { return ticks_until(Threads::now()); }
+
   /// Waits for the next tick, the deadline, or the end: `signalled`, `timed_out`, `interrupted`. Any number of threads.
   Awaiting await(std::optional<Time> deadline = {}) {
     std::int64_t next = 0;
     do {
       if (stopped_.load(std::memory_order_acquire) != 0) return stopped;
-      next = ticks_until(Threads::now());
+      next = ticks();
       if (deadline && *deadline < time_of(next)) return sleep_until(*deadline) ? Awaiting::timed_out : stopped;
     } while (!claim(next));
     return sleep_until(time_of(next)) ? Awaiting::signalled : stopped;
@@ -39,13 +42,13 @@ class BasicTimeTrigger {
   /// No more ticks: who waits is woken, who comes is turned away, both with `interrupted`.
   void stop() {
     if (stopped_.fetch_or(1, std::memory_order_acq_rel) != 0) return;
-    pass(ticks_until(Threads::now()));
+    pass(ticks());
     Threads::wake_all(stopped_);
   }
 
   /// Ticks up to now that nobody awaited.
   std::int64_t unawaited() const {
-    const std::int64_t live = stopped_.load(std::memory_order_acquire) != 0 ? 0 : ticks_until(Threads::now());
+    const std::int64_t live = stopped_.load(std::memory_order_acquire) != 0 ? 0 : ticks();
     const std::int64_t told = told_.load(std::memory_order_acquire);
     return unawaited_.load(std::memory_order_acquire) + std::max<std::int64_t>(0, live - told);
   }
