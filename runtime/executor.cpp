@@ -12,8 +12,6 @@
 namespace jarol {
 namespace {
 
-constexpr std::size_t faults_kept = 1000;
-
 // Communicators are in order of name in the graph, so their index tells it; few are due at once.
 void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
   if (actions.size() < 2) return;
@@ -50,7 +48,6 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
   outs_.reserve(graph.communicators.size());
   ins_.reserve(graph.communicators.size());
   releases_.resize(groups);
-  report_.faults.reserve(faults_kept);
   last_.resize(graph.communicators.size());
   for (const Group& group : plan_.groups) {
     calendar_.add(group.first.count(), group.period.count());
@@ -306,12 +303,12 @@ Outcome Executor::run_in_time(const Activation& activation, const Tick& tick) {
   }
   const std::int64_t begin = options_.clock->now();
   const Outcome outcome = activation.run(activation.memory, tick);
-  timing.busy_until = options_.clock->now();
   if (outcome == Outcome::left_out) return outcome;
-  timing.execution.add(timing.busy_until - begin);
-  timing.response.add(timing.busy_until - tick.now.count());
-  if (outcome != Outcome::good ||
-      timing.busy_until - tick.now.count() <= graph_.tasks[activation.task].deadline.count())
+  const std::int64_t end = options_.clock->now();
+  timing.busy_until = end;
+  timing.execution.add(end - begin);
+  timing.response.add(end - tick.now.count());
+  if (outcome != Outcome::good || end - tick.now.count() <= graph_.tasks[activation.task].deadline.count())
     return outcome;
   ++timing.late;
   return Outcome::late;
@@ -354,9 +351,7 @@ void Executor::record_fault(std::uint32_t task, std::int64_t instant) {
 }
 
 void Executor::add_fault(std::uint32_t task, std::int64_t activation, std::int64_t instant, const std::string& cause) {
-  if (report_.faults.size() < faults_kept)
-    report_.faults.push_back({graph_.tasks[task].name, activation, Duration(instant), cause});
-  ++report_.fault_count;
+  report_.add({graph_.tasks[task].name, activation, Duration(instant), cause});
   if (graph_.tasks[task].on_fault == OnFault::stop) report_.stopped = true;
 }
 

@@ -30,6 +30,8 @@ struct Fault {
 std::string to_text(const Fault& fault);
 
 struct Report {
+  static constexpr std::size_t faults_kept = 1000;
+
   std::uint64_t digest = 0;
   Duration simulated{};
   std::uint64_t activations = 0;  // released tasks that ran
@@ -38,6 +40,12 @@ struct Report {
   std::uint64_t fault_count = 0;
   std::uint64_t non_finite_inputs = 0;  // from outside, not taken
   bool stopped = false;                 // by a fault
+
+  Report() { faults.reserve(faults_kept); }
+  void add(Fault fault) {
+    if (faults.size() < faults_kept) faults.push_back(std::move(fault));
+    ++fault_count;
+  }
 };
 
 struct ExecutorOptions {

@@ -237,8 +237,7 @@ void ThreadsCore::on_fault(const Counted& task, Outcome outcome, std::int64_t in
   const Task& t = graph_.tasks[task.activation->task];
   TaskStatus& status = plan_.status[task.activation->task];
   if (outcome == Outcome::non_finite) keep_text(status, "an output is not finite");
-  report_.faults.push_back({t.name, task.activations - 1, Duration(instant), status.text});
-  ++report_.fault_count;
+  report_.add({t.name, task.activations - 1, Duration(instant), status.text});
   if (t.on_fault == OnFault::stop) {
     report_.stopped = true;
     stopped_.store(true, std::memory_order_release);

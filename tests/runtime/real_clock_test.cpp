@@ -11,13 +11,16 @@ using namespace jarol;
 using namespace std::chrono_literals;
 using tests::lines_of;
 
-// Publishes its activation; that one of number `slow` takes `lasts`.
+// Publishes its activation; that one of number `slow` takes `lasts`, that one of number `throws` throws.
 struct Slow {
   static constexpr std::string_view summary = "for tests";
   struct Param {
     std::int64_t slow = 2;
     Duration lasts = 50ms;
-    static constexpr auto fields() { return describe(field<&Param::slow>(), field<&Param::lasts>()); }
+    std::int64_t throws = -1;
+    static constexpr auto fields() {
+      return describe(field<&Param::slow>(), field<&Param::lasts>(), field<&Param::throws>());
+    }
   };
   struct State {
     double runs = 0;
@@ -31,23 +34,27 @@ struct Slow {
     state.runs += 1;
     out.out = state.runs;
     if (tick.activation == p.slow) std::this_thread::sleep_for(p.lasts);
+    if (tick.activation == p.throws) throw std::runtime_error("too hot");
   }
 };
 
-Graph graph_with(const std::string& slow, const std::string& period = "20ms") {
+Graph graph_from(const std::string& text) {
   static const Registry registry = [] {
     Registry made;
     tasks::add_tasks(made);
     made.add(task_class<Slow>());
     return made;
   }();
-  const std::string text = "graph: t\ntiming: {period: " + period + "}\ntasks:\n  s: {type: Slow" + slow +
-                           "}\n  r: {type: Relay, on_fault: hold}\nconnections: [s.out -> r.in]\n";
   Problems problems;
   Graph graph =
       build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
   problems.throw_if_any();
   return graph;
+}
+
+Graph graph_with(const std::string& slow, const std::string& period = "20ms") {
+  return graph_from("graph: t\ntiming: {period: " + period + "}\ntasks:\n  s: {type: Slow" + slow +
+                    "}\n  r: {type: Relay, on_fault: hold}\nconnections: [s.out -> r.in]\n");
 }
 
 struct RealRun : tests::Run {
@@ -126,6 +133,20 @@ TEST_SUITE("runtime/real_clock") {
     CHECK(faults == "2 late: ended ; 3 left out: an; 4 left out: an; 5 left out: an; ");
     CHECK(r.report.faults[2].cause == "left out: an activation before it still ran at its release");
     CHECK(lines_of(r, "s.out") == "20ms s.out=1; 40ms s.out=2; 140ms s.out=3");
+  }
+
+  TEST_CASE("an activation that is skipped takes no time, however late its instant is worked on") {
+    // s is to be skipped at 60 ms, when b works beyond 80 ms
+    const Graph graph = graph_from(
+        "graph: t\ntiming: {period: 20ms}\ntasks:\n"
+        "  b: {type: Slow, on_fault: hold, parameters: {slow: 3, lasts: 25ms}}\n"
+        "  s: {type: Slow, on_fault: skip, parameters: {slow: -1, throws: 2}}\n");
+    const RealRun r = run_undisturbed(graph, 120ms, 1, 1);
+    std::string faults;
+    for (const Fault& fault : r.report.faults)
+      faults += fault.task + " " + std::to_string(fault.activation) + " " + fault.cause.substr(0, 10) + "; ";
+    CHECK(faults == "s 2 threw: too; b 3 late: ende; b 4 left out: ; ");
+    CHECK(lines_of(r, "s.out") == "0ns s.out=1; 20ms s.out=2; 80ms s.out=3; 100ms s.out=4");
   }
 
   TEST_CASE("with 'stop' a late task ends the run") {

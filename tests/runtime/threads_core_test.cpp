@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -18,21 +19,44 @@ constexpr const char* counting =
     "graph: t\ntasks:\n  c: {type: Counter, period: 10ms}\n  half: {type: Counter, period: 20ms}\n"
     "  s: {type: Sum, period: 10ms}\nconnections: [c.out -> s.a, half.out -> s.b]\n";
 
-// Writes down what is asked of it; at an instant it is lost.
+// Takes a while at one instant, and throws at every other if it is told to.
+struct Troublesome {
+  static constexpr std::string_view summary = "for tests";
+  struct Param {
+    Duration slow{-1};
+    Duration lasts{};
+    bool throws = false;
+    static constexpr auto fields() {
+      return describe(field<&Param::slow>(), field<&Param::lasts>(), field<&Param::throws>());
+    }
+  };
+  static void run(const Param& p, const Tick& tick) {
+    if (tick.now == p.slow) std::this_thread::sleep_for(p.lasts);
+    if (p.throws) throw std::runtime_error("too hot");
+  }
+};
+
+// Writes down what is asked of it; at an instant it is slow or lost.
 class External : public Channels {
  public:
   struct Diary {
     std::vector<Duration> instants;
+    std::size_t taken = 0;  // of channel 0
     std::vector<double> handed;
+    Duration slow_at = Duration::max();
     Duration lost_at = Duration::max();  // in reach
     Duration lost_to = Duration::max();  // to what is handed over
   };
   explicit External(Diary& diary) : diary_(diary) {}
   void reach(Duration instant) override {
     diary_.instants.push_back(instant);
+    if (instant == diary_.slow_at) std::this_thread::sleep_for(25ms);
     if (instant >= diary_.lost_at) throw std::runtime_error("the other end is lost");
   }
-  bool take(std::size_t, void*) override { return false; }
+  bool take(std::size_t channel, void*) override {
+    if (channel == 0) ++diary_.taken;
+    return false;
+  }
   void hand_over(std::size_t, const void* value) override {
     diary_.handed.push_back(*static_cast<const double*>(value));
     if (diary_.instants.back() >= diary_.lost_to) throw std::runtime_error("nobody takes it");
@@ -42,29 +66,33 @@ class External : public Channels {
   Diary& diary_;
 };
 
-// A counter that goes to a vehicle and to an operator.
-Graph graph_with_outside() {
+Graph graph_with_outside(const std::string& text) {
   static const Registry registry = [] {
     Registry made;
     tasks::add_tasks(made);
-    const std::vector<ChannelClass> channels{{"actuator", Direction::out, &type_of<double>(), ""}};
+    made.add(task_class<Troublesome>());
+    const std::vector<ChannelClass> channels{{"sensor", Direction::in, &type_of<double>(), ""},
+                                             {"actuator", Direction::out, &type_of<double>(), ""},
+                                             {"gyroscope", Direction::in, &type_of<double>(), ""}};
     made.add(DistributerClass{"Plant", "for tests", channels, true});
     made.add(DistributerClass{"Operator", "for tests", channels, false});
     return made;
   }();
-  const std::string text = R"(graph: t
-timing: {period: 10ms}
-distributers: {a_plant: {type: Plant, link: {type: test}}, operator: {type: Operator, link: {type: test}}}
-communicators: {to_plant: {channel: a_plant.actuator}, to_operator: {channel: operator.actuator}}
-tasks: {c: {type: Counter}}
-connections: [c.out -> to_plant, c.out -> to_operator]
-)";
   Problems problems;
   Graph graph =
       build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
   problems.throw_if_any();
   return graph;
 }
+
+// A counter that goes to a vehicle and to an operator.
+constexpr const char* told = R"(graph: t
+timing: {period: 10ms}
+distributers: {a_plant: {type: Plant, link: {type: test}}, operator: {type: Operator, link: {type: test}}}
+communicators: {to_plant: {channel: a_plant.actuator}, to_operator: {channel: operator.actuator}}
+tasks: {c: {type: Counter}}
+connections: [c.out -> to_plant, c.out -> to_operator]
+)";
 
 std::vector<std::unique_ptr<Channels>> channels_of(External::Diary& plant, External::Diary& op) {
   std::vector<std::unique_ptr<Channels>> channels;
@@ -106,7 +134,7 @@ TEST_SUITE("runtime/threads_core") {
   }
 
   TEST_CASE("it covers the instants before the end, and tells the time covered, also where rounds were left out") {
-    const Graph graph = graph_with_outside();
+    const Graph graph = graph_with_outside(told);
     for (const Duration end : {35ms, 40ms}) {
       External::Diary plant, op;
       ThreadsCore core(graph, channels_of(plant, op));
@@ -146,8 +174,54 @@ TEST_SUITE("runtime/threads_core") {
     CHECK(undisturbed);
   }
 
+  TEST_CASE("what is due in a round that was left out comes in the next") {
+    // the round at 200 ms is left out
+    std::string slow = "-1ns";
+    External::Diary plant;
+    SUBCASE("as the core was at work") { slow = "190ms"; }
+    SUBCASE("as the sensor thread was at work") { plant.slow_at = 190ms; }
+    const Graph graph = graph_with_outside(R"(graph: t
+timing: {period: 200ms}
+distributers: {a_plant: {type: Plant, link: {type: test}}}
+communicators:
+  from: {channel: a_plant.sensor}
+  to: {channel: a_plant.actuator}
+  often: {channel: a_plant.gyroscope, period: 10ms}
+tasks:
+  long: {type: Troublesome, period: 10ms, parameters: {lasts: 25ms, slow: )" +
+                                           slow + R"(}}
+  seldom: {type: Sum}
+  relay: {type: Relay, period: 10ms}
+connections: [from -> seldom.a, from -> seldom.b, seldom.out -> to, often -> relay.in]
+)");
+    std::vector<std::unique_ptr<Channels>> channels;
+    channels.push_back(std::make_unique<External>(plant));
+    ThreadsCore core(graph, std::move(channels));
+    core.run_for(350ms);
+    CHECK(core.threads_report().rounds < 35);
+    CHECK(plant.taken == 2);
+    CHECK(plant.handed.size() == 2);
+    CHECK(core.report().activations == 2 * core.threads_report().rounds + 2);
+  }
+
+  TEST_CASE("every fault is counted, the first thousand are told") {
+    std::string text = "graph: t\ntiming: {period: 1ms}\ntasks:\n";
+    for (int i = 0; i < 50; ++i)
+      text += "  t" + std::to_string(i) + ": {type: Troublesome, on_fault: hold, parameters: {throws: true}}\n";
+    const Graph graph = graph_with_outside(text);
+    std::uint64_t count = 0;
+    for (Duration end = 100ms; count <= 1000 && end < 10s; end *= 2) {
+      ThreadsCore core(graph, {});
+      core.run_for(end);
+      count = core.report().fault_count;
+      CHECK(count == 50 * core.threads_report().rounds);
+      CHECK(core.report().faults.size() == std::min<std::uint64_t>(count, 1000));
+    }
+    CHECK(count > 1000);
+  }
+
   TEST_CASE("what goes wrong in one of its threads ends all, and is thrown by the run") {
-    const Graph graph = graph_with_outside();
+    const Graph graph = graph_with_outside(told);
     External::Diary plant, op;
     std::string error = "the other end is lost";
     SUBCASE("in the sensor thread") { plant.lost_at = 30ms; }

@@ -15,6 +15,21 @@ namespace {
 using namespace jarol;
 using namespace std::chrono_literals;
 using Explored = BasicTimeTrigger<model::ModelFutex>;
+
+// A clock that stands still but while somebody sleeps, who wakes up a little late.
+struct Sleeper {
+  template <class T>
+  using Atomic = std::atomic<T>;
+  using Time = MachineClock::time_point;
+  static inline Time time{};
+
+  static Time now() { return time; }
+  static bool wait(std::atomic<std::uint32_t>&, std::uint32_t, std::optional<Time> deadline) {
+    time = *deadline + 300us;
+    return false;
+  }
+  static void wake_all(std::atomic<std::uint32_t>&) {}
+};
 }  // namespace
 
 TEST_SUITE("runtime/time_trigger") {
@@ -32,6 +47,40 @@ TEST_SUITE("runtime/time_trigger") {
     const auto ticks = (MachineClock::now() - first) / 2ms + 1;
     CHECK(20 + trigger.unawaited() >= ticks);
     CHECK(20 + trigger.unawaited() <= ticks + 1);
+  }
+
+  TEST_CASE("who wakes up late, or works on, is woken by the grid all the same") {
+    const Sleeper::Time first = Sleeper::time + 5ms;
+    BasicTimeTrigger<Sleeper> trigger(2ms, first);
+    for (int i = 0; i < 1000; ++i) {
+      CHECK(trigger.await() == Awaiting::signalled);
+      CHECK(Sleeper::time - 300us == first + i * 2ms);
+      CHECK(trigger.ticks() == i + 1);
+      Sleeper::time += 1ms;
+    }
+    CHECK(trigger.unawaited() == 0);
+    Sleeper::time += 2ms;
+    CHECK(trigger.await() == Awaiting::signalled);
+    CHECK(Sleeper::time - 300us == first + 1001 * 2ms);
+    CHECK(trigger.unawaited() == 1);
+  }
+
+  TEST_CASE("a thread that works for most of the period is woken by the grid") {
+    // a busy machine may delay some; who slept for a period, 7 ms after he woke up, would be spread over all of it
+    MachineClock::duration median = 10ms;
+    for (int attempt = 0; attempt < 10 && median >= 3ms; ++attempt) {
+      const auto first = MachineClock::now() + 10ms;
+      TimeTrigger trigger(10ms, first);
+      std::vector<MachineClock::duration> late;
+      for (int i = 0; i < 15; ++i) {
+        CHECK(trigger.await() == Awaiting::signalled);
+        late.push_back((MachineClock::now() - first) % 10ms);
+        std::this_thread::sleep_for(7ms);
+      }
+      std::sort(late.begin(), late.end());
+      median = late[late.size() / 2];
+    }
+    CHECK(median < 3ms);
   }
 
   TEST_CASE("all who wait are woken by a tick") {
