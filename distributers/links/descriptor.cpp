@@ -4,6 +4,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -33,10 +34,15 @@ void Interrupter::reset() {
 
 Interrupter::Woken Interrupter::wait(int fd, std::chrono::milliseconds time, bool write) const {
   std::array<pollfd, 2> polled{{{event_.get(), POLLIN, 0}, {fd, static_cast<short>(write ? POLLOUT : POLLIN), 0}}};
-  const int ready = poll(polled.data(), polled.size(), static_cast<int>(time.count()));
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + time;
+  int ready = 0;
+  // a signal to the process is no reason to come back
+  while ((ready = poll(polled.data(), polled.size(), static_cast<int>(time.count()))) < 0 && errno == EINTR)
+    if (time.count() >= 0)
+      time = std::max(std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()), std::chrono::milliseconds(0));
   if (ready > 0 && polled[0].revents != 0) return Woken::interrupted;
-  if (ready > 0) return Woken::ready;
-  return ready == 0 ? Woken::timed_out : Woken::ready;  // a signal: look again
+  return ready == 0 ? Woken::timed_out : Woken::ready;
 }
 
 }  // namespace jarol::distributers

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "distributers/messages/packet.h"
+#include "graph/yaml/quantities.h"
 
 namespace jarol::distributers {
 namespace {
@@ -107,6 +108,7 @@ void LockstepChannels::begin() {
   const std::string set = text_after(welcome, 2);
   if (set != adapter_->message_set().name)
     refuse("it speaks '" + set + "', not '" + std::string(adapter_->message_set().name) + "'");
+  if (grid <= Duration::zero()) refuse("its step is " + duration_text(grid) + "; it has to be above zero");
   if (const std::string wrong = check_grid_(grid); !wrong.empty()) refuse(wrong);
   stream.put(FrameKind::begin, numbers({seed_}));
   auto vehicle = std::make_unique<RemoteVehicle>(std::move(stream), grid, adapter_->message_set());

@@ -1,0 +1,52 @@
+#include "distributers/links/lockstep.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <thread>
+
+#include "distributers/lauv_vehicle.h"
+#include "distributers/links/tcp.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+
+// What a runner says to a vehicle's process whose welcome tells of that grid.
+std::string said_to(std::int64_t grid) {
+  const Descriptor socket = listen_at(Address::parse("0"));
+  const Address address = Address::parse(std::to_string(port_of(socket)));
+  std::thread process([&] {
+    Descriptor runner;
+    while (!runner) runner = accept_from(socket);
+    FrameStream stream(std::move(runner));
+    std::vector<std::byte> welcome(19);
+    const std::uint64_t version = 1;
+    std::memcpy(welcome.data(), &version, 8);
+    std::memcpy(welcome.data() + 8, &grid, 8);
+    std::memcpy(welcome.data() + 16, "imc", 3);
+    stream.put(FrameKind::welcome, welcome);
+    stream.flush();
+    CHECK_THROWS_AS(stream.read(), FrameError);  // until it has gone
+  });
+  std::string said;
+  try {
+    LockstepChannels channels(address, 0, std::make_unique<LauvVehicle>(), [](Duration its) {
+      return Duration(1000).count() % its.count() == 0 ? std::string() : std::string("off its grid");
+    });
+    channels.begin();
+  } catch (const FrameError& error) { said = error.what(); }
+  process.join();
+  const std::string who = "the vehicle at " + address.text() + " does not fit: ";
+  return said.substr(0, who.size()) == who ? said.substr(who.size()) : said;
+}
+}  // namespace
+
+TEST_SUITE("distributers/links/lockstep") {
+  TEST_CASE("a vehicle is refused whose step is not above zero") {
+    CHECK(said_to(0) == "its step is 0ns; it has to be above zero");
+    CHECK(said_to(-7) == "its step is -7ns; it has to be above zero");
+    CHECK(said_to(7) == "off its grid");
+    CHECK(said_to(10) == "");
+  }
+}
