@@ -209,7 +209,6 @@ void Link::receive(messages::Receiver& receiver) {
     const auto packet = std::span<const std::byte>(room_).first(*length).subspan(peer_size);
     if (reader_.read(packet) != Flaw::none) continue;  // it was valid when it arrived
     std::memcpy(&peer_, room_.data(), peer_size);
-    ++received_;
     receiver.receive(reader_.message());
   }
 }
@@ -232,7 +231,7 @@ void Link::flush() {
   if (queued_.load(std::memory_order_relaxed) == given_) return;
   queued_.store(given_, std::memory_order_seq_cst);
   // a sender that is busy looks again before it waits
-  static_cast<void>(send_signal_.signal());
+  if (send_signal_.signal() != Signalling::done) ++busy_;
 }
 
 void Link::run_sender() {
@@ -272,6 +271,7 @@ LinkReport Link::report() const {
   add("dropped: other source", in.others);
   add("dropped: input port full", in.refused);
   if (const auto* push = std::get_if<PushPacketPort>(&input_)) add("dropped: overwritten by newer", push->lost());
+  add("send signals while busy", busy_);
   add("unsent: output port full", refused_);
   add("unsent: no peer", t.unsent);
   return report;

@@ -84,7 +84,7 @@ class Link {
   std::uint32_t peer_ = 0;
   std::uint64_t given_ = 0;
   std::uint64_t refused_ = 0;  // the output port was full
-  std::uint64_t received_ = 0;
+  std::uint64_t busy_ = 0;     // the sender was, when it was signalled
 
   std::atomic<std::uint64_t> queued_{0};  // packets in the output port so far
   std::atomic<bool> ending_{false};

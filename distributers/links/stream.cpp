@@ -7,18 +7,20 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 
 namespace jarol::distributers {
 namespace {
 
 using std::chrono::milliseconds;
+using Clock = std::chrono::steady_clock;
 constexpr milliseconds first_pause{20};
 constexpr milliseconds longest_pause{1000};
-constexpr milliseconds send_limit{200};  // a peer that takes nothing for so long is lost
+constexpr milliseconds send_limit{200};  // how long a send waits for room; the next one does not wait if it was in vain
 
-bool can_write(int fd) {
+bool can_write(int fd, milliseconds time) {
   pollfd polled{fd, POLLOUT, 0};
-  return poll(&polled, 1, static_cast<int>(send_limit.count())) > 0;
+  return poll(&polled, 1, static_cast<int>(time.count())) > 0;
 }
 
 }  // namespace
@@ -28,35 +30,37 @@ void StreamTransport::replace(Descriptor stream) {
   if (stream_) ++counts.disconnected;
   stream_.close();
   stream_ = std::move(stream);
+  stuck_ = false;
   if (stream_) ++counts.connected;
 }
 
 void StreamTransport::receive(const Interrupter& interrupter, ByteSink& sink) {
-  milliseconds pause = first_pause;
-  for (;;) {
-    Descriptor stream = get_stream();
-    if (stream) {
-      pause = first_pause;
-      replace(std::move(stream));
-      sink.begin_stream();
-      if (!receive_stream(interrupter, sink)) return;
-      continue;
-    }
-    const bool announced = announces_peer() >= 0;
-    if (interrupter.wait(announces_peer(), announced ? milliseconds(-1) : pause) == Interrupter::Woken::interrupted)
-      return;
-    pause = std::min(2 * pause, longest_pause);
+  const auto interrupted = [&](int fd, milliseconds time) {
+    return interrupter.wait(fd, time) == Interrupter::Woken::interrupted;
+  };
+  for (milliseconds pause{0};; pause = std::clamp(2 * pause, first_pause, longest_pause)) {
+    if (interrupted(-1, pause)) return;
+    if (!newer_ && announces_peer() >= 0 && interrupted(announces_peer(), milliseconds(-1))) return;
+    Descriptor stream = newer_ ? std::move(newer_) : get_stream();
+    if (!stream) continue;
+    replace(std::move(stream));
+    sink.begin_stream();
+    const End end = receive_stream(interrupter, sink);
+    if (end == End::interrupted) return;
+    if (end == End::good) pause = milliseconds(0);
   }
 }
 
-bool StreamTransport::receive_stream(const Interrupter& interrupter, ByteSink& sink) {
+StreamTransport::End StreamTransport::receive_stream(const Interrupter& interrupter, ByteSink& sink) {
   std::array<std::byte, 65536> room;
+  const auto begin = Clock::now();
+  auto heard = begin;
+  bool valid = false;
+  const auto end = [&] { return valid || Clock::now() - begin > longest_pause ? End::good : End::bad; };
   for (;;) {
-    // a new peer takes the place of the old one: it may have been started anew without the old stream's ending
-    if (announces_peer() >= 0 && interrupter.wait(announces_peer(), milliseconds(0)) == Interrupter::Woken::ready)
-      return true;
+    if (announces_peer() >= 0 && is_displaced(Clock::now() - heard > longest_pause)) return end();
     switch (interrupter.wait(stream_.get(), milliseconds(announces_peer() >= 0 ? 100 : -1))) {
-      case Interrupter::Woken::interrupted: return false;
+      case Interrupter::Woken::interrupted: return End::interrupted;
       case Interrupter::Woken::timed_out: continue;
       case Interrupter::Woken::ready: break;
     }
@@ -64,10 +68,24 @@ bool StreamTransport::receive_stream(const Interrupter& interrupter, ByteSink& s
     if (length < 0 && (errno == EAGAIN || errno == EINTR)) continue;
     if (length <= 0) {
       replace({});
-      return true;
+      return end();
     }
-    sink.take(std::span(room).first(static_cast<std::size_t>(length)));
+    if (!sink.take(std::span(room).first(static_cast<std::size_t>(length)))) continue;
+    valid = true;
+    heard = Clock::now();
   }
+}
+
+// A peer may have been started anew without the end of its old stream. But one that is there and speaks keeps its
+// place.
+bool StreamTransport::is_displaced(bool silent) {
+  if (!newer_) newer_ = get_stream();
+  if (!newer_) return false;
+  std::byte first{};
+  const auto length = ::recv(newer_.get(), &first, 1, MSG_PEEK | MSG_DONTWAIT);
+  const bool gone = length == 0 || (length < 0 && errno != EAGAIN && errno != EINTR);
+  if (!silent || gone) newer_.close();
+  return newer_ && (length > 0 || stuck_);
 }
 
 bool StreamTransport::send(std::span<const std::byte> packet) {
@@ -77,17 +95,26 @@ bool StreamTransport::send(std::span<const std::byte> packet) {
     const auto length = ::write(stream_.get(), packet.data(), packet.size());
     if (length > 0) {
       packet = packet.subspan(static_cast<std::size_t>(length));
-    } else if (length >= 0 || (errno != EINTR && (errno != EAGAIN || !can_write(stream_.get())))) {
+    } else if (length >= 0 || (errno != EINTR && errno != EAGAIN)) {
+      break;
+    } else if (errno == EAGAIN && !can_write(stream_.get(), stuck_ ? milliseconds(0) : send_limit)) {
+      stuck_ = true;
       break;
     }
   }
-  if (stream_ && packet.empty()) return true;
+  if (stream_ && packet.empty()) {
+    stuck_ = false;
+    return true;
+  }
   // after a part of a packet the peer would understand nothing: it sees the stream end
   if (stream_ && packet.size() < whole) ::shutdown(stream_.get(), SHUT_RDWR);
   ++counts.unsent;
   return false;
 }
 
-void StreamTransport::close() { replace({}); }
+void StreamTransport::close() {
+  replace({});
+  newer_.close();
+}
 
 }  // namespace jarol::distributers

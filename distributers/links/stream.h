@@ -1,12 +1,15 @@
 // What transports share whose bytes come in streams: TCP either way, and serial lines.
 #pragma once
 
+#include <atomic>
 #include <mutex>
 
 #include "distributers/links/transport.h"
 
 namespace jarol::distributers {
 
+/// After the end of a stream comes a pause before the next. It grows, unless the stream was good: something valid came
+/// in it, or it lasted longer than the longest pause.
 class StreamTransport : public Transport {
  public:
   void receive(const Interrupter& interrupter, ByteSink& sink) override;
@@ -14,18 +17,23 @@ class StreamTransport : public Transport {
   void close() override;
 
  protected:
-  /// One try to get a stream; none if there is no peer now, and then `wait_for_peer` comes before the next.
+  /// One try to get a stream; none if there is no peer now. It does not wait where peers are announced.
   virtual Descriptor get_stream() = 0;
   /// A descriptor that becomes readable when a peer comes, also while there is one already; none: only time helps.
   virtual int announces_peer() const { return -1; }
 
  private:
+  enum class End { good, bad, interrupted };
+
   void replace(Descriptor stream);
   // Until the stream ends or another peer takes its place.
-  bool receive_stream(const Interrupter& interrupter, ByteSink& sink);
+  End receive_stream(const Interrupter& interrupter, ByteSink& sink);
+  bool is_displaced(bool silent);
 
   std::mutex stream_mutex_;
   Descriptor stream_;
+  Descriptor newer_;                // a peer that may take the place; of the receiving thread
+  std::atomic<bool> stuck_{false};  // the last send waited in vain
 };
 
 }  // namespace jarol::distributers

@@ -11,7 +11,7 @@ Descriptor listen_at(const Address& address);
 /// Whoever has connected to a socket that listens; none: nobody waits.
 Descriptor accept_from(const Descriptor& socket);
 
-/// Connects, and again when the stream has ended.
+/// Connects, and again after a pause when the stream has ended.
 class TcpClient : public StreamTransport {
  public:
   explicit TcpClient(const Address& peer) : peer_(peer) {}
@@ -25,7 +25,10 @@ class TcpClient : public StreamTransport {
   Address peer_;
 };
 
-/// One peer at a time: a new one takes the place of the old one.
+/// One peer at a time. One that speaks keeps its place: others are turned away until nothing valid has come from it for
+/// a second. Then the newer one takes its place as soon as it speaks itself, or when nothing can be sent to the old
+/// one: it may have been started anew without the end of its old stream. So two clients don't push each other out for
+/// ever.
 class TcpServer : public StreamTransport {
  public:
   explicit TcpServer(const Address& listen) : listen_(listen) {}
