@@ -54,6 +54,12 @@ int Address::port() const {
   return ntohs(reinterpret_cast<const sockaddr_in*>(&storage_)->sin_port);
 }
 
+bool Address::is_any() const {
+  if (family() == AF_INET6)
+    return IN6_IS_ADDR_UNSPECIFIED(&reinterpret_cast<const sockaddr_in6*>(&storage_)->sin6_addr) != 0;
+  return family() == AF_INET && reinterpret_cast<const sockaddr_in*>(&storage_)->sin_addr.s_addr == INADDR_ANY;
+}
+
 Address Address::with_port(int port) const {
   Address other = *this;
   const std::uint16_t wire = htons(static_cast<std::uint16_t>(port));
@@ -77,6 +83,19 @@ std::string Address::text() const {
   char host[NI_MAXHOST];
   if (getnameinfo(get(), size_, host, sizeof host, nullptr, 0, NI_NUMERICHOST) != 0) return "?";
   return (family() == AF_INET6 ? "[" + std::string(host) + "]" : std::string(host)) + ":" + std::to_string(port());
+}
+
+Address local_towards(const Address& peer) {
+  // connecting a datagram socket sends nothing: it looks for the way
+  const Descriptor made(socket(peer.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  const int yes = 1;
+  sockaddr_storage storage{};
+  socklen_t size = sizeof storage;
+  if (!made || setsockopt(made.get(), SOL_SOCKET, SO_BROADCAST, &yes, sizeof yes) != 0 ||
+      connect(made.get(), peer.get(), peer.size()) != 0 ||
+      getsockname(made.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0)
+    return {};
+  return Address::of(storage, size).with_port(0);
 }
 
 int port_of(const Descriptor& socket) {

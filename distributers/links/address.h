@@ -26,6 +26,9 @@ class Address {
   explicit operator bool() const { return size_ > 0; }
   bool operator==(const Address& other) const;
 
+  /// Is it all addresses of the machine, as 0.0.0.0?
+  bool is_any() const;
+
   /// The same host with that port.
   Address with_port(int port) const;
 
@@ -36,6 +39,9 @@ class Address {
   sockaddr_storage storage_{};
   socklen_t size_ = 0;
 };
+
+/// From where this machine would send to that address, port 0; none: there is no way to it.
+Address local_towards(const Address& peer);
 
 /// The port to which a socket is bound; of "0" the one that the system chose.
 int port_of(const Descriptor& socket);

@@ -121,7 +121,14 @@ std::unique_ptr<Transport> make_udp(const LinkSpec& spec, const Yaml& yaml, cons
   if (listen && peer && listen.family() != peer.family())
     problems.add(spec.peer->where, "'" + spec.peer->value + "' can't be reached from '" + spec.listen->value +
                                        "': one is IPv4, the other IPv6");
-  return std::make_unique<UdpTransport>(listen, peer);
+  try {
+    // all who may look for it are told the same: where the first of them sees it
+    return std::make_unique<UdpTransport>(listen, peer,
+                                          spec.announce ? Announcer::parse(spec.announce->value).front() : Address{});
+  } catch (const std::invalid_argument& error) {
+    problems.add(spec.announce->where, error.what());
+    return nullptr;
+  }
 }
 
 std::unique_ptr<Transport> make_transport(const Yaml& yaml, LinkSpec& spec, const std::string& subject,

@@ -11,6 +11,12 @@ std::string UdpTransport::text() const {
   return "udp " + listen_.text() + (named_peer_ ? " with " + named_peer_.text() : "");
 }
 
+std::string UdpTransport::address() const {
+  const Address host = listen_.is_any() && seen_from_ ? local_towards(seen_from_) : listen_;
+  const bool reachable = host && (listen_.family() == AF_INET6 || host.family() == AF_INET);
+  return reachable ? "udp://" + host.with_port(port()).text() : "";
+}
+
 void UdpTransport::open() {
   Descriptor made(socket(listen_.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!made || bind(made.get(), listen_.get(), listen_.size()) != 0)

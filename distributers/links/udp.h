@@ -13,10 +13,12 @@ namespace jarol::distributers {
 /// was started anew is found again.
 class UdpTransport : public Transport {
  public:
-  UdpTransport(const Address& listen, const Address& peer) : listen_(listen), named_peer_(peer) {}
+  /// `seen_from`: who is told where it can be reached, or none. It matters where it listens at all addresses.
+  UdpTransport(const Address& listen, const Address& peer, const Address& seen_from = {})
+      : listen_(listen), named_peer_(peer), seen_from_(seen_from) {}
 
   std::string text() const override;
-  std::string address() const override { return "udp://" + listen_.with_port(port()).text(); }
+  std::string address() const override;
   void open() override;
   void receive(const Interrupter& interrupter, ByteSink& sink) override;
   bool send(std::span<const std::byte> packet) override;
@@ -30,6 +32,7 @@ class UdpTransport : public Transport {
 
   Address listen_;
   Address named_peer_;
+  Address seen_from_;
   Descriptor socket_;
   std::mutex peer_mutex_;
   Address peer_;  // written by the receiving thread
