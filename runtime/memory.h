@@ -3,12 +3,15 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 namespace jarol {
 
 /// Data of two threads keep this distance, so that neither slows the other down (two lines: they are fetched in pairs).
 inline constexpr std::size_t apart = 128;
+
+static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "counts and marks of ports, and the words of values");
 
 struct Memory {
   template <class T>

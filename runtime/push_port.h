@@ -23,7 +23,7 @@ class BasicPushPort {
  public:
   /// Holds the newest `capacity` values of `size` bytes; at least one.
   BasicPushPort(std::size_t capacity, std::size_t size)
-      : slots_(at_least_one(capacity) + 1, 0, 1 + (size + 7) / 8), size_(size), capacity_(capacity) {}
+      : slots_(one_more(at_least_one(capacity)), 0, 1 + (size + 7) / 8), size_(size), capacity_(capacity) {}
 
   std::size_t capacity() const { return capacity_; }
   /// Bytes of a value.
@@ -125,6 +125,9 @@ class BasicPushPort {
     if (capacity == 0) throw std::invalid_argument("a push port holds at least one value");
     return capacity;
   }
+
+  // what would wrap is left to the slots to refuse
+  static std::size_t one_more(std::size_t capacity) { return capacity + 1 == 0 ? capacity : capacity + 1; }
 
   void skip(Reader& r, std::uint64_t written) {
     const std::uint64_t oldest = written - capacity_;

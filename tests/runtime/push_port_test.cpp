@@ -78,6 +78,8 @@ TEST_SUITE("runtime/push_port") {
 
   TEST_CASE("a push port holds at least one value") {
     CHECK_THROWS_WITH_AS(PushPort<int>(0), "a push port holds at least one value", std::invalid_argument);
+    CHECK_THROWS_WITH_AS(PushPort<int>(~std::size_t{0}), "the slots of a port take more than a tebibyte",
+                         std::length_error);
   }
 
   TEST_CASE("a writer and a reader in every interleaving" * doctest::skip(!model::available)) {
