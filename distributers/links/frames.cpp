@@ -14,19 +14,29 @@ namespace {
 
 constexpr std::size_t longest = std::size_t{1} << 20;
 
-bool wait_for(int fd, short events) {
+bool wait_for(int fd, short events, std::chrono::milliseconds limit = FrameStream::patience) {
   pollfd polled{fd, events, 0};
   int ready = 0;
-  while ((ready = poll(&polled, 1, static_cast<int>(FrameStream::patience.count()))) < 0 && errno == EINTR) {}
+  while ((ready = poll(&polled, 1, static_cast<int>(limit.count()))) < 0 && errno == EINTR) {}
   return ready > 0;
+}
+
+// 0, or what went wrong.
+int finish_connecting(int fd, std::chrono::milliseconds limit) {
+  if (!wait_for(fd, POLLOUT, limit)) return ETIMEDOUT;
+  int error = 0;
+  socklen_t size = sizeof error;
+  return getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) == 0 ? error : errno;
 }
 
 }  // namespace
 
-FrameStream FrameStream::connect(const Address& peer) {
-  Descriptor made(socket(peer.family(), SOCK_STREAM | SOCK_CLOEXEC, 0));
-  if (!made || ::connect(made.get(), peer.get(), peer.size()) != 0)
-    throw FrameError("there is no vehicle at " + peer.text() + ": " + std::strerror(errno) +
+FrameStream FrameStream::connect(const Address& peer, std::chrono::milliseconds limit) {
+  Descriptor made(socket(peer.family(), SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  int error = made && ::connect(made.get(), peer.get(), peer.size()) == 0 ? 0 : errno;
+  if (error == EINPROGRESS) error = finish_connecting(made.get(), limit);
+  if (error != 0)
+    throw FrameError("there is no vehicle at " + peer.text() + ": " + std::strerror(error) +
                      "; start one by 'jarol vehicle NAME --link lockstep --listen " + std::to_string(peer.port()) +
                      "'");
   const int on = 1;

@@ -42,8 +42,8 @@ class FrameStream {
 
   explicit FrameStream(Descriptor socket) : socket_(std::move(socket)) {}
 
-  /// Connects. Throws FrameError that names the address.
-  static FrameStream connect(const Address& peer);
+  /// Connects, within that time. Throws FrameError that names the address.
+  static FrameStream connect(const Address& peer, std::chrono::milliseconds limit = patience);
 
   /// Adds a frame to those that `flush` sends.
   void put(FrameKind kind, std::span<const std::byte> bytes = {});

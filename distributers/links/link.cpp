@@ -205,7 +205,9 @@ void Link::disconnect() {
 
 void Link::receive(messages::Receiver& receiver) {
   const auto read = [&](auto& port) { return port.read(room_); };
-  while (const auto length = std::visit(read, input_)) {
+  for (auto left = std::visit([](const auto& port) { return port.capacity(); }, input_); left > 0; --left) {
+    const auto length = std::visit(read, input_);
+    if (!length) return;
     const auto packet = std::span<const std::byte>(room_).first(*length).subspan(peer_size);
     if (reader_.read(packet) != Flaw::none) continue;  // it was valid when it arrived
     std::memcpy(&peer_, room_.data(), peer_size);

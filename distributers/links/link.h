@@ -45,7 +45,8 @@ class Link {
   /// Sends what is pending and ends; nothing if it has ended.
   void disconnect();
 
-  /// Gives the receiver the packets that have arrived, oldest first.
+  /// Gives the receiver the packets that have arrived, oldest first; no more than the port holds, however fast others
+  /// come.
   void receive(messages::Receiver& receiver);
   /// Who sent the packet that was given last: datagrams' peers are numbered from 1; 0: it came in a stream.
   std::uint32_t peer() const { return peer_; }

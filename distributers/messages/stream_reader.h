@@ -45,8 +45,8 @@ class StreamReader {
   MessageRef header() const { return reader_.header(); }
   MessageRef message() const { return reader_.message(); }
 
-  /// What has not come of a packet that has begun will not come: the line is closed, or was silent for long. Then
-  /// `next` looks through what there is.
+  /// What has not come of a packet that has begun will not come: the stream has ended. Then `next` looks
+  /// through what there is.
   void give_up() { giving_up_ = true; }
 
   const PacketCounts& counts() const { return counts_; }

@@ -254,10 +254,16 @@ TEST_SUITE("distributers/links/link") {
     throw_in({1, 2, 3});
     throw_in({0xff, 0xff, 0x11, 0, 0, 0x12});  // a wrong checksum
     throw_in({0xff, 0xff, 0x11, 9, 0, 0x11});  // nine bytes of payload that are not there
-    throw_in({0xff, 0xff, 0x63, 0, 0, 0x63});  // no message has this id
-    REQUIRE(wait_for([&] {
-      return count_of(*pair.one, "dropped: bad checksum") == 1 && count_of(*pair.one, "dropped: unknown id") == 1;
-    }));
+    throw_in({1, 2, 3, 4, 5, 6});
+    throw_in({0xff, 0xff, 0x11, 0, 0, 0x11, 7});  // a byte too many
+    throw_in({0xff, 0xff, 0x11, 1, 7, 0, 0x19});  // a payload where its message has none
+    throw_in({0xff, 0xff, 0x63, 0, 0, 0x63});     // no message has this id
+    REQUIRE(wait_for([&] { return count_of(*pair.one, "dropped: unknown id") == 1; }));
+    CHECK(count_of(*pair.one, "dropped: truncated") == 3);
+    CHECK(count_of(*pair.one, "dropped: bad checksum") == 1);
+    CHECK(count_of(*pair.one, "dropped: garbage") == 1);
+    CHECK(count_of(*pair.one, "dropped: oversized") == 1);
+    CHECK(count_of(*pair.one, "dropped: bad payload") == 1);
     CHECK(count_of(*pair.one, "packets in") == 0);
     CHECK(count_of(*pair.one, "peers") == 0);
     Ids got;
@@ -356,6 +362,53 @@ TEST_SUITE("distributers/links/link") {
       return !got.ids.empty() && got.ids.back() == 42;
     }));
     CHECK(count_of(*pair.one, "dropped: garbage") >= 1);
+  }
+
+  TEST_CASE("in a stream, too, what is dropped is counted by reason; of what the end cut off, when the next begins") {
+    auto transport = std::make_unique<TcpServer>(Address::parse("127.0.0.1:0"));
+    const TcpServer& server = *transport;
+    const auto link = make(std::move(transport));
+    link->connect();
+    const Address to = Address::parse("127.0.0.1:" + std::to_string(server.port()));
+    const std::vector<unsigned char> streams[] = {
+        {0xff, 0xff, 0x11, 0xff, 0xff, 0, 0, 0, 0, 0},  // more payload than any message has
+        {0xff, 0xff, 0x11, 0, 0, 0x12, 0xff, 0xff, 0x63, 0, 0, 0x63, 0xff, 0xff, 0x11, 0, 0, 0x11},
+        {0xff, 0xff, 0x05, 0x0a, 0, 1, 0},  // its message goes on
+        {0xff, 0xff, 0x11, 0, 0, 0x11}};
+    for (std::uint64_t i = 0; i < 4; ++i) {
+      const Descriptor raw(socket(AF_INET, SOCK_STREAM, 0));
+      REQUIRE(connect(raw.get(), to.get(), to.size()) == 0);
+      REQUIRE(::write(raw.get(), streams[i].data(), streams[i].size()) == static_cast<ssize_t>(streams[i].size()));
+      shutdown(raw.get(), SHUT_WR);
+      REQUIRE(wait_for([&] { return count_of(*link, "ends of stream") == i + 1; }));
+    }
+    CHECK(count_of(*link, "dropped: oversized") == 1);
+    CHECK(count_of(*link, "dropped: bad checksum") == 1);
+    CHECK(count_of(*link, "dropped: unknown id") == 1);
+    CHECK(count_of(*link, "dropped: truncated") == 1);
+    CHECK(count_of(*link, "packets in") == 2);
+  }
+
+  TEST_CASE("one look takes no more packets than the port holds, though others come meanwhile") {
+    struct Feeds : messages::Receiver {
+      explicit Feeds(Pair& its) : pair(its) {}
+      void receive(messages::MessageRef) override {
+        const std::uint64_t before = count_of(*pair.one, "packets in");
+        if (++given > 10) return;
+        send_id(*pair.other, 0);
+        CHECK(wait_for([&] { return count_of(*pair.one, "packets in") > before; }));
+      }
+      Pair& pair;
+      int given = 0;
+    };
+    for (const PortKind kind : {PortKind::plain, PortKind::push}) {
+      Pair pair = udp("127.0.0.1", {.input = {kind, 4}, .output = {}, .header = {}});
+      send_id(*pair.other, 0);
+      REQUIRE(wait_for([&] { return count_of(*pair.one, "packets in") == 1; }));
+      Feeds feeds(pair);
+      pair.one->receive(feeds);
+      CHECK(feeds.given == 4);
+    }
   }
 
   TEST_CASE("what can't be had from the begin is an error that says why") {

@@ -49,4 +49,25 @@ TEST_SUITE("distributers/links/lockstep") {
     CHECK(said_to(7) == "off its grid");
     CHECK(said_to(10) == "");
   }
+
+  TEST_CASE("connecting to where nobody answers has an end") {
+    using namespace std::chrono_literals;
+    const Descriptor socket = listen_at(Address::parse("0"));
+    const std::string port = std::to_string(port_of(socket));
+    const Address address = Address::parse(port);
+    // those that nobody accepts fill the queue; the system then answers no more
+    std::vector<Descriptor> queue;
+    for (int i = 0; i < 5; ++i) {
+      queue.emplace_back(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0));
+      connect(queue.back().get(), address.get(), address.size());
+    }
+    const auto start = std::chrono::steady_clock::now();
+    CHECK_THROWS_WITH_AS(
+        FrameStream::connect(address, 100ms),
+        ("there is no vehicle at 127.0.0.1:" + port +
+         ": Connection timed out; start one by 'jarol vehicle NAME --link lockstep --listen " + port + "'")
+            .c_str(),
+        FrameError);
+    CHECK(std::chrono::steady_clock::now() - start < 5s);
+  }
 }
