@@ -3,10 +3,12 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <time.h>
 
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 
 namespace jarol {
 namespace {
@@ -25,6 +27,22 @@ std::string refused(const std::string& what, int error, const std::string& remed
   return what + ": " + std::strerror(error) + "; " + remedy;
 }
 
+// What is allocated later is locked too, but not where a limit counts: there would be no thread and no memory to be had
+// beyond it.
+int lock_memory() {
+  static std::mutex limits;
+  const std::lock_guard lock(limits);
+  rlimit limit{};
+  getrlimit(RLIMIT_MEMLOCK, &limit);
+  if (limit.rlim_cur == RLIM_INFINITY) return mlockall(MCL_CURRENT | MCL_FUTURE);
+  // no limit counts for a process with CAP_IPC_LOCK, not even none at all; a user namespace may only seem to give it
+  const rlimit nothing{0, limit.rlim_max};
+  setrlimit(RLIMIT_MEMLOCK, &nothing);
+  const int unlimited = mlockall(MCL_CURRENT | MCL_FUTURE);
+  setrlimit(RLIMIT_MEMLOCK, &limit);
+  return unlimited == 0 ? 0 : mlockall(MCL_CURRENT);
+}
+
 }  // namespace
 
 RealTimeOptions RealTimeOptions::of_thread(std::size_t core, std::size_t urgency) const {
@@ -37,7 +55,7 @@ RealTimeOptions RealTimeOptions::of_thread(std::size_t core, std::size_t urgency
 std::vector<std::string> prepare_thread(const RealTimeOptions& options) {
   std::vector<std::string> refusals;
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
-  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
+  if (lock_memory() != 0)
     refusals.push_back(
         refused("memory can't be locked", errno, "a page fault may delay a task; allow it by 'ulimit -l unlimited'"));
   if (!options.cpus.empty()) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <thread>
 
 #include "runtime/threads_core.h"
 #include "tools/commanded.h"
@@ -10,6 +12,7 @@
 #include "tools/interrupt.h"
 #include "tools/linked.h"
 #include "tools/real_time.h"
+#include "tools/told_faults.h"
 
 namespace jarol::tools {
 namespace {
@@ -34,7 +37,7 @@ void print_text(const Graph& graph, const ThreadsCore& core, const std::vector<L
   std::cout << to_text(graph, core.safe_commands());
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
-  for (const Fault& fault : report.faults) std::cerr << "fault: " << to_text(fault) << "\n";
+  std::cerr << told_faults(report);
 }
 
 void print_json(const Graph& graph, const ThreadsCore& core, const std::vector<LinkReport>& links) {
@@ -53,12 +56,10 @@ void print_json(const Graph& graph, const ThreadsCore& core, const std::vector<L
                               {"outputs_50_ns", threads.round.percentile(0.5)},
                               {"outputs_99_ns", threads.round.percentile(0.99)},
                               {"outputs_most_ns", threads.round.most()},
+                              {"faults", faults_to_json(report)},
+                              {"fault_count", report.fault_count},
                               {"non_finite_inputs", report.non_finite_inputs},
                               {"safe_commands", to_json(graph, core.safe_commands())}};
-  json["faults"] = nlohmann::ordered_json::array();
-  for (const Fault& f : report.faults)
-    json["faults"].push_back(
-        {{"task", f.task}, {"activation", f.activation}, {"instant_ns", f.instant.count()}, {"cause", f.cause}});
   for (const LinkReport& link : links) json["links"].push_back(to_json(link));
   std::cout << json << "\n";
 }
@@ -69,10 +70,20 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeOptions& options,
   const std::vector<Channels*> channels = pointers_to(loaded.channels);
   ThreadsCore core(*loaded.graph, std::move(loaded.channels));
   Linked linked(channels);
-  const RealClock machine(0, options);
-  for (const std::string& refusal : machine.prepare_thread()) std::cerr << "note: " << refusal << "\n";
-  const Interruptible interruptible([&] { core.interrupt(); });
-  core.run_for(end, [&] { machine.prepare_thread(); });
+  // what one thread is refused, all are
+  const auto prepare = [&options, caller = std::this_thread::get_id()] {
+    const std::vector<std::string> refusals = prepare_thread(options);
+    if (std::this_thread::get_id() != caller) return;
+    for (const std::string& refusal : refusals) std::cerr << "note: " << refusal << "\n";
+  };
+  try {
+    const Interruptible interruptible([&] { core.interrupt(); });
+    core.run_for(end, prepare);
+  } catch (const std::runtime_error& error) {
+    // a vehicle that is lost, or can't be simulated any further
+    std::cerr << "error: at " << seconds_text(core.now()) << " s: " << error.what() << "\n";
+    return exit_unfinished;
+  }
   linked.finish();
   const bool interrupted = Interruptible::interrupted().load();
   json ? print_json(*loaded.graph, core, linked.reports())

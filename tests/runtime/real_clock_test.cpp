@@ -1,7 +1,11 @@
 #include "runtime/real_clock.h"
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <memory>
 #include <thread>
 
 #include "tests/runtime/trace_of.h"
@@ -154,6 +158,29 @@ TEST_SUITE("runtime/real_clock") {
     const RealRun r = run_undisturbed(graph, 200ms, 2, 0);
     CHECK(r.report.stopped);
     CHECK(r.report.simulated == 20ms);
+  }
+
+  TEST_CASE("memory that is locked under a limit leaves threads and allocations free") {
+    const pid_t child = fork();
+    if (child == 0) {
+      // a limit above what there is, where the process may set one, and nobody for whom no limit counts
+      constexpr std::size_t room = 512U << 20;
+      const rlimit limit{room, room};
+      setrlimit(RLIMIT_MEMLOCK, &limit);
+      rlimit before{};
+      bool good = getrlimit(RLIMIT_MEMLOCK, &before) == 0 && (geteuid() != 0 || setuid(65534) == 0);
+      prepare_thread({});
+      try {
+        const auto memory = std::make_unique_for_overwrite<char[]>(room);
+        std::thread([&] { memory[room / 2] = 1; }).join();
+      } catch (const std::exception&) { good = false; }
+      rlimit after{};
+      good = good && getrlimit(RLIMIT_MEMLOCK, &after) == 0 && after.rlim_cur == before.rlim_cur;
+      _exit(good ? 0 : 1);
+    }
+    int status = -1;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK(status == 0);
   }
 
   TEST_CASE("an interrupt ends the wait for an instant far away") {

@@ -1,8 +1,13 @@
 #include "runtime/threads_core.h"
 
 #include <doctest/doctest.h>
+#include <pthread.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -245,6 +250,35 @@ connections: [from -> seldom.a, from -> seldom.b, seldom.out -> to, often -> rel
     CHECK(core.threads_report().rounds == 0);
     CHECK(core.report().simulated == 0ms);
   }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need memory of their own
+  TEST_CASE("where the system has no more threads the run ends before it begins") {
+    const pid_t child = fork();
+    if (child == 0) {
+      // there is room for the stacks of two threads at most
+      constexpr std::size_t stack = 64U << 20;
+      pthread_attr_t attributes;
+      pthread_attr_init(&attributes);
+      pthread_attr_setstacksize(&attributes, stack);
+      pthread_setattr_default_np(&attributes);
+      const Graph graph = graph_of(counting);
+      ThreadsCore core(graph, {});
+      std::size_t pages = 0;
+      std::ifstream("/proc/self/statm") >> pages;
+      const rlim_t room = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + 2 * stack + stack / 2;
+      const rlimit limit{room, room};
+      setrlimit(RLIMIT_AS, &limit);
+      std::string error;
+      try {
+        core.run_for(1h);
+      } catch (const std::runtime_error& thrown) { error = thrown.what(); }
+      _exit(error == "there is no thread to be had: Resource temporarily unavailable" ? 0 : 1);
+    }
+    int status = -1;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK(status == 0);
+  }
+#endif
 
   TEST_CASE("periods that can't be counted in those of the sensor thread are refused") {
     const Graph graph =

@@ -1,9 +1,15 @@
 // Runs on the real clock as people start them: who runs the tasks, what is told, what is refused.
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sched.h>
+#include <signal.h>
+#include <stdlib.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "tests/tools/run_command.h"
 
@@ -78,6 +84,44 @@ TEST_SUITE("tools/real_time") {
     };
     CHECK(content("virtual.csv").size() > 100);
     CHECK(content("real.csv") == content("virtual.csv"));
+  }
+
+  TEST_CASE("the progress that a terminal shows leaves alone the CPU of the thread that keeps the time") {
+    cpu_set_t usable;
+    sched_getaffinity(0, sizeof usable, &usable);
+    if (CPU_COUNT(&usable) < 2) return;
+    std::size_t cpu = 0;
+    while (!CPU_ISSET(cpu, &usable)) ++cpu;
+    const TemporaryFolder folder;
+    const std::string one = folder.write("one.yaml", on_core(0));
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+    REQUIRE(terminal >= 0);
+    REQUIRE((grantpt(terminal) == 0 && unlockpt(terminal) == 0));
+    std::FILE* const run = popen(("echo $$; exec " JAROL_COMMAND " run " + one + " --clock real --for 5s --cpus " +
+                                  std::to_string(cpu) + " 2>" + ptsname(terminal))
+                                     .c_str(),
+                                 "r");
+    int id = 0;
+    REQUIRE(std::fscanf(run, "%d", &id) == 1);
+    // of each of its threads, on how many CPUs it may run
+    const auto counts = [&] {
+      std::vector<int> found;
+      for (const auto& thread : std::filesystem::directory_iterator("/proc/" + std::to_string(id) + "/task")) {
+        cpu_set_t set;
+        sched_getaffinity(std::stoi(thread.path().filename()), sizeof set, &set);
+        found.push_back(CPU_COUNT(&set));
+      }
+      std::sort(found.begin(), found.end());
+      return found;
+    };
+    const std::vector<int> should{1, CPU_COUNT(&usable)};
+    for (int look = 0; look < 400 && counts() != should; ++look)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    CHECK(counts() == should);
+    kill(id, SIGINT);
+    while (std::fgetc(run) != EOF) {}  // its report has to find a reader
+    CHECK(WEXITSTATUS(pclose(run)) == 130);
+    close(terminal);
   }
 
   TEST_CASE("what can't be executed is refused with what would be right") {

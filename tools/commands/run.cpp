@@ -18,6 +18,7 @@
 #include "tools/progress.h"
 #include "tools/real_time.h"
 #include "tools/run_on_threads.h"
+#include "tools/told_faults.h"
 #include "tools/trace_csv.h"
 #include "tools/value_json.h"
 
@@ -118,18 +119,12 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
               << team->shared() + team->alone() << " levels of tasks shared\n";
   if (!options.trace.empty()) std::cout << "  trace       " << options.trace << "\n";
   if (!options.plot.empty()) std::cout << "  picture     " << options.plot << "\n";
-  for (const Fault& fault : report.faults) std::cerr << "fault: " << to_text(fault) << "\n";
-  if (report.fault_count > report.faults.size())
-    std::cerr << "fault: and " << report.fault_count - report.faults.size() << " more\n";
+  std::cerr << told_faults(report);
 }
 
 void print_json(const Graph& graph, const Executor& executor, const RealClock* clock,
                 const std::vector<LinkReport>& links, double seconds) {
   const Report& report = executor.report();
-  auto faults = nlohmann::ordered_json::array();
-  for (const Fault& f : report.faults)
-    faults.push_back(
-        {{"task", f.task}, {"activation", f.activation}, {"instant_ns", f.instant.count()}, {"cause", f.cause}});
   auto outputs = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < graph.communicators.size(); ++i)
     if (graph.communicators[i].direction == Direction::out)
@@ -148,7 +143,8 @@ void print_json(const Graph& graph, const Executor& executor, const RealClock* c
                               {"real_time_factor", simulated / seconds},
                               {"activations", report.activations},
                               {"instants", report.instants},
-                              {"faults", faults},
+                              {"faults", faults_to_json(report)},
+                              {"fault_count", report.fault_count},
                               {"non_finite_inputs", report.non_finite_inputs},
                               {"safe_commands", to_json(graph, executor.safe_commands())},
                               {"heaps", heaps},
@@ -156,6 +152,14 @@ void print_json(const Graph& graph, const Executor& executor, const RealClock* c
   if (clock != nullptr) json["real_time"] = to_json(graph, *clock);
   for (const LinkReport& link : links) json["links"].push_back(to_json(link));
   std::cout << json << "\n";
+}
+
+void start_clock(RealClock& clock, const Executor& executor) {
+  std::vector<std::string> refusals = clock.prepare_thread();
+  for (const std::string& refusal : executor.refusals())
+    if (std::find(refusals.begin(), refusals.end(), refusal) == refusals.end()) refusals.push_back(refusal);
+  for (const std::string& refusal : refusals) std::cerr << "note: " << refusal << "\n";
+  clock.start();
 }
 
 int run(const Options& options) {
@@ -196,18 +200,14 @@ int run(const Options& options) {
                      .clock = clock ? &*clock : nullptr,
                      .threads = threads});
   Linked linked(std::move(channels));
-  if (clock) {
-    std::vector<std::string> refusals = clock->prepare_thread();
-    for (const std::string& refusal : executor.refusals())
-      if (std::find(refusals.begin(), refusals.end(), refusal) == refusals.end()) refusals.push_back(refusal);
-    for (const std::string& refusal : refusals) std::cerr << "note: " << refusal << "\n";
-    clock->start();
-  }
-  const auto start = std::chrono::steady_clock::now();
+  auto start = std::chrono::steady_clock::now();
   try {
     const Interruptible interruptible([&] { executor.interrupt(); });
     const bool shown = !options.json && isatty(STDERR_FILENO) != 0 && end != Duration::max();
+    // its thread is made before this one gets the priority and the CPUs that threads made later would take after
     const Progress progress(shown, end, [&] { return executor.now(); });
+    if (clock) start_clock(*clock, executor);
+    start = std::chrono::steady_clock::now();
     executor.run_until(end);
   } catch (const std::runtime_error& error) {
     // a vehicle that is lost, or can't be simulated any further

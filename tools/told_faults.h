@@ -1,0 +1,16 @@
+// The faults of a run, as a report tells them.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "runtime/executor.h"
+
+namespace jarol::tools {
+
+/// A line for each that was kept, and how many more there were.
+std::string told_faults(const Report& report);
+/// Those that were kept.
+nlohmann::ordered_json faults_to_json(const Report& report);
+
+}  // namespace jarol::tools
