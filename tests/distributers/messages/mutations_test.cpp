@@ -1,6 +1,7 @@
 // Random and damaged packets: none crashes, none is taken unless its checksum holds.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "distributers/messages/packet.h"
