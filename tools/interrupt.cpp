@@ -1,30 +1,53 @@
 #include "tools/interrupt.h"
 
 #include <csignal>
+#include <ctime>
+#include <utility>
 
 namespace jarol::tools {
 namespace {
 
 std::atomic<bool> flag{false};
+std::atomic<bool> alive{false};
+std::atomic<std::int64_t> first_at{0};  // ns
 std::function<void()> call;
 
-extern "C" void interrupt(int) {
-  flag.store(true, std::memory_order_relaxed);
-  call();
+constexpr std::int64_t second_from = 500'000'000;  // ns: what comes sooner is the same wish, told twice
+
+std::int64_t now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
+extern "C" void interrupt(int signal) {
+  if (!flag.exchange(true)) {
+    first_at.store(now());
+    if (alive.load()) call();
+    return;
+  }
+  if (now() - first_at.load() < second_from) return;
+  // whoever asks again does not want to wait for the end
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
 }
 
 }  // namespace
 
 Interruptible::Interruptible(std::function<void()> at_once) {
-  flag.store(false);
   call = std::move(at_once);
-  before_int_ = std::signal(SIGINT, interrupt);
-  before_term_ = std::signal(SIGTERM, interrupt);
+  flag.store(false);
+  alive.store(true);
+  for (std::size_t i = 0; i < signals.size(); ++i) before_[i] = std::signal(signals[i], interrupt);
+  // what was started under nohup goes on when its terminal is gone
+  if (before_[2] == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 Interruptible::~Interruptible() {
-  std::signal(SIGINT, before_int_);
-  std::signal(SIGTERM, before_term_);
+  alive.store(false);
+  // after an interruption a second signal still must not cut off the report
+  if (flag.load()) return;
+  for (std::size_t i = 0; i < signals.size(); ++i) std::signal(signals[i], before_[i]);
 }
 
 const std::atomic<bool>& Interruptible::interrupted() { return flag; }

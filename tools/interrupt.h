@@ -1,12 +1,16 @@
 // Ctrl-C, as commands that run for long take it: they end cleanly.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <csignal>
 #include <functional>
 
 namespace jarol::tools {
 
-/// While it lives, SIGINT and SIGTERM set a flag, and call what has to be called at once; there is one at a time.
+/// While it lives, the first of SIGINT, SIGTERM and SIGHUP sets a flag, and calls what has to be called at once; there
+/// is one at a time. From then on to the end of the program another one ends it on the spot, but only half a second
+/// after the first: Ctrl-C pressed twice, or a terminal that sends two signals, does not lose the report.
 class Interruptible {
  public:
   /// `at_once` is called by the signal handler: it may do no more than set atomic variables.
@@ -18,8 +22,8 @@ class Interruptible {
   static const std::atomic<bool>& interrupted();
 
  private:
-  void (*before_int_)(int);
-  void (*before_term_)(int);
+  static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
+  std::array<void (*)(int), signals.size()> before_{};
 };
 
 }  // namespace jarol::tools

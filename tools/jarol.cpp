@@ -1,4 +1,6 @@
 // The command `jarol`.
+#include <fcntl.h>
+
 #include <algorithm>
 #include <iostream>
 
@@ -6,8 +8,16 @@
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
 
-int main(int argc, char** argv) {
-  using namespace jarol;
+namespace {
+using namespace jarol;
+
+// A stream that was closed fails to read or write; no file that is opened later takes its place.
+void keep_standard_streams() {
+  for (const int stream : {0, 1, 2})
+    if (::fcntl(stream, F_GETFD) == -1 && ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY) == -1) return;
+}
+
+int run_command(int argc, char** argv) {
   tools::CommandLine line(
       "jarol",
       "Jarol runs control programs that are graphs of isolated tasks: checked for schedulability, the same to the bit "
@@ -43,4 +53,14 @@ int main(int argc, char** argv) {
     std::cerr << "error: " << error.what() << "\n";
     return tools::exit_input;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  keep_standard_streams();
+  const int exit_code = run_command(argc, argv);
+  if (std::cout.flush()) return exit_code;
+  std::cerr << "error: can't write to stdout, what stands there is not whole; is the disk full, or stdout closed?\n";
+  return tools::exit_unfinished;
 }

@@ -104,8 +104,8 @@ void require_executable(const std::string& file, const Graph& graph, const RealT
     return;
   }
   if (!arguments.force)
-    throw std::invalid_argument("'" + file + "' is not schedulable: " + result.reason +
-                                "; 'jarol check' says more, --force runs it all the same");
+    throw NegativeVerdict("'" + file + "' is not schedulable: " + result.reason +
+                          "; 'jarol check' says more, --force runs it all the same");
   std::cerr << "note: not schedulable, run by force: " << result.reason << "\n";
 }
 

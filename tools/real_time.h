@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,14 @@ RealTimeOptions options_of(const RealTimeArguments& arguments);
 /// Throws std::invalid_argument where this machine has too few CPUs, or SCHED_FIFO too few priorities.
 std::vector<analysis::TaskThread> threads_for(const std::string& file, const Graph& graph, RealTimeOptions& options);
 
-/// Throws std::invalid_argument for a graph that can't be executed in real time, and unless forced for one that check
-/// finds not schedulable; says on stderr when check can't tell. `file` is what the user called the graph.
+/// What check finds against a graph.
+struct NegativeVerdict : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws std::invalid_argument for a graph that can't be executed in real time, and unless forced NegativeVerdict for
+/// one that check finds not schedulable; says on stderr when check can't tell. `file` is what the user called the
+/// graph.
 void require_executable(const std::string& file, const Graph& graph, const RealTimeArguments& arguments);
 
 /// How well the run kept to real time.

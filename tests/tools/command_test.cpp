@@ -30,6 +30,7 @@ TEST_SUITE("tools/command") {
     CHECK(run["activations"] == 270);
     CHECK(run["instants"] == 150);
     CHECK(run["faults"] == nlohmann::json::array());
+    CHECK(run["fault_count"] == 0);
     CHECK(run["outputs"].size() == 1);
     CHECK(run["outputs"]["total"].is_number());
     CHECK(run["wall_ns"].is_number());

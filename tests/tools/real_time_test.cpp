@@ -124,6 +124,19 @@ TEST_SUITE("tools/real_time") {
     close(terminal);
   }
 
+  TEST_CASE("what check finds not schedulable is a negative verdict, and not run unless forced") {
+    const TemporaryFolder folder;
+    const std::string one = folder.write("one.yaml", on_core(0));
+    const std::string run = "run " + one + " --clock real --for 40ms --set tasks.flow.wcet=30ms";
+    const auto refused = jarol(run);
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.output ==
+          "error: '" + one +
+              "' is not schedulable: a task is late when every task takes its 'wcet'; 'jarol check' says more, --force "
+              "runs it all the same\n");
+    CHECK(jarol(run + " --force").exit_code == 0);
+  }
+
   TEST_CASE("what can't be executed is refused with what would be right") {
     const TemporaryFolder folder;
     const std::string one = folder.write("one.yaml", on_core(0));

@@ -165,6 +165,7 @@ void measure_file(const std::string& file, const Options& options) {
 
 int check_files(const Options& options) {
   int exit_code = exit_good;
+  for (const std::string& file : options.files) require_apart({{"FILE", file}}, {{"--svg", options.svg}});
   for (const std::string& file : options.files) {
     try {
       if (options.measure || options.write) measure_file(file, options);

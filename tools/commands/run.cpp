@@ -21,6 +21,7 @@
 #include "tools/told_faults.h"
 #include "tools/trace_csv.h"
 #include "tools/value_json.h"
+#include "tools/whole_file.h"
 
 namespace jarol::tools {
 namespace {
@@ -163,6 +164,7 @@ void start_clock(RealClock& clock, const Executor& executor) {
 }
 
 int run(const Options& options) {
+  require_apart({{"FILE", options.file}}, {{"--trace", options.trace}, {"--plot", options.plot}});
   Loaded loaded = load_graph(options.file, options.overrides, options.seed);
   const Graph& graph = *loaded.graph;
   const Duration end = end_of_run(options, loaded);
@@ -234,7 +236,7 @@ void add_run(CommandLine& line, int& exit_code) {
       "run",
       "Run a graph: on the virtual clock, as fast as possible and the same to the bit every time, or\n"
       "on the real clock.\n"
-      "Exit code: 0 good, 3 stopped by a fault, 2 bad input, 130 interrupted");
+      "Exit code: 0 good, 1 not schedulable on the real clock, 3 stopped by a fault, 2 bad input, 130 interrupted");
   command->add_option("FILE", options->file, "The graph, a YAML file")->required();
   command->add_option("--for", options->duration,
                       "How long, in logical time, as in 10s; default: until the mission ends");
@@ -262,6 +264,9 @@ void add_run(CommandLine& line, int& exit_code) {
   command->callback([options, &exit_code] {
     try {
       exit_code = run(*options);
+    } catch (const NegativeVerdict& error) {
+      std::cerr << "error: " << error.what() << "\n";
+      exit_code = exit_negative;
     } catch (const std::invalid_argument& error) {
       std::cerr << "error: " << error.what() << "\n";
       exit_code = exit_input;

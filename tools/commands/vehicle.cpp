@@ -17,6 +17,7 @@
 #include "tools/load_graph.h"
 #include "tools/open_loop.h"
 #include "tools/serve_vehicle.h"
+#include "tools/whole_file.h"
 
 namespace jarol::tools {
 namespace {
@@ -313,6 +314,7 @@ int vehicle(const Options& options) {
     throw std::invalid_argument("--bare: there is no message of a " + found->name + "'s true state");
   Problems problems;
   const Value parameters = read_parameters(options, *found, problems);
+  require_apart({{"--script", options.script}, {"--parameters", options.parameters}}, {{"--csv", options.csv}});
   if (options.describe) {
     problems.throw_if_any();
     const auto sections = sections_of(*found, parameters);

@@ -1,0 +1,30 @@
+// Signals that end a run: cleanly, and also when they come twice.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/tools/run_command.h"
+
+namespace {
+using command::jarol;
+using command::TemporaryFolder;
+}  // namespace
+
+TEST_SUITE("tools/interrupt") {
+  TEST_CASE("each signal ends a run with its report and trace, also when it comes again at once") {
+    const TemporaryFolder folder;
+    for (const std::string signal : {"INT", "TERM", "HUP"}) {
+      CAPTURE(signal);
+      const std::string trace = folder / (signal + ".csv"), report = folder / (signal + ".txt");
+      // two within a few milliseconds, as from an impatient hand or a terminal and its shell
+      const std::string again = "; kill -" + signal + " $id; sleep 0.02; kill -" + signal + " $id 2>&-";
+      jarol("run specs/counting.yaml --clock real --for 30s --trace " + trace + " > " + report,
+            "2>&1 & id=$!; sleep 1" + again + "; wait $id; echo \"exit code $?\" >> " + report);
+      std::ifstream file(report);
+      const std::string text{std::istreambuf_iterator<char>(file), {}};
+      CHECK(text.find("real time (interrupted)\n") != std::string::npos);
+      CHECK(text.ends_with("exit code 130\n"));
+      CHECK(std::filesystem::exists(trace));
+    }
+  }
+}

@@ -1,0 +1,119 @@
+// Where the command's outputs go: what stands at a path, and what it means when nothing can be written.
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+
+#include <fstream>
+#include <string>
+
+#include "tests/tools/run_command.h"
+#include "tools/whole_file.h"
+
+namespace {
+namespace fs = std::filesystem;
+using command::TemporaryFolder;
+
+std::string content(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write(const std::string& path, const std::string& text) {
+  jarol::tools::WholeFile file(path);
+  file.write(text);
+  file.commit();
+}
+}  // namespace
+
+TEST_SUITE("tools/output_files") {
+  TEST_CASE("a link is followed, and what it leads to is replaced and keeps its permissions") {
+    const TemporaryFolder folder;
+    const std::string target = folder.write("target", "old"), link = folder / "link", chain = folder / "chain";
+    fs::permissions(target, fs::perms(0640));
+    fs::create_symlink("target", link);
+    fs::create_symlink(link, chain);
+    write(chain, "new");
+    CHECK(content(target) == "new");
+    CHECK(fs::is_symlink(chain));
+    CHECK(fs::is_symlink(link));
+    CHECK(fs::status(target).permissions() == fs::perms(0640));
+    fs::create_symlink("not there yet", folder / "ahead");
+    write(folder / "ahead", "new");
+    CHECK(fs::is_symlink(folder / "ahead"));
+    CHECK(content(folder / "not there yet") == "new");
+    CHECK(!fs::exists(folder / "link.part"));
+  }
+
+  TEST_CASE("what is not committed leaves the file as it was") {
+    const TemporaryFolder folder;
+    const std::string path = folder.write("file", "old");
+    { jarol::tools::WholeFile(path).write("new"); }
+    CHECK(content(path) == "old");
+    CHECK(!fs::exists(path + ".part"));
+  }
+
+  TEST_CASE("a device or a FIFO is written in place") {
+    const TemporaryFolder folder;
+    // a node of one's own is for root
+    const std::string full = folder / "full";
+    if (::mknod(full.c_str(), S_IFCHR | 0666, makedev(1, 7)) == 0) {
+      const auto failed = command::jarol("run specs/counting.yaml --for 1s --trace " + full);
+      CHECK(failed.exit_code != 0);
+      CHECK(failed.output.find("error: can't write '" + full + "': No space left on device\n") != std::string::npos);
+      CHECK(fs::is_character_file(full));
+    }
+    const std::string fifo = folder / "fifo", copy = folder / "copy", trace = folder / "trace.csv";
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    REQUIRE(std::system(("timeout 20 cat " + fifo + " > " + copy + " &").c_str()) == 0);
+    CHECK(command::jarol("run specs/counting.yaml --for 1s --trace " + fifo).exit_code == 0);
+    CHECK(command::jarol("run specs/counting.yaml --for 1s --trace " + trace).exit_code == 0);
+    CHECK(fs::is_fifo(fifo));
+    for (int i = 0; i < 100 && content(copy) != content(trace); ++i) ::usleep(20'000);
+    CHECK(content(copy) == content(trace));
+    CHECK(command::jarol("run specs/counting.yaml --for 1s --trace /dev/stdout", "2>/dev/null")
+              .output.starts_with(content(trace) + "counting: 1 s"));
+    // also where that is a file, which then holds both
+    command::jarol("run specs/counting.yaml --for 1s --trace /dev/stdout > " + copy);
+    CHECK(content(copy).starts_with(content(trace) + "counting: 1 s"));
+  }
+
+  TEST_CASE("an output that would replace an input or another output is refused") {
+    const TemporaryFolder folder;
+    const std::string graph = folder / "g.yaml", link = folder / "l.csv";
+    fs::copy_file("specs/counting.yaml", graph, fs::copy_options::overwrite_existing);
+    fs::create_symlink(graph, link);
+    const auto refusal = [&](const std::string& arguments) {
+      const auto result = command::jarol(arguments);
+      CHECK(result.exit_code == 2);
+      return result.output;
+    };
+    CHECK(refusal("run " + graph + " --for 1s --trace " + graph) ==
+          "error: --trace '" + graph + "' would replace what FILE names; choose another file\n");
+    CHECK(refusal("run " + graph + " --for 1s --plot " + link) ==
+          "error: --plot '" + link + "' would replace what FILE names; choose another file\n");
+    CHECK(refusal("run " + graph + " --for 1s --trace " + (folder / "x") + " --plot " + (folder / "./x")) ==
+          "error: --trace and --plot both name '" + (folder / "./x") + "'; choose another file for one of them\n");
+    CHECK(refusal("check " + graph + " --svg " + graph) ==
+          "error: --svg '" + graph + "' would replace what FILE names; choose another file\n");
+    CHECK(content(graph) == content("specs/counting.yaml"));
+    CHECK(command::jarol("run " + graph + " --for 1s --trace /dev/null --plot /dev/null").exit_code == 0);
+  }
+
+  TEST_CASE("output that can't be written is told, and exits with 3") {
+    for (const std::string to : {">/dev/full", ">&-"})
+      for (const std::string command : {"run specs/counting.yaml --for 1s", "run specs/counting.yaml --for 1s --json",
+                                        "tasks", "schema", "--help"}) {
+        CAPTURE(command + to);
+        const auto failed = command::jarol(command, "2>&1 " + to);
+        CHECK(failed.exit_code == 3);
+        CHECK(failed.output ==
+              "error: can't write to stdout, what stands there is not whole; is the disk full, or stdout closed?\n");
+      }
+    CHECK(command::jarol("tasks", ">/dev/null 2>&1").exit_code == 0);
+    // and no other file takes the place of a stdout that is closed
+    const TemporaryFolder folder;
+    command::jarol("run specs/counting.yaml --for 1s --trace " + (folder / "t.csv"), ">&- 2>/dev/null");
+    CHECK(content(folder / "t.csv").starts_with("time,"));
+    CHECK(content(folder / "t.csv").find("digest") == std::string::npos);
+  }
+}
