@@ -132,8 +132,8 @@ TEST_SUITE("tools/real_time") {
     CHECK(refused.exit_code == 1);
     CHECK(refused.output ==
           "error: '" + one +
-              "' is not schedulable: a task is late when every task takes its 'wcet'; 'jarol check' says more, --force "
-              "runs it all the same\n");
+              "' is not schedulable: the tasks need more than the whole core; 'jarol check' says more, --force runs it "
+              "all the same\n");
     CHECK(jarol(run + " --force").exit_code == 0);
   }
 
