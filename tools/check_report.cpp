@@ -16,6 +16,11 @@ using analysis::Suggestion;
 using analysis::Verdict;
 using Json = nlohmann::ordered_json;
 
+bool holds(const ReportedChain& c) {
+  return !(c.reaction_limit && c.latency.max_reaction > c.reaction_limit->count()) &&
+         !(c.age_limit && c.latency.max_age > c.age_limit->count());
+}
+
 std::string text_of(Standing standing) {
   switch (standing) {
     case Standing::none: return "none";
@@ -61,12 +66,22 @@ std::string worst_response(const CheckReport& r) {
                      milliseconds(t.deadline.count()), milliseconds(over));
 }
 
+// Schedulable or not, a chain may be too slow: that stands in the first line too.
+std::string broken_limits(const CheckReport& r) {
+  std::string names;
+  for (const ReportedChain& c : r.chains)
+    if (!holds(c)) names += (names.empty() ? "'" : ", '") + c.name + "'";
+  return names.empty() ? "" : ", BUT A LIMIT IS BROKEN by chain " + names;
+}
+
 std::string headline(const CheckReport& r) {
   switch (r.result.verdict) {
     case Verdict::schedulable:
-      return fmt::format("{}: SCHEDULABLE on {}: {}\n", r.file, platform_text(r.graph->platform), r.result.reason);
+      return fmt::format("{}: SCHEDULABLE on {}{}: {}\n", r.file, platform_text(r.graph->platform), broken_limits(r),
+                         r.result.reason);
     case Verdict::unknown:
-      return fmt::format("{}: UNKNOWN on {}: {}\n", r.file, platform_text(r.graph->platform), r.result.reason);
+      return fmt::format("{}: UNKNOWN on {}{}: {}\n", r.file, platform_text(r.graph->platform), broken_limits(r),
+                         r.result.reason);
     case Verdict::not_schedulable: break;
   }
   std::string text = r.file + ": NOT SCHEDULABLE";
@@ -261,12 +276,7 @@ std::string assumptions(const Platform& platform) {
 
 }  // namespace
 
-bool chains_hold(const CheckReport& report) {
-  return std::all_of(report.chains.begin(), report.chains.end(), [](const ReportedChain& c) {
-    return !(c.reaction_limit && c.latency.max_reaction > c.reaction_limit->count()) &&
-           !(c.age_limit && c.latency.max_age > c.age_limit->count());
-  });
-}
+bool chains_hold(const CheckReport& report) { return std::all_of(report.chains.begin(), report.chains.end(), holds); }
 
 std::string to_text(const CheckReport& r) {
   std::string text = headline(r) + demand_text(r) + gantt_text(*r.graph, r.result) + task_table(r) + core_lines(r);
@@ -324,13 +334,17 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
                       {"max_reaction_ns", c.latency.max_reaction},
                       {"min_reaction_ns", c.latency.min_reaction},
                       {"max_age_ns", c.latency.max_age},
-                      {"jitter_ns", c.latency.jitter}});
+                      {"jitter_ns", c.latency.jitter},
+                      {"reaction_limit_ns", c.reaction_limit ? Json(c.reaction_limit->count()) : Json(nullptr)},
+                      {"age_limit_ns", c.age_limit ? Json(c.age_limit->count()) : Json(nullptr)},
+                      {"holds", holds(c)}});
   auto suggestions = Json::array();
   for (const Suggestion& s : r.suggestions) suggestions.push_back(text_of(s, *r.graph));
   return {{"schema", "jarol.check/1"},
           {"file", r.file},
           {"graph", r.graph->name},
           {"verdict", word_of(r.result.verdict)},
+          {"limits_hold", chains_hold(r)},
           {"standing", text_of(r.result.standing)},
           {"reason", r.result.reason},
           {"witness", std::move(witness)},

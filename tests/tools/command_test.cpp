@@ -288,7 +288,16 @@ chains:
           std::string::npos);
     const Result bad = jarol("check " + file + " --set chains.c.reaction=11ms");
     CHECK(bad.exit_code == 1);
+    CHECK(bad.output.starts_with(file + ": SCHEDULABLE on one core (table), BUT A LIMIT IS BROKEN by chain 'c': "));
     CHECK(bad.output.find("    LIMIT BROKEN: reaction 12ms over 11ms\n") != std::string::npos);
+    const auto json = json_of("check --json " + file + " --set chains.c.reaction=11ms");
+    CHECK(json["verdict"] == "schedulable");
+    CHECK(json["limits_hold"] == false);
+    CHECK(json["chains"][0]["reaction_limit_ns"] == 11'000'000);
+    CHECK(json["chains"][0]["age_limit_ns"] == nullptr);
+    CHECK(json["chains"][0]["holds"] == false);
+    CHECK(json_of("check --json " + file)["limits_hold"] == true);
+    CHECK(good.output.find("BROKEN") == std::string::npos);
   }
 
   TEST_CASE("without a wcet the verdict is open") {
