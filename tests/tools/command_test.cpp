@@ -121,7 +121,7 @@ connections: [c.out -> t.in, t.out -> o, c.out -> w.in, w.out -> r.in]
     CHECK(no.exit_code == 1);
     CHECK(no.output.starts_with(
         "specs/counting.yaml: NOT SCHEDULABLE core 0: task 'slow' activation 0 (released 0.000 ms) "
-        "finishes 20.050 ms, deadline 15.000 ms (late 5.050 ms)\n"));
+        "finishes 19.050 ms, deadline 15.000 ms (late 4.050 ms)\n"));
   }
 
   TEST_CASE("check --json gives one object per file and line") {
@@ -136,13 +136,13 @@ connections: [c.out -> t.in, t.out -> o, c.out -> w.in, w.out -> r.in]
                                               {"deadline_ns", 10'000'000},
                                               {"wcet_ns", 50'000},
                                               {"core", 0},
-                                              {"response_ns", 50'000},
-                                              {"slack_ns", 9'950'000},
-                                              {"max_wcet_ns", 8'850'000},
-                                              {"min_deadline_ns", 50'000}});
+                                              {"response_ns", 100'000},
+                                              {"slack_ns", 9'900'000},
+                                              {"max_wcet_ns", 9'850'000},
+                                              {"min_deadline_ns", 100'000}});
     CHECK(check["standing"] == "proof");
     CHECK(check["witness"] == nullptr);
-    CHECK(check["alpha"] == doctest::Approx(4.918032));
+    CHECK(check["alpha"] == doctest::Approx(6.153845));
     CHECK(check["chains"] == nlohmann::json::array());
     CHECK(check["utilisation"] == doctest::Approx(0.1325));
   }
@@ -243,7 +243,7 @@ connections: [a.out -> b.in]
     std::ifstream file(folder / "g.svg");
     const std::string svg{std::istreambuf_iterator<char>(file), {}};
     CHECK(svg.starts_with("<svg xmlns"));
-    CHECK(svg.find("counting: activation 0 of slow is 6.05ms late</text>") != std::string::npos);
+    CHECK(svg.find("counting: activation 0 of slow is 5.05ms late</text>") != std::string::npos);
     CHECK(svg.ends_with("</svg>\n"));
   }
 
