@@ -222,6 +222,25 @@ connections: [l.out -> o1, d.out -> o2, i1 -> r.a, i2 -> r.b]
                                                 "10ms i2=0", "10ms d.out=1", "10ms r.out=0"});
   }
 
+  TEST_CASE("communicators of one step act in order of name, whatever their periods") {
+    const Graph graph = echo_graph(R"(graph: t
+timing: {period: 40ms}
+distributers: {e: {type: Echo, link: {type: test}}}
+communicators:
+  o1: {channel: e.d, period: 40ms}
+  o2: {channel: e.c, period: 20ms}
+  i1: {channel: e.b, period: 40ms}
+  i2: {channel: e.a, period: 20ms}
+connections: [i1 -> o1, i2 -> o2]
+)");
+    std::vector<std::string> lines;
+    std::vector<std::unique_ptr<Channels>> channels;
+    channels.push_back(std::make_unique<Diary>(lines));
+    run_graph(graph, 21ms, std::move(channels));
+    CHECK(lines == std::vector<std::string>{"0ns reach", "hand over 3 0", "hand over 2 0", "take 1", "take 0",
+                                            "20ms reach", "hand over 2 0", "take 0"});
+  }
+
   TEST_CASE("an `out` hands over what a LET that ends at that instant publishes") {
     const auto run = run_graph(graph_of(R"(graph: t
 timing: {period: 10ms}
