@@ -129,10 +129,13 @@ struct Fails {
 };
 
 Graph graph_with(const std::string& text) {
-  Registry registry = tests::generic_tasks();
-  registry.add(task_class<Lengths>());
-  registry.add(task_class<Both>());
-  registry.add(task_class<Fails>());
+  static const Registry registry = [] {
+    Registry made = tests::generic_tasks();
+    made.add(task_class<Lengths>());
+    made.add(task_class<Both>());
+    made.add(task_class<Fails>());
+    return made;
+  }();
   Problems problems;
   Graph graph =
       build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
