@@ -7,7 +7,7 @@
 
 namespace jarol::analysis {
 
-/// Tasks that one thread runs, each to its end. Of those that are released at one instant, in this order.
+/// Tasks that one thread runs, each to its end; of those that are released at one instant, as turns_of says.
 struct TaskThread {
   std::size_t core = 0;
   std::size_t urgency = 0;  // 0 is the most urgent one of its core, which preempts the others
@@ -15,8 +15,8 @@ struct TaskThread {
 };
 
 /// On the cores that check assigns. Of a table: one thread per core. Of fixed priorities: one for each task, but tasks
-/// of a core that are always released together and follow each other in urgency share one, for none of them could
-/// preempt another. In order of core and urgency.
+/// of a core that are always released together, follow each other in urgency and run in that order share one, for none
+/// of them could preempt another. In order of core and urgency.
 std::vector<TaskThread> threads_of(const Graph& graph);
 
 }  // namespace jarol::analysis
