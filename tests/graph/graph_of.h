@@ -18,13 +18,18 @@ inline const Registry& generic_tasks() {
   return registry;
 }
 
-/// The graph of a text named t.yaml; throws SpecError if it is not valid.
-inline Graph graph_of(const std::string& text, const Overrides& overrides = {}) {
+/// The graph of a text named t.yaml, of what the registry knows; throws SpecError if it is not valid.
+inline Graph graph_of(const Registry& registry, const std::string& text, const Overrides& overrides = {}) {
   Problems problems;
   const auto source = std::make_shared<Source>(Source{"t.yaml", text});
-  Graph graph = build_graph(load_spec(source, overrides, problems), generic_tasks(), problems);
+  Graph graph = build_graph(load_spec(source, overrides, problems), registry, problems);
   problems.throw_if_any();
   return graph;
+}
+
+/// The same of the tasks that come with Jarol.
+inline Graph graph_of(const std::string& text, const Overrides& overrides = {}) {
+  return graph_of(generic_tasks(), text, overrides);
 }
 
 /// The whole report on a text that is not valid, or nothing.

@@ -101,11 +101,7 @@ tests::Run run(const std::string& text, Duration end) {
     made.add(task_class<Scratches>());
     return made;
   }();
-  Problems problems;
-  const Graph graph = build_graph(
-      load_spec(std::make_shared<Source>(Source{"t.yaml", "graph: t\ntiming: {period: 10ms}\n" + text}), {}, problems),
-      registry, problems);
-  problems.throw_if_any();
+  const Graph graph = tests::graph_of(registry, "graph: t\ntiming: {period: 10ms}\n" + text);
   return tests::run_graph(graph, end);
 }
 

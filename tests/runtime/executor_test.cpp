@@ -51,13 +51,7 @@ const Registry& registry_with_echo() {
   return registry;
 }
 
-Graph echo_graph(const std::string& text) {
-  Problems problems;
-  Graph graph = build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems),
-                            registry_with_echo(), problems);
-  problems.throw_if_any();
-  return graph;
-}
+Graph echo_graph(const std::string& text) { return tests::graph_of(registry_with_echo(), text); }
 
 // More than a recorder's chunk holds.
 struct Huge {
@@ -302,10 +296,7 @@ connections: [a.out -> b.in, b.out -> c.in, c.out -> d.in]
   TEST_CASE("a value too large to be recorded is refused before the run, not cut") {
     Registry registry;
     registry.add(task_class<Huge>());
-    Problems problems;
-    const std::string text = "{graph: t, tasks: {h: {type: Huge, period: 1ms}}}";
-    const Graph graph =
-        build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
+    const Graph graph = tests::graph_of(registry, "{graph: t, tasks: {h: {type: Huge, period: 1ms}}}");
     Recorder recorder({});
     CHECK_THROWS_WITH_AS(Executor(graph, {}, {.digest = true, .recorder = &recorder}),
                          "output 'h.out' has 320000 bytes; values of up to 262128 can be recorded", std::length_error);

@@ -47,10 +47,7 @@ tests::Run run(const std::string& task, Duration end) {
   }();
   const std::string text = "graph: t\ntiming: {period: 10ms}\ntasks:\n  f: {type: Fails" + task +
                            "}\n  r: {type: Relay}\nconnections: [f.out -> r.in]\n";
-  Problems problems;
-  const Graph graph =
-      build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
-  problems.throw_if_any();
+  const Graph graph = tests::graph_of(registry, text);
   return tests::run_graph(graph, end);
 }
 }  // namespace

@@ -49,11 +49,7 @@ Graph graph_from(const std::string& text) {
     made.add(task_class<Slow>());
     return made;
   }();
-  Problems problems;
-  Graph graph =
-      build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
-  problems.throw_if_any();
-  return graph;
+  return jarol::tests::graph_of(registry, text);
 }
 
 Graph graph_with(const std::string& slow, const std::string& period = "20ms") {

@@ -99,11 +99,7 @@ inline Graph graph_of(const std::string& text) {
     made.add(task_class<Patient>());
     return made;
   }();
-  Problems problems;
-  Graph graph =
-      build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
-  problems.throw_if_any();
-  return graph;
+  return jarol::tests::graph_of(registry, text);
 }
 
 // Every ANY is a core, one after the other.

@@ -54,11 +54,7 @@ communicators:
 tasks: {r: {type: Relay}}
 connections: [i -> r.in, r.out -> o]
 )";
-  Problems problems;
-  Graph graph =
-      build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
-  problems.throw_if_any();
-  return graph;
+  return jarol::tests::graph_of(registry, text);
 }
 
 std::vector<std::unique_ptr<Channels>> sensor(std::vector<std::pair<Duration, double>> values,

@@ -136,11 +136,7 @@ Graph graph_with(const std::string& text) {
     made.add(task_class<Fails>());
     return made;
   }();
-  Problems problems;
-  Graph graph =
-      build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
-  problems.throw_if_any();
-  return graph;
+  return jarol::tests::graph_of(registry, text);
 }
 
 Graph mixed_graph() {
@@ -157,14 +153,8 @@ Graph mixed_graph() {
     tasks += "  m" + n + ": {type: Mean" + (i % 3 == 0 ? ", let: 1ms" : "") + "}\n";
     connections += "  - u" + n + ".out -> w" + n + ".in\n  - w" + n + ".out -> m" + n + ".in\n";
   }
-  Problems problems;
-  Graph graph =
-      build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", "graph: t\ntiming: {period: 1ms}\ntasks:\n" +
-                                                                          tasks + "connections:\n" + connections}),
-                            {}, problems),
-                  registry, problems);
-  problems.throw_if_any();
-  return graph;
+  return tests::graph_of(registry,
+                         "graph: t\ntiming: {period: 1ms}\ntasks:\n" + tasks + "connections:\n" + connections);
 }
 }  // namespace
 

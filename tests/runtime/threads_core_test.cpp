@@ -83,11 +83,7 @@ Graph graph_with_outside(const std::string& text) {
     made.add(DistributerClass{"Operator", "for tests", channels, false});
     return made;
   }();
-  Problems problems;
-  Graph graph =
-      build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, problems), registry, problems);
-  problems.throw_if_any();
-  return graph;
+  return jarol::tests::graph_of(registry, text);
 }
 
 // A counter that goes to a vehicle and to an operator.
