@@ -29,6 +29,12 @@ int finish_connecting(int fd, std::chrono::milliseconds limit) {
   return getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) == 0 ? error : errno;
 }
 
+// A peer that goes with bytes unread resets the connection: an end as well.
+[[noreturn]] void throw_ended(int error) {
+  if (error == 0 || error == ECONNRESET || error == EPIPE) throw FrameEnd("the other end has ended the connection");
+  throw FrameError(std::string("the connection has failed: ") + std::strerror(error));
+}
+
 }  // namespace
 
 FrameStream FrameStream::connect(const Address& peer, std::chrono::milliseconds limit) {
@@ -58,7 +64,7 @@ void FrameStream::flush() {
     if (length > 0) {
       rest = rest.subspan(static_cast<std::size_t>(length));
     } else if (errno != EINTR && (errno != EAGAIN || !wait_for(socket_.get(), POLLOUT))) {
-      throw FrameError(std::string("the connection has ended: ") + std::strerror(errno));
+      throw_ended(errno);
     }
   }
   out_.clear();
@@ -68,9 +74,8 @@ void FrameStream::read_bytes(std::span<std::byte> to) {
   while (!to.empty()) {
     if (!wait_for(socket_.get(), POLLIN)) throw FrameError("the other end has been silent for 10 s");
     const auto length = ::read(socket_.get(), to.data(), to.size());
-    if (length == 0) throw FrameEnd("the other end has ended the connection");
-    if (length < 0 && errno != EINTR && errno != EAGAIN)
-      throw FrameError(std::string("the connection has ended: ") + std::strerror(errno));
+    if (length == 0) throw_ended(0);
+    if (length < 0 && errno != EINTR && errno != EAGAIN) throw_ended(errno);
     if (length > 0) to = to.subspan(static_cast<std::size_t>(length));
   }
 }

@@ -1,6 +1,7 @@
 #include "distributers/links/lockstep.h"
 
 #include <doctest/doctest.h>
+#include <poll.h>
 
 #include <cstring>
 #include <thread>
@@ -48,6 +49,19 @@ TEST_SUITE("distributers/links/lockstep") {
     CHECK(said_to(-7) == "its step is -7ns; it has to be above zero");
     CHECK(said_to(7) == "off its grid");
     CHECK(said_to(10) == "");
+  }
+
+  TEST_CASE("a connection has ended also when the other end goes with bytes unread, which resets it") {
+    const Descriptor socket = listen_at(Address::parse("0"));
+    FrameStream stream = FrameStream::connect(Address::parse(std::to_string(port_of(socket))));
+    Descriptor other;
+    while (!other) other = accept_from(socket);
+    stream.put(FrameKind::step);
+    stream.flush();
+    pollfd unread{other.get(), POLLIN, 0};
+    REQUIRE(poll(&unread, 1, 10'000) == 1);
+    other = Descriptor();
+    CHECK_THROWS_WITH_AS(stream.read(), "the other end has ended the connection", FrameEnd);
   }
 
   TEST_CASE("connecting to where nobody answers has an end") {
