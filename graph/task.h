@@ -33,6 +33,26 @@ inline void keep_text(FaultText& fault, std::string_view text, std::size_t from 
   fault.text[from + size] = '\0';
 }
 
+/// Calls what runs tasks, and keeps what it throws in the text that `fault_text` names then.
+template <class Run, class Text>
+Outcome contain(Run&& run, Text&& fault_text) {
+  const auto keep_threw = [&](const char* what) {
+    constexpr std::string_view threw = "threw: ";
+    keep_text(fault_text(), threw);
+    keep_text(fault_text(), what, threw.size());
+    return Outcome::threw;
+  };
+  try {
+    run();
+    return Outcome::good;
+  } catch (const HeapExhausted& error) {
+    keep_text(fault_text(), error.what());
+    return Outcome::heap_exhausted;
+  } catch (const std::exception& error) { return keep_threw(error.what()); } catch (...) {
+    return keep_threw("something that is not a std::exception");
+  }
+}
+
 /// Where one task's values lie.
 struct TaskMemory {
   const void* parameters = nullptr;
@@ -42,7 +62,11 @@ struct TaskMemory {
   FaultText* fault = nullptr;
 };
 
+/// Runs an activation, contains what it throws and looks whether its outputs are finite.
 using Thunk = Outcome (*)(const TaskMemory& memory, const Tick& tick);
+
+/// Runs an activation, and nothing else.
+using Body = void (*)(const TaskMemory& memory, const Tick& tick);
 
 /// A task type: its inputs are the fields of `in`, its outputs those of `out`.
 struct TaskClass {
@@ -53,6 +77,7 @@ struct TaskClass {
   const Type* state = nullptr;
   const Type* out = nullptr;
   Thunk run = nullptr;
+  Body body = nullptr;
 
   /// Has values of changing size, which need a heap.
   bool is_deep() const { return in->is_deep() || state->is_deep() || out->is_deep(); }
@@ -112,27 +137,11 @@ inline void call(const TaskMemory& memory, const Tick& tick) {
                                     present<decltype(out_of<T>())>(memory.out)));
 }
 
-inline void keep_threw(FaultText& fault, const char* what) {
-  constexpr std::string_view threw = "threw: ";
-  keep_text(fault, threw);
-  keep_text(fault, what, threw.size());
-}
-
 template <class T>
 Outcome thunk(const TaskMemory& memory, const Tick& tick) {
-  try {
-    call<T>(memory, tick);
-  } catch (const HeapExhausted& error) {
-    keep_text(*memory.fault, error.what());
-    return Outcome::heap_exhausted;
-  } catch (const std::exception& error) {
-    keep_threw(*memory.fault, error.what());
-    return Outcome::threw;
-  } catch (...) {
-    keep_threw(*memory.fault, "something that is not a std::exception");
-    return Outcome::threw;
-  }
   using Out = decltype(out_of<T>());
+  const Outcome outcome = contain([&] { call<T>(memory, tick); }, [&]() -> FaultText& { return *memory.fault; });
+  if (outcome != Outcome::good) return outcome;
   return has_non_finite(*static_cast<const Out*>(memory.out)) ? Outcome::non_finite : Outcome::good;
 }
 
@@ -149,7 +158,8 @@ TaskClass task_class() {
           &type_of<decltype(detail::in_of<T>())>(),
           &type_of<decltype(detail::state_of<T>())>(),
           &type_of<decltype(detail::out_of<T>())>(),
-          &detail::thunk<T>};
+          &detail::thunk<T>,
+          &detail::call<T>};
 }
 
 }  // namespace jarol

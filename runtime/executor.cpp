@@ -7,6 +7,8 @@
 #include <thread>
 
 #include "runtime/faults.h"
+#include "runtime/finite.h"
+#include "runtime/layout.h"
 #include "runtime/publish.h"
 
 namespace jarol {
@@ -17,6 +19,14 @@ void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
   if (actions.size() < 2) return;
   std::sort(actions.begin(), actions.end(),
             [](const auto* a, const auto* b) { return a->communicator < b->communicator; });
+}
+
+// False also where a closer look has to tell.
+inline bool are_let_outputs_finite(const Group& group) {
+  for (const LetValue& v : group.let_values)
+    if (!v.finite(v.value)) return false;
+  const Range<double>& doubles = group.let_doubles;
+  return doubles.first == doubles.last || are_surely_finite(doubles.first, doubles.last);
 }
 
 // More than there are processors never pay.
@@ -108,9 +118,10 @@ void Executor::step_instant(std::int64_t instant) {
   // step 1: outputs of LET tasks that end now
   for (const std::uint32_t g : due_) {
     const Group& group = plan_.groups[g];
+    if (group.let_ends.first == group.let_ends.last) continue;
     if (Real && threads_ != nullptr) {
       for (const LetEnd& let_end : group.let_ends) end_let(let_end, instant);
-    } else if (bad_outcomes_ == 0) [[likely]] {
+    } else if (bad_outcomes_ == 0 && are_let_outputs_finite(group)) [[likely]] {
       publish<Digest, Record>(group.let_publish, instant, instant_term);
     } else {
       publish_one_by_one<Digest, Record>(group, instant, instant_term);
@@ -140,12 +151,14 @@ void Executor::step_instant(std::int64_t instant) {
   }
 }
 
-// As a LET task among those that are under way has a fault.
+// As a LET task among those that are under way has a fault, or may have one.
 template <bool Digest, bool Record>
 void Executor::publish_one_by_one(const Group& group, std::int64_t instant, std::uint64_t instant_term) {
   for (const LetEnd& let_end : group.let_ends) {
     Outcome& outcome = plan_.outcomes[let_end.task];
-    if (outcome == Outcome::good) {
+    if (outcome == Outcome::good && has_late_fault(let_end, instant)) {
+      record_fault(let_end.task, instant);
+    } else if (outcome == Outcome::good) {
       publish<Digest, Record>(let_end.publish, instant, instant_term);
     } else {
       if (outcome != Outcome::left_out) record_fault(let_end.task, instant);
@@ -153,6 +166,17 @@ void Executor::publish_one_by_one(const Group& group, std::int64_t instant, std:
       --bad_outcomes_;
     }
   }
+}
+
+// Looks at the outputs of a task that are checked at the end of its LET.
+bool Executor::has_late_fault(const LetEnd& let_end, std::int64_t instant) {
+  const Task& task = graph_.tasks[let_end.task];
+  const Type& type = *task.task_class->out;
+  if (!is_checked_at_let_end(task) || type.finite(let_end.out)) return false;
+  TaskStatus& status = plan_.status[let_end.task];
+  keep_text(status, find_non_finite(type, let_end.out));
+  status.activation = (Duration(instant) - *task.let - task.offset) / task.period;
+  return true;
 }
 
 // The communicators due now, by name.
@@ -256,7 +280,12 @@ void Executor::tell_bad_outcomes() {
 
 template <bool Digest, bool Record, bool Real>
 void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term) {
-  for (const Activation& activation : segment.activations) {
+  for (const Activation* next = segment.activations.first; next != segment.activations.last;) {
+    if (!Real && next->body != nullptr) {
+      next = run_bodies(next, segment.activations.last, tick);
+      continue;
+    }
+    const Activation& activation = *next++;
     const Outcome outcome = Real ? run_in_time(activation, tick) : activation.run(activation.memory, tick);
     if (outcome == Outcome::good) [[likely]] {
       if (!activation.has_let) publish<Digest, Record>(activation.publish, tick.now.count(), instant_term);
@@ -264,6 +293,20 @@ void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64
       on_bad_outcome(activation, outcome, tick);
     }
   }
+}
+
+// Those in a row that are checked at the ends of their LETs; returns the first that is not one. What one throws ends
+// its own activation alone.
+const Activation* Executor::run_bodies(const Activation* next, const Activation* last, const Tick& tick) {
+  while (next != last && next->body != nullptr) {
+    const Outcome outcome = contain(
+        [&] {
+          for (; next != last && next->body != nullptr; ++next) next->body(next->memory, tick);
+        },
+        [&]() -> FaultText& { return *next->memory.fault; });
+    if (outcome != Outcome::good) on_bad_outcome(*next++, outcome, tick);
+  }
+  return next;
 }
 
 template <bool Digest, bool Record>

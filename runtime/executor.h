@@ -101,6 +101,8 @@ class Executor {
   void run_level_shared(std::ptrdiff_t level, std::uint64_t instant_term);
   template <bool Digest, bool Record>
   void publish_one_by_one(const Group& group, std::int64_t instant, std::uint64_t instant_term);
+  bool has_late_fault(const LetEnd& let_end, std::int64_t instant);
+  const Activation* run_bodies(const Activation* next, const Activation* last, const Tick& tick);
   void tell_bad_outcomes();
   void start_groups(std::int64_t instant);
   void gather_communicators();

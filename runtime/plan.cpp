@@ -4,14 +4,14 @@
 #include <cstring>
 #include <map>
 #include <new>
+#include <optional>
 #include <tuple>
 
 #include "graph/stages.h"
+#include "runtime/layout.h"
 
 namespace jarol {
 namespace {
-
-constexpr std::size_t line = 64;  // bytes of a cache line: no two tasks share one
 
 // Runs a task that has a heap: what it allocates meanwhile is scratch.
 Outcome run_with_heap(TaskStatus& status, const TaskMemory& memory, const Tick& tick) {
@@ -36,29 +36,6 @@ Outcome run_with_care(const TaskMemory& memory, const Tick& tick) {
   if (status.undoable) status.keep(memory.state);
   return status.heap != nullptr ? run_with_heap(status, memory, tick) : status.run(memory, tick);
 }
-
-// Hands out places in memory that is allocated once all are known.
-class Layout {
- public:
-  std::size_t place(std::size_t size, std::size_t alignment) {
-    const std::size_t at = (size_ + alignment - 1) / alignment * alignment;
-    size_ = at + size;
-    return at;
-  }
-  std::size_t place(const Type& type) { return place(type.size, type.alignment); }
-  std::size_t size() const { return size_; }
-
- private:
-  std::size_t size_ = 0;
-};
-
-struct TaskPlaces {
-  std::size_t parameters = 0, in = 0, state = 0, out = 0, heap = 0, kept = 0;
-};
-
-struct CommunicatorPlaces {
-  std::size_t value = 0, input = 0, taken = 0;
-};
 
 template <class T>
 Range<T> range(const std::vector<T>& all, std::size_t first) {
@@ -107,51 +84,23 @@ class PlanBuilder {
 
   void lay_out() {
     order_ = execution_order();
-    tasks_.resize(graph_.tasks.size());
-    communicators_.resize(graph_.communicators.size());
-    Layout layout;
-    for (const std::size_t i : order_) {
-      const TaskClass& c = *graph_.tasks[i].task_class;
-      layout.place(0, line);
-      tasks_[i].in = layout.place(*c.in);
-      tasks_[i].parameters = layout.place(*c.parameters);
-      tasks_[i].state = layout.place(*c.state);
-      tasks_[i].out = layout.place(*c.out);
-    }
-    for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
-      const Type& type = *graph_.communicators[i].type;
-      layout.place(0, line);
-      communicators_[i].value = layout.place(type);
-      communicators_[i].input = layout.place(type);
-      communicators_[i].taken = layout.place(type);
-    }
-    // apart from what every activation touches
-    for (const std::size_t i : order_) tasks_[i].heap = layout.place(graph_.tasks[i].heap, line);
-    for (const std::size_t i : order_)
-      if (is_undoable(i)) tasks_[i].kept = layout.place(undoable_size(i) + graph_.tasks[i].heap, line);
-    arena_size_ = layout.size();
-    plan_.arena_.reset(static_cast<std::byte*>(::operator new (arena_size_ + line, std::align_val_t{line})));
-    std::memset(plan_.arena_.get(), 0, arena_size_ + line);
-  }
-
-  bool is_undoable(std::size_t i) const { return graph_.tasks[i].on_fault != OnFault::stop; }
-
-  std::size_t undoable_size(std::size_t i) const {
-    return tasks_[i].out + graph_.tasks[i].task_class->out->size - tasks_[i].state;
+    layout_.emplace(graph_, order_);
+    plan_.arena_.reset(static_cast<std::byte*>(::operator new (layout_->size, std::align_val_t{Layout::line})));
+    std::memset(plan_.arena_.get(), 0, layout_->size);
   }
 
   std::byte* at(std::size_t place) const { return plan_.arena_.get() + place; }
 
   const std::byte* source_of(const Connection& c) const {
-    if (c.from.kind == End::Kind::communicator) return at(communicators_[c.from.index].value);
+    if (c.from.kind == End::Kind::communicator) return at(layout_->communicators[c.from.index].value);
     const TaskClass& task_class = *graph_.tasks[c.from.index].task_class;
-    return at(tasks_[c.from.index].out) + task_class.out->fields[c.from.field].offset;
+    return at(layout_->tasks[c.from.index].out) + task_class.out->fields[c.from.field].offset;
   }
 
   std::byte* target_of(const Connection& c) const {
-    if (c.to.kind == End::Kind::communicator) return at(communicators_[c.to.index].input);
+    if (c.to.kind == End::Kind::communicator) return at(layout_->communicators[c.to.index].input);
     const TaskClass& task_class = *graph_.tasks[c.to.index].task_class;
-    return at(tasks_[c.to.index].in) + task_class.in->fields[c.to.field].offset;
+    return at(layout_->tasks[c.to.index].in) + task_class.in->fields[c.to.field].offset;
   }
 
   // Initial values; each input begins with what its source reads as until first published.
@@ -162,9 +111,10 @@ class PlanBuilder {
     for (std::size_t i = 0; i < graph_.tasks.size(); ++i) fill_task(i);
     for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
       const Communicator& c = graph_.communicators[i];
-      for (const std::size_t place : {communicators_[i].value, communicators_[i].input, communicators_[i].taken})
+      for (const std::size_t place :
+           {layout_->communicators[i].value, layout_->communicators[i].input, layout_->communicators[i].taken})
         make(*c.type, place, &plan_.communicator_memory_);
-      if (c.direction == Direction::in) copy_value(*c.type, at(communicators_[i].value), c.init.data());
+      if (c.direction == Direction::in) copy_value(*c.type, at(layout_->communicators[i].value), c.init.data());
     }
     for (const Connection& c : graph_.connections) copy_value(*c.type, target_of(c), source_of(c));
     make_deep_inputs();
@@ -174,20 +124,21 @@ class PlanBuilder {
     const Task& task = graph_.tasks[i];
     const TaskClass& c = *task.task_class;
     TaskStatus& status = plan_.status[i];
-    if (task.heap > 0 || c.is_deep()) {
-      plan_.heaps[i] = std::make_unique<PrivateHeap>(at(tasks_[i].heap), task.heap);
+    if (has_heap(task)) {
+      plan_.heaps[i] = std::make_unique<PrivateHeap>(at(layout_->tasks[i].heap), task.heap);
       status.heap = plan_.heaps[i].get();
     }
-    make(*c.parameters, tasks_[i].parameters, std::pmr::new_delete_resource());
-    make_private(*c.out, tasks_[i].out, status.heap);
-    copy_value(*c.parameters, at(tasks_[i].parameters), task.parameters.data());
-    copy_value(*c.out, at(tasks_[i].out), task.out.data());
-    make_private(*c.state, tasks_[i].state, status.heap);
-    make_private(*c.in, tasks_[i].in, status.heap);
-    status.undoable = is_undoable(i);
+    make(*c.parameters, layout_->tasks[i].parameters, std::pmr::new_delete_resource());
+    make_private(*c.out, layout_->tasks[i].out, status.heap);
+    copy_value(*c.parameters, at(layout_->tasks[i].parameters), task.parameters.data());
+    copy_value(*c.out, at(layout_->tasks[i].out), task.out.data());
+    make_private(*c.state, layout_->tasks[i].state, status.heap);
+    make_private(*c.in, layout_->tasks[i].in, status.heap);
+    status.undoable = is_undoable(task);
     status.run = c.run;
-    status.kept = at(tasks_[i].kept);
-    status.size = undoable_size(i);
+    if (!status.undoable) return;
+    status.kept = at(layout_->tasks[i].kept);
+    status.size = layout_->undoable_size(graph_, i);
   }
 
   // A default value whose deep parts go with the heap that they live in.
@@ -246,6 +197,7 @@ class PlanBuilder {
     plan_.publications_.reserve(publications);
     plan_.activations_.reserve(graph_.tasks.size());
     plan_.let_ends_.reserve(graph_.tasks.size());
+    plan_.let_values_.reserve(graph_.tasks.size());
     plan_.outs_.reserve(graph_.communicators.size());
     plan_.ins_.reserve(graph_.communicators.size());
     plan_.segments_.reserve(graph_.tasks.size());
@@ -263,7 +215,7 @@ class PlanBuilder {
     const auto& fields = graph_.tasks[i].task_class->out->fields;
     for (std::size_t f = 0; f < fields.size(); ++f)
       plan_.publications_.push_back(publication(end_name(graph_, {End::Kind::task, i, f}, true), *fields[f].type,
-                                                at(tasks_[i].out) + fields[f].offset));
+                                                at(layout_->tasks[i].out) + fields[f].offset));
     return {short_range(plan_.copies_, first_copy), short_range(plan_.publications_, first_publication)};
   }
 
@@ -271,19 +223,20 @@ class PlanBuilder {
     const Communicator& c = graph_.communicators[i];
     const std::size_t first_copy = plan_.copies_.size(), first_publication = plan_.publications_.size();
     for (const Connection* s : from_communicator_[i]) add_copy(*s);
-    plan_.publications_.push_back(publication(c.name, *c.type, at(communicators_[i].value)));
+    plan_.publications_.push_back(publication(c.name, *c.type, at(layout_->communicators[i].value)));
     return {static_cast<std::uint32_t>(i),
-            at(communicators_[i].value),
-            at(communicators_[i].input),
-            at(communicators_[i].taken),
+            at(layout_->communicators[i].value),
+            at(layout_->communicators[i].input),
+            at(layout_->communicators[i].taken),
             {short_range(plan_.copies_, first_copy), short_range(plan_.publications_, first_publication)}};
   }
 
   Activation activation(std::size_t i) {
     const Task& task = graph_.tasks[i];
-    const bool with_care = plan_.status[i].undoable || plan_.status[i].heap != nullptr;
-    return {with_care ? &run_with_care : task.task_class->run,
-            {at(tasks_[i].parameters), at(tasks_[i].in), at(tasks_[i].state), at(tasks_[i].out), &plan_.status[i]},
+    return {is_undoable(task) || has_heap(task) ? &run_with_care : task.task_class->run,
+            is_checked_at_let_end(task) ? task.task_class->body : nullptr,
+            {at(layout_->tasks[i].parameters), at(layout_->tasks[i].in), at(layout_->tasks[i].state),
+             at(layout_->tasks[i].out), &plan_.status[i]},
             task.let ? Publish{} : publish_task(i),
             static_cast<std::uint32_t>(i),
             connections_of(i),
@@ -311,6 +264,19 @@ class PlanBuilder {
     segment.levels.last = plan_.levels_.data() + plan_.levels_.size();
   }
 
+  void add_let_output(Group& group, std::size_t i) {
+    const Task& task = graph_.tasks[i];
+    const Type& type = *task.task_class->out;
+    const std::byte* out = at(layout_->tasks[i].out);
+    if (has_let_doubles(task)) {
+      const std::size_t lines = (type.size + Layout::line - 1) / Layout::line;
+      if (group.let_doubles.first == nullptr) group.let_doubles.first = reinterpret_cast<const double*>(out);
+      group.let_doubles.last = reinterpret_cast<const double*>(out + lines * Layout::line);
+    } else if (is_checked_at_let_end(task) && !type.fields.empty()) {
+      plan_.let_values_.push_back({out, type.finite});
+    }
+  }
+
   void make_groups() {
     struct Members {
       std::vector<std::size_t> let_ends, outs, ins, tasks;
@@ -333,9 +299,13 @@ class PlanBuilder {
       group.activations = members.tasks.size();
       std::size_t first = plan_.let_ends_.size();
       const std::size_t first_copy = plan_.copies_.size(), first_publication = plan_.publications_.size();
-      for (const std::size_t i : members.let_ends)
-        plan_.let_ends_.push_back({publish_task(i), static_cast<std::uint32_t>(i)});
+      const std::size_t first_value = plan_.let_values_.size();
+      for (const std::size_t i : members.let_ends) {
+        plan_.let_ends_.push_back({publish_task(i), at(layout_->tasks[i].out), static_cast<std::uint32_t>(i)});
+        add_let_output(group, i);
+      }
       group.let_ends = range(plan_.let_ends_, first);
+      group.let_values = range(plan_.let_values_, first_value);
       group.let_publish = {short_range(plan_.copies_, first_copy), short_range(plan_.publications_, first_publication)};
       first = plan_.outs_.size();
       for (const std::size_t i : members.outs) plan_.outs_.push_back(communicator_action(i));
@@ -361,11 +331,9 @@ class PlanBuilder {
   std::vector<std::vector<const Connection*>> from_task_, from_communicator_;
   Stages stages_;
   std::vector<std::size_t> order_;
-  std::vector<TaskPlaces> tasks_;
-  std::vector<CommunicatorPlaces> communicators_;
+  std::optional<Layout> layout_;
   std::map<std::string, std::uint32_t> output_index_;
   std::map<const Connection*, DeepInput*> deep_input_;
-  std::size_t arena_size_ = 0;
 };
 
 void TaskStatus::keep(const void* state) {
@@ -380,6 +348,6 @@ void TaskStatus::put_back(void* state) {
 
 Plan::Plan(const Graph& graph) { PlanBuilder(graph, *this).build(); }
 
-void Plan::Release::operator()(std::byte* memory) const { ::operator delete (memory, std::align_val_t{line}); }
+void Plan::Release::operator()(std::byte* memory) const { ::operator delete (memory, std::align_val_t{Layout::line}); }
 
 }  // namespace jarol

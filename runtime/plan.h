@@ -85,8 +85,9 @@ struct TaskStatus : FaultText {
 /// One task of a group, run at its release.
 struct Activation {
   Thunk run = nullptr;
-  TaskMemory memory;  // its fault text is the TaskStatus
-  Publish publish;    // empty for a task with a LET
+  Body body = nullptr;  // instead, for a task whose outputs are checked at the end of its LET; else null
+  TaskMemory memory;    // its fault text is the TaskStatus
+  Publish publish;      // empty for a task with a LET
   std::uint32_t task = 0;
   std::uint32_t connections = 0;  // to and from others at its release
   bool has_let = false;
@@ -96,7 +97,14 @@ struct Activation {
 /// The outputs of a LET task, due at the end of its LET.
 struct LetEnd {
   Publish publish;
+  const void* out = nullptr;  // all its outputs
   std::uint32_t task = 0;
+};
+
+/// Outputs of a LET task that may not be finite.
+struct LetValue {
+  const void* value = nullptr;
+  bool (*finite)(const void* value) = nullptr;
 };
 
 /// A communicator that acts.
@@ -123,6 +131,8 @@ struct Group {
   Duration period{};
   Publish let_publish;             // step 1: of all let_ends in one go
   Range<LetEnd> let_ends;          // the same one by one
+  Range<double> let_doubles;       // of them those of tasks that are made of doubles, from cache line to cache line
+  Range<LetValue> let_values;      // of the other tasks that are checked at the ends of their LETs
   Range<CommunicatorAction> outs;  // step 2
   Range<CommunicatorAction> ins;   // step 3
   Range<Segment> segments;         // step 4
@@ -159,6 +169,7 @@ struct Plan {
   std::vector<Publication> publications_;
   std::vector<Activation> activations_;
   std::vector<LetEnd> let_ends_;
+  std::vector<LetValue> let_values_;
   std::vector<CommunicatorAction> outs_;
   std::vector<CommunicatorAction> ins_;
   std::vector<Segment> segments_;

@@ -35,6 +35,18 @@ bool same_type(const Type& a, const Type& b) {
   return a.element == nullptr || same_type(*a.element, *b.element);
 }
 
+bool is_made_of_doubles(const Type& type) {
+  if (type.kind == Kind::floating) return type.size == sizeof(double);
+  if (type.kind == Kind::array) return is_made_of_doubles(*type.element);
+  if (type.kind != Kind::structure || type.fields.empty()) return false;
+  std::size_t size = 0;
+  for (const TypeField& f : type.fields) {
+    if (!is_made_of_doubles(*f.type)) return false;
+    size += f.type->size;
+  }
+  return size == type.size;
+}
+
 void copy_value(const Type& type, void* to, const void* from) {
   if (type.is_deep()) return type.assign(to, from);
   std::memcpy(to, from, type.size);

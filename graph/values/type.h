@@ -67,6 +67,9 @@ struct Type {
 /// True if both have the same name, layout and fields; plugins bring their own objects for equal types.
 bool same_type(const Type& a, const Type& b);
 
+/// True if its bytes are those of doubles, one after the other, and there is at least one.
+bool is_made_of_doubles(const Type& type);
+
 /// Deep copy of a value.
 void copy_value(const Type& type, void* to, const void* from);
 
