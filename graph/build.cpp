@@ -44,6 +44,8 @@ class Builder {
     add_communicators();
     add_tasks();
     check_names();
+    if (graph_.tasks.empty() && graph_.communicators.empty() && graph_.distributers.empty() && problems_.empty())
+      problems_.add(spec_.where, "the graph holds no task, communicator or distributer; add a task below 'tasks:'");
     if (!connect(spec_, graph_, problems_)) complete_ = false;
     add_chains(spec_, graph_, problems_);
     if (complete_) {

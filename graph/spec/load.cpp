@@ -126,6 +126,10 @@ GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides
   Yaml graph = read_yaml(source, problems);
   spec.where = {source, 1, 1};
   if (!problems.empty() && graph.kind == Yaml::Kind::null) return spec;  // syntax: nothing was read
+  if (graph.kind == Yaml::Kind::null) {
+    problems.add(graph.where, "there is no graph in it; a graph is a mapping that begins with 'graph: name'");
+    return spec;
+  }
   if (graph.kind != Yaml::Kind::mapping) {
     problems.add(graph.where,
                  "a graph is a mapping that begins with 'graph: name', not " + std::string(kind_name(graph)));

@@ -185,6 +185,18 @@ class Builder : public YAML::EventHandler {
   std::size_t anchored_values_ = 0;  // values that anchors keep
 };
 
+// yaml-cpp takes a tab in front of a line for anything but what it is.
+void refuse_syntax(const Location& where, const std::string& reason, Problems& problems) {
+  const std::string_view line = line_of(*where.source, where.line);
+  const std::size_t tab = line.substr(0, line.find_first_not_of(" \t")).find('\t');
+  if (tab == std::string_view::npos) return problems.add(where, "not valid YAML: " + reason);
+  const int column = static_cast<int>(tab) + 1;
+  std::vector<Note> notes;
+  if (column != where.column) notes.push_back({where, "where it can't be read on: " + reason});
+  problems.add({where.source, where.line, column}, "not valid YAML: a tab can't indent a line; indent with blanks",
+               std::move(notes));
+}
+
 }  // namespace
 
 const Yaml* Yaml::find(std::string_view name) const {
@@ -225,8 +237,7 @@ Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) 
     return root;
   } catch (const YAML::Exception& error) {
     const bool known = !error.mark.is_null();
-    problems.add({source, known ? error.mark.line + 1 : 1, known ? error.mark.column + 1 : 1},
-                 "not valid YAML: " + error.msg);
+    refuse_syntax({source, known ? error.mark.line + 1 : 1, known ? error.mark.column + 1 : 1}, error.msg, problems);
   } catch (const TooMuch&) {
     // reported where it was found
   }
