@@ -10,7 +10,10 @@ namespace {
 // A task's values in a heap of its own, which takes them with it.
 class Trial {
  public:
-  explicit Trial(std::size_t size) : region_(std::make_unique<std::byte[]>(size)), heap_(region_.get(), size) {}
+  explicit Trial(std::size_t size)
+      : region_(std::make_unique_for_overwrite<std::byte[]>(size)), heap_(region_.get(), size) {}
+
+  std::size_t size() const { return heap_.size(); }
 
   void add(const Type& type, const void* value) {
     if (!type.is_deep()) return;
@@ -38,8 +41,8 @@ void check_heaps(const Graph& graph, Problems& problems) {
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Task& task = graph.tasks[i];
     if (!task.task_class->is_deep()) continue;
+    Trial trial(task.heap);
     try {
-      Trial trial(task.heap);
       trial.add(*task.task_class->out, task.out.data());
       trial.add(*task.task_class->state, nullptr);
       for (const Connection& c : graph.connections)
@@ -47,7 +50,7 @@ void check_heaps(const Graph& graph, Problems& problems) {
     } catch (const HeapExhausted& error) {
       problems.add(task.where, "task '" + task.name + "' (" + task.task_class->name +
                                    ") can't hold the values that it begins with: " + error.what() +
-                                   "; give it a larger 'heap'");
+                                   (trial.size() == 0 ? "" : "; give it a larger 'heap'"));
     }
   }
 }

@@ -108,6 +108,20 @@ TEST_SUITE("graph/values/type") {
           "        ^");
   }
 
+  TEST_CASE("what no double, float or struct can be is told with the reason") {
+    Outer value;
+    CHECK(bind_text("angle: 1e308 mrad\ninner: [{depth: -1e39}, {}]\n", value) ==
+          "v.yaml:2:17: error: value field 'inner' element 0 field 'depth' needs a float [m], not '-1e39'; that is "
+          "beyond what a float holds\n"
+          "  inner: [{depth: -1e39}, {}]\n"
+          "                  ^");
+    CHECK(bind_text("3", value) ==
+          "v.yaml:1:1: error: value needs a mapping of its fields, not a scalar\n"
+          "  3\n"
+          "  ^");
+    CHECK(parse_scalar(type_of<Outer>(), "3", "", &value) == "is a single word");
+  }
+
   TEST_CASE("infinities and NaN anywhere in a value are found") {
     Outer value;
     const Type& type = type_of<Outer>();

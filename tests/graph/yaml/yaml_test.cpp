@@ -121,6 +121,17 @@ TEST_SUITE("graph/yaml") {
     CHECK(report_on(text + "]").starts_with("t.yaml:1:1: error: the text holds more than 1000000 values\n"));
   }
 
+  TEST_CASE("a text of more than 64 MiB is not read at all") {
+    constexpr std::size_t most = std::size_t{64} << 20;
+    std::string text = "a: 1\n#";
+    text.resize(most, '#');
+    CHECK(report_on(text) == "");
+    CHECK(report_on(text + "#") ==
+          "t.yaml:1:1: error: the text is larger than 64 MiB\n"
+          "  a: 1\n"
+          "  ^");
+  }
+
   TEST_CASE("a file that can't be read says why") {
     CHECK_THROWS_WITH_AS(read_source("no/such/file.yaml"),
                          "error: can't read 'no/such/file.yaml': No such file or directory", SpecError);
