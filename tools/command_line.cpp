@@ -1,8 +1,43 @@
 #include "tools/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <iostream>
+#include <limits>
+
+#include "graph/yaml/problems.h"
 
 namespace jarol::tools {
+namespace {
+
+// CLI11 reads 010 as eight, takes -1 as the largest number there is, and what is too large as something else.
+template <class T>
+std::string wrong_integer(const std::string& text) {
+  T value{};
+  const auto end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  const std::size_t first = text.starts_with('-') ? 1 : 0;
+  const bool zero_in_front = text.size() > first + 1 && text[first] == '0';
+  if (result.ec == std::errc() && result.ptr == end && !zero_in_front) return "";
+  return "'" + text + "' is no whole number from " + std::to_string(std::numeric_limits<T>::min()) + " to " +
+         std::to_string(std::numeric_limits<T>::max()) + "; write it in decimal, without zeros in front";
+}
+
+// The first word that is written as an option and is none of the command.
+std::string unknown_option(const CLI::App& command, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    const bool option = word.size() > 1 && word[0] == '-' && word.find_first_of("0123456789.") != 1;
+    if (word == "--") break;  // what follows are arguments
+    if (!option) continue;
+    const std::string name = word.substr(0, word.find('='));
+    const auto options = command.get_options();
+    if (std::none_of(options.begin(), options.end(), [&](const CLI::Option* o) { return o->check_name(name); }))
+      return name;
+  }
+  return "";
+}
+
+}  // namespace
 
 Option* Option::required() {
   option_.required();
@@ -36,7 +71,9 @@ Option* Option::excludes(const Option* other) {
 
 template <class T>
 Option* Command::add_option(const std::string& name, T& value, const std::string& text) {
-  return &options_.emplace_back(*app_.add_option(name, value, text));
+  CLI::Option& option = *app_.add_option(name, value, text);
+  if constexpr (std::is_integral_v<T>) option.check(wrong_integer<T>);
+  return &options_.emplace_back(option);
 }
 template Option* Command::add_option(const std::string&, std::string&, const std::string&);
 template Option* Command::add_option(const std::string&, std::vector<std::string>&, const std::string&);
@@ -79,7 +116,24 @@ bool CommandLine::parse(int argc, char** argv) {
   try {
     app_->parse(argc, argv);
     return true;
-  } catch (const CLI::ParseError& error) { return app_->exit(error) == 0; }
+  } catch (const CLI::ParseError& error) {
+    // the value of a mistyped option looks like an argument, which CLI11 tells instead
+    if (error.get_exit_code() != 0 && argc > 1) {
+      for (const CLI::App* command : app_->get_subcommands({})) {
+        if (command->get_name() != argv[1]) continue;
+        const std::string unknown = unknown_option(*command, {argv + 2, argv + argc});
+        if (unknown.empty()) continue;
+        std::vector<std::string> known;
+        for (const CLI::Option* option : command->get_options())
+          if (!option->get_positional()) known.push_back(option->get_name());
+        std::cerr << "error: " << command->get_name() << " has no option '" << unknown << "'"
+                  << (unknown.starts_with("--") ? did_you_mean(unknown, known) : "") << "; it has: " << list_of(known)
+                  << "\n";
+        return false;
+      }
+    }
+    return app_->exit(error) == 0;
+  }
 }
 
 }  // namespace jarol::tools

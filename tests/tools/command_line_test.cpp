@@ -1,0 +1,51 @@
+// What the words of a command line may be, and what is said of others.
+#include "tools/command_line.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/tools/run_command.h"
+
+namespace {
+std::string refusal_of(const std::string& arguments) {
+  const command::Result result = command::jarol(arguments);
+  CHECK(result.exit_code == 2);
+  return result.output;
+}
+}  // namespace
+
+TEST_SUITE("tools/command_line") {
+  TEST_CASE("a mistyped option is told as such, wherever it stands and whatever follows it") {
+    const std::string of_graph = "; it has: --help, --set, --profile, --dot\n";
+    for (const char* const words : {"--profil lab specs/counting.yaml", "specs/counting.yaml --profil lab",
+                                    "--profil=lab specs/counting.yaml", "--profil", "no/such.yaml --profil lab"}) {
+      CAPTURE(words);
+      CHECK(refusal_of(std::string("graph ") + words) ==
+            "error: graph has no option '--profil'; did you mean '--profile'?" + of_graph);
+    }
+    CHECK(refusal_of("graph specs/counting.yaml -x") == "error: graph has no option '-x'" + of_graph);
+    CHECK(refusal_of("run specs/counting.yaml --forr 1s")
+              .starts_with("error: run has no option '--forr'; did you mean '--for'?; it has: --help, --for, "));
+    // behind two dashes stand arguments
+    CHECK(refusal_of("graph -- --profil") == "error: can't read '--profil': No such file or directory\n1 error\n");
+    CHECK(refusal_of("graph specs/counting.yaml another.yaml") ==
+          "The following argument was not expected: another.yaml\nRun with --help for more information.\n");
+  }
+
+  TEST_CASE("a seed is a whole number of 64 bits in decimal, nothing else") {
+    const std::string run = "run specs/counting.yaml --for 10ms --seed ";
+    for (const char* const seed : {"0", "7", "18446744073709551615"}) CHECK(command::jarol(run + seed).exit_code == 0);
+    for (const std::string seed : {"-1", "18446744073709551616", "010", "0x10", "1.5", "seven", "''", "+7", "-0"}) {
+      CAPTURE(seed);
+      CHECK(refusal_of(run + seed) ==
+            "--seed: '" + (seed == "''" ? "" : seed) +
+                "' is no whole number from 0 to 18446744073709551615; write it in decimal, without zeros in front\n"
+                "Run with --help for more information.\n");
+    }
+  }
+
+  TEST_CASE("so are other numbers: 010 is not eight") {
+    CHECK(refusal_of("bench --repeats 010") ==
+          "--repeats: '010' is no whole number from -2147483648 to 2147483647; write it in decimal, without zeros in "
+          "front\nRun with --help for more information.\n");
+  }
+}
