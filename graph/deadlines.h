@@ -1,4 +1,4 @@
-// Deadlines and order of execution: what follows from connections and timing alone (DESIGN section 3).
+// Deadlines and order of execution: what follows from connections and timing alone.
 #pragma once
 
 #include "graph/graph.h"

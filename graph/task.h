@@ -1,4 +1,4 @@
-// The form of a task (DESIGN section 4) and the class that the runtime makes of it.
+// The form of a task and the class that the runtime makes of it.
 #pragma once
 
 #include <algorithm>

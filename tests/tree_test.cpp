@@ -11,7 +11,7 @@
 namespace {
 namespace fs = std::filesystem;
 
-// The table of DESIGN section 1: what each folder may include besides itself.
+// What each folder may include besides itself.
 const std::map<std::string, std::vector<std::string>> allowed{
     {"graph", {}},
     {"runtime", {"graph/"}},

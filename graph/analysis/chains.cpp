@@ -9,7 +9,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-// A point of logical time: the instant, and the step within it (DESIGN section 3).
+// A point of logical time: the instant, and the step within it (specs/README.md, "An instant").
 struct Point {
   std::int64_t instant;
   int step;

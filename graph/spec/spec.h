@@ -24,7 +24,7 @@ struct Maybe : std::optional<Located<T>> {
   bool bad = false;
 };
 
-/// What follows a fault (DESIGN section 3).
+/// What follows a fault: specs/README.md, "Faults".
 enum class OnFault { stop, hold, skip };
 enum class Direction { in, out };
 enum class Isolation { strong, weak };

@@ -1,4 +1,4 @@
-// The tables of the graph language (DESIGN section 2), one per kind of mapping.
+// The tables of the graph language, one per kind of mapping; specs/README.md says the same to people.
 #pragma once
 
 #include "graph/spec/key.h"

@@ -1,4 +1,4 @@
-// The digest of a trace (DESIGN section 3): the wrapping sum of one hash per publication, so that parts can be summed
+// The digest of a trace: the wrapping sum of one hash per publication, so that parts can be summed
 // apart. What depends on the value alone is summed here, word by word.
 #pragma once
 

@@ -7,7 +7,7 @@ namespace jarol::tools {
 
 class CommandLine;
 
-/// Exit codes of the command (DESIGN section 8).
+/// Exit codes of the command, as the README says.
 enum ExitCode { exit_good = 0, exit_negative = 1, exit_input = 2, exit_unfinished = 3, exit_interrupted = 130 };
 
 // Each adds its subcommand; `exit_code` is what the program returns once it has run.
