@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdio>
+#include <fstream>
 #include <string>
 
 #include "graph/yaml/yaml.h"
@@ -18,6 +19,12 @@ std::string output_of(const std::string& arguments) {
 }
 
 std::string readme() { return jarol::read_source("README.md")->text; }
+
+// What stands between the two, where they come first.
+std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+  const std::size_t first = text.find(begin) + begin.size();
+  return text.substr(first, text.find(end, first) - first);
+}
 }  // namespace
 
 TEST_SUITE("tools/readme") {
@@ -49,5 +56,27 @@ TEST_SUITE("tools/readme") {
       REQUIRE(begin < end);
       CHECK(readme().find(run.substr(begin, end - begin)) != std::string::npos);
     }
+  }
+
+  TEST_CASE("the README shows where the helicopter lands whose sonar is lost") {
+    const std::string sonar = "--set distributers.robostix.link.parameters.failures.sonar.";
+    CHECK(readme().find(sonar + "kind=lost \\\n  " + sonar + "at=12s") != std::string::npos);
+    const std::string run = output_of("run specs/javiator.yaml " + sonar + "kind=lost " + sonar + "at=12s");
+    const std::string reached = between(run, "deg\n  altitude", "  activations");
+    CHECK(reached.size() > 80);
+    CHECK(readme().find(reached) != std::string::npos);
+  }
+
+  TEST_CASE("the README shows a task of one's own, and what a graph with it does") {
+    const std::string text = readme(), folder = JAROL_PLUGIN_FOLDER;
+    CHECK(between(text, "```cpp\n", "```") == jarol::read_source("tests/tools/plugins/low_pass.cpp")->text);
+    std::ofstream(folder + "/smooth.yaml") << between(text, "```yaml\ngraph: smooth", "```").insert(0, "graph: smooth");
+    const std::string run = output_of("run " + folder + "/smooth.yaml --for 1s --trace " + folder + "/smooth.csv");
+    const std::string told = "  activations" + between(run, "  activations", "  trace");
+    CHECK(told.size() > 60);
+    CHECK(text.find(told) != std::string::npos);
+    const std::string trace = jarol::read_source(folder + "/smooth.csv")->text;
+    const std::size_t last = trace.rfind('\n', trace.size() - 2);
+    CHECK(text.find(trace.substr(last)) != std::string::npos);
   }
 }
