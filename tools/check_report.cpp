@@ -16,10 +16,7 @@ using analysis::Suggestion;
 using analysis::Verdict;
 using Json = nlohmann::ordered_json;
 
-bool holds(const ReportedChain& c) {
-  return !(c.reaction_limit && c.latency.max_reaction > c.reaction_limit->count()) &&
-         !(c.age_limit && c.latency.max_age > c.age_limit->count());
-}
+bool holds(const ReportedChain& c) { return analysis::broken_limits(c.chain, c.latency).empty(); }
 
 std::string text_of(Standing standing) {
   switch (standing) {
@@ -70,7 +67,7 @@ std::string worst_response(const CheckReport& r) {
 std::string broken_limits(const CheckReport& r) {
   std::string names;
   for (const ReportedChain& c : r.chains)
-    if (!holds(c)) names += (names.empty() ? "'" : ", '") + c.name + "'";
+    if (!holds(c)) names += (names.empty() ? "'" : ", '") + c.chain.name + "'";
   return names.empty() ? "" : ", BUT A LIMIT IS BROKEN by chain " + names;
 }
 
@@ -185,37 +182,35 @@ std::string late_outs(const Graph& graph) {
 // The phase that a loop through the chain loses at its crossover: the delay from read to output, and half a period that
 // the output is held (Franklin, Powell, Workman 1998).
 std::string control_view(const Graph& graph, const ReportedChain& c) {
-  const End& last = c.path.back();
+  const End& last = c.chain.path.back();
   const std::int64_t period = last.kind == End::Kind::task ? graph.tasks[last.index].period.count()
                                                            : graph.communicators[last.index].period.count();
   const double delay = static_cast<double>(c.latency.max_reduced) * 1e-9, held = 0.5e-9 * static_cast<double>(period);
-  return fmt::format("    at {:.4g} rad/s: delay {}, jitter {}, held for {}: {:.1f} deg of phase lost\n", *c.crossover,
-                     duration(c.latency.max_reduced), duration(c.latency.jitter), duration(period),
-                     *c.crossover * (delay + held) * 180 / 3.14159265358979323846);
+  return fmt::format("    at {:.4g} rad/s: delay {}, jitter {}, held for {}: {:.1f} deg of phase lost\n",
+                     *c.chain.crossover, duration(c.latency.max_reduced), duration(c.latency.jitter), duration(period),
+                     *c.chain.crossover * (delay + held) * 180 / 3.14159265358979323846);
 }
 
 std::string chain_lines(const CheckReport& r) {
   std::string text;
   for (const ReportedChain& c : r.chains) {
     const analysis::ChainLatency& l = c.latency;
-    text += fmt::format("  chain {}: reaction {} to {}, data age at most {}, jitter {}{}\n", c.name,
+    text += fmt::format("  chain {}: reaction {} to {}, data age at most {}, jitter {}{}\n", c.chain.name,
                         l.exact ? duration(l.min_reaction) : "-", duration(l.max_reaction), duration(l.max_age),
                         duration(l.jitter), l.exact ? "" : " (upper bounds)");
     if (l.exact) {
       std::string hops;
-      for (std::size_t i = 0; i < c.path.size(); ++i)
-        hops += fmt::format("{}{} {}", i == 0 ? "" : ", ",
-                            c.path[i].kind == End::Kind::task ? r.graph->tasks[c.path[i].index].name
-                                                              : r.graph->communicators[c.path[i].index].name,
-                            duration(l.at[i + 1] - l.at[i]));
+      for (std::size_t i = 0; i < c.chain.path.size(); ++i) {
+        const End& end = c.chain.path[i];
+        hops += fmt::format(
+            "{}{} {}", i == 0 ? "" : ", ",
+            end.kind == End::Kind::task ? r.graph->tasks[end.index].name : r.graph->communicators[end.index].name,
+            duration(l.at[i + 1] - l.at[i]));
+      }
       text += fmt::format("    slowest way from {}: {}\n", duration(l.at.front()), hops);
     }
-    if (c.crossover) text += control_view(*r.graph, c);
-    if (c.reaction_limit && l.max_reaction > c.reaction_limit->count())
-      text += fmt::format("    LIMIT BROKEN: reaction {} over {}\n", duration(l.max_reaction),
-                          duration_text(*c.reaction_limit));
-    if (c.age_limit && l.max_age > c.age_limit->count())
-      text += fmt::format("    LIMIT BROKEN: data age {} over {}\n", duration(l.max_age), duration_text(*c.age_limit));
+    if (c.chain.crossover) text += control_view(*r.graph, c);
+    for (const std::string& broken : analysis::broken_limits(c.chain, l)) text += "    LIMIT BROKEN: " + broken + "\n";
   }
   return text;
 }
@@ -329,14 +324,14 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
   }
   auto chains = Json::array();
   for (const ReportedChain& c : r.chains)
-    chains.push_back({{"name", c.name},
+    chains.push_back({{"name", c.chain.name},
                       {"exact", c.latency.exact},
                       {"max_reaction_ns", c.latency.max_reaction},
                       {"min_reaction_ns", c.latency.min_reaction},
                       {"max_age_ns", c.latency.max_age},
                       {"jitter_ns", c.latency.jitter},
-                      {"reaction_limit_ns", c.reaction_limit ? Json(c.reaction_limit->count()) : Json(nullptr)},
-                      {"age_limit_ns", c.age_limit ? Json(c.age_limit->count()) : Json(nullptr)},
+                      {"reaction_limit_ns", c.chain.reaction ? Json(c.chain.reaction->count()) : Json(nullptr)},
+                      {"age_limit_ns", c.chain.age ? Json(c.chain.age->count()) : Json(nullptr)},
                       {"holds", holds(c)}});
   auto suggestions = Json::array();
   for (const Suggestion& s : r.suggestions) suggestions.push_back(text_of(s, *r.graph));

@@ -12,12 +12,8 @@
 namespace jarol::tools {
 
 struct ReportedChain {
-  std::string name;
-  std::vector<End> path;
+  Chain chain;
   analysis::ChainLatency latency;
-  std::optional<Duration> reaction_limit;
-  std::optional<Duration> age_limit;
-  std::optional<double> crossover;  // rad/s
 };
 
 /// Everything found about one graph.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "graph/analysis/chains.h"
 #include "graph/analysis/check.h"
 #include "graph/spec/key.h"
 #include "graph/yaml/quantities.h"
@@ -98,15 +99,19 @@ void require_executable(const std::string& file, const Graph& graph, const RealT
                                 "'; the real clock executes 'table' and 'fixed_priority'; choose one by --set "
                                 "platform.policy=table");
   const analysis::Result result = analysis::check(graph);
-  if (result.verdict == analysis::Verdict::schedulable) return;
-  if (result.verdict == analysis::Verdict::unknown) {
-    std::cerr << "note: whether this graph can be scheduled is not known: " << result.reason << "\n";
-    return;
+  std::vector<std::string> against;
+  if (result.verdict == analysis::Verdict::not_schedulable) against.push_back("is not schedulable: " + result.reason);
+  for (const Chain& chain : graph.chains) {
+    const auto broken = analysis::broken_limits(chain, analysis::latency_of(graph, chain.path));
+    if (!broken.empty()) against.push_back("breaks a limit of chain '" + chain.name + "': " + list_of(broken));
   }
-  if (!arguments.force)
-    throw NegativeVerdict("'" + file + "' is not schedulable: " + result.reason +
-                          "; 'jarol check' says more, --force runs it all the same");
-  std::cerr << "note: not schedulable, run by force: " << result.reason << "\n";
+  std::string all;
+  for (const std::string& each : against) all += (all.empty() ? "" : ", and ") + each;
+  if (!all.empty() && !arguments.force)
+    throw NegativeVerdict("'" + file + "' " + all + "; 'jarol check' says more, --force runs it all the same");
+  if (!all.empty()) std::cerr << "note: run by force: '" << file << "' " << all << "\n";
+  if (result.verdict == analysis::Verdict::unknown)
+    std::cerr << "note: whether this graph can be scheduled is not known: " << result.reason << "\n";
 }
 
 std::string to_text(const Graph& graph, const RealClock& clock) {

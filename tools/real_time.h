@@ -38,8 +38,8 @@ struct NegativeVerdict : std::runtime_error {
 };
 
 /// Throws std::invalid_argument for a graph that can't be executed in real time, and unless forced NegativeVerdict for
-/// one that check finds not schedulable; says on stderr when check can't tell. `file` is what the user called the
-/// graph.
+/// one of which check finds that it is not schedulable or breaks a chain's limit; says on stderr when check can't tell.
+/// `file` is what the user called the graph.
 void require_executable(const std::string& file, const Graph& graph, const RealTimeArguments& arguments);
 
 /// How well the run kept to real time.

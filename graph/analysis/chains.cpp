@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "graph/yaml/quantities.h"
+
 namespace jarol::analysis {
 namespace {
 
@@ -106,6 +108,17 @@ ChainLatency latency_of(const Graph& graph, const std::vector<End>& path) {
   result.jitter = result.max_reduced - result.min_reaction;
   forward(hops, slowest, &result.at);
   return result;
+}
+
+std::vector<std::string> broken_limits(const Chain& chain, const ChainLatency& latency) {
+  std::vector<std::string> broken;
+  const auto compare = [&](const char* what, std::int64_t is, const std::optional<Duration>& limit) {
+    if (limit && is > limit->count())
+      broken.push_back(what + (" " + duration_text(Duration(is))) + " over " + duration_text(*limit));
+  };
+  compare("reaction", latency.max_reaction, chain.reaction);
+  compare("data age", latency.max_age, chain.age);
+  return broken;
 }
 
 }  // namespace jarol::analysis

@@ -20,4 +20,7 @@ struct ChainLatency {
 /// A path of a valid graph, not empty.
 ChainLatency latency_of(const Graph& graph, const std::vector<End>& path);
 
+/// The limits of a chain that its latency exceeds, as "reaction 12ms over 11ms"; of a reaction first.
+std::vector<std::string> broken_limits(const Chain& chain, const ChainLatency& latency);
+
 }  // namespace jarol::analysis

@@ -134,7 +134,36 @@ TEST_SUITE("tools/real_time") {
           "error: '" + one +
               "' is not schedulable: the tasks need more than the whole core; 'jarol check' says more, --force runs it "
               "all the same\n");
-    CHECK(jarol(run + " --force").exit_code == 0);
+    const auto forced = jarol(run + " --force");
+    CHECK(forced.exit_code == 0);
+    CHECK(forced.output.find("note: run by force: '" + one +
+                             "' is not schedulable: the tasks need more than the whole core\n") != std::string::npos);
+  }
+
+  TEST_CASE("what breaks a chain's limit is a negative verdict, and not run unless forced") {
+    const TemporaryFolder folder;
+    const std::string one = folder.write("one.yaml", on_core(0) + "chains:\n  c: {path: [flow, timed, to]}\n");
+    const std::string run = "run " + one + " --clock real --for 40ms";
+    CHECK(jarol(run).exit_code == 0);
+    const std::string late = run + " --set chains.c.reaction=80ms --set chains.c.age=85ms";
+    const auto refused = jarol(late);
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.output == "error: '" + one +
+                                "' breaks a limit of chain 'c': reaction 90ms over 80ms, data age 90ms over 85ms; "
+                                "'jarol check' says more, --force runs it all the same\n");
+    CHECK(
+        jarol(late + " --set tasks.flow.wcet=30ms").output ==
+        "error: '" + one +
+            "' is not schedulable: the tasks need more than the whole core, and breaks a limit of chain 'c': reaction "
+            "90ms over 80ms, data age 90ms over 85ms; 'jarol check' says more, "
+            "--force runs it all the same\n");
+    const auto forced = jarol(late + " --force");
+    CHECK(forced.exit_code == 0);
+    CHECK(forced.output.find("note: run by force: '" + one +
+                             "' breaks a limit of chain 'c': reaction 90ms over 80ms, "
+                             "data age 90ms over 85ms\n") != std::string::npos);
+    // on the virtual clock it is logical time that is short, whatever the limit
+    CHECK(jarol("run " + one + " --for 40ms --set chains.c.reaction=80ms").exit_code == 0);
   }
 
   TEST_CASE("what can't be executed is refused with what would be right") {

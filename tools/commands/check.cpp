@@ -67,7 +67,10 @@ void add_all_chains(const Graph& graph, std::vector<End>& path, std::vector<Repo
     for (const End& end : path)
       name += (name.empty() ? "" : " -> ") +
               (end.kind == End::Kind::task ? graph.tasks[end.index].name : graph.communicators[end.index].name);
-    chains.push_back({name, path, analysis::latency_of(graph, path), std::nullopt, std::nullopt, std::nullopt});
+    Chain chain;
+    chain.name = name;
+    chain.path = path;
+    chains.push_back({chain, analysis::latency_of(graph, path)});
     return;
   }
   const auto same = [](const End& a, const End& b) { return a.kind == b.kind && a.index == b.index; };
@@ -90,8 +93,7 @@ CheckReport report_on(const std::string& file, const Graph& graph, const Options
   report.file = file;
   report.graph = &graph;
   report.result = analysis::check(graph);
-  for (const Chain& c : graph.chains)
-    report.chains.push_back({c.name, c.path, analysis::latency_of(graph, c.path), c.reaction, c.age, c.crossover});
+  for (const Chain& c : graph.chains) report.chains.push_back({c, analysis::latency_of(graph, c.path)});
   if (options.all_chains)
     for (std::size_t i = 0; i < graph.communicators.size(); ++i) {
       std::vector<End> path{{End::Kind::communicator, i, 0}};
