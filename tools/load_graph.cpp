@@ -35,8 +35,12 @@ const std::vector<vehicles::VehicleClass>& known_vehicles() {
 }
 
 Loaded load_graph(const std::string& path, const Overrides& overrides, std::uint64_t seed) {
+  return load_graph(read_source(path), overrides, seed);
+}
+
+Loaded load_graph(const std::shared_ptr<const Source>& source, const Overrides& overrides, std::uint64_t seed) {
   Problems problems;
-  const GraphSpec spec = load_spec(read_source(path), overrides, problems);
+  const GraphSpec spec = load_spec(source, overrides, problems);
   Loaded loaded;
   loaded.registry = std::make_unique<Registry>(registry());
   load_plugins(spec, *loaded.registry, problems);
@@ -44,6 +48,12 @@ Loaded load_graph(const std::string& path, const Overrides& overrides, std::uint
   loaded.channels = distributers::make_channels(*loaded.graph, known_vehicles(), seed, problems);
   problems.throw_if_any();
   return loaded;
+}
+
+const Distributer* find_in_real_time(const Loaded& loaded) {
+  for (std::size_t i = 0; i < loaded.channels.size(); ++i)
+    if (loaded.channels[i]->needs_real_clock()) return &loaded.graph->distributers[i];
+  return nullptr;
 }
 
 }  // namespace jarol::tools

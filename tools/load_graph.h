@@ -27,5 +27,9 @@ const std::vector<vehicles::VehicleClass>& known_vehicles();
 /// Throws SpecError with everything that is wrong with the file, its overrides and its links. The seed is that of all
 /// noise.
 Loaded load_graph(const std::string& path, const Overrides& overrides, std::uint64_t seed = 0);
+Loaded load_graph(const std::shared_ptr<const Source>& source, const Overrides& overrides, std::uint64_t seed = 0);
+
+/// A distributer whose external system goes on by itself, whatever the logical clock says; null: none does.
+const Distributer* find_in_real_time(const Loaded& loaded);
 
 }  // namespace jarol::tools

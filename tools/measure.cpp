@@ -78,12 +78,14 @@ Duration with_margin(Duration most, double margin) {
 }
 
 std::string with_wcets(const std::string& text, const GraphSpec& spec, const Graph& graph,
-                       const std::vector<Duration>& wcets) {
+                       const std::vector<std::optional<Duration>>& wcets) {
   std::vector<Edit> edits;
   for (const TaskSpec& task : spec.tasks) {
     const auto found =
         std::find_if(graph.tasks.begin(), graph.tasks.end(), [&](const Task& t) { return t.name == task.name; });
-    const Edit edit = edit_of(text, task, wcets[static_cast<std::size_t>(found - graph.tasks.begin())]);
+    const std::optional<Duration> wcet = wcets[static_cast<std::size_t>(found - graph.tasks.begin())];
+    if (!wcet) continue;
+    const Edit edit = edit_of(text, task, *wcet);
     const Location& where = task.wcet ? task.wcet->where : task.type->where;
     if (where.source == nullptr || where.source->text != text)
       throw std::invalid_argument("the 'wcet' of task '" + task.name + "' does not come from the file itself");

@@ -1,6 +1,7 @@
 // Execution times as they are on this machine, and how they get into a graph's file.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,9 @@ std::vector<MeasuredTask> measure_tasks(Loaded& loaded, Duration end);
 /// What is written for a measured maximum: with the margin on top, rounded up to three digits.
 Duration with_margin(Duration most, double margin);
 
-/// The text of a graph's file with these WCETs in its tasks, everything else as it was: a value that is there is
-/// replaced, else `wcet` follows the task's type. Throws std::invalid_argument for what can't be edited so.
+/// The text of a graph's file with these WCETs in the graph's tasks, everything else as it was: a value that is there
+/// is replaced, else `wcet` follows the task's type. Throws std::invalid_argument for what can't be edited so.
 std::string with_wcets(const std::string& text, const GraphSpec& spec, const Graph& graph,
-                       const std::vector<Duration>& wcets);
+                       const std::vector<std::optional<Duration>>& wcets);
 
 }  // namespace jarol::tools

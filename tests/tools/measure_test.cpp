@@ -2,15 +2,34 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "graph/yaml/quantities.h"
 #include "tests/graph/graph_of.h"
+#include "tests/tools/run_command.h"
 
 namespace {
 using namespace jarol;
 using namespace std::chrono_literals;
 
-std::string rewritten(const std::string& text, const std::vector<Duration>& wcets) {
+using command::TemporaryFolder;
+
+std::string content(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// One task each: without a WCET, with one that is too short, with one that is long, and one that is not released soon.
+const std::string file_text = R"(graph: t
+tasks:
+  fresh: {type: Counter, period: 10ms}
+  long:  {type: Counter, period: 10ms, wcet: 4ms}
+  short: {type: Counter, period: 10ms, wcet: 1ns}
+  late:  {type: Counter, period: 10s, offset: 5s, wcet: 1ms}
+)";
+
+std::string rewritten(const std::string& text, const std::vector<std::optional<Duration>>& wcets) {
   Problems problems;
   const auto source = std::make_shared<Source>(Source{"t.yaml", text});
   const GraphSpec spec = load_spec(source, {}, problems);
@@ -65,6 +84,88 @@ connections: [a.out -> b.in]
     CHECK_THROWS_WITH_AS(rewritten("graph: t\ntasks:\n  a: &one {type: Counter, period: 1ms}\n  b: *one\n", {1us, 1us}),
                          "two tasks share one place of the file through an alias; write their 'wcet' yourself",
                          std::invalid_argument);
+  }
+
+  TEST_CASE("a task without a new WCET keeps its line") {
+    const std::string text = "graph: t\ntasks:\n  a: {type: Counter, period: 1ms}\n  b: {type: Counter, period: 1ms}\n";
+    CHECK(rewritten(text, {std::nullopt, std::nullopt}) == text);
+    CHECK(rewritten(text, {std::nullopt, 1us}) ==
+          "graph: t\ntasks:\n  a: {type: Counter, period: 1ms}\n  b: {type: Counter, wcet: 1us, period: 1ms}\n");
+  }
+
+  TEST_CASE("check --write writes what lacks or is too short, keeps what is longer, and says so") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", file_text);
+    const auto told = command::jarol("check --write --for 1s --margin 50 " + file, "2>&1 >/dev/null").output;
+    const auto row = [&](const std::string& task) {
+      const std::size_t begin = told.find("  " + task + " ");
+      return told.substr(begin, told.find('\n', begin) - begin);
+    };
+    CHECK(told.starts_with(file + ": measured over 1s of logical time on this machine\n"
+                                  "  task   activations     99.9 %       most       wcet    written\n"));
+    CHECK(row("late") ==
+          "  late             0          -          -        1ms          -  never released in that time");
+    CHECK(row("long").ends_with("        4ms       kept"));
+    CHECK(row("short").find("        1ns  ") != std::string::npos);
+    CHECK(row("short").ends_with("  LONGER THAN ITS WCET"));
+    CHECK(told.ends_with("  written into " + file +
+                         " with 50 % on top\n"
+                         "  a 'wcet' that is no shorter than what was measured, with that on top, was kept; --lower "
+                         "lowers it\n"));
+    const Graph graph = tests::graph_of(content(file));
+    const auto wcet = [&](const std::string& name) {
+      for (const Task& task : graph.tasks)
+        if (task.name == name) return task.wcet;
+      return std::optional<Duration>{};
+    };
+    CHECK(wcet("late") == 1ms);
+    CHECK(wcet("long") == 4ms);
+    CHECK(wcet("short") > 1ns);
+    CHECK(wcet("short") < 4ms);
+    REQUIRE(wcet("fresh").has_value());
+    CHECK(row("fresh").ends_with("  " + duration_text(*wcet("fresh"))));
+    // what is asked for is lowered, too
+    command::jarol("check --write --lower --for 1s " + file);
+    CHECK(content(file).find("long:  {type: Counter, period: 10ms, wcet: 4ms}") == std::string::npos);
+  }
+
+  TEST_CASE("the verdict after check --write is that of the file as it was written") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", file_text);
+    const std::string measured = "check --json --write --for 1s --set tasks.long.wcet=20ms " + file;
+    const auto verdict = command::jarol(measured, "2>/dev/null");
+    CHECK(verdict.exit_code == 0);
+    CHECK(verdict.output == command::jarol("check --json " + file).output);
+    CHECK(nlohmann::json::parse(verdict.output)["tasks"][2]["wcet_ns"] == 4'000'000);
+    CHECK(command::jarol(measured, "2>&1 >/dev/null")
+              .output.ends_with("  measured with --set or --profile; what follows is said of the file as it stands, "
+                                "without them\n"));
+  }
+
+  TEST_CASE("a file that needs nothing is not touched, nor one that can't be edited") {
+    const TemporaryFolder folder;
+    const std::string text = "graph: t\ntasks: {a: {type: Counter, period: 1ms, wcet: 900us}}\n";
+    const std::string file = folder.write("t.yaml", text);
+    const auto before = std::filesystem::last_write_time(file);
+    CHECK(command::jarol("check --write --for 1s " + file).output.find("  nothing is written into " + file + "\n") !=
+          std::string::npos);
+    CHECK(content(file) == text);
+    CHECK(std::filesystem::last_write_time(file) == before);
+    const std::string shared = "graph: t\ntasks:\n  a: &one {type: Counter, period: 1ms}\n  b: *one\n";
+    folder.write("t.yaml", shared);
+    const auto refused = command::jarol("check --write --for 1s " + file);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output ==
+          "error: two tasks share one place of the file through an alias; write their 'wcet' yourself\n");
+    CHECK(content(file) == shared);
+  }
+
+  TEST_CASE("tasks that hear from a link to what goes on by itself are not measured") {
+    const auto refused = command::jarol("check --measure specs/exolauv.yaml --profile dune");
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output ==
+          "error: distributer 'dune' has a link to what goes on by itself, from which nothing comes while tasks are "
+          "measured; choose a link in process, as simulation or script\n");
   }
 
   TEST_CASE("every activation of every task is measured") {

@@ -13,7 +13,7 @@
 #include "tools/gantt.h"
 #include "tools/generate_graphs.h"
 #include "tools/load_graph.h"
-#include "tools/measure.h"
+#include "tools/measure_file.h"
 #include "tools/whole_file.h"
 
 namespace jarol::tools {
@@ -29,10 +29,7 @@ struct Options {
   int count = 1;
   Generation generation;
   std::string svg;
-  bool measure = false;
-  bool write = false;
-  std::string duration;
-  double margin = 20;  // percent
+  MeasureOptions measuring;
   bool sensitivity = false;
   bool all_chains = false;
   bool json = false;
@@ -120,58 +117,15 @@ int worst(int a, int b) {
   return rank(a) >= rank(b) ? a : b;
 }
 
-// How long to measure: --for, else the mission, else ten seconds.
-Duration measured_time(const Options& options, const Loaded& loaded) {
-  Duration end{};
-  if (!options.duration.empty()) {
-    const std::string wrong = parse_duration(options.duration, end);
-    if (!wrong.empty() || end <= Duration{})
-      throw std::invalid_argument("--for: '" + options.duration + "' " + (wrong.empty() ? "is not above zero" : wrong));
-    return end;
-  }
-  for (const auto& channels : loaded.channels) end = std::max(end, channels->end().value_or(Duration{}));
-  return end > Duration{} ? end : std::chrono::seconds(10);
-}
-
-// Measures, tells, and writes into the file where that is asked for. To stderr: stdout holds verdicts.
-void measure_file(const std::string& file, const Options& options) {
-  Loaded loaded = load_graph(file, options.overrides);
-  const Duration end = measured_time(options, loaded);
-  const Graph& graph = *loaded.graph;
-  const std::vector<MeasuredTask> measured = measure_tasks(loaded, end);
-  std::size_t width = 4;
-  for (const Task& t : graph.tasks) width = std::max(width, t.name.size());
-  std::cerr << fmt::format(
-      "{}: measured over {} of logical time on this machine\n  {:<{}}  {:>11}  {:>9}  {:>9}  {:>9}\n", file,
-      duration_text(end), "task", width, "activations", "99.9 %", "most", "wcet");
-  std::vector<Duration> wcets;
-  for (std::size_t i = 0; i < measured.size(); ++i) {
-    const Task& t = graph.tasks[i];
-    const bool over = t.wcet && measured[i].most > *t.wcet;
-    std::cerr << fmt::format("  {:<{}}  {:>11}  {:>9}  {:>9}  {:>9}{}\n", t.name, width, measured[i].activations,
-                             duration_text(measured[i].most_of_999), duration_text(measured[i].most),
-                             t.wcet ? duration_text(*t.wcet) : "-", over ? "  LONGER THAN ITS WCET" : "");
-    wcets.push_back(with_margin(measured[i].most, options.margin / 100));
-  }
-  if (!options.write) return;
-  Problems problems;
-  const auto source = read_source(file);
-  const GraphSpec spec = load_spec(source, {}, problems);
-  problems.throw_if_any();
-  const std::string edited = with_wcets(source->text, spec, graph, wcets);
-  WholeFile whole(file);
-  whole.write(edited);
-  whole.commit();
-  std::cerr << fmt::format("  written into {} with {:g} % on top\n", file, options.margin);
-}
-
 int check_files(const Options& options) {
   int exit_code = exit_good;
   for (const std::string& file : options.files) require_apart({{"FILE", file}}, {{"--svg", options.svg}});
   for (const std::string& file : options.files) {
     try {
-      if (options.measure || options.write) measure_file(file, options);
-      const Loaded loaded = load_graph(file, options.overrides);
+      if (options.measuring.measure || options.measuring.write)
+        measure_file(file, options.overrides, options.measuring);
+      // what is written is judged as it was written
+      const Loaded loaded = load_graph(file, options.measuring.write ? Overrides{} : options.overrides);
       const CheckReport report = report_on(file, *loaded.graph, options);
       if (!options.svg.empty() && report.result.late) {
         WholeFile picture(options.svg);
@@ -225,12 +179,17 @@ void add_check(CommandLine& line, int& exit_code) {
   command->add_flag("--sensitivity", options->sensitivity,
                     "How much longer each WCET may be, and what would help, also where finding it takes long");
   command->add_flag("--chains", options->all_chains, "Latency of every path from an 'in' to an 'out'");
-  command->add_flag("--measure", options->measure,
+  command->add_flag("--measure", options->measuring.measure,
                     "First run the tasks and tell how long they take on this machine, beside their 'wcet'");
-  command->add_flag("--write", options->write,
-                    "Measure, and write the longest times with a margin into the file as 'wcet'");
-  command->add_option("--for", options->duration, "How much logical time to measure; default: the mission, else 10s");
-  command->add_option("--margin", options->margin, "Percent on top of what was measured; default 20")
+  command->add_flag("--write", options->measuring.write,
+                    "Measure, and write the longest times with a margin into the file as 'wcet', where none is stated "
+                    "or a shorter one; what is then said goes for that file, without --set and --profile");
+  command->add_flag("--lower", options->measuring.lower, "With --write: also where a longer 'wcet' is stated");
+  command->add_option("--for", options->measuring.duration,
+                      "How much logical time to measure; default: the mission, else 10s");
+  command
+      ->add_option("--margin", options->measuring.margin,
+                   "With --write: percent on top of what was measured; default 20")
       ->in_range(0.0, 10'000.0);
   command->add_option("--svg", options->svg, "Draw what ran around the first late activation into this SVG file");
   command

@@ -42,10 +42,9 @@ struct Options {
 
 void require_clock(const Options& options, const Loaded& loaded) {
   if (options.clock == "real") return;
-  for (std::size_t i = 0; i < loaded.channels.size(); ++i)
-    if (loaded.channels[i]->needs_real_clock())
-      throw std::invalid_argument("distributer '" + loaded.graph->distributers[i].name +
-                                  "' has a link to what goes on by itself; run it with --clock real");
+  if (const Distributer* distributer = find_in_real_time(loaded))
+    throw std::invalid_argument("distributer '" + distributer->name +
+                                "' has a link to what goes on by itself; run it with --clock real");
 }
 
 // --for, else the end of the longest mission; on the real clock a graph without one runs until it is interrupted.
