@@ -24,6 +24,7 @@ struct CheckReport {
   std::optional<analysis::Sensitivity> sensitivity;
   std::vector<analysis::Suggestion> suggestions;
   std::vector<ReportedChain> chains;
+  bool more_chains = false;  // than those
 };
 
 /// Does every chain keep its limits?

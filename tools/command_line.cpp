@@ -1,9 +1,11 @@
 #include "tools/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <iostream>
 #include <limits>
+#include <stdexcept>
 
 #include "graph/yaml/problems.h"
 
@@ -88,6 +90,13 @@ Option* Command::add_option(const std::string& name, const std::function<void(co
 
 Option* Command::add_flag(const std::string& name, bool& value, const std::string& text) {
   return &options_.emplace_back(*app_.add_flag(name, value, text));
+}
+
+bool Command::given(const std::string& name) const { return app_.count(name) > 0; }
+
+void Command::refuse(const std::vector<std::string>& names, const std::string& why) const {
+  for (const std::string& name : names)
+    if (given(name)) throw std::invalid_argument(name + " " + why);
 }
 
 void Command::footer(const std::string& text) { app_.footer(text); }

@@ -112,7 +112,8 @@ void measure_file(const std::string& file, const Overrides& overrides, const Mea
   std::cerr << (writes ? fmt::format("  written into {} with {:g} % on top\n", file, options.margin)
                        : fmt::format("  nothing is written into {}\n", file));
   if (any([](const Row& row) { return row.kept; }))
-    std::cerr << "  a 'wcet' that is no shorter than what was measured, with that on top, was kept; --lower lowers it\n";
+    std::cerr
+        << "  a 'wcet' that is no shorter than what was measured, with that on top, was kept; --lower lowers it\n";
   if (!overrides.set.empty() || !overrides.profile.empty())
     std::cerr << "  measured with --set or --profile; what follows is said of the file as it stands, without them\n";
 }

@@ -55,9 +55,10 @@ double cost_of(const analysis::System& system) {
   return std::max(n * n, activations);
 }
 
+constexpr std::size_t most_chains = 1000;
+
 // Every path from an `in` to an `out`, as far as there are not too many.
 void add_all_chains(const Graph& graph, std::vector<End>& path, std::vector<ReportedChain>& chains) {
-  constexpr std::size_t most = 1000;
   const End at = path.back();
   if (at.kind == End::Kind::communicator && path.size() > 1) {
     std::string name;
@@ -78,7 +79,7 @@ void add_all_chains(const Graph& graph, std::vector<End>& path, std::vector<Repo
     if (!std::any_of(next.begin(), next.end(), is_to)) next.push_back(c.to);
   }
   for (const End& end : next) {
-    if (chains.size() >= most) return;
+    if (chains.size() > most_chains) return;
     path.push_back(end);
     add_all_chains(graph, path, chains);
     path.pop_back();
@@ -96,6 +97,8 @@ CheckReport report_on(const std::string& file, const Graph& graph, const Options
       std::vector<End> path{{End::Kind::communicator, i, 0}};
       if (graph.communicators[i].direction == Direction::in) add_all_chains(graph, path, report.chains);
     }
+  report.more_chains = report.chains.size() > most_chains;
+  if (report.more_chains) report.chains.resize(most_chains);
   const bool stated = std::all_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return t.wcet; });
   if (!stated) return report;
   // what is quick comes without being asked for
@@ -117,6 +120,39 @@ int worst(int a, int b) {
   return rank(a) >= rank(b) ? a : b;
 }
 
+// Options that would have no effect.
+void require_effect(const Command& command, const Options& options) {
+  if (!options.generate.empty()) {
+    command.refuse({"FILE", "--set", "--profile", "--sensitivity", "--chains", "--measure", "--write", "--lower",
+                    "--for", "--margin", "--svg", "--json"},
+                   "is for checking, and --generate writes graphs without checking them; leave out one of the two");
+    return;
+  }
+  command.refuse({"--cores", "--policy"},
+                 "belongs to --generate; of a FILE it is changed by --set, as in --set platform.cores=2 or --set "
+                 "platform.policy=edf");
+  command.refuse({"-o", "--count", "--seed", "--tasks", "--utilisation"},
+                 "belongs to --generate; add that, as in --generate waters, or leave it out");
+  if (!options.measuring.write)
+    command.refuse({"--lower", "--margin"},
+                   "belongs to --write, which writes what was measured; add that, or leave it out");
+  if (!options.measuring.write && !options.measuring.measure)
+    command.refuse({"--for"},
+                   "says how long to measure, and a verdict holds for ever; add --measure or --write, or leave it out");
+  if (options.files.size() > 1) command.refuse({"--svg"}, "names one picture for several files; check them one by one");
+}
+
+// What was asked for and is not there.
+void tell_what_lacks(const CheckReport& report, const Options& options) {
+  if (!options.svg.empty() && !report.result.late)
+    std::cerr << "note: no picture in '" << options.svg << "', as there is no activation that is shown to be late\n";
+  if (options.sensitivity && !report.sensitivity)
+    std::cerr << "note: --sensitivity tells nothing, as it needs a 'wcet' of every task\n";
+  if (options.all_chains && report.chains.size() == report.graph->chains.size())
+    std::cerr << "note: --chains tells nothing, as no path leads from an 'in' to an 'out'\n";
+  if (report.more_chains) std::cerr << "note: --chains tells " << most_chains << " chains and paths, there are more\n";
+}
+
 int check_files(const Options& options) {
   int exit_code = exit_good;
   for (const std::string& file : options.files) require_apart({{"FILE", file}}, {{"--svg", options.svg}});
@@ -127,6 +163,7 @@ int check_files(const Options& options) {
       // what is written is judged as it was written
       const Loaded loaded = load_graph(file, options.measuring.write ? Overrides{} : options.overrides);
       const CheckReport report = report_on(file, *loaded.graph, options);
+      tell_what_lacks(report, options);
       if (!options.svg.empty() && report.result.late) {
         WholeFile picture(options.svg);
         picture.write(gantt_svg(*loaded.graph, report.result));
@@ -207,19 +244,15 @@ void add_check(CommandLine& line, int& exit_code) {
   command->add_option("--policy", options->generation.policy, "Policy of a graph; default fixed_priority")
       ->one_of(Words<Policy>::list());
   command->add_flag("--json", options->json, "One JSON object per file and line instead of text");
-  command->callback([options, &exit_code] {
+  command->callback([options, command, &exit_code] {
+    require_effect(*command, *options);
     if (!options->generate.empty()) {
       exit_code = write_graphs(*options);
     } else if (options->files.empty()) {
       std::cerr << "error: check needs a FILE, a graph\n";
       exit_code = exit_input;
     } else {
-      try {
-        exit_code = check_files(*options);
-      } catch (const std::invalid_argument& error) {
-        std::cerr << "error: " << error.what() << "\n";
-        exit_code = exit_input;
-      }
+      exit_code = check_files(*options);
     }
   });
 }

@@ -162,18 +162,24 @@ void start_clock(RealClock& clock, const Executor& executor) {
   clock.start();
 }
 
+// Options that would have no effect.
+void require_effect(const Command& command, const Options& options) {
+  const std::vector<std::string> of_real_clock{"--rt-priority", "--cpus", "--spin", "--force"};
+  if (options.clock != "real")
+    command.refuse(of_real_clock, "belongs to the real clock; add --clock real, or leave it out");
+  if (options.concurrency != "threads") return;
+  if (options.clock != "real") throw std::invalid_argument("--concurrency threads needs --clock real");
+  command.refuse({"--trace", "--plot", "--workers", "--spin"}, "belongs to --concurrency exotasks");
+  command.refuse({"--force"}, "belongs to --concurrency exotasks; whether threads come in time is not checked before");
+}
+
 int run(const Options& options) {
   require_apart({{"FILE", options.file}}, {{"--trace", options.trace}, {"--plot", options.plot}});
   Loaded loaded = load_graph(options.file, options.overrides, options.seed);
   const Graph& graph = *loaded.graph;
   const Duration end = end_of_run(options, loaded);
   require_clock(options, loaded);
-  if (options.concurrency == "threads") {
-    if (options.clock != "real") throw std::invalid_argument("--concurrency threads needs --clock real");
-    if (!options.trace.empty() || !options.plot.empty() || options.workers > 1)
-      throw std::invalid_argument("--trace, --plot and --workers belong to --concurrency exotasks");
-    return run_on_threads(loaded, end, options_of(options.real_time), options.json);
-  }
+  if (options.concurrency == "threads") return run_on_threads(loaded, end, options_of(options.real_time), options.json);
   // the plan gives trace and plot their outputs before the executor exists
   const Plan plan(graph);
   std::vector<std::unique_ptr<RecordSink>> sinks;
@@ -260,8 +266,9 @@ void add_run(CommandLine& line, int& exit_code) {
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->add_option("--trace", options->trace, "Write every published value to this CSV file");
   command->add_option("--plot", options->plot, "Draw what was commanded and reached into this SVG file");
-  command->callback([options, &exit_code] {
+  command->callback([options, command, &exit_code] {
     try {
+      require_effect(*command, *options);
       exit_code = run(*options);
     } catch (const NegativeVerdict& error) {
       std::cerr << "error: " << error.what() << "\n";

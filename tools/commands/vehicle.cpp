@@ -293,6 +293,33 @@ int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, c
   return serve_vehicle(*vehicle, vehicle_class, *link, end, {told, options.json});
 }
 
+// Options that would have no effect.
+void require_effect(const Command& command, const Options& options) {
+  const bool linked = !options.link.empty(), scripted = !options.script.empty();
+  const bool in_lockstep = linked && options.link.front().second == "lockstep";
+  if (linked && options.link.front().first != "type")
+    throw std::invalid_argument("--" + options.link.front().first + " needs --link");
+  if (!options.describe && !linked && !scripted && options.csv.empty())
+    throw std::invalid_argument(
+        "say --describe; or --script and --csv: what to do, and where the motion goes; or --link: who steers it");
+  if (linked && scripted) throw std::invalid_argument("--script and --link: either a script steers it or a peer");
+  if (scripted && options.csv.empty()) throw std::invalid_argument("--script needs --csv, where the motion goes");
+  if (!scripted)
+    command.refuse({"--csv", "--rate"}, linked ? "belongs to --script; what a peer does with it is not written"
+                                               : "belongs to --script, which moves it; add that, or leave it out");
+  if (options.bare && (!linked || in_lockstep))
+    throw std::invalid_argument("--bare needs --link, and one in real time");
+  if (in_lockstep) {
+    command.refuse({"--for"},
+                   "has no place in lockstep: those who run a graph with it say how long, as in jarol run --for 10s");
+    command.refuse({"--seed"}, "has no place in lockstep: it is that of the graph's run, as in jarol run --seed 7");
+  }
+  if (!options.describe && (!linked || in_lockstep))
+    command.refuse({"--json"}, "belongs to --describe, and to --link in real time; add one of them, or leave it out");
+  if (!linked && !scripted)
+    command.refuse({"--initial", "--for", "--seed"}, "needs --script or --link: --describe does not move it");
+}
+
 int vehicle(const Options& options) {
   const auto& known = known_vehicles();
   const auto found = std::find_if(known.begin(), known.end(), [&](const auto& v) { return v.name == options.name; });
@@ -301,15 +328,6 @@ int vehicle(const Options& options) {
     throw std::invalid_argument("there is no vehicle '" + options.name + "'" + did_you_mean(options.name, names) +
                                 "; this build has: " + list_of(names));
   }
-  const bool linked = !options.link.empty();
-  if (!options.describe && !linked && (options.script.empty() || options.csv.empty()))
-    throw std::invalid_argument(
-        "say --describe; or --script and --csv: what to do, and where the motion goes; or --link: who steers it");
-  if (linked && (options.link.front().first != "type" || !options.script.empty()))
-    throw std::invalid_argument(options.script.empty() ? "--" + options.link.front().first + " needs --link"
-                                                       : "--script and --link: either a script steers it or a peer");
-  if (options.bare && (!linked || options.link.front().second == "lockstep"))
-    throw std::invalid_argument("--bare needs --link, and one in real time");
   if (options.bare && found->true_state == nullptr)
     throw std::invalid_argument("--bare: there is no message of a " + found->name + "'s true state");
   Problems problems;
@@ -320,7 +338,7 @@ int vehicle(const Options& options) {
     const auto sections = sections_of(*found, parameters);
     options.json ? print_json(*found, sections) : print_text(*found, sections);
   }
-  if (linked) return serve(options, *found, parameters, problems);
+  if (!options.link.empty()) return serve(options, *found, parameters, problems);
   return options.script.empty() ? exit_good : drive(options, *found, parameters, problems);
 }
 
@@ -368,13 +386,9 @@ void add_vehicle(CommandLine& line, int& exit_code) {
     command->add_option(
         std::string("--") + key.key,
         [options, name = key.key](const std::string& text) { options->link.emplace_back(name, text); }, key.text);
-  command->callback([options, &exit_code] {
-    try {
-      exit_code = vehicle(*options);
-    } catch (const std::invalid_argument& error) {
-      std::cerr << "error: " << error.what() << "\n";
-      exit_code = exit_input;
-    }
+  command->callback([options, command, &exit_code] {
+    require_effect(*command, *options);
+    exit_code = vehicle(*options);
   });
 }
 

@@ -1,0 +1,144 @@
+// Options that would have no effect are refused, each with what it belongs to.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/tools/run_command.h"
+
+namespace {
+using command::jarol;
+using command::TemporaryFolder;
+
+void check_refused(const std::string& arguments, const std::string& message) {
+  CAPTURE(arguments);
+  const auto refused = jarol(arguments);
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.output == "error: " + message + "\n");
+}
+}  // namespace
+
+TEST_SUITE("tools/options") {
+  TEST_CASE("check: what generates graphs and what checks them do not go together") {
+    const TemporaryFolder folder;
+    const std::string generate = "check --generate waters -o " + (folder / "g");
+    const std::string why =
+        " is for checking, and --generate writes graphs without checking them; leave out one of the two";
+    check_refused(generate + " specs/counting.yaml", "FILE" + why);
+    for (const std::string option : {"--set a=1", "--profile p", "--sensitivity", "--chains", "--measure", "--write",
+                                     "--lower", "--for 1s", "--margin 5", "--svg x.svg", "--json"})
+      check_refused(generate + " " + option, option.substr(0, option.find(' ')) + why);
+    CHECK(!std::filesystem::exists(folder / "g"));
+    for (const std::string option : {"-o x", "--count 2", "--seed 1", "--tasks 3", "--utilisation 0.5"})
+      check_refused("check specs/counting.yaml " + option,
+                    option.substr(0, option.find(' ')) +
+                        " belongs to --generate; add that, as in --generate waters, or leave it out");
+    for (const std::string option : {"--cores 2", "--policy edf"})
+      check_refused("check specs/counting.yaml " + option,
+                    option.substr(0, option.find(' ')) +
+                        " belongs to --generate; of a FILE it is changed by --set, as in --set platform.cores=2 or "
+                        "--set platform.policy=edf");
+  }
+
+  TEST_CASE("check: what belongs to measuring needs it") {
+    const std::string check = "check specs/counting.yaml ";
+    const std::string why = " belongs to --write, which writes what was measured; add that, or leave it out";
+    check_refused(check + "--margin 5", "--margin" + why);
+    check_refused(check + "--measure --margin 5", "--margin" + why);
+    check_refused(check + "--measure --lower", "--lower" + why);
+    check_refused(check + "--for 1s",
+                  "--for says how long to measure, and a verdict holds for ever; add --measure or --write, or leave it "
+                  "out");
+    CHECK(jarol(check + "--measure --for 1s").exit_code == 0);
+  }
+
+  TEST_CASE("check: what is asked for and not there is told") {
+    const TemporaryFolder folder;
+    const std::string svg = folder / "none.svg";
+    const auto note_on = [](const std::string& arguments) { return jarol("check " + arguments, "2>&1 >/dev/null"); };
+    const auto good = note_on("specs/counting.yaml --svg " + svg);
+    CHECK(good.exit_code == 0);
+    CHECK(good.output == "note: no picture in '" + svg + "', as there is no activation that is shown to be late\n");
+    CHECK(!std::filesystem::exists(svg));
+    check_refused("check specs/counting.yaml specs/window.yaml --svg " + svg,
+                  "--svg names one picture for several files; check them one by one");
+    CHECK(note_on("specs/counting.yaml --chains").output ==
+          "note: --chains tells nothing, as no path leads from an 'in' to an 'out'\n");
+    const std::string open = folder.write("t.yaml", "{graph: t, tasks: {a: {type: Counter, period: 1ms}}}\n");
+    CHECK(note_on("--sensitivity " + open).output ==
+          "note: --sensitivity tells nothing, as it needs a 'wcet' of every task\n");
+  }
+
+  TEST_CASE("check: paths that are too many are cut off, and that is said") {
+    // ten stages of two relays each between an `in` and an `out`
+    std::string text =
+        "graph: t\ntiming: {period: 10ms}\ncommunicators:\n  i: {type: double, direction: in}\n"
+        "  o: {type: double, direction: out}\ntasks:\n";
+    std::string connections = "connections:\n", before = "i";
+    for (int stage = 0; stage < 10; ++stage) {
+      const std::string n = std::to_string(stage);
+      text += "  a" + n + ": {type: Relay}\n  b" + n + ": {type: Relay}\n  s" + n + ": {type: Sum}\n";
+      connections += "  - " + before + " -> a" + n + ".in\n  - " + before + " -> b" + n + ".in\n  - a" + n +
+                     ".out -> s" + n + ".a\n  - b" + n + ".out -> s" + n + ".b\n";
+      before = "s" + n + ".out";
+    }
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", text + connections + "  - " + before + " -> o\n");
+    const auto told = jarol("check --chains " + file);
+    CHECK(told.output.starts_with("note: --chains tells 1000 chains and paths, there are more\n"));
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = told.output.find("\n  chain i -> ", at)) != std::string::npos; ++at) ++count;
+    CHECK(count == 1000);
+  }
+
+  TEST_CASE("run: what belongs to the real clock needs it, and threads know less of it") {
+    const std::string run = "run specs/counting.yaml --for 1s ";
+    for (const std::string option : {"--rt-priority 5", "--cpus 0", "--spin", "--force"})
+      check_refused(run + option, option.substr(0, option.find(' ')) +
+                                      " belongs to the real clock; add --clock real, or leave it out");
+    check_refused(run + "--concurrency threads", "--concurrency threads needs --clock real");
+    const std::string threads = run + "--clock real --concurrency threads ";
+    for (const std::string option : {"--trace x.csv", "--plot x.svg", "--workers 2", "--spin"})
+      check_refused(threads + option, option.substr(0, option.find(' ')) + " belongs to --concurrency exotasks");
+    check_refused(threads + "--force",
+                  "--force belongs to --concurrency exotasks; whether threads come in time is not checked before");
+  }
+
+#ifdef JAROL_VEHICLES
+  TEST_CASE("vehicle: a script, a link and a description have options of their own") {
+    const TemporaryFolder folder;
+    const std::string script = folder.write("s.csv", "time,thruster\n0,0.5\n1,0\n"), csv = folder / "out.csv";
+    const std::string vehicle = "vehicle submarine ", link = "--link udp --listen 7010 ";
+    check_refused(vehicle + link + "--csv " + csv,
+                  "--csv belongs to --script; what a peer does with it is not written");
+    check_refused(vehicle + link + "--rate 5", "--rate belongs to --script; what a peer does with it is not written");
+    check_refused(vehicle + link + "--script " + script, "--script and --link: either a script steers it or a peer");
+    check_refused(vehicle + "--script " + script, "--script needs --csv, where the motion goes");
+    check_refused(vehicle + "--describe --script " + script, "--script needs --csv, where the motion goes");
+    check_refused(vehicle + "--script " + script + " --csv " + csv + " --json",
+                  "--json belongs to --describe, and to --link in real time; add one of them, or leave it out");
+    for (const std::string describe : {"", "--describe "}) {
+      check_refused(vehicle + describe + "--csv " + csv,
+                    "--csv belongs to --script, which moves it; add that, or leave it out");
+      check_refused(vehicle + describe + "--listen 7010", "--listen needs --link");
+    }
+    for (const std::string option : {"--initial z=4", "--for 1s", "--seed 1"})
+      check_refused(vehicle + "--describe " + option,
+                    option.substr(0, option.find(' ')) + " needs --script or --link: --describe does not move it");
+    check_refused(vehicle + "--describe --bare", "--bare needs --link, and one in real time");
+    CHECK(!std::filesystem::exists(csv));
+  }
+
+  TEST_CASE("vehicle: in lockstep those who run a graph with it say how long, and with what seed") {
+    const std::string lockstep = "vehicle submarine --link lockstep --listen 7010 ";
+    check_refused(lockstep + "--for 1s",
+                  "--for has no place in lockstep: those who run a graph with it say how long, as in jarol run --for "
+                  "10s");
+    check_refused(lockstep + "--seed 1",
+                  "--seed has no place in lockstep: it is that of the graph's run, as in jarol run --seed 7");
+    check_refused(lockstep + "--json",
+                  "--json belongs to --describe, and to --link in real time; add one of them, or leave it out");
+    check_refused(lockstep + "--bare", "--bare needs --link, and one in real time");
+  }
+#endif
+}
