@@ -3,7 +3,6 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "distributers/links/link_spec.h"
 #include "distributers/vehicle_file.h"
@@ -14,6 +13,7 @@
 #include "graph/yaml/quantities.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
+#include "tools/describe_vehicle.h"
 #include "tools/load_graph.h"
 #include "tools/open_loop.h"
 #include "tools/serve_vehicle.h"
@@ -38,87 +38,6 @@ struct Options {
   // of a link
   std::vector<std::pair<std::string, std::string>> link;  // as its keys are written in a graph
 };
-
-struct Entry {
-  std::string name, unit, text, value;  // value: default or range
-};
-
-const TypeField* field_at(const Type& type, const std::string& path) {
-  const std::size_t dot = path.find('.');
-  const TypeField* field = find_field(type, path.substr(0, dot));
-  return field == nullptr || dot == std::string::npos ? field : field_at(*field->type, path.substr(dot + 1));
-}
-
-std::string value_text(const Leaf& leaf, const void* value) {
-  return leaf.type->kind == Kind::duration ? duration_text(Duration(read_integer(*leaf.type, value)))
-                                           : scalar_text(*leaf.type, value);
-}
-
-std::vector<Entry> entries_of(const Type& type, const void* values) {
-  std::vector<Entry> entries;
-  for (const Leaf& leaf : leaves_of(type)) {
-    const TypeField* field = field_at(type, leaf.path);
-    entries.push_back({leaf.path, leaf.unit, field == nullptr ? "" : field->text,
-                       values == nullptr ? "" : value_text(leaf, static_cast<const std::byte*>(values) + leaf.offset)});
-  }
-  return entries;
-}
-
-struct Section {
-  std::string title, value_title;
-  std::vector<Entry> entries;
-};
-
-std::vector<Section> sections_of(const vehicles::VehicleClass& vehicle, const Value& parameters) {
-  std::vector<Section> sections{{"state", "", entries_of(type_of<vehicles::VehicleState>(), nullptr)},
-                                {"inputs", "range", entries_of(*vehicle.inputs, nullptr)}};
-  for (std::size_t i = 0; i < vehicle.ranges.size(); ++i)
-    sections[1].entries[i].value =
-        number_text(vehicle.ranges[i].least) + " to " + number_text(vehicle.ranges[i].greatest);
-  // a group of outputs each: actuators, sensors
-  for (const TypeField& group : vehicle.outputs->fields) {
-    sections.push_back({group.name, "", {}});
-    for (Entry& entry : entries_of(*group.type, nullptr)) {
-      entry.name = group.name + "." + entry.name;
-      sections.back().entries.push_back(std::move(entry));
-    }
-  }
-  sections.push_back({"parameters", "value", entries_of(*vehicle.parameters, parameters.data())});
-  return sections;
-}
-
-void print_text(const vehicles::VehicleClass& vehicle, const std::vector<Section>& sections) {
-  std::cout << vehicle.name << ": " << vehicle.summary << "\n";
-  for (const Section& section : sections) {
-    std::cout << "\n" << section.title << "\n";
-    std::size_t name = 0, value = 0;
-    const auto with_unit = [](const Entry& e) { return e.value + (e.unit.empty() ? "" : " [" + e.unit + "]"); };
-    for (const Entry& e : section.entries) {
-      name = std::max(name, e.name.size());
-      value = std::max(value, with_unit(e).size());
-    }
-    for (const Entry& e : section.entries) {
-      std::string line = "  " + e.name + std::string(name - e.name.size() + 2, ' ') + with_unit(e) +
-                         std::string(value - with_unit(e).size() + 2, ' ') + e.text;
-      line.erase(line.find_last_not_of(' ') + 1);
-      std::cout << line << "\n";
-    }
-  }
-}
-
-void print_json(const vehicles::VehicleClass& vehicle, const std::vector<Section>& sections) {
-  nlohmann::ordered_json whole{{"schema", "jarol.vehicle/1"}, {"name", vehicle.name}, {"summary", vehicle.summary}};
-  for (const Section& section : sections) {
-    auto list = nlohmann::ordered_json::array();
-    for (const Entry& e : section.entries) {
-      nlohmann::ordered_json entry{{"name", e.name}, {"unit", e.unit}, {"text", e.text}};
-      if (!section.value_title.empty()) entry[section.value_title] = e.value;
-      list.push_back(std::move(entry));
-    }
-    whole[section.title] = std::move(list);
-  }
-  std::cout << whole << "\n";
-}
 
 // "hull.mass" and a value as the mapping {hull: {mass: value}}.
 Yaml nested(const std::string& path, Yaml value, const Location& where) {
@@ -335,8 +254,7 @@ int vehicle(const Options& options) {
   require_apart({{"--script", options.script}, {"--parameters", options.parameters}}, {{"--csv", options.csv}});
   if (options.describe) {
     problems.throw_if_any();
-    const auto sections = sections_of(*found, parameters);
-    options.json ? print_json(*found, sections) : print_text(*found, sections);
+    describe_vehicle(*found, parameters, options.json);
   }
   if (!options.link.empty()) return serve(options, *found, parameters, problems);
   return options.script.empty() ? exit_good : drive(options, *found, parameters, problems);
