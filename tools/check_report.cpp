@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "graph/deadlines.h"
@@ -37,7 +38,13 @@ std::string word_of(Verdict verdict) {
   return "";
 }
 
-std::string milliseconds(std::int64_t ns) { return fmt::format("{:.3f} ms", static_cast<double>(ns) * 1e-6); }
+// To the microsecond, unless that would leave something out.
+std::string milliseconds(std::int64_t ns) {
+  const double ms = static_cast<double>(ns) * 1e-6;
+  if (ns % 1000 == 0) return fmt::format("{:.3f} ms", ms);
+  if (std::abs(ns) < 1000) return fmt::format("{} ns", ns);
+  return std::abs(ns) < 1'000'000 ? fmt::format("{:.3f} us", ms * 1e3) : fmt::format("{:.6f} ms", ms);
+}
 std::string duration(std::int64_t ns) { return duration_text(Duration(ns)); }
 
 std::string platform_text(const Platform& platform) {

@@ -189,6 +189,22 @@ tasks:
                          {"demand", {{"length_ns", 5'000'000}, {"demand_ns", 6'000'000}, {"blocking_ns", 0}}}});
   }
 
+  TEST_CASE("late by little is told in what fits, and no digit that matters is left out") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", "{graph: t, tasks: {a: {type: Work, period: 50ms, let: 40ms}}}\n");
+    const auto headline = [&](const std::string& wcet) {
+      const std::string output = jarol("check " + file + " --set tasks.a.wcet=" + wcet).output;
+      return output.substr(0, output.find('\n'));
+    };
+    const std::string late = file + ": NOT SCHEDULABLE core 0: task 'a' activation 0 (released 0.000 ms) finishes ";
+    CHECK(headline("40000001ns") == late + "40.000001 ms, deadline 40.000 ms (late 1 ns)");
+    CHECK(headline("40000999ns") == late + "40.000999 ms, deadline 40.000 ms (late 999 ns)");
+    CHECK(headline("40001us") == late + "40.001 ms, deadline 40.000 ms (late 0.001 ms)");
+    CHECK(headline("40012345ns") == late + "40.012345 ms, deadline 40.000 ms (late 12.345 us)");
+    CHECK(headline("41000001ns") == late + "41.000001 ms, deadline 40.000 ms (late 1.000001 ms)");
+    CHECK(headline("60350us") == late + "60.350 ms, deadline 40.000 ms (late 20.350 ms)");
+  }
+
   TEST_CASE("where only jitter makes a task late, the worst response is told") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t
