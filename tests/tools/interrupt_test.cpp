@@ -16,10 +16,11 @@ TEST_SUITE("tools/interrupt") {
     for (const std::string signal : {"INT", "TERM", "HUP"}) {
       CAPTURE(signal);
       const std::string trace = folder / (signal + ".csv"), report = folder / (signal + ".txt");
-      // two within a few milliseconds, as from an impatient hand or a terminal and its shell
-      const std::string again = "; kill -" + signal + " $id; sleep 0.02; kill -" + signal + " $id 2>&-";
+      // two in a row, as from an impatient hand or a terminal and its shell
+      const std::string kill = "; kill -" + signal + " $id";
       jarol("run specs/counting.yaml --clock real --for 30s --trace " + trace + " > " + report,
-            "2>&1 & id=$!; sleep 1" + again + "; wait $id; echo \"exit code $?\" >> " + report);
+            "2>&1 & id=$!; until [ -e " + trace + ".part ]; do sleep 0.05; done; sleep 0.3" + kill + kill +
+                " 2>&-; wait $id; echo \"exit code $?\" >> " + report);
       std::ifstream file(report);
       const std::string text{std::istreambuf_iterator<char>(file), {}};
       CHECK(text.find("real time (interrupted)\n") != std::string::npos);
