@@ -17,7 +17,7 @@ TEST_SUITE("tools/interrupt") {
       CAPTURE(signal);
       const std::string trace = folder / (signal + ".csv"), report = folder / (signal + ".txt");
       // two in a row, as from an impatient hand or a terminal and its shell
-      const std::string kill = "; kill -" + signal + " $id";
+      const std::string kill = "; sleep 0.02; kill -" + signal + " $id";
       jarol("run specs/counting.yaml --clock real --for 30s --trace " + trace + " > " + report,
             "2>&1 & id=$!; until [ -e " + trace + ".part ]; do sleep 0.05; done; sleep 0.3" + kill + kill +
                 " 2>&-; wait $id; echo \"exit code $?\" >> " + report);
