@@ -15,6 +15,7 @@ namespace jarol {
 struct LinkReport {
   std::string link;
   std::vector<std::pair<std::string, std::uint64_t>> counts;
+  std::uint64_t heard = 0;  // packets that came and counted
 };
 
 class Channels {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -177,13 +178,19 @@ std::string to_text(const LinkReport& link) {
   std::string counts;
   for (const auto& [name, count] : link.counts)
     if (count > 0) counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + name;
-  return "  link        " + link.link + ": " + (counts.empty() ? "nothing came and nothing went" : counts) + "\n";
+  std::string text =
+      "  link        " + link.link + ": " + (counts.empty() ? "nothing came and nothing went" : counts) + "\n";
+  if (link.heard > 0) return text;
+  const bool dropped = std::any_of(link.counts.begin(), link.counts.end(), [](const auto& count) {
+    return count.second > 0 && (count.first == "packets in" || count.first.find("dropped") != std::string::npos);
+  });
+  return text + "              NO PACKET " + (dropped ? "THAT COUNTS " : "") + "HAS COME over " + link.link + "\n";
 }
 
 nlohmann::ordered_json to_json(const LinkReport& link) {
   auto counts = nlohmann::ordered_json::object();
   for (const auto& [name, count] : link.counts) counts[name] = count;
-  return {{"link", link.link}, {"counts", counts}};
+  return {{"link", link.link}, {"heard", link.heard > 0}, {"counts", counts}};
 }
 
 }  // namespace jarol::tools

@@ -50,7 +50,7 @@ nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock);
 std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands);
 nlohmann::ordered_json to_json(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands);
 
-/// What a link has carried; in the text only what there was.
+/// What a link has carried; in the text only what there was, and whether nobody was heard.
 std::string to_text(const LinkReport& link);
 nlohmann::ordered_json to_json(const LinkReport& link);
 

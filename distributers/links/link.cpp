@@ -2,6 +2,7 @@
 
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <stdexcept>
@@ -258,7 +259,7 @@ void Link::send_pending(std::vector<std::byte>& room) {
 LinkReport Link::report() const {
   const Translator::Counts& in = translator_->counts();
   const TransportCounts& t = transport_->counts;
-  LinkReport report{transport_->text(), {}};
+  LinkReport report{transport_->text(), {}, in.packets - std::min<std::uint64_t>(in.packets, in.others)};
   const auto add = [&](std::string name, std::uint64_t count) { report.counts.emplace_back(std::move(name), count); };
   add("packets in", in.packets);
   add("bytes in", in.bytes);

@@ -113,7 +113,9 @@ TEST_SUITE("tools/lauv_sockets") {
     CHECK(std::abs(s.lat - 0.718813) < 1e-5);
     INFO(graph.end().output);
     CHECK(graph.end().exit_code == 0);
+    CHECK(graph.end().output.find("NO PACKET") == std::string::npos);
     INFO(vehicle.end().output);
     CHECK(vehicle.end().exit_code == 0);
+    CHECK(vehicle.end().output.find("NO PACKET") == std::string::npos);
   }
 }

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "tests/tools/run_command.h"
+#include "tools/real_time.h"
 
 namespace {
-using command::jarol;
 using command::TemporaryFolder;
 
 // A source feeds two, of which one has a LET; on two cores where there are two.
@@ -37,7 +37,8 @@ std::string on_core(int core) {
 nlohmann::json run_undisturbed(const std::string& arguments) {
   nlohmann::json run;
   for (int attempt = 0; attempt < 20; ++attempt) {
-    run = nlohmann::json::parse(jarol("run " + arguments + " --clock real --for 200ms --json", "2>/dev/null").output);
+    run = nlohmann::json::parse(
+        command::jarol("run " + arguments + " --clock real --for 200ms --json", "2>/dev/null").output);
     if (run["faults"].empty()) break;
   }
   return run;
@@ -48,7 +49,7 @@ TEST_SUITE("tools/real_time") {
   TEST_CASE("whoever runs the tasks, the digest is that of the virtual clock, and as much is told of each task") {
     const TemporaryFolder folder;
     const std::string one = folder.write("one.yaml", on_core(0)), two = folder.write("two.yaml", on_core(1));
-    const auto should = nlohmann::json::parse(jarol("run " + one + " --for 200ms --json").output);
+    const auto should = nlohmann::json::parse(command::jarol("run " + one + " --for 200ms --json").output);
     std::vector<std::string> modes{one, one + " --set platform.policy=fixed_priority"};
     if (std::thread::hardware_concurrency() >= 2) {
       modes.push_back(two + " --set platform.cores=2");
@@ -75,7 +76,7 @@ TEST_SUITE("tools/real_time") {
   TEST_CASE("the trace has its rows in order of time, whoever runs the tasks") {
     const TemporaryFolder folder;
     const std::string one = folder.write("one.yaml", on_core(0));
-    jarol("run " + one + " --for 200ms --trace " + (folder / "virtual.csv"));
+    command::jarol("run " + one + " --for 200ms --trace " + (folder / "virtual.csv"));
     const auto run = run_undisturbed(one + " --set platform.policy=fixed_priority --trace " + (folder / "real.csv"));
     CHECK(run["faults"].size() == 0);
     const auto content = [&](const std::string& name) {
@@ -128,13 +129,13 @@ TEST_SUITE("tools/real_time") {
     const TemporaryFolder folder;
     const std::string one = folder.write("one.yaml", on_core(0));
     const std::string run = "run " + one + " --clock real --for 40ms --set tasks.flow.wcet=30ms";
-    const auto refused = jarol(run);
+    const auto refused = command::jarol(run);
     CHECK(refused.exit_code == 1);
     CHECK(refused.output ==
           "error: '" + one +
               "' is not schedulable: the tasks need more than the whole core; 'jarol check' says more, --force runs it "
               "all the same\n");
-    const auto forced = jarol(run + " --force");
+    const auto forced = command::jarol(run + " --force");
     CHECK(forced.exit_code == 0);
     CHECK(forced.output.find("note: run by force: '" + one +
                              "' is not schedulable: the tasks need more than the whole core\n") != std::string::npos);
@@ -144,33 +145,54 @@ TEST_SUITE("tools/real_time") {
     const TemporaryFolder folder;
     const std::string one = folder.write("one.yaml", on_core(0) + "chains:\n  c: {path: [flow, timed, to]}\n");
     const std::string run = "run " + one + " --clock real --for 40ms";
-    CHECK(jarol(run).exit_code == 0);
+    CHECK(command::jarol(run).exit_code == 0);
     const std::string late = run + " --set chains.c.reaction=80ms --set chains.c.age=85ms";
-    const auto refused = jarol(late);
+    const auto refused = command::jarol(late);
     CHECK(refused.exit_code == 1);
     CHECK(refused.output == "error: '" + one +
                                 "' breaks a limit of chain 'c': reaction 90ms over 80ms, data age 90ms over 85ms; "
                                 "'jarol check' says more, --force runs it all the same\n");
     CHECK(
-        jarol(late + " --set tasks.flow.wcet=30ms").output ==
+        command::jarol(late + " --set tasks.flow.wcet=30ms").output ==
         "error: '" + one +
             "' is not schedulable: the tasks need more than the whole core, and breaks a limit of chain 'c': reaction "
             "90ms over 80ms, data age 90ms over 85ms; 'jarol check' says more, "
             "--force runs it all the same\n");
-    const auto forced = jarol(late + " --force");
+    const auto forced = command::jarol(late + " --force");
     CHECK(forced.exit_code == 0);
     CHECK(forced.output.find("note: run by force: '" + one +
                              "' breaks a limit of chain 'c': reaction 90ms over 80ms, "
                              "data age 90ms over 85ms\n") != std::string::npos);
     // on the virtual clock it is logical time that is short, whatever the limit
-    CHECK(jarol("run " + one + " --for 40ms --set chains.c.reaction=80ms").exit_code == 0);
+    CHECK(command::jarol("run " + one + " --for 40ms --set chains.c.reaction=80ms").exit_code == 0);
+  }
+
+  TEST_CASE("of a peer that never answers it is said that no packet has come") {
+    const std::string udp =
+        "--set 'distributers.dune.link={type: udp, peer: \"127.0.0.1:9\"}' --for 200ms --clock real";
+    for (const std::string concurrency : {"exotasks", "threads"}) {
+      const std::string run = "run specs/exolauv_bare.yaml " + udp + " --concurrency " + concurrency;
+      const std::string text = command::jarol(run).output;
+      const std::size_t link = text.find("  link        udp 0.0.0.0:0 with 127.0.0.1:9: ");
+      REQUIRE(link != std::string::npos);
+      CHECK(text.substr(text.find('\n', link) + 1)
+                .starts_with("              NO PACKET HAS COME over udp 0.0.0.0:0 with 127.0.0.1:9\n"));
+      CHECK(nlohmann::json::parse(command::jarol(run + " --json", "2>/dev/null").output)["links"][0]["heard"] == false);
+    }
+    // nor has what is dropped
+    jarol::LinkReport link{"udp 127.0.0.1:7002", {{"packets in", 0}, {"packets out", 3}, {"dropped: stranger", 2}}};
+    CHECK(jarol::tools::to_text(link) ==
+          "  link        udp 127.0.0.1:7002: 3 packets out, 2 dropped: stranger\n"
+          "              NO PACKET THAT COUNTS HAS COME over udp 127.0.0.1:7002\n");
+    link.heard = 1;
+    CHECK(jarol::tools::to_text(link) == "  link        udp 127.0.0.1:7002: 3 packets out, 2 dropped: stranger\n");
   }
 
   TEST_CASE("what can't be executed is refused with what would be right") {
     const TemporaryFolder folder;
     const std::string one = folder.write("one.yaml", on_core(0));
     const auto refusal = [&](const std::string& more) {
-      const auto result = jarol("run " + one + " --clock real --for 200ms " + more);
+      const auto result = command::jarol("run " + one + " --clock real --for 200ms " + more);
       CHECK(result.exit_code == 2);
       return result.output;
     };
