@@ -13,6 +13,7 @@
 #include "tools/bench/floors.h"
 #include "tools/bench/graphs.h"
 #include "tools/bench/ports.h"
+#include "tools/bench/recording.h"
 #include "tools/bench/sharing.h"
 #include "tools/bench/timing.h"
 #include "tools/bench/vehicles.h"
@@ -88,6 +89,8 @@ std::vector<std::string> figure_names() {
                                  "multirate_100",
                                  "let_multirate_100",
                                  "fan_100",
+                                 "record",
+                                 "record_digest",
                                  "workers_2_tiny",
                                  "workers_2_10us",
                                  "deep_1k",
@@ -119,6 +122,8 @@ Figure measure(const std::string& name, int repeats) {
   if (name == "fan_100")
     return compare(name, "activation of a fan of 100 / plain fan", 2.8, repeats, run_of(fan(100), false, 101),
                    fan_floor(100));
+  if (name == "record") return measure_recording(name, false, 40, repeats);
+  if (name == "record_digest") return measure_recording(name, true, 60, repeats);
   if (name == "workers_2_tiny") return measure_tiny(repeats);
   if (name == "workers_2_10us") return measure_10us(repeats);
   if (name == "deep_1k") return measure_deep(repeats);
