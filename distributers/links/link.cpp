@@ -271,6 +271,7 @@ LinkReport Link::report() const {
   for (std::size_t i = 1; i < messages::flaw_count; ++i)
     add("dropped: " + std::string(name_of(static_cast<Flaw>(i))), in.dropped[i]);
   add("dropped: stranger", t.strangers);
+  add("dropped: no room in the system", t.overflown);
   add("dropped: other source", in.others);
   add("dropped: input port full", in.refused);
   if (const auto* push = std::get_if<PushPacketPort>(&input_)) add("dropped: overwritten by newer", push->lost());

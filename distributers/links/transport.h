@@ -27,6 +27,7 @@ struct TransportCounts {
   std::atomic<std::uint64_t> connected{0};     // how often there was a new peer
   std::atomic<std::uint64_t> disconnected{0};  // how often a stream ended or failed
   std::atomic<std::uint64_t> strangers{0};     // datagrams from another than the peer that was named
+  std::atomic<std::uint64_t> overflown{0};     // datagrams that the system had no room for before the last one received
   std::atomic<std::uint64_t> unsent{0};        // packets that could not be sent
 };
 

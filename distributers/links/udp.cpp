@@ -3,9 +3,40 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 
 namespace jarol::distributers {
+namespace {
+
+struct Datagram {
+  ssize_t length = -1;  // bytes; negative: none
+  Address sender;
+  std::optional<std::uint32_t> overflown;  // before it, since the socket was made; wraps
+};
+
+Datagram receive_from(int fd, std::span<std::byte> room) {
+  sockaddr_storage from{};
+  iovec bytes{room.data(), room.size()};
+  alignas(cmsghdr) std::array<std::byte, CMSG_SPACE(sizeof(std::uint32_t))> extras{};
+  msghdr message{};
+  message.msg_name = &from;
+  message.msg_namelen = sizeof from;
+  message.msg_iov = &bytes;
+  message.msg_iovlen = 1;
+  message.msg_control = extras.data();
+  message.msg_controllen = extras.size();
+  Datagram datagram;
+  datagram.length = recvmsg(fd, &message, 0);
+  if (datagram.length < 0) return datagram;
+  datagram.sender = Address::of(from, message.msg_namelen);
+  const cmsghdr* extra = CMSG_FIRSTHDR(&message);
+  if (extra == nullptr || extra->cmsg_level != SOL_SOCKET || extra->cmsg_type != SO_RXQ_OVFL) return datagram;
+  std::memcpy(&datagram.overflown.emplace(), CMSG_DATA(extra), sizeof(std::uint32_t));
+  return datagram;
+}
+
+}  // namespace
 
 std::string UdpTransport::text() const {
   return "udp " + listen_.text() + (named_peer_ ? " with " + named_peer_.text() : "");
@@ -21,6 +52,9 @@ void UdpTransport::open() {
   Descriptor made(socket(listen_.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!made || bind(made.get(), listen_.get(), listen_.size()) != 0)
     throw std::runtime_error("can't listen at " + text() + ": " + std::strerror(errno));
+  const int on = 1;
+  setsockopt(made.get(), SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+  overflown_ = 0;
   socket_ = std::move(made);
   peer_ = named_peer_;
   if (peer_) ++counts.connected;
@@ -36,12 +70,14 @@ void UdpTransport::associate(const Address& peer) {
 void UdpTransport::receive(const Interrupter& interrupter, ByteSink& sink) {
   std::array<std::byte, 65536> room;
   while (interrupter.wait(socket_.get(), std::chrono::milliseconds(-1)) != Interrupter::Woken::interrupted) {
-    sockaddr_storage from{};
-    socklen_t size = sizeof from;
     // an error is that of a datagram sent before, as by a peer that has gone: the next may arrive all the same
-    const auto length = recvfrom(socket_.get(), room.data(), room.size(), 0, reinterpret_cast<sockaddr*>(&from), &size);
-    if (length < 0) continue;
-    const Address sender = Address::of(from, size);
+    const Datagram datagram = receive_from(socket_.get(), room);
+    if (datagram.length < 0) continue;
+    if (datagram.overflown) {
+      counts.overflown += *datagram.overflown - overflown_;
+      overflown_ = *datagram.overflown;
+    }
+    const Address& sender = datagram.sender;
     if (named_peer_ && !(sender == named_peer_)) {
       ++counts.strangers;
       continue;
@@ -49,7 +85,7 @@ void UdpTransport::receive(const Interrupter& interrupter, ByteSink& sink) {
     // its number goes with the packet, for the packet may be looked at before there is an answer to it
     const std::uint64_t peer = counts.connected + (peer_ == sender ? 0 : 1);
     const bool valid =
-        sink.take(std::span(room).first(static_cast<std::size_t>(length)), static_cast<std::uint32_t>(peer));
+        sink.take(std::span(room).first(static_cast<std::size_t>(datagram.length)), static_cast<std::uint32_t>(peer));
     if (valid && !named_peer_) associate(sender);
   }
 }

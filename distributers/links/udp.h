@@ -34,6 +34,7 @@ class UdpTransport : public Transport {
   Address named_peer_;
   Address seen_from_;
   Descriptor socket_;
+  std::uint32_t overflown_ = 0;  // datagrams that the system had no room for, as last told
   std::mutex peer_mutex_;
   Address peer_;  // written by the receiving thread
 };
