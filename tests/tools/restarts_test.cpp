@@ -11,6 +11,7 @@
 #include "distributers/links/link.h"
 #include "distributers/links/udp.h"
 #include "distributers/messages/imc.h"
+#include "tests/distributers/links/lossy_proxy.h"
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
 #include "tests/tools/terminal.h"
@@ -50,6 +51,7 @@ class Scenarios {
         submarine_dies(start(&Scenarios::kill_submarine)),
         controller_dies(start(&Scenarios::kill_controller)),
         helicopter_dies(start(&Scenarios::kill_helicopter)),
+        helicopter_dies_on_a_line(start(&Scenarios::kill_helicopter_on_a_line)),
         pilot_dies(start(&Scenarios::kill_pilot)),
         terminal_goes(start(&Scenarios::take_terminal)),
         console_goes(start(&Scenarios::take_console)) {}
@@ -59,7 +61,8 @@ class Scenarios {
   std::string dive_, rise_, wait_;
 
  public:
-  std::shared_future<Outcome> submarine_dies, controller_dies, helicopter_dies, pilot_dies, terminal_goes, console_goes;
+  std::shared_future<Outcome> submarine_dies, controller_dies, helicopter_dies, helicopter_dies_on_a_line, pilot_dies,
+      terminal_goes, console_goes;
 
  private:
   std::shared_future<Outcome> start(Outcome (Scenarios::*scenario)() const) {
@@ -116,10 +119,19 @@ class Scenarios {
 
   Outcome kill_helicopter() const {
     const std::string port = tests::free_port(SOCK_STREAM);
-    const std::string helicopter = noisy_helicopter + " --link tcp_server --json --listen " + port;
+    return kill_helicopter(" --link tcp_server --listen " + port, "{type: tcp_client, peer: " + port + "}");
+  }
+
+  Outcome kill_helicopter_on_a_line() const {
+    const tests::SerialProxy line({}, 0);
+    return kill_helicopter(" --link serial --device " + line.name(0), "{type: serial, device: " + line.name(1) + "}");
+  }
+
+  Outcome kill_helicopter(const std::string& its_link, const std::string& link) const {
+    const std::string helicopter = noisy_helicopter + " --json" + its_link;
     Process first(helicopter);
     if (!first.says("until Ctrl-C")) return {};
-    Process run(helicopter_control("{type: tcp_client, peer: " + port + "}", "--for 12s"));
+    Process run(helicopter_control(link, "--for 12s"));
     std::this_thread::sleep_for(7s);
     first.kill();
     first.end();
@@ -199,6 +211,19 @@ const Scenarios& scenarios() {
 }
 
 std::uint64_t count_of(const json& link, const std::string& name) { return link["counts"][name]; }
+// Of one that was killed in flight and came back.
+void check_landing(const Outcome& o) {
+  INFO(o.errors);
+  REQUIRE(o.exit_code == 0);
+  MESSAGE("controller: " << o.run["outputs"]["to_terminal"].dump() << " " << o.run["links"][0].dump() << " "
+                         << o.run["safe_commands"].dump());
+  MESSAGE("the second one: " << o.vehicle.dump());
+  CHECK(o.run["outputs"]["to_terminal"]["cause"] == "imu_lost");
+  CHECK(o.run["outputs"]["to_terminal"]["altitude"] > 0.1);  // it believes itself in the air
+  // the second one was never unlocked, and stands where it stood
+  CHECK(o.vehicle["actuators"]["front"] == 0);
+  CHECK(o.vehicle["state"]["z"] > -0.25);
+}
 double seconds(const json& ns) { return ns.get<double>() * 1e-9; }
 }  // namespace
 
@@ -242,18 +267,16 @@ TEST_SUITE("tools/restarts") {
 
   TEST_CASE("a helicopter that is killed is connected to again; its controller was landing: TCP") {
     const Outcome o = scenarios().helicopter_dies.get();
-    INFO(o.errors);
-    REQUIRE(o.exit_code == 0);
-    MESSAGE("controller: " << o.run["outputs"]["to_terminal"].dump() << " " << o.run["links"][0].dump() << " "
-                           << o.run["safe_commands"].dump());
-    MESSAGE("the second one: " << o.vehicle.dump());
+    check_landing(o);
     CHECK(count_of(o.run["links"][0], "peers") >= 2);
     CHECK(count_of(o.run["links"][0], "ends of stream") >= 1);
-    CHECK(o.run["outputs"]["to_terminal"]["cause"] == "imu_lost");
-    CHECK(o.run["outputs"]["to_terminal"]["altitude"] > 0.1);  // it believes itself in the air
-    // the second one was never unlocked, and stands where it stood
-    CHECK(o.vehicle["actuators"]["front"] == 0);
-    CHECK(o.vehicle["state"]["z"] > -0.25);
+  }
+
+  TEST_CASE("a helicopter that is killed is heard again when it comes back; its controller was landing: serial") {
+    const Outcome o = scenarios().helicopter_dies_on_a_line.get();
+    check_landing(o);
+    CHECK(count_of(o.vehicle["link"], "packets in") > 100);
+    CHECK(count_of(o.vehicle["link"], "packets out") > 100);
   }
 
   TEST_CASE("a helicopter whose controller is killed in flight is on the ground with motors off at the end: UDP") {
