@@ -1,18 +1,16 @@
 #include "vehicles/helicopter_plant.h"
 
-#include <SimTKsimbody.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "vehicles/force_with_input.h"
 #include "vehicles/frames.h"
 
 namespace jarol::vehicles {
 namespace {
 
 using SimTK::State;
-using SimTK::Value;
 using SimTK::Vec3;
 
 HelicopterMotion motion_of(const SimTK::MobilizedBody& body, const State& state) {
@@ -29,37 +27,22 @@ HelicopterMotion motion_of(const SimTK::MobilizedBody& body, const State& state)
   return motion;
 }
 
-class Loads : public SimTK::Force::Custom::Implementation {
+class Loads : public ForceWithInput<HelicopterInput> {
  public:
   Loads(const SimTK::GeneralForceSubsystem& forces, const SimTK::MobilizedBody& mobilized, const HelicopterBody& body)
-      : forces_(forces), mobilized_(mobilized), body_(body) {}
+      : ForceWithInput(forces, mobilized), body_(body) {}
 
   void calcForce(const State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces, SimTK::Vector_<Vec3>&,
                  SimTK::Vector&) const override {
-    const auto& input = Value<HelicopterInput>::downcast(forces_.getDiscreteVariable(state, input_)).get();
     const HelicopterMotion motion = motion_of(mobilized_, state);
     SimTK::SpatialVec load =
-        to_ground(mobilized_.getBodyRotation(state), calc_loads(body_, motion, input, state.getTime()));
+        to_ground(mobilized_.getBodyRotation(state), calc_loads(body_, motion, input(state), state.getTime()));
     load[1][2] += body_.mass * body_.gravity;
     mobilized_.applyBodyForce(state, load, body_forces);
   }
 
-  double calcPotentialEnergy(const State&) const override { return 0.0; }
-
-  // a discrete variable: a plain member would go stale behind the state's caches
-  void realizeTopology(State& state) const override {
-    input_ = forces_.allocateDiscreteVariable(state, SimTK::Stage::Dynamics, new Value<HelicopterInput>());
-  }
-
-  void set_input(State& state, const HelicopterInput& input) const {
-    Value<HelicopterInput>::updDowncast(forces_.updDiscreteVariable(state, input_)).upd() = input;
-  }
-
  private:
-  const SimTK::GeneralForceSubsystem& forces_;
-  const SimTK::MobilizedBody& mobilized_;
   const HelicopterBody& body_;
-  mutable SimTK::DiscreteVariableIndex input_;
 };
 
 FootMotion foot_motion(const HelicopterMotion& motion, const fossen::Vector3& r_b) {

@@ -1,29 +1,26 @@
 #include "vehicles/submarine_plant.h"
 
-#include <SimTKsimbody.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "vehicles/force_with_input.h"
 #include "vehicles/frames.h"
 #include "vehicles/no_state.h"
 
 namespace jarol::vehicles {
 namespace {
 
-using SimTK::DiscreteVariableIndex;
 using SimTK::State;
-using SimTK::Value;
 using SimTK::Vec3;
 
 // Added mass depends on direction, which no Simbody inertia can express. So the whole equation is solved for nu_dot
 // here, and Simbody's rigid body gets the one force that gives it this acceleration: M_rb nu_dot + C_rb nu.
-class Hydrodynamics : public SimTK::Force::Custom::Implementation {
+class Hydrodynamics : public ForceWithInput<SubmarineInput> {
  public:
   Hydrodynamics(const SimTK::GeneralForceSubsystem& forces, const SimTK::MobilizedBody& mobilized,
                 const SubmarineBody& body, const Waves& waves)
-      : forces_(forces), mobilized_(mobilized), body_(body), waves_(waves) {}
+      : ForceWithInput(forces, mobilized), body_(body), waves_(waves) {}
 
   void calcForce(const State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces, SimTK::Vector_<Vec3>&,
                  SimTK::Vector&) const override {
@@ -43,27 +40,12 @@ class Hydrodynamics : public SimTK::Force::Custom::Implementation {
                                  p_n[2],
                                  to_body(R_nb, water.velocity_n),
                                  to_body(R_nb, water.acceleration_n)};
-    const auto& input = Value<SubmarineInput>::downcast(forces_.getDiscreteVariable(state, input_)).get();
-    return calc_nu_dot(body_, around, to_body(R_nb, mobilized_.getBodyVelocity(state)), input);
-  }
-
-  double calcPotentialEnergy(const State&) const override { return 0.0; }
-
-  // a discrete variable: a plain member would go stale behind the state's caches
-  void realizeTopology(State& state) const override {
-    input_ = forces_.allocateDiscreteVariable(state, SimTK::Stage::Dynamics, new Value<SubmarineInput>());
-  }
-
-  void set_input(State& state, const SubmarineInput& input) const {
-    Value<SubmarineInput>::updDowncast(forces_.updDiscreteVariable(state, input_)).upd() = input;
+    return calc_nu_dot(body_, around, to_body(R_nb, mobilized_.getBodyVelocity(state)), input(state));
   }
 
  private:
-  const SimTK::GeneralForceSubsystem& forces_;
-  const SimTK::MobilizedBody& mobilized_;
   SubmarineBody body_;
   Waves waves_;
-  mutable DiscreteVariableIndex input_;
 };
 
 SimTK::MassProperties mass_properties(const SubmarineBody& body) {
