@@ -9,6 +9,7 @@
 
 #include "runtime/copy.h"
 #include "runtime/real_clock.h"
+#include "runtime/threads_order.h"
 
 namespace jarol {
 
@@ -73,7 +74,7 @@ void ThreadsCore::gather() {
   const auto by_name = [](const Carried& a, const Carried& b) { return a.communicator < b.communicator; };
   std::sort(ins_.begin(), ins_.end(), by_name);
   std::sort(outs_.begin(), outs_.end(), by_name);
-  for (const std::size_t i : graph_.order) {
+  for (const std::size_t i : threads_order(graph_)) {
     const Task& task = graph_.tasks[i];
     const Cadence cadence(rounds_of("task '" + task.name + "'", task.period));
     tasks_.push_back({activations[i], publishes[i], cadence, task.period, 0});

@@ -122,6 +122,40 @@ connections:
           "                                                                        ^");
   }
 
+  TEST_CASE("periods, LETs, deadlines and WCETs are above zero, offsets from zero to below the period") {
+    const auto wrong = [](const std::string& keys) {
+      const std::string report = report_on("{graph: t, tasks: {a: {type: Counter" + keys + "}}}");
+      return report.substr(0, report.find('\n')).substr(report.find("key"));
+    };
+    for (const std::string key : {"period", "let", "deadline", "wcet"})
+      for (const std::string value : {"0ns", "-1ns"}) {
+        const std::string period = key == "period" ? "" : ", period: 10ms";
+        CHECK(wrong(period + ", " + key + ": " + value) == "key '" + key + "': '" + value + "' is not above zero");
+      }
+    CHECK(wrong(", period: 10ms, offset: -1ns") == "key 'offset': '-1ns' is below zero");
+    CHECK(report_on("{graph: t, tasks: {a: {type: Counter, period: 1ns, offset: 0ns, let: 1ns, deadline: 1ns}}}") ==
+          "");
+    CHECK(report_on("{graph: t, tasks: {a: {type: Counter, period: 3ns, offset: 2ns, let: 3ns}}}") == "");
+    CHECK(report_on("graph: t\ncommunicators:\n  i: {type: double, direction: in, period: 3ns, offset: 3ns}\n"
+                    "  o: {type: double, direction: out, period: 3ns, offset: 2ns}\nconnections: [i -> o]\n") ==
+          "t.yaml:3:57: error: communicator 'i' has offset 3ns not below its period 3ns\n"
+          "    i: {type: double, direction: in, period: 3ns, offset: 3ns}\n"
+          "                                                          ^");
+  }
+
+  TEST_CASE("an output feeds any number of inputs, and may stay open") {
+    const Graph graph = graph_of(R"(graph: t
+timing: {period: 10ms}
+communicators: {o: {type: double, direction: out}}
+tasks:
+  a: {type: Counter}
+  b: {type: Sum}
+  open: {type: Counter}
+connections: [a.out -> b.a, a.out -> b.b, a.out -> o]
+)");
+    CHECK(graph.connections.size() == 3);
+  }
+
   TEST_CASE("what is planned for later says that it is not there yet") {
     CHECK(report_on("graph: t\nmodes: {}\nconnections:\n  - {connect: a.x -> b.y}\n") ==
           "t.yaml:2:1: error: 'modes' is not there yet; leave it out\n"

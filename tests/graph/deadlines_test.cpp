@@ -46,6 +46,21 @@ connections:
     CHECK(graph.tasks[4].deadline == 15ms);  // e: c reads 15 ms later
   }
 
+  TEST_CASE("an `out` that reads an output later is a deadline too; at the release itself it has read before") {
+    const auto deadline = [](const std::string& out) {
+      return graph_of("graph: t\ncommunicators: {o: {type: double, direction: out" + out +
+                      "}}\ntasks: {a: {type: Counter, period: 10ms, offset: 2ms}}\nconnections: [a.out -> o]\n")
+          .tasks[0]
+          .deadline;
+    };
+    CHECK(deadline(", period: 10ms, offset: 5ms") == 3ms);
+    CHECK(deadline(", period: 10ms, offset: 1ms") == 9ms);
+    CHECK(deadline(", period: 10ms, offset: 2ms") == 10ms);
+    CHECK(deadline(", period: 4ms") == 2ms);
+    CHECK(deadline(", period: 7ms") == 1ms);
+    CHECK(deadline(", period: 1h") == 8ms);
+  }
+
   TEST_CASE("a declared deadline may not be later than the derived one") {
     CHECK(tests::report_on("{graph: t, tasks: {a: {type: Counter, period: 10ms, let: 4ms, deadline: 5ms}}}") ==
           "t.yaml:1:73: error: task 'a' has deadline 5ms later than 4ms, which follows from its LET; lower it or leave "

@@ -108,6 +108,38 @@ TEST_SUITE("runtime/faults") {
     CHECK(lines_of(r, "f.out") == "5ms f.out=1; 15ms f.out=2; 45ms f.out=3; 55ms f.out=4");
   }
 
+  TEST_CASE("skip with a LET equal to the period") {
+    const auto r = run(", on_fault: skip, let: 10ms", 60ms);
+    REQUIRE(r.report.faults.size() == 1);
+    CHECK(to_text(r.report.faults[0]) == "task 'f' activation 2 at 0.03 s: threw: too hot");
+    CHECK(lines_of(r, "f.out") == "10ms f.out=1; 20ms f.out=2; 50ms f.out=3");
+  }
+
+  TEST_CASE("what was left out after a fault is no fault; the activation after it runs, and may be one again") {
+    for (const std::string let : {"", ", let: 10ms"}) {
+      const auto r = run(", on_fault: skip, parameters: {count: 4}" + let, 90ms);
+      std::string faulty;
+      for (const Fault& fault : r.report.faults) faulty += std::to_string(fault.activation) + " ";
+      CHECK(faulty == "2 4 ");
+      CHECK(lines_of(r, "f.out") == (let.empty() ? "0ns f.out=1; 10ms f.out=2; 60ms f.out=3; 70ms f.out=4; 80ms f.out=5"
+                                                 : "10ms f.out=1; 20ms f.out=2; 70ms f.out=3; 80ms f.out=4"));
+    }
+  }
+
+  TEST_CASE("stop completes the instant at which the fault shows, whatever is due at it, and nothing after it") {
+    const auto r = run(R"(, let: 5ms}
+  other: {type: Counter, period: 5ms}
+  before: {type: Fails, let: 5ms, parameters: {first: -1}}
+  zlast: {type: Counter, period: 5ms, let: 5ms)",
+                       100ms);
+    CHECK(r.report.stopped);
+    CHECK(r.report.simulated == 25ms);
+    CHECK(lines_of(r, "f.out") == "5ms f.out=1; 15ms f.out=2");
+    CHECK(lines_of(r, "before.out") == "5ms before.out=1; 15ms before.out=2; 25ms before.out=3");
+    CHECK(r.lines.back() == "25ms other.out=5");
+    CHECK(lines_of(r, "zlast.out").ends_with("; 25ms zlast.out=4"));
+  }
+
   TEST_CASE("every fault is counted, the first thousand are told") {
     const auto r = run(", on_fault: hold, parameters: {first: 0, count: 5000}", 20s);
     CHECK(r.report.fault_count == 2000);
