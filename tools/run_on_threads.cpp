@@ -48,6 +48,7 @@ void print_json(const Graph& graph, const ThreadsCore& core, const std::vector<L
                               {"clock", "real"},
                               {"concurrency", "threads"},
                               {"digest", fmt::format("0x{:016x}", report.digest)},
+                              {"digest_claimed", false},
                               {"simulated_ns", report.simulated.count()},
                               {"activations", report.activations},
                               {"rounds", threads.rounds},

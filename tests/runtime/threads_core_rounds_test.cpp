@@ -32,7 +32,8 @@ std::uint64_t rounds_before(const Graph& graph, Duration end) {
 }  // namespace
 
 TEST_SUITE("runtime/threads_core_rounds") {
-  TEST_CASE("LETs and offsets are ignored: tasks run once a period in data-flow order, and publish when they have run") {
+  TEST_CASE(
+      "LETs and offsets are ignored: tasks run once a period in data-flow order, and publish when they have run") {
     const auto graph = [](const std::string& timing, const std::string& slow) {
       return graph_of("graph: t\ntasks:\n  z: {type: Counter, period: 5ms" + timing +
                       "}\n  b: {type: Accumulate, period: 5ms" + timing + "}\n  a: {type: Sum, period: 10ms" + slow +

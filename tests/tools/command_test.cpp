@@ -71,6 +71,10 @@ tasks:
     CHECK(jarol("run specs/counting.yaml --for 1s --set tasks.sum.isolation=weak")
               .output.find("nothing is claimed of the digest: task 'sum' is weakly isolated\n") != std::string::npos);
     CHECK(jarol("run specs/counting.yaml --for 1s").output.find("claimed") == std::string::npos);
+    CHECK(json_of("run specs/counting.yaml --for 1s --json --set tasks.sum.isolation=weak")["digest_claimed"] == false);
+    CHECK(json_of("run specs/counting.yaml --for 1s --json")["digest_claimed"] == true);
+    CHECK(json_of("run specs/counting.yaml --for 10ms --json --clock real --concurrency threads 2>/dev/null")
+              ["digest_claimed"] == false);
   }
 
   TEST_CASE("run tells how much of each private heap was in use at most, and a trace holds sequences whole") {

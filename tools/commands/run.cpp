@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -122,6 +123,11 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
   std::cerr << told_faults(report);
 }
 
+bool has_weak_isolation(const Graph& graph) {
+  return std::any_of(graph.tasks.begin(), graph.tasks.end(),
+                     [](const Task& task) { return task.isolation == Isolation::weak; });
+}
+
 void print_json(const Graph& graph, const Executor& executor, const RealClock* clock,
                 const std::vector<LinkReport>& links, double seconds) {
   const Report& report = executor.report();
@@ -138,6 +144,7 @@ void print_json(const Graph& graph, const Executor& executor, const RealClock* c
                               {"graph", graph.name},
                               {"clock", clock != nullptr ? "real" : "virtual"},
                               {"digest", fmt::format("0x{:016x}", report.digest)},
+                              {"digest_claimed", !has_weak_isolation(graph)},
                               {"simulated_ns", report.simulated.count()},
                               {"wall_ns", static_cast<std::int64_t>(seconds * 1e9)},
                               {"real_time_factor", simulated / seconds},
