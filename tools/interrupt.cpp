@@ -1,7 +1,10 @@
 #include "tools/interrupt.h"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <ctime>
+#include <string_view>
 #include <utility>
 
 namespace jarol::tools {
@@ -28,6 +31,8 @@ extern "C" void interrupt(int signal) {
   }
   if (now() - first_at.load() < second_from) return;
   // whoever asks again does not want to wait for the end
+  constexpr std::string_view line = "interrupted again: ended at once, without a report\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }

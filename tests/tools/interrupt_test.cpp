@@ -28,4 +28,20 @@ TEST_SUITE("tools/interrupt") {
       CHECK(std::filesystem::exists(trace));
     }
   }
+
+  TEST_CASE("a run whose task never ends is ended by a second signal, half a second after the first, and says so") {
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(JAROL_PLUGIN_FOLDER "/endless.so", folder / "endless.so",
+                               std::filesystem::copy_options::overwrite_existing);
+    const std::string graph =
+        folder.write("g.yaml", "{graph: g, plugins: [endless.so], tasks: {a: {type: Endless, period: 10ms}}}\n");
+    const std::string report = folder / "report.txt", trace = folder / "t.csv";
+    jarol("run " + graph + " --for 1s --trace " + trace + " >> " + report,
+          "2>&1 & id=$!; until [ -e " + trace + ".part ]; do sleep 0.05; done; sleep 0.3; kill -INT $id; sleep 0.8; " +
+              "kill -0 $id && echo alive >> " + report +
+              "; kill -INT $id; sleep 0.8; kill -INT $id 2>&-; wait $id; echo \"exit code $?\" >> " + report);
+    std::ifstream file(report);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    CHECK(text == "alive\ninterrupted again: ended at once, without a report\nexit code 130\n");
+  }
 }
