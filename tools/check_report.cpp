@@ -158,6 +158,13 @@ std::string task_table(const CheckReport& r) {
 
 std::string core_lines(const CheckReport& r) {
   std::string text;
+  // where no task belongs to a core they only have a sum
+  if (std::none_of(r.result.core.begin(), r.result.core.end(), [](const auto& core) { return core.has_value(); })) {
+    const auto all = static_cast<double>(r.graph->platform.cores);
+    return all > 1
+               ? fmt::format("  all {} cores: utilisation {:.2f}% of {}%\n", all, 100 * r.result.utilisation, 100 * all)
+               : "";
+  }
   for (std::size_t c = 0; r.graph->platform.cores > 1 && c < static_cast<std::size_t>(r.graph->platform.cores); ++c) {
     double use = 0;
     for (std::size_t i = 0; i < r.graph->tasks.size(); ++i)
@@ -251,7 +258,8 @@ std::string sensitivity_lines(const CheckReport& r) {
   return text;
 }
 
-std::string assumptions(const Platform& platform) {
+// Who runs when, and what that costs.
+std::string assumption(const Platform& platform) {
   std::string how;
   switch (platform.policy) {
     case Policy::table: how = "tasks run one after the other as released, never interrupted"; break;
@@ -273,7 +281,7 @@ std::string assumptions(const Platform& platform) {
   if (platform.dispatch > Duration{} || platform.copy > Duration{})
     overhead = ", with " + duration_text(platform.dispatch) + " for each activation and " +
                duration_text(platform.copy) + " for each byte handed on";
-  return "  assumed: " + how + overhead + (platform.phasing == Phasing::any ? "; whatever the offsets" : "") + "\n";
+  return how + overhead + (platform.phasing == Phasing::any ? "; whatever the offsets" : "");
 }
 
 }  // namespace
@@ -286,7 +294,8 @@ std::string to_text(const CheckReport& r) {
       "  utilisation {:.2f}%; a task's response is its longest time from release to end when each takes "
       "its wcet;\n",
       100 * r.result.utilisation);
-  text += assumptions(r.graph->platform) + sensitivity_lines(r) + chain_lines(r) + late_outs(*r.graph);
+  text += "  assumed: " + assumption(r.graph->platform) + "\n" + sensitivity_lines(r) + chain_lines(r) +
+          late_outs(*r.graph);
   if (r.result.verdict == Verdict::unknown &&
       std::any_of(r.graph->tasks.begin(), r.graph->tasks.end(), [](const Task& t) { return !t.wcet; }))
     text +=
@@ -340,11 +349,19 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
                       {"reaction_limit_ns", c.chain.reaction ? Json(c.chain.reaction->count()) : Json(nullptr)},
                       {"age_limit_ns", c.chain.age ? Json(c.chain.age->count()) : Json(nullptr)},
                       {"holds", holds(c)}});
+  const Platform& platform = r.graph->platform;
   auto suggestions = Json::array();
   for (const Suggestion& s : r.suggestions) suggestions.push_back(text_of(s, *r.graph));
   return {{"schema", "jarol.check/1"},
           {"file", r.file},
           {"graph", r.graph->name},
+          {"cores", platform.cores},
+          {"policy", Words<Policy>::list()[static_cast<std::size_t>(platform.policy)]},
+          {"assumptions",
+           {{"text", assumption(platform)},
+            {"phasing", Words<Phasing>::list()[static_cast<std::size_t>(platform.phasing)]},
+            {"dispatch_ns", platform.dispatch.count()},
+            {"copy_ns_per_byte", platform.copy.count()}}},
           {"verdict", word_of(r.result.verdict)},
           {"limits_hold", chains_hold(r)},
           {"standing", text_of(r.result.standing)},

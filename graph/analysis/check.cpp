@@ -144,6 +144,11 @@ Result check_partitioned(const System& system) {
 }  // namespace
 
 Result check(const System& system) {
+  if (system.policy == Policy::global_edf && system.cores == 1) {
+    System edf = system;
+    edf.policy = Policy::edf;
+    return check(edf);
+  }
   Result result = system.policy == Policy::table        ? check_on_table(system)
                   : system.policy == Policy::global_edf ? check_globally(system)
                                                         : check_partitioned(system);

@@ -151,6 +151,64 @@ connections: [c.out -> t.in, t.out -> o, c.out -> w.in, w.out -> r.in]
     CHECK(check["utilisation"] == doctest::Approx(0.1325));
   }
 
+  TEST_CASE("check --json tells the platform and what is assumed of it") {
+    const auto check = json_of("check --json specs/counting.yaml");
+    CHECK(check["cores"] == 1);
+    CHECK(check["policy"] == "table");
+    CHECK(check["assumptions"] ==
+          nlohmann::json{{"text", "tasks run one after the other as released, never interrupted, without overhead"},
+                         {"phasing", "given"},
+                         {"dispatch_ns", 0},
+                         {"copy_ns_per_byte", 0}});
+    const auto other = json_of(
+        "check --json specs/counting.yaml --set 'platform={cores: 2, policy: edf, phasing: any, dispatch: 1us, copy: "
+        "2ns}'");
+    CHECK(other["cores"] == 2);
+    CHECK(other["policy"] == "edf");
+    CHECK(other["assumptions"] ==
+          nlohmann::json{{"text",
+                          "the task with the earliest deadline runs, interrupting others; 'run' does not execute this, "
+                          "with 1us for each activation and 2ns for each byte handed on; whatever the offsets"},
+                         {"phasing", "any"},
+                         {"dispatch_ns", 1000},
+                         {"copy_ns_per_byte", 2}});
+  }
+
+  TEST_CASE("where tasks belong to no core, their utilisation is told of all cores together") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {policy: global_edf, cores: 2}
+tasks:
+  a: {type: Work, period: 10ms, wcet: 10ms}
+  b: {type: Work, period: 10ms, wcet: 5ms}
+  c: {type: Work, period: 10ms, wcet: 5ms}
+)");
+    const Result bound = jarol("check " + file);
+    CHECK(bound.exit_code == 3);
+    CHECK(bound.output ==
+          file +
+              R"(: UNKNOWN on 2 cores (global_edf): the tests of global_edf are sufficient only, and none of them holds
+  task     period     offset   deadline       wcet     use   response      slack  core
+  a          10ms        0ns       10ms       10ms  100.00%          -          -     -
+  b          10ms        0ns       10ms        5ms  50.00%       10ms        0ns     -
+  c          10ms        0ns       10ms        5ms  50.00%       10ms        0ns     -
+  all 2 cores: utilisation 200.00% of 200%
+  utilisation 200.00%; a task's response is its longest time from release to end when each takes its wcet;
+  assumed: the earliest deadlines run, on any core; 'run' does not execute this, without overhead
+  all WCETs together may be 0.666666 times as long; alone, 'a' has least room: up to 5ms
+  it would hold with a 'wcet' of 5ms for 'a', which has 10ms
+                  or 'policy: table'
+                  or 'policy: fixed_priority'
+                  or 'policy: edf'
+)");
+    CHECK(jarol("check " + file + " --set platform.policy=edf").output.find("all 2 cores") == std::string::npos);
+    // on one core it is edf, which is decided
+    const std::string one = file + " --set platform.cores=1 --set tasks.a.wcet=1ms --set tasks.b.wcet=4ms";
+    CHECK(jarol("check " + one).exit_code == 0);
+    CHECK(jarol("check " + one + " --set tasks.c.wcet=5000001ns").exit_code == 1);
+    CHECK(json_of("check --json " + one)["policy"] == "global_edf");
+  }
+
   TEST_CASE("check tells why not: the demand, the chart, and what would help") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t
@@ -407,5 +465,38 @@ connections: [i -> sum.in]
     CHECK(jarol("graph specs/counting.yaml").output.find("count (Counter): every 10ms, deadline 10ms\n") !=
           std::string::npos);
     CHECK(jarol("graph specs/counting.yaml --dot").output.starts_with("digraph \"counting\" {\n"));
+    CHECK(jarol("graph specs/counting.yaml --dot --json").exit_code == 2);
+  }
+
+  TEST_CASE("graph --json gives the structure as one object") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+timing: {period: 10ms}
+communicators:
+  i: {type: double, direction: in}
+  o: {type: double, direction: out, offset: 2ms}
+tasks:
+  b: {type: Relay, let: 5ms}
+  a: {type: Relay, period: 5ms, offset: 1ms, wcet: 20us}
+connections: [i -> a.in, a.out -> b.in, b.out -> o]
+)");
+    CHECK(json_of("graph --json " + file) == nlohmann::json::parse(R"({"schema": "jarol.graph/1", "graph": "t",
+      "communicators": [
+        {"name": "i", "direction": "in", "type": "double", "period_ns": 10000000, "offset_ns": 0},
+        {"name": "o", "direction": "out", "type": "double", "period_ns": 10000000, "offset_ns": 2000000}],
+      "tasks": [
+        {"name": "a", "type": "Relay", "period_ns": 5000000, "offset_ns": 1000000, "deadline_ns": 4000000, "wcet_ns": 20000},
+        {"name": "b", "type": "Relay", "period_ns": 10000000, "offset_ns": 0, "let_ns": 5000000, "deadline_ns": 5000000}],
+      "connections": [
+        {"from": "i", "to": "a.in", "type": "double"},
+        {"from": "a.out", "to": "b.in", "type": "double"},
+        {"from": "b.out", "to": "o", "type": "double"}]})"));
+  }
+
+  TEST_CASE("graph --json tells channels, and what is handed over while nothing comes") {
+    const auto communicators = json_of("graph --json specs/exolauv_bare.yaml --profile dune")["communicators"];
+    CHECK(communicators[0]["channel"] == "dune.motion");
+    CHECK(communicators[0]["timeout_ns"] == 1'000'000'000);
+    CHECK(communicators[2]["safe"] == nlohmann::json{{"thruster", 0}, {"fins", {0, 0, 0, 0}}});
   }
 }

@@ -1,4 +1,4 @@
-// jarol graph: a graph as text or as a DOT drawing.
+// jarol graph: a graph as text, as JSON or as a DOT drawing.
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +15,7 @@ struct Options {
   std::string file;
   Overrides overrides;
   bool dot = false;
+  bool json = false;
 };
 
 std::string timing_text(Duration period, Duration offset) {
@@ -48,6 +49,47 @@ void print_text(const Graph& graph) {
   for (const Connection& c : graph.connections)
     std::cout << "  " << end_name(graph, c.from, true) << " -> " << end_name(graph, c.to, false) << " (" << c.type->name
               << ")\n";
+}
+
+nlohmann::ordered_json communicator_json(const Graph& graph, const Communicator& c) {
+  nlohmann::ordered_json json{{"name", c.name},
+                              {"direction", c.direction == Direction::in ? "in" : "out"},
+                              {"type", c.type->name},
+                              {"period_ns", c.period.count()},
+                              {"offset_ns", c.offset.count()}};
+  if (c.distributer) {
+    const Distributer& d = graph.distributers[*c.distributer];
+    json["channel"] = d.name + "." + d.distributer_class->channels[c.channel].name;
+  }
+  if (c.timeout) json["timeout_ns"] = c.timeout->count();
+  if (c.safe) json["safe"] = to_json(*c.type, c.safe->data());
+  return json;
+}
+
+nlohmann::ordered_json task_json(const Task& t) {
+  nlohmann::ordered_json json{
+      {"name", t.name}, {"type", t.task_class->name}, {"period_ns", t.period.count()}, {"offset_ns", t.offset.count()}};
+  if (t.let) json["let_ns"] = t.let->count();
+  json["deadline_ns"] = t.deadline.count();
+  if (t.wcet) json["wcet_ns"] = t.wcet->count();
+  return json;
+}
+
+// The tasks in the order in which they run when released together.
+void print_json(const Graph& graph) {
+  auto communicators = nlohmann::ordered_json::array(), tasks = nlohmann::ordered_json::array(),
+       connections = nlohmann::ordered_json::array();
+  for (const Communicator& c : graph.communicators) communicators.push_back(communicator_json(graph, c));
+  for (const std::size_t i : graph.order) tasks.push_back(task_json(graph.tasks[i]));
+  for (const Connection& c : graph.connections)
+    connections.push_back(
+        {{"from", end_name(graph, c.from, true)}, {"to", end_name(graph, c.to, false)}, {"type", c.type->name}});
+  std::cout << nlohmann::ordered_json{{"schema", "jarol.graph/1"},
+                                      {"graph", graph.name},
+                                      {"communicators", std::move(communicators)},
+                                      {"tasks", std::move(tasks)},
+                                      {"connections", std::move(connections)}}
+            << "\n";
 }
 
 std::string dot_name(const Graph& graph, const End& end) {
@@ -90,10 +132,11 @@ void add_graph(CommandLine& line, int& exit_code) {
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.period=100ms")
       ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
-  command->add_flag("--dot", options->dot, "A DOT drawing: jarol graph FILE --dot | dot -Tsvg > graph.svg");
+  auto* dot = command->add_flag("--dot", options->dot, "A DOT drawing: jarol graph FILE --dot | dot -Tsvg > graph.svg");
+  command->add_flag("--json", options->json, "One JSON object instead of text")->excludes(dot);
   command->callback([options, &exit_code] {
     const Loaded loaded = load_graph(options->file, options->overrides);
-    options->dot ? print_dot(*loaded.graph) : print_text(*loaded.graph);
+    options->json ? print_json(*loaded.graph) : options->dot ? print_dot(*loaded.graph) : print_text(*loaded.graph);
     exit_code = exit_good;
   });
 }
