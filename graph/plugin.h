@@ -13,7 +13,7 @@
 namespace jarol {
 
 /// Changes with every change of the binary interface; the compiler is part of it.
-inline constexpr const char* plugin_form = "form 2 of " __VERSION__;
+inline constexpr const char* plugin_form = "form 3 of " __VERSION__;
 
 template <class... T>
 void add_tasks_of_plugin(Registry& registry) {

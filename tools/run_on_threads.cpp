@@ -12,12 +12,14 @@
 #include "tools/interrupt.h"
 #include "tools/linked.h"
 #include "tools/real_time.h"
+#include "tools/told_changes.h"
 #include "tools/told_faults.h"
 
 namespace jarol::tools {
 namespace {
 
-void print_text(const Graph& graph, const ThreadsCore& core, const std::vector<LinkReport>& links, bool interrupted) {
+void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& told,
+                const std::vector<LinkReport>& links, bool interrupted) {
   const Report& report = core.report();
   const ThreadsReport& threads = core.threads_report();
   const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
@@ -33,6 +35,7 @@ void print_text(const Graph& graph, const ThreadsCore& core, const std::vector<L
   if (threads.core_busy > 0) std::cout << "  core        " << threads.core_busy << " ticks found it at work\n";
   if (threads.unawaited_ticks > 0)
     std::cout << "  sensors     " << threads.unawaited_ticks << " ticks found their thread at work\n";
+  std::cout << told.to_text();
   for (const LinkReport& link : links) std::cout << to_text(link);
   std::cout << to_text(graph, core.safe_commands());
   if (report.non_finite_inputs > 0)
@@ -40,7 +43,8 @@ void print_text(const Graph& graph, const ThreadsCore& core, const std::vector<L
   std::cerr << told_faults(report);
 }
 
-void print_json(const Graph& graph, const ThreadsCore& core, const std::vector<LinkReport>& links) {
+void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& told,
+                const std::vector<LinkReport>& links) {
   const Report& report = core.report();
   const ThreadsReport& threads = core.threads_report();
   nlohmann::ordered_json json{{"schema", "jarol.run/1"},
@@ -60,7 +64,8 @@ void print_json(const Graph& graph, const ThreadsCore& core, const std::vector<L
                               {"faults", faults_to_json(report)},
                               {"fault_count", report.fault_count},
                               {"non_finite_inputs", report.non_finite_inputs},
-                              {"safe_commands", to_json(graph, core.safe_commands())}};
+                              {"safe_commands", to_json(graph, core.safe_commands())},
+                              {"told", told.to_json()}};
   for (const LinkReport& link : links) json["links"].push_back(to_json(link));
   std::cout << json << "\n";
 }
@@ -68,6 +73,8 @@ void print_json(const Graph& graph, const ThreadsCore& core, const std::vector<L
 }  // namespace
 
 int run_on_threads(Loaded& loaded, Duration end, const RealTimeOptions& options, bool json) {
+  ToldChanges told(*loaded.graph);
+  loaded.channels = told.listen(std::move(loaded.channels));
   const std::vector<Channels*> channels = pointers_to(loaded.channels);
   ThreadsCore core(*loaded.graph, std::move(loaded.channels));
   Linked linked(channels);
@@ -87,8 +94,8 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeOptions& options,
   }
   linked.finish();
   const bool interrupted = Interruptible::interrupted().load();
-  json ? print_json(*loaded.graph, core, linked.reports())
-       : print_text(*loaded.graph, core, linked.reports(), interrupted);
+  json ? print_json(*loaded.graph, core, told, linked.reports())
+       : print_text(*loaded.graph, core, told, linked.reports(), interrupted);
   if (core.report().stopped) return exit_unfinished;
   return interrupted ? exit_interrupted : exit_good;
 }

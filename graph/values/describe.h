@@ -88,11 +88,13 @@ constexpr std::tuple<F...> describe(F... fields) {
   return {fields...};
 }
 
-/// An enumerator and its name, as `enumerators(Mode)` lists them.
+/// An enumerator and its name, as `enumerators(Mode)` lists them. One that people have to be told about has a meaning,
+/// as "there is water in the hull": a run's report tells when it goes out.
 template <class E>
 struct Enumerator {
   std::string_view name;
   E value;
+  std::string_view meaning = "";
 };
 
 template <class T>

@@ -251,7 +251,10 @@ Type make_type() {
     static_assert(DescribedEnum<T>, "an enumeration is a value once enumerators(E) lists its names");
     type.name = type_name<T>();
     type.kind = Kind::enumeration;
-    for (const auto& e : enumerators(T{})) type.enumerators.emplace_back(e.name, static_cast<std::int64_t>(e.value));
+    for (const auto& e : enumerators(T{})) {
+      type.enumerators.emplace_back(e.name, static_cast<std::int64_t>(e.value));
+      type.meanings.emplace_back(e.meaning);
+    }
   } else if constexpr (Array<T>) {
     type.element = &type_of<typename ArrayTraits<T>::Element>();
     type.count = ArrayTraits<T>::count;

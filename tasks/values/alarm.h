@@ -30,22 +30,23 @@ enum class Alarm : std::uint8_t {
 
 constexpr auto enumerators(Alarm) {
   using enum Alarm;
-  return std::array<Enumerator<Alarm>, 16>{{{"none", none},
-                                            {"operator_lost", operator_lost},
-                                            {"depth_limit", depth_limit},
-                                            {"altitude_limit", altitude_limit},
-                                            {"pitch_limit", pitch_limit},
-                                            {"voltage_limit", voltage_limit},
-                                            {"leak", leak},
-                                            {"depth_gauge", depth_gauge},
-                                            {"heading", heading},
-                                            {"attitude", attitude},
-                                            {"forces", forces},
-                                            {"speed", speed},
-                                            {"altimeter", altimeter},
-                                            {"ctd", ctd},
-                                            {"battery", battery},
-                                            {"gps", gps}}};
+  return std::array<Enumerator<Alarm>, 16>{
+      {{"none", none},
+       {"operator_lost", operator_lost, "it comes up, as the operator is silent"},
+       {"depth_limit", depth_limit, "it comes up, as it is deeper than the limit"},
+       {"altitude_limit", altitude_limit, "it comes up, as it is too close to the sea floor"},
+       {"pitch_limit", pitch_limit, "it comes up, as its pitch is beyond the limit"},
+       {"voltage_limit", voltage_limit, "it comes up, as the battery's voltage is below the limit"},
+       {"leak", leak, "it comes up, as there is water in the hull, or the leak detector is silent"},
+       {"depth_gauge", depth_gauge, "it comes up, as the depth gauge is silent or wrong"},
+       {"heading", heading, "it comes up, as the compass is silent or wrong"},
+       {"attitude", attitude, "it comes up, as the IMU's attitude or rates are silent or wrong"},
+       {"forces", forces, "it comes up, as the IMU's forces are silent or wrong"},
+       {"speed", speed, "it comes up, as the speed log or the propeller's speed is silent or wrong"},
+       {"altimeter", altimeter, "it comes up, as the altimeter is silent or wrong"},
+       {"ctd", ctd, "it comes up, as a sensor of the water is silent"},
+       {"battery", battery, "it comes up, as voltage or current of the battery are not told"},
+       {"gps", gps, "it stays at the surface, as GPS is silent"}}};
 }
 
 struct Condition {

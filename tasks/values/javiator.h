@@ -98,17 +98,18 @@ enum class LandingCause : std::uint8_t {
 };
 
 constexpr auto enumerators(LandingCause) {
-  return std::array<Enumerator<LandingCause>, 11>{{{"none", LandingCause::none},
-                                                   {"roll", LandingCause::roll},
-                                                   {"pitch", LandingCause::pitch},
-                                                   {"yaw", LandingCause::yaw},
-                                                   {"altitude", LandingCause::altitude},
-                                                   {"operator_lost", LandingCause::operator_lost},
-                                                   {"sonar_lost", LandingCause::sonar_lost},
-                                                   {"position_lost", LandingCause::position_lost},
-                                                   {"imu_lost", LandingCause::imu_lost},
-                                                   {"bmu_lost", LandingCause::bmu_lost},
-                                                   {"battery_low", LandingCause::battery_low}}};
+  return std::array<Enumerator<LandingCause>, 11>{
+      {{"none", LandingCause::none},
+       {"roll", LandingCause::roll, "its roll is beyond the limit"},
+       {"pitch", LandingCause::pitch, "its pitch is beyond the limit"},
+       {"yaw", LandingCause::yaw, "its yaw is beyond the limit"},
+       {"altitude", LandingCause::altitude, "its altitude is beyond the limit"},
+       {"operator_lost", LandingCause::operator_lost, "the operator is silent"},
+       {"sonar_lost", LandingCause::sonar_lost, "the sonar tells nothing credible"},
+       {"position_lost", LandingCause::position_lost, "a laser tells nothing credible"},
+       {"imu_lost", LandingCause::imu_lost, "the IMU tells nothing credible"},
+       {"bmu_lost", LandingCause::bmu_lost, "the BMU tells nothing credible"},
+       {"battery_low", LandingCause::battery_low, "the battery's voltage is below the limit"}}};
 }
 
 /// What the operator is told.

@@ -49,6 +49,14 @@ TEST_SUITE("tools/readme") {
     }
   }
 
+  TEST_CASE("the README shows what is told of a landing that nobody wanted") {
+    const std::string sonar = " --set distributers.robostix.link.parameters.failures.sonar.";
+    const std::string run = output_of("run specs/javiator.yaml" + sonar + "kind=lost" + sonar + "at=12s");
+    const std::size_t begin = run.find("  told ");
+    REQUIRE(begin != std::string::npos);
+    CHECK(readme().find(run.substr(begin)) != std::string::npos);
+  }
+
   TEST_CASE("the README shows what the demo reaches as it is") {
     for (const std::string graph : {"exolauv", "javiator"}) {
       const std::string run = output_of("run specs/" + graph + ".yaml");

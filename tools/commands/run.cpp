@@ -19,6 +19,7 @@
 #include "tools/progress.h"
 #include "tools/real_time.h"
 #include "tools/run_on_threads.h"
+#include "tools/told_changes.h"
 #include "tools/told_faults.h"
 #include "tools/trace_csv.h"
 #include "tools/value_json.h"
@@ -90,7 +91,7 @@ std::vector<Panel> panels_of(const Graph& graph, const Plan& plan) {
 }
 
 void print_text(const Options& options, const Graph& graph, const Executor& executor, const RealClock* clock,
-                const std::vector<LinkReport>& links, double seconds, bool interrupted) {
+                const ToldChanges& told, const std::vector<LinkReport>& links, double seconds, bool interrupted) {
   const Report& report = executor.report();
   const double simulated = static_cast<double>(report.simulated.count()) * 1e-9;
   const char* const ended_early = interrupted ? " (interrupted)" : "";
@@ -110,6 +111,7 @@ void print_text(const Options& options, const Graph& graph, const Executor& exec
     if (const PrivateHeap* heap = executor.plan().heaps[i].get())
       std::cout << "  heap        " << graph.tasks[i].name << ": at most " << heap->most_used() << " of "
                 << heap->size() << " bytes in use\n";
+  std::cout << told.to_text();
   if (clock != nullptr) std::cout << to_text(graph, *clock);
   for (const LinkReport& link : links) std::cout << to_text(link);
   std::cout << to_text(graph, executor.safe_commands());
@@ -128,7 +130,7 @@ bool has_weak_isolation(const Graph& graph) {
                      [](const Task& task) { return task.isolation == Isolation::weak; });
 }
 
-void print_json(const Graph& graph, const Executor& executor, const RealClock* clock,
+void print_json(const Graph& graph, const Executor& executor, const RealClock* clock, const ToldChanges& told,
                 const std::vector<LinkReport>& links, double seconds) {
   const Report& report = executor.report();
   auto outputs = nlohmann::ordered_json::object();
@@ -154,6 +156,7 @@ void print_json(const Graph& graph, const Executor& executor, const RealClock* c
                               {"fault_count", report.fault_count},
                               {"non_finite_inputs", report.non_finite_inputs},
                               {"safe_commands", to_json(graph, executor.safe_commands())},
+                              {"told", told.to_json()},
                               {"heaps", heaps},
                               {"outputs", outputs}};
   if (clock != nullptr) json["real_time"] = to_json(graph, *clock);
@@ -206,6 +209,8 @@ int run(const Options& options) {
     threads = threads_for(options.file, graph, real_time);
     clock.emplace(graph.tasks.size(), real_time);
   }
+  ToldChanges told(graph);
+  loaded.channels = told.listen(std::move(loaded.channels));
   std::vector<Channels*> channels = pointers_to(loaded.channels);
   Executor executor(graph, std::move(loaded.channels),
                     {.digest = true,
@@ -234,8 +239,8 @@ int run(const Options& options) {
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   const bool interrupted = !executor.report().stopped && executor.now() < end;
   const RealClock* const real = clock ? &*clock : nullptr;
-  options.json ? print_json(graph, executor, real, linked.reports(), seconds)
-               : print_text(options, graph, executor, real, linked.reports(), seconds, interrupted);
+  options.json ? print_json(graph, executor, real, told, linked.reports(), seconds)
+               : print_text(options, graph, executor, real, told, linked.reports(), seconds, interrupted);
   if (executor.report().stopped) return exit_unfinished;
   return interrupted ? exit_interrupted : exit_good;
 }
