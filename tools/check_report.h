@@ -24,7 +24,7 @@ struct CheckReport {
   std::optional<analysis::Sensitivity> sensitivity;
   std::vector<analysis::Suggestion> suggestions;
   std::vector<ReportedChain> chains;
-  bool more_chains = false;  // than those
+  bool more_paths = false;  // than those of --chains
 };
 
 /// Does every chain keep its limits?

@@ -85,10 +85,28 @@ TEST_SUITE("tools/options") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", text + connections + "  - " + before + " -> o\n");
     const auto told = jarol("check --chains " + file);
-    CHECK(told.output.starts_with("note: --chains tells 1000 chains and paths, there are more\n"));
+    CHECK(told.output.starts_with("note: --chains tells 1000 paths, there are more\n"));
     std::size_t count = 0;
     for (std::size_t at = 0; (at = told.output.find("\n  chain i -> ", at)) != std::string::npos; ++at) ++count;
     CHECK(count == 1000);
+  }
+
+  TEST_CASE("check: chains of the file are all judged, however many they are") {
+    std::string text =
+        "graph: t\ntiming: {period: 10ms}\ncommunicators:\n  i: {type: double, direction: in}\n"
+        "  o: {type: double, direction: out}\ntasks: {r: {type: Relay, wcet: 1us}}\n"
+        "connections: [i -> r.in, r.out -> o]\nchains:\n";
+    for (int i = 0; i < 1001; ++i)
+      text += "  c" + std::to_string(i) + ": {path: [i, r, o], reaction: " + (i < 1000 ? "1s" : "19ms") + "}\n";
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", text);
+    for (const std::string paths : {"", " --chains"}) {
+      const auto told = jarol("check " + file + paths);
+      CHECK(told.exit_code == 1);
+      CHECK(told.output.find("    LIMIT BROKEN: reaction 20ms over 19ms\n") != std::string::npos);
+      CHECK(told.output.find("there are more") == std::string::npos);
+      CHECK((told.output.find("\n  chain i -> r -> o: ") != std::string::npos) == (paths != ""));
+    }
   }
 
   TEST_CASE("run: what belongs to the real clock needs it, and threads know less of it") {

@@ -55,10 +55,10 @@ double cost_of(const analysis::System& system) {
   return std::max(n * n, activations);
 }
 
-constexpr std::size_t most_chains = 1000;
+constexpr std::size_t most_paths = 1000;
 
 // Every path from an `in` to an `out`, as far as there are not too many.
-void add_all_chains(const Graph& graph, std::vector<End>& path, std::vector<ReportedChain>& chains) {
+void add_paths(const Graph& graph, std::vector<End>& path, std::vector<ReportedChain>& paths) {
   const End at = path.back();
   if (at.kind == End::Kind::communicator && path.size() > 1) {
     std::string name;
@@ -68,7 +68,7 @@ void add_all_chains(const Graph& graph, std::vector<End>& path, std::vector<Repo
     Chain chain;
     chain.name = name;
     chain.path = path;
-    chains.push_back({chain, analysis::latency_of(graph, path)});
+    paths.push_back({chain, analysis::latency_of(graph, path)});
     return;
   }
   const auto same = [](const End& a, const End& b) { return a.kind == b.kind && a.index == b.index; };
@@ -79,9 +79,9 @@ void add_all_chains(const Graph& graph, std::vector<End>& path, std::vector<Repo
     if (!std::any_of(next.begin(), next.end(), is_to)) next.push_back(c.to);
   }
   for (const End& end : next) {
-    if (chains.size() > most_chains) return;
+    if (paths.size() > most_paths) return;
     path.push_back(end);
-    add_all_chains(graph, path, chains);
+    add_paths(graph, path, paths);
     path.pop_back();
   }
 }
@@ -92,13 +92,16 @@ CheckReport report_on(const std::string& file, const Graph& graph, const Options
   report.graph = &graph;
   report.result = analysis::check(graph);
   for (const Chain& c : graph.chains) report.chains.push_back({c, analysis::latency_of(graph, c.path)});
-  if (options.all_chains)
+  if (options.all_chains) {
+    std::vector<ReportedChain> paths;
     for (std::size_t i = 0; i < graph.communicators.size(); ++i) {
       std::vector<End> path{{End::Kind::communicator, i, 0}};
-      if (graph.communicators[i].direction == Direction::in) add_all_chains(graph, path, report.chains);
+      if (graph.communicators[i].direction == Direction::in) add_paths(graph, path, paths);
     }
-  report.more_chains = report.chains.size() > most_chains;
-  if (report.more_chains) report.chains.resize(most_chains);
+    report.more_paths = paths.size() > most_paths;
+    if (report.more_paths) paths.resize(most_paths);
+    report.chains.insert(report.chains.end(), paths.begin(), paths.end());
+  }
   const bool stated = std::all_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return t.wcet; });
   if (!stated) return report;
   // what is quick comes without being asked for
@@ -150,7 +153,7 @@ void tell_what_lacks(const CheckReport& report, const Options& options) {
     std::cerr << "note: --sensitivity tells nothing, as it needs a 'wcet' of every task\n";
   if (options.all_chains && report.chains.size() == report.graph->chains.size())
     std::cerr << "note: --chains tells nothing, as no path leads from an 'in' to an 'out'\n";
-  if (report.more_chains) std::cerr << "note: --chains tells " << most_chains << " chains and paths, there are more\n";
+  if (report.more_paths) std::cerr << "note: --chains tells " << most_paths << " paths, there are more\n";
 }
 
 int check_files(const Options& options) {
