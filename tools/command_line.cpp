@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iostream>
 #include <limits>
 #include <stdexcept>
@@ -23,6 +24,15 @@ std::string wrong_integer(const std::string& text) {
   if (result.ec == std::errc() && result.ptr == end && !zero_in_front) return "";
   return "'" + text + "' is no whole number from " + std::to_string(std::numeric_limits<T>::min()) + " to " +
          std::to_string(std::numeric_limits<T>::max()) + "; write it in decimal, without zeros in front";
+}
+
+// A range of CLI11 lets NaN pass.
+std::string wrong_number(const std::string& text) {
+  double value = 0;
+  const auto end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec == std::errc() && result.ptr == end && std::isfinite(value)) return "";
+  return "'" + text + "' is no finite number in decimal; write it as in 20 or 0.5";
 }
 
 // The first word that is written as an option and is none of the command.
@@ -75,6 +85,7 @@ template <class T>
 Option* Command::add_option(const std::string& name, T& value, const std::string& text) {
   CLI::Option& option = *app_.add_option(name, value, text);
   if constexpr (std::is_integral_v<T>) option.check(wrong_integer<T>);
+  if constexpr (std::is_floating_point_v<T>) option.check(wrong_number);
   return &options_.emplace_back(option);
 }
 template Option* Command::add_option(const std::string&, std::string&, const std::string&);

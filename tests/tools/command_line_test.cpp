@@ -48,4 +48,17 @@ TEST_SUITE("tools/command_line") {
           "--repeats: '010' is no whole number from -2147483648 to 2147483647; write it in decimal, without zeros in "
           "front\nRun with --help for more information.\n");
   }
+
+  TEST_CASE("a number that may have a fraction is finite, and decimal as well") {
+    for (const std::string margin : {"nan", "inf", "1e999", "0x10", "twenty", "''", "+5"}) {
+      CAPTURE(margin);
+      CHECK(refusal_of("check --write no/such.yaml --margin " + margin) ==
+            "--margin: '" + (margin == "''" ? "" : margin) +
+                "' is no finite number in decimal; write it as in 20 or 0.5\nRun with --help for more information.\n");
+    }
+    CHECK(refusal_of("check --write no/such.yaml --margin -0.5") ==
+          "--margin: Value -0.5 not in range 0.000000 to 10000.000000\nRun with --help for more information.\n");
+    CHECK(refusal_of("check --write no/such.yaml --margin 2.5e1") ==
+          "error: can't read 'no/such.yaml': No such file or directory\nno/such.yaml: 1 error\n");
+  }
 }
