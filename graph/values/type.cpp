@@ -37,7 +37,7 @@ bool same_type(const Type& a, const Type& b) {
 
 bool is_made_of_doubles(const Type& type) {
   if (type.kind == Kind::floating) return type.size == sizeof(double);
-  if (type.kind == Kind::array) return is_made_of_doubles(*type.element);
+  if (type.kind == Kind::array) return type.count > 0 && is_made_of_doubles(*type.element);
   if (type.kind != Kind::structure || type.fields.empty()) return false;
   std::size_t size = 0;
   for (const TypeField& f : type.fields) {

@@ -33,6 +33,36 @@ struct Outer {
   }
 };
 
+struct Reals {
+  double angle = 0;
+  Eigen::Vector3d position{};
+  std::array<std::array<double, 2>, 2> more{};
+  static constexpr auto fields() {
+    return describe(field<&Reals::angle>(), field<&Reals::position>(), field<&Reals::more>());
+  }
+};
+
+struct Padded {
+  float first = 0;
+  double second = 0;
+  static constexpr auto fields() { return describe(field<&Padded::first>(), field<&Padded::second>()); }
+};
+
+struct Floats {
+  float first = 0, second = 0;
+  static constexpr auto fields() { return describe(field<&Floats::first>(), field<&Floats::second>()); }
+};
+
+struct Counted {
+  double number = 0;
+  std::int64_t count = 0;
+  static constexpr auto fields() { return describe(field<&Counted::number>(), field<&Counted::count>()); }
+};
+
+struct Nothing {
+  static constexpr auto fields() { return describe(); }
+};
+
 // Binds a text into the value and returns the report.
 std::string bind_text(const std::string& text, Outer& value) {
   Problems problems;
@@ -120,6 +150,20 @@ TEST_SUITE("graph/values/type") {
           "  3\n"
           "  ^");
     CHECK(parse_scalar(type_of<Outer>(), "3", "", &value) == "is a single word");
+  }
+
+  TEST_CASE("what is made of doubles and nothing else is known: a float, a count or a gap among them and it is not") {
+    for (const Type* type : {&type_of<double>(), &type_of<Eigen::Vector3d>(), &type_of<std::array<double, 1>>(),
+                             &type_of<Reals>(), &type_of<std::array<Reals, 2>>()}) {
+      CAPTURE(type->name);
+      CHECK(is_made_of_doubles(*type));
+    }
+    for (const Type* type : {&type_of<float>(), &type_of<Floats>(), &type_of<Padded>(), &type_of<Counted>(),
+                             &type_of<std::int64_t>(), &type_of<Duration>(), &type_of<Outer>(),
+                             &type_of<std::array<float, 2>>(), &type_of<Sequence<double>>(), &type_of<Nothing>()}) {
+      CAPTURE(type->name);
+      CHECK_FALSE(is_made_of_doubles(*type));
+    }
   }
 
   TEST_CASE("infinities and NaN anywhere in a value are found") {
