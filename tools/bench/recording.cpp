@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <memory>
+#include <cstring>
 #include <stdexcept>
 
 #include "runtime/executor.h"
