@@ -139,7 +139,7 @@ nlohmann::ordered_json ToldChanges::to_json() const {
     auto values = nlohmann::ordered_json::object(), meanings = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < watch.leaves.size(); ++i) {
       const Word word = word_of(*watch.leaves[i].type, change.after[i]);
-      values[watch.leaves[i].path] = word.name;
+      values[watch.leaves[i].path.empty() ? "value" : watch.leaves[i].path] = word.name;
       if (!word.meaning.empty()) meanings.push_back(word.meaning);
     }
     json.push_back({{"communicator", graph_.communicators[watch.communicator].name},

@@ -43,7 +43,7 @@ class ToldChanges {
     std::size_t communicator = 0;
     std::vector<Leaf> leaves;  // its enumerations
     bool begun = false;
-    Numbers now{};  // once it has begun
+    Numbers now{};          // once it has begun
     std::size_t count = 0;  // of changes; the first are kept
     std::vector<Change> kept;
     void note(Duration instant, std::size_t watch, const void* value);

@@ -269,7 +269,8 @@ void add_vehicle(CommandLine& line, int& exit_code) {
                                          "process steer it in real time over a link");
   command->add_option("NAME", options->name, "A vehicle, as in submarine")->required();
   command->add_flag("--describe", options->describe, "Print state, inputs, outputs and parameters, with units");
-  command->add_flag("--json", options->json, "With --describe or --link: one JSON object instead of text");
+  command->add_flag("--json", options->json,
+                    "With --describe, or --link in real time: one JSON object instead of text");
   command->add_option("--parameters", options->parameters, "A parameter file, as in specs/vehicles/submarine.yaml");
   command->add_option("--set", options->set, "Change a parameter: path=value, as in sea.density=1025")->one_value();
   command->add_option("--initial", options->initial, "Change the state at the start, as in z=4,theta=0.1");
