@@ -34,7 +34,11 @@ void add_cpus(const std::string& part, const std::string& list, std::vector<int>
   if (last >= count)
     throw std::invalid_argument("--cpus: there is no CPU " + std::to_string(last) + "; this machine has 0 to " +
                                 std::to_string(count - 1));
-  for (int cpu = first; cpu <= last; ++cpu) cpus.push_back(cpu);
+  for (int cpu = first; cpu <= last; ++cpu) {
+    if (std::find(cpus.begin(), cpus.end(), cpu) != cpus.end())
+      throw std::invalid_argument("--cpus: '" + list + "' names CPU " + std::to_string(cpu) + " twice");
+    cpus.push_back(cpu);
+  }
 }
 
 }  // namespace

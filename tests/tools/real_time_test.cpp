@@ -204,6 +204,7 @@ TEST_SUITE("tools/real_time") {
           "error: --rt-priority 2: the tasks of '" + one + "' take 2 priorities below it; choose 3 or more\n");
     CHECK(refusal("--set platform.cores=2 --set tasks.timed.core=1 --cpus 0") ==
           "error: '" + one + "' has tasks on 2 cores; --cpus names 1 CPU\n");
+    CHECK(refusal("--cpus 0,0") == "error: --cpus: '0,0' names CPU 0 twice\n");
     CHECK(refusal("--workers 2") == "error: --workers belongs to the virtual clock; the real one goes by 'platform'\n");
   }
 }
