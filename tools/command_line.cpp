@@ -35,6 +35,11 @@ std::string wrong_number(const std::string& text) {
   return "'" + text + "' is no finite number in decimal; write it as in 20 or 0.5";
 }
 
+// As of a variable of the shell that is not set: it would be taken as if the option were not there.
+std::string wrong_text(const std::string& text) {
+  return text.empty() ? "'' says nothing; leave the option out, or give it something" : "";
+}
+
 // The first word that is written as an option and is none of the command.
 std::string unknown_option(const CLI::App& command, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
@@ -86,6 +91,7 @@ Option* Command::add_option(const std::string& name, T& value, const std::string
   CLI::Option& option = *app_.add_option(name, value, text);
   if constexpr (std::is_integral_v<T>) option.check(wrong_integer<T>);
   if constexpr (std::is_floating_point_v<T>) option.check(wrong_number);
+  if constexpr (!std::is_arithmetic_v<T>) option.check(wrong_text);
   return &options_.emplace_back(option);
 }
 template Option* Command::add_option(const std::string&, std::string&, const std::string&);
@@ -96,7 +102,9 @@ template Option* Command::add_option(const std::string&, double&, const std::str
 
 Option* Command::add_option(const std::string& name, const std::function<void(const std::string&)>& take,
                             const std::string& text) {
-  return &options_.emplace_back(*app_.add_option_function<std::string>(name, take, text));
+  CLI::Option& option = *app_.add_option_function<std::string>(name, take, text);
+  option.check(wrong_text);
+  return &options_.emplace_back(option);
 }
 
 Option* Command::add_flag(const std::string& name, bool& value, const std::string& text) {

@@ -61,4 +61,16 @@ TEST_SUITE("tools/command_line") {
     CHECK(refusal_of("check --write no/such.yaml --margin 2.5e1") ==
           "error: can't read 'no/such.yaml': No such file or directory\nno/such.yaml: 1 error\n");
   }
+
+  TEST_CASE("an empty word is not taken for an option that is not there") {
+    const std::string why =
+        ": '' says nothing; leave the option out, or give it something\n"
+        "Run with --help for more information.\n";
+    const std::string run = "run specs/counting.yaml --for 10ms ";
+    for (const std::string option : {"--trace", "--plot", "--profile", "--set", "--for", "--cpus"})
+      CHECK(refusal_of((option == "--for" ? "run specs/counting.yaml " : run) + option + " ''") == option + why);
+    CHECK(refusal_of("check '' specs/counting.yaml") == "FILE" + why);
+    CHECK(refusal_of("check specs/counting.yaml --svg ''") == "--svg" + why);
+    CHECK(refusal_of("vehicle submarine --link udp --listen ''") == "--listen" + why);
+  }
 }
