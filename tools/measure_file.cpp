@@ -84,6 +84,8 @@ void write_wcets(const std::string& file, const std::shared_ptr<const Source>& s
     wcets.push_back(row == rows.end() ? std::nullopt : row->written);
   }
   const std::string edited = with_wcets(source->text, spec, in_file, wcets);
+  if (read_source(file)->text != source->text)
+    throw std::invalid_argument("'" + file + "' was changed while it was measured; nothing is written, measure again");
   load_graph(std::make_shared<Source>(Source{file, edited}), {});
   WholeFile whole(file);
   whole.write(edited);

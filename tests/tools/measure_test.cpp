@@ -160,6 +160,18 @@ connections: [a.out -> b.in]
     CHECK(content(file) == shared);
   }
 
+  TEST_CASE("what is changed in a file while it is measured is not lost") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 1ms}}\n");
+    const auto refused = command::jarol(
+        "check --write --for 5000s " + file,
+        "2>&1 & id=$!; while kill -0 $id 2>&-; do echo '# more' >> " + file + "; sleep 0.01; done; wait $id");
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output ==
+          "error: '" + file + "' was changed while it was measured; nothing is written, measure again\n");
+    CHECK(content(file).starts_with("graph: t\ntasks: {a: {type: Counter, period: 1ms}}\n# more\n"));
+  }
+
   TEST_CASE("tasks that hear from a link to what goes on by itself are not measured") {
     const auto refused = command::jarol("check --measure specs/exolauv.yaml --profile dune");
     CHECK(refused.exit_code == 2);
