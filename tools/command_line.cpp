@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <iostream>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -42,14 +43,22 @@ std::string wrong_text(const std::string& text) {
 
 // The first word that is written as an option and is none of the command.
 std::string unknown_option(const CLI::App& command, const std::vector<std::string>& words) {
-  for (const std::string& word : words) {
-    const bool option = word.size() > 1 && word[0] == '-' && word.find_first_of("0123456789.") != 1;
-    if (word == "--") break;  // what follows are arguments
+  const auto options = command.get_options();
+  const auto find = [&](const std::string& name) {
+    return std::find_if(options.begin(), options.end(), [&](const CLI::Option* o) { return o->check_name(name); });
+  };
+  for (auto word = words.begin(); word != words.end(); ++word) {
+    const bool option = word->size() > 1 && (*word)[0] == '-' && word->find_first_of("0123456789.") != 1;
+    if (*word == "--") break;  // what follows are arguments
     if (!option) continue;
-    const std::string name = word.substr(0, word.find('='));
-    const auto options = command.get_options();
-    if (std::none_of(options.begin(), options.end(), [&](const CLI::Option* o) { return o->check_name(name); }))
-      return name;
+    const std::string name = word->substr(0, word->find('='));
+    auto known = find(name);
+    const bool joined = known == options.end() && !word->starts_with("--");  // as in -oFOLDER
+    if (joined) known = find(word->substr(0, 2));
+    if (known == options.end()) return name;
+    // what follows is its value, whatever it looks like
+    const bool takes_next = (*known)->get_items_expected_min() > 0 && !joined && name == *word;
+    if (takes_next && std::next(word) != words.end()) ++word;
   }
   return "";
 }

@@ -25,6 +25,13 @@ TEST_SUITE("tools/command_line") {
     CHECK(refusal_of("graph specs/counting.yaml -x") == "error: graph has no option '-x'" + of_graph);
     CHECK(refusal_of("run specs/counting.yaml --forr 1s")
               .starts_with("error: run has no option '--forr'; did you mean '--for'?; it has: --help, --for, "));
+    // a value may begin with a dash, and stand right behind a letter
+    CHECK(refusal_of("graph specs/counting.yaml --set -x=1 --profil lab") ==
+          "error: graph has no option '--profil'; did you mean '--profile'?" + of_graph);
+    CHECK(refusal_of("check --generate waters -ofolder --cout 3")
+              .starts_with("error: check has no option '--cout'; did you mean '--count'?; it has: "));
+    CHECK(refusal_of("check --generate waters -ofolder --count 0") ==
+          "--count: Value 0 not in range 1 to 1000000\nRun with --help for more information.\n");
     // behind two dashes stand arguments
     CHECK(refusal_of("graph -- --profil") == "error: can't read '--profil': No such file or directory\n1 error\n");
     CHECK(refusal_of("graph specs/counting.yaml another.yaml") ==
