@@ -140,6 +140,24 @@ TEST_SUITE("runtime/faults") {
     CHECK(lines_of(r, "zlast.out").ends_with("; 25ms zlast.out=4"));
   }
 
+  TEST_CASE("only tasks that declare hold or skip pay for a copy of their state") {
+    const Graph graph = tests::graph_of(R"(graph: t
+timing: {period: 10ms}
+communicators: {i: {type: double, direction: in}}
+tasks:
+  h: {type: Accumulate, on_fault: hold}
+  s: {type: Accumulate, on_fault: skip, let: 5ms}
+  t: {type: Accumulate}
+connections: [i -> h.in, i -> s.in, i -> t.in]
+)");
+    const Plan plan(graph);
+    CHECK(plan.status[0].kept != nullptr);
+    CHECK(plan.status[1].kept != nullptr);
+    CHECK(plan.status[2].kept == nullptr);
+    CHECK(plan.status[0].undoable);
+    CHECK_FALSE(plan.status[2].undoable);
+  }
+
   TEST_CASE("every fault is counted, the first thousand are told") {
     const auto r = run(", on_fault: hold, parameters: {first: 0, count: 5000}", 20s);
     CHECK(r.report.fault_count == 2000);
