@@ -15,7 +15,8 @@ struct MeasuredTask {
   Duration most_of_999{};  // at most so long in 99.9 % of the activations
 };
 
-/// Runs the graph on the virtual clock up to `end`; per task. Its channels are used up.
+/// Runs the graph on the virtual clock up to `end`; per task. Its channels are used up. Throws std::runtime_error if a
+/// vehicle in lockstep can't be reached or is lost, std::invalid_argument if a fault stops the run.
 std::vector<MeasuredTask> measure_tasks(Loaded& loaded, Duration end);
 
 /// What is written for a measured maximum: with the margin on top, rounded up to three digits.

@@ -111,6 +111,20 @@ TEST_SUITE("tools/lockstep") {
                           .c_str());
   }
 
+  TEST_CASE("tasks are measured with a vehicle in another process, too, and not without it") {
+    Process submarine("specs/vehicles/submarine.yaml", 1);
+    const auto measure = [](const std::string& link) {
+      return command::jarol("check --measure specs/exolauv.yaml --for 1s --set \"distributers.dune.link" + link + "\"");
+    };
+    const auto measured = measure(submarine.link());
+    CHECK(measured.exit_code == 0);
+    CHECK(measured.output.starts_with("specs/exolauv.yaml: measured over 1s of logical time on this machine\n"));
+    const std::string port = std::to_string(port_of(listen_at(Address::parse("0"))));  // free again at once
+    const auto refused = measure("={type: lockstep, peer: " + port + "}");
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output.starts_with("error: there is no vehicle at 127.0.0.1:" + port + ": Connection refused; "));
+  }
+
   TEST_CASE("periods that do not fall on the vehicle's steps are refused") {
     Process helicopter("specs/vehicles/helicopter.yaml", 1);
     tools::Loaded loaded = tools::load_graph(
