@@ -272,7 +272,7 @@ class PlanBuilder {
       const std::size_t lines = (type.size + Layout::line - 1) / Layout::line;
       if (group.let_doubles.first == nullptr) group.let_doubles.first = reinterpret_cast<const double*>(out);
       group.let_doubles.last = reinterpret_cast<const double*>(out + lines * Layout::line);
-    } else if (is_checked_at_let_end(task) && !type.fields.empty()) {
+    } else if (is_checked_at_let_end(task) && has_floating(type)) {
       plan_.let_values_.push_back({out, type.finite});
     }
   }

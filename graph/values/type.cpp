@@ -1,5 +1,6 @@
 #include "graph/values/type.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <string_view>
@@ -45,6 +46,12 @@ bool is_made_of_doubles(const Type& type) {
     size += f.type->size;
   }
   return size == type.size;
+}
+
+bool has_floating(const Type& type) {
+  if (type.element != nullptr) return has_floating(*type.element);
+  return type.kind == Kind::floating ||
+         std::any_of(type.fields.begin(), type.fields.end(), [](const TypeField& f) { return has_floating(*f.type); });
 }
 
 void copy_value(const Type& type, void* to, const void* from) {

@@ -71,6 +71,9 @@ bool same_type(const Type& a, const Type& b);
 /// True if its bytes are those of doubles, one after the other, and there is at least one.
 bool is_made_of_doubles(const Type& type);
 
+/// True if anything in it may be an infinity or a NaN.
+bool has_floating(const Type& type);
+
 /// Deep copy of a value.
 void copy_value(const Type& type, void* to, const void* from);
 

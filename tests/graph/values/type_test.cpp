@@ -166,6 +166,19 @@ TEST_SUITE("graph/values/type") {
     }
   }
 
+  TEST_CASE("what may be an infinity or a NaN is known") {
+    for (const Type* type : {&type_of<float>(), &type_of<Reals>(), &type_of<Counted>(), &type_of<Outer>(),
+                             &type_of<Sequence<double>>(), &type_of<std::array<Inner, 2>>()}) {
+      CAPTURE(type->name);
+      CHECK(has_floating(*type));
+    }
+    for (const Type* type : {&type_of<bool>(), &type_of<std::int64_t>(), &type_of<Mode>(), &type_of<Duration>(),
+                             &type_of<String>(), &type_of<Nothing>(), &type_of<std::array<std::int32_t, 2>>()}) {
+      CAPTURE(type->name);
+      CHECK_FALSE(has_floating(*type));
+    }
+  }
+
   TEST_CASE("infinities and NaN anywhere in a value are found") {
     Outer value;
     const Type& type = type_of<Outer>();
