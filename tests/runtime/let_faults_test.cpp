@@ -60,7 +60,7 @@ struct Mixed {
   }
 };
 
-tests::Run run(const std::string& tasks, Duration end, const std::string& connections = "") {
+Graph graph_with(const std::string& tasks, const std::string& connections = "") {
   static const Registry registry = [] {
     Registry made;
     tasks::add_tasks(made);
@@ -68,13 +68,16 @@ tests::Run run(const std::string& tasks, Duration end, const std::string& connec
     made.add(task_class<Mixed>());
     return made;
   }();
-  return tests::run_graph(tests::graph_of(registry, "graph: t\ntiming: {period: 10ms}\ntasks:\n" + tasks + connections),
-                          end);
+  return tests::graph_of(registry, "graph: t\ntiming: {period: 10ms}\ntasks:\n" + tasks + connections);
 }
 
-std::string faults_of(const tests::Run& r) {
+tests::Run run(const std::string& tasks, Duration end, const std::string& connections = "") {
+  return tests::run_graph(graph_with(tasks, connections), end);
+}
+
+std::string faults_of(const Report& report) {
   std::string text;
-  for (const Fault& fault : r.report.faults) text += (text.empty() ? "" : "; ") + to_text(fault);
+  for (const Fault& fault : report.faults) text += (text.empty() ? "" : "; ") + to_text(fault);
   return text;
 }
 }  // namespace
@@ -85,7 +88,7 @@ TEST_SUITE("runtime/let_faults") {
         run("  a: {type: Doubles, let: 5ms}\n  b: {type: Doubles, let: 5ms, parameters: {at: 2, times: -2}}\n"
             "  c: {type: Doubles, let: 5ms}\n  d: {type: Mixed, let: 5ms}\n",
             100ms);
-    CHECK(faults_of(r) == "task 'b' activation 2 at 0.025 s: output 'second' is -inf");
+    CHECK(faults_of(r.report) == "task 'b' activation 2 at 0.025 s: output 'second' is -inf");
     CHECK(r.report.stopped);
     CHECK(lines_of(r, "a.second") == "5ms a.second=1; 15ms a.second=1; 25ms a.second=1");
     CHECK(lines_of(r, "b.first") == "5ms b.first=1; 15ms b.first=1");
@@ -98,13 +101,13 @@ TEST_SUITE("runtime/let_faults") {
         run("  a: {type: Doubles, let: 10ms, parameters: {nan: true}}\n  r: {type: Relay}\n"
             "  t: {type: Doubles, let: 5ms, offset: 5ms}\n",
             100ms, "connections: [a.second -> r.in]\n");
-    CHECK(faults_of(r) == "task 'a' activation 1 at 0.02 s: output 'second' is nan");
+    CHECK(faults_of(r.report) == "task 'a' activation 1 at 0.02 s: output 'second' is nan");
     CHECK(lines_of(r, "r.out") == "0ns r.out=0; 10ms r.out=1; 20ms r.out=1");
   }
 
   TEST_CASE("a LET task whose outputs are not all doubles is looked at as well") {
     const auto r = run("  a: {type: Mixed, let: 4ms, offset: 3ms, parameters: {at: 3, times: 2}}\n", 100ms);
-    CHECK(faults_of(r) == "task 'a' activation 3 at 0.037 s: output 'number' is inf");
+    CHECK(faults_of(r.report) == "task 'a' activation 3 at 0.037 s: output 'number' is inf");
     CHECK(lines_of(r, "a.bits") == "7ms a.bits=-1; 17ms a.bits=-1; 27ms a.bits=-1");
   }
 
@@ -113,7 +116,7 @@ TEST_SUITE("runtime/let_faults") {
     for (const char* name : {"a", "b", "c"})
       tasks += std::string("  ") + name + ": {type: Doubles, let: 5ms, parameters: {times: 0.5}}\n";
     const auto r = run(tasks, 30ms);
-    CHECK(faults_of(r).empty());
+    CHECK(faults_of(r.report).empty());
     CHECK(lines_of(r, "c.second") == "5ms c.second=1; 15ms c.second=8.988465674311579e+307; 25ms c.second=1");
   }
 
@@ -122,11 +125,30 @@ TEST_SUITE("runtime/let_faults") {
         run("  a: {type: Doubles, let: 5ms}\n  b: {type: Doubles, let: 5ms, parameters: {throws: true}}\n"
             "  c: {type: Mixed, let: 5ms, parameters: {throws: true}}\n  d: {type: Doubles, let: 5ms}\n",
             100ms);
-    CHECK(faults_of(r) ==
+    CHECK(faults_of(r.report) ==
           "task 'b' activation 1 at 0.015 s: threw: too hot; task 'c' activation 1 at 0.015 s: threw: too hot");
     CHECK(lines_of(r, "a.second") == "5ms a.second=1; 15ms a.second=1");
     CHECK(lines_of(r, "c.bits") == "5ms c.bits=-1");
     CHECK(lines_of(r, "d.second") == "5ms d.second=1; 15ms d.second=1");
+  }
+
+  TEST_CASE("several workers, who look at once, tell the same faults and publish the same") {
+    for (const std::string what : {"nan: true", "times: 2", "times: 0.5", "throws: true", "at: -1"}) {
+      CAPTURE(what);
+      std::string tasks = "  m: {type: Mixed, let: 10ms, parameters: {" + what + "}}\n";
+      for (const char* name : {"a", "b", "c"})
+        tasks += std::string("  ") + name + ": {type: Doubles, let: 10ms, parameters: {" + what + "}}\n";
+      const Graph graph = graph_with(tasks + "  other: {type: Doubles, let: 4ms, offset: 6ms}\n");
+      Executor one(graph, {});
+      one.run_until(50ms);
+      for (const std::size_t workers : {2, 4}) {
+        Executor several(graph, {}, {.workers = workers, .sharing = Sharing::always});
+        several.run_until(50ms);
+        CHECK(faults_of(several.report()) == faults_of(one.report()));
+        CHECK(several.report().digest == one.report().digest);
+        CHECK(several.report().activations == one.report().activations);
+      }
+    }
   }
 
   TEST_CASE("numbers are surely finite unless one is not, wherever it stands, or their sum is too great") {
