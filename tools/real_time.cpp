@@ -55,7 +55,7 @@ void add_real_time_options(Command& command, RealTimeArguments& arguments) {
   command.add_option("--cpus", arguments.cpus,
                      "Real clock: CPUs on which tasks may run, as in 0,2-3, one for each core; default: any");
   command.add_flag("--spin", arguments.spin, "Real clock: wait for the instant without sleeping, at the cost of a CPU");
-  command.add_flag("--force", arguments.force, "Real clock: run also what check finds not schedulable");
+  command.add_flag("--force", arguments.force, "Real clock: run also what check has a negative verdict on");
 }
 
 RealTimeOptions options_of(const RealTimeArguments& arguments) {
