@@ -38,8 +38,6 @@ class Builder {
     graph_.platform.dispatch = value_of(spec_.platform.dispatch).value_or(Duration{});
     graph_.platform.copy = value_of(spec_.platform.copy).value_or(Duration{});
     if (spec_.platform.phasing) graph_.platform.phasing = spec_.platform.phasing->value;
-    if (graph_.platform.cores < 1)
-      problems_.add(spec_.platform.cores->where, "'platform' key 'cores' is 0; a platform has at least one core");
     add_distributers();
     add_communicators();
     add_tasks();
@@ -247,6 +245,11 @@ class Builder {
         if (spec.heap->value > most)
           problems_.add(spec.heap->where, subject + " has a heap of more than 1GiB, the largest there is");
         task.heap = static_cast<std::size_t>(std::min(spec.heap->value, most));
+        if (heaps_ <= most && heaps_ + spec.heap->value > most && spec.heap->value <= most)
+          problems_.add(spec.heap->where, subject +
+                                              " has a heap with which those of all tasks are more than 1GiB "
+                                              "together, the most there is");
+        heaps_ += std::min(spec.heap->value, most);
       } else if (task.task_class != nullptr && task.task_class->is_deep()) {
         task.heap = default_heap;
       }
@@ -290,7 +293,8 @@ class Builder {
   Problems& problems_;
   Graph graph_;
   std::vector<Maybe<Duration>> declared_deadlines_;
-  bool complete_ = true;  // order and deadlines make sense
+  std::int64_t heaps_ = 0;  // bytes of all that are stated
+  bool complete_ = true;    // order and deadlines make sense
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ Json value_schema(const Key<S>& key) {
     case Form::word: return {{"type", "string"}};
     case Form::duration:
     case Form::positive_duration: return {{"type", "string"}, {"pattern", duration_pattern}};
-    case Form::integer:
+    case Form::integer: return {{"type", "integer"}, {"minimum", key.least}, {"maximum", key.most}};
     case Form::id: return {{"type", "integer"}, {"minimum", 0}};
     case Form::bytes: return {{"type", "string"}, {"pattern", bytes_pattern}};
     case Form::frequency: return {{"type", {"string", "number"}}};

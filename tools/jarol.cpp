@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <new>
 
 #include "graph/yaml/problems.h"
 #include "tools/command_line.h"
@@ -49,6 +50,9 @@ int run_command(int argc, char** argv) {
     const std::size_t count = error.problems().size();
     std::cerr << count << (count == 1 ? " error\n" : " errors\n");
     return tools::exit_input;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "error: there is not enough memory for this\n";
+    return tools::exit_unfinished;
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << "\n";
     return tools::exit_input;

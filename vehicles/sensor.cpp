@@ -10,6 +10,7 @@ namespace jarol::vehicles {
 namespace {
 
 constexpr Duration grid = std::chrono::milliseconds(10);
+constexpr Duration longest_delay = std::chrono::minutes(1);  // what was measured meanwhile is kept
 
 std::int64_t steps_of(Duration duration, const std::string& what) {
   if (duration < Duration{} || duration % grid != Duration{})
@@ -27,6 +28,7 @@ Sensor::Sensor(const Errors& errors, Duration period, Duration delay, const std:
       width_(width),
       noise_(spread_seed(seed, name)) {
   if (period_ == 0) throw std::runtime_error("submarine: sensors." + name + ".period must be above zero");
+  if (delay > longest_delay) throw std::runtime_error("submarine: sensors." + name + ".delay is longer than a minute");
   if (!(errors.noise >= 0.0)) throw std::runtime_error("submarine: sensors." + name + ".noise is below zero");
   if (!(errors.resolution >= 0.0)) throw std::runtime_error("submarine: sensors." + name + ".resolution is below zero");
   pending_.resize(static_cast<std::size_t>(delay_ / period_) + 1);

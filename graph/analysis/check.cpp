@@ -1,6 +1,7 @@
 #include "graph/analysis/check.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 #include "graph/analysis/global_edf.h"
@@ -101,6 +102,7 @@ Result check_partitioned(const System& system) {
   if (!result.reason.empty()) return result;
   result.verdict = Verdict::schedulable;
   result.standing = Standing::proof;
+  if (system.loads.empty()) result.reason = "there is no task to be late";
   for (std::size_t c = 0; c < static_cast<std::size_t>(system.cores); ++c) {
     std::vector<std::size_t> tasks;
     for (std::size_t i = 0; i < partition.core.size(); ++i)
@@ -152,6 +154,7 @@ Result check(const System& system) {
   Result result = system.policy == Policy::table        ? check_on_table(system)
                   : system.policy == Policy::global_edf ? check_globally(system)
                                                         : check_partitioned(system);
+  assert(result.response.size() == system.loads.size() && result.core.size() == system.loads.size());
   result.utilisation = utilisation(system.loads);
   return result;
 }

@@ -7,7 +7,8 @@ namespace jarol::analysis {
 namespace {
 
 constexpr std::int64_t far = std::int64_t{1} << 61;
-constexpr std::uint64_t most_steps = 2'000'000'000;  // of all tasks together
+constexpr std::uint64_t most_steps = 2'000'000'000;   // of all tasks together
+constexpr std::int64_t most_activations = 1'000'000;  // of one task in a busy period
 
 // What more urgent tasks need, those of equal period and jitter together.
 class Interference {
@@ -58,6 +59,7 @@ std::optional<std::int64_t> preemptive_response(const Load& load, const Interfer
   // it does not run before the one above it has ended, and runs then
   std::int64_t response = 0, window = std::max(load.blocking, first_window) + load.wcet;
   for (std::int64_t q = 0;; ++q) {
+    if (q == most_activations) return std::nullopt;
     const Wide own = static_cast<Wide>(load.blocking) + static_cast<Wide>(q + 1) * load.wcet;
     const auto end = least_fixed_point(std::max(window, static_cast<std::int64_t>(own)), steps, more_urgent.size(),
                                        [&](std::int64_t w) { return own + more_urgent.demand(w, false); });
@@ -78,7 +80,7 @@ std::optional<std::int64_t> nonpreemptive_response(const Load& load, const Inter
                           ? std::optional(repeats)
                           : least_fixed_point(std::max<std::int64_t>(1, blocking), steps, busy.size(),
                                               [&](std::int64_t w) { return blocking + busy.demand(w, false); });
-  if (!length) return std::nullopt;
+  if (!length || (*length + load.jitter) / load.period > most_activations) return std::nullopt;
   std::int64_t response = 0, start = blocking;
   for (std::int64_t q = 0; q * load.period < *length + load.jitter; ++q) {
     const Wide own = static_cast<Wide>(blocking) + static_cast<Wide>(q) * load.wcet;

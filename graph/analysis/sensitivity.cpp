@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/spec/tables.h"
+
 namespace jarol::analysis {
 namespace {
 
@@ -105,7 +107,7 @@ std::vector<Suggestion> suggestions_for(const System& system) {
   }
   System wider = system;
   wider.cores = system.cores + 1;
-  if (found.size() < most && holds(wider))
+  if (found.size() < most && wider.cores <= most_cores && holds(wider))
     found.push_back({Suggestion::Kind::more_cores, 0, wider.cores, system.policy});
   return found;
 }

@@ -1,5 +1,6 @@
 #include "graph/analysis/system.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "graph/stages.h"
@@ -16,7 +17,10 @@ System system_of(const Graph& graph) {
     if (c.from.kind == End::Kind::task) bytes[c.from.index] += static_cast<std::int64_t>(c.type->size);
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Task& t = graph.tasks[i];
-    const std::int64_t overhead = t.wcet ? graph.platform.dispatch.count() + graph.platform.copy.count() * bytes[i] : 0;
+    // more than the longest deadline that there is need not be told apart
+    const Wide handed_on = static_cast<Wide>(graph.platform.copy.count()) * bytes[i] + graph.platform.dispatch.count();
+    const std::int64_t overhead =
+        t.wcet ? static_cast<std::int64_t>(std::min<Wide>(handed_on, longest_duration.count())) : 0;
     system.loads.push_back({t.wcet.value_or(Duration{}).count() + overhead, t.period.count(), t.deadline.count(),
                             t.offset.count(), t.jitter.count(), t.blocking.count(), overhead});
     system.priority.push_back(t.priority);

@@ -34,7 +34,9 @@ CoreResult check_table(const System& system, const std::vector<std::size_t>& cor
   constexpr std::size_t most_slices = 200;
   constexpr std::size_t most_validated = 50'000;
   constexpr std::int64_t most_time = std::int64_t{1} << 60;
+  const std::size_t n = system.loads.size();
   CoreResult result;
+  result.responses.resize(n);
   std::vector<Slice> recent;  // beyond those that are kept for the validation
   if (!system.offsets_hold) {
     result.reason = "a table needs offsets that hold; 'phasing: any' has none";
@@ -50,7 +52,6 @@ CoreResult check_table(const System& system, const std::vector<std::size_t>& cor
   std::int64_t largest_offset = 0;
   for (const Load& l : system.loads) largest_offset = std::max(largest_offset, l.offset);
   const std::int64_t end = lcm ? largest_offset + 2 * *lcm : most_time;
-  const std::size_t n = system.loads.size();
   std::vector<std::vector<std::size_t>> producers(n);
   for (const auto& [producer, reader] : system.follows)
     if (core[producer] != core[reader]) producers[reader].push_back(producer);
@@ -63,7 +64,6 @@ CoreResult check_table(const System& system, const std::vector<std::size_t>& cor
       if (!too_much)
         result.reason = "the periods repeat only after more than " + std::to_string(most) +
                         " activations, and none of these is late";
-      result.responses.resize(n);
       return result;
     }
     Job job = jobs.top();
@@ -90,7 +90,6 @@ CoreResult check_table(const System& system, const std::vector<std::size_t>& cor
       if (result.slices.size() > most_slices)
         result.slices.erase(result.slices.begin(), result.slices.end() - static_cast<std::ptrdiff_t>(most_slices));
       result.late = Late{job.task, job.activation, job.release, finish, job.release + load.deadline};
-      result.responses.resize(n);
       return result;
     }
     job.release += load.period;
@@ -99,7 +98,7 @@ CoreResult check_table(const System& system, const std::vector<std::size_t>& cor
   }
   const std::string fault = recent.empty() && !too_much ? fault_of_table(system, core, result.slices, end) : "";
   result.slices.clear();
-  for (const std::int64_t r : response) result.responses.emplace_back(r);
+  result.responses.assign(response.begin(), response.end());
   if (!fault.empty()) {
     result.reason = "the table that was found is wrong, please report this: " + fault;
     return result;

@@ -28,16 +28,15 @@ bool read_word(const Yaml& yaml, std::string& to, const std::string& subject, Pr
 bool read_duration(const Yaml& yaml, bool positive, Duration& to, const std::string& subject, Problems& problems) {
   if (!is_scalar(yaml, "a duration, as in 10ms", subject, problems)) return false;
   if (!passes(yaml, parse_duration(yaml.text, to), subject, problems)) return false;
-  // so that an offset and a LET can be added without overflow
-  constexpr Duration most = std::chrono::hours(24) * 365 * 100;
-  if (!passes(yaml, to <= most ? "" : "is longer than a hundred years", subject, problems)) return false;
+  if (!passes(yaml, to <= longest_duration ? "" : "is longer than ten years", subject, problems)) return false;
   if (positive) return passes(yaml, to.count() > 0 ? "" : "is not above zero", subject, problems);
   return passes(yaml, to.count() >= 0 ? "" : "is below zero", subject, problems);
 }
 
-bool read_integer(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems) {
+bool read_integer(const Yaml& yaml, std::int64_t least, std::int64_t most, std::int64_t& to, const std::string& subject,
+                  Problems& problems) {
   if (!is_scalar(yaml, "an integer", subject, problems)) return false;
-  return passes(yaml, parse_integer(yaml.text, 0, std::numeric_limits<std::int32_t>::max(), to), subject, problems);
+  return passes(yaml, parse_integer(yaml.text, least, most, to), subject, problems);
 }
 
 bool read_id(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -24,6 +25,13 @@ struct Key {
   std::string text;                  // for people: meaning and default
   std::vector<std::string> choices;  // Form::choice
   void (*read)(const Key& key, const Yaml& yaml, S& to, const std::string& subject, Problems& problems) = nullptr;
+  std::int64_t least = 0, most = std::numeric_limits<std::int32_t>::max();  // Form::integer
+
+  Key in_range(std::int64_t from, std::int64_t to) && {
+    least = from;
+    most = to;
+    return std::move(*this);
+  }
 };
 
 /// The words of an enumeration, in the order of its values.
@@ -61,7 +69,8 @@ namespace detail {
 // Each reports what is wrong and returns false, or fills `to`.
 bool read_word(const Yaml& yaml, std::string& to, const std::string& subject, Problems& problems);
 bool read_duration(const Yaml& yaml, bool positive, Duration& to, const std::string& subject, Problems& problems);
-bool read_integer(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems);
+bool read_integer(const Yaml& yaml, std::int64_t least, std::int64_t most, std::int64_t& to, const std::string& subject,
+                  Problems& problems);
 bool read_id(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems);
 bool read_bytes(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems);
 bool read_frequency(const Yaml& yaml, double& to, const std::string& subject, Problems& problems);  // rad/s
@@ -82,7 +91,7 @@ void read_member(const Key<S>& key, const Yaml& yaml, S& to, const std::string& 
   } else if constexpr (std::is_same_v<T, std::int64_t>) {
     good = key.form == Form::bytes ? read_bytes(yaml, value.value, what, problems)
            : key.form == Form::id  ? read_id(yaml, value.value, what, problems)
-                                   : detail::read_integer(yaml, value.value, what, problems);
+                                   : detail::read_integer(yaml, key.least, key.most, value.value, what, problems);
   } else if constexpr (std::is_same_v<T, double>) {
     good = read_frequency(yaml, value.value, what, problems);
   } else if constexpr (std::is_same_v<T, Yaml>) {

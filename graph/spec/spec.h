@@ -10,6 +10,9 @@
 
 namespace jarol {
 
+/// Of any duration in a graph: more than a score of them can be added without overflow.
+inline constexpr Duration longest_duration = std::chrono::hours(24) * 365 * 10;
+
 /// A value and where it was written.
 template <class T>
 struct Located {

@@ -93,7 +93,7 @@ const std::vector<Key<ChainSpec>>& chain_keys() {
 
 const std::vector<Key<PlatformSpec>>& platform_keys() {
   static const std::vector<Key<PlatformSpec>> keys{
-      key<&PlatformSpec::cores>("cores", Form::integer, "number of cores, default 1"),
+      key<&PlatformSpec::cores>("cores", Form::integer, "number of cores, default 1").in_range(1, most_cores),
       key<&PlatformSpec::policy>("policy", Form::choice, "scheduling policy, default table"),
       key<&PlatformSpec::phasing>("phasing", Form::choice,
                                   "do offsets hold as given, or is every shift possible; default given"),

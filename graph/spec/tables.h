@@ -5,6 +5,9 @@
 
 namespace jarol {
 
+/// Of a platform.
+inline constexpr std::int64_t most_cores = 1024;
+
 const std::vector<Key<GraphSpec>>& graph_keys();
 const std::vector<Key<TimingSpec>>& timing_keys();
 const std::vector<Key<DistributerSpec>>& distributer_keys();

@@ -77,6 +77,15 @@ tasks:
               ["digest_claimed"] == false);
   }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need memory of their own
+  TEST_CASE("what a machine has no memory for is told in words") {
+    const Result run = jarol("schema > /dev/null; ulimit -v 1000000; " JAROL_COMMAND
+                             " run specs/window.yaml --for 1s --set tasks.window.heap=1GiB");
+    CHECK(run.exit_code == 3);
+    CHECK(run.output == "error: there is not enough memory for this\n");
+  }
+#endif
+
   TEST_CASE("run tells how much of each private heap was in use at most, and a trace holds sequences whole") {
     const TemporaryFolder folder;
     const auto run = json_of("run specs/window.yaml --for 1s --json --trace " + (folder / "t.csv"));

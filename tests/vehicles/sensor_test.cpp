@@ -123,6 +123,9 @@ TEST_SUITE("vehicles/sensor") {
     CHECK_THROWS_WITH_AS(told(parameters, 1),
                          "submarine: sensors.depth.delay must be a multiple of the vehicle's steps of 10ms",
                          std::runtime_error);
+    parameters.delay = 60010ms;
+    CHECK_THROWS_WITH_AS(told(parameters, 1), "submarine: sensors.depth.delay is longer than a minute",
+                         std::runtime_error);
     parameters.delay = {};
     parameters.noise = -1;
     CHECK_THROWS_WITH_AS(told(parameters, 1), "submarine: sensors.depth.noise is below zero", std::runtime_error);
