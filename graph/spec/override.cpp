@@ -48,7 +48,8 @@ void set_source(Yaml& yaml, const std::shared_ptr<const Source>& source) {
 
 void apply_override(Yaml& graph, const std::string& path, const Location& where, Yaml value, Problems& problems) {
   const std::vector<std::string> parts = split(path);
-  Yaml* at = &graph;
+  const bool takes_away = value.kind == Yaml::Kind::null;
+  Yaml *at = &graph, *above = nullptr;
   std::string done;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string& part = parts[i];
@@ -61,15 +62,16 @@ void apply_override(Yaml& graph, const std::string& path, const Location& where,
     Yaml* child = find_child(*at, part);
     if (child == nullptr) {
       std::vector<std::string> known = keys_of(*at);
-      bool must_exist = i == 1 && holds_named_entries(parts[0]);
-      if (i == 0) {
+      bool must_exist = takes_away || (i == 1 && holds_named_entries(parts[0]));
+      if (i == 0 && !takes_away) {
         known.clear();
         for (const auto& k : graph_keys()) known.push_back(k.name);
         must_exist = std::find(known.begin(), known.end(), part) == known.end();
       }
       if (must_exist)
         return problems.add(where, "path '" + path + "': " + so_far + " has no '" + part + "'" +
-                                       did_you_mean(part, known) + "; it has: " + list_of(known));
+                                       (takes_away ? " that could be taken away" : "") + did_you_mean(part, known) +
+                                       "; it has: " + list_of(known));
       Yaml made;
       made.kind = Yaml::Kind::mapping;
       made.where = where;
@@ -79,7 +81,12 @@ void apply_override(Yaml& graph, const std::string& path, const Location& where,
       child = &at->children.back();
     }
     done += (done.empty() ? "" : ".") + part;
+    above = at;
     at = child;
+  }
+  if (takes_away) {
+    above->children.erase(above->children.begin() + (at - above->children.data()));
+    return;
   }
   value.key = at->key;
   value.key_where = at->key_where;
@@ -92,6 +99,11 @@ bool read_set(const std::string& argument, std::string_view example, std::string
   const std::size_t equals = argument.find('=');
   if (equals == std::string::npos || equals == 0) {
     problems.add({source, 1, 1}, "'" + argument + "' is no override; write path=value, as in " + std::string(example));
+    return false;
+  }
+  if (argument.find_first_not_of(' ', equals + 1) == std::string::npos) {
+    problems.add({source, 1, static_cast<int>(equals) + 2},
+                 "'" + argument + "' gives no value; write path=value, as in " + std::string(example));
     return false;
   }
   // the value alone is read as YAML; blanks in front of it keep its place in the argument

@@ -30,7 +30,7 @@ const std::vector<std::string> brought_about_elsewhere{
     "' is a shared library without tasks; name them with JAROL_PLUGIN, see graph/plugin.h", "' was built for ",
     ", this is ", "; build it again", "' brings a task type '", "', which there is already", "unknown reason",
     // an argument: tests/graph/spec/override_test.cpp
-    "' is no override; write path=value, as in ",
+    "' is no override; write path=value, as in ", "' gives no value; write path=value, as in ",
     // a value of a program's own: tests/graph/values/type_test.cpp
     " needs a mapping of its ", "is beyond what a float holds", "is a single word",
     // megabytes of text, no text at all: tests/graph/yaml/yaml_test.cpp

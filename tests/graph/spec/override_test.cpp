@@ -31,6 +31,44 @@ TEST_SUITE("graph/spec/override") {
     CHECK(graph_of(counting, {"slow", {"tasks.count.period=20ms"}}).tasks[0].period == std::chrono::milliseconds(20));
   }
 
+  TEST_CASE("null takes a key away, as if it did not stand there") {
+    const std::string let =
+        "graph: t\ntasks:\n  a: {type: Relay, period: 10ms, let: 5ms, init: {out: 2}}\n"
+        "connections: [a.out -> a.in]\nplatform: {cores: 2}\n"
+        "profiles: {one: {platform: ~}, flow: {tasks.a.let: null}}\n";
+    CHECK(graph_of(let).platform.cores == 2);
+    CHECK(graph_of(let, {"one", {}}).platform.cores == 1);
+    CHECK(graph_of(let, {"", {"tasks.a.let=7ms"}}).tasks[0].let == std::chrono::milliseconds(7));
+    const std::string cycle = report_on(let, {"flow", {}});
+    CHECK(cycle.find("tasks a -> a feed each other in a cycle without a LET") != std::string::npos);
+    CHECK(report_on(let, {"", {"tasks.a.let=null"}}) == cycle);
+    // what is taken away can be given again, and nothing more is taken
+    CHECK(graph_of(let, {"flow", {"tasks.a.let=6ms"}}).tasks[0].let == std::chrono::milliseconds(6));
+    CHECK(graph_of(let, {"", {"tasks.a.init.out=null"}}).tasks[0].period == std::chrono::milliseconds(10));
+  }
+
+  TEST_CASE("what is not there can't be taken away, and no value is none") {
+    CHECK(report_on(counting, {"", {"tasks.count.perod=null"}}) ==
+          "--set:1:1: error: path 'tasks.count.perod': 'tasks.count' has no 'perod' that could be taken away; did you "
+          "mean 'period'?; it has: type, period\n"
+          "  tasks.count.perod=null\n"
+          "  ^");
+    CHECK(
+        report_on(counting, {"", {"platform.cores=~"}}) ==
+        "--set:1:1: error: path 'platform.cores': the graph has no 'platform' that could be taken away; it has: graph, "
+        "tasks, profiles\n"
+        "  platform.cores=~\n"
+        "  ^");
+    CHECK(report_on(counting, {"", {"tasks.count=null"}}) ==
+          "t.yaml:1:1: error: the graph holds no task, communicator or distributer; add a task below 'tasks:'\n"
+          "  graph: t\n"
+          "  ^");
+    CHECK(report_on(counting, {"", {"tasks.count.period="}}) ==
+          "--set:1:20: error: 'tasks.count.period=' gives no value; write path=value, as in tasks.depth.period=20ms\n"
+          "  tasks.count.period=\n"
+          "                     ^");
+  }
+
   TEST_CASE("an override of what is not there is an error that points into the argument") {
     CHECK(report_on(counting, {"", {"tasks.cont.period=20ms"}}) ==
           "--set:1:1: error: path 'tasks.cont.period': 'tasks' has no 'cont'; did you mean 'count'?; it has: count\n"
