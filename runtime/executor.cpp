@@ -68,6 +68,11 @@ void Executor::run_until(Duration end) {
   if (options_.clock != nullptr) {
     record ? walk<true, true, true>(end) : walk<true, false, true>(end);
     if (threads_ != nullptr) drain_threads();
+    // the vehicle goes on without us
+    if (report_.stopped) {
+      const MemoryScope outside(nullptr);
+      safe_commands_.hand_over_at_end(channels_);
+    }
   } else if (options_.digest) {
     record ? walk<true, true, false>(end) : walk<true, false, false>(end);
   } else {

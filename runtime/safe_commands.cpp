@@ -35,4 +35,12 @@ const void* SafeCommands::in_place_of_input(std::size_t out, Duration instant) {
   return graph_.communicators[out].safe->data();
 }
 
+void SafeCommands::hand_over_at_end(std::span<const std::unique_ptr<Channels>> channels) {
+  for (SafeCommandReport& report : reports_) {
+    const Communicator& out = graph_.communicators[report.communicator];
+    channels[*out.distributer]->hand_over(out.channel, out.safe->data());
+    report.at_end = true;
+  }
+}
+
 }  // namespace jarol

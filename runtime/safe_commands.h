@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "graph/graph.h"
+#include "runtime/channels.h"
 
 namespace jarol {
 
@@ -17,6 +20,7 @@ struct SafeCommandReport {
   std::uint64_t times = 0;     // that it fell silent after that
   std::uint64_t commands = 0;  // that were handed over meanwhile
   Duration first{}, last{};    // instants of these, if any
+  bool at_end = false;         // once more, as a fault ended the run
 };
 
 class SafeCommands {
@@ -30,6 +34,9 @@ class SafeCommands {
   /// What an `out` communicator has to hand over now in place of its input, or null. A channel that never brought
   /// anything is silent from the start; else one whose newest value is older than its time-out.
   const void* in_place_of_input(std::size_t out, Duration instant);
+
+  /// Hands over every safe value that there is: no command follows. What is published does not change by it.
+  void hand_over_at_end(std::span<const std::unique_ptr<Channels>> channels);
 
   /// Per `out` communicator with a safe value, in their order.
   const std::vector<SafeCommandReport>& reports() const { return reports_; }

@@ -126,6 +126,7 @@ void ThreadsCore::run_for(Duration end, const std::function<void()>& prepare) {
     signal->interrupt();
     if (thread->joinable()) thread->join();
   }
+  if (report_.stopped && !failure_) safe_commands_.hand_over_at_end(channels_);
   report_.non_finite_inputs = refused_inputs_;
   for (const auto& channels : channels_) report_.non_finite_inputs += channels->non_finite_inputs();
   report_.simulated = now();

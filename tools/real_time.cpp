@@ -165,6 +165,7 @@ std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& sa
     if (safe.commands > 0)
       text += fmt::format("  safe        {}: {} times for silence, {} commands, the first at {} s, the last at {} s\n",
                           name, safe.times, safe.commands, seconds_text(safe.first), seconds_text(safe.last));
+    if (safe.at_end) text += fmt::format("  safe        {}: the last command, as a fault ended the run\n", name);
   }
   return text;
 }
@@ -174,7 +175,8 @@ nlohmann::ordered_json to_json(const Graph& graph, const std::vector<SafeCommand
   for (const SafeCommandReport& safe : safe_commands)
     json[graph.communicators[safe.communicator].name] = {
         {"heard", safe.heard},       {"at_start", safe.at_start},      {"times", safe.times},
-        {"commands", safe.commands}, {"first_ns", safe.first.count()}, {"last_ns", safe.last.count()}};
+        {"commands", safe.commands}, {"first_ns", safe.first.count()}, {"last_ns", safe.last.count()},
+        {"at_end", safe.at_end}};
   return json;
 }
 

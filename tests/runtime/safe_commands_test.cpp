@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <optional>
 
 #include "runtime/threads_core.h"
 #include "tests/runtime/trace_of.h"
@@ -36,7 +37,7 @@ class Sensor : public Channels {
   std::size_t next_ = 0;
 };
 
-Graph graph_with_timeout() {
+Graph graph_with_timeout(const std::string& task = "Relay") {
   static const Registry registry = [] {
     Registry made;
     tasks::add_tasks(made);
@@ -45,15 +46,16 @@ Graph graph_with_timeout() {
         "Plant", "for tests", {{"sensor", Direction::in, number, ""}, {"actuator", Direction::out, number, ""}}, true});
     return made;
   }();
-  const std::string text = R"(graph: t
+  std::string text = R"(graph: t
 timing: {period: 10ms}
 distributers: {p: {type: Plant, link: {type: test}}}
 communicators:
   i: {channel: p.sensor, timeout: 20ms}
   o: {channel: p.actuator, offset: 5ms, safe: -1}
-tasks: {r: {type: Relay}}
+tasks: {r: {type: TASK}}
 connections: [i -> r.in, r.out -> o]
 )";
+  text.replace(text.find("TASK"), 4, task);
   return jarol::tests::graph_of(registry, text);
 }
 
@@ -145,5 +147,48 @@ TEST_SUITE("runtime/safe_commands") {
     CHECK(core.safe_commands().front().commands >= 1);
     CHECK(core.safe_commands().front().first > 20ms);
     CHECK(handed.back() == -1);
+  }
+
+  TEST_CASE("where a fault ends a run in real time the safe value is the last one, beside what is published") {
+    const Graph graph = graph_with_timeout("Accumulate");
+    const std::vector<std::pair<Duration, double>> beyond_double{{0ms, 1e308}, {10ms, 1e308}};
+    std::vector<double> handed;
+    Executor executor(graph, sensor(beyond_double, handed));
+    executor.run_until(80ms);
+    CHECK(executor.report().stopped);
+    CHECK(handed == std::vector<double>{1e308});
+    CHECK_FALSE(executor.safe_commands().front().at_end);
+    std::optional<Executor> real;
+    // again when the machine was late for reasons of its own
+    for (int attempt = 0; attempt < 20 && handed.size() < 2; ++attempt) {
+      handed.clear();
+      RealClock clock(graph.tasks.size());
+      real.emplace(graph, sensor(beyond_double, handed), ExecutorOptions{.clock = &clock});
+      clock.start();
+      real->run_until(80ms);
+      real->run_until(90ms);
+      CHECK(real->report().stopped);
+      CHECK(handed.back() == -1);
+      CHECK(real->safe_commands().front().at_end);
+    }
+    CHECK(handed == std::vector<double>{1e308, -1});
+    CHECK(real->report().digest == executor.report().digest);
+    // a run to its end leaves its last command
+    handed.clear();
+    RealClock other(graph.tasks.size());
+    Executor whole(graph, sensor({{0ms, 1}}, handed), {.clock = &other});
+    other.start();
+    whole.run_until(10ms);
+    CHECK(handed == std::vector<double>{1});
+  }
+
+  TEST_CASE("so it is on threads") {
+    const Graph graph = graph_with_timeout("Accumulate");
+    std::vector<double> handed;
+    ThreadsCore core(graph, sensor({{0ms, 1e308}, {1ms, 1e308}, {30ms, 1e308}}, handed));
+    core.run_for(200ms);
+    CHECK(core.report().stopped);
+    CHECK(handed.back() == -1);
+    CHECK(core.safe_commands().front().at_end);
   }
 }

@@ -78,13 +78,6 @@ class Console : public messages::Receiver {
  private:
   Link link_;
 };
-
-// Everything a little late on a machine with more to do is held against nobody.
-std::string patient(std::initializer_list<const char*> tasks) {
-  std::string set;
-  for (const char* task : tasks) set += std::string(" --set tasks.") + task + ".on_fault=hold";
-  return set;
-}
 }  // namespace
 
 TEST_SUITE("tools/lauv_sockets") {
@@ -94,7 +87,7 @@ TEST_SUITE("tools/lauv_sockets") {
     Running graph(
         "run specs/exolauv_bare.yaml --profile lab --clock real --for 11s --set distributers.dune.link.listen=" + core +
         " --set distributers.dune.link.peer=127.0.0.1:" + plant +
-        " --set distributers.neptus.link.listen=" + operating + patient({"depth", "heading", "speed", "fins"}));
+        " --set distributers.neptus.link.listen=" + operating);
     Console console(operating);
     const auto& s = console.state;
     CHECK(console.say_until(imc::RemoteActionsRequest{imc::RemoteActionsRequest::Op::QUERY, ""},

@@ -87,8 +87,7 @@ class Flights {
     Outcome o = fly(proxy, "submarine --bare --id 209 --link udp --listen " + port,
                     "specs/exolauv_bare.yaml --profile dune --set distributers.dune.link.listen=0 "
                     "--set distributers.dune.link.peer=" +
-                        std::to_string(proxy.port()) + " --set distributers.neptus.link.file=" + dive_ +
-                        tests::patient({"depth", "heading", "speed", "fins"}),
+                        std::to_string(proxy.port()) + " --set distributers.neptus.link.file=" + dive_,
                     full() ? 40 : 11);
     o.to_vehicle = proxy.to_target();
     o.from_vehicle = proxy.from_target();

@@ -82,10 +82,4 @@ std::string free_port(int type) {
   return std::to_string(port_of(probe));
 }
 
-std::string patient(std::initializer_list<const char*> tasks) {
-  std::string set;
-  for (const char* task : tasks) set += std::string(" --set tasks.") + task + ".on_fault=hold";
-  return set;
-}
-
 }  // namespace jarol::tests

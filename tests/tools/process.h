@@ -45,7 +45,4 @@ class Process {
 /// A port that was free a moment ago, for UDP or TCP.
 std::string free_port(int type);
 
-/// Tasks that are a little late on a machine with more to do are not held against a graph.
-std::string patient(std::initializer_list<const char*> tasks);
-
 }  // namespace jarol::tests

@@ -40,8 +40,6 @@ const std::string waiting = "time,command.altitude\n0,0\n60,0\n";
 // a sensor that tells the same for long is taken for stuck
 const std::string noisy_helicopter = "vehicle helicopter --parameters specs/vehicles/helicopter.yaml";
 
-const std::string submarine_tasks = tests::patient({"depth", "heading", "speed", "fins"});
-
 class Scenarios {
  public:
   Scenarios()
@@ -74,8 +72,7 @@ class Scenarios {
   }
   std::string submarine_control(const std::string& port, const std::string& more) const {
     return "run specs/exolauv_bare.yaml --clock real --json --profile dune --set distributers.neptus.link.file=" +
-           dive_ + " --set distributers.dune.link.listen=0 --set distributers.dune.link.peer=" + port +
-           submarine_tasks + " " + more;
+           dive_ + " --set distributers.dune.link.listen=0 --set distributers.dune.link.peer=" + port + " " + more;
   }
   std::string helicopter_control(const std::string& link, const std::string& more) const {
     return "run specs/javiator.yaml --clock real --json --set distributers.terminal.link.file=" + rise_ +
@@ -188,7 +185,7 @@ class Scenarios {
     Process run(
         "run specs/exolauv.yaml --clock real --json --profile console --for 14s --set "
         "distributers.neptus.link.listen=" +
-        port + submarine_tasks + tests::patient({"navigation", "supervisor", "report"}));
+        port);
     std::this_thread::sleep_for(500ms);
     {
       Link console(std::make_unique<UdpTransport>(Address::parse("0"), Address::parse(port)), imc::message_set(),
