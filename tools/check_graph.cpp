@@ -16,8 +16,23 @@ double cost_of(const analysis::System& system) {
   return std::max(n * n, activations);
 }
 
+// Per task, whether a path leads from it to an `out`: where none does, there may be more ways than anyone can walk.
+std::vector<bool> tasks_before_outs(const Graph& graph) {
+  std::vector<bool> before(graph.tasks.size());
+  for (bool more = true; more;) {
+    more = false;
+    for (const Connection& c : graph.connections) {
+      if (c.from.kind != End::Kind::task || before[c.from.index]) continue;
+      if (c.to.kind == End::Kind::task && !before[c.to.index]) continue;
+      before[c.from.index] = more = true;
+    }
+  }
+  return before;
+}
+
 // Every path from an `in` to an `out`, as far as there are not too many.
-void add_paths(const Graph& graph, std::vector<End>& path, std::vector<ReportedChain>& paths) {
+void add_paths(const Graph& graph, const std::vector<bool>& before_outs, std::vector<End>& path,
+               std::vector<ReportedChain>& paths) {
   const End at = path.back();
   if (at.kind == End::Kind::communicator && path.size() > 1) {
     std::string name;
@@ -35,12 +50,13 @@ void add_paths(const Graph& graph, std::vector<End>& path, std::vector<ReportedC
   for (const Connection& c : graph.connections) {
     const auto is_to = [&](const End& end) { return same(end, c.to); };
     if (!same(c.from, at) || std::any_of(path.begin(), path.end(), is_to)) continue;
+    if (c.to.kind == End::Kind::task && !before_outs[c.to.index]) continue;
     if (!std::any_of(next.begin(), next.end(), is_to)) next.push_back(c.to);
   }
   for (const End& end : next) {
     if (paths.size() > most_paths) return;
     path.push_back(end);
-    add_paths(graph, path, paths);
+    add_paths(graph, before_outs, path, paths);
     path.pop_back();
   }
 }
@@ -55,9 +71,10 @@ CheckReport check_graph(const std::string& file, const Graph& graph, bool sensit
   for (const Chain& c : graph.chains) report.chains.push_back({c, analysis::latency_of(graph, c.path)});
   if (all_chains) {
     std::vector<ReportedChain> paths;
+    const std::vector<bool> before_outs = tasks_before_outs(graph);
     for (std::size_t i = 0; i < graph.communicators.size(); ++i) {
       std::vector<End> path{{End::Kind::communicator, i, 0}};
-      if (graph.communicators[i].direction == Direction::in) add_paths(graph, path, paths);
+      if (graph.communicators[i].direction == Direction::in) add_paths(graph, before_outs, path, paths);
     }
     report.more_paths = paths.size() > most_paths;
     if (report.more_paths) paths.resize(most_paths);

@@ -30,10 +30,10 @@ extern "C" void interrupt(int signal) {
     return;
   }
   if (now() - first_at.load() < second_from) return;
-  // whoever asks again does not want to wait for the end
+  // whoever asks again does not want to wait for the end, nor, the third time, for this line
+  std::signal(signal, SIG_DFL);
   constexpr std::string_view line = "interrupted again: ended at once, without a report\n";
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
-  std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
 

@@ -160,4 +160,24 @@ TEST_SUITE("tools/check_graph") {
             check_phasing(static_cast<Policy>(policy), verdicts[0], verdicts[1]);
           }
   }
+
+  TEST_CASE("of all paths those that lead to no output are not walked, however many there are") {
+    std::string tasks = "tasks:\n  s0: {type: Relay}\n",
+                connections = "connections:\n  - i -> s0.in\n  - s0.out -> o\n";
+    for (int i = 0; i < 40; ++i) {  // each splits into two ways, which meet again
+      const std::string n = std::to_string(i), next = "s" + std::to_string(i + 1);
+      tasks += "  l" + n + ": {type: Relay}\n  r" + n + ": {type: Relay}\n  " + next + ": {type: Sum}\n";
+      connections += "  - s" + n + ".out -> l" + n + ".in\n  - s" + n + ".out -> r" + n + ".in\n  - l" + n +
+                     ".out -> " + next + ".a\n  - r" + n + ".out -> " + next + ".b\n";
+    }
+    const std::string text =
+        "graph: ways\ntiming: {period: 10ms}\ncommunicators:\n  i: {type: double, direction: in}\n"
+        "  o: {type: double, direction: out}\n" +
+        tasks + connections;
+    const Graph graph = graph_of(std::make_shared<Source>(Source{"ways", text}), {});
+    const CheckReport report = check_graph("ways", graph, false, true);
+    REQUIRE(report.chains.size() == 1);
+    CHECK(report.chains[0].chain.name == "i -> s0 -> o");
+    CHECK_FALSE(report.more_paths);
+  }
 }
