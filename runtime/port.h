@@ -10,16 +10,16 @@
 
 namespace jarol {
 
-// A slot belongs to the writer until value i is published, then to the reader until it is counted as taken; both
-// publish with release and look with acquire, so that no byte is ever touched by two threads at once. A value is
-// published twice. A reader that waits looks at the mark after the value, which comes along with it; one that has
-// fallen behind looks at the count, and then needs none of the marks. Counts of 64 bits, which no run exhausts.
+// A slot belongs to the writer until its value is counted as written, then to the reader until it is counted as taken;
+// both counts are stored with release and loaded with acquire, so that no byte is ever touched by two threads at once.
+// Each thread keeps what it last saw of the other's count, and looks again only where that leaves it nothing to do.
+// Counts of 64 bits, which no run exhausts.
 template <class Memory>
 class BasicPort {
  public:
   /// Holds up to `capacity` values of `size` bytes; at least one.
   BasicPort(std::size_t capacity, std::size_t size)
-      : slots_(at_least_one(capacity), size, 1), size_(size), capacity_(capacity) {}
+      : slots_(at_least_one(capacity), size, 0), size_(size), capacity_(capacity) {}
 
   std::size_t capacity() const { return capacity_; }
   /// Bytes of a value.
@@ -51,7 +51,6 @@ class BasicPort {
     }
     put(Cell{slots_.bytes(w.slot)});
     ++w.written;
-    slots_.words(w.slot)->store(w.written, std::memory_order_release);
     written_.store(w.written, std::memory_order_release);
     w.slot = slots_.after(w.slot);
     return true;
@@ -60,7 +59,10 @@ class BasicPort {
   template <class Get>
   bool read_with(Get get) {
     Reader& r = reader_;
-    if (r.taken >= r.written && !look(r)) return false;
+    if (r.taken == r.written) {
+      r.written = written_.load(std::memory_order_acquire);
+      if (r.taken == r.written) return false;
+    }
     get(Cell{slots_.bytes(r.slot)});
     ++r.taken;
     taken_.store(r.taken, std::memory_order_release);
@@ -76,25 +78,13 @@ class BasicPort {
   };
   struct Reader {
     std::uint64_t taken = 0;
-    std::uint64_t written = 0;  // at least so many, if more than taken
+    std::uint64_t written = 0;  // at least so many
     std::size_t slot = 0;
-    bool waits = false;
   };
 
   static std::size_t at_least_one(std::size_t capacity) {
     if (capacity == 0) throw std::invalid_argument("a port holds at least one value");
     return capacity;
-  }
-
-  // Is there a value? The count may be older than the mark of a value that was taken already.
-  bool look(Reader& r) {
-    if (!r.waits) {
-      r.written = written_.load(std::memory_order_acquire);
-      r.waits = r.written <= r.taken;
-      return !r.waits;
-    }
-    r.waits = slots_.words(r.slot)->load(std::memory_order_acquire) != r.taken + 1;
-    return !r.waits;
   }
 
   Slots<Memory> slots_;

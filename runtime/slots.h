@@ -1,6 +1,7 @@
 // The slots of a port, one after the other: each some plain bytes, then atomic words.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -20,7 +21,7 @@ class Slots {
     constexpr std::size_t most = std::size_t{1} << 40;
     if (bytes > most || words > most) throw std::length_error(too_much);
     words_at_ = round_up(bytes, sizeof(std::uint64_t));
-    stride_ = round_up(words_at_ + words * sizeof(Word), line);
+    stride_ = round_up(std::max<std::size_t>(1, words_at_ + words * sizeof(Word)), line);
     if (count > most / stride_) throw std::length_error(too_much);
     memory_ = static_cast<std::byte*>(::operator new (count* stride_, std::align_val_t{apart}));
     for (std::size_t slot = 0; slot < count; ++slot)

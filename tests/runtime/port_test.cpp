@@ -47,6 +47,15 @@ TEST_SUITE("runtime/port") {
     CHECK(value[99] == 'a');
   }
 
+  TEST_CASE("values without bytes are counted all the same") {
+    BytesPort port(1, 0);
+    char nothing = 0;
+    CHECK(port.write(&nothing));
+    CHECK(!port.write(&nothing));
+    CHECK(port.read(&nothing));
+    CHECK(!port.read(&nothing));
+  }
+
   TEST_CASE("packets have any length up to the longest") {
     PacketPort port(3, 65536);
     std::vector<std::byte> room(65536);
