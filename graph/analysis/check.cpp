@@ -143,14 +143,17 @@ Result check_partitioned(const System& system) {
   return result;
 }
 
+bool is_edf_by_another_name(const System& system) { return system.policy == Policy::global_edf && system.cores == 1; }
+
+System with_edf(System system) {
+  system.policy = Policy::edf;
+  return system;
+}
+
 }  // namespace
 
 Result check(const System& system) {
-  if (system.policy == Policy::global_edf && system.cores == 1) {
-    System edf = system;
-    edf.policy = Policy::edf;
-    return check(edf);
-  }
+  if (is_edf_by_another_name(system)) return check(with_edf(system));
   Result result = system.policy == Policy::table        ? check_on_table(system)
                   : system.policy == Policy::global_edf ? check_globally(system)
                                                         : check_partitioned(system);
@@ -160,6 +163,7 @@ Result check(const System& system) {
 }
 
 Verdict verdict_of(const System& system) {
+  if (is_edf_by_another_name(system)) return verdict_of(with_edf(system));
   if (system.cores == 1 && system.policy != Policy::table && system.policy != Policy::global_edf) {
     std::vector<std::size_t> all(system.loads.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
