@@ -39,6 +39,8 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
     : graph_(graph), plan_(graph), channels_(std::move(channels)), options_(options), safe_commands_(graph) {
   assert(channels_.size() == graph.distributers.size());
   if (options.recorder != nullptr) options.recorder->expect(plan_.outputs);
+  if (options.log != nullptr) options.log->expect(log_outputs(graph));
+  if (options.misses) missed_ = std::make_unique<MissedActivations>(graph.tasks.size(), *options.misses);
   if (!options.threads.empty()) begin_threads();
   if (options.workers > 1 || options.sharing == Sharing::measure) {
     bad_items_.reserve(graph.tasks.size());
@@ -62,7 +64,7 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
 const void* Executor::last_value(std::size_t communicator) const { return last_[communicator]; }
 
 void Executor::run_until(Duration end) {
-  if (report_.stopped) return;
+  if (report_.stopped && missed_ == nullptr) return;
   const MemoryScope scope(no_heap());  // a task with a heap has a scope of its own
   const bool record = options_.recorder != nullptr;
   if (options_.clock != nullptr) {
@@ -73,6 +75,8 @@ void Executor::run_until(Duration end) {
       const MemoryScope outside(nullptr);
       safe_commands_.hand_over_at_end(channels_);
     }
+  } else if (missed_ != nullptr) {
+    record ? walk<true, true, true>(end) : walk<true, false, true>(end);
   } else if (options_.digest) {
     record ? walk<true, true, false>(end) : walk<true, false, false>(end);
   } else {
@@ -82,12 +86,12 @@ void Executor::run_until(Duration end) {
   for (const auto& channels : channels_) report_.non_finite_inputs += channels->non_finite_inputs();
 }
 
-template <bool Digest, bool Record, bool Real>
+template <bool Digest, bool Record, bool MayMiss>
 void Executor::walk(Duration end) {
   while (calendar_.next() < end.count()) {
     if (interrupted_.load(std::memory_order_relaxed)) return;
     const std::int64_t instant = calendar_.next();
-    if constexpr (Real) {
+    if (MayMiss && missed_ == nullptr) {
       options_.clock->wait_until(instant, interrupted_);
       if (interrupted_.load(std::memory_order_relaxed)) return;
       if (threads_ != nullptr) settle(instant);
@@ -95,16 +99,16 @@ void Executor::walk(Duration end) {
     }
     now_.store(instant, std::memory_order_relaxed);
     due_ = calendar_.take();
-    step_instant<Digest, Record, Real>(instant);
+    step_instant<Digest, Record, MayMiss>(instant);
     report_.instants += 1;
     report_.simulated = Duration(instant);
-    if (report_.stopped) return;
+    if (report_.stopped && missed_ == nullptr) return;
   }
   report_.simulated = end;
   now_.store(end.count(), std::memory_order_relaxed);
 }
 
-template <bool Digest, bool Record, bool Real>
+template <bool Digest, bool Record, bool MayMiss>
 void Executor::step_instant(std::int64_t instant) {
   const std::uint64_t instant_term = Digest ? digest::instant_term(instant) : 0;
   if (!last_.empty()) gather_communicators();
@@ -117,7 +121,7 @@ void Executor::step_instant(std::int64_t instant) {
   for (const std::uint32_t g : due_) {
     const Group& group = plan_.groups[g];
     if (group.let_ends.first == group.let_ends.last) continue;
-    if (Real && threads_ != nullptr) {
+    if (MayMiss && threads_ != nullptr) {
       for (const LetEnd& let_end : group.let_ends) end_let(let_end, instant);
     } else if (bad_outcomes_ == 0 && are_let_outputs_finite(group)) [[likely]] {
       publish<Digest, Record>(group.let_publish, instant, instant_term);
@@ -135,17 +139,17 @@ void Executor::step_instant(std::int64_t instant) {
     publish<Digest, Record>(in->publish, instant, instant_term);
   }
   // step 4: tasks released now
-  if (Real && threads_ != nullptr) {
+  if (MayMiss && threads_ != nullptr) {
     release_on_threads(instant);
   } else if (team_ != nullptr && team_->may_share(plan_.groups, due_)) {
     run_stages_shared<Digest, Record>(instant, instant_term);
   } else if (due_.size() == 1) {
     const Group& group = plan_.groups[due_[0]];
     const Tick tick{Duration(instant), releases_[due_[0]]++, group.period};
-    for (const Segment& segment : group.segments) run_segment<Digest, Record, Real>(segment, tick, instant_term);
+    for (const Segment& segment : group.segments) run_segment<Digest, Record, MayMiss>(segment, tick, instant_term);
     report_.activations += group.activations;
   } else {
-    run_stages<Digest, Record, Real>(instant, instant_term);
+    run_stages<Digest, Record, MayMiss>(instant, instant_term);
   }
 }
 
@@ -188,7 +192,7 @@ void Executor::start_groups(std::int64_t instant) {
 }
 
 // Several groups: the segments of the lowest stage of all, then those of the next.
-template <bool Digest, bool Record, bool Real>
+template <bool Digest, bool Record, bool MayMiss>
 void Executor::run_stages(std::int64_t instant, std::uint64_t instant_term) {
   start_groups(instant);
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -197,7 +201,7 @@ void Executor::run_stages(std::int64_t instant, std::uint64_t instant_term) {
     for (std::size_t i = 0; i < due_.size(); ++i) {
       const Segment* last = plan_.groups[due_[i]].segments.last;
       if (cursors_[i] != last && cursors_[i]->stage == stage)
-        run_segment<Digest, Record, Real>(*cursors_[i]++, ticks_[i], instant_term);
+        run_segment<Digest, Record, MayMiss>(*cursors_[i]++, ticks_[i], instant_term);
       if (cursors_[i] != last) next = std::min(next, cursors_[i]->stage);
     }
     stage = next;
@@ -265,15 +269,15 @@ void Executor::tell_bad_outcomes() {
   bad_items_.clear();
 }
 
-template <bool Digest, bool Record, bool Real>
+template <bool Digest, bool Record, bool MayMiss>
 void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term) {
   for (const Activation* next = segment.activations.first; next != segment.activations.last;) {
-    if (!Real && next->body != nullptr) {
+    if (!MayMiss && next->body != nullptr) {
       next = run_bodies(next, segment.activations.last, tick);
       continue;
     }
     const Activation& activation = *next++;
-    const Outcome outcome = Real ? run_in_time(activation, tick) : activation.run(activation.memory, tick);
+    const Outcome outcome = MayMiss ? run_in_time(activation, tick) : activation.run(activation.memory, tick);
     if (outcome == Outcome::good) [[likely]] {
       if (!activation.has_let) publish<Digest, Record>(activation.publish, tick.now.count(), instant_term);
     } else {
@@ -318,6 +322,7 @@ void Executor::take(const CommunicatorAction& in, Duration instant) {
   if (communicator.type->finite(in.taken)) {
     copy_value(*communicator.type, in.value, in.taken);
     safe_commands_.took(in.communicator, instant);
+    if (options_.log != nullptr) record(*options_.log, in.communicator, *communicator.type, in.value, instant.count());
   } else {
     ++refused_inputs_;
   }
@@ -326,6 +331,7 @@ void Executor::take(const CommunicatorAction& in, Duration instant) {
 // On the real clock: an activation that ends after its deadline has a fault, and so have those whose releases fall into
 // the time that it took.
 Outcome Executor::run_in_time(const Activation& activation, const Tick& tick) {
+  if (missed_ != nullptr) return run_as_logged(activation, tick);
   TaskTiming& timing = options_.clock->timing(activation.task);
   if (timing.busy_until > tick.now.count()) {
     ++timing.left_out;
@@ -341,6 +347,16 @@ Outcome Executor::run_in_time(const Activation& activation, const Tick& tick) {
   if (outcome != Outcome::good || end - tick.now.count() <= graph_.tasks[activation.task].deadline.count())
     return outcome;
   ++timing.late;
+  ended_after_ = Duration(end - tick.now.count());
+  return Outcome::late;
+}
+
+// What was late or left out has the same effect whether it runs or not.
+Outcome Executor::run_as_logged(const Activation& activation, const Tick& tick) {
+  const Miss* const miss = missed_->find(activation.task, tick.activation);
+  if (miss == nullptr) return activation.run(activation.memory, tick);
+  if (miss->left_out != 0) return Outcome::overrun;
+  ended_after_ = miss->ended_after == Miss::unknown ? std::nullopt : std::optional(Duration(miss->ended_after));
   return Outcome::late;
 }
 

@@ -9,6 +9,7 @@
 
 #include "runtime/calendar.h"
 #include "runtime/channels.h"
+#include "runtime/log.h"
 #include "runtime/plan.h"
 #include "runtime/real_clock.h"
 #include "runtime/recorder.h"
@@ -55,6 +56,10 @@ struct ExecutorOptions {
   Sharing sharing = Sharing::if_it_pays;
   RealClock* clock = nullptr;                       // none: the virtual clock; with one there is a single worker
   std::span<const analysis::TaskThread> threads{};  // on the real clock: who runs the tasks; none: the caller
+  Recorder* log = nullptr;                          // gets log_outputs: what the run has from outside
+  // A replay on the virtual clock by a single worker: these come late or not at all. It goes as far as it is let, for
+  // the run that it repeats may have known of a fault that stops it only at a later instant.
+  std::optional<std::span<const Miss>> misses{};
 };
 
 class Executor {
@@ -85,15 +90,15 @@ class Executor {
   const void* last_value(std::size_t communicator) const;
 
  private:
-  template <bool Digest, bool Record, bool Real>
+  template <bool Digest, bool Record, bool MayMiss>
   void walk(Duration end);
-  template <bool Digest, bool Record, bool Real>
+  template <bool Digest, bool Record, bool MayMiss>
   void step_instant(std::int64_t instant);
   template <bool Digest, bool Record>
   void publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term);
-  template <bool Digest, bool Record, bool Real>
+  template <bool Digest, bool Record, bool MayMiss>
   void run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term);
-  template <bool Digest, bool Record, bool Real>
+  template <bool Digest, bool Record, bool MayMiss>
   void run_stages(std::int64_t instant, std::uint64_t instant_term);
   template <bool Digest, bool Record>
   void run_stages_shared(std::int64_t instant, std::uint64_t instant_term);
@@ -109,9 +114,12 @@ class Executor {
   void hand_over(const CommunicatorAction& out, Duration instant);
   void take(const CommunicatorAction& in, Duration instant);
   Outcome run_in_time(const Activation& activation, const Tick& tick);
+  Outcome run_as_logged(const Activation& activation, const Tick& tick);
   [[gnu::cold]] void on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick);
   [[gnu::cold]] void record_fault(std::uint32_t task, std::int64_t instant);
   void add_fault(std::uint32_t task, std::int64_t activation, std::int64_t instant, const std::string& cause);
+  void log_late(std::uint32_t task, std::int64_t activation, std::optional<Duration> ended_after, std::int64_t instant);
+  void log_miss(const Miss& miss, std::int64_t instant);
 
   // with threads that run tasks
   void begin_threads();
@@ -142,8 +150,10 @@ class Executor {
   Report report_;
   std::atomic<std::int64_t> now_{0};
   std::atomic<bool> interrupted_{false};
-  std::unique_ptr<TaskThreads> threads_;      // null: tasks run on the caller's
-  std::vector<const Activation*> under_way_;  // data-flow tasks on threads that were not yet seen to end
+  std::unique_ptr<MissedActivations> missed_;  // null: this is no replay
+  std::optional<Duration> ended_after_;        // of the activation that was found late last, from its release
+  std::unique_ptr<TaskThreads> threads_;       // null: tasks run on the caller's
+  std::vector<const Activation*> under_way_;   // data-flow tasks on threads that were not yet seen to end
 };
 
 }  // namespace jarol

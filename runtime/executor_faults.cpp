@@ -36,9 +36,10 @@ void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, con
   if (outcome == Outcome::overrun) {
     --report_.activations;
     keep_text(status, overrun_text);
+    log_miss({tick.activation, Miss::unknown, activation.task, 1}, tick.now.count());
   } else if (outcome == Outcome::late) {
-    const Duration took(options_.clock->timing(activation.task).busy_until - tick.now.count());
-    keep_text(status, late_text(took, task.deadline));
+    keep_text(status, late_text(ended_after_, task.deadline));
+    log_late(activation.task, tick.activation, ended_after_, tick.now.count());
   } else if (outcome == Outcome::non_finite) {
     keep_text(status, find_non_finite(*task.task_class->out, activation.memory.out));
   }
@@ -46,10 +47,21 @@ void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, con
   if (outcome == Outcome::overrun) {
     status.skip_next = false;  // this was the one to skip
   } else if (task.on_fault != OnFault::stop) {
-    status.put_back(activation.memory.state);
+    // what is late in a replay has not run
+    if (missed_ == nullptr || outcome != Outcome::late) status.put_back(activation.memory.state);
     status.skip_next = task.on_fault == OnFault::skip;
   }
   if (!activation.has_let) record_fault(activation.task, tick.now.count());
+}
+
+void Executor::log_late(std::uint32_t task, std::int64_t activation, std::optional<Duration> ended_after,
+                        std::int64_t instant) {
+  log_miss({activation, ended_after ? ended_after->count() : Miss::unknown, task, 0}, instant);
+}
+
+void Executor::log_miss(const Miss& miss, std::int64_t instant) {
+  if (options_.log == nullptr) return;
+  options_.log->append(instant, static_cast<std::uint32_t>(graph_.communicators.size()), &miss, sizeof miss);
 }
 
 void Executor::record_fault(std::uint32_t task, std::int64_t instant) {

@@ -55,6 +55,7 @@ void Executor::release_on_threads(std::int64_t instant) {
       for (const Activation& activation : segment.activations) {
         const Outcome outcome = threads_->add(activation.task, ticks_[i]);
         if (outcome != Outcome::good) --report_.activations;
+        if (outcome == Outcome::overrun) log_miss({ticks_[i].activation, Miss::unknown, activation.task, 1}, instant);
         if (activation.has_let) continue;  // what it was shows at the end of the LET
         if (outcome == Outcome::good) under_way_.push_back(&activation);
         if (outcome == Outcome::overrun) on_bad_outcome_in_time(activation.task, outcome, instant);
@@ -74,6 +75,7 @@ void Executor::publish_in_time(const Publish& what, std::int64_t instant) {
 
 void Executor::on_bad_outcome_in_time(std::uint32_t task, Outcome outcome, std::int64_t instant) {
   const Task& t = graph_.tasks[task];
+  const std::int64_t activation = threads_->tick(task).activation;
   TaskTiming& timing = options_.clock->timing(task);
   std::string cause;
   if (outcome == Outcome::overrun) {
@@ -81,14 +83,16 @@ void Executor::on_bad_outcome_in_time(std::uint32_t task, Outcome outcome, std::
     cause = overrun_text;
   } else if (outcome == Outcome::late) {
     ++timing.late;
-    cause = late_text(threads_->ended_after(task), t.deadline);
+    const std::optional<Duration> ended_after = threads_->ended_after(task);
+    cause = late_text(ended_after, t.deadline);
+    log_late(task, activation, ended_after, instant);
   } else if (outcome == Outcome::non_finite) {
     cause = find_non_finite(*t.task_class->out, threads_->out(task));
   } else {
     cause = plan_.status[task].text;
   }
   if (outcome != Outcome::overrun) threads_->undo(task, t.on_fault == OnFault::skip);
-  add_fault(task, threads_->tick(task).activation, instant, cause);
+  add_fault(task, activation, instant, cause);
 }
 
 }  // namespace jarol

@@ -28,4 +28,13 @@ inline void record(Recorder& recorder, const Publish& what, std::int64_t instant
   }
 }
 
+inline void record(Recorder& recorder, std::uint32_t output, const Type& type, const void* value,
+                   std::int64_t instant) {
+  if (type.is_deep()) {
+    recorder.append_deep(instant, output, value);
+  } else {
+    recorder.append(instant, output, value, static_cast<std::uint32_t>(type.size));
+  }
+}
+
 }  // namespace jarol

@@ -1,6 +1,8 @@
 // Runs with tasks on threads of their own, for tests.
 #pragma once
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -97,6 +99,13 @@ inline Graph graph_of(const std::string& text) {
     made.add(task_class<Faulty>());
     made.add(task_class<Busy>());
     made.add(task_class<Patient>());
+    const Type* number = &type_of<double>();
+    made.add(DistributerClass{"Plant",
+                              "for tests",
+                              {{"sensor", Direction::in, number, ""},
+                               {"actuator", Direction::out, number, ""},
+                               {"window", Direction::in, &type_of<Sequence<double>>(), ""}},
+                              true});
     return made;
   }();
   return jarol::tests::graph_of(registry, text);
@@ -128,13 +137,25 @@ inline RealTimeOptions undisturbed() {
   return options;
 }
 
+// All of a stack is locked in memory when its thread is made, and tests make many.
+inline void keep_stacks_small() {
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, std::size_t{512} << 10);
+  pthread_setattr_default_np(&attributes);
+  pthread_attr_destroy(&attributes);
+}
+
 inline RealRun run(const Graph& graph, Duration end, const RealTimeOptions& options = undisturbed(),
-                   Duration piece = Duration::max()) {
+                   Duration piece = Duration::max(), std::vector<std::unique_ptr<Channels>> channels = {},
+                   Recorder* log = nullptr) {
+  keep_stacks_small();
   tests::TraceLines lines(graph);
   Recorder recorder({&lines});
   RealClock clock(graph.tasks.size(), options);
   const std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
-  Executor executor(graph, {}, {.recorder = &recorder, .clock = &clock, .threads = threads});
+  Executor executor(graph, std::move(channels),
+                    {.recorder = &recorder, .clock = &clock, .threads = threads, .log = log});
   std::thread([&] {  // the test's own thread keeps its scheduler
     if (options.priority) clock.prepare_thread();
     clock.start();
