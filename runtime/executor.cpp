@@ -96,15 +96,18 @@ void Executor::walk(Duration end) {
       if (interrupted_.load(std::memory_order_relaxed)) return;
       if (threads_ != nullptr) settle(instant);
       if (report_.stopped) return;
+      if (options_.log != nullptr) options_.log->hand_on_by(instant);
     }
     now_.store(instant, std::memory_order_relaxed);
     due_ = calendar_.take();
     step_instant<Digest, Record, MayMiss>(instant);
     report_.instants += 1;
     report_.simulated = Duration(instant);
+    report_.covered = Duration(instant + 1);
     if (report_.stopped && missed_ == nullptr) return;
   }
   report_.simulated = end;
+  report_.covered = end;
   now_.store(end.count(), std::memory_order_relaxed);
 }
 

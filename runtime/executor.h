@@ -35,6 +35,7 @@ struct Report {
 
   std::uint64_t digest = 0;
   Duration simulated{};
+  Duration covered{};             // the instants before it were run
   std::uint64_t activations = 0;  // released tasks that ran
   std::uint64_t instants = 0;     // distinct instants at which anything was due
   std::vector<Fault> faults;      // the first of them; all are counted

@@ -34,8 +34,7 @@ std::vector<Output> log_outputs(const Graph& graph) {
 MissedActivations::MissedActivations(std::size_t tasks, std::span<const Miss> misses) : misses_(tasks), next_(tasks) {
   for (const Miss& miss : misses) misses_.at(miss.task).push_back(miss);
   for (std::vector<Miss>& of_task : misses_)
-    std::sort(of_task.begin(), of_task.end(),
-              [](const Miss& a, const Miss& b) { return a.activation < b.activation; });
+    std::sort(of_task.begin(), of_task.end(), [](const Miss& a, const Miss& b) { return a.activation < b.activation; });
 }
 
 const Miss* MissedActivations::find(std::size_t task, std::int64_t activation) {

@@ -49,7 +49,8 @@ class MissedActivations {
 class TakenValues {
  public:
   virtual ~TakenValues() = default;
-  /// False: the communicator took nothing at that instant. Throws std::runtime_error if the values are of another graph.
+  /// False: the communicator took nothing at that instant. Throws std::runtime_error if the values are of another
+  /// graph.
   virtual bool take(Duration instant, std::size_t communicator, void* value) = 0;
 };
 

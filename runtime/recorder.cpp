@@ -1,7 +1,6 @@
 #include "runtime/recorder.h"
 
 #include <algorithm>
-#include <cassert>
 #include <stdexcept>
 
 #include "graph/values/pack.h"
@@ -45,7 +44,7 @@ void Recorder::append_deep(std::int64_t instant, std::uint32_t output, const voi
     return;
   }
   const std::size_t padded = (size + 7U) & ~std::size_t{7};
-  if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk(sizeof(RecordHeader) + padded);
+  if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk();
   const RecordHeader header{instant, output, static_cast<std::uint32_t>(size)};
   std::memcpy(now_ + used_, &header, sizeof header);
   pack(type, value, now_ + used_ + sizeof header);
@@ -71,8 +70,7 @@ void Recorder::publish_chunk() {
   used_ = 0;
 }
 
-void Recorder::next_chunk([[maybe_unused]] std::size_t needed) {
-  assert(needed <= chunk_bytes);
+void Recorder::next_chunk() {
   publish_chunk();
   const std::uint64_t next = written_.load(std::memory_order_relaxed);
   for (std::uint64_t read = read_.load(std::memory_order_acquire); next - read >= chunks;
@@ -112,6 +110,7 @@ void Recorder::drain(const std::byte* chunk, std::size_t bytes) {
       disorder_ ? hold(header, packed) : hand_on(header, packed);
       at += sizeof header + ((header.size + 7U) & ~std::size_t{7});
     }
+    for (RecordSink* sink : sinks_) sink->pause();
   } catch (...) { failure_ = std::current_exception(); }
 }
 

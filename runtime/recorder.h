@@ -31,6 +31,8 @@ class RecordSink {
  public:
   virtual ~RecordSink() = default;
   virtual void take(Duration instant, std::uint32_t output, const void* value) = 0;
+  /// There is nothing more to take for now.
+  virtual void pause() {}
   /// After the last value. Throws if anything was lost.
   virtual void finish() = 0;
 };
@@ -57,7 +59,7 @@ class Recorder {
   /// Appends one value. Waits only if the sinks are a whole ring behind.
   void append(std::int64_t instant, std::uint32_t output, const void* value, std::uint32_t size) {
     const std::size_t padded = (size + 7U) & ~std::size_t{7};
-    if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk(sizeof(RecordHeader) + padded);
+    if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk();
     const RecordHeader header{instant, output, size};
     std::memcpy(now_ + used_, &header, sizeof header);
     std::memcpy(now_ + used_ + sizeof header, value, size);
@@ -67,6 +69,13 @@ class Recorder {
   /// The same for a deep value; one beyond most_bytes is lost, which `close` tells.
   void append_deep(std::int64_t instant, std::uint32_t output, const void* value);
 
+  /// In real time, at each instant: hands on what was appended if that was not done for a second.
+  void hand_on_by(std::int64_t instant) {
+    if (instant < due_ || used_ == 0) return;
+    due_ = instant + 1'000'000'000;
+    next_chunk();
+  }
+
   /// Hands on all that was appended, ends the thread and lets the sinks finish; throws what a sink threw.
   void close();
 
@@ -74,7 +83,7 @@ class Recorder {
   static constexpr std::size_t chunk_bytes = most_bytes + sizeof(RecordHeader);
   static constexpr std::size_t chunks = 8;
 
-  void next_chunk(std::size_t needed);
+  void next_chunk();
   void publish_chunk();
   void run();
   void drain(const std::byte* chunk, std::size_t bytes);
@@ -98,6 +107,7 @@ class Recorder {
   std::size_t bytes_[chunks] = {};  // filled part of each chunk
   std::byte* now_ = nullptr;
   std::size_t used_ = 0;
+  std::int64_t due_ = 0;                   // instant at which what is there has to be handed on
   std::atomic<std::uint64_t> written_{0};  // chunks handed on; the top bit says that no more will come
   std::atomic<std::uint64_t> read_{0};     // chunks drained
   std::exception_ptr failure_;             // of a sink; read after the thread has ended

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "graph/values/seed.h"
+#include "tests/runtime/outside.h"
 #include "tests/runtime/random_model.h"
 #include "tests/runtime/run_on_threads.h"
 
@@ -52,30 +53,6 @@ class KeptLog : public RecordSink, public TakenValues {
   std::size_t next_ = 0;
 };
 
-// An external system that nobody can foretell: what it tells, and whether, hangs on the machine's clock.
-class Outside : public Channels {
- public:
-  void reach(Duration) override {}
-  bool take(std::size_t channel, void* value) override {
-    const std::uint64_t chance = spread_seed(static_cast<std::uint64_t>(RealClock::monotonic()), "outside");
-    if (chance % 3 == 0) return false;
-    if (channel == 0) *static_cast<double*>(value) = chance % 7 == 0 ? std::nan("") : static_cast<double>(chance % 1000);
-    if (channel == 2) {
-      auto& window = *static_cast<Sequence<double>*>(value);
-      window.clear();
-      for (std::uint64_t i = 0; i < chance % 5; ++i) window.push_back(static_cast<double>(chance % 100 + i));
-    }
-    return true;
-  }
-  void hand_over(std::size_t, const void*) override {}
-};
-
-std::vector<std::unique_ptr<Channels>> outside() {
-  std::vector<std::unique_ptr<Channels>> channels;
-  channels.push_back(std::make_unique<Outside>());
-  return channels;
-}
-
 tests::Run replay(const Graph& graph, Duration end, std::vector<std::unique_ptr<Channels>> channels,
                   const std::vector<Miss>& misses) {
   tests::TraceLines lines(graph);
@@ -108,7 +85,7 @@ std::size_t check_replay(const Graph& graph, Duration end, bool has_outside) {
   KeptLog log(graph);
   Recorder recorder({&log});
   const RealRun real = run(graph, end, {}, Duration::max(),
-                           has_outside ? outside() : std::vector<std::unique_ptr<Channels>>{}, &recorder);
+                           has_outside ? tests::outside() : std::vector<std::unique_ptr<Channels>>{}, &recorder);
   recorder.close();
   const tests::Run again = replay(graph, end_of(real.report, end), replayed_channels(graph, log), log.misses);
   CHECK(again.report.digest == real.report.digest);
@@ -140,8 +117,7 @@ std::string hurried_random_graph(std::uint64_t seed, Duration step) {
   for (const oracle::TaskModel& task : model.tasks) {
     const std::string begin = "  " + task.name + ": {";
     const bool skips = spread_seed(seed, task.name) % 2 == 0;
-    text.insert(text.find(begin) + begin.size(),
-                std::string("core: ANY, on_fault: ") + (skips ? "skip, " : "hold, "));
+    text.insert(text.find(begin) + begin.size(), std::string("core: ANY, on_fault: ") + (skips ? "skip, " : "hold, "));
   }
   return text;
 }
@@ -150,7 +126,8 @@ const Mode every_mode[] = {table_1, table_2, priorities_1, priorities_2};
 }  // namespace
 
 TEST_SUITE("runtime/log") {
-  TEST_CASE("an activation that was late publishes nothing, and its state is as before; hold goes on, skip leaves one out") {
+  TEST_CASE(
+      "an activation that was late publishes nothing, and its state is as before; hold goes on, skip leaves one out") {
     const auto text = [](const std::string& on_fault, const std::string& let) {
       return "graph: t\ntasks: {a: {type: Faulty, period: 10ms, on_fault: " + on_fault + let +
              "}}\nconnections: [a.out -> a.in]\n";
@@ -171,8 +148,9 @@ TEST_SUITE("runtime/log") {
   TEST_CASE("one that was left out is the one that skip leaves out") {
     const Graph graph = graph_of(
         "graph: t\ntasks: {a: {type: Faulty, period: 10ms, on_fault: skip, let: 5ms}}\nconnections: [a.out -> a.in]\n");
-    const tests::Run r = replay(graph, 60ms, {}, {{.activation = 1, .ended_after = -1, .task = 0, .left_out = 0},
-                                                  {.activation = 2, .ended_after = -1, .task = 0, .left_out = 1}});
+    const tests::Run r = replay(graph, 60ms, {},
+                                {{.activation = 1, .ended_after = -1, .task = 0, .left_out = 0},
+                                 {.activation = 2, .ended_after = -1, .task = 0, .left_out = 1}});
     CHECK(lines_of(r, "a.out") == "5ms a.out=999; 35ms a.out=2999; 45ms a.out=5999; 55ms a.out=9999");
     CHECK(text_of(r.report.faults) ==
           "task 'a' activation 1 at 0.015 s: late: had not ended when it was due, deadline 5ms\n"
@@ -195,7 +173,7 @@ connections: [i -> r.in, r.out -> o, w -> m.in, m.out -> mean]
     Recorder recorder({&log});
     tests::TraceLines lines(graph);
     Recorder trace({&lines});
-    Executor executor(graph, outside(), {.recorder = &trace, .log = &recorder});
+    Executor executor(graph, tests::outside(), {.recorder = &trace, .log = &recorder});
     executor.run_until(500ms);
     trace.close();
     recorder.close();

@@ -12,6 +12,7 @@
 #include "graph/analysis/threads.h"
 #include "runtime/executor.h"
 #include "runtime/machine.h"
+#include "tests/runtime/outside.h"
 #include "tests/runtime/trace_of.h"
 
 namespace jarol::tests::threads {
@@ -99,13 +100,7 @@ inline Graph graph_of(const std::string& text) {
     made.add(task_class<Faulty>());
     made.add(task_class<Busy>());
     made.add(task_class<Patient>());
-    const Type* number = &type_of<double>();
-    made.add(DistributerClass{"Plant",
-                              "for tests",
-                              {{"sensor", Direction::in, number, ""},
-                               {"actuator", Direction::out, number, ""},
-                               {"window", Direction::in, &type_of<Sequence<double>>(), ""}},
-                              true});
+    made.add(tests::plant());
     return made;
   }();
   return jarol::tests::graph_of(registry, text);

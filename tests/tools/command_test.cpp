@@ -431,9 +431,7 @@ connections: [i -> sum.in]
     CHECK(command.exit_code == 2);
     CHECK(command.output ==
           "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, doctor, graph, messages, "
-          "run, "
-          "schema, "
-          "tasks, vehicle\n");
+          "replay, run, schema, tasks, vehicle\n");
     const Result missing = jarol("run no/such.yaml");
     CHECK(missing.exit_code == 2);
     CHECK(missing.output == "error: can't read 'no/such.yaml': No such file or directory\n1 error\n");

@@ -16,6 +16,7 @@ void add_check(CommandLine& line, int& exit_code);
 void add_doctor(CommandLine& line, int& exit_code);
 void add_graph(CommandLine& line, int& exit_code);
 void add_messages(CommandLine& line, int& exit_code);
+void add_replay(CommandLine& line, int& exit_code);
 void add_run(CommandLine& line, int& exit_code);
 void add_schema(CommandLine& line, int& exit_code);
 void add_tasks(CommandLine& line, int& exit_code);

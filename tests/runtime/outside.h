@@ -1,0 +1,54 @@
+// An external system that nobody can foretell, for tests.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "graph/registry.h"
+#include "graph/values/seed.h"
+#include "graph/values/sequence.h"
+#include "graph/values/type_of.h"
+#include "runtime/channels.h"
+#include "runtime/real_clock.h"
+
+namespace jarol::tests {
+
+/// The distributer Plant: a sensor, an actuator, and a window of changing size that comes in.
+inline DistributerClass plant() {
+  const Type* number = &type_of<double>();
+  return {"Plant",
+          "for tests",
+          {{"sensor", Direction::in, number, ""},
+           {"actuator", Direction::out, number, ""},
+           {"window", Direction::in, &type_of<Sequence<double>>(), ""}},
+          true};
+}
+
+// What a plant tells, and whether, hangs on the machine's clock; some of it is not finite.
+class Outside : public Channels {
+ public:
+  void reach(Duration) override {}
+  bool take(std::size_t channel, void* value) override {
+    const std::uint64_t chance = spread_seed(static_cast<std::uint64_t>(RealClock::monotonic()), "outside");
+    if (chance % 3 == 0) return false;
+    if (channel == 0) {
+      *static_cast<double*>(value) =
+          chance % 7 == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(chance % 1000);
+    } else {
+      auto& window = *static_cast<Sequence<double>*>(value);
+      window.clear();
+      for (std::uint64_t i = 0; i < chance % 5; ++i) window.push_back(static_cast<double>(chance % 100 + i));
+    }
+    return true;
+  }
+  void hand_over(std::size_t, const void*) override {}
+};
+
+inline std::vector<std::unique_ptr<Channels>> outside() {
+  std::vector<std::unique_ptr<Channels>> channels;
+  channels.push_back(std::make_unique<Outside>());
+  return channels;
+}
+
+}  // namespace jarol::tests

@@ -1,0 +1,223 @@
+// Logs and their replays: what is in the file, what is the same, and what is wrong with a log.
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <string>
+
+#include "tests/runtime/outside.h"
+#include "tests/runtime/trace_of.h"
+#include "tests/tools/run_command.h"
+#include "tools/log_reader.h"
+#include "tools/log_writer.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+using command::TemporaryFolder;
+
+std::string content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The line that begins with that word.
+std::string line_of(const std::string& text, const std::string& word) {
+  const std::size_t at = text.find("  " + word);
+  return at == std::string::npos ? "" : text.substr(at + 2, text.find('\n', at) - at - 2);
+}
+
+const std::string graph_text = R"(graph: t
+timing: {period: 3ms}
+distributers: {p: {type: Plant, link: {type: test}}}
+communicators:
+  i: {channel: p.sensor, period: 1ms}
+  w: {channel: p.window}
+  o: {channel: p.actuator, period: 1ms}
+  mean: {type: double, direction: out}
+tasks: {r: {type: Accumulate, period: 1ms}, m: {type: Mean}}
+connections: [i -> r.in, r.out -> o, w -> m.in, m.out -> mean]
+)";
+
+Graph graph_of(const std::string& text) {
+  static const Registry registry = [] {
+    Registry made;
+    tasks::add_tasks(made);
+    made.add(tests::plant());
+    return made;
+  }();
+  return tests::graph_of(registry, text);
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
+// A log of 30 ms, and the report of the run.
+Report write_log(const std::string& path) {
+  const Graph graph = graph_of(graph_text);
+  tools::LogWriter log(path, {.graph = "t", .file = "/t.yaml", .overrides = {}, .clock = "virtual"}, graph);
+  Executor executor(graph, tests::outside(), {.log = log.recorder()});
+  executor.run_until(30ms);
+  log.close(executor.report());
+  return executor.report();
+}
+
+Report replay(tools::LogReader& log, const Graph& graph) {
+  const std::vector<Miss> misses = log.begin(graph);
+  Executor executor(graph, replayed_channels(graph, log), {.misses = misses});
+  executor.run_until(log.covered());
+  log.require_all_taken();
+  return executor.report();
+}
+
+// What is wrong with a log, or with the graph that it is replayed with.
+std::string wrong_with(const std::string& path, const std::string& text = graph_text) {
+  try {
+    tools::LogReader log(path);
+    replay(log, graph_of(text));
+  } catch (const tools::LogError& error) { return error.what(); }
+  return "";
+}
+}  // namespace
+
+TEST_SUITE("tools/replay") {
+  TEST_CASE("values of any type come back from a log, each at its instant, as often as they are asked for") {
+    const TemporaryFolder folder;
+    const Report should = write_log(folder / "log");
+    tools::LogReader log(folder / "log");
+    CHECK(log.covered() == 30ms);
+    CHECK(log.values() > 0);
+    REQUIRE(log.end());
+    CHECK(log.end()->digest == should.digest);
+    CHECK(log.end()->instants == 30);
+    CHECK(log.end()->activations == should.activations);
+    const Graph graph = graph_of(graph_text);
+    for (int i = 0; i < 2; ++i) CHECK(replay(log, graph).digest == should.digest);
+  }
+
+  TEST_CASE("a log that breaks off anywhere is good up to there") {
+    const TemporaryFolder folder;
+    write_log(folder / "log");
+    const std::string whole = content(folder / "log");
+    const std::size_t header = whole.find('\n') + 1;
+    Duration covered{};
+    for (std::size_t length = header; length < whole.size(); ++length) {
+      folder.write("part", whole.substr(0, length));
+      tools::LogReader log(folder / "part");
+      REQUIRE_FALSE(log.end());
+      REQUIRE(log.breaks_off() <= static_cast<std::int64_t>(length));
+      REQUIRE(log.covered() >= covered);
+      covered = log.covered();
+      if (length % 97 == 0) replay(log, graph_of(graph_text));
+    }
+    CHECK(covered >= 10ms);
+  }
+
+  TEST_CASE("a log with any byte changed is good up to there, or no log") {
+    const TemporaryFolder folder;
+    write_log(folder / "log");
+    const std::string whole = content(folder / "log");
+    const std::size_t header = whole.find('\n') + 1;
+    for (std::size_t at = header; at < whole.size(); ++at) {
+      std::string damaged = whole;
+      damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+      folder.write("damaged", damaged);
+      tools::LogReader log(folder / "damaged");
+      REQUIRE_FALSE(log.end());
+      REQUIRE(log.breaks_off() <= static_cast<std::int64_t>(at));
+    }
+  }
+
+  TEST_CASE("what is no log is told") {
+    const TemporaryFolder folder;
+    const auto no_log = [&](const std::string& text) { return wrong_with(folder.write("x", text)); };
+    const std::string is_none = "'" + folder / "x" + "' is no log; one comes from jarol run --log";
+    CHECK(no_log("") == is_none);
+    CHECK(no_log("graph: t\n") == is_none);
+    CHECK(no_log("{\"schema\": \"jarol.run/1\"}\n") == is_none);
+    CHECK(no_log("{\"schema\": \"jarol.log/1\", \"graph\": 3}\n") == is_none);
+    CHECK(wrong_with(folder / "nothing") == "can't read '" + folder / "nothing" + "': No such file or directory");
+  }
+
+  TEST_CASE("a log of another graph is told by what does not fit") {
+    const TemporaryFolder folder;
+    write_log(folder / "log");
+    const std::string log = "'" + folder / "log" + "' ", remedy = "; replay the graph of the run";
+    CHECK(wrong_with(folder / "log") == "");
+    CHECK(wrong_with(folder / "log", replaced(replaced(graph_text, "  i:", "  j:"), "i -> r", "j -> r")) ==
+          log + "has values of 'i', which takes none in graph 't'" + remedy);
+    std::string other = graph_text;
+    for (const auto& [what, by] : {std::pair("  w: {channel: p.window}\n", ""), {", m: {type: Mean}", ""},
+                                   {", w -> m.in, m.out -> mean", ", r.out -> mean"}})
+      other = replaced(other, what, by);
+    CHECK(wrong_with(folder / "log", other) == log + "has values of 'w', which takes none in graph 't'" + remedy);
+    CHECK(wrong_with(folder / "log", replaced(graph_text, "period: 1ms}\n", "period: 1ms, offset: 500us}\n"))
+              .find(log + "has a value of 'i' at 0") == 0);
+    const std::string flat = replaced(replaced(replaced(graph_text, "p.window", "p.sensor"), "p.sensor", "p.window"),
+                                      "tasks: {r: {type: Accumulate, period: 1ms}, m: {type: Mean}}",
+                                      "tasks: {r: {type: Mean, period: 1ms}, m: {type: Accumulate}}");
+    CHECK(wrong_with(folder / "log", flat) ==
+          log + "has values of 'i' of another type than graph 't'" + remedy);
+  }
+
+  TEST_CASE("a run in real time is the same again, and its graph need not be named") {
+    const TemporaryFolder folder;
+    const std::string log = folder / "run.log", trace = folder / "run.csv", again = folder / "again.csv";
+    const auto run = command::jarol("run specs/counting.yaml --clock real --force --for 300ms --log " + log +
+                                    " --trace " + trace);
+    CAPTURE(run.output);
+    REQUIRE((run.exit_code == 0 || run.exit_code == 3));  // 3: the machine was late
+    CHECK(line_of(run.output, "log") == "log         " + log);
+    const auto replay = command::jarol("replay " + log + " --trace " + again);
+    CHECK(replay.exit_code == 0);
+    CHECK(line_of(replay.output, "same") == "same        as the run on the real clock");
+    CHECK(line_of(replay.output, "digest") == line_of(run.output, "digest"));
+    CHECK(line_of(replay.output, "activations") == line_of(run.output, "activations"));
+    CHECK(content(again) == content(trace));
+  }
+
+  TEST_CASE("a replay with something changed says that it diverged") {
+    const TemporaryFolder folder;
+    const std::string log = folder / "run.log";
+    const auto run = command::jarol("run specs/counting.yaml --for 100ms --log " + log);
+    REQUIRE(run.exit_code == 0);
+    const std::string digest = line_of(run.output, "digest").substr(12);
+    CHECK(command::jarol("replay " + log + " specs/counting.yaml").exit_code == 0);
+    const auto replay = command::jarol("replay " + log + " --set tasks.loop.init.out=7");
+    CAPTURE(replay.output);
+    CHECK(replay.exit_code == 1);
+    CHECK(line_of(replay.output, "DIVERGED") ==
+          "DIVERGED    from the run on the virtual clock, whose digest was " + digest);
+    const auto json = command::jarol("replay " + log + " --json --set tasks.loop.init.out=7", "2>/dev/null");
+    CHECK(json.exit_code == 1);
+    CHECK(json.output.find("{\"schema\":\"jarol.replay/1\",") == 0);
+    CHECK(json.output.find("\"verdict\":\"diverged\"") != std::string::npos);
+    CHECK(json.output.find("\"log\":{\"file\":\"" + log + "\",\"clock\":\"virtual\",\"values\":0,\"misses\":0,\"digest\":\"" +
+                           digest + "\"}") != std::string::npos);
+  }
+
+  TEST_CASE("of a log that breaks off the replay does what there is, and ends with 3") {
+    const TemporaryFolder folder;
+    const std::string log = folder / "run.log";
+    REQUIRE(command::jarol("run specs/counting.yaml --for 100ms --log " + log).exit_code == 0);
+    const std::string whole = content(log);
+    const std::size_t header = whole.find('\n') + 1;
+    folder.write("part", whole.substr(0, whole.size() - 1));
+    const auto replay = command::jarol("replay " + folder / "part");
+    CHECK(replay.exit_code == 3);
+    CHECK(replay.output.find("  log         breaks off at byte " + std::to_string(header) +
+                             ", before 0 s were whole; how the run ended is not known\n") != std::string::npos);
+  }
+
+  TEST_CASE("a log that can't be written is an error, and the run's files are apart") {
+    CHECK(command::jarol("run specs/counting.yaml --for 1s --log /no/such/place").output ==
+          "error: can't write '/no/such/place': No such file or directory\n");
+    const auto full = command::jarol("run specs/counting.yaml --for 1s --log /dev/full");
+    CHECK(full.exit_code == 2);
+    CHECK(full.output.find("error: can't write '/dev/full': No space left on device\n") != std::string::npos);
+    CHECK(command::jarol("run specs/counting.yaml --for 1s --log specs/counting.yaml").output ==
+          "error: --log 'specs/counting.yaml' would replace what FILE names; choose another file\n");
+    CHECK(command::jarol("run specs/counting.yaml --for 1s --log x --clock real --concurrency threads").output ==
+          "error: --log belongs to --concurrency exotasks\n");
+  }
+}

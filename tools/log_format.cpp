@@ -1,0 +1,60 @@
+#include "tools/log_format.h"
+
+#include <fmt/format.h>
+#include <bit>
+#include <nlohmann/json.hpp>
+
+namespace jarol::tools {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+std::string layout_of(const Type& type) {
+  std::string text = fmt::format("{} {} {} {}(", type.name, static_cast<int>(type.kind), type.size, type.count);
+  for (const TypeField& f : type.fields) text += fmt::format("{}@{} {};", f.name, f.offset, layout_of(*f.type));
+  if (type.element != nullptr) text += layout_of(*type.element);
+  return text + ")";
+}
+
+}  // namespace
+
+std::string signature_of(const Type& type) {
+  return fmt::format("{} {:016x}", type.name, digest::name_hash(layout_of(type)));
+}
+
+std::vector<std::size_t> logged_inputs(const Graph& graph) {
+  std::vector<std::size_t> inputs;
+  for (std::size_t i = 0; i < graph.communicators.size(); ++i)
+    if (graph.communicators[i].direction == Direction::in && graph.communicators[i].distributer) inputs.push_back(i);
+  return inputs;
+}
+
+std::string to_line(const LogHeader& header) {
+  nlohmann::ordered_json json{{"schema", LogHeader::schema},
+                              {"graph", header.graph},
+                              {"file", header.file},
+                              {"profile", header.overrides.profile},
+                              {"set", header.overrides.set},
+                              {"clock", header.clock},
+                              {"inputs", nlohmann::ordered_json::array()},
+                              {"tasks", header.tasks}};
+  for (const LogHeader::Input& input : header.inputs)
+    json["inputs"].push_back({{"name", input.name}, {"type", input.signature}});
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+LogHeader parse_header(const std::string& line) {
+  try {
+    const auto json = nlohmann::json::parse(line);
+    if (json.at("schema") != LogHeader::schema) throw LogError("is no log");
+    LogHeader header{.graph = json.at("graph"),
+                     .file = json.at("file"),
+                     .overrides = {json.at("profile"), json.at("set")},
+                     .clock = json.at("clock"),
+                     .tasks = json.at("tasks")};
+    for (const auto& input : json.at("inputs")) header.inputs.push_back({input.at("name"), input.at("type")});
+    return header;
+  } catch (const nlohmann::json::exception&) { throw LogError("is no log"); }
+}
+
+}  // namespace jarol::tools

@@ -1,0 +1,74 @@
+// A log: a line of JSON that says of what graph it is, then records in the order in which they came. Each is checked by
+// a sum of its own, so that a log of a run that was killed is good up to where it breaks off.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "graph/graph.h"
+#include "graph/spec/load.h"
+#include "graph/values/digest.h"
+
+namespace jarol::tools {
+
+/// What can't be replayed, and why.
+struct LogError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct LogHeader {
+  static constexpr const char* schema = "jarol.log/1";
+
+  struct Input {
+    std::string name;       // of an `in` communicator
+    std::string signature;  // of its type
+  };
+
+  std::string graph;
+  std::string file;  // of the graph, from the root
+  Overrides overrides;
+  std::string clock;             // of the run: virtual or real
+  std::vector<Input> inputs{};   // a record's `output` is an index into these
+  std::vector<std::string> tasks{};  // a miss tells an index into these
+};
+
+/// Before the bytes of a record, in the byte order of the machine, which is that of all that Jarol runs on.
+struct LogRecord {
+  static constexpr std::uint32_t miss = 0xffffffff;
+  static constexpr std::uint32_t end = 0xfffffffe;
+
+  std::int64_t instant = 0;  // ns from the start
+  std::uint32_t output = 0;  // index of an input, or `miss` or `end`
+  std::uint32_t size = 0;    // bytes that follow
+  std::uint64_t sum = 0;
+
+  static std::uint64_t sum_of(const LogRecord& record, std::string_view bytes) {
+    const std::uint64_t place = (std::uint64_t{record.output} << 32) | record.size;
+    return digest::fold(digest::name_hash(bytes) ^ digest::key(0), static_cast<std::uint64_t>(record.instant) ^ place);
+  }
+};
+
+/// How the run ended.
+struct LogEnd {
+  std::int64_t covered = 0;  // ns; the instants before it were run
+  std::uint64_t digest = 0;
+  std::uint64_t activations = 0;
+  std::uint64_t instants = 0;
+  std::uint64_t faults = 0;
+};
+
+/// As "graph: exolauv, ..." in one line of JSON, and back. Throws LogError.
+std::string to_line(const LogHeader& header);
+LogHeader parse_header(const std::string& line);
+
+/// The same for types of the same layout.
+std::string signature_of(const Type& type);
+
+/// The communicators whose values come from outside, in the order of the graph.
+std::vector<std::size_t> logged_inputs(const Graph& graph);
+
+}  // namespace jarol::tools

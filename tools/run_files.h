@@ -1,0 +1,41 @@
+// What a run writes beside its report: its trace and its picture.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "graph/graph.h"
+#include "runtime/recorder.h"
+
+namespace jarol::tools {
+
+class Command;
+
+struct RunFileArguments {
+  std::string trace;
+  std::string plot;
+};
+
+void add_run_file_options(Command& command, RunFileArguments& arguments);
+
+class RunFiles {
+ public:
+  /// Throws std::runtime_error if one can't be made.
+  RunFiles(const Graph& graph, const RunFileArguments& arguments);
+  ~RunFiles();
+  RunFiles(const RunFiles&) = delete;
+  RunFiles& operator=(const RunFiles&) = delete;
+
+  /// Null if there is nothing to write.
+  Recorder* recorder() { return recorder_.get(); }
+
+  /// Writes all that is left. Throws std::runtime_error if something could not be written.
+  void close();
+
+ private:
+  std::vector<std::unique_ptr<RecordSink>> sinks_;
+  std::unique_ptr<Recorder> recorder_;
+};
+
+}  // namespace jarol::tools

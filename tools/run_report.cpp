@@ -1,0 +1,86 @@
+#include "tools/run_report.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tools/commanded.h"
+#include "tools/real_time.h"
+#include "tools/told_faults.h"
+#include "tools/value_json.h"
+
+namespace jarol::tools {
+namespace {
+
+bool has_weak_isolation(const Graph& graph) {
+  return std::any_of(graph.tasks.begin(), graph.tasks.end(),
+                     [](const Task& task) { return task.isolation == Isolation::weak; });
+}
+
+}  // namespace
+
+double real_time_factor(const RunOutcome& outcome) {
+  return static_cast<double>(outcome.executor.report().simulated.count()) * 1e-9 / outcome.seconds;
+}
+
+std::string to_text(const RunOutcome& outcome) {
+  const Graph& graph = outcome.graph;
+  const Executor& executor = outcome.executor;
+  const Report& report = executor.report();
+  std::string text = reached_text(graph, [&](std::size_t communicator) { return executor.last_value(communicator); });
+  text += fmt::format("  activations {}, instants {}\n  digest      0x{:016x}\n", report.activations, report.instants,
+                      report.digest);
+  for (const Task& task : graph.tasks)
+    if (task.isolation == Isolation::weak)
+      text += "              nothing is claimed of the digest: task '" + task.name + "' is weakly isolated\n";
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i)
+    if (const PrivateHeap* heap = executor.plan().heaps[i].get())
+      text += fmt::format("  heap        {}: at most {} of {} bytes in use\n", graph.tasks[i].name, heap->most_used(),
+                          heap->size());
+  text += outcome.told.to_text();
+  if (outcome.clock != nullptr) text += to_text(graph, *outcome.clock);
+  for (const LinkReport& link : outcome.links) text += to_text(link);
+  text += to_text(graph, executor.safe_commands());
+  if (report.non_finite_inputs > 0)
+    text += fmt::format("  {} values from outside were not finite and not taken\n", report.non_finite_inputs);
+  if (const StageTeam* team = executor.team())
+    text += fmt::format("  workers     {}, {} of {} levels of tasks shared\n", outcome.workers, team->shared(),
+                        team->shared() + team->alone());
+  return text;
+}
+
+nlohmann::ordered_json to_json(const RunOutcome& outcome) {
+  const Graph& graph = outcome.graph;
+  const Executor& executor = outcome.executor;
+  const Report& report = executor.report();
+  auto outputs = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < graph.communicators.size(); ++i)
+    if (graph.communicators[i].direction == Direction::out)
+      outputs[graph.communicators[i].name] = to_json(*graph.communicators[i].type, executor.last_value(i));
+  auto heaps = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i)
+    if (const PrivateHeap* heap = executor.plan().heaps[i].get())
+      heaps[graph.tasks[i].name] = {{"size", heap->size()}, {"most_used", heap->most_used()}};
+  nlohmann::ordered_json json{{"schema", "jarol.run/1"},
+                              {"graph", graph.name},
+                              {"clock", outcome.clock != nullptr ? "real" : "virtual"},
+                              {"digest", fmt::format("0x{:016x}", report.digest)},
+                              {"digest_claimed", !has_weak_isolation(graph)},
+                              {"simulated_ns", report.simulated.count()},
+                              {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
+                              {"real_time_factor", real_time_factor(outcome)},
+                              {"activations", report.activations},
+                              {"instants", report.instants},
+                              {"faults", faults_to_json(report)},
+                              {"fault_count", report.fault_count},
+                              {"non_finite_inputs", report.non_finite_inputs},
+                              {"safe_commands", to_json(graph, executor.safe_commands())},
+                              {"told", outcome.told.to_json()},
+                              {"heaps", heaps},
+                              {"outputs", outputs}};
+  if (outcome.clock != nullptr) json["real_time"] = to_json(graph, *outcome.clock);
+  for (const LinkReport& link : outcome.links) json["links"].push_back(to_json(link));
+  return json;
+}
+
+}  // namespace jarol::tools

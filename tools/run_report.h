@@ -1,0 +1,30 @@
+// What a run, or the replay of one, tells at its end.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "runtime/executor.h"
+#include "tools/told_changes.h"
+
+namespace jarol::tools {
+
+struct RunOutcome {
+  const Graph& graph;
+  const Executor& executor;
+  const ToldChanges& told;
+  const RealClock* clock = nullptr;  // null: the virtual clock
+  std::size_t workers = 1;           // that were asked for
+  std::vector<LinkReport> links{};
+  double seconds = 0;  // that it took, above zero
+};
+
+/// All but the first line.
+std::string to_text(const RunOutcome& outcome);
+nlohmann::ordered_json to_json(const RunOutcome& outcome);
+
+/// Logical seconds per second.
+double real_time_factor(const RunOutcome& outcome);
+
+}  // namespace jarol::tools
