@@ -31,8 +31,8 @@ struct LogHeader {
   std::string graph;
   std::string file;  // of the graph, from the root
   Overrides overrides;
-  std::string clock;             // of the run: virtual or real
-  std::vector<Input> inputs{};   // a record's `output` is an index into these
+  std::string clock;                 // of the run: virtual or real
+  std::vector<Input> inputs{};       // a record's `output` is an index into these
   std::vector<std::string> tasks{};  // a miss tells an index into these
 };
 

@@ -59,20 +59,25 @@ std::vector<Miss> LogReader::begin(const Graph& graph) {
     const auto at = std::find_if(inputs.begin(), inputs.end(),
                                  [&](std::size_t i) { return graph.communicators[i].name == logged.name; });
     if (at == inputs.end())
-      fail("has values of '" + logged.name + "', which takes none in graph '" + graph.name + "'; replay the graph of the run");
+      fail("has values of '" + logged.name + "', which takes none in graph '" + graph.name +
+           "'; replay the graph of the run");
     if (signature_of(*graph.communicators[*at].type) != logged.signature)
-      fail("has values of '" + logged.name + "' of another type than graph '" + graph.name + "'; replay the graph of the run");
+      fail("has values of '" + logged.name + "' of another type than graph '" + graph.name +
+           "'; replay the graph of the run");
     communicators_.push_back(*at);
   }
   for (const std::size_t i : inputs)
     if (std::find(communicators_.begin(), communicators_.end(), i) == communicators_.end())
-      fail("has no values of '" + graph.communicators[i].name + "', which graph '" + graph.name + "' takes; replay the graph of the run");
+      fail("has no values of '" + graph.communicators[i].name + "', which graph '" + graph.name +
+           "' takes; replay the graph of the run");
   std::vector<Miss> misses = misses_;
   for (Miss& miss : misses) {
     const std::string name = miss.task < header_.tasks.size() ? header_.tasks[miss.task] : "";
-    const auto task = std::find_if(graph.tasks.begin(), graph.tasks.end(), [&](const Task& t) { return t.name == name; });
+    const auto task =
+        std::find_if(graph.tasks.begin(), graph.tasks.end(), [&](const Task& t) { return t.name == name; });
     if (task == graph.tasks.end())
-      fail("says that task '" + name + "' was late, which graph '" + graph.name + "' does not have; replay the graph of the run");
+      fail("says that task '" + name + "' was late, which graph '" + graph.name +
+           "' does not have; replay the graph of the run");
     miss.task = static_cast<std::uint32_t>(task - graph.tasks.begin());
   }
   file_.clear();
@@ -83,7 +88,8 @@ std::vector<Miss> LogReader::begin(const Graph& graph) {
 
 bool LogReader::take(Duration instant, std::size_t communicator, void* value) {
   throw_if_before(instant);
-  if (!has_record_ || Duration(record_.instant) != instant || communicators_[record_.output] != communicator) return false;
+  if (!has_record_ || Duration(record_.instant) != instant || communicators_[record_.output] != communicator)
+    return false;
   unpack(*graph_->communicators[communicator].type, reinterpret_cast<const std::byte*>(bytes_.data()), value);
   while (next() && record_.output >= header_.inputs.size()) {}
   return true;

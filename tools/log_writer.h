@@ -33,8 +33,8 @@ class LogWriter : private RecordSink {
   [[noreturn]] void fail() const;
 
   std::string path_;
-  std::vector<Output> outputs_;           // of the recorder
-  std::vector<std::uint32_t> input_of_;   // per communicator: an index into the header's inputs
+  std::vector<Output> outputs_;          // of the recorder
+  std::vector<std::uint32_t> input_of_;  // per communicator: an index into the header's inputs
   std::string packed_;
   std::FILE* file_ = nullptr;
   std::unique_ptr<Recorder> recorder_;

@@ -1,9 +1,15 @@
 // Logs and their replays: what is in the file, what is the same, and what is wrong with a log.
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 
+#ifdef JAROL_VEHICLES
+#include "tests/tools/process.h"
+#endif
 #include "tests/runtime/outside.h"
 #include "tests/runtime/trace_of.h"
 #include "tests/tools/run_command.h"
@@ -14,6 +20,7 @@ namespace {
 using namespace jarol;
 using namespace std::chrono_literals;
 using command::TemporaryFolder;
+namespace fs = std::filesystem;
 
 std::string content(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -147,7 +154,8 @@ TEST_SUITE("tools/replay") {
     CHECK(wrong_with(folder / "log", replaced(replaced(graph_text, "  i:", "  j:"), "i -> r", "j -> r")) ==
           log + "has values of 'i', which takes none in graph 't'" + remedy);
     std::string other = graph_text;
-    for (const auto& [what, by] : {std::pair("  w: {channel: p.window}\n", ""), {", m: {type: Mean}", ""},
+    for (const auto& [what, by] : {std::pair("  w: {channel: p.window}\n", ""),
+                                   {", m: {type: Mean}", ""},
                                    {", w -> m.in, m.out -> mean", ", r.out -> mean"}})
       other = replaced(other, what, by);
     CHECK(wrong_with(folder / "log", other) == log + "has values of 'w', which takes none in graph 't'" + remedy);
@@ -156,15 +164,14 @@ TEST_SUITE("tools/replay") {
     const std::string flat = replaced(replaced(replaced(graph_text, "p.window", "p.sensor"), "p.sensor", "p.window"),
                                       "tasks: {r: {type: Accumulate, period: 1ms}, m: {type: Mean}}",
                                       "tasks: {r: {type: Mean, period: 1ms}, m: {type: Accumulate}}");
-    CHECK(wrong_with(folder / "log", flat) ==
-          log + "has values of 'i' of another type than graph 't'" + remedy);
+    CHECK(wrong_with(folder / "log", flat) == log + "has values of 'i' of another type than graph 't'" + remedy);
   }
 
   TEST_CASE("a run in real time is the same again, and its graph need not be named") {
     const TemporaryFolder folder;
     const std::string log = folder / "run.log", trace = folder / "run.csv", again = folder / "again.csv";
-    const auto run = command::jarol("run specs/counting.yaml --clock real --force --for 300ms --log " + log +
-                                    " --trace " + trace);
+    const auto run =
+        command::jarol("run specs/counting.yaml --clock real --force --for 300ms --log " + log + " --trace " + trace);
     CAPTURE(run.output);
     REQUIRE((run.exit_code == 0 || run.exit_code == 3));  // 3: the machine was late
     CHECK(line_of(run.output, "log") == "log         " + log);
@@ -192,8 +199,9 @@ TEST_SUITE("tools/replay") {
     CHECK(json.exit_code == 1);
     CHECK(json.output.find("{\"schema\":\"jarol.replay/1\",") == 0);
     CHECK(json.output.find("\"verdict\":\"diverged\"") != std::string::npos);
-    CHECK(json.output.find("\"log\":{\"file\":\"" + log + "\",\"clock\":\"virtual\",\"values\":0,\"misses\":0,\"digest\":\"" +
-                           digest + "\"}") != std::string::npos);
+    CHECK(json.output.find("\"log\":{\"file\":\"" + log +
+                           "\",\"clock\":\"virtual\",\"values\":0,\"misses\":0,\"digest\":\"" + digest + "\"}") !=
+          std::string::npos);
   }
 
   TEST_CASE("of a log that breaks off the replay does what there is, and ends with 3") {
@@ -208,6 +216,29 @@ TEST_SUITE("tools/replay") {
     CHECK(replay.output.find("  log         breaks off at byte " + std::to_string(header) +
                              ", before 0 s were whole; how the run ended is not known\n") != std::string::npos);
   }
+
+#ifdef JAROL_VEHICLES
+  TEST_CASE("of a run that was killed the log has all but the end") {
+    const TemporaryFolder folder;
+    const std::string log = folder / "run.log";
+    {
+      tests::Process run("run specs/exolauv.yaml --clock real --force --for 60s --log " + log);
+      const auto patience = std::chrono::steady_clock::now() + 30s;
+      const auto covered = [&] {
+        return fs::exists(log) && fs::file_size(log) > 2000 ? tools::LogReader(log).covered() : 0s;
+      };
+      while (covered() < 1s && std::chrono::steady_clock::now() < patience) std::this_thread::sleep_for(50ms);
+      run.kill();
+    }
+    const auto replay = command::jarol("replay " + log + " --json", "2>/dev/null");
+    CHECK(replay.exit_code == 3);
+    const auto told = nlohmann::json::parse(replay.output);
+    CHECK(told["verdict"] == "unknown");
+    CHECK(told["simulated_ns"] >= 1'000'000'000);
+    CHECK(told["log"]["values"] >= 20);
+    CHECK(told["log"]["digest"].is_null());
+  }
+#endif
 
   TEST_CASE("a log that can't be written is an error, and the run's files are apart") {
     CHECK(command::jarol("run specs/counting.yaml --for 1s --log /no/such/place").output ==

@@ -121,14 +121,16 @@ int replay(const Options& options) {
 
 void add_replay(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
-  Command* command = line.add_subcommand(
-      "replay",
-      "Run again what jarol run --log has logged: on the virtual clock, without vehicles or links, with what came from\n"
-      "outside and what was late then. It is the same to the bit, or says that it is not.\n"
-      "Exit code: 0 the same, 1 diverged, 3 a log that breaks off, 2 bad input, 130 interrupted");
+  Command* command =
+      line.add_subcommand("replay",
+                          "Run again what jarol run --log has logged: on the virtual clock, without vehicles or links, "
+                          "with what came from\n"
+                          "outside and what was late then. It is the same to the bit, or says that it is not.\n"
+                          "Exit code: 0 the same, 1 diverged, 3 a log that breaks off, 2 bad input, 130 interrupted");
   command->add_option("LOG", options->log, "The log of a run")->required();
   command->add_option("FILE", options->file, "The graph; default: that of the run, with its profile and its --set");
-  command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.parameters.kp=0.5")
+  command
+      ->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.parameters.kp=0.5")
       ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
   command->add_flag("--json", options->json, "One JSON object instead of text");
