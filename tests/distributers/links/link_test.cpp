@@ -223,12 +223,17 @@ TEST_SUITE("distributers/links/link") {
   TEST_CASE("a peer that comes back is found again: serial line") { check_meets_again(serial()); }
 
   TEST_CASE("a plain output port refuses when it is full, and that is counted") {
-    Pair pair = udp("127.0.0.1", {.input = {}, .output = {PortKind::plain, 4}, .header = {}});
-    // nobody has spoken yet: the sender has no peer, but takes what is in the port; it is filled faster
-    for (int id = 0; id < 2000; ++id) pair.one->send(messages::refer_to(javiator::MotorSignals{}));
-    pair.one->flush();
-    CHECK(count_of(*pair.one, "unsent: output port full") == 1996);
-    CHECK(wait_for([&] { return count_of(*pair.one, "unsent: no peer") == 4; }));
+    const auto link = make(std::make_unique<UdpTransport>(Address::parse("127.0.0.1:0"), Address{}),
+                           {.input = {}, .output = {PortKind::plain, 4}, .header = {}});
+    // not connected: nobody empties the port
+    for (int id = 0; id < 50; ++id) link->send(messages::refer_to(javiator::MotorSignals{}));
+    CHECK(count_of(*link, "unsent: output port full") == 46);
+    // the sender takes what is in it, though nobody has spoken and it has no peer; then there is room again
+    link->connect();
+    CHECK(wait_for([&] { return count_of(*link, "unsent: no peer") == 4; }));
+    send_id(*link, 50);
+    CHECK(wait_for([&] { return count_of(*link, "unsent: no peer") == 5; }));
+    CHECK(count_of(*link, "unsent: output port full") == 46);
   }
 
   TEST_CASE("a push port keeps the newest packets; those overwritten are counted") {
