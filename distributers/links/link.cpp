@@ -92,8 +92,9 @@ class Link::Translator : public ByteSink {
   bool take_datagram(std::span<const std::byte> bytes, std::uint32_t peer) {
     const Flaw flaw = datagrams_.read(bytes);
     told_.count(flaw, bytes.size());
+    const bool counts = flaw == Flaw::none && write(datagrams_.header(), bytes, peer);
     store(told_);
-    return flaw == Flaw::none && write(datagrams_.header(), bytes, peer);
+    return counts;
   }
 
   bool take_stream(std::span<const std::byte> bytes) {
@@ -124,6 +125,7 @@ class Link::Translator : public ByteSink {
     return true;
   }
 
+  // After what is counted is in the port: who sees the count finds the packets.
   void store(const messages::PacketCounts& now) {
     if (stream_) {
       told_ = before_;
@@ -132,11 +134,11 @@ class Link::Translator : public ByteSink {
       told_.dropped_bytes += now.dropped_bytes;
       for (std::size_t i = 0; i < now.dropped.size(); ++i) told_.dropped[i] += now.dropped[i];
     }
-    counts_.packets.store(told_.packets, std::memory_order_relaxed);
     counts_.bytes.store(told_.bytes, std::memory_order_relaxed);
     counts_.dropped_bytes.store(told_.dropped_bytes, std::memory_order_relaxed);
     for (std::size_t i = 0; i < told_.dropped.size(); ++i)
       counts_.dropped[i].store(told_.dropped[i], std::memory_order_relaxed);
+    counts_.packets.store(told_.packets, std::memory_order_release);
   }
 
   const messages::MessageSet& set_;

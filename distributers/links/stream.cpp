@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <utility>
 
 namespace jarol::distributers {
 namespace {
@@ -16,6 +17,7 @@ using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 constexpr milliseconds first_pause{20};
 constexpr milliseconds longest_pause{1000};
+constexpr milliseconds look{100};        // for a newer peer, while there is one
 constexpr milliseconds send_limit{200};  // how long a send waits for room; the next one does not wait if it was in vain
 
 bool can_write(int fd, milliseconds time) {
@@ -54,12 +56,16 @@ void StreamTransport::receive(const Interrupter& interrupter, ByteSink& sink) {
 StreamTransport::End StreamTransport::receive_stream(const Interrupter& interrupter, ByteSink& sink) {
   std::array<std::byte, 65536> room;
   const auto begin = Clock::now();
-  auto heard = begin;
+  auto looked = begin;
+  Clock::duration silence{};
   bool valid = false;
   const auto end = [&] { return valid || Clock::now() - begin > longest_pause ? End::good : End::bad; };
   for (;;) {
-    if (announces_peer() >= 0 && is_displaced(Clock::now() - heard > longest_pause)) return end();
-    switch (interrupter.wait(stream_.get(), milliseconds(announces_peer() >= 0 ? 100 : -1))) {
+    // what takes longer than a look is this machine's, which has halted: no silence of the peer
+    const auto now = Clock::now();
+    silence += std::min<Clock::duration>(now - std::exchange(looked, now), look);
+    if (announces_peer() >= 0 && is_displaced(silence > longest_pause)) return end();
+    switch (interrupter.wait(stream_.get(), milliseconds(announces_peer() >= 0 ? look.count() : -1))) {
       case Interrupter::Woken::interrupted: return End::interrupted;
       case Interrupter::Woken::timed_out: continue;
       case Interrupter::Woken::ready: break;
@@ -72,7 +78,7 @@ StreamTransport::End StreamTransport::receive_stream(const Interrupter& interrup
     }
     if (!sink.take(std::span(room).first(static_cast<std::size_t>(length)))) continue;
     valid = true;
-    heard = Clock::now();
+    silence = {};
   }
 }
 

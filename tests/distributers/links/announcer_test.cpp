@@ -28,7 +28,7 @@ struct Socket {
   // Bytes of the next datagram; -1: none comes.
   long next() {
     pollfd polled{descriptor.get(), POLLIN, 0};
-    if (poll(&polled, 1, 5000) != 1) return -1;
+    if (poll(&polled, 1, 20'000) != 1) return -1;
     char room[1024];
     return recv(descriptor.get(), room, sizeof room, 0);
   }
@@ -88,7 +88,8 @@ TEST_SUITE("distributers/links/announcer") {
       return std::uint64_t{0};
     };
     const auto waits = [&](const std::string& name, std::uint64_t wanted) {
-      for (int i = 0; i < 5000 && count(name) != wanted; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      for (int i = 0; i < 20'000 && count(name) != wanted; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
       return count(name);
     };
     wrong->send(messages::refer_to(imc::Heartbeat{}));

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -24,8 +25,10 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 namespace javiator = messages::javiator;
 
+constexpr auto patience = 20s;  // a busy machine may take long
+
 bool wait_for(const std::function<bool()>& done) {
-  const auto end = Clock::now() + 20s;  // a busy machine may take long
+  const auto end = Clock::now() + patience;
   while (!done()) {
     if (Clock::now() > end) return false;
     std::this_thread::sleep_for(1ms);
@@ -33,8 +36,8 @@ bool wait_for(const std::function<bool()>& done) {
   return true;
 }
 
-std::unique_ptr<Link> make(std::unique_ptr<Transport> transport) {
-  auto link = std::make_unique<Link>(std::move(transport), javiator::message_set(), LinkOptions{});
+std::unique_ptr<Link> make(std::unique_ptr<Transport> transport, const LinkOptions& options = {}) {
+  auto link = std::make_unique<Link>(std::move(transport), javiator::message_set(), options);
   link->connect();
   return link;
 }
@@ -68,17 +71,22 @@ struct Server {
 
 // A line at whose other end nobody reads, and a link that has opened it.
 struct StuckLine {
-  StuckLine() : other_end(posix_openpt(O_RDWR | O_NOCTTY)) {
+  explicit StuckLine(std::size_t packets = 64) : other_end(posix_openpt(O_RDWR | O_NOCTTY)) {
     REQUIRE(grantpt(other_end.get()) == 0);
     REQUIRE(unlockpt(other_end.get()) == 0);
     const std::string name = ptsname(other_end.get());
-    link = make(std::make_unique<SerialTransport>(name, 115200));
+    link = make(std::make_unique<SerialTransport>(name, 115200),
+                {.input = {}, .output = {PortKind::plain, packets}, .header = {}});
     REQUIRE(wait_for([&] { return link->transport().counts.connected == 1; }));
     const Descriptor line(::open(name.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK));
     const char bytes[4096] = {};
-    // what is taken a little later fills it up
-    for (int full = 0; full < 3; std::this_thread::sleep_for(2ms))
-      full = ::write(line.get(), bytes, sizeof bytes) > 0 ? 0 : full + 1;
+    // there are two buffers, and the system carries what it takes from one into the other when it gets to it
+    constexpr int other_buffer = 4095;
+    for (int full = 0; full < 5; std::this_thread::sleep_for(2ms)) {
+      int carried = 0;
+      REQUIRE(ioctl(other_end.get(), FIONREAD, &carried) == 0);
+      full = ::write(line.get(), bytes, sizeof bytes) > 0 || carried < other_buffer ? 0 : full + 1;
+    }
   }
   Descriptor other_end;
   std::unique_ptr<Link> link;
@@ -89,14 +97,17 @@ TEST_SUITE("distributers/links/stream") {
   TEST_CASE("a server that ends each stream at once is tried at growing intervals") {
     const Descriptor socket = listen_at(at(0));
     const auto client = make(std::make_unique<TcpClient>(at(port_of(socket))));
-    int streams = 0;
-    for (const auto end = Clock::now() + 1s; Clock::now() < end;) {
-      pollfd polled{socket.get(), POLLIN, 0};
-      if (poll(&polled, 1, 10) == 1 && accept_from(socket)) ++streams;
+    Clock::time_point before, look;
+    const auto accept = [&] {
+      look = Clock::now();
+      return bool(accept_from(socket));  // and ends it
+    };
+    REQUIRE(wait_for(accept));
+    for (auto pause = 20ms; pause <= 320ms; pause *= 2) {
+      before = look;
+      REQUIRE(wait_for(accept));
+      CHECK(Clock::now() - before >= pause);
     }
-    // after 20, 40, 80, 160, 320 ms
-    CHECK(streams >= 2);
-    CHECK(streams <= 6);
   }
 
   TEST_CASE("a stream that was good is followed by another after the first pause") {
@@ -104,25 +115,45 @@ TEST_SUITE("distributers/links/stream") {
     const auto client = make(std::make_unique<TcpClient>(at(port_of(socket))));
     const unsigned char packet[] = {0xff, 0xff, 0x11, 0, 0, 0x11};
     const auto start = Clock::now();
-    for (std::uint64_t streams = 1; streams <= 10; ++streams) {
+    // on a busy machine most may take long; but growing each would from the sixth on
+    auto shortest = Clock::duration::max();
+    for (std::uint64_t streams = 1; streams <= 7 || (shortest > 300ms && Clock::now() - start < patience); ++streams) {
       Descriptor stream;
+      const auto ended = Clock::now();
       REQUIRE(wait_for([&] { return bool(stream = accept_from(socket)); }));
+      if (streams > 6) shortest = std::min(shortest, Clock::now() - ended);
       REQUIRE(::write(stream.get(), packet, sizeof packet) == sizeof packet);
       REQUIRE(wait_for([&] { return count_of(*client, "packets in") == streams; }));
     }
-    CHECK(Clock::now() - start < 2s);  // growing to 1 s the pauses would take 5 s
+    CHECK(shortest <= 300ms);
   }
 
   TEST_CASE("two clients at one server don't push each other out, whether they speak or not") {
-    for (const bool speak : {true, false}) {
-      CAPTURE(speak);
+    const Server silent;
+    const auto first = silent.dial(), second = silent.dial();
+    // again where the machine was so busy that a second went by between two packets of those who speak
+    for (int attempt = 0; attempt < 10; ++attempt) {
       const Server server;
       const auto one = server.dial(), other = server.dial();
-      for (const auto end = Clock::now() + 1500ms; Clock::now() < end; std::this_thread::sleep_for(5ms))
-        for (Link* link : {one.get(), other.get()})
-          if (speak) say(*link);
+      REQUIRE(wait_for([&] { return server.peers() == 1 && silent.peers() == 1; }));
+      Clock::duration longest{};
+      auto before = Clock::now(), heard = before;  // when the last packet had not come yet
+      const auto end = before + 1300ms;
+      for (std::uint64_t packets = 0; before < end; std::this_thread::sleep_for(5ms)) {
+        for (Link* link : {one.get(), other.get()}) say(*link);
+        const std::uint64_t now_packets = count_of(*server.link, "packets in");
+        const auto now = Clock::now();
+        longest = std::max(longest, now - heard);
+        if (now_packets != packets) heard = before;
+        packets = now_packets;
+        before = now;
+      }
+      CHECK(silent.peers() == 1);
+      if (longest >= 900ms && server.peers() != 1) continue;
       CHECK(server.peers() == 1);
+      return;
     }
+    MESSAGE("this machine was too busy for two who speak without a pause");
   }
 
   TEST_CASE("a newer peer takes the place of one that is silent, once it speaks; and of one that has ended") {
@@ -166,13 +197,14 @@ TEST_SUITE("distributers/links/stream") {
   }
 
   TEST_CASE("a line that takes nothing holds up the end for one send, not for each that is pending") {
-    const StuckLine stuck;
-    for (int packet = 0; packet < 64; ++packet) stuck.link->send(messages::refer_to(javiator::MotorSignals{}));
+    constexpr std::size_t packets = 300;
+    const StuckLine stuck(packets);
+    for (std::size_t i = 0; i < packets; ++i) stuck.link->send(messages::refer_to(javiator::MotorSignals{}));
     stuck.link->flush();
     const auto start = Clock::now();
     stuck.link->disconnect();
-    CHECK(Clock::now() - start < 3s);  // 64 waits would take 12.8 s
-    CHECK(count_of(*stuck.link, "unsent: no peer") == 64);
+    CHECK(Clock::now() - start < 30s);  // as many waits would take a minute
+    CHECK(count_of(*stuck.link, "unsent: no peer") == packets);
   }
 
   TEST_CASE("a line that takes again what is sent gets it") {
