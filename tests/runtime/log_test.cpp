@@ -81,10 +81,11 @@ std::string first_difference(const std::vector<std::string>& is, const std::vect
 Duration end_of(const Report& report, Duration end) { return report.stopped ? report.simulated + 1ns : end; }
 
 // How many misses there were.
-std::size_t check_replay(const Graph& graph, Duration end, bool has_outside) {
+std::size_t check_replay(const std::string& text, Duration end, bool has_outside) {
+  const Graph graph = graph_of(text);
   KeptLog log(graph);
   Recorder recorder({&log});
-  const RealRun real = run(graph, end, {}, Duration::max(),
+  const RealRun real = run(text, end, 1, {}, 1,
                            has_outside ? tests::outside() : std::vector<std::unique_ptr<Channels>>{}, &recorder);
   recorder.close();
   const tests::Run again = replay(graph, end_of(real.report, end), replayed_channels(graph, log), log.misses);

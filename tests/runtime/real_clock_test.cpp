@@ -5,9 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <memory>
 #include <thread>
 
+#include "tests/runtime/at_some_speed.h"
 #include "tests/runtime/trace_of.h"
 
 namespace {
@@ -42,35 +44,47 @@ struct Slow {
   }
 };
 
+// Tells that it has run.
+struct Telling {
+  static constexpr std::string_view summary = "for tests";
+  static inline std::atomic<bool> has_run{false};
+  static void run(const Tick&) { has_run = true; }
+};
+
 Graph graph_from(const std::string& text) {
   static const Registry registry = [] {
     Registry made;
     tasks::add_tasks(made);
     made.add(task_class<Slow>());
+    made.add(task_class<Telling>());
     return made;
   }();
   return jarol::tests::graph_of(registry, text);
 }
 
-Graph graph_with(const std::string& slow, const std::string& period = "20ms") {
-  return graph_from("graph: t\ntiming: {period: " + period + "}\ntasks:\n  s: {type: Slow" + slow +
-                    "}\n  r: {type: Relay, on_fault: hold}\nconnections: [s.out -> r.in]\n");
+std::string text_with(const std::string& slow) {
+  return "graph: t\ntiming: {period: 20ms}\ntasks:\n  s: {type: Slow" + slow +
+         "}\n  r: {type: Relay, on_fault: hold}\nconnections: [s.out -> r.in]\n";
 }
 
 struct RealRun : tests::Run {
   std::uint64_t late = 0, left_out = 0;  // of all tasks
+  int times = 1;                         // as slow as the text says
 };
 
-RealRun run(const Graph& graph, Duration end) {
-  tests::TraceLines lines(graph);
+RealRun run(const std::string& text, Duration end, int times) {
+  const Graph graph = graph_from(tests::slowed(text, times));
+  tests::TraceLines lines(graph, times);
   Recorder recorder({&lines});
   RealClock clock(graph.tasks.size());
   Executor executor(graph, {}, {.digest = true, .recorder = &recorder, .clock = &clock});
   clock.start();
-  executor.run_until(end);
+  executor.run_until(times * end);
   recorder.close();
   RealRun run;
+  run.times = times;
   run.report = executor.report();
+  tests::at_full_speed(run.report, times);
   run.lines = lines.lines;
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     run.late += clock.timing(i).late;
@@ -79,28 +93,30 @@ RealRun run(const Graph& graph, Duration end) {
   return run;
 }
 
-// Again when the machine was late for reasons of its own.
-RealRun run_undisturbed(const Graph& graph, Duration end, std::uint64_t late, std::uint64_t left_out) {
+// Without other misses than those that are meant.
+RealRun run_undisturbed(const std::string& text, Duration end, const std::string& misses) {
   RealRun r;
-  for (int attempt = 0; attempt < 20; ++attempt) {
-    r = run(graph, end);
-    if (r.late == late && r.left_out == left_out) break;
-  }
+  tests::at_some_speed([&](int times) {
+    r = run(text, end, times);
+    return tests::misses_of(r.report) == misses;
+  });
+  REQUIRE(tests::misses_of(r.report) == misses);
   return r;
 }
 }  // namespace
 
 TEST_SUITE("runtime/real_clock") {
   TEST_CASE("the real clock gives the digest of the virtual clock") {
-    const Graph graph = graph_with(", parameters: {slow: -1}");
-    const RealRun real = run_undisturbed(graph, 200ms, 0, 0);
+    const std::string text = text_with(", parameters: {slow: -1}");
+    const RealRun real = run_undisturbed(text, 200ms, "");
     REQUIRE(real.report.fault_count == 0);
-    CHECK(real.report.digest == tests::run_graph(graph, 200ms).report.digest);
+    const Graph graph = graph_from(tests::slowed(text, real.times));
+    CHECK(real.report.digest == tests::run_graph(graph, real.times * 200ms).report.digest);
     CHECK(real.report.activations == 20);
   }
 
   TEST_CASE("an instant is never begun before the clock has reached it") {
-    const Graph graph = graph_with(", parameters: {slow: -1}");
+    const Graph graph = graph_from(text_with(", on_fault: hold, parameters: {slow: -1}"));
     RealClock clock(graph.tasks.size());
     Executor executor(graph, {}, {.clock = &clock});
     clock.start();
@@ -111,9 +127,12 @@ TEST_SUITE("runtime/real_clock") {
   }
 
   TEST_CASE("a task that is late publishes nothing, readers keep the last value, its state is undone") {
-    const Graph graph = graph_with(", on_fault: hold, parameters: {slow: 2, lasts: 30ms}");
-    const RealRun r = run_undisturbed(graph, 120ms, 2, 2);  // what it feeds waits for it and is late too
+    // what it feeds waits for it and is late too
+    const RealRun r = run_undisturbed(text_with(", on_fault: hold, parameters: {slow: 2, lasts: 30ms}"), 120ms,
+                                      "late: r 2, s 2; left out: r 3, s 3");
     REQUIRE(r.report.fault_count == 4);
+    CHECK(r.late == 2);
+    CHECK(r.left_out == 2);
     CHECK(r.report.faults[0].task == "s");
     CHECK(r.report.faults[0].activation == 2);
     CHECK(r.report.faults[0].instant == 40ms);
@@ -125,8 +144,10 @@ TEST_SUITE("runtime/real_clock") {
   }
 
   TEST_CASE("releases while a late one still runs are left out, each a fault") {
-    const Graph graph = graph_with(", on_fault: hold, let: 20ms, parameters: {slow: 2, lasts: 70ms}");
-    const RealRun r = run_undisturbed(graph, 160ms, 2, 6);
+    const RealRun r = run_undisturbed(text_with(", on_fault: hold, let: 20ms, parameters: {slow: 2, lasts: 70ms}"),
+                                      160ms, "late: r 3, s 2; left out: r 4, r 5, s 3, s 4, s 5");
+    CHECK(r.late == 2);
+    CHECK(r.left_out == 5);
     std::string faults;
     for (const Fault& fault : r.report.faults)
       if (fault.task == "s") faults += std::to_string(fault.activation) + " " + fault.cause.substr(0, 12) + "; ";
@@ -137,11 +158,11 @@ TEST_SUITE("runtime/real_clock") {
 
   TEST_CASE("an activation that is skipped takes no time, however late its instant is worked on") {
     // s is to be skipped at 60 ms, when b works beyond 80 ms
-    const Graph graph = graph_from(
+    const RealRun r = run_undisturbed(
         "graph: t\ntiming: {period: 20ms}\ntasks:\n"
         "  b: {type: Slow, on_fault: hold, parameters: {slow: 3, lasts: 25ms}}\n"
-        "  s: {type: Slow, on_fault: skip, parameters: {slow: -1, throws: 2}}\n");
-    const RealRun r = run_undisturbed(graph, 120ms, 1, 1);
+        "  s: {type: Slow, on_fault: skip, parameters: {slow: -1, throws: 2}}\n",
+        120ms, "late: b 3; left out: b 4");
     std::string faults;
     for (const Fault& fault : r.report.faults)
       faults += fault.task + " " + std::to_string(fault.activation) + " " + fault.cause.substr(0, 10) + "; ";
@@ -150,8 +171,7 @@ TEST_SUITE("runtime/real_clock") {
   }
 
   TEST_CASE("with 'stop' a late task ends the run") {
-    const Graph graph = graph_with(", parameters: {slow: 1, lasts: 25ms}");
-    const RealRun r = run_undisturbed(graph, 200ms, 2, 0);
+    const RealRun r = run_undisturbed(text_with(", parameters: {slow: 1, lasts: 25ms}"), 200ms, "late: r 1, s 1");
     CHECK(r.report.stopped);
     CHECK(r.report.simulated == 20ms);
   }
@@ -180,10 +200,11 @@ TEST_SUITE("runtime/real_clock") {
   }
 
   TEST_CASE("an interrupt ends the wait for an instant far away") {
-    const Graph graph = graph_with(", parameters: {slow: -1}", "1h");
+    const Graph graph = graph_from("{graph: t, tasks: {a: {type: Telling, period: 1h}}}");
     RealClock clock(graph.tasks.size());
     Executor executor(graph, {}, {.clock = &clock});
     std::thread other([&] {
+      while (!Telling::has_run) std::this_thread::sleep_for(1ms);
       std::this_thread::sleep_for(20ms);
       executor.interrupt();
     });

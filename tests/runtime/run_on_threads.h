@@ -1,6 +1,7 @@
 // Runs with tasks on threads of their own, for tests.
 #pragma once
 
+#include <doctest/doctest.h>
 #include <pthread.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "graph/analysis/threads.h"
 #include "runtime/executor.h"
 #include "runtime/machine.h"
+#include "tests/runtime/at_some_speed.h"
 #include "tests/runtime/outside.h"
 #include "tests/runtime/trace_of.h"
 
@@ -107,14 +109,15 @@ inline Graph graph_of(const std::string& text) {
 }
 
 // Every ANY is a core, one after the other.
-inline Graph on(const Mode& mode, std::string text) {
+inline std::string on(const Mode& mode, std::string text) {
   int core = 0;
   for (std::size_t at; (at = text.find("ANY")) != std::string::npos; core = (core + 1) % mode.cores)
     text.replace(at, 3, std::to_string(core));
-  return graph_of(text + "platform: {cores: " + std::to_string(mode.cores) + ", policy: " + mode.policy + "}\n");
+  return text + "platform: {cores: " + std::to_string(mode.cores) + ", policy: " + mode.policy + "}\n";
 }
 
 struct RealRun : tests::Run {
+  int times = 1;  // as slow as the text says
   std::uint64_t late = 0, left_out = 0;
   std::vector<std::int64_t> worst;  // execution, per task
   std::vector<std::string> refusals;
@@ -141,11 +144,11 @@ inline void keep_stacks_small() {
   pthread_attr_destroy(&attributes);
 }
 
-inline RealRun run(const Graph& graph, Duration end, const RealTimeOptions& options = undisturbed(),
-                   Duration piece = Duration::max(), std::vector<std::unique_ptr<Channels>> channels = {},
-                   Recorder* log = nullptr) {
+inline RealRun run(const std::string& text, Duration end, int times = 1, const RealTimeOptions& options = undisturbed(),
+                   int pieces = 1, std::vector<std::unique_ptr<Channels>> channels = {}, Recorder* log = nullptr) {
   keep_stacks_small();
-  tests::TraceLines lines(graph);
+  const Graph graph = graph_of(slowed(text, times));
+  tests::TraceLines lines(graph, times);
   Recorder recorder({&lines});
   RealClock clock(graph.tasks.size(), options);
   const std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
@@ -154,31 +157,46 @@ inline RealRun run(const Graph& graph, Duration end, const RealTimeOptions& opti
   std::thread([&] {  // the test's own thread keeps its scheduler
     if (options.priority) clock.prepare_thread();
     clock.start();
-    for (Duration at{}; at < end; at += std::min(piece, end)) executor.run_until(at);
-    executor.run_until(end);
+    for (int piece = 1; piece <= pieces; ++piece) executor.run_until(times * end * piece / pieces);
   })
       .join();
   recorder.close();
   RealRun run;
+  run.times = times;
   run.report = executor.report();
+  at_full_speed(run.report, times);
   run.lines = lines.lines;
   run.refusals = executor.refusals();
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     run.late += clock.timing(i).late;
     run.left_out += clock.timing(i).left_out;
-    run.worst.push_back(clock.timing(i).execution.most());
+    run.worst.push_back(clock.timing(i).execution.most() / times);
   }
   return run;
 }
 
-// Again when the machine was late for reasons of its own.
-inline RealRun run_undisturbed(const Graph& graph, Duration end, std::uint64_t late = 0, std::uint64_t left_out = 0) {
+// Without other misses than those that are meant.
+inline RealRun run_undisturbed(const std::string& text, Duration end, const std::string& misses = "", int pieces = 1) {
   RealRun r;
-  for (int attempt = 0; attempt < 30; ++attempt) {
-    r = run(graph, end);
-    if (r.late == late && r.left_out == left_out) break;
-  }
+  at_some_speed([&](int times) {
+    r = run(text, end, times, undisturbed(), pieces);
+    return misses_of(r.report) == misses;
+  });
+  REQUIRE(misses_of(r.report) == misses);
   return r;
+}
+
+// What a run as slow as that one publishes on the virtual clock.
+inline tests::Run run_virtual(const std::string& text, Duration end, int times) {
+  const Graph graph = graph_of(slowed(text, times));
+  tests::TraceLines lines(graph, times);
+  Recorder recorder({&lines});
+  Executor executor(graph, {}, {.recorder = &recorder});
+  executor.run_until(times * end);
+  recorder.close();
+  tests::Run run{executor.report(), lines.lines};
+  at_full_speed(run.report, times);
+  return run;
 }
 
 inline std::string text_of(const std::vector<Fault>& faults) {

@@ -11,16 +11,16 @@
 
 namespace jarol::tests {
 
-/// Keeps "time name=value" lines.
+/// Keeps "time name=value" lines; of a run that was so many times as slow, at full speed.
 class TraceLines : public RecordSink {
  public:
-  explicit TraceLines(const Graph& graph) : plan_(graph) {}
+  explicit TraceLines(const Graph& graph, int times = 1) : plan_(graph), times_(times) {}
   void take(Duration instant, std::uint32_t output, const void* value) override {
     const Output& o = plan_.outputs[output];
     std::string text;
     for (const Leaf& leaf : leaves_of(*o.type))
       text += (text.empty() ? "" : ",") + scalar_text(*leaf.type, static_cast<const std::byte*>(value) + leaf.offset);
-    lines.push_back(duration_text(instant) + " " + o.name + "=" + text);
+    lines.push_back(duration_text(instant / times_) + " " + o.name + "=" + text);
   }
   void finish() override {}
 
@@ -28,6 +28,7 @@ class TraceLines : public RecordSink {
 
  private:
   Plan plan_;
+  int times_;
 };
 
 struct Run {
