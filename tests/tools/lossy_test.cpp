@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "tests/distributers/links/lossy_proxy.h"
+#include "tests/distributers/links/stream_proxy.h"
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
 
@@ -27,7 +28,9 @@ bool full() { return std::getenv("JAROL_FULL") != nullptr; }
 
 constexpr tests::Disturbance bad_network{
     .loss = 0.1, .duplication = 0.05, .reordering = 0.05, .delay = 8ms, .held = 30ms};
-constexpr tests::Disturbance bad_line{.loss = 0.01, .duplication = 0.005};
+constexpr tests::Disturbance bad_line{.loss = 0.01, .duplication = 0.005, .damage = 0.01, .delay = 500us};
+// TCP loses nothing; it cuts up and holds up
+constexpr tests::Disturbance bad_connection{.delay = 1ms, .longest_piece = 8};
 
 struct Outcome {
   int exit_code = -1;
@@ -70,6 +73,7 @@ class Flights {
     hasty = std::async(std::launch::async, [this] { return helicopter_over_udp("hasty.csv", ""); }).share();
     helicopter = std::async(std::launch::async, [this] { return helicopter_over_udp("udp.csv", patience); }).share();
     on_a_line = std::async(std::launch::async, [this] { return helicopter_on_a_line(); }).share();
+    over_tcp = std::async(std::launch::async, [this] { return helicopter_over_tcp(); }).share();
   }
   std::string trace(const std::string& name) const { return folder_ / name; }
 
@@ -78,7 +82,7 @@ class Flights {
   std::string dive_, hop_;
 
  public:
-  std::shared_future<Outcome> submarine, helicopter, hasty, on_a_line;
+  std::shared_future<Outcome> submarine, helicopter, hasty, on_a_line, over_tcp;
 
  private:
   Outcome submarine_over_udp() const {
@@ -119,6 +123,17 @@ class Flights {
     o.from_vehicle = proxy.from(0);
     return o;
   }
+
+  Outcome helicopter_over_tcp() const {
+    const std::string port = tests::free_port(SOCK_STREAM);
+    tests::TcpProxy proxy(Address::parse(port), bad_connection, 4);
+    Outcome o = fly(proxy, "helicopter --parameters specs/vehicles/helicopter.yaml --link tcp_server --listen " + port,
+                    helicopter_graph("{type: tcp_client, peer: " + std::to_string(proxy.port()) + "}", "tcp.csv"),
+                    full() ? 38 : 14);
+    o.to_vehicle = proxy.from(0);
+    o.from_vehicle = proxy.from(1);
+    return o;
+  }
 };
 
 const Flights& flights() {
@@ -138,7 +153,7 @@ std::uint64_t flawed(const json& told) {
 
 void tell(const std::string& what, const ProxyCounts& c) {
   MESSAGE(what << ": " << c.in << " in, " << c.lost << " lost, " << c.duplicated << " doubled, " << c.reordered
-               << " reordered, " << c.out << " out");
+               << " reordered, " << c.damaged << " damaged, " << c.out << " out");
 }
 
 // Sent = received + lost - doubled, on either way.
@@ -232,7 +247,21 @@ TEST_SUITE("tools/lossy") {
     CHECK(state["z"] > -0.3);
   }
 
-  TEST_CASE("a helicopter on a serial line that loses and doubles bytes flies its mission and lands") {
+  TEST_CASE("a helicopter over TCP that cuts its packets up and holds the pieces up flies its mission and lands") {
+    const Outcome o = flights().over_tcp.get();
+    INFO(o.errors);
+    REQUIRE(o.exit_code == 0);
+    tell("bytes to the vehicle", o.to_vehicle);
+    tell("bytes from the vehicle", o.from_vehicle);
+    CHECK(count_of(o.run, "bytes out") == o.to_vehicle.in);
+    CHECK(count_of(o.vehicle, "bytes out") == o.from_vehicle.in);
+    CHECK(count_of(o.vehicle, "bytes in") == o.to_vehicle.out);
+    CHECK(count_of(o.run, "bytes in") == o.from_vehicle.out);
+    CHECK(flawed(o.vehicle) + flawed(o.run) == 0);
+    check_hop(o, flights().trace("tcp.csv"));
+  }
+
+  TEST_CASE("a helicopter on a serial line that loses, doubles and damages bytes flies its mission and lands") {
     const Outcome o = flights().on_a_line.get();
     INFO(o.errors);
     REQUIRE(o.exit_code == 0);
@@ -248,7 +277,9 @@ TEST_SUITE("tools/lossy") {
       CHECK(c->lost > 0);
       CHECK(in <= out);
       CHECK(out - in <= left);
-      CHECK(flawed(*at) > 0);
+      const auto good = static_cast<double>(count_of(*at, "packets in")), bad = static_cast<double>(flawed(*at));
+      MESSAGE(bad << " packets of " << good + bad << " damaged");
+      CHECK(bad > 0.03 * (good + bad));
     }
     check_hop(o, flights().trace("serial.csv"));
   }

@@ -11,7 +11,7 @@
 #include "distributers/links/link.h"
 #include "distributers/links/udp.h"
 #include "distributers/messages/imc.h"
-#include "tests/distributers/links/lossy_proxy.h"
+#include "tests/distributers/links/stream_proxy.h"
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
 #include "tests/tools/terminal.h"

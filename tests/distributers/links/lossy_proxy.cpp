@@ -1,12 +1,8 @@
 #include "tests/distributers/links/lossy_proxy.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <unistd.h>
+#include <sys/socket.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <span>
 #include <stdexcept>
 
 namespace jarol::tests {
@@ -113,74 +109,6 @@ void UdpProxy::run() {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(due - now);
     wait = std::clamp(left, std::chrono::milliseconds(1), std::chrono::milliseconds(20));
   }
-}
-
-SerialProxy::SerialProxy(const Disturbance& disturbance, std::uint64_t seed)
-    : disturbance_(disturbance), random_{std::mt19937_64(seed), std::mt19937_64(seed + 1)} {
-  for (std::size_t i = 0; i < 2; ++i) {
-    ends_[i] = Descriptor(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-    if (grantpt(ends_[i].get()) != 0 || unlockpt(ends_[i].get()) != 0) throw std::runtime_error("no pseudo terminal");
-    names_[i] = ptsname(ends_[i].get());
-  }
-  thread_ = std::thread([this] { run(); });
-}
-
-SerialProxy::~SerialProxy() {
-  interrupter_.interrupt();
-  thread_.join();
-}
-
-void SerialProxy::close(bool closed) {
-  const std::lock_guard lock(mutex_);
-  closed_ = closed;
-}
-
-ProxyCounts SerialProxy::from(std::size_t end) const {
-  const std::lock_guard lock(mutex_);
-  return counts_[end];
-}
-
-void SerialProxy::run() {
-  while (interrupter_.wait(-1, 0ms) != Interrupter::Woken::interrupted) {
-    pollfd polled[] = {{ends_[0].get(), POLLIN, 0}, {ends_[1].get(), POLLIN, 0}};
-    poll(polled, 2, 5);
-    // an end that nobody has open is never ready
-    if (!carry(0) && !carry(1) && ((polled[0].revents | polled[1].revents) & POLLHUP) != 0)
-      std::this_thread::sleep_for(1ms);
-  }
-}
-
-// A piece of a stream from one end to the other; false: there was none.
-bool SerialProxy::carry(std::size_t from) {
-  std::array<std::byte, 16> room{};
-  const auto length = ::read(ends_[from].get(), room.data(), 1 + random_[from]() % room.size());
-  if (length <= 0) return false;
-  const std::lock_guard lock(mutex_);
-  ProxyCounts& counts = counts_[from];
-  std::vector<std::byte> piece(room.begin(), room.begin() + length);
-  const auto size = static_cast<std::uint64_t>(length);
-  const auto chance = [&] { return static_cast<double>(random_[from]() >> 11) * 0x1p-53; };
-  const double loss = chance(), duplication = chance();
-  counts.in += size;
-  if (closed_ || loss < disturbance_.loss) {
-    counts.lost += size;
-    piece.clear();
-  } else if (duplication < disturbance_.duplication) {
-    counts.duplicated += size;
-    piece.insert(piece.end(), room.begin(), room.begin() + length);
-  }
-  for (std::span<const std::byte> rest = piece; !rest.empty();) {
-    const auto written = ::write(ends_[1 - from].get(), rest.data(), rest.size());
-    if (written > 0) {
-      rest = rest.subspan(static_cast<std::size_t>(written));
-      counts.out += static_cast<std::uint64_t>(written);
-    } else {
-      // nobody reads there
-      counts.lost += rest.size();
-      break;
-    }
-  }
-  return true;
 }
 
 }  // namespace jarol::tests

@@ -1,7 +1,6 @@
 // Stands between two ends of a link and disturbs what goes through it, by a seed.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -16,19 +15,22 @@
 
 namespace jarol::tests {
 
-/// Probabilities for each piece that goes through: a datagram, or up to 16 bytes of a stream.
+/// Probabilities for each piece that goes through: a datagram, or a few bytes of a stream.
 struct Disturbance {
   double loss = 0;
   double duplication = 0;
-  double reordering = 0;               // it waits for `held` longer than others
-  std::chrono::milliseconds delay{0};  // of each datagram, at most
+  double reordering = 0;               // of datagrams: it waits for `held` longer than others
+  double damage = 0;                   // of streams: one byte of the piece becomes another
+  std::chrono::microseconds delay{0};  // at most: of each datagram; of a stream's piece after the one before it
   std::chrono::milliseconds held{30};
+  std::size_t longest_piece = 16;  // of a stream, in bytes
 };
 
 /// What became of all that came from one end: in + duplicated = lost + out, and what is held back yet.
 struct ProxyCounts {
   std::uint64_t in = 0, lost = 0, duplicated = 0, out = 0;
   std::uint64_t reordered = 0;  // went out after one that had come later
+  std::uint64_t damaged = 0;
 };
 
 /// What happens to the pieces of one direction: which of them are lost and so on hangs on the seed and their order
@@ -82,34 +84,6 @@ class UdpProxy {
   distributers::Interrupter interrupter_;
   mutable std::mutex mutex_;
   Disturbed to_target_, from_target_;
-  bool closed_ = false;
-  std::thread thread_;
-};
-
-/// Bytes between two pseudo terminals, whose names the ends of a serial link open. They are lost and doubled; a line
-/// does not change their order.
-class SerialProxy {
- public:
-  SerialProxy(const Disturbance& disturbance, std::uint64_t seed);
-  ~SerialProxy();
-
-  const std::string& name(std::size_t end) const { return names_[end]; }
-  /// From now on all that comes is lost, while it is closed.
-  void close(bool closed);
-  /// Bytes that came from that end.
-  ProxyCounts from(std::size_t end) const;
-
- private:
-  void run();
-  bool carry(std::size_t from);
-
-  std::array<std::string, 2> names_;
-  std::array<distributers::Descriptor, 2> ends_;
-  distributers::Interrupter interrupter_;
-  mutable std::mutex mutex_;
-  Disturbance disturbance_;
-  std::array<std::mt19937_64, 2> random_;
-  std::array<ProxyCounts, 2> counts_;
   bool closed_ = false;
   std::thread thread_;
 };
