@@ -97,9 +97,9 @@ struct Payloads : Receiver {
 };
 
 struct Outcome {
-  std::size_t sent = 0, hit = 0;   // packets
-  std::vector<Bytes> due, came;    // payloads
-  std::uint64_t bytes = 0;         // written
+  std::size_t sent = 0, hit = 0;  // packets
+  std::vector<Bytes> due, came;   // payloads
+  std::uint64_t bytes = 0;        // written
   ProxyCounts counts;
 };
 
@@ -192,8 +192,8 @@ TEST_SUITE("distributers/links/disturbed_stream") {
       CHECK(dropped < o.hit * 11 / 10);
       MESSAGE("serial, " << std::string(protocol.set.name) << ": " << o.counts.lost << " bytes lost and "
                          << o.counts.damaged << " damaged of " << o.bytes << ", " << o.hit << " of " << o.sent
-                         << " packets hit, " << o.came.size() << " came, "
-                         << sealed << " of those hit had the right checksum, " << dropped << " dropped");
+                         << " packets hit, " << o.came.size() << " came, " << sealed
+                         << " of those hit had the right checksum, " << dropped << " dropped");
     }
   }
 }
