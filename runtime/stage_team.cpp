@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 #include "runtime/copy.h"
+#include "runtime/thread_time.h"
 
 namespace jarol {
 namespace {
@@ -29,19 +31,20 @@ double now() {
 StageTeam::StageTeam(std::size_t workers, Sharing sharing, const Plan& plan)
     : workers_(workers, parts_per_worker * workers),
       sharing_(sharing),
-      times_(plan.status.size()),
+      took_(sharing == Sharing::measure ? plan.status.size() : 0),
       costs_(plan.status.size()),
       widest_(plan.groups.size(), std::numeric_limits<double>::infinity()),
       unknown_(costs_.size()),
       parts_(workers_.parts()) {
   items_.reserve(plan.status.size());
+  if (sharing == Sharing::measure) between_readings_ = thread_time_between_readings();
 }
 
 std::uint64_t StageTeam::run(bool digest, std::uint64_t instant_term) {
   if (items_.empty()) return 0;
   digest_ = digest;
   instant_term_ = instant_term;
-  if (sharing_ == Sharing::measure) return run_measured();
+  if (sharing_ == Sharing::measure) return run_timed();
   if (sharing_ == Sharing::if_it_pays && unknown_ > 0 && !all_known()) return run_measured();
   if (!divide()) {
     ++alone_;
@@ -105,9 +108,25 @@ std::uint64_t StageTeam::run_measured() {
     Cost& cost = costs_[item.activation->task];
     const double took = std::max(1.0, after - before - clock_cost);
     cost.least = std::min(cost.least, took);
-    if (sharing_ == Sharing::measure) times_[item.activation->task].push_back(static_cast<float>(took));
     if (cost.measured < measurements && ++cost.measured == measurements) --unknown_;
     before = after;
+  }
+  return digest;
+}
+
+// The wall clock is quick to read but goes on while the thread is preempted, the thread's own does not: the less of the
+// two is the closer.
+std::uint64_t StageTeam::run_timed() {
+  ++alone_;
+  std::uint64_t digest = 0;
+  for (Item& item : items_) {
+    const std::int64_t own_before = thread_time();
+    const double before = now();
+    run_item(item, digest);
+    const double wall = now() - before - clock_cost;
+    const std::int64_t own = thread_time() - own_before - between_readings_;
+    const auto took = std::min(own, static_cast<std::int64_t>(std::ceil(wall)));
+    took_[item.activation->task].add(std::max<std::int64_t>(1, took));
   }
   return digest;
 }

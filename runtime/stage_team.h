@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/histogram.h"
 #include "runtime/plan.h"
 #include "runtime/workers.h"
 
@@ -37,8 +38,8 @@ class StageTeam {
   /// returned if asked for. Left to the caller, in order: deep values, recording, and what was not good.
   std::uint64_t run(bool digest, std::uint64_t instant_term);
 
-  /// With Sharing::measure: how long each activation of a task took, in ns, reading the clock left out.
-  const std::vector<float>& times(std::size_t task) const { return times_[task]; }
+  /// With Sharing::measure: how long the activations of a task took, without what preempted them.
+  const Histogram& took(std::size_t task) const { return took_[task]; }
 
   /// How often a level was shared, and how often one worker did it.
   std::uint64_t shared() const { return shared_; }
@@ -60,6 +61,7 @@ class StageTeam {
   bool too_short(double cost) const;
   bool all_known() const;
   std::uint64_t run_measured();
+  std::uint64_t run_timed();
   bool divide();
   void run_part(Part& part);
   void run_item(Item& item, std::uint64_t& digest) const;
@@ -68,10 +70,11 @@ class StageTeam {
 
   Workers workers_;
   Sharing sharing_;
-  std::vector<std::vector<float>> times_;  // per task
-  std::vector<Cost> costs_;                // per task
-  std::vector<double> widest_;             // per group: the cost of its costliest level; infinite while not known
-  std::size_t unknown_;                    // tasks that were not yet measured often enough
+  std::vector<Histogram> took_;        // per task, with Sharing::measure
+  std::int64_t between_readings_ = 0;  // ns, of the thread's time
+  std::vector<Cost> costs_;            // per task
+  std::vector<double> widest_;         // per group: the cost of its costliest level; infinite while not known
+  std::size_t unknown_;                // tasks that were not yet measured often enough
   std::vector<Item> items_;
   std::vector<Part> parts_;
   bool digest_ = false;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "runtime/executor.h"
+#include "runtime/thread_time.h"
 
 namespace jarol::tools {
 namespace {
@@ -47,6 +48,9 @@ Edit edit_of(const std::string& text, const TaskSpec& task, Duration wcet) {
 }  // namespace
 
 std::vector<MeasuredTask> measure_tasks(Loaded& loaded, Duration end) {
+  if (thread_time_between_readings() == 0)
+    throw std::runtime_error(
+        "this machine's clock of a thread's own time is too coarse to measure tasks; state their 'wcet' yourself");
   // a vehicle in lockstep is connected to; they do not finish, for what that keeps is for the next run
   for (const auto& channels : loaded.channels) channels->begin();
   Executor executor(*loaded.graph, std::move(loaded.channels),
@@ -57,16 +61,8 @@ std::vector<MeasuredTask> measure_tasks(Loaded& loaded, Duration end) {
                                 to_text(executor.report().faults.front()));
   std::vector<MeasuredTask> measured;
   for (std::size_t i = 0; i < loaded.graph->tasks.size(); ++i) {
-    std::vector<float> times = executor.team()->times(i);
-    std::sort(times.begin(), times.end());
-    MeasuredTask task;
-    task.activations = times.size();
-    if (!times.empty()) {
-      const auto at = static_cast<std::size_t>(std::ceil(0.999 * static_cast<double>(times.size()))) - 1;
-      task.most = Duration(static_cast<std::int64_t>(std::ceil(times.back())));
-      task.most_of_999 = Duration(static_cast<std::int64_t>(std::ceil(times[at])));
-    }
-    measured.push_back(task);
+    const Histogram& took = executor.team()->took(i);
+    measured.push_back({took.count(), Duration(took.most()), Duration(took.percentile(0.999))});
   }
   return measured;
 }

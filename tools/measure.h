@@ -12,11 +12,12 @@ namespace jarol::tools {
 struct MeasuredTask {
   std::size_t activations = 0;
   Duration most{};
-  Duration most_of_999{};  // at most so long in 99.9 % of the activations
+  Duration most_of_999{};  // at most so long in 99.9 % of the activations, rounded up by a sixteenth at most
 };
 
-/// Runs the graph on the virtual clock up to `end`; per task. Its channels are used up. Throws std::runtime_error if a
-/// vehicle in lockstep can't be reached or is lost, std::invalid_argument if a fault stops the run.
+/// Runs the graph on the virtual clock up to `end`; per task the processor time of the thread that runs it, so that
+/// what preempts it does not count. Its channels are used up. Throws std::runtime_error if a vehicle in lockstep can't
+/// be reached or is lost, or if the machine can't measure so, std::invalid_argument if a fault stops the run.
 std::vector<MeasuredTask> measure_tasks(Loaded& loaded, Duration end);
 
 /// What is written for a measured maximum: with the margin on top, rounded up to three digits.

@@ -108,7 +108,8 @@ void measure_file(const std::string& file, const Overrides& overrides, const Mea
   const auto any = [&](auto is) { return std::any_of(rows.begin(), rows.end(), is); };
   const bool writes = any([](const Row& row) { return row.written.has_value(); });
   if (writes) write_wcets(file, source, *in_file.graph, rows);
-  std::cerr << file << ": measured over " << duration_text(end) << " of logical time on this machine\n"
+  std::cerr << file << ": measured over " << duration_text(end)
+            << " of logical time on this machine, in processor time\n"
             << table(rows, options.write);
   if (!options.write) return;
   std::cerr << (writes ? fmt::format("  written into {} with {:g} % on top\n", file, options.margin)

@@ -15,9 +15,9 @@ struct MeasureOptions {
   double margin = 20;    // percent on top of what is written
 };
 
-/// Runs the file's graph with these overrides and tells on stderr how long its tasks took. Then, where that is asked
-/// for, writes the longest times with the margin into the file, which is left as it is if it would not load
-/// afterwards. A `wcet` that is stated and longer stays, unless it may be lowered. Throws SpecError, or
+/// Runs the file's graph with these overrides and tells on stderr how much processor time its tasks took. Then, where
+/// that is asked for, writes the longest times with the margin into the file, which is left as it is if it would not
+/// load afterwards. A `wcet` that is stated and longer stays, unless it may be lowered. Throws SpecError, or
 /// std::invalid_argument for what can't be measured or edited.
 void measure_file(const std::string& file, const Overrides& overrides, const MeasureOptions& options);
 

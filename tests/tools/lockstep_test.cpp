@@ -118,7 +118,8 @@ TEST_SUITE("tools/lockstep") {
     };
     const auto measured = measure(submarine.link());
     CHECK(measured.exit_code == 0);
-    CHECK(measured.output.starts_with("specs/exolauv.yaml: measured over 1s of logical time on this machine\n"));
+    CHECK(measured.output.starts_with(
+        "specs/exolauv.yaml: measured over 1s of logical time on this machine, in processor time\n"));
     const std::string port = std::to_string(port_of(listen_at(Address::parse("0"))));  // free again at once
     const auto refused = measure("={type: lockstep, peer: " + port + "}");
     CHECK(refused.exit_code == 2);

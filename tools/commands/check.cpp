@@ -148,8 +148,10 @@ void add_check(CommandLine& line, int& exit_code) {
   command->add_flag("--sensitivity", options->sensitivity,
                     "How much longer each WCET may be, and what would help, also where finding it takes long");
   command->add_flag("--chains", options->all_chains, "Latency of every path from an 'in' to an 'out'");
-  command->add_flag("--measure", options->measuring.measure,
-                    "First run the tasks and tell how long they take on this machine, beside their 'wcet'");
+  command->add_flag(
+      "--measure", options->measuring.measure,
+      "First run the tasks and tell how much processor time they take on this machine, beside their 'wcet': "
+      "what preempts them is not counted");
   command->add_flag("--write", options->measuring.write,
                     "Measure, and write the longest times with a margin into the file as 'wcet', where none is stated "
                     "or a shorter one; what is then said goes for that file, without --set and --profile");
