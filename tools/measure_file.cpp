@@ -14,13 +14,8 @@ namespace {
 
 // How long to measure: --for, else the mission, else ten seconds.
 Duration measured_time(const MeasureOptions& options, const Loaded& loaded) {
+  if (options.duration) return *options.duration;
   Duration end{};
-  if (!options.duration.empty()) {
-    const std::string wrong = parse_duration(options.duration, end);
-    if (!wrong.empty() || end <= Duration{})
-      throw std::invalid_argument("--for: '" + options.duration + "' " + (wrong.empty() ? "is not above zero" : wrong));
-    return end;
-  }
   for (const auto& channels : loaded.channels) end = std::max(end, channels->end().value_or(Duration{}));
   return end > Duration{} ? end : std::chrono::seconds(10);
 }
@@ -107,10 +102,19 @@ void measure_file(const std::string& file, const Overrides& overrides, const Mea
   if (options.write) choose_written(*in_file.graph, options, rows);
   const auto any = [&](auto is) { return std::any_of(rows.begin(), rows.end(), is); };
   const bool writes = any([](const Row& row) { return row.written.has_value(); });
-  if (writes) write_wcets(file, source, *in_file.graph, rows);
-  std::cerr << file << ": measured over " << duration_text(end)
-            << " of logical time on this machine, in processor time\n"
-            << table(rows, options.write);
+  const auto tell = [&](bool written) {
+    std::cerr << file << ": measured over " << duration_text(end)
+              << " of logical time on this machine, in processor time\n"
+              << table(rows, written);
+  };
+  try {
+    if (writes) write_wcets(file, source, *in_file.graph, rows);
+  } catch (...) {
+    // what was measured is worth its time, also where it can't be written
+    tell(false);
+    throw;
+  }
+  tell(options.write);
   if (!options.write) return;
   std::cerr << (writes ? fmt::format("  written into {} with {:g} % on top\n", file, options.margin)
                        : fmt::format("  nothing is written into {}\n", file));

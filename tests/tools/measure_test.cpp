@@ -155,9 +155,26 @@ connections: [a.out -> b.in]
     folder.write("t.yaml", shared);
     const auto refused = command::jarol("check --write --for 1s " + file);
     CHECK(refused.exit_code == 2);
-    CHECK(refused.output ==
-          "error: two tasks share one place of the file through an alias; write their 'wcet' yourself\n");
+    CHECK(refused.output.starts_with(file + ": measured over 1s of logical time"));
+    CHECK(refused.output.ends_with(
+        "\nerror: two tasks share one place of the file through an alias; write their 'wcet' yourself\n" + file +
+        ": 1 error\n"));
     CHECK(content(file) == shared);
+  }
+
+  TEST_CASE("a file that can't be measured or written hides neither the others nor what was measured") {
+    const TemporaryFolder folder;
+    const std::string shared =
+        folder.write("s.yaml", "graph: t\ntasks:\n  a: &one {type: Counter, period: 1ms}\n  b: *one\n");
+    const std::string good = folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 1ms}}\n");
+    const auto told = command::jarol("check --write --for 1s " + shared + " specs/missing.yaml " + good);
+    CHECK(told.exit_code == 2);
+    CHECK(told.output.find("\n  b            1000 ") < told.output.find("\nerror: two tasks share one place"));
+    CHECK(told.output.find("\nerror: can't read 'specs/missing.yaml': No such file or directory\n") !=
+          std::string::npos);
+    CHECK(told.output.find("\n" + good + ": SCHEDULABLE on one core") != std::string::npos);
+    CHECK(command::jarol("check --measure --for 1 " + good + " " + shared).output ==
+          "error: --for: '1' has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n");
   }
 
   TEST_CASE("what is changed in a file while it is measured is not lost") {
@@ -167,8 +184,12 @@ connections: [a.out -> b.in]
         "check --write --for 500s " + file,
         "2>&1 & id=$!; while kill -0 $id 2>&-; do echo '# more' >> " + file + "; sleep 0.01; done; wait $id");
     CHECK(refused.exit_code == 2);
-    CHECK(refused.output ==
-          "error: '" + file + "' was changed while it was measured; nothing is written, measure again\n");
+    CHECK(refused.output.starts_with(file + ": measured over 500s of logical time on this machine, in processor time\n"
+                                            "  task  activations     99.9 %       most       wcet\n"
+                                            "  a "));
+    CHECK(refused.output.ends_with("error: '" + file +
+                                   "' was changed while it was measured; nothing is written, measure again\n" + file +
+                                   ": 1 error\n"));
     CHECK(content(file).starts_with("graph: t\ntasks: {a: {type: Counter, period: 1ms}}\n# more\n"));
   }
 
@@ -177,7 +198,7 @@ connections: [a.out -> b.in]
     CHECK(refused.exit_code == 2);
     CHECK(refused.output ==
           "error: distributer 'dune' has a link to what goes on by itself, from which nothing comes while tasks are "
-          "measured; choose a link in process, as simulation or script\n");
+          "measured; choose a link in process, as simulation or script\nspecs/exolauv.yaml: 1 error\n");
   }
 
   TEST_CASE("every activation of every task is measured") {

@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "graph/spec/key.h"
+#include "graph/yaml/quantities.h"
 #include "tools/check_graph.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
@@ -29,6 +32,7 @@ struct Options {
   int count = 1;
   Generation generation;
   std::string svg;
+  std::string duration;
   MeasureOptions measuring;
   bool sensitivity = false;
   bool all_chains = false;
@@ -74,6 +78,15 @@ void require_effect(const Command& command, const Options& options) {
   if (options.files.size() > 1) command.refuse({"--svg"}, "names one picture for several files; check them one by one");
 }
 
+std::optional<Duration> measured_time(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  Duration time{};
+  const std::string wrong = parse_duration(text, time);
+  if (!wrong.empty() || time <= Duration{})
+    throw std::invalid_argument("--for: '" + text + "' " + (wrong.empty() ? "is not above zero" : wrong));
+  return time;
+}
+
 // What was asked for and is not there.
 void tell_what_lacks(const CheckReport& report, const Options& options) {
   if (!options.svg.empty() && !report.result.late)
@@ -85,32 +98,44 @@ void tell_what_lacks(const CheckReport& report, const Options& options) {
   if (report.more_paths) std::cerr << "note: --chains tells " << most_paths << " paths, there are more\n";
 }
 
+int check_file(const std::string& file, const Options& options) {
+  if (options.measuring.measure || options.measuring.write) measure_file(file, options.overrides, options.measuring);
+  // what is written is judged as it was written
+  const Loaded loaded = load_graph(file, options.measuring.write ? Overrides{} : options.overrides);
+  const CheckReport report = check_graph(file, *loaded.graph, options.sensitivity, options.all_chains);
+  tell_what_lacks(report, options);
+  if (!options.svg.empty() && report.result.late) {
+    WholeFile picture(options.svg);
+    picture.write(gantt_svg(*loaded.graph, report.result));
+    picture.commit();
+  }
+  if (options.json)
+    std::cout << to_json(report) << "\n";
+  else
+    std::cout << to_text(report);
+  return exit_code_of(report);
+}
+
+// One bad file does not hide the others.
 int check_files(const Options& options) {
   int exit_code = exit_good;
   for (const std::string& file : options.files) require_apart({{"FILE", file}}, {{"--svg", options.svg}});
   for (const std::string& file : options.files) {
+    const auto failed = [&](std::size_t errors, int code) {
+      std::cerr << file << ": " << errors << (errors == 1 ? " error\n" : " errors\n");
+      exit_code = worst(exit_code, code);
+    };
     try {
-      if (options.measuring.measure || options.measuring.write)
-        measure_file(file, options.overrides, options.measuring);
-      // what is written is judged as it was written
-      const Loaded loaded = load_graph(file, options.measuring.write ? Overrides{} : options.overrides);
-      const CheckReport report = check_graph(file, *loaded.graph, options.sensitivity, options.all_chains);
-      tell_what_lacks(report, options);
-      if (!options.svg.empty() && report.result.late) {
-        WholeFile picture(options.svg);
-        picture.write(gantt_svg(*loaded.graph, report.result));
-        picture.commit();
-      }
-      if (options.json)
-        std::cout << to_json(report) << "\n";
-      else
-        std::cout << to_text(report);
-      exit_code = worst(exit_code, exit_code_of(report));
+      exit_code = worst(exit_code, check_file(file, options));
     } catch (const SpecError& error) {
-      // one bad file does not hide the others
-      std::cerr << error.what() << "\n"
-                << file << ": " << error.problems().size() << (error.problems().size() == 1 ? " error\n" : " errors\n");
-      exit_code = exit_input;
+      std::cerr << error.what() << "\n";
+      failed(error.problems().size(), exit_input);
+    } catch (const std::bad_alloc&) {
+      std::cerr << "error: there is not enough memory for this\n";
+      failed(1, exit_unfinished);
+    } catch (const std::exception& error) {
+      std::cerr << "error: " << error.what() << "\n";
+      failed(1, exit_input);
     }
   }
   return exit_code;
@@ -156,8 +181,7 @@ void add_check(CommandLine& line, int& exit_code) {
                     "Measure, and write the longest times with a margin into the file as 'wcet', where none is stated "
                     "or a shorter one; what is then said goes for that file, without --set and --profile");
   command->add_flag("--lower", options->measuring.lower, "With --write: also where a longer 'wcet' is stated");
-  command->add_option("--for", options->measuring.duration,
-                      "How much logical time to measure; default: the mission, else 10s");
+  command->add_option("--for", options->duration, "How much logical time to measure; default: the mission, else 10s");
   command
       ->add_option("--margin", options->measuring.margin,
                    "With --write: percent on top of what was measured; default 20")
@@ -180,6 +204,7 @@ void add_check(CommandLine& line, int& exit_code) {
   command->add_flag("--json", options->json, "One JSON object per file and line instead of text");
   command->callback([options, command, &exit_code] {
     require_effect(*command, *options);
+    options->measuring.duration = measured_time(options->duration);
     if (!options->generate.empty()) {
       exit_code = write_graphs(*options);
     } else if (options->files.empty()) {
