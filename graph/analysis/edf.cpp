@@ -24,14 +24,15 @@ std::int64_t blocking_bound(std::span<const Load> loads, std::int64_t length, bo
   return most;
 }
 
-// Length of the synchronous busy period.
-std::optional<std::int64_t> busy_period(std::span<const Load> loads, std::int64_t blocking, std::uint64_t& steps) {
+// Length of the synchronous busy period, or nothing if it is longer than `most`.
+std::optional<std::int64_t> busy_period(std::span<const Load> loads, std::int64_t blocking, std::int64_t most,
+                                        std::uint64_t& steps) {
   std::int64_t length = 1;
   while (true) {
     Wide next = blocking;
     for (const Load& l : loads) next += ceil_div(static_cast<Wide>(length) + l.jitter, l.period) * l.wcet;
     steps += loads.size();
-    if (next > far || steps > most_steps) return std::nullopt;
+    if (next > most || steps > most_steps) return std::nullopt;
     if (next == length) return length;
     length = static_cast<std::int64_t>(next);
   }
@@ -59,6 +60,10 @@ std::optional<std::int64_t> one_repetition(std::span<const Load> loads) {
   std::int64_t latest = 0;
   for (const Load& l : loads) latest = std::max(latest, l.deadline);
   return lcm ? std::optional(*lcm + latest) : std::nullopt;
+}
+
+std::optional<std::int64_t> least_of(std::optional<std::int64_t> a, std::optional<std::int64_t> b) {
+  return a && b ? std::min(*a, *b) : a ? a : b;
 }
 
 // The latest absolute deadline before `length`, or nothing.
@@ -108,10 +113,11 @@ EdfResult check_edf_of(std::span<const Load> loads, bool preemptive) {
   std::uint64_t steps = 0;
   std::optional<std::int64_t> end;
   if (order && *order <= 0) {
-    // at full utilisation demand and time grow alike from one hyperperiod to the next
-    const auto linear = *order < 0 ? linear_bound(loads, blocking) : one_repetition(loads);
-    const auto busy = *order < 0 || blocking == 0 ? busy_period(loads, blocking, steps) : std::nullopt;
-    end = busy && linear ? std::min(*busy, *linear) : busy ? busy : linear;
+    // from one hyperperiod to the next demand grows no more than time does
+    end = one_repetition(loads);
+    if (*order < 0) end = least_of(end, linear_bound(loads, blocking));
+    // close to full utilisation it may take very long to find the busy period: no further than it helps
+    if (*order < 0 || blocking == 0) end = least_of(end, busy_period(loads, blocking, end.value_or(far), steps));
     if (end) *end += 1;
   } else if (order) {
     // demand grows beyond any line: look from short intervals on until it does
@@ -150,7 +156,7 @@ std::vector<std::int64_t> edf_responses(std::span<const Load> loads) {
   std::uint64_t steps = 0;
   std::int64_t blocking = 0;
   for (const Load& l : loads) blocking = std::max(blocking, l.blocking);
-  const auto busy = busy_period(loads, blocking, steps);
+  const auto busy = busy_period(loads, blocking, far, steps);
   if (!busy) return {};
   std::uint64_t points = 0;
   for (const Load& l : loads) points += static_cast<std::uint64_t>((*busy + l.jitter) / l.period + 1);
