@@ -1,6 +1,7 @@
 #include "graph/analysis/fixed_priority.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace jarol::analysis {
@@ -39,21 +40,21 @@ class Interference {
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> index_;  // by period and jitter
 };
 
-// The least window that `need` maps to itself, from `start` on; nothing beyond reach.
+// The least window that `need` maps to itself, from `start` on; nothing beyond `most`.
 template <class Need>
-std::optional<std::int64_t> least_fixed_point(std::int64_t start, std::uint64_t& steps, std::size_t cost,
-                                              const Need& need) {
+std::optional<std::int64_t> least_fixed_point(std::int64_t start, std::int64_t most, std::uint64_t& steps,
+                                              std::size_t cost, const Need& need) {
   std::int64_t window = start;
   while (true) {
     steps += cost;
     const Wide next = need(window);
-    if (next > far || steps > most_steps) return std::nullopt;
+    if (next > most || steps > most_steps) return std::nullopt;
     if (next == window) return window;
     window = static_cast<std::int64_t>(next);
   }
 }
 
-// `repeats`: at full utilisation a busy period need not end, but repeats itself after so long; else far.
+// `repeats`: of activations so much later none responds later, as demand grows no more than time does; else far.
 std::optional<std::int64_t> preemptive_response(const Load& load, const Interference& more_urgent, std::int64_t repeats,
                                                 std::int64_t& first_window, std::uint64_t& steps) {
   // it does not run before the one above it has ended, and runs then
@@ -61,7 +62,7 @@ std::optional<std::int64_t> preemptive_response(const Load& load, const Interfer
   for (std::int64_t q = 0;; ++q) {
     if (q == most_activations) return std::nullopt;
     const Wide own = static_cast<Wide>(load.blocking) + static_cast<Wide>(q + 1) * load.wcet;
-    const auto end = least_fixed_point(std::max(window, static_cast<std::int64_t>(own)), steps, more_urgent.size(),
+    const auto end = least_fixed_point(std::max(window, static_cast<std::int64_t>(own)), far, steps, more_urgent.size(),
                                        [&](std::int64_t w) { return own + more_urgent.demand(w, false); });
     if (!end) return std::nullopt;
     window = *end;
@@ -76,16 +77,16 @@ std::optional<std::int64_t> nonpreemptive_response(const Load& load, const Inter
                                                    std::int64_t blocking, std::int64_t repeats, std::uint64_t& steps) {
   Interference busy = more_urgent;
   busy.add(load);
-  const auto length = repeats < far
-                          ? std::optional(repeats)
-                          : least_fixed_point(std::max<std::int64_t>(1, blocking), steps, busy.size(),
-                                              [&](std::int64_t w) { return blocking + busy.demand(w, false); });
+  auto length = least_fixed_point(std::max<std::int64_t>(1, blocking), repeats, steps, busy.size(),
+                                  [&](std::int64_t w) { return blocking + busy.demand(w, false); });
+  if (!length && repeats < far) length = repeats;
   if (!length || (*length + load.jitter) / load.period > most_activations) return std::nullopt;
   std::int64_t response = 0, start = blocking;
   for (std::int64_t q = 0; q * load.period < *length + load.jitter; ++q) {
     const Wide own = static_cast<Wide>(blocking) + static_cast<Wide>(q) * load.wcet;
-    const auto found = least_fixed_point(std::max(start, static_cast<std::int64_t>(own)), steps, more_urgent.size(),
-                                         [&](std::int64_t w) { return own + more_urgent.demand(w, true); });
+    const auto found =
+        least_fixed_point(std::max(start, static_cast<std::int64_t>(own)), far, steps, more_urgent.size(),
+                          [&](std::int64_t w) { return own + more_urgent.demand(w, true); });
     if (!found) return std::nullopt;
     start = *found;
     response = std::max(response, start + load.wcet - q * load.period + load.jitter);
@@ -104,16 +105,18 @@ std::vector<std::optional<std::int64_t>> fixed_priority_responses(std::span<cons
   std::uint64_t steps = 0;
   std::int64_t first_window = 0;
   long double used = 0;
+  std::optional<std::int64_t> repeats = 1;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     used += static_cast<long double>(loads[i].wcet) / static_cast<long double>(loads[i].period);
     // near to one without rounding
     const auto order =
         used < 1 - 1e-9L ? std::optional(std::strong_ordering::less) : compare_utilisation(loads.first(i + 1), 1);
     if (!order || *order > 0) break;  // without bound from here on
-    const auto repeats = *order == 0 ? hyperperiod(loads.first(i + 1), far).value_or(far) : far;
-    responses[i] = preemptive ? preemptive_response(loads[i], more_urgent, repeats, first_window, steps)
-                              : nonpreemptive_response(loads[i], more_urgent,
-                                                       std::max(longest_below[i], loads[i].blocking), repeats, steps);
+    if (repeats) repeats = hyperperiod(std::array{Load{.period = *repeats}, loads[i]}, far);
+    responses[i] = preemptive
+                       ? preemptive_response(loads[i], more_urgent, repeats.value_or(far), first_window, steps)
+                       : nonpreemptive_response(loads[i], more_urgent, std::max(longest_below[i], loads[i].blocking),
+                                                repeats.value_or(far), steps);
     more_urgent.add(loads[i]);
   }
   return responses;

@@ -1,0 +1,41 @@
+// Close to full utilisation busy periods are very long; one hyperperiod tells all of them.
+#include <doctest/doctest.h>
+
+#include "graph/analysis/check.h"
+
+namespace {
+using namespace jarol::analysis;
+using jarol::Policy;
+
+constexpr std::int64_t ms = 1'000'000;
+
+// 1 - 2.5e-9 of a core, and so as long as the last task takes no longer.
+System nearly_full(Policy policy, std::int64_t last) {
+  System system;
+  system.policy = policy;
+  system.offsets_hold = false;
+  const std::int64_t periods[] = {100 * ms, 200 * ms, 400 * ms, 400 * ms};
+  for (std::size_t i = 0; i < 4; ++i) {
+    system.loads.push_back({i == 3 ? last : 50 * ms, periods[i], periods[i], 0, 0, 0, 0});
+    system.rank.push_back(i);
+    system.turn.push_back(i);
+  }
+  system.priority.resize(4);
+  system.core.resize(4);
+  return system;
+}
+}  // namespace
+
+TEST_SUITE("graph/analysis/full") {
+  TEST_CASE("a core that is all but full is decided, whatever the policy") {
+    for (const Policy policy : {Policy::edf, Policy::edf_nonpreemptive, Policy::fixed_priority,
+                                Policy::fixed_priority_nonpreemptive}) {
+      CAPTURE(static_cast<int>(policy));
+      const Result holds = check(nearly_full(policy, 50 * ms - 1));
+      CHECK(holds.verdict == Verdict::schedulable);
+      CHECK(holds.standing == Standing::proof);
+      const Result over = check(nearly_full(policy, 50 * ms + 1));
+      CHECK(over.verdict == Verdict::not_schedulable);
+    }
+  }
+}
