@@ -35,7 +35,7 @@ std::string precedence_problem(const System& s, const std::vector<std::size_t>& 
 Result check_on_table(const System& system) {
   const auto fits = [&](const std::vector<std::size_t>& tasks) {
     const auto order = compare_utilisation(loads_of(system, tasks), 1);
-    return !order || *order <= 0;
+    return !order || *order <= 0 ? Verdict::schedulable : Verdict::not_schedulable;
   };
   Result result;
   const Partition partition = assign_cores(system, fits);
@@ -92,8 +92,7 @@ Result check_globally(const System& system) {
 // Core by core, with each policy's own test.
 Result check_partitioned(const System& system) {
   const Partition partition = assign_cores(system, [&](const std::vector<std::size_t>& tasks) {
-    return verdict_of_core(loads_of(system, in_order(system, tasks)), system.policy, system.offsets_hold) ==
-           Verdict::schedulable;
+    return verdict_of_core(loads_of(system, in_order(system, tasks)), system.policy, system.offsets_hold);
   });
   Result result;
   result.response.resize(system.loads.size());
@@ -132,7 +131,7 @@ Result check_partitioned(const System& system) {
       std::all_of(system.core.begin(), system.core.end(), [](const auto& c) { return c.has_value(); });
   if (system.cores > 1 && result.verdict == Verdict::not_schedulable && !all_given) {
     const auto order = compare_utilisation(system.loads, system.cores);
-    if (partition.searched) {
+    if (partition.refuted) {
       result.reason += "; no assignment of tasks to cores holds";
     } else if (!(order && *order > 0)) {
       result.verdict = Verdict::unknown;

@@ -51,23 +51,36 @@ void append(std::vector<std::size_t>& to, const std::vector<std::size_t>& tasks)
 }
 
 // Depth first; a core that is still empty stands for all empty ones.
-bool search(const std::vector<Together>& groups, std::size_t at, std::vector<std::vector<std::size_t>>& cores,
-            const FitsCore& fits) {
-  if (at == groups.size()) return true;
-  bool empty_tried = false;
-  for (std::size_t c = 0; c < cores.size(); ++c) {
-    if (groups[at].core && *groups[at].core != c) continue;
-    if (cores[c].empty() && !groups[at].core) {
-      if (empty_tried) continue;
-      empty_tried = true;
+struct Search {
+  const std::vector<Together>& groups;
+  const FitsCore& fits;
+  std::vector<std::vector<std::size_t>> cores;
+  bool open = false;  // no core of some assignment is known not to hold
+
+  // `sure`: every core is known to hold so far.
+  bool from(std::size_t at, bool sure) {
+    if (at == groups.size()) {
+      open = open || !sure;
+      return sure;
     }
-    const std::vector<std::size_t> before = cores[c];
-    append(cores[c], groups[at].tasks);
-    if (fits(cores[c]) && search(groups, at + 1, cores, fits)) return true;
-    cores[c] = before;
+    bool empty_tried = false;
+    for (std::size_t c = 0; c < cores.size(); ++c) {
+      if (groups[at].core && *groups[at].core != c) continue;
+      if (cores[c].empty() && !groups[at].core) {
+        if (empty_tried) continue;
+        empty_tried = true;
+      }
+      const std::vector<std::size_t> before = cores[c];
+      append(cores[c], groups[at].tasks);
+      const Verdict verdict = fits(cores[c]);
+      const bool still_sure = sure && verdict == Verdict::schedulable;
+      const bool worth_it = verdict != Verdict::not_schedulable && (still_sure || !open);
+      if (worth_it && from(at + 1, still_sure)) return true;
+      cores[c] = before;
+    }
+    return false;
   }
-  return false;
-}
+};
 
 }  // namespace
 
@@ -77,7 +90,7 @@ Partition assign_cores(const System& system, const FitsCore& fits_core) {
   const FitsCore by_utilisation = [&](const std::vector<std::size_t>& tasks) {
     Loads loads;
     for (const std::size_t i : tasks) loads.push_back(system.loads[i]);
-    return utilisation(loads) <= 1;
+    return utilisation(loads) <= 1 ? Verdict::schedulable : Verdict::unknown;
   };
   const FitsCore& fits = system.loads.size() <= most_tested ? fits_core : by_utilisation;
   const std::vector<Together> groups = groups_of(system);
@@ -90,7 +103,7 @@ Partition assign_cores(const System& system, const FitsCore& fits_core) {
       if (group.core && *group.core != c) continue;
       std::vector<std::size_t> with = cores[c];
       append(with, group.tasks);
-      placed = fits(with);
+      placed = fits(with) == Verdict::schedulable;
       if (placed) cores[c] = std::move(with);
     }
     if (placed) continue;
@@ -110,12 +123,10 @@ Partition assign_cores(const System& system, const FitsCore& fits_core) {
   const auto is_free = [](const Together& g) { return !g.core.has_value(); };
   const auto free = static_cast<std::size_t>(std::count_if(groups.begin(), groups.end(), is_free));
   if (!partition.fits && free <= most_searched) {
-    std::vector<std::vector<std::size_t>> tried(cores.size());
-    partition.searched = true;
-    if (search(groups, 0, tried, fits)) {
-      partition.fits = true;
-      cores = std::move(tried);
-    }
+    Search search{groups, fits, std::vector<std::vector<std::size_t>>(cores.size())};
+    partition.fits = search.from(0, true);
+    partition.refuted = !partition.fits && !search.open;
+    if (partition.fits) cores = std::move(search.cores);
   }
   partition.core.resize(system.loads.size());
   for (std::size_t c = 0; c < cores.size(); ++c)

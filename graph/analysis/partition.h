@@ -7,13 +7,13 @@
 
 namespace jarol::analysis {
 
-/// Do these tasks, by index, hold together on one core?
-using FitsCore = std::function<bool(const std::vector<std::size_t>& tasks)>;
+/// The verdict on these tasks, by index, together on one core.
+using FitsCore = std::function<Verdict(const std::vector<std::size_t>& tasks)>;
 
 struct Partition {
   std::vector<std::size_t> core;  // per task
   bool fits = false;
-  bool searched = false;  // every assignment was tried
+  bool refuted = false;  // every assignment was tried, and none can hold
 };
 
 /// Given cores are kept. The others, those that follow each other together, go to the first core that they fit, largest

@@ -28,8 +28,8 @@ System nearly_full(Policy policy, std::int64_t last) {
 
 TEST_SUITE("graph/analysis/full") {
   TEST_CASE("a core that is all but full is decided, whatever the policy") {
-    for (const Policy policy : {Policy::edf, Policy::edf_nonpreemptive, Policy::fixed_priority,
-                                Policy::fixed_priority_nonpreemptive}) {
+    for (const Policy policy :
+         {Policy::edf, Policy::edf_nonpreemptive, Policy::fixed_priority, Policy::fixed_priority_nonpreemptive}) {
       CAPTURE(static_cast<int>(policy));
       const Result holds = check(nearly_full(policy, 50 * ms - 1));
       CHECK(holds.verdict == Verdict::schedulable);

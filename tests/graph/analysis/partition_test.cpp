@@ -1,0 +1,65 @@
+// Which task runs on which core, against every assignment that there is.
+#include "graph/analysis/partition.h"
+
+#include <doctest/doctest.h>
+
+#include "graph/analysis/check.h"
+
+namespace {
+using namespace jarol::analysis;
+using jarol::Policy;
+
+// splitmix64
+std::int64_t drawn(std::uint64_t& state, std::int64_t least, std::int64_t most) {
+  std::uint64_t z = (state += 0x9e3779b97f4a7c15ULL);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return least + static_cast<std::int64_t>((z ^ (z >> 31)) % static_cast<std::uint64_t>(most - least + 1));
+}
+
+// A few tasks on two cores, none of them given, offsets as drawn.
+System random_system(std::uint64_t seed, Policy policy) {
+  System system;
+  system.policy = policy;
+  system.cores = 2;
+  const auto n = static_cast<std::size_t>(drawn(seed, 2, 5));
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int64_t period = drawn(seed, 2, 7), wcet = drawn(seed, 1, period);
+    system.loads.push_back({wcet, period, drawn(seed, wcet, period), drawn(seed, 0, period - 1), 0, 0, 0});
+    system.rank.push_back(i);
+    system.turn.push_back(i);
+  }
+  system.priority.resize(n);
+  system.core.resize(n);
+  return system;
+}
+
+// The best verdict of all assignments, each of them given.
+Verdict best_assignment(System system) {
+  bool open = false;
+  for (unsigned bits = 0; bits < 1U << system.loads.size(); ++bits) {
+    for (std::size_t i = 0; i < system.loads.size(); ++i) system.core[i] = bits >> i & 1;
+    const Verdict verdict = verdict_of(system);
+    if (verdict == Verdict::schedulable) return verdict;
+    open = open || verdict == Verdict::unknown;
+  }
+  return open ? Verdict::unknown : Verdict::not_schedulable;
+}
+}  // namespace
+
+TEST_SUITE("graph/analysis/partition") {
+  TEST_CASE("no is said of all assignments only where none is left that may hold") {
+    int counts[] = {0, 0, 0};
+    for (std::uint64_t seed = 0; seed < 1000; ++seed)
+      for (const Policy policy : {Policy::edf, Policy::fixed_priority, Policy::edf_nonpreemptive,
+                                  Policy::fixed_priority_nonpreemptive}) {
+        CAPTURE(seed);
+        CAPTURE(static_cast<int>(policy));
+        const System system = random_system(seed, policy);
+        const Result result = check(system);
+        ++counts[static_cast<int>(result.verdict)];
+        REQUIRE(result.verdict == best_assignment(system));
+      }
+    for (const int count : counts) CHECK(count > 0);
+  }
+}
