@@ -146,4 +146,25 @@ std::string to_yaml(const Model& model, std::uint64_t shuffle) {
   return text;
 }
 
+std::string coarse_random_graph(std::uint64_t seed, std::int64_t step,
+                                const std::function<std::string(const TaskModel&)>& keys) {
+  const auto coarse = [&](std::int64_t ns) { return (ns + ms - 1) / ms * step; };
+  Model model = random_model(seed);
+  for (TaskModel& task : model.tasks) {
+    task.period = coarse(task.period);
+    task.offset = coarse(task.offset) % task.period;
+    if (task.let) task.let = coarse(*task.let);
+  }
+  for (CommunicatorModel& c : model.communicators) {
+    c.period = coarse(c.period);
+    c.offset = coarse(c.offset) % c.period;
+  }
+  std::string text = to_yaml(model, seed);
+  for (const TaskModel& task : model.tasks) {
+    const std::string begin = "  " + task.name + ": {";
+    text.insert(text.find(begin) + begin.size(), keys(task) + ", ");
+  }
+  return text;
+}
+
 }  // namespace jarol::oracle

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "tests/runtime/oracle.h"
@@ -12,5 +13,9 @@ Model random_model(std::uint64_t seed);
 
 /// The graph as YAML; `shuffle` changes the order of declaration.
 std::string to_yaml(const Model& model, std::uint64_t shuffle);
+
+/// A random graph of which every instant is a multiple of the step (ns); `keys` adds to what each task says.
+std::string coarse_random_graph(std::uint64_t seed, std::int64_t step,
+                                const std::function<std::string(const TaskModel&)>& keys);
 
 }  // namespace jarol::oracle

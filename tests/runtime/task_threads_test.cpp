@@ -13,31 +13,10 @@ using namespace jarol;
 using namespace jarol::tests::threads;
 using tests::lines_of;
 
-// Every instant is a multiple of the step, so that every deadline is one at least.
-std::string coarse_random_graph(std::uint64_t seed, Duration step) {
-  const auto coarse = [&](std::int64_t ns) { return (ns + 999'999) / 1'000'000 * step.count(); };
-  oracle::Model model = oracle::random_model(seed);
-  for (oracle::TaskModel& task : model.tasks) {
-    task.period = coarse(task.period);
-    task.offset = coarse(task.offset) % task.period;
-    if (task.let) task.let = coarse(*task.let);
-  }
-  for (oracle::CommunicatorModel& c : model.communicators) {
-    c.period = coarse(c.period);
-    c.offset = coarse(c.offset) % c.period;
-  }
-  std::string text = oracle::to_yaml(model, seed);
-  for (const oracle::TaskModel& task : model.tasks) {
-    const std::string begin = "  " + task.name + ": {";
-    text.insert(text.find(begin) + begin.size(), "core: ANY, ");
-  }
-  return text;
-}
-
 // A random graph gives what it gives on the virtual clock.
 void check_random_graph(std::uint64_t seed, const Mode& mode, int pieces) {
   constexpr Duration step = 6ms, end = 20 * step;
-  const std::string text = coarse_random_graph(seed, step);
+  const std::string text = oracle::coarse_random_graph(seed, step.count(), [](const auto&) { return "core: ANY"; });
   CAPTURE(seed);
   CAPTURE(mode.name);
   CAPTURE(text);

@@ -51,8 +51,8 @@ TEST_SUITE("graph/analysis/partition") {
   TEST_CASE("no is said of all assignments only where none is left that may hold") {
     int counts[] = {0, 0, 0};
     for (std::uint64_t seed = 0; seed < 1000; ++seed)
-      for (const Policy policy : {Policy::edf, Policy::fixed_priority, Policy::edf_nonpreemptive,
-                                  Policy::fixed_priority_nonpreemptive}) {
+      for (const Policy policy :
+           {Policy::edf, Policy::fixed_priority, Policy::edf_nonpreemptive, Policy::fixed_priority_nonpreemptive}) {
         CAPTURE(seed);
         CAPTURE(static_cast<int>(policy));
         const System system = random_system(seed, policy);
