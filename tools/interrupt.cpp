@@ -12,7 +12,7 @@ namespace {
 
 std::atomic<bool> flag{false};
 std::atomic<bool> alive{false};
-std::atomic<std::int64_t> first_at{0};  // ns
+std::atomic<std::int64_t> first_at{0};  // ns; 0: none has come
 std::function<void()> call;
 
 constexpr std::int64_t second_from = 500'000'000;  // ns: what comes sooner is the same wish, told twice
@@ -24,12 +24,14 @@ std::int64_t now() {
 }
 
 extern "C" void interrupt(int signal) {
-  if (!flag.exchange(true)) {
-    first_at.store(now());
+  // another thread may take the second signal before this one has done more
+  std::int64_t first = 0;
+  if (first_at.compare_exchange_strong(first, now())) {
+    flag.store(true);
     if (alive.load()) call();
     return;
   }
-  if (now() - first_at.load() < second_from) return;
+  if (now() - first < second_from) return;
   // whoever asks again does not want to wait for the end, nor, the third time, for this line
   std::signal(signal, SIG_DFL);
   constexpr std::string_view line = "interrupted again: ended at once, without a report\n";
@@ -42,6 +44,7 @@ extern "C" void interrupt(int signal) {
 Interruptible::Interruptible(std::function<void()> at_once) {
   call = std::move(at_once);
   flag.store(false);
+  first_at.store(0);
   alive.store(true);
   for (std::size_t i = 0; i < signals.size(); ++i) before_[i] = std::signal(signals[i], interrupt);
   // what was started under nohup goes on when its terminal is gone

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <functional>
+#include <iomanip>
 #include <optional>
+#include <sstream>
 #include <thread>
 
 #include "distributers/javiator_operator.h"
@@ -13,7 +16,7 @@
 #include "distributers/links/tcp.h"
 #include "distributers/links/udp.h"
 #include "runtime/executor.h"
-#include "tests/tools/run_command.h"
+#include "tests/tools/process.h"
 #include "tests/tools/terminal.h"
 #include "tools/load_graph.h"
 
@@ -25,6 +28,13 @@ using tests::Terminal;
 
 constexpr Duration period = 15ms;
 constexpr int ground = 1, flying = 2, halted = 4;
+
+bool listens_udp(int port) {
+  std::ostringstream at;
+  at << ":" << std::uppercase << std::hex << std::setfill('0') << std::setw(4) << port << " ";
+  std::ifstream sockets("/proc/net/udp");
+  return std::string(std::istreambuf_iterator<char>(sockets), {}).find(at.str()) != std::string::npos;
+}
 
 // The graph with a simulated vehicle; its operator is at the other end of a link. Each period waits for the terminal's
 // answer, so that nothing depends on how busy the machine is.
@@ -199,40 +209,30 @@ TEST_SUITE("tools/javiator_terminal") {
   }
 
   TEST_CASE("on the real clock, the command serves a terminal") {
-    const auto bind_to = [](int port) {
-      UdpTransport probe(Address::parse("127.0.0.1:" + std::to_string(port)), Address{});
-      probe.open();
-      return probe.port();
-    };
-    const int port = bind_to(0);
-    command::Result run;
-    std::thread running([&] {
-      run = command::jarol(
-          "run specs/javiator.yaml --clock real --force --for 4s --profile terminal "
-          "--set distributers.terminal.link.listen=" +
-          std::to_string(port));
-    });
-    const auto begin = std::chrono::steady_clock::now();
-    const auto elapsed = [&] { return std::chrono::steady_clock::now() - begin; };
-    // it listens as soon as nobody else can
-    for (bool listens = false; !listens && elapsed() < 20s; std::this_thread::sleep_for(5ms)) {
-      try {
-        bind_to(port);
-      } catch (const std::runtime_error&) { listens = true; }
-    }
-    Terminal terminal(port, Terminal::Over::udp);
+    const std::string port = tests::free_port(SOCK_DGRAM);
+    tests::Process run(
+        "run specs/javiator.yaml --clock real --force --for 1h --profile terminal "
+        "--set distributers.terminal.link.listen=" +
+        port);
+    for (int look = 0; look < 4000 && !listens_udp(std::stoi(port)); ++look) std::this_thread::sleep_for(5ms);
+    Terminal terminal(std::stoi(port), Terminal::Over::udp);
     std::vector<int> states;
-    for (int i = 0; i < 100; ++i) {
-      if (i == 20) terminal.press(Terminal::switch_state);
-      if (i == 60) terminal.press(Terminal::shut_down);
-      const auto report = terminal.answer();
-      if (!report) break;
-      if (states.empty() || states.back() != report->state) states.push_back(report->state);
-    }
-    running.join();
+    const auto answers_until = [&](int state) {
+      for (int i = 0; i < 1000 && (states.empty() || states.back() != state); ++i) {
+        const auto report = terminal.answer();
+        if (!report) return;
+        if (states.empty() || states.back() != report->state) states.push_back(report->state);
+      }
+    };
+    answers_until(halted);
+    terminal.press(Terminal::switch_state);
+    answers_until(ground);
+    terminal.press(Terminal::shut_down);
+    answers_until(halted);
+    run.interrupt();
+    CHECK(run.end() == 130);
     CHECK(states == std::vector<int>{halted, ground, halted});
-    CHECK(run.exit_code == 0);
-    CHECK(run.output.find("  link        udp 127.0.0.1:" + std::to_string(port) + ": ") != std::string::npos);
+    CHECK(run.output().find("  link        udp 127.0.0.1:" + port + ": ") != std::string::npos);
     CHECK(terminal.bad == 0);
   }
 

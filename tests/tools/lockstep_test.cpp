@@ -71,10 +71,10 @@ TEST_SUITE("tools/lockstep") {
     Process helicopter("specs/vehicles/helicopter.yaml", 2);
     for (const std::uint64_t seed : {0, 7}) {
       CAPTURE(seed);
-      CHECK(digest_of("specs/exolauv.yaml", {"distributers.dune.link" + submarine.link()}, seed, 10s) ==
-            digest_of("specs/exolauv.yaml", {}, seed, 10s));
-      CHECK(digest_of("specs/javiator.yaml", {"distributers.robostix.link" + helicopter.link()}, seed, 6s) ==
-            digest_of("specs/javiator.yaml", {}, seed, 6s));
+      CHECK(digest_of("specs/exolauv.yaml", {"distributers.dune.link" + submarine.link()}, seed, 3s) ==
+            digest_of("specs/exolauv.yaml", {}, seed, 3s));
+      CHECK(digest_of("specs/javiator.yaml", {"distributers.robostix.link" + helicopter.link()}, seed, 2s) ==
+            digest_of("specs/javiator.yaml", {}, seed, 2s));
     }
     submarine.end();
     CHECK(submarine.ended == std::vector<std::string>(2, "the other end has ended the connection"));

@@ -23,9 +23,9 @@ std::string content(const std::string& path) {
 // One task each: without a WCET, with one that is too short, with one that is long, and one that is not released soon.
 const std::string file_text = R"(graph: t
 tasks:
-  fresh: {type: Counter, period: 10ms}
-  long:  {type: Counter, period: 10ms, wcet: 4ms}
-  short: {type: Counter, period: 10ms, wcet: 1ns}
+  fresh: {type: Counter, period: 100ms}
+  long:  {type: Counter, period: 100ms, wcet: 40ms}
+  short: {type: Counter, period: 100ms, wcet: 1ns}
   late:  {type: Counter, period: 10s, offset: 5s, wcet: 1ms}
 )";
 
@@ -105,7 +105,7 @@ connections: [a.out -> b.in]
                                   "  task   activations     99.9 %       most       wcet    written\n"));
     CHECK(row("late") ==
           "  late             0          -          -        1ms          -  never released in that time");
-    CHECK(row("long").ends_with("        4ms       kept"));
+    CHECK(row("long").ends_with("       40ms       kept"));
     CHECK(row("short").find("        1ns  ") != std::string::npos);
     CHECK(row("short").ends_with("  LONGER THAN ITS WCET"));
     CHECK(told.ends_with("  written into " + file +
@@ -119,24 +119,24 @@ connections: [a.out -> b.in]
       return std::optional<Duration>{};
     };
     CHECK(wcet("late") == 1ms);
-    CHECK(wcet("long") == 4ms);
+    CHECK(wcet("long") == 40ms);
     CHECK(wcet("short") > 1ns);
-    CHECK(wcet("short") < 4ms);
+    CHECK(wcet("short") < 40ms);
     REQUIRE(wcet("fresh").has_value());
     CHECK(row("fresh").ends_with("  " + duration_text(*wcet("fresh"))));
     // what is asked for is lowered, too
     command::jarol("check --write --lower --for 1s " + file);
-    CHECK(content(file).find("long:  {type: Counter, period: 10ms, wcet: 4ms}") == std::string::npos);
+    CHECK(content(file).find("wcet: 40ms") == std::string::npos);
   }
 
   TEST_CASE("the verdict after check --write is that of the file as it was written") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", file_text);
-    const std::string measured = "check --json --write --for 1s --set tasks.long.wcet=20ms " + file;
+    const std::string measured = "check --json --write --for 1s --set tasks.long.wcet=200ms " + file;
     const auto verdict = command::jarol(measured, "2>/dev/null");
     CHECK(verdict.exit_code == 0);
     CHECK(verdict.output == command::jarol("check --json " + file).output);
-    CHECK(nlohmann::json::parse(verdict.output)["tasks"][2]["wcet_ns"] == 4'000'000);
+    CHECK(nlohmann::json::parse(verdict.output)["tasks"][2]["wcet_ns"] == 40'000'000);
     CHECK(command::jarol(measured, "2>&1 >/dev/null")
               .output.ends_with("  measured with --set or --profile; what follows is said of the file as it stands, "
                                 "without them\n"));
@@ -144,7 +144,7 @@ connections: [a.out -> b.in]
 
   TEST_CASE("a file that needs nothing is not touched, nor one that can't be edited") {
     const TemporaryFolder folder;
-    const std::string text = "graph: t\ntasks: {a: {type: Counter, period: 1ms, wcet: 900us}}\n";
+    const std::string text = "graph: t\ntasks: {a: {type: Counter, period: 100ms, wcet: 90ms}}\n";
     const std::string file = folder.write("t.yaml", text);
     const auto before = std::filesystem::last_write_time(file);
     CHECK(command::jarol("check --write --for 1s " + file).output.find("  nothing is written into " + file + "\n") !=
@@ -180,9 +180,14 @@ connections: [a.out -> b.in]
   TEST_CASE("what is changed in a file while it is measured is not lost") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 1ms}}\n");
-    const auto refused = command::jarol(
-        "check --write --for 500s " + file,
-        "2>&1 & id=$!; while kill -0 $id 2>&-; do echo '# more' >> " + file + "; sleep 0.01; done; wait $id");
+    // again where the machine did not let anybody change it meanwhile
+    command::Result refused;
+    for (int attempt = 0; attempt < 10 && refused.exit_code != 2; ++attempt) {
+      folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 1ms}}\n");
+      refused = command::jarol(
+          "check --write --for 500s " + file,
+          "2>&1 & id=$!; while kill -0 $id 2>&-; do echo '# more' >> " + file + "; sleep 0.01; done; wait $id");
+    }
     CHECK(refused.exit_code == 2);
     CHECK(refused.output.starts_with(file + ": measured over 500s of logical time on this machine, in processor time\n"
                                             "  task  activations     99.9 %       most       wcet\n"

@@ -64,11 +64,11 @@ TEST_SUITE("tools/output_files") {
     }
     const std::string fifo = folder / "fifo", copy = folder / "copy", trace = folder / "trace.csv";
     REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
-    REQUIRE(std::system(("timeout 20 cat " + fifo + " > " + copy + " &").c_str()) == 0);
+    REQUIRE(std::system(("timeout 60 cat " + fifo + " > " + copy + " &").c_str()) == 0);
     CHECK(command::jarol("run specs/counting.yaml --for 1s --trace " + fifo).exit_code == 0);
     CHECK(command::jarol("run specs/counting.yaml --for 1s --trace " + trace).exit_code == 0);
     CHECK(fs::is_fifo(fifo));
-    for (int i = 0; i < 100 && content(copy) != content(trace); ++i) ::usleep(20'000);
+    for (int i = 0; i < 1000 && content(copy) != content(trace); ++i) ::usleep(20'000);
     CHECK(content(copy) == content(trace));
     CHECK(command::jarol("run specs/counting.yaml --for 1s --trace /dev/stdout", "2>/dev/null")
               .output.starts_with(content(trace) + "counting: 1 s"));

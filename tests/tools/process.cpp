@@ -52,6 +52,8 @@ void Process::read(int fd, std::string& to) {
 
 void Process::kill() { ::kill(id_, SIGKILL); }
 
+void Process::interrupt() { ::kill(id_, SIGINT); }
+
 bool Process::says(const std::string& text, std::chrono::seconds patience) {
   for (const auto end = std::chrono::steady_clock::now() + patience; std::chrono::steady_clock::now() < end;) {
     {
@@ -76,10 +78,15 @@ int Process::end() {
 }
 
 std::string free_port(int type) {
-  const Descriptor probe(socket(AF_INET, type, 0));
-  const Address any = Address::parse("0");
-  if (bind(probe.get(), any.get(), any.size()) != 0) throw std::runtime_error("no free port");
-  return std::to_string(port_of(probe));
+  constexpr int first = 10'000, count = 20'000;
+  static int next = static_cast<int>(getpid()) * 16;
+  for (int i = 0; i < count; ++i) {
+    const std::string port = std::to_string(first + next++ % count);
+    const Descriptor probe(socket(AF_INET, type, 0));
+    const Address address = Address::parse(port);
+    if (bind(probe.get(), address.get(), address.size()) == 0) return port;
+  }
+  throw std::runtime_error("no free port");
 }
 
 }  // namespace jarol::tests

@@ -22,6 +22,8 @@ class Process {
 
   /// As a crash or a loss of power ends it: it does not get to say anything.
   void kill();
+  /// As Ctrl-C ends it.
+  void interrupt();
   /// Waits until its errors, or notes, have this. False if it does not come.
   bool says(const std::string& text, std::chrono::seconds patience = std::chrono::seconds(20));
   /// Waits for its end; its exit code, or minus the signal that ended it.
@@ -42,7 +44,7 @@ class Process {
   std::thread out_, err_;
 };
 
-/// A port that was free a moment ago, for UDP or TCP.
+/// A port that was free a moment ago, for UDP or TCP; none that the system gives to whoever asks for any.
 std::string free_port(int type);
 
 }  // namespace jarol::tests

@@ -125,11 +125,13 @@ Outcome send_through(Route& route, const Protocol& protocol, std::size_t count, 
   o.bytes += zeros;
   const auto done = [&] {
     o.counts = route.proxy->from(route.from_end);
-    route.link->receive(payloads);
     // the last zero might be the first of a sync
-    return o.counts.in == o.bytes && o.counts.in == o.counts.lost + o.counts.out &&
-           count_of(*route.link, "bytes in") + count_of(*route.link, "bytes dropped") + (zeros > 0 ? 1 : 0) ==
-               o.counts.out;
+    const bool all_seen =
+        o.counts.in == o.bytes && o.counts.in == o.counts.lost + o.counts.out &&
+        count_of(*route.link, "bytes in") + count_of(*route.link, "bytes dropped") + (zeros > 0 ? 1 : 0) ==
+            o.counts.out;
+    route.link->receive(payloads);
+    return all_seen;
   };
   for (const auto end = std::chrono::steady_clock::now() + 120s; !done();) {
     REQUIRE(std::chrono::steady_clock::now() < end);
