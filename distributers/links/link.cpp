@@ -7,6 +7,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "distributers/links/stamp_order.h"
 #include "graph/yaml/problems.h"
 
 namespace jarol::distributers {
@@ -62,7 +63,7 @@ struct Accepted {
 class Link::Translator : public ByteSink {
  public:
   Translator(const messages::MessageSet& set, const LinkOptions& options, PacketPorts& input)
-      : set_(set), datagrams_(set), input_(input), entry_(peer_size + longest_packet(set)) {
+      : set_(set), datagrams_(set), input_(input), order_(set), entry_(peer_size + longest_packet(set)) {
     for (const auto& [name, value] : options.accept)
       accepted_.push_back({&find_field(*set.header, name, value), value});
   }
@@ -79,11 +80,12 @@ class Link::Translator : public ByteSink {
       before_ = told_;
     }
     stream_ = std::make_unique<messages::StreamReader>(set_);
+    order_.begin();
   }
 
   // read by other threads
   struct Counts {
-    std::atomic<std::uint64_t> packets{0}, bytes{0}, dropped_bytes{0}, refused{0}, others{0};
+    std::atomic<std::uint64_t> packets{0}, bytes{0}, dropped_bytes{0}, refused{0}, others{0}, late{0};
     std::array<std::atomic<std::uint64_t>, messages::flaw_count> dropped{};
   };
   const Counts& counts() const { return counts_; }
@@ -118,6 +120,7 @@ class Link::Translator : public ByteSink {
       ++counts_.others;
       return false;
     }
+    if (order_.is_late(header, peer)) ++counts_.late;
     std::memcpy(entry_.data(), &peer, peer_size);
     std::memcpy(entry_.data() + peer_size, packet.data(), packet.size());
     const auto entry = std::span(entry_).first(peer_size + packet.size());
@@ -145,6 +148,7 @@ class Link::Translator : public ByteSink {
   messages::PacketReader datagrams_;
   std::unique_ptr<messages::StreamReader> stream_;
   PacketPorts& input_;
+  StampOrder order_;
   std::vector<std::byte> entry_;
   std::vector<Accepted> accepted_;
   messages::PacketCounts told_, before_;  // before_: of the streams that have ended
@@ -270,6 +274,7 @@ LinkReport Link::report() const {
   add("bytes out", bytes_out_);
   add("peers", t.connected);
   add("ends of stream", t.disconnected);
+  add("late", in.late);
   for (std::size_t i = 1; i < messages::flaw_count; ++i)
     add("dropped: " + std::string(name_of(static_cast<Flaw>(i))), in.dropped[i]);
   add("dropped: stranger", t.strangers);

@@ -15,12 +15,14 @@
 #include "distributers/links/serial.h"
 #include "distributers/links/tcp.h"
 #include "distributers/links/udp.h"
+#include "distributers/messages/imc.h"
 #include "distributers/messages/javiator.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::distributers;
 using namespace std::chrono_literals;
+namespace imc = messages::imc;
 namespace javiator = messages::javiator;
 
 constexpr auto patience = 20s;  // a busy machine may take long; nothing here waits so long otherwise
@@ -310,6 +312,42 @@ TEST_SUITE("distributers/links/link") {
     Pair streams = tcp("127.0.0.1");
     REQUIRE(meet(streams));
     CHECK(streams.one->peer() == 0);
+  }
+
+  TEST_CASE("packets that come after one that their sender stamped later are late; they are taken all the same") {
+    auto transport = std::make_unique<UdpTransport>(Address::parse("127.0.0.1:0"), Address{});
+    const UdpTransport& at = *transport;
+    Link link(std::move(transport), imc::message_set(), {.input = {}, .output = {}, .header = {}});
+    link.connect();
+    const Address to = Address::parse("127.0.0.1:" + std::to_string(at.port()));
+    const Descriptor one(socket(AF_INET, SOCK_DGRAM, 0)), other(socket(AF_INET, SOCK_DGRAM, 0));
+    std::uint64_t sent = 0;
+    const auto throw_in = [&](const Descriptor& from, std::uint16_t source, double time) {
+      imc::Header header;
+      header.src = source;
+      header.timestamp = time;
+      std::vector<std::byte> bytes;
+      REQUIRE(write_packet(messages::refer_to(header), messages::refer_to(imc::Depth{1}), messages::ByteOrder::little,
+                           bytes));
+      REQUIRE(sendto(from.get(), bytes.data(), bytes.size(), 0, to.get(), to.size()) > 0);
+      ++sent;
+      REQUIRE(wait_for([&] { return count_of(link, "packets in") == sent; }));
+      return count_of(link, "late");
+    };
+    CHECK(throw_in(one, 1, 10) == 0);
+    CHECK(throw_in(one, 1, 12) == 0);
+    CHECK(throw_in(one, 1, 11) == 1);
+    CHECK(throw_in(one, 1, 12) == 1);  // doubled
+    CHECK(throw_in(one, 1, 11.5) == 2);
+    CHECK(throw_in(one, 2, 3) == 2);  // has a clock of its own
+    CHECK(throw_in(other, 2, 2) == 2);
+    CHECK(throw_in(other, 2, 1) == 3);
+    struct Taken : messages::Receiver {
+      void receive(messages::MessageRef) override { ++count; }
+      std::uint64_t count = 0;
+    } taken;
+    link.receive(taken);
+    CHECK(taken.count == sent);
   }
 
   TEST_CASE("an adapter learns of a new peer before its first packet, and of the end") {
