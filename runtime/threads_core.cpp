@@ -17,6 +17,7 @@ ThreadsCore::ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channel
     : graph_(graph), plan_(graph), channels_(std::move(channels)), period_(choose_period()), safe_commands_(graph) {
   for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::mutex>());
   last_.resize(graph.communicators.size());
+  threads_report_.execution.resize(graph.tasks.size());
   gather();
 }
 
@@ -152,7 +153,9 @@ void ThreadsCore::run_sensor(TimeTrigger& trigger, Duration end) {
       return;
     }
     now_.store(round * period_.count(), std::memory_order_relaxed);
-    tick_.store(RealClock::monotonic(), std::memory_order_relaxed);
+    const std::int64_t woken = RealClock::monotonic();
+    threads_report_.lateness.add(woken - Duration(trigger.time_of(round).time_since_epoch()).count());
+    woken_.store(woken, std::memory_order_relaxed);
     sense(false, round);
     rounds_begun_.store(next, std::memory_order_release);
     if (core_signal_.signal() != Signalling::done) ++threads_report_.core_busy;
@@ -191,7 +194,7 @@ void ThreadsCore::run_core() {
     run_round(done - 1);
     ++threads_report_.rounds;
     rounds_done_.store(threads_report_.rounds, std::memory_order_seq_cst);
-    threads_report_.round.add(RealClock::monotonic() - tick_.load(std::memory_order_relaxed));
+    threads_report_.round.add(RealClock::monotonic() - woken_.load(std::memory_order_relaxed));
     static_cast<void>(actuator_signal_.signal());
     static_cast<void>(terminal_signal_.signal());
   }
@@ -220,8 +223,10 @@ void ThreadsCore::run_round(std::int64_t round) {
 
 void ThreadsCore::run_task(Counted& task, std::int64_t instant, std::uint64_t instant_term) {
   const Tick tick{Duration(instant), task.activations++, task.period};
+  const std::int64_t begin = RealClock::monotonic();
   const Outcome outcome = task.activation->run(task.activation->memory, tick);
   if (outcome == Outcome::left_out) return;
+  threads_report_.execution[task.activation->task].add(RealClock::monotonic() - begin);
   ++report_.activations;
   if (outcome == Outcome::good)
     publish(*task.publish, instant_term);

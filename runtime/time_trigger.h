@@ -25,6 +25,9 @@ class BasicTimeTrigger {
 
   Span period() const { return period_; }
 
+  /// When the tick of that number is; the first one is 0.
+  Time time_of(std::int64_t tick) const { return first_ + tick * period_; }
+
   /// Ticks up to now.
   std::int64_t ticks() const { return ticks_until(Threads::now()); }
 
@@ -56,7 +59,6 @@ class BasicTimeTrigger {
  private:
   static constexpr Awaiting stopped = Awaiting::interrupted;
 
-  Time time_of(std::int64_t tick) const { return first_ + tick * period_; }
   // Ticks that have passed at this time; the number of the next one.
   std::int64_t ticks_until(Time time) const { return time < first_ ? 0 : (time - first_) / period_ + 1; }
 

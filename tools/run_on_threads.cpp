@@ -1,6 +1,7 @@
 #include "tools/run_on_threads.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 #include "tools/real_time.h"
 #include "tools/told_changes.h"
 #include "tools/told_faults.h"
+#include "tools/value_json.h"
 
 namespace jarol::tools {
 namespace {
@@ -32,6 +34,17 @@ void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
             << fmt::format("  outputs     {:.1f} us after the tick median, {:.1f} us 99 %, {:.1f} us worst\n",
                            us(threads.round.percentile(0.5)), us(threads.round.percentile(0.99)),
                            us(threads.round.most()));
+  std::cout << fmt::format("  lateness    {:.1f} us median, {:.1f} us 99 %, {:.1f} us worst\n",
+                           us(threads.lateness.percentile(0.5)), us(threads.lateness.percentile(0.99)),
+                           us(threads.lateness.most()));
+  std::size_t width = 4;
+  for (const Task& task : graph.tasks) width = std::max(width, task.name.size());
+  std::cout << fmt::format("  {:<{}}  {:>11}  {:>10}  {:>10}\n", "task", width, "activations", "99 % us", "worst us");
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    const Histogram& execution = threads.execution[i];
+    std::cout << fmt::format("  {:<{}}  {:>11}  {:>10.1f}  {:>10.1f}\n", graph.tasks[i].name, width, execution.count(),
+                             us(execution.percentile(0.99)), us(execution.most()));
+  }
   if (threads.core_busy > 0) std::cout << "  core        " << threads.core_busy << " ticks found it at work\n";
   if (threads.unawaited_ticks > 0)
     std::cout << "  sensors     " << threads.unawaited_ticks << " ticks found their thread at work\n";
@@ -66,6 +79,18 @@ void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
                               {"non_finite_inputs", report.non_finite_inputs},
                               {"safe_commands", to_json(graph, core.safe_commands())},
                               {"told", told.to_json()}};
+  json["outputs"] = outputs_to_json(graph, [&](std::size_t communicator) { return core.last_value(communicator); });
+  auto tasks = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    const Histogram& execution = threads.execution[i];
+    tasks[graph.tasks[i].name] = {{"activations", execution.count()},
+                                  {"execution_99_ns", execution.percentile(0.99)},
+                                  {"execution_most_ns", execution.most()}};
+  }
+  json["real_time"] = {{"lateness_50_ns", threads.lateness.percentile(0.5)},
+                       {"lateness_99_ns", threads.lateness.percentile(0.99)},
+                       {"lateness_most_ns", threads.lateness.most()},
+                       {"tasks", tasks}};
   for (const LinkReport& link : links) json["links"].push_back(to_json(link));
   std::cout << json << "\n";
 }

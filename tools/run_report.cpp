@@ -53,31 +53,28 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
   const Graph& graph = outcome.graph;
   const Executor& executor = outcome.executor;
   const Report& report = executor.report();
-  auto outputs = nlohmann::ordered_json::object();
-  for (std::size_t i = 0; i < graph.communicators.size(); ++i)
-    if (graph.communicators[i].direction == Direction::out)
-      outputs[graph.communicators[i].name] = to_json(*graph.communicators[i].type, executor.last_value(i));
   auto heaps = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < graph.tasks.size(); ++i)
     if (const PrivateHeap* heap = executor.plan().heaps[i].get())
       heaps[graph.tasks[i].name] = {{"size", heap->size()}, {"most_used", heap->most_used()}};
-  nlohmann::ordered_json json{{"schema", "jarol.run/1"},
-                              {"graph", graph.name},
-                              {"clock", outcome.clock != nullptr ? "real" : "virtual"},
-                              {"digest", fmt::format("0x{:016x}", report.digest)},
-                              {"digest_claimed", !has_weak_isolation(graph)},
-                              {"simulated_ns", report.simulated.count()},
-                              {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
-                              {"real_time_factor", real_time_factor(outcome)},
-                              {"activations", report.activations},
-                              {"instants", report.instants},
-                              {"faults", faults_to_json(report)},
-                              {"fault_count", report.fault_count},
-                              {"non_finite_inputs", report.non_finite_inputs},
-                              {"safe_commands", to_json(graph, executor.safe_commands())},
-                              {"told", outcome.told.to_json()},
-                              {"heaps", heaps},
-                              {"outputs", outputs}};
+  nlohmann::ordered_json json{
+      {"schema", "jarol.run/1"},
+      {"graph", graph.name},
+      {"clock", outcome.clock != nullptr ? "real" : "virtual"},
+      {"digest", fmt::format("0x{:016x}", report.digest)},
+      {"digest_claimed", !has_weak_isolation(graph)},
+      {"simulated_ns", report.simulated.count()},
+      {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
+      {"real_time_factor", real_time_factor(outcome)},
+      {"activations", report.activations},
+      {"instants", report.instants},
+      {"faults", faults_to_json(report)},
+      {"fault_count", report.fault_count},
+      {"non_finite_inputs", report.non_finite_inputs},
+      {"safe_commands", to_json(graph, executor.safe_commands())},
+      {"told", outcome.told.to_json()},
+      {"heaps", heaps},
+      {"outputs", outputs_to_json(graph, [&](std::size_t communicator) { return executor.last_value(communicator); })}};
   if (outcome.clock != nullptr) json["real_time"] = to_json(graph, *outcome.clock);
   for (const LinkReport& link : outcome.links) json["links"].push_back(to_json(link));
   return json;

@@ -38,4 +38,12 @@ nlohmann::ordered_json to_json(const Type& type, const void* value) {
   return nullptr;
 }
 
+nlohmann::ordered_json outputs_to_json(const Graph& graph, const std::function<const void*(std::size_t)>& last_value) {
+  auto outputs = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < graph.communicators.size(); ++i)
+    if (graph.communicators[i].direction == Direction::out)
+      outputs[graph.communicators[i].name] = to_json(*graph.communicators[i].type, last_value(i));
+  return outputs;
+}
+
 }  // namespace jarol::tools

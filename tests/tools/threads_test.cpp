@@ -25,6 +25,37 @@ TEST_SUITE("tools/threads") {
                                "               commanded     reached\n  depth            0.000"));
   }
 
+  TEST_CASE("a run on threads tells lateness, what each task took, and the last outputs, as one of exotasks does") {
+    const auto told_of = [](const std::string& concurrency) {
+      return nlohmann::json::parse(
+          command::jarol("run specs/exolauv.yaml --for 1s --json --clock real" + concurrency, "2>/dev/null").output);
+    };
+    const auto threads = told_of(" --concurrency threads"), exotasks = told_of("");
+    CHECK(threads["outputs"].size() == 3);
+    for (const auto& [output, value] : exotasks["outputs"].items()) {
+      CAPTURE(output);
+      REQUIRE(threads["outputs"].contains(output));
+      for (const auto& [field, number] : value.items()) CHECK(threads["outputs"][output].contains(field));
+    }
+    const auto& time = threads["real_time"];
+    CHECK(time["lateness_50_ns"] > 0);
+    CHECK(time["lateness_50_ns"] <= time["lateness_99_ns"]);
+    CHECK(time["lateness_99_ns"] <= time["lateness_most_ns"]);
+    CHECK(time["tasks"].size() == 7);
+    std::uint64_t activations = 0;
+    for (const auto& [task, timing] : time["tasks"].items()) {
+      CAPTURE(task);
+      CHECK(exotasks["real_time"]["tasks"].contains(task));
+      CHECK(timing["execution_99_ns"] > 0);
+      CHECK(timing["execution_99_ns"] <= timing["execution_most_ns"]);
+      activations += timing["activations"].get<std::uint64_t>();
+    }
+    CHECK(activations == threads["activations"]);
+    const std::string text =
+        command::jarol(std::string("run specs/exolauv.yaml") + on_threads + "200ms", "2>/dev/null").output;
+    CHECK(text.find(" us worst\n  task        activations     99 % us    worst us\n  depth ") != std::string::npos);
+  }
+
   TEST_CASE("a vehicle that is lost ends the run, and is told") {
     // later where the machine had not come so far that there was anything to lose
     std::string errors;
