@@ -196,6 +196,34 @@ TEST_SUITE("distributers/links/stream") {
     CHECK(server.peers() == 1);
   }
 
+  TEST_CASE("a line that is unplugged is opened again when it is there again") {
+    const std::string name = "/tmp/jarol_line_" + std::to_string(getpid());  // as /dev/ttyUSB0, which comes and goes
+    const auto plug_in = [&] {
+      Descriptor other_end(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK));
+      REQUIRE(grantpt(other_end.get()) == 0);
+      REQUIRE(unlockpt(other_end.get()) == 0);
+      unlink(name.c_str());
+      REQUIRE(symlink(ptsname(other_end.get()), name.c_str()) == 0);
+      return other_end;
+    };
+    Descriptor other_end = plug_in();
+    const auto link = make(std::make_unique<SerialTransport>(name, 115200));
+    const unsigned char packet[] = {0xff, 0xff, 0x11, 0, 0, 0x11};
+    for (std::uint64_t times = 1; times <= 3; ++times) {
+      REQUIRE(wait_for([&] { return count_of(*link, "peers") == times; }));
+      REQUIRE(::write(other_end.get(), packet, sizeof packet) == sizeof packet);
+      REQUIRE(wait_for([&] { return count_of(*link, "packets in") == times; }));
+      say(*link);
+      REQUIRE(wait_for([&] { return count_of(*link, "packets out") == times; }));
+      unlink(name.c_str());
+      other_end.close();
+      REQUIRE(wait_for([&] { return count_of(*link, "ends of stream") == times; }));
+      say(*link);
+      CHECK(wait_for([&] { return count_of(*link, "unsent: no peer") == times; }));
+      if (times < 3) other_end = plug_in();
+    }
+  }
+
   TEST_CASE("a line that takes nothing holds up the end for one send, not for each that is pending") {
     constexpr std::size_t packets = 300;
     const StuckLine stuck(packets);
