@@ -86,10 +86,13 @@ CheckReport check_graph(const std::string& file, const Graph& graph, bool sensit
   const analysis::System system = analysis::system_of(graph);
   constexpr double quick = 5e6, searches = 40;
   const double cost = searches * cost_of(system), per_task = cost * static_cast<double>(graph.tasks.size());
+  // close to full utilisation, or with many ways to spread tasks over cores, a test may take much longer than that
+  analysis::Effort effort;
+  if (!sensitivity) effort.left = 100'000'000;
   if (sensitivity || cost < quick)
-    report.sensitivity = analysis::sensitivity_of(system, sensitivity || per_task < quick);
+    report.sensitivity = analysis::sensitivity_of(system, sensitivity || per_task < quick, effort);
   if (report.result.verdict != analysis::Verdict::schedulable && (sensitivity || per_task < quick))
-    report.suggestions = analysis::suggestions_for(system);
+    report.suggestions = analysis::suggestions_for(system, effort);
   return report;
 }
 

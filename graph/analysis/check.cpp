@@ -89,10 +89,14 @@ Result check_globally(const System& system) {
   return result;
 }
 
-// Core by core, with each policy's own test.
-Result check_partitioned(const System& system) {
-  const Partition partition = assign_cores(system, [&](const std::vector<std::size_t>& tasks) {
-    return verdict_of_core(loads_of(system, in_order(system, tasks)), system.policy, system.offsets_hold);
+constexpr std::uint64_t most_steps_to_assign = 300'000'000;
+
+// Core by core, with each policy's own test. `whole`: with witness and responses.
+Result check_partitioned(const System& system, bool whole, Effort& effort) {
+  const Partition partition = within(effort, most_steps_to_assign, [&](Effort& own) {
+    return assign_cores(system, [&](const std::vector<std::size_t>& tasks) {
+      return verdict_of_core(loads_of(system, in_order(system, tasks)), system.policy, system.offsets_hold, own);
+    });
   });
   Result result;
   result.response.resize(system.loads.size());
@@ -108,8 +112,13 @@ Result check_partitioned(const System& system) {
       if (partition.core[i] == c) tasks.push_back(i);
     if (tasks.empty()) continue;
     tasks = in_order(system, std::move(tasks));
-    CoreResult core = check_core(loads_of(system, tasks), system.policy, system.offsets_hold);
-    for (std::size_t i = 0; i < tasks.size(); ++i) result.response[tasks[i]] = core.responses[i];
+    const Loads loads = loads_of(system, tasks);
+    CoreResult core;
+    if (whole)
+      core = check_core(loads, system.policy, system.offsets_hold);
+    else
+      core.verdict = verdict_of_core(loads, system.policy, system.offsets_hold, effort);
+    for (std::size_t i = 0; i < tasks.size() && whole; ++i) result.response[tasks[i]] = core.responses[i];
     if (result.reason.empty() || (result.verdict == Verdict::schedulable && core.verdict != Verdict::schedulable))
       result.reason = core.reason;
     if (core.verdict == Verdict::schedulable || result.verdict == Verdict::not_schedulable) continue;
@@ -153,23 +162,19 @@ System with_edf(System system) {
 
 Result check(const System& system) {
   if (is_edf_by_another_name(system)) return check(with_edf(system));
+  Effort effort;
   Result result = system.policy == Policy::table        ? check_on_table(system)
                   : system.policy == Policy::global_edf ? check_globally(system)
-                                                        : check_partitioned(system);
+                                                        : check_partitioned(system, true, effort);
   assert(result.response.size() == system.loads.size() && result.core.size() == system.loads.size());
   result.utilisation = utilisation(system.loads);
   return result;
 }
 
-Verdict verdict_of(const System& system) {
-  if (is_edf_by_another_name(system)) return verdict_of(with_edf(system));
-  if (system.cores == 1 && system.policy != Policy::table && system.policy != Policy::global_edf) {
-    std::vector<std::size_t> all(system.loads.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    if (!precedence_problem(system, std::vector<std::size_t>(all.size(), 0)).empty()) return Verdict::unknown;
-    return verdict_of_core(loads_of(system, in_order(system, all)), system.policy, system.offsets_hold);
-  }
-  return check(system).verdict;
+Verdict verdict_of(const System& system, Effort& effort) {
+  if (is_edf_by_another_name(system)) return verdict_of(with_edf(system), effort);
+  if (system.policy == Policy::table || system.policy == Policy::global_edf) return check(system).verdict;
+  return check_partitioned(system, false, effort).verdict;
 }
 
 Result check(const Graph& graph) {

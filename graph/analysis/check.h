@@ -23,8 +23,8 @@ struct Result {
 
 Result check(const System& system);
 
-/// The verdict alone.
-Verdict verdict_of(const System& system);
+/// The verdict alone; unknown where it would take more effort.
+Verdict verdict_of(const System& system, Effort& effort);
 
 /// The same of a graph; a task without a WCET leaves it open and is named.
 Result check(const Graph& graph);

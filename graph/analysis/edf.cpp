@@ -26,13 +26,12 @@ std::int64_t blocking_bound(std::span<const Load> loads, std::int64_t length, bo
 
 // Length of the synchronous busy period, or nothing if it is longer than `most`.
 std::optional<std::int64_t> busy_period(std::span<const Load> loads, std::int64_t blocking, std::int64_t most,
-                                        std::uint64_t& steps) {
+                                        Effort& effort) {
   std::int64_t length = 1;
   while (true) {
     Wide next = blocking;
     for (const Load& l : loads) next += ceil_div(static_cast<Wide>(length) + l.jitter, l.period) * l.wcet;
-    steps += loads.size();
-    if (next > most || steps > most_steps) return std::nullopt;
+    if (!effort.spend(loads.size()) || next > most) return std::nullopt;
     if (next == length) return length;
     length = static_cast<std::int64_t>(next);
   }
@@ -105,19 +104,18 @@ Loads merged(std::span<const Load> loads) {
   return result;
 }
 
-EdfResult check_edf_of(std::span<const Load> loads, bool preemptive) {
+EdfResult check_edf_of(std::span<const Load> loads, bool preemptive, Effort& effort) {
   EdfResult result;
   const auto order = compare_utilisation(loads, 1);
   std::int64_t blocking = 0;
   for (const Load& l : loads) blocking = std::max({blocking, l.blocking, preemptive ? 0 : l.wcet - 1});
-  std::uint64_t steps = 0;
   std::optional<std::int64_t> end;
   if (order && *order <= 0) {
     // from one hyperperiod to the next demand grows no more than time does
     end = one_repetition(loads);
     if (*order < 0) end = least_of(end, linear_bound(loads, blocking));
     // close to full utilisation it may take very long to find the busy period: no further than it helps
-    if (*order < 0 || blocking == 0) end = least_of(end, busy_period(loads, blocking, end.value_or(far), steps));
+    if (*order < 0 || blocking == 0) end = least_of(end, busy_period(loads, blocking, end.value_or(far), effort));
     if (end) *end += 1;
   } else if (order) {
     // demand grows beyond any line: look from short intervals on until it does
@@ -131,8 +129,7 @@ EdfResult check_edf_of(std::span<const Load> loads, bool preemptive) {
   auto at = deadline_before(loads, *end);
   if (order && *order > 0 && demand_bound(loads, *end - 1) > *end - 1) at = *end - 1;
   while (at) {
-    steps += loads.size();
-    if (steps > most_steps) return {false, std::nullopt};
+    if (!effort.spend(loads.size())) return {false, std::nullopt};
     const Wide need = total(*at);
     if (need > *at) {
       const std::int64_t held = blocking_bound(loads, *at, preemptive);
@@ -148,15 +145,17 @@ EdfResult check_edf_of(std::span<const Load> loads, bool preemptive) {
 
 }  // namespace
 
-EdfResult check_edf(std::span<const Load> loads, bool preemptive) {
-  return preemptive ? check_edf_of(merged(loads), true) : check_edf_of(loads, false);
+EdfResult check_edf(std::span<const Load> loads, bool preemptive, Effort& effort) {
+  return within(effort, most_steps, [&](Effort& own) {
+    return preemptive ? check_edf_of(merged(loads), true, own) : check_edf_of(loads, false, own);
+  });
 }
 
 std::vector<std::int64_t> edf_responses(std::span<const Load> loads) {
-  std::uint64_t steps = 0;
+  Effort effort{4 * most_steps};
   std::int64_t blocking = 0;
   for (const Load& l : loads) blocking = std::max(blocking, l.blocking);
-  const auto busy = busy_period(loads, blocking, far, steps);
+  const auto busy = busy_period(loads, blocking, far, effort);
   if (!busy) return {};
   std::uint64_t points = 0;
   for (const Load& l : loads) points += static_cast<std::uint64_t>((*busy + l.jitter) / l.period + 1);
@@ -181,8 +180,7 @@ std::vector<std::int64_t> edf_responses(std::span<const Load> loads) {
             const Wide by_time = ceil_div(static_cast<Wide>(length) + l.jitter, l.period);
             next += std::min<Wide>(by_time, reach / l.period + 1) * l.wcet;
           }
-          steps += loads.size();
-          if (steps > 4 * most_steps) return {};
+          if (!effort.spend(loads.size())) return {};
           if (next == length) break;
           length = static_cast<std::int64_t>(next);
         }

@@ -23,7 +23,7 @@ Wide demand_bound(std::span<const Load> loads, std::int64_t length);
 /// Processor demand (Baruah, Rosier, Howell 1990; with jitter Spuri 1996), by QPA (Zhang, Burns 2009). Exact for
 /// sporadic and for synchronous periodic tasks without blocking. Non-preemptive: Jeffay, Stanat, Martel 1991; exact for
 /// sporadic tasks.
-EdfResult check_edf(std::span<const Load> loads, bool preemptive);
+EdfResult check_edf(std::span<const Load> loads, bool preemptive, Effort& effort);
 
 /// Worst-case response times from the arrival over all offsets (Spuri 1996), ties against the task; of schedulable
 /// preemptive sets. Empty if that takes more than reasonable time.

@@ -42,13 +42,12 @@ class Interference {
 
 // The least window that `need` maps to itself, from `start` on; nothing beyond `most`.
 template <class Need>
-std::optional<std::int64_t> least_fixed_point(std::int64_t start, std::int64_t most, std::uint64_t& steps,
-                                              std::size_t cost, const Need& need) {
+std::optional<std::int64_t> least_fixed_point(std::int64_t start, std::int64_t most, Effort& effort, std::size_t cost,
+                                              const Need& need) {
   std::int64_t window = start;
   while (true) {
-    steps += cost;
     const Wide next = need(window);
-    if (next > most || steps > most_steps) return std::nullopt;
+    if (!effort.spend(cost) || next > most) return std::nullopt;
     if (next == window) return window;
     window = static_cast<std::int64_t>(next);
   }
@@ -56,14 +55,15 @@ std::optional<std::int64_t> least_fixed_point(std::int64_t start, std::int64_t m
 
 // `repeats`: of activations so much later none responds later, as demand grows no more than time does; else far.
 std::optional<std::int64_t> preemptive_response(const Load& load, const Interference& more_urgent, std::int64_t repeats,
-                                                std::int64_t& first_window, std::uint64_t& steps) {
+                                                std::int64_t& first_window, Effort& effort) {
   // it does not run before the one above it has ended, and runs then
   std::int64_t response = 0, window = std::max(load.blocking, first_window) + load.wcet;
   for (std::int64_t q = 0;; ++q) {
     if (q == most_activations) return std::nullopt;
     const Wide own = static_cast<Wide>(load.blocking) + static_cast<Wide>(q + 1) * load.wcet;
-    const auto end = least_fixed_point(std::max(window, static_cast<std::int64_t>(own)), far, steps, more_urgent.size(),
-                                       [&](std::int64_t w) { return own + more_urgent.demand(w, false); });
+    const auto end =
+        least_fixed_point(std::max(window, static_cast<std::int64_t>(own)), far, effort, more_urgent.size(),
+                          [&](std::int64_t w) { return own + more_urgent.demand(w, false); });
     if (!end) return std::nullopt;
     window = *end;
     if (q == 0) first_window = load.blocking == 0 ? window : first_window + load.wcet;
@@ -74,10 +74,10 @@ std::optional<std::int64_t> preemptive_response(const Load& load, const Interfer
 }
 
 std::optional<std::int64_t> nonpreemptive_response(const Load& load, const Interference& more_urgent,
-                                                   std::int64_t blocking, std::int64_t repeats, std::uint64_t& steps) {
+                                                   std::int64_t blocking, std::int64_t repeats, Effort& effort) {
   Interference busy = more_urgent;
   busy.add(load);
-  auto length = least_fixed_point(std::max<std::int64_t>(1, blocking), repeats, steps, busy.size(),
+  auto length = least_fixed_point(std::max<std::int64_t>(1, blocking), repeats, effort, busy.size(),
                                   [&](std::int64_t w) { return blocking + busy.demand(w, false); });
   if (!length && repeats < far) length = repeats;
   if (!length || (*length + load.jitter) / load.period > most_activations) return std::nullopt;
@@ -85,7 +85,7 @@ std::optional<std::int64_t> nonpreemptive_response(const Load& load, const Inter
   for (std::int64_t q = 0; q * load.period < *length + load.jitter; ++q) {
     const Wide own = static_cast<Wide>(blocking) + static_cast<Wide>(q) * load.wcet;
     const auto found =
-        least_fixed_point(std::max(start, static_cast<std::int64_t>(own)), far, steps, more_urgent.size(),
+        least_fixed_point(std::max(start, static_cast<std::int64_t>(own)), far, effort, more_urgent.size(),
                           [&](std::int64_t w) { return own + more_urgent.demand(w, true); });
     if (!found) return std::nullopt;
     start = *found;
@@ -94,15 +94,12 @@ std::optional<std::int64_t> nonpreemptive_response(const Load& load, const Inter
   return response;
 }
 
-}  // namespace
-
-std::vector<std::optional<std::int64_t>> fixed_priority_responses(std::span<const Load> loads, bool preemptive) {
+std::vector<std::optional<std::int64_t>> responses_of(std::span<const Load> loads, bool preemptive, Effort& effort) {
   std::vector<std::optional<std::int64_t>> responses(loads.size());
   // by what has begun and can't be interrupted: at most all but its first nanosecond
   std::vector<std::int64_t> longest_below(loads.size(), 0);
   for (std::size_t i = loads.size(); i-- > 1;) longest_below[i - 1] = std::max(longest_below[i], loads[i].wcet - 1);
   Interference more_urgent;
-  std::uint64_t steps = 0;
   std::int64_t first_window = 0;
   long double used = 0;
   std::optional<std::int64_t> repeats = 1;
@@ -114,12 +111,19 @@ std::vector<std::optional<std::int64_t>> fixed_priority_responses(std::span<cons
     if (!order || *order > 0) break;  // without bound from here on
     if (repeats) repeats = hyperperiod(std::array{Load{.period = *repeats}, loads[i]}, far);
     responses[i] = preemptive
-                       ? preemptive_response(loads[i], more_urgent, repeats.value_or(far), first_window, steps)
+                       ? preemptive_response(loads[i], more_urgent, repeats.value_or(far), first_window, effort)
                        : nonpreemptive_response(loads[i], more_urgent, std::max(longest_below[i], loads[i].blocking),
-                                                repeats.value_or(far), steps);
+                                                repeats.value_or(far), effort);
     more_urgent.add(loads[i]);
   }
   return responses;
+}
+
+}  // namespace
+
+std::vector<std::optional<std::int64_t>> fixed_priority_responses(std::span<const Load> loads, bool preemptive,
+                                                                  Effort& effort) {
+  return within(effort, most_steps, [&](Effort& own) { return responses_of(loads, preemptive, own); });
 }
 
 }  // namespace jarol::analysis

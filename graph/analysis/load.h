@@ -1,8 +1,10 @@
 // Tasks as the analysis of one core sees them: plain numbers, in ns.
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,6 +34,29 @@ double utilisation(std::span<const Load> loads);
 
 /// Least common multiple of the periods, or nothing beyond `most`.
 std::optional<std::int64_t> hyperperiod(std::span<const Load> loads, std::int64_t most);
+
+/// How much work may still go into an answer, in steps of some nanoseconds, so that one is given up after the same work
+/// on every machine. Unlimited unless stated.
+struct Effort {
+  std::uint64_t left = std::numeric_limits<std::uint64_t>::max();
+
+  /// False once there is no more.
+  bool spend(std::uint64_t steps) {
+    left -= std::min(left, steps);
+    return left > 0;
+  }
+  bool spent() const { return left == 0; }
+};
+
+/// Does what `test` does with a limit of its own, within that of all.
+template <class Test>
+auto within(Effort& effort, std::uint64_t most, const Test& test) {
+  Effort own{std::min(effort.left, most)};
+  const std::uint64_t before = own.left;
+  auto result = test(own);
+  effort.spend(before - own.left);
+  return result;
+}
 
 inline Wide ceil_div(Wide a, Wide b) { return (a + b - 1) / b; }
 

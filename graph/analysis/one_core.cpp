@@ -9,16 +9,17 @@ namespace {
 
 constexpr std::int64_t most_time = std::int64_t{1} << 60;
 constexpr std::uint64_t most_activations = 1'000'000;
+constexpr std::uint64_t steps_of_activation = 10;  // that the simulation takes
 
 bool by_deadline(Policy policy) { return policy == Policy::edf || policy == Policy::edf_nonpreemptive; }
 bool is_preemptive(Policy policy) { return policy == Policy::edf || policy == Policy::fixed_priority; }
 
 // For sporadic tasks: every shift, every jitter.
-CoreResult check_any_phasing(std::span<const Load> loads, Policy policy, bool responses) {
+CoreResult check_any_phasing(std::span<const Load> loads, Policy policy, bool responses, Effort& effort) {
   CoreResult result;
   result.standing = Standing::proof;
   if (by_deadline(policy)) {
-    const EdfResult edf = check_edf(loads, is_preemptive(policy));
+    const EdfResult edf = check_edf(loads, is_preemptive(policy), effort);
     if (!edf.decided)
       return {Verdict::unknown, Standing::none, "no end of the processor demand was found", {}, {}, {}, {}};
     result.verdict = edf.over ? Verdict::not_schedulable : Verdict::schedulable;
@@ -30,7 +31,7 @@ CoreResult check_any_phasing(std::span<const Load> loads, Policy policy, bool re
     result.responses.resize(loads.size());
     return result;
   }
-  result.responses = fixed_priority_responses(loads, is_preemptive(policy));
+  result.responses = fixed_priority_responses(loads, is_preemptive(policy), effort);
   bool open = false, late = false;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     if (!result.responses[i]) {
@@ -78,14 +79,14 @@ void add_witness(std::span<const Load> loads, Policy policy, CoreResult& result)
   if (run.late) result.slices = std::move(run.slices);
 }
 
-CoreResult decide(std::span<const Load> loads, Policy policy, bool offsets_hold, bool responses) {
-  CoreResult any = check_any_phasing(loads, policy, responses);
+CoreResult decide(std::span<const Load> loads, Policy policy, bool offsets_hold, bool responses, Effort& effort) {
+  CoreResult any = check_any_phasing(loads, policy, responses, effort);
   if (!offsets_hold || (is_preemptive(policy) && all_at_once(loads))) return any;
   // the offsets are as given: what holds for every shift holds for this one
   if (any.verdict == Verdict::schedulable && !(responses && is_preemptive(policy))) return any;
   const auto order = compare_utilisation(loads, 1);
   if (order && *order > 0) return any;
-  const auto end = only_offsets(loads) ? end_of_repetition(loads) : std::nullopt;
+  const auto end = only_offsets(loads) && !effort.spent() ? end_of_repetition(loads) : std::nullopt;
   const std::string undecided = any.reason + " if offsets could shift; that they hold was not decided";
   if (!end || !order) {
     if (any.verdict != Verdict::schedulable)
@@ -94,6 +95,7 @@ CoreResult decide(std::span<const Load> loads, Policy policy, bool offsets_hold,
   }
   const Simulation run = simulate(loads, by_deadline(policy) ? Order::by_deadline : Order::by_priority,
                                   is_preemptive(policy), *end, 4 * most_activations);
+  effort.spend(run.activations * steps_of_activation);
   if (run.late) {
     CoreResult late{Verdict::not_schedulable,
                     Standing::proof,
@@ -126,12 +128,13 @@ CoreResult decide(std::span<const Load> loads, Policy policy, bool offsets_hold,
 
 }  // namespace
 
-Verdict verdict_of_core(std::span<const Load> loads, Policy policy, bool offsets_hold) {
-  return decide(loads, policy, offsets_hold, false).verdict;
+Verdict verdict_of_core(std::span<const Load> loads, Policy policy, bool offsets_hold, Effort& effort) {
+  return decide(loads, policy, offsets_hold, false, effort).verdict;
 }
 
 CoreResult check_core(std::span<const Load> loads, Policy policy, bool offsets_hold) {
-  CoreResult result = decide(loads, policy, offsets_hold, true);
+  Effort effort;
+  CoreResult result = decide(loads, policy, offsets_hold, true, effort);
   if (result.verdict == Verdict::not_schedulable && !result.late) add_witness(loads, policy, result);
   result.responses.resize(loads.size());
   return result;

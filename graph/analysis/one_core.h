@@ -22,7 +22,7 @@ struct CoreResult {
 /// Loads are most urgent first. Not for tables.
 CoreResult check_core(std::span<const Load> loads, Policy policy, bool offsets_hold);
 
-/// The verdict alone, without witness and responses.
-Verdict verdict_of_core(std::span<const Load> loads, Policy policy, bool offsets_hold);
+/// The verdict alone, without witness and responses; unknown where it would take more effort.
+Verdict verdict_of_core(std::span<const Load> loads, Policy policy, bool offsets_hold, Effort& effort);
 
 }  // namespace jarol::analysis

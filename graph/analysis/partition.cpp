@@ -6,8 +6,9 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::size_t most_searched = 12;  // groups that are assigned by exact search
-constexpr std::size_t most_tested = 300;   // tasks
+constexpr std::size_t most_searched = 12;   // groups that are assigned by exact search
+constexpr std::size_t most_tests = 20'000;  // of a core in that search
+constexpr std::size_t most_tested = 300;    // tasks
 
 // Tasks that go to one core together.
 struct Together {
@@ -55,7 +56,8 @@ struct Search {
   const std::vector<Together>& groups;
   const FitsCore& fits;
   std::vector<std::vector<std::size_t>> cores;
-  bool open = false;  // no core of some assignment is known not to hold
+  bool open = false;  // there may be an assignment that holds
+  std::size_t tests = 0;
 
   // `sure`: every core is known to hold so far.
   bool from(std::size_t at, bool sure) {
@@ -65,6 +67,10 @@ struct Search {
     }
     bool empty_tried = false;
     for (std::size_t c = 0; c < cores.size(); ++c) {
+      if (tests >= most_tests) {
+        open = true;
+        return false;
+      }
       if (groups[at].core && *groups[at].core != c) continue;
       if (cores[c].empty() && !groups[at].core) {
         if (empty_tried) continue;
@@ -72,6 +78,7 @@ struct Search {
       }
       const std::vector<std::size_t> before = cores[c];
       append(cores[c], groups[at].tasks);
+      ++tests;
       const Verdict verdict = fits(cores[c]);
       const bool still_sure = sure && verdict == Verdict::schedulable;
       const bool worth_it = verdict != Verdict::not_schedulable && (still_sure || !open);

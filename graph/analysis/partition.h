@@ -17,7 +17,8 @@ struct Partition {
 };
 
 /// Given cores are kept. The others, those that follow each other together, go to the first core that they fit, largest
-/// utilisation first (Lopez et al. 2004); where that fails and few are left, every assignment is tried.
+/// utilisation first (Lopez et al. 2004); where that fails and few are left, every assignment is tried, or a good many
+/// of them.
 Partition assign_cores(const System& system, const FitsCore& fits);
 
 }  // namespace jarol::analysis

@@ -8,7 +8,7 @@
 namespace jarol::analysis {
 namespace {
 
-bool holds(const System& system) { return verdict_of(system) == Verdict::schedulable; }
+bool holds(const System& system, Effort& effort) { return verdict_of(system, effort) == Verdict::schedulable; }
 
 // The largest x in [low, high) with good(x), where good is monotone and good(low).
 template <class Good>
@@ -28,23 +28,23 @@ System scaled(const System& system, std::int64_t millionths) {
   return changed;
 }
 
-std::optional<std::int64_t> most_wcet(const System& system, std::size_t task) {
+std::optional<std::int64_t> most_wcet(const System& system, std::size_t task, Effort& effort) {
   System changed = system;
   const auto good = [&](std::int64_t wcet) {
     changed.loads[task].wcet = wcet;
-    return holds(changed);
+    return holds(changed, effort);
   };
   const std::int64_t overhead = system.loads[task].overhead;
   if (!good(1 + overhead)) return std::nullopt;
   return largest(1 + overhead, system.loads[task].deadline + overhead + 1, good) - overhead;
 }
 
-std::optional<std::int64_t> least_deadline(const System& system, std::size_t task) {
+std::optional<std::int64_t> least_deadline(const System& system, std::size_t task, Effort& effort) {
   System changed = system;
   // negated: the search looks for the largest
   const auto good = [&](std::int64_t negative) {
     changed.loads[task].deadline = -negative;
-    return holds(changed);
+    return holds(changed, effort);
   };
   const std::int64_t now = system.loads[task].deadline;
   if (!good(-now)) return std::nullopt;
@@ -60,23 +60,24 @@ std::vector<Policy> other_policies(Policy policy) {
 
 }  // namespace
 
-Sensitivity sensitivity_of(const System& system, bool per_task) {
+std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, Effort& effort) {
   Sensitivity result;
   result.most_wcet.resize(system.loads.size());
   result.least_deadline.resize(system.loads.size());
   const bool any = std::any_of(system.loads.begin(), system.loads.end(), [](const Load& l) { return l.wcet > 0; });
-  if (any && holds(scaled(system, 1))) {
+  if (any && holds(scaled(system, 1), effort)) {
     std::int64_t high = 1'000'000;
-    while (high < 1'000'000'000'000 && holds(scaled(system, high))) high *= 2;
-    const std::int64_t factor =
-        largest(high == 1'000'000 ? 1 : high / 2, high, [&](std::int64_t f) { return holds(scaled(system, f)); });
+    while (high < 1'000'000'000'000 && holds(scaled(system, high), effort)) high *= 2;
+    const std::int64_t factor = largest(high == 1'000'000 ? 1 : high / 2, high,
+                                        [&](std::int64_t f) { return holds(scaled(system, f), effort); });
     result.alpha = static_cast<double>(factor) * 1e-6;
   }
+  if (effort.spent()) return std::nullopt;
   if (!per_task) return result;
   double least = 0;
   for (std::size_t i = 0; i < system.loads.size(); ++i) {
-    result.most_wcet[i] = most_wcet(system, i);
-    result.least_deadline[i] = least_deadline(system, i);
+    result.most_wcet[i] = most_wcet(system, i, effort);
+    result.least_deadline[i] = least_deadline(system, i, effort);
     if (!result.most_wcet[i] || system.loads[i].wcet == system.loads[i].overhead) continue;
     const double room = static_cast<double>(*result.most_wcet[i]) /
                         static_cast<double>(system.loads[i].wcet - system.loads[i].overhead);
@@ -84,16 +85,18 @@ Sensitivity sensitivity_of(const System& system, bool per_task) {
     least = room;
     result.binding = i;
   }
+  if (effort.spent()) return std::nullopt;  // the last ones were given up
   return result;
 }
 
-std::vector<Suggestion> suggestions_for(const System& system) {
+std::vector<Suggestion> suggestions_for(const System& system, Effort& effort) {
   constexpr std::size_t most = 4;
   std::vector<Suggestion> found;
   // the smallest cut of one WCET
   std::vector<std::pair<double, Suggestion>> cuts;
   for (std::size_t i = 0; i < system.loads.size() && system.loads.size() <= 100; ++i)
-    if (const auto wcet = most_wcet(system, i); wcet && *wcet < system.loads[i].wcet - system.loads[i].overhead)
+    if (const auto wcet = most_wcet(system, i, effort);
+        wcet && !effort.spent() && *wcet < system.loads[i].wcet - system.loads[i].overhead)
       cuts.push_back(
           {1 - static_cast<double>(*wcet) / static_cast<double>(system.loads[i].wcet - system.loads[i].overhead),
            {Suggestion::Kind::lower_wcet, i, *wcet, system.policy}});
@@ -103,11 +106,11 @@ std::vector<Suggestion> suggestions_for(const System& system) {
   for (const Policy policy : other_policies(system.policy)) {
     System changed = system;
     changed.policy = policy;
-    if (found.size() < most && holds(changed)) found.push_back({Suggestion::Kind::other_policy, 0, 0, policy});
+    if (found.size() < most && holds(changed, effort)) found.push_back({Suggestion::Kind::other_policy, 0, 0, policy});
   }
   System wider = system;
   wider.cores = system.cores + 1;
-  if (found.size() < most && wider.cores <= most_cores && holds(wider))
+  if (found.size() < most && wider.cores <= most_cores && holds(wider, effort))
     found.push_back({Suggestion::Kind::more_cores, 0, wider.cores, system.policy});
   return found;
 }

@@ -16,8 +16,8 @@ struct Sensitivity {
   std::optional<std::size_t> binding;
 };
 
-/// `per_task`: also what costs a search for each task.
-Sensitivity sensitivity_of(const System& system, bool per_task);
+/// `per_task`: also what costs a search for each task. Nothing if it would take more effort.
+std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, Effort& effort);
 
 /// A single change that turns "no" into "yes".
 struct Suggestion {
@@ -27,7 +27,7 @@ struct Suggestion {
   Policy policy = Policy::table;
 };
 
-/// The cheapest few, each checked again.
-std::vector<Suggestion> suggestions_for(const System& system);
+/// The cheapest few, each checked again; fewer where it would take more effort.
+std::vector<Suggestion> suggestions_for(const System& system, Effort& effort);
 
 }  // namespace jarol::analysis

@@ -40,7 +40,6 @@ Simulation simulate(std::span<const Load> loads, Order order, bool preemptive, s
   LeastFirst<Ready> ready;
   for (std::size_t i = 0; i < loads.size(); ++i) arrivals.push({loads[i].offset, i, 0});
   std::int64_t now = 0;
-  std::uint64_t count = 0;
   const auto arrive = [&](std::int64_t time) {
     while (!arrivals.empty() && arrivals.top().time <= time && arrivals.top().time < until) {
       const Arrival a = arrivals.top();
@@ -50,12 +49,12 @@ Simulation simulate(std::span<const Load> loads, Order order, bool preemptive, s
           order == Order::by_priority ? static_cast<std::int64_t>(a.task) : a.time + l.deadline;
       ready.push({urgency, a.task, a.activation, a.time, l.wcet});
       arrivals.push({a.time + l.period, a.task, a.activation + 1});
-      ++count;
+      ++result.activations;
     }
   };
   while (true) {
     arrive(now);
-    if (count > most_activations) {
+    if (result.activations > most_activations) {
       result.whole = false;
       return result;
     }

@@ -26,6 +26,7 @@ struct Slice {
 
 struct Simulation {
   bool whole = true;  // reached `until`
+  std::uint64_t activations = 0;
   std::optional<Late> late;
   std::vector<std::int64_t> responses;  // per task, the longest of those that ended
   std::vector<Slice> slices;            // the last ones before the late activation ended

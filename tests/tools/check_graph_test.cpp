@@ -153,8 +153,9 @@ TEST_SUITE("tools/check_graph") {
               const CheckReport report = check_graph("file", graph, false, true);
               check_verdict(report);
               check_texts(report);
+              analysis::Effort effort;
               if (!report.result.reason.starts_with("no 'wcet'"))
-                CHECK(analysis::verdict_of(analysis::system_of(graph)) == report.result.verdict);
+                CHECK(analysis::verdict_of(analysis::system_of(graph), effort) == report.result.verdict);
               verdicts.push_back(report.result.verdict);
             }
             check_phasing(static_cast<Policy>(policy), verdicts[0], verdicts[1]);

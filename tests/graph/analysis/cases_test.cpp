@@ -104,7 +104,8 @@ void check_case(const Json& c) {
     CHECK(result.demand->demand > result.demand->length);
   }
   if (expect.contains("alpha") || expect.contains("max_C")) {
-    const Sensitivity s = sensitivity_of(system, true);
+    Effort effort;
+    const Sensitivity s = sensitivity_of(system, true, effort).value();
     if (expect.contains("alpha")) {
       REQUIRE(s.alpha);
       CHECK(*s.alpha == doctest::Approx(fraction(expect["alpha"])).epsilon(2e-6));

@@ -1,7 +1,7 @@
 // Close to full utilisation busy periods are very long; one hyperperiod tells all of them.
 #include <doctest/doctest.h>
 
-#include "graph/analysis/check.h"
+#include "graph/analysis/sensitivity.h"
 
 namespace {
 using namespace jarol::analysis;
@@ -37,5 +37,20 @@ TEST_SUITE("graph/analysis/full") {
       const Result over = check(nearly_full(policy, 50 * ms + 1));
       CHECK(over.verdict == Verdict::not_schedulable);
     }
+  }
+
+  TEST_CASE("a verdict that would take more effort is given up, and not the one after it") {
+    const System system = nearly_full(Policy::edf_nonpreemptive, 50 * ms - 1);
+    Effort little{20}, enough{1'000};
+    CHECK(verdict_of(system, little) == Verdict::unknown);
+    CHECK(little.spent());
+    CHECK(!sensitivity_of(system, true, little).has_value());
+    CHECK(suggestions_for(system, little).empty());
+    CHECK(verdict_of(system, enough) == Verdict::schedulable);
+    CHECK(!enough.spent());
+    CHECK(!sensitivity_of(system, true, enough).has_value());
+    Effort unlimited;
+    REQUIRE(sensitivity_of(system, true, unlimited).has_value());
+    CHECK(sensitivity_of(system, true, unlimited)->most_wcet[3] == 50 * ms);
   }
 }

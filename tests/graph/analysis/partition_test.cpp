@@ -37,9 +37,10 @@ System random_system(std::uint64_t seed, Policy policy) {
 // The best verdict of all assignments, each of them given.
 Verdict best_assignment(System system) {
   bool open = false;
+  Effort effort;
   for (unsigned bits = 0; bits < 1U << system.loads.size(); ++bits) {
     for (std::size_t i = 0; i < system.loads.size(); ++i) system.core[i] = bits >> i & 1;
-    const Verdict verdict = verdict_of(system);
+    const Verdict verdict = verdict_of(system, effort);
     if (verdict == Verdict::schedulable) return verdict;
     open = open || verdict == Verdict::unknown;
   }
