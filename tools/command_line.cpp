@@ -7,6 +7,7 @@
 #include <iostream>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "graph/yaml/problems.h"
@@ -41,24 +42,57 @@ std::string wrong_text(const std::string& text) {
   return text.empty() ? "'' says nothing; leave the option out, or give it something" : "";
 }
 
-// The first word that is written as an option and is none of the command.
-std::string unknown_option(const CLI::App& command, const std::vector<std::string>& words) {
+// A word that is written as an option.
+struct OptionWord {
+  std::string name;
+  const CLI::Option* option = nullptr;  // none of the command
+  std::optional<std::string> joined;    // its value, in the same word
+};
+
+std::vector<OptionWord> options_among(const CLI::App& command, const std::vector<std::string>& words) {
   const auto options = command.get_options();
-  const auto find = [&](const std::string& name) {
-    return std::find_if(options.begin(), options.end(), [&](const CLI::Option* o) { return o->check_name(name); });
+  const auto find = [&](const std::string& name) -> const CLI::Option* {
+    const auto found =
+        std::find_if(options.begin(), options.end(), [&](const CLI::Option* o) { return o->check_name(name); });
+    return found == options.end() ? nullptr : *found;
   };
+  std::vector<OptionWord> found;
   for (auto word = words.begin(); word != words.end(); ++word) {
-    const bool option = word->size() > 1 && (*word)[0] == '-' && word->find_first_of("0123456789.") != 1;
     if (*word == "--") break;  // what follows are arguments
-    if (!option) continue;
-    const std::string name = word->substr(0, word->find('='));
-    auto known = find(name);
-    const bool joined = known == options.end() && !word->starts_with("--");  // as in -oFOLDER
-    if (joined) known = find(word->substr(0, 2));
-    if (known == options.end()) return name;
+    if (word->size() < 2 || (*word)[0] != '-' || word->find_first_of("0123456789.") == 1) continue;
+    const std::size_t equals = word->find('=');
+    OptionWord& at = found.emplace_back();
+    at.name = word->substr(0, equals);
+    at.option = find(at.name);
+    if (equals != std::string::npos) at.joined = word->substr(equals + 1);
+    if (at.option == nullptr && !word->starts_with("--")) {  // as in -oFOLDER
+      at.option = find(word->substr(0, 2));
+      if (at.option != nullptr) at.joined = word->substr(2);
+    }
     // what follows is its value, whatever it looks like
-    const bool takes_next = (*known)->get_items_expected_min() > 0 && !joined && name == *word;
+    const bool takes_next = at.option != nullptr && at.option->get_items_expected_min() > 0 && !at.joined;
     if (takes_next && std::next(word) != words.end()) ++word;
+  }
+  return found;
+}
+
+// CLI11 takes --json=false for no flag, and --json=3 for one.
+std::string flag_with_value(const CLI::App& command, const std::vector<std::string>& words) {
+  for (const OptionWord& word : options_among(command, words))
+    if (word.option != nullptr && word.option->get_items_expected_max() == 0 && word.joined)
+      return "error: " + word.name + " takes no value, and has '" + *word.joined + "'; write " + word.name +
+             " alone, or leave it out\n";
+  return "";
+}
+
+std::string unknown_option(const CLI::App& command, const std::vector<std::string>& words) {
+  for (const OptionWord& word : options_among(command, words)) {
+    if (word.option != nullptr) continue;
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command.get_options())
+      if (!option->get_positional()) known.push_back(option->get_name());
+    return "error: " + command.get_name() + " has no option '" + word.name + "'" +
+           (word.name.starts_with("--") ? did_you_mean(word.name, known) : "") + "; it has: " + list_of(known) + "\n";
   }
   return "";
 }
@@ -150,22 +184,24 @@ std::vector<std::string> CommandLine::names() const {
 }
 
 bool CommandLine::parse(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const CLI::App* command = app_.get();
+  for (const CLI::App* one : app_->get_subcommands({}))
+    if (!words.empty() && one->get_name() == words.front()) command = one;
+  const bool subcommand = command != app_.get();
+  const std::vector<std::string> own(words.begin() + (subcommand ? 1 : 0), words.end());
+  if (const std::string wrong = flag_with_value(*command, own); !wrong.empty()) {
+    std::cerr << wrong;
+    return false;
+  }
   try {
     app_->parse(argc, argv);
     return true;
   } catch (const CLI::ParseError& error) {
     // the value of a mistyped option looks like an argument, which CLI11 tells instead
-    if (error.get_exit_code() != 0 && argc > 1) {
-      for (const CLI::App* command : app_->get_subcommands({})) {
-        if (command->get_name() != argv[1]) continue;
-        const std::string unknown = unknown_option(*command, {argv + 2, argv + argc});
-        if (unknown.empty()) continue;
-        std::vector<std::string> known;
-        for (const CLI::Option* option : command->get_options())
-          if (!option->get_positional()) known.push_back(option->get_name());
-        std::cerr << "error: " << command->get_name() << " has no option '" << unknown << "'"
-                  << (unknown.starts_with("--") ? did_you_mean(unknown, known) : "") << "; it has: " << list_of(known)
-                  << "\n";
+    if (error.get_exit_code() != 0 && subcommand) {
+      if (const std::string wrong = unknown_option(*command, own); !wrong.empty()) {
+        std::cerr << wrong;
         return false;
       }
     }

@@ -38,6 +38,27 @@ TEST_SUITE("tools/command_line") {
           "The following argument was not expected: another.yaml\nRun with --help for more information.\n");
   }
 
+  TEST_CASE("a flag takes no value, whatever it is") {
+    const std::pair<const char*, const char*> flags[] = {
+        {"check", "--sensitivity"}, {"check", "--chains"},     {"check", "--measure"}, {"check", "--write"},
+        {"check", "--lower"},       {"check", "--json"},       {"run", "--json"},      {"run", "--spin"},
+        {"run", "--force"},         {"vehicle", "--describe"}, {"vehicle", "--json"},  {"vehicle", "--bare"},
+        {"graph", "--dot"},         {"graph", "--json"},       {"messages", "--json"}, {"messages", "--decode"},
+        {"messages", "--encode"},   {"tasks", "--json"},       {"doctor", "--json"},   {"bench", "--json"},
+        {"tasks", "--help"},        {"tasks", "-h"},           {"", "--version"},      {"", "--help"}};
+    for (const auto& [command, flag] : flags)
+      for (const std::string value : {"3", "false", "true", ""}) {
+        CAPTURE(command);
+        CHECK(refusal_of(std::string(command) + " " + flag + "=" + value) ==
+              "error: " + std::string(flag) + " takes no value, and has '" + value + "'; write " + flag +
+                  " alone, or leave it out\n");
+      }
+    // what follows an option that takes a value is its value
+    CHECK(refusal_of("graph no/such.yaml --profile --json=3") ==
+          "error: can't read 'no/such.yaml': No such file or directory\n1 error\n");
+    CHECK(refusal_of("graph -- --json=3") == "error: can't read '--json=3': No such file or directory\n1 error\n");
+  }
+
   TEST_CASE("a seed is a whole number of 64 bits in decimal, nothing else") {
     const std::string run = "run specs/counting.yaml --for 10ms --seed ";
     for (const char* const seed : {"0", "7", "18446744073709551615"}) CHECK(command::jarol(run + seed).exit_code == 0);
