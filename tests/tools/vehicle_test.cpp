@@ -123,6 +123,14 @@ TEST_SUITE("tools/vehicle") {
     check_refused(script, "--rate 30",
                   "error: --rate: 30 rows per second do not fall on the vehicle's steps of 10ms; it can be 100 divided "
                   "by a whole number\n");
+    check_refused(
+        script, "--for 10s --rate 0.01",
+        "error: --rate: 0.01 rows per second are one in 100s, and it is driven for 10s; choose more, or leave "
+        "it out for 100\n");
+    check_refused(
+        script, "--for 10s --rate 1e-300",
+        "error: --rate: 1e-300 rows per second are one in 1000000000s, and it is driven for 10s; choose more, "
+        "or leave it out for 100\n");
     check_refused(script, "--for 3",
                   "error: --for: '3' has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n");
     const auto unknown = jarol("vehicle submarin --describe");

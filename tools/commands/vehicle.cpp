@@ -104,7 +104,7 @@ void read_initial(const std::string& text, vehicles::VehicleState& state, Proble
   }
 }
 
-Duration period_of(const Options& options, Duration grid) {
+Duration period_of(const Options& options, Duration grid, Duration end) {
   const double nanoseconds = 1e9 / options.rate;
   const auto period = Duration(std::llround(std::min(nanoseconds, 1e18)));
   if (!(options.rate > 0) || std::abs(nanoseconds - static_cast<double>(period.count())) > 1e-6 * nanoseconds ||
@@ -114,6 +114,10 @@ Duration period_of(const Options& options, Duration grid) {
                                 "steps of " +
                                 duration_text(grid) + "; it can be " +
                                 number_text(1e9 / static_cast<double>(grid.count())) + " divided by a whole number");
+  if (period > end && end > Duration{})
+    throw std::invalid_argument("--rate: " + number_text(options.rate) + " rows per second are one in " +
+                                duration_text(period) + ", and it is driven for " + duration_text(end) +
+                                "; choose more, or leave it out for 100");
   return period;
 }
 
@@ -157,7 +161,7 @@ int drive(const Options& options, const vehicles::VehicleClass& vehicle_class, c
           Problems& problems) {
   const auto commands = read_commands(read_source(options.script), vehicle_class, problems);
   const auto vehicle = make_vehicle(options, vehicle_class, parameters, own_seed(options, vehicle_class), problems);
-  const Duration period = period_of(options, vehicle->grid()), end = end_of(options, commands);
+  const Duration end = end_of(options, commands), period = period_of(options, vehicle->grid(), end);
   try {
     run_open_loop(*vehicle, vehicle_class, commands, period, end, options.csv);
   } catch (const vehicles::NoState& error) {
