@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "tools/partial_files.h"
+
 namespace jarol::tools {
 namespace {
 
@@ -34,6 +36,7 @@ extern "C" void interrupt(int signal) {
   if (now() - first < second_from) return;
   // whoever asks again does not want to wait for the end, nor, the third time, for this line
   std::signal(signal, SIG_DFL);
+  remove_partial_files();
   constexpr std::string_view line = "interrupted again: ended at once, without a report\n";
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
   std::raise(signal);

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tools/partial_files.h"
+
 namespace jarol::tools {
 namespace {
 
@@ -56,6 +58,7 @@ WholeFile::WholeFile(std::string path) : path_(std::move(path)), target_(target_
   // a copy of the own stream goes on where that is
   file_ = stream >= 0 ? ::fdopen(::dup(stream), "wb") : std::fopen(in_place_ ? path_.c_str() : partial().c_str(), "wb");
   if (file_ == nullptr) fail(path_, errno);
+  if (!in_place_) add_partial_file(partial());
   if (exists && !in_place_) {
     // an owner other than this one can be kept by root only
     [[maybe_unused]] const int refused = ::fchown(::fileno(file_), there.st_uid, there.st_gid);
@@ -66,7 +69,9 @@ WholeFile::WholeFile(std::string path) : path_(std::move(path)), target_(target_
 WholeFile::~WholeFile() {
   if (file_ == nullptr) return;
   std::fclose(file_);
-  if (!in_place_) std::remove(partial().c_str());
+  if (in_place_) return;
+  std::remove(partial().c_str());
+  drop_partial_file(partial());
 }
 
 void WholeFile::write(std::string_view text) {
@@ -75,12 +80,12 @@ void WholeFile::write(std::string_view text) {
 
 void WholeFile::commit() {
   // the buffer goes out on closing, so that a full disk shows here at the latest
-  if (std::fclose(std::exchange(file_, nullptr)) == 0 &&
-      (in_place_ || std::rename(partial().c_str(), target_.c_str()) == 0))
-    return;
+  const bool written = std::fclose(std::exchange(file_, nullptr)) == 0 &&
+                       (in_place_ || std::rename(partial().c_str(), target_.c_str()) == 0);
   const int reason = errno;
-  if (!in_place_) std::remove(partial().c_str());
-  fail(path_, reason);
+  if (!written && !in_place_) std::remove(partial().c_str());
+  if (!in_place_) drop_partial_file(partial());
+  if (!written) fail(path_, reason);
 }
 
 void require_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {

@@ -15,7 +15,7 @@ class WholeFile {
   /// Links are followed, and what they lead to is replaced; it keeps its permissions.
   /// Throws std::runtime_error, "can't write 'path': reason", if the file can't be made; so do the others.
   explicit WholeFile(std::string path);
-  /// What was not committed is gone.
+  /// What was not committed is gone, also if a signal ends the program.
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;

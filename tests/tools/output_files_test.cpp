@@ -52,6 +52,33 @@ TEST_SUITE("tools/output_files") {
     CHECK(!fs::exists(path + ".part"));
   }
 
+  TEST_CASE("what a killed run left is overwritten") {
+    const TemporaryFolder folder;
+    const std::string path = folder / "file";
+    write(path + ".part", std::string(100'000, 'x'));
+    write(path, "new");
+    CHECK(content(path) == "new");
+    CHECK(!fs::exists(path + ".part"));
+  }
+
+  TEST_CASE("a signal that ends a command leaves nothing half written") {
+    const TemporaryFolder folder;
+    const std::string script = folder.write("s.csv", "time,thruster\n0,0.5\n"), csv = folder / "o.csv";
+    for (const std::string signal : {"INT", "TERM", "HUP"}) {
+      CAPTURE(signal);
+      // in the foreground: what a shell starts in the background ignores SIGINT
+      const std::string pid = folder / "pid";
+      const auto ended = command::jarol(
+          "schema > /dev/null; (until [ -s " + csv + ".part ]; do sleep 0.05; done; kill -" + signal + " $(cat " + pid +
+          ")) & exec sh -c 'echo $$ > " + pid + "; exec " JAROL_COMMAND " vehicle submarine --for 100000s --script " +
+          script + " --csv " + csv + "'");
+      CHECK(ended.exit_code == -1);  // by the signal
+      CHECK(ended.output == "");
+      CHECK(!fs::exists(csv + ".part"));
+      CHECK(!fs::exists(csv));
+    }
+  }
+
   TEST_CASE("a device or a FIFO is written in place") {
     const TemporaryFolder folder;
     // a node of one's own is for root
