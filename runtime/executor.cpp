@@ -68,7 +68,13 @@ void Executor::run_until(Duration end) {
   const MemoryScope scope(no_heap());  // a task with a heap has a scope of its own
   const bool record = options_.recorder != nullptr;
   if (options_.clock != nullptr) {
-    record ? walk<true, true, true>(end) : walk<true, false, true>(end);
+    try {
+      record ? walk<true, true, true>(end) : walk<true, false, true>(end);
+    } catch (...) {
+      // an external system is lost; what was released before is part of the run
+      if (threads_ != nullptr) drain_threads();
+      throw;
+    }
     if (threads_ != nullptr) drain_threads();
     // the vehicle goes on without us
     if (report_.stopped) {

@@ -54,7 +54,8 @@ struct LogRecord {
 
 /// How the run ended.
 struct LogEnd {
-  std::int64_t covered = 0;  // ns; the instants before it were run
+  std::int64_t covered = 0;    // ns; the instants before it were run
+  std::int64_t simulated = 0;  // ns; what the run told that it went to
   std::uint64_t digest = 0;
   std::uint64_t activations = 0;
   std::uint64_t instants = 0;

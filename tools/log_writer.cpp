@@ -31,7 +31,8 @@ LogWriter::~LogWriter() {
 
 void LogWriter::close(const Report& report) {
   recorder_->close();
-  const LogEnd end{report.covered.count(), report.digest, report.activations, report.instants, report.fault_count};
+  const LogEnd end{report.covered.count(), report.simulated.count(), report.digest,
+                   report.activations,     report.instants,          report.fault_count};
   append(report.covered, LogRecord::end, &end, sizeof end);
   // the buffer goes out on closing, so that a full disk shows here at the latest
   if (std::fclose(std::exchange(file_, nullptr)) != 0) fail();

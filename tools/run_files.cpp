@@ -41,6 +41,11 @@ void add_run_file_options(Command& command, RunFileArguments& arguments) {
   command.add_option("--plot", arguments.plot, "Draw what was commanded and reached into this SVG file");
 }
 
+std::string to_text(const RunFileArguments& arguments) {
+  return (arguments.trace.empty() ? "" : "  trace       " + arguments.trace + "\n") +
+         (arguments.plot.empty() ? "" : "  picture     " + arguments.plot + "\n");
+}
+
 // The plan gives trace and plot their outputs before there is an executor.
 RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments) {
   if (arguments.trace.empty() && arguments.plot.empty()) return;

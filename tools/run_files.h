@@ -19,6 +19,9 @@ struct RunFileArguments {
 
 void add_run_file_options(Command& command, RunFileArguments& arguments);
 
+/// Lines of a report that name what was written.
+std::string to_text(const RunFileArguments& arguments);
+
 class RunFiles {
  public:
   /// Throws std::runtime_error if one can't be made.

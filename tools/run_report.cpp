@@ -20,7 +20,7 @@ bool has_weak_isolation(const Graph& graph) {
 }  // namespace
 
 double real_time_factor(const RunOutcome& outcome) {
-  return static_cast<double>(outcome.executor.report().simulated.count()) * 1e-9 / outcome.seconds;
+  return static_cast<double>(outcome.simulated.count()) * 1e-9 / outcome.seconds;
 }
 
 std::string to_text(const RunOutcome& outcome) {
@@ -63,7 +63,7 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
       {"clock", outcome.clock != nullptr ? "real" : "virtual"},
       {"digest", fmt::format("0x{:016x}", report.digest)},
       {"digest_claimed", !has_weak_isolation(graph)},
-      {"simulated_ns", report.simulated.count()},
+      {"simulated_ns", outcome.simulated.count()},
       {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
       {"real_time_factor", real_time_factor(outcome)},
       {"activations", report.activations},

@@ -18,6 +18,7 @@ struct RunOutcome {
   std::size_t workers = 1;           // that were asked for
   std::vector<LinkReport> links{};
   double seconds = 0;  // that it took, above zero
+  Duration simulated{};
 };
 
 /// All but the first line.

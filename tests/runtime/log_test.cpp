@@ -77,9 +77,6 @@ std::string first_difference(const std::vector<std::string>& is, const std::vect
   return "";
 }
 
-// What the run covered: the instants before that.
-Duration end_of(const Report& report, Duration end) { return report.stopped ? report.simulated + 1ns : end; }
-
 // How many misses there were.
 std::size_t check_replay(const std::string& text, Duration end, bool has_outside) {
   const Graph graph = graph_of(text);
@@ -88,7 +85,7 @@ std::size_t check_replay(const std::string& text, Duration end, bool has_outside
   const RealRun real =
       run(text, end, 1, {}, 1, has_outside ? tests::outside() : std::vector<std::unique_ptr<Channels>>{}, &recorder);
   recorder.close();
-  const tests::Run again = replay(graph, end_of(real.report, end), replayed_channels(graph, log), log.misses);
+  const tests::Run again = replay(graph, real.report.covered, replayed_channels(graph, log), log.misses);
   CHECK(again.report.digest == real.report.digest);
   CHECK(first_difference(sorted(again.lines), sorted(real.lines)) == "");
   if (real.report.fault_count <= Report::faults_kept)
@@ -194,6 +191,49 @@ connections: [i -> flow.in, flow.out -> timed.in, timed.out -> reader.a, flow.ou
         for (std::size_t at; (at = text.find("FAULT")) != std::string::npos;) text.replace(at, 5, on_fault);
         CHECK(check_replay(on(mode, text), 60ms, true) > 0);
       }
+  }
+
+  TEST_CASE("what was run before an external system was lost is run again") {
+    // after so many instants it can't be reached any more
+    class Lost : public tests::Outside {
+     public:
+      explicit Lost(int instants) : instants_(instants) {}
+      void reach(Duration) override {
+        if (instants_-- == 0) throw std::runtime_error("lost");
+      }
+
+     private:
+      int instants_;
+    };
+    for (const Mode& mode : every_mode) {
+      const std::string mode_name = mode.name;
+      CAPTURE(mode_name);
+      const Graph graph = graph_of(on(mode, R"(graph: t
+timing: {period: 2ms}
+distributers: {p: {type: Plant, link: {type: test}}}
+communicators: {i: {channel: p.sensor}, o: {channel: p.actuator, offset: 1ms}}
+tasks:
+  a: {type: Accumulate, core: ANY, on_fault: hold}
+  b: {type: Accumulate, core: ANY, let: 2ms, on_fault: hold}
+connections: [i -> a.in, a.out -> b.in, b.out -> o]
+)"));
+      std::vector<std::unique_ptr<Channels>> channels;
+      channels.push_back(std::make_unique<Lost>(7));
+      KeptLog log(graph);
+      Recorder recorder({&log});
+      RealClock clock(graph.tasks.size());
+      const std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
+      Executor executor(graph, std::move(channels), {.clock = &clock, .threads = threads, .log = &recorder});
+      clock.start();
+      CHECK_THROWS_WITH_AS(executor.run_until(1s), "lost", std::runtime_error);
+      recorder.close();
+      const Report& real = executor.report();
+      CHECK(real.instants == 7);
+      CHECK(real.covered == 6ms + 1ns);
+      const tests::Run again = replay(graph, real.covered, replayed_channels(graph, log), log.misses);
+      CHECK(again.report.digest == real.digest);
+      CHECK(again.report.activations == real.activations);
+    }
   }
 
   TEST_CASE("random graphs that a machine can't always keep up with give again what they gave") {

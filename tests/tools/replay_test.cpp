@@ -245,7 +245,9 @@ TEST_SUITE("tools/replay") {
           "error: can't write '/no/such/place': No such file or directory\n");
     const auto full = command::jarol("run specs/counting.yaml --for 1s --log /dev/full");
     CHECK(full.exit_code == 2);
-    CHECK(full.output.find("error: can't write '/dev/full': No space left on device\n") != std::string::npos);
+    CHECK(full.output.find("counting: 1 s on the virtual clock") == 0);
+    CHECK(full.output.ends_with("error: can't write '/dev/full': No space left on device\n"));
+    CHECK(line_of(full.output, "log") == "");
     CHECK(command::jarol("run specs/counting.yaml --for 1s --log specs/counting.yaml").output ==
           "error: --log 'specs/counting.yaml' would replace what FILE names; choose another file\n");
     CHECK(command::jarol("run specs/counting.yaml --for 1s --log x --clock real --concurrency threads").output ==

@@ -96,20 +96,23 @@ int replay(const Options& options) {
   if (!interrupted) log.require_all_taken();
   const double seconds =
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  const RunOutcome outcome{.graph = graph, .executor = executor, .told = told, .seconds = seconds};
   const Report& report = executor.report();
+  const RunOutcome outcome{.graph = graph,
+                           .executor = executor,
+                           .told = told,
+                           .seconds = seconds,
+                           .simulated = interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated)};
   const Verdict verdict = interrupted ? Verdict::unknown : judge(report, log);
   if (options.json) {
     std::cout << json_of(outcome, verdict, log, options, misses.size()) << "\n";
   } else {
     std::cout << fmt::format("{}: replay of {} s in {:.2f} s, {:.0f} times real time{}\n", graph.name,
-                             seconds_text(report.simulated), seconds, real_time_factor(outcome),
+                             seconds_text(outcome.simulated), seconds, real_time_factor(outcome),
                              interrupted ? " (interrupted)" : "")
               << to_text(outcome)
               << fmt::format("  log         {} values from outside, {} activations late or left out\n", log.values(),
                              misses.size());
-    if (!options.files.trace.empty()) std::cout << "  trace       " << options.files.trace << "\n";
-    if (!options.files.plot.empty()) std::cout << "  picture     " << options.files.plot << "\n";
+    std::cout << to_text(options.files);
     if (!interrupted) std::cout << verdict_text(verdict, report, log);
     std::cerr << told_faults(report);
   }

@@ -66,25 +66,23 @@ Duration end_of_run(const Options& options, const Loaded& loaded) {
   return end;
 }
 
-void print(const Options& options, const RunOutcome& outcome, bool interrupted) {
+void print(const Options& options, const RunOutcome& outcome, const std::string& ended_early, bool written) {
   const Report& report = outcome.executor.report();
   if (options.json) {
     std::cout << to_json(outcome) << "\n";
     return;
   }
-  const char* const ended_early = interrupted ? " (interrupted)" : "";
   if (outcome.clock != nullptr) {
-    std::cout << fmt::format("{}: {} s in real time{}\n", outcome.graph.name, seconds_text(report.simulated),
+    std::cout << fmt::format("{}: {} s in real time{}\n", outcome.graph.name, seconds_text(outcome.simulated),
                              ended_early);
   } else {
     std::cout << fmt::format("{}: {} s on the virtual clock in {:.2f} s, {:.0f} times real time{}\n",
-                             outcome.graph.name, seconds_text(report.simulated), outcome.seconds,
+                             outcome.graph.name, seconds_text(outcome.simulated), outcome.seconds,
                              real_time_factor(outcome), ended_early);
   }
   std::cout << to_text(outcome);
-  if (!options.files.trace.empty()) std::cout << "  trace       " << options.files.trace << "\n";
-  if (!options.files.plot.empty()) std::cout << "  picture     " << options.files.plot << "\n";
-  if (!options.log.empty()) std::cout << "  log         " << options.log << "\n";
+  if (written) std::cout << to_text(options.files);
+  if (written && !options.log.empty()) std::cout << "  log         " << options.log << "\n";
   std::cerr << told_faults(report);
 }
 
@@ -147,6 +145,7 @@ int run(const Options& options) {
                      .log = log ? log->recorder() : nullptr});
   Linked linked(std::move(channels));
   auto start = std::chrono::steady_clock::now();
+  std::string lost;
   try {
     const Interruptible interruptible([&] { executor.interrupt(); });
     const bool shown = !options.json && isatty(STDERR_FILENO) != 0 && end != Duration::max();
@@ -157,15 +156,19 @@ int run(const Options& options) {
     executor.run_until(end);
   } catch (const std::runtime_error& error) {
     // a vehicle that is lost, or can't be simulated any further
-    std::cerr << "error: at " << seconds_text(executor.now()) << " s: " << error.what() << "\n";
-    return exit_unfinished;
+    lost = "error: at " + seconds_text(executor.now()) + " s: " + error.what() + "\n";
   }
   linked.finish();
-  files.close();
   const double seconds =
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  const bool interrupted = !executor.report().stopped && executor.now() < end;
-  if (log) log->close(executor.report());
+  const Report& report = executor.report();
+  const bool interrupted = lost.empty() && !report.stopped && executor.now() < end;
+  // the report is there whatever can't be written
+  std::exception_ptr unwritten;
+  try {
+    if (log) log->close(report);
+    files.close();
+  } catch (const std::runtime_error&) { unwritten = std::current_exception(); }
   print(options,
         {.graph = graph,
          .executor = executor,
@@ -173,9 +176,15 @@ int run(const Options& options) {
          .clock = clock ? &*clock : nullptr,
          .workers = options.workers,
          .links = linked.reports(),
-         .seconds = seconds},
-        interrupted);
-  if (executor.report().stopped) return exit_unfinished;
+         .seconds = seconds,
+         .simulated = report.simulated},
+        interrupted     ? " (interrupted)"
+        : !lost.empty() ? " (broken off)"
+                        : "",
+        !unwritten);
+  std::cerr << lost;
+  if (unwritten) std::rethrow_exception(unwritten);
+  if (report.stopped || !lost.empty()) return exit_unfinished;
   return interrupted ? exit_interrupted : exit_good;
 }
 
