@@ -209,13 +209,14 @@ connections: [i -> flow.in, flow.out -> timed.in, timed.out -> reader.a, flow.ou
       const std::string mode_name = mode.name;
       CAPTURE(mode_name);
       const Graph graph = graph_of(on(mode, R"(graph: t
-timing: {period: 2ms}
+timing: {period: 6ms}
 distributers: {p: {type: Plant, link: {type: test}}}
-communicators: {i: {channel: p.sensor}, o: {channel: p.actuator, offset: 1ms}}
+communicators: {i: {channel: p.sensor, period: 2ms}, o: {channel: p.actuator, period: 2ms, offset: 1ms}}
 tasks:
-  a: {type: Accumulate, core: ANY, on_fault: hold}
-  b: {type: Accumulate, core: ANY, let: 2ms, on_fault: hold}
-connections: [i -> a.in, a.out -> b.in, b.out -> o]
+  a: {type: Accumulate, period: 2ms, core: ANY, on_fault: hold}
+  b: {type: Accumulate, period: 2ms, core: ANY, let: 2ms, on_fault: hold}
+  under_way: {type: Patient, core: ANY, on_fault: hold, parameters: {waits: 2ms}}
+connections: [i -> a.in, a.out -> b.in, b.out -> o, a.out -> under_way.in]
 )"));
       std::vector<std::unique_ptr<Channels>> channels;
       channels.push_back(std::make_unique<Lost>(7));
