@@ -6,7 +6,6 @@
 #include "distributers/links/lockstep.h"
 #include "distributers/links/tcp.h"
 #include "graph/yaml/quantities.h"
-#include "runtime/real_clock.h"
 #include "tools/commands/commands.h"
 #include "tools/interrupt.h"
 #include "tools/real_time.h"
@@ -58,13 +57,13 @@ std::unique_ptr<messages::Receiver> make_telemetry(const vehicles::Vehicle& vehi
 }  // namespace
 
 int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
-                  std::chrono::nanoseconds end, const Telling& telling) {
+                  std::chrono::nanoseconds end, const Telling& telling, const RealTimeOptions& real_time) {
   ToVehicle to_vehicle(vehicle);
   ToPeer to_link(link);
   const auto telemetry = make_telemetry(vehicle, vehicle_class, to_link, telling.told);
   messages::Receiver& to_peer = *telemetry;
   VehicleDiary diary(vehicle, vehicle_class);
-  RealClock clock(0);
+  RealClock clock(0, real_time);
   for (const std::string& refusal : clock.prepare_thread()) std::cerr << "note: " << refusal << "\n";
   const Interruptible interruptible;
   const std::atomic<bool>& interrupted = Interruptible::interrupted();

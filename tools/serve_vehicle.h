@@ -6,6 +6,7 @@
 
 #include "distributers/links/address.h"
 #include "distributers/links/link.h"
+#include "runtime/real_clock.h"
 #include "vehicles/vehicle.h"
 
 namespace jarol::tools {
@@ -20,7 +21,7 @@ struct Telling {
 
 /// Runs until `end` or Ctrl-C and tells what it did and what was carried; the exit code.
 int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
-                  std::chrono::nanoseconds end, const Telling& telling = {});
+                  std::chrono::nanoseconds end, const Telling& telling = {}, const RealTimeOptions& real_time = {});
 
 /// On the logical clocks of those who connect, one after the other, each with a vehicle of its own from the start;
 /// until Ctrl-C. Throws std::runtime_error if it can't listen there.

@@ -49,8 +49,7 @@ Outcome helicopter(const std::string& where, const std::string& threads) {
   const bool udp = where == "UDP";
   const std::string at = "\"[::1]:" + tests::free_port(udp ? SOCK_DGRAM : SOCK_STREAM) + "\"";
   return outcome(
-      "helicopter --parameters specs/vehicles/helicopter.yaml --listen " + at + " --link " +
-          (udp ? "udp" : "tcp_server"),
+      "helicopter --parameters specs/vehicles/helicopter.yaml --listen " + at + " --link " + (udp ? "udp" : "tcp"),
       graph + " --set 'distributers.robostix.link={type: " + (udp ? "udp" : "tcp_client") + ", peer: " + at + "}'");
 }
 

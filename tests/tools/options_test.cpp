@@ -144,7 +144,15 @@ TEST_SUITE("tools/options") {
       check_refused(vehicle + "--describe " + option,
                     option.substr(0, option.find(' ')) + " needs --script or --link: --describe does not move it");
     check_refused(vehicle + "--describe --bare", "--bare needs --link, and one in real time");
+    check_refused(vehicle + "--describe --rt-priority 5", "--rt-priority belongs to --link in real time");
     CHECK(!std::filesystem::exists(csv));
+  }
+
+  TEST_CASE("vehicle: on TCP it listens, unless it is told whom to connect to") {
+    const std::string tcp = "vehicle helicopter --for 20ms --link tcp ";
+    CHECK(jarol(tcp + "--listen 0").output.starts_with("helicopter: tcp at 127.0.0.1:0, until Ctrl-C\n"));
+    CHECK(jarol(tcp + "--peer 1").output.starts_with("helicopter: tcp to 127.0.0.1:1, until Ctrl-C\n"));
+    CHECK(jarol(tcp).output.starts_with("--link:1:1: error: link lacks the key 'listen': port to listen at"));
   }
 
   TEST_CASE("vehicle: in lockstep those who run a graph with it say how long, and with what seed") {
@@ -157,6 +165,7 @@ TEST_SUITE("tools/options") {
     check_refused(lockstep + "--json",
                   "--json belongs to --describe, and to --link in real time; add one of them, or leave it out");
     check_refused(lockstep + "--bare", "--bare needs --link, and one in real time");
+    check_refused(lockstep + "--rt-priority 5", "--rt-priority belongs to --link in real time");
   }
 #endif
 }

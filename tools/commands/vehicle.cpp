@@ -35,6 +35,7 @@ struct Options {
   std::string duration;
   double rate = 100;
   std::uint64_t seed = 0;
+  int priority = 0;  // SCHED_FIFO; 0: the ordinary scheduler
   // of a link
   std::vector<std::pair<std::string, std::string>> link;  // as its keys are written in a graph
 };
@@ -213,7 +214,17 @@ int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, c
   const auto vehicle = make_vehicle(options, vehicle_class, parameters, own_seed(options, vehicle_class), problems);
   const Duration end = options.duration.empty() ? Duration::max() : end_of(options, {});
   const Told told = options.bare ? Told::true_state : Told::all;
-  return serve_vehicle(*vehicle, vehicle_class, *link, end, {told, options.json});
+  RealTimeOptions real_time;
+  if (options.priority > 0) real_time.priority = options.priority;
+  return serve_vehicle(*vehicle, vehicle_class, *link, end, {told, options.json}, real_time);
+}
+
+// A vehicle on TCP is the one that listens, unless it is told whom to connect to.
+void choose_tcp_end(Options& options) {
+  if (options.link.empty() || options.link.front().second != "tcp") return;
+  const bool dials =
+      std::any_of(options.link.begin(), options.link.end(), [](const auto& k) { return k.first == "peer"; });
+  options.link.front().second = dials ? "tcp_client" : "tcp_server";
 }
 
 // Options that would have no effect.
@@ -232,6 +243,7 @@ void require_effect(const Command& command, const Options& options) {
                                                : "belongs to --script, which moves it; add that, or leave it out");
   if (options.bare && (!linked || in_lockstep))
     throw std::invalid_argument("--bare needs --link, and one in real time");
+  if (!linked || in_lockstep) command.refuse({"--rt-priority"}, "belongs to --link in real time");
   if (in_lockstep) {
     command.refuse({"--for"},
                    "has no place in lockstep: those who run a graph with it say how long, as in jarol run --for 10s");
@@ -289,7 +301,7 @@ void add_vehicle(CommandLine& line, int& exit_code) {
     const char *key, *text;
   };
   std::vector<std::string> links = distributers::link_types();
-  links.emplace_back("lockstep");
+  links.insert(links.end(), {"tcp", "lockstep"});
   const LinkKey link_keys[] = {
       {"listen", "Link: port to listen at, with an address where not the loopback, as in 6002"},
       {"peer", "Link: address and port of the other end, as in 127.0.0.1:7002"},
@@ -303,13 +315,19 @@ void add_vehicle(CommandLine& line, int& exit_code) {
           [options](const std::string& type) {
             options->link.insert(options->link.begin(), {"type", type});
           },
-          "Run steered over a link: " + list_of(links) + "; in lockstep on the runner's clock, else in real time")
+          "Run steered over a link: " + list_of(links) +
+              "; tcp is a server, or with --peer a client; in lockstep on the runner's clock, else in real time")
       ->one_of(links);
   for (const LinkKey& key : link_keys)
     command->add_option(
         std::string("--") + key.key,
         [options, name = key.key](const std::string& text) { options->link.emplace_back(name, text); }, key.text);
+  command
+      ->add_option("--rt-priority", options->priority,
+                   "Link in real time: SCHED_FIFO priority; default: the ordinary scheduler")
+      ->in_range(1, 99);
   command->callback([options, command, &exit_code] {
+    choose_tcp_end(*options);
     require_effect(*command, *options);
     exit_code = vehicle(*options);
   });
