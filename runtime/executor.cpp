@@ -39,7 +39,11 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
     : graph_(graph), plan_(graph), channels_(std::move(channels)), options_(options), safe_commands_(graph) {
   assert(channels_.size() == graph.distributers.size());
   if (options.recorder != nullptr) options.recorder->expect(plan_.outputs);
-  if (options.log != nullptr) options.log->expect(log_outputs(graph));
+  if (options.log != nullptr) begin_log();
+  assert(!options.misses || (options.clock == nullptr && options.workers == 1));
+  if (options.clock != nullptr)
+    for (Recorder* recorder : {options.recorder, options.log})
+      if (recorder != nullptr) recorder->never_wait();
   if (options.misses) missed_ = std::make_unique<MissedActivations>(graph.tasks.size(), *options.misses);
   if (!options.threads.empty()) begin_threads();
   if (options.workers > 1 || options.sharing == Sharing::measure) {
@@ -102,8 +106,8 @@ void Executor::walk(Duration end) {
       if (interrupted_.load(std::memory_order_relaxed)) return;
       if (threads_ != nullptr) settle(instant);
       if (report_.stopped) return;
-      if (options_.log != nullptr) options_.log->hand_on_by(instant);
     }
+    if (options_.log != nullptr && instant >= checkpoint_due_) log_checkpoint(instant);
     now_.store(instant, std::memory_order_relaxed);
     due_ = calendar_.take();
     step_instant<Digest, Record, MayMiss>(instant);
@@ -331,7 +335,8 @@ void Executor::take(const CommunicatorAction& in, Duration instant) {
   if (communicator.type->finite(in.taken)) {
     copy_value(*communicator.type, in.value, in.taken);
     safe_commands_.took(in.communicator, instant);
-    if (options_.log != nullptr) record(*options_.log, in.communicator, *communicator.type, in.value, instant.count());
+    if (options_.log != nullptr)
+      record(*options_.log, log_outputs_[in.communicator], *communicator.type, in.value, instant.count());
   } else {
     ++refused_inputs_;
   }

@@ -119,8 +119,10 @@ class Executor {
   [[gnu::cold]] void on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick);
   [[gnu::cold]] void record_fault(std::uint32_t task, std::int64_t instant);
   void add_fault(std::uint32_t task, std::int64_t activation, std::int64_t instant, const std::string& cause);
+  void begin_log();
   void log_late(std::uint32_t task, std::int64_t activation, std::optional<Duration> ended_after, std::int64_t instant);
   void log_miss(const Miss& miss, std::int64_t instant);
+  [[gnu::cold]] void log_checkpoint(std::int64_t instant);
 
   // with threads that run tasks
   void begin_threads();
@@ -151,6 +153,9 @@ class Executor {
   Report report_;
   std::atomic<std::int64_t> now_{0};
   std::atomic<bool> interrupted_{false};
+  std::vector<std::uint32_t> log_outputs_;     // per communicator: that of the log
+  std::uint32_t log_misses_ = 0;               // the log's output for them; that for checkpoints is the next
+  std::int64_t checkpoint_due_ = 0;            // if there is a log
   std::unique_ptr<MissedActivations> missed_;  // null: this is no replay
   std::optional<Duration> ended_after_;        // of the activation that was found late last, from its release
   std::unique_ptr<TaskThreads> threads_;       // null: tasks run on the caller's

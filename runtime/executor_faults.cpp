@@ -54,16 +54,6 @@ void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, con
   if (!activation.has_let) record_fault(activation.task, tick.now.count());
 }
 
-void Executor::log_late(std::uint32_t task, std::int64_t activation, std::optional<Duration> ended_after,
-                        std::int64_t instant) {
-  log_miss({activation, ended_after ? ended_after->count() : Miss::unknown, task, 0}, instant);
-}
-
-void Executor::log_miss(const Miss& miss, std::int64_t instant) {
-  if (options_.log == nullptr) return;
-  options_.log->append(instant, static_cast<std::uint32_t>(graph_.communicators.size()), &miss, sizeof miss);
-}
-
 void Executor::record_fault(std::uint32_t task, std::int64_t instant) {
   const TaskStatus& status = plan_.status[task];
   add_fault(task, status.activation, instant, status.text);

@@ -24,10 +24,19 @@ class ReplayedChannels : public Channels {
 
 }  // namespace
 
+std::vector<std::size_t> logged_inputs(const Graph& graph) {
+  std::vector<std::size_t> inputs;
+  for (std::size_t i = 0; i < graph.communicators.size(); ++i)
+    if (graph.communicators[i].direction == Direction::in && graph.communicators[i].distributer) inputs.push_back(i);
+  return inputs;
+}
+
 std::vector<Output> log_outputs(const Graph& graph) {
   std::vector<Output> outputs;
-  for (const Communicator& c : graph.communicators) outputs.push_back({c.name, c.type});
+  for (const std::size_t i : logged_inputs(graph))
+    outputs.push_back({graph.communicators[i].name, graph.communicators[i].type});
   outputs.push_back({"misses", &type_of<Miss>()});
+  outputs.push_back({"checkpoints", &type_of<Checkpoint>()});
   return outputs;
 }
 

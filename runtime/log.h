@@ -1,9 +1,9 @@
 // What a run has from outside its graph, and a replay needs: what its `in` communicators took, and which activations
-// did not come in time.
+// did not come in time. What a run logs is given to a Recorder.
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,7 +29,21 @@ struct Miss {
   }
 };
 
-/// What a Recorder of a log records: per communicator of the graph, in its order, what it took; then the misses.
+/// About each second: how far a replay comes with what is logged until then, whatever becomes of the run.
+struct Checkpoint {
+  std::int64_t settled = 0;  // ns; all that was due at the instants before it is known
+  std::uint64_t digest = 0;  // of the run so far
+  std::uint64_t exact = 0;   // 1: that is of the instants before `settled`; 0: some that are later are in it
+
+  static constexpr auto fields() {
+    return describe(field<&Checkpoint::settled>(), field<&Checkpoint::digest>(), field<&Checkpoint::exact>());
+  }
+};
+
+/// The communicators whose values come from outside, in the order of the graph.
+std::vector<std::size_t> logged_inputs(const Graph& graph);
+
+/// What the Recorder of a log records: what each of `logged_inputs` took, then a Miss, then a Checkpoint.
 std::vector<Output> log_outputs(const Graph& graph);
 
 /// The misses of a run, asked for in the order in which each task's activations come.

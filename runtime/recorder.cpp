@@ -53,7 +53,7 @@ void Recorder::append_deep(std::int64_t instant, std::uint32_t output, const voi
 
 void Recorder::close() {
   if (!thread_.joinable()) return;
-  if (used_ > 0) publish_chunk();
+  if (used_ > 0 && !is_cut_off_) publish_chunk();
   // the end is part of the awaited word: a flag of its own could be set between test and wait
   written_.fetch_or(ended, std::memory_order_release);
   written_.notify_one();
@@ -71,12 +71,27 @@ void Recorder::publish_chunk() {
 }
 
 void Recorder::next_chunk() {
+  if (!waits_ && written_.load(std::memory_order_relaxed) + 1 - read_.load(std::memory_order_acquire) >= chunks)
+    cut_off();
+  if (is_cut_off_) {
+    used_ = 0;
+    return;
+  }
   publish_chunk();
   const std::uint64_t next = written_.load(std::memory_order_relaxed);
   for (std::uint64_t read = read_.load(std::memory_order_acquire); next - read >= chunks;
        read = read_.load(std::memory_order_acquire))
     read_.wait(read, std::memory_order_acquire);
   now_ = memory_.get() + (next % chunks) * chunk_bytes;
+}
+
+void Recorder::cut_off() {
+  RecordHeader first;
+  std::memcpy(&first, now_, sizeof first);
+  if (!is_cut_off_ && lost_.empty())
+    lost_ = "values could not be written as fast as they came; from " + std::to_string(first.instant) +
+            "ns on they are lost";
+  is_cut_off_ = true;
 }
 
 void Recorder::run() {

@@ -56,7 +56,7 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Appends one value. Waits only if the sinks are a whole ring behind.
+  /// Appends one value. Waits if the sinks are a whole ring behind.
   void append(std::int64_t instant, std::uint32_t output, const void* value, std::uint32_t size) {
     const std::size_t padded = (size + 7U) & ~std::size_t{7};
     if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk();
@@ -69,12 +69,14 @@ class Recorder {
   /// The same for a deep value; one beyond most_bytes is lost, which `close` tells.
   void append_deep(std::int64_t instant, std::uint32_t output, const void* value);
 
-  /// In real time, at each instant: hands on what was appended if that was not done for a second.
-  void hand_on_by(std::int64_t instant) {
-    if (instant < due_ || used_ == 0) return;
-    due_ = instant + 1'000'000'000;
-    next_chunk();
+  /// What is appended while the sinks are a whole ring behind is lost, rather than waited for, and all that follows.
+  void never_wait() { waits_ = false; }
+  /// Hands on what was appended so far, if the sinks have all that was handed on before.
+  void hand_on() {
+    if (used_ > 0 && read_.load(std::memory_order_acquire) == written_.load(std::memory_order_relaxed)) next_chunk();
   }
+  /// Something was not recorded, which `close` tells.
+  bool has_lost() const { return !lost_.empty(); }
 
   /// Hands on all that was appended, ends the thread and lets the sinks finish; throws what a sink threw.
   void close();
@@ -84,6 +86,7 @@ class Recorder {
   static constexpr std::size_t chunks = 8;
 
   void next_chunk();
+  [[gnu::cold]] void cut_off();
   void publish_chunk();
   void run();
   void drain(const std::byte* chunk, std::size_t bytes);
@@ -95,7 +98,7 @@ class Recorder {
   std::vector<RecordSink*> sinks_;
   std::vector<Output> outputs_;
   std::vector<Value> deep_values_;  // per output: what the sinks see, empty for flat ones
-  std::string lost_;                // the first value that was too large
+  std::string lost_;                // the first value that was lost, and why
   struct Held {
     RecordHeader header;
     std::vector<std::byte> packed;
@@ -107,7 +110,8 @@ class Recorder {
   std::size_t bytes_[chunks] = {};  // filled part of each chunk
   std::byte* now_ = nullptr;
   std::size_t used_ = 0;
-  std::int64_t due_ = 0;                   // instant at which what is there has to be handed on
+  bool waits_ = true;
+  bool is_cut_off_ = false;                // nothing is handed on any more
   std::atomic<std::uint64_t> written_{0};  // chunks handed on; the top bit says that no more will come
   std::atomic<std::uint64_t> read_{0};     // chunks drained
   std::exception_ptr failure_;             // of a sink; read after the thread has ended

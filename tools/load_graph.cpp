@@ -18,6 +18,15 @@ Registry make_registry() {
   return made;
 }
 
+Loaded load(const std::shared_ptr<const Source>& source, const Overrides& overrides, Problems& problems) {
+  const GraphSpec spec = load_spec(source, overrides, problems);
+  Loaded loaded;
+  loaded.registry = std::make_unique<Registry>(registry());
+  load_plugins(spec, *loaded.registry, problems);
+  loaded.graph = std::make_unique<Graph>(build_graph(spec, *loaded.registry, problems));
+  return loaded;
+}
+
 }  // namespace
 
 const Registry& registry() {
@@ -34,17 +43,20 @@ const std::vector<vehicles::VehicleClass>& known_vehicles() {
 #endif
 }
 
+Loaded load_without_channels(const std::string& path, const Overrides& overrides) {
+  Problems problems;
+  Loaded loaded = load(read_source(path), overrides, problems);
+  problems.throw_if_any();
+  return loaded;
+}
+
 Loaded load_graph(const std::string& path, const Overrides& overrides, std::uint64_t seed) {
   return load_graph(read_source(path), overrides, seed);
 }
 
 Loaded load_graph(const std::shared_ptr<const Source>& source, const Overrides& overrides, std::uint64_t seed) {
   Problems problems;
-  const GraphSpec spec = load_spec(source, overrides, problems);
-  Loaded loaded;
-  loaded.registry = std::make_unique<Registry>(registry());
-  load_plugins(spec, *loaded.registry, problems);
-  loaded.graph = std::make_unique<Graph>(build_graph(spec, *loaded.registry, problems));
+  Loaded loaded = load(source, overrides, problems);
   loaded.channels = distributers::make_channels(*loaded.graph, known_vehicles(), seed, problems);
   problems.throw_if_any();
   return loaded;

@@ -29,6 +29,9 @@ const std::vector<vehicles::VehicleClass>& known_vehicles();
 Loaded load_graph(const std::string& path, const Overrides& overrides, std::uint64_t seed = 0);
 Loaded load_graph(const std::shared_ptr<const Source>& source, const Overrides& overrides, std::uint64_t seed = 0);
 
+/// The same without channels: of the files that links name, none is needed.
+Loaded load_without_channels(const std::string& path, const Overrides& overrides);
+
 /// A distributer whose external system goes on by itself, whatever the logical clock says; null: none does.
 const Distributer* find_in_real_time(const Loaded& loaded);
 

@@ -22,17 +22,13 @@ std::string signature_of(const Type& type) {
   return fmt::format("{} {:016x}", type.name, digest::name_hash(layout_of(type)));
 }
 
-std::vector<std::size_t> logged_inputs(const Graph& graph) {
-  std::vector<std::size_t> inputs;
-  for (std::size_t i = 0; i < graph.communicators.size(); ++i)
-    if (graph.communicators[i].direction == Direction::in && graph.communicators[i].distributer) inputs.push_back(i);
-  return inputs;
-}
+std::string sum_of_text(std::string_view text) { return fmt::format("{:016x}", digest::name_hash(text)); }
 
 std::string to_line(const LogHeader& header) {
   nlohmann::ordered_json json{{"schema", LogHeader::schema},
                               {"graph", header.graph},
                               {"file", header.file},
+                              {"file_sum", header.file_sum},
                               {"profile", header.overrides.profile},
                               {"set", header.overrides.set},
                               {"clock", header.clock},
@@ -49,6 +45,7 @@ LogHeader parse_header(const std::string& line) {
     if (json.at("schema") != LogHeader::schema) throw LogError("is no log");
     LogHeader header{.graph = json.at("graph"),
                      .file = json.at("file"),
+                     .file_sum = json.at("file_sum"),
                      .overrides = {json.at("profile"), json.at("set")},
                      .clock = json.at("clock"),
                      .tasks = json.at("tasks")};

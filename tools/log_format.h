@@ -1,9 +1,8 @@
-// A log: a line of JSON that says of what graph it is, then records in the order in which they came. Each is checked by
-// a sum of its own, so that a log of a run that was killed is good up to where it breaks off.
+// A log: a line of JSON that says of what graph it is, then records in the order in which they came, the first of them
+// of that line. Each is checked by a sum of its own, so that what breaks off or is damaged is good up to a checkpoint.
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -29,7 +28,8 @@ struct LogHeader {
   };
 
   std::string graph;
-  std::string file;  // of the graph, from the root
+  std::string file;      // of the graph, from the root
+  std::string file_sum;  // of its text
   Overrides overrides;
   std::string clock;                 // of the run: virtual or real
   std::vector<Input> inputs{};       // a record's `output` is an index into these
@@ -38,11 +38,10 @@ struct LogHeader {
 
 /// Before the bytes of a record, in the byte order of the machine, which is that of all that Jarol runs on.
 struct LogRecord {
-  static constexpr std::uint32_t miss = 0xffffffff;
-  static constexpr std::uint32_t end = 0xfffffffe;
+  enum Kind : std::uint32_t { header = 0xfffffff0, miss, checkpoint, end };  // beyond all inputs
 
   std::int64_t instant = 0;  // ns from the start
-  std::uint32_t output = 0;  // index of an input, or `miss` or `end`
+  std::uint32_t output = 0;  // index of an input, or a Kind
   std::uint32_t size = 0;    // bytes that follow
   std::uint64_t sum = 0;
 
@@ -69,7 +68,7 @@ LogHeader parse_header(const std::string& line);
 /// The same for types of the same layout.
 std::string signature_of(const Type& type);
 
-/// The communicators whose values come from outside, in the order of the graph.
-std::vector<std::size_t> logged_inputs(const Graph& graph);
+/// The same for the same text.
+std::string sum_of_text(std::string_view text);
 
 }  // namespace jarol::tools

@@ -17,12 +17,15 @@ class LogReader : public TakenValues {
   explicit LogReader(std::string path);
 
   const LogHeader& header() const { return header_; }
-  /// None: the run was killed, and how it ended is not known; the log is good up to a byte.
-  const std::optional<LogEnd>& end() const { return end_; }
-  std::int64_t breaks_off() const { return breaks_off_; }
-  /// The instants before it are whole in the log.
-  Duration covered() const { return covered_; }
+  const std::vector<Checkpoint>& checkpoints() const { return checkpoints_; }
   std::uint64_t values() const { return values_; }
+
+  /// None: the run was killed, or could not write on, and how it ended is not known.
+  const std::optional<LogEnd>& end() const { return end_; }
+  /// The log is good up to that byte.
+  std::int64_t good_until() const { return good_until_; }
+  /// The instants before it can be replayed.
+  Duration covered() const;
 
   /// The values are for that graph from now on; returns the misses of its tasks. Throws LogError if the log is of
   /// another graph.
@@ -30,24 +33,25 @@ class LogReader : public TakenValues {
 
   bool take(Duration instant, std::size_t communicator, void* value) override;
 
-  /// After the replay: throws LogError if a value before its end was not taken.
-  void require_all_taken();
+  /// After the replay of all that is covered: throws LogError if a value of it was not taken.
+  void require_all_taken() const;
 
  private:
   bool next();
+  void next_value();
+  void require_not_before(Duration instant) const;
   [[noreturn]] void fail(const std::string& what) const;
-  void throw_if_before(Duration instant) const;
+  [[noreturn]] void fail_for_graph(const std::string& what) const;
 
   std::string path_;
   std::ifstream file_;
   std::streamoff first_ = 0;  // of the records
   std::streamoff good_until_ = 0;
-  std::streamoff breaks_off_ = 0;
   LogHeader header_;
   std::optional<LogEnd> end_;
-  Duration covered_{};
   std::uint64_t values_ = 0;
   std::vector<Miss> misses_;  // by the header's tasks
+  std::vector<Checkpoint> checkpoints_;
   const Graph* graph_ = nullptr;
   std::vector<std::size_t> communicators_;  // per input of the header
   LogRecord record_;                        // the one to come

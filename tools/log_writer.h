@@ -13,7 +13,7 @@ namespace jarol::tools {
 
 class LogWriter : private RecordSink {
  public:
-  /// `header` without inputs and tasks, which are the graph's. Throws std::runtime_error, "can't write 'path': reason".
+  /// `header` without inputs and tasks, which are the graph's.
   LogWriter(std::string path, LogHeader header, const Graph& graph);
   ~LogWriter() override;
   LogWriter(const LogWriter&) = delete;
@@ -21,6 +21,10 @@ class LogWriter : private RecordSink {
 
   /// For ExecutorOptions::log.
   Recorder* recorder() { return recorder_.get(); }
+
+  /// Before the run, when nothing else stands against it: makes the file, or replaces a log. Throws std::runtime_error,
+  /// "can't write 'path': reason".
+  void open();
 
   /// After the run. Throws std::runtime_error if anything could not be written.
   void close(const Report& report);
@@ -30,11 +34,11 @@ class LogWriter : private RecordSink {
   void pause() override;
   void finish() override {}
   void append(Duration instant, std::uint32_t output, const void* bytes, std::size_t size);
-  [[noreturn]] void fail() const;
+  [[noreturn]] void fail(const std::string& reason) const;
 
   std::string path_;
-  std::vector<Output> outputs_;          // of the recorder
-  std::vector<std::uint32_t> input_of_;  // per communicator: an index into the header's inputs
+  std::string line_;             // the header
+  std::vector<Output> outputs_;  // of the recorder
   std::string packed_;
   std::FILE* file_ = nullptr;
   std::unique_ptr<Recorder> recorder_;

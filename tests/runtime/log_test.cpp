@@ -19,15 +19,17 @@ using tests::lines_of;
 // A log that is kept in memory.
 class KeptLog : public RecordSink, public TakenValues {
  public:
-  explicit KeptLog(const Graph& graph) : outputs_(log_outputs(graph)) {}
+  explicit KeptLog(const Graph& graph) : inputs_(logged_inputs(graph)), outputs_(log_outputs(graph)) {}
 
   void take(Duration instant, std::uint32_t output, const void* value) override {
     if (output + 1 == outputs_.size()) {
+      checkpoints.push_back(*static_cast<const Checkpoint*>(value));
+    } else if (output + 2 == outputs_.size()) {
       misses.push_back(*static_cast<const Miss*>(value));
     } else {
       Value copy(*outputs_[output].type);
       copy_value(*outputs_[output].type, copy.data(), value);
-      taken.push_back({instant, output, std::move(copy)});
+      taken.push_back({instant, inputs_[output], std::move(copy)});
     }
   }
   void finish() override {}
@@ -35,7 +37,8 @@ class KeptLog : public RecordSink, public TakenValues {
   bool take(Duration instant, std::size_t communicator, void* value) override {
     if (next_ == taken.size() || taken[next_].instant != instant || taken[next_].communicator != communicator)
       return false;
-    copy_value(*outputs_[communicator].type, value, taken[next_++].value.data());
+    const Value& taken_value = taken[next_++].value;
+    copy_value(*taken_value.type(), value, taken_value.data());
     return true;
   }
   bool is_at_end() const { return next_ == taken.size(); }
@@ -47,8 +50,10 @@ class KeptLog : public RecordSink, public TakenValues {
   };
   std::vector<Taken> taken;
   std::vector<Miss> misses;
+  std::vector<Checkpoint> checkpoints;
 
  private:
+  std::vector<std::size_t> inputs_;
   std::vector<Output> outputs_;
   std::size_t next_ = 0;
 };

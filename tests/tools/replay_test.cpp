@@ -1,5 +1,6 @@
 // Logs and their replays: what is in the file, what is the same, and what is wrong with a log.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -41,7 +42,7 @@ communicators:
   w: {channel: p.window}
   o: {channel: p.actuator, period: 1ms}
   mean: {type: double, direction: out}
-tasks: {r: {type: Accumulate, period: 1ms}, m: {type: Mean}}
+tasks: {r: {type: Accumulate, period: 1ms, on_fault: hold}, m: {type: Mean}}
 connections: [i -> r.in, r.out -> o, w -> m.in, m.out -> mean]
 )";
 
@@ -59,12 +60,15 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(text.find(what), what.size(), by);
 }
 
-// A log of 30 ms, and the report of the run.
-Report write_log(const std::string& path) {
+// A log of 30 ms with `r` late at 12 ms, and the report of the run.
+Report write_log(const std::string& path, Duration end = 30ms) {
   const Graph graph = graph_of(graph_text);
-  tools::LogWriter log(path, {.graph = "t", .file = "/t.yaml", .overrides = {}, .clock = "virtual"}, graph);
-  Executor executor(graph, tests::outside(), {.log = log.recorder()});
-  executor.run_until(30ms);
+  tools::LogWriter log(path, {.graph = "t", .file = "/t.yaml", .file_sum = "", .overrides = {}, .clock = "virtual"},
+                       graph);
+  const std::vector<Miss> misses{{.activation = 12, .ended_after = 1'200'000, .task = 1, .left_out = 0}};
+  log.open();
+  Executor executor(graph, tests::outside(), {.log = log.recorder(), .misses = misses});
+  executor.run_until(end);
   log.close(executor.report());
   return executor.report();
 }
@@ -102,37 +106,41 @@ TEST_SUITE("tools/replay") {
     for (int i = 0; i < 2; ++i) CHECK(replay(log, graph).digest == should.digest);
   }
 
-  TEST_CASE("a log that breaks off anywhere is good up to there") {
+  TEST_CASE("what was late is so again, also where tasks have other numbers") {
     const TemporaryFolder folder;
-    write_log(folder / "log");
+    const Report should = write_log(folder / "log");
+    REQUIRE(should.fault_count == 1);
+    tools::LogReader log(folder / "log");
+    CHECK(log.end()->faults == 1);
+    const Report again = replay(log, graph_of(replaced(graph_text, "tasks: {", "tasks: {aa: {type: Work}, ")));
+    CHECK(again.digest == should.digest);
+    REQUIRE(again.fault_count == 1);
+    CHECK(to_text(again.faults[0]) ==
+          "task 'r' activation 12 at 0.012 s: late: ended 1.2ms after its release, deadline 1ms");
+  }
+
+  TEST_CASE("a log that breaks off anywhere, or is damaged, is good up to the checkpoint before") {
+    const TemporaryFolder folder;
+    write_log(folder / "log", 3s);
     const std::string whole = content(folder / "log");
     const std::size_t header = whole.find('\n') + 1;
     Duration covered{};
-    for (std::size_t length = header; length < whole.size(); ++length) {
-      folder.write("part", whole.substr(0, length));
-      tools::LogReader log(folder / "part");
-      REQUIRE_FALSE(log.end());
-      REQUIRE(log.breaks_off() <= static_cast<std::int64_t>(length));
-      REQUIRE(log.covered() >= covered);
-      covered = log.covered();
-      if (length % 97 == 0) replay(log, graph_of(graph_text));
-    }
-    CHECK(covered >= 10ms);
-  }
-
-  TEST_CASE("a log with any byte changed is good up to there, or no log") {
-    const TemporaryFolder folder;
-    write_log(folder / "log");
-    const std::string whole = content(folder / "log");
-    const std::size_t header = whole.find('\n') + 1;
-    for (std::size_t at = header; at < whole.size(); ++at) {
+    for (std::size_t length = header + sizeof(tools::LogRecord); length < whole.size(); length += 997) {
       std::string damaged = whole;
-      damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
-      folder.write("damaged", damaged);
-      tools::LogReader log(folder / "damaged");
-      REQUIRE_FALSE(log.end());
-      REQUIRE(log.breaks_off() <= static_cast<std::int64_t>(at));
+      damaged[length] = static_cast<char>(damaged[length] ^ 0x10);
+      for (const std::string& text : {damaged, whole.substr(0, length)}) {
+        folder.write("part", text);
+        tools::LogReader log(folder / "part");
+        REQUIRE_FALSE(log.end());
+        REQUIRE(log.good_until() <= static_cast<std::int64_t>(length));
+        REQUIRE(log.covered() >= covered);
+        covered = log.covered();
+        const Report part = replay(log, graph_of(graph_text));
+        CHECK(part.covered == covered);
+        CHECK(part.digest == (log.checkpoints().empty() ? 0 : log.checkpoints().back().digest));
+      }
     }
+    CHECK(covered == 2s);
   }
 
   TEST_CASE("what is no log is told") {
@@ -143,6 +151,16 @@ TEST_SUITE("tools/replay") {
     CHECK(no_log("graph: t\n") == is_none);
     CHECK(no_log("{\"schema\": \"jarol.run/1\"}\n") == is_none);
     CHECK(no_log("{\"schema\": \"jarol.log/1\", \"graph\": 3}\n") == is_none);
+    write_log(folder / "log");
+    std::string damaged = content(folder / "log");
+    damaged[damaged.find("virtual")] = 'V';
+    CHECK(no_log(damaged) == "'" + folder / "x" + "' is damaged in its first line, and can't be replayed");
+    const std::string fifo = folder / "fifo";
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    const auto from_pipe =
+        command::jarol("replay " + fifo, "2>&1 & cat " + folder / "log" + " > " + fifo + "; wait $!");
+    CHECK(from_pipe.exit_code == 2);
+    CHECK(from_pipe.output == "error: '" + fifo + "' can't be read twice, as a pipe can't; give a file\n");
     CHECK(wrong_with(folder / "nothing") == "can't read '" + folder / "nothing" + "': No such file or directory");
   }
 
@@ -153,6 +171,9 @@ TEST_SUITE("tools/replay") {
     CHECK(wrong_with(folder / "log") == "");
     CHECK(wrong_with(folder / "log", replaced(replaced(graph_text, "  i:", "  j:"), "i -> r", "j -> r")) ==
           log + "has values of 'i', which takes none in graph 't'" + remedy);
+    CHECK(wrong_with(folder / "log", replaced(replaced(replaced(graph_text, "{r:", "{q:"), "> r.in", "> q.in"),
+                                              ", r.out", ", q.out")) ==
+          log + "says that task 'r' was late, which is not in graph 't'" + remedy);
     std::string other = graph_text;
     for (const auto& [what, by] : {std::pair("  w: {channel: p.window}\n", ""),
                                    {", m: {type: Mean}", ""},
@@ -162,9 +183,9 @@ TEST_SUITE("tools/replay") {
     CHECK(wrong_with(folder / "log", replaced(graph_text, "period: 1ms}\n", "period: 1ms, offset: 500us}\n"))
               .find(log + "has a value of 'i' at 0") == 0);
     const std::string flat = replaced(replaced(replaced(graph_text, "p.window", "p.sensor"), "p.sensor", "p.window"),
-                                      "tasks: {r: {type: Accumulate, period: 1ms}, m: {type: Mean}}",
+                                      "tasks: {r: {type: Accumulate, period: 1ms, on_fault: hold}, m: {type: Mean}}",
                                       "tasks: {r: {type: Mean, period: 1ms}, m: {type: Accumulate}}");
-    CHECK(wrong_with(folder / "log", flat) == log + "has values of 'i' of another type than graph 't'" + remedy);
+    CHECK(wrong_with(folder / "log", flat) == log + "has values of 'i', which have another type in graph 't'" + remedy);
   }
 
   TEST_CASE("a run in real time is the same again, and its graph need not be named") {
@@ -193,8 +214,8 @@ TEST_SUITE("tools/replay") {
     const auto replay = command::jarol("replay " + log + " --set tasks.loop.init.out=7");
     CAPTURE(replay.output);
     CHECK(replay.exit_code == 1);
-    CHECK(line_of(replay.output, "DIVERGED") ==
-          "DIVERGED    from the run on the virtual clock, whose digest was " + digest);
+    CHECK(line_of(replay.output, "DIVERGED") == "DIVERGED    from the run on the virtual clock");
+    CHECK(line_of(replay.output, "it had") == "it had      activations 27, instants 15, faults 0, digest " + digest);
     const auto json = command::jarol("replay " + log + " --json --set tasks.loop.init.out=7", "2>/dev/null");
     CHECK(json.exit_code == 1);
     CHECK(json.output.find("{\"schema\":\"jarol.replay/1\",") == 0);
@@ -204,17 +225,47 @@ TEST_SUITE("tools/replay") {
           std::string::npos);
   }
 
+  TEST_CASE("a replay tells between which seconds it diverged, and what else is not as it was") {
+    const TemporaryFolder folder;
+    const std::string log = folder / "run.log", graph = folder.write("g.yaml", R"(graph: g
+tasks:
+  count: {type: Counter, period: 100ms}
+  sum: {type: Accumulate, period: 100ms, on_fault: hold}
+connections: [count.out -> sum.in]
+)");
+    REQUIRE(command::jarol("run " + graph + " --for 5s --set tasks.count.offset=50ms --log " + log).exit_code == 0);
+    // with the run's own --set it is the same; an offset puts the first difference into the first second
+    CHECK(command::jarol("replay " + log).exit_code == 0);
+    const auto replay = command::jarol("replay " + log + " --set tasks.count.offset=0ms");
+    CHECK(replay.exit_code == 1);
+    CHECK(line_of(replay.output, "DIVERGED") == "DIVERGED    from the run on the virtual clock, before 1 s");
+    // another reader that publishes nothing: the same digest, and more activations
+    folder.write("g.yaml", content(graph) + "# w\n");
+    CHECK(line_of(command::jarol("replay " + log).output, "same") == "same        as the run on the virtual clock");
+    std::string more = content(graph);
+    folder.write("g.yaml", more.insert(more.find("tasks:\n") + 7, "  work: {type: Work, period: 100ms}\n"));
+    const auto other = command::jarol("replay " + log);
+    CHECK(other.exit_code == 1);
+    CHECK(other.output.find("  DIVERGED    from the run on the virtual clock after 4 s\n"
+                            "  it had      activations 100, instants 100, faults 0, digest ") != std::string::npos);
+    CHECK(other.output.ends_with("\n              the file of the graph is not what it was\n"));
+    fs::rename(graph, folder / "moved.yaml");
+    CHECK(command::jarol("replay " + log).output ==
+          "error: '" + graph + "', the graph of the run, is not there; name it: jarol replay LOG FILE\n");
+    CHECK(command::jarol("replay " + log + " " + folder / "moved.yaml").exit_code == 1);
+  }
+
   TEST_CASE("of a log that breaks off the replay does what there is, and ends with 3") {
     const TemporaryFolder folder;
     const std::string log = folder / "run.log";
-    REQUIRE(command::jarol("run specs/counting.yaml --for 100ms --log " + log).exit_code == 0);
+    REQUIRE(command::jarol("run specs/counting.yaml --for 2500ms --log " + log).exit_code == 0);
     const std::string whole = content(log);
-    const std::size_t header = whole.find('\n') + 1;
     folder.write("part", whole.substr(0, whole.size() - 1));
     const auto replay = command::jarol("replay " + folder / "part");
     CHECK(replay.exit_code == 3);
-    CHECK(replay.output.find("  log         breaks off at byte " + std::to_string(header) +
-                             ", before 0 s were whole; how the run ended is not known\n") != std::string::npos);
+    CHECK(replay.output.find("  log         breaks off at byte " +
+                             std::to_string(whole.size() - sizeof(tools::LogRecord) - sizeof(tools::LogEnd)) +
+                             ", before 2 s it is whole; how the run ended is not known\n") != std::string::npos);
   }
 
 #ifdef JAROL_VEHICLES
@@ -241,13 +292,25 @@ TEST_SUITE("tools/replay") {
 #endif
 
   TEST_CASE("a log that can't be written is an error, and the run's files are apart") {
+    const TemporaryFolder folder;
+    const std::string other = folder.write("other", "dear"), log = folder / "run.log";
     CHECK(command::jarol("run specs/counting.yaml --for 1s --log /no/such/place").output ==
           "error: can't write '/no/such/place': No such file or directory\n");
-    const auto full = command::jarol("run specs/counting.yaml --for 1s --log /dev/full");
-    CHECK(full.exit_code == 2);
+    CHECK(command::jarol("run specs/counting.yaml --for 1s --log " + other).output ==
+          "error: can't write '" + other + "': it is there and no log; choose another file, or remove it\n");
+    CHECK(content(other) == "dear");
+    CHECK(command::jarol("run specs/counting.yaml --for 1s --log /dev/full").output ==
+          "error: can't write '/dev/full': No space left on device\n");
+    // what is refused leaves an older log alone, what can't write its trace has its report
+    REQUIRE(command::jarol("run specs/counting.yaml --for 1s --log " + log).exit_code == 0);
+    const std::string old = content(log);
+    CHECK(command::jarol("run specs/counting.yaml --for 1s --clock real --workers 2 --log " + log).exit_code == 2);
+    CHECK(content(log) == old);
+    const auto full = command::jarol("run specs/counting.yaml --for 1s --trace /dev/full --log " + log);
+    CHECK(full.exit_code == 3);
     CHECK(full.output.find("counting: 1 s on the virtual clock") == 0);
     CHECK(full.output.ends_with("error: can't write '/dev/full': No space left on device\n"));
-    CHECK(line_of(full.output, "log") == "");
+    CHECK(content(log) == old);
     CHECK(command::jarol("run specs/counting.yaml --for 1s --log specs/counting.yaml").output ==
           "error: --log 'specs/counting.yaml' would replace what FILE names; choose another file\n");
     CHECK(command::jarol("run specs/counting.yaml --for 1s --log x --clock real --concurrency threads").output ==

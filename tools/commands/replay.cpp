@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "runtime/executor.h"
 #include "tools/command_line.h"
@@ -31,54 +33,107 @@ struct Options {
   RunFileArguments files;
 };
 
-// Without FILE the graph of the run, with the overrides of the run and those given here.
+// The graph of the run, or FILE in its place, with the run's overrides and those given here.
 Loaded load(const Options& options, const LogHeader& header) {
-  if (!options.file.empty()) return load_graph(options.file, options.overrides);
   Overrides overrides = header.overrides;
   if (!options.overrides.profile.empty()) overrides.profile = options.overrides.profile;
   overrides.set.insert(overrides.set.end(), options.overrides.set.begin(), options.overrides.set.end());
-  return load_graph(header.file, overrides);
+  if (!options.file.empty()) return load_without_channels(options.file, overrides);
+  if (!std::filesystem::exists(header.file))
+    throw LogError("'" + header.file + "', the graph of the run, is not there; name it: jarol replay LOG FILE");
+  return load_without_channels(header.file, overrides);
 }
 
 enum class Verdict { same, diverged, unknown };
 
-// What can be said of the run beside the replay, if that was not interrupted.
-Verdict judge(const Report& report, const LogReader& log) {
-  if (!log.end()) return Verdict::unknown;
-  return report.digest == log.end()->digest ? Verdict::same : Verdict::diverged;
+// What the replay shows beside the run.
+struct Comparison {
+  Verdict verdict = Verdict::unknown;
+  std::optional<Duration> same_until;      // the newest checkpoint up to which it was
+  std::optional<Duration> diverged_until;  // the first one up to which it was not
+  bool interrupted = false;
+};
+
+// Goes from checkpoint to checkpoint, so that where the two diverge can be told.
+Comparison run_beside(Executor& executor, const LogReader& log) {
+  Comparison comparison;
+  const auto go_to = [&](Duration end) {
+    executor.run_until(end);
+    comparison.interrupted = executor.now() < end;
+    return !comparison.interrupted;
+  };
+  for (const Checkpoint& checkpoint : log.checkpoints()) {
+    const Duration settled(checkpoint.settled);
+    if (checkpoint.exact == 0 || comparison.diverged_until || settled > log.covered()) continue;
+    if (!go_to(settled)) return comparison;
+    (executor.report().digest == checkpoint.digest ? comparison.same_until : comparison.diverged_until) = settled;
+  }
+  if (!go_to(log.covered())) return comparison;
+  const Report& report = executor.report();
+  const std::optional<LogEnd>& end = log.end();
+  const bool same = !end || (report.digest == end->digest && report.activations == end->activations &&
+                             report.instants == end->instants && report.fault_count == end->faults);
+  if (comparison.diverged_until || !same) {
+    comparison.verdict = Verdict::diverged;
+  } else if (end) {
+    comparison.verdict = Verdict::same;
+  }
+  return comparison;
 }
 
-std::string verdict_text(Verdict verdict, const Report& report, const LogReader& log) {
+std::string text_of(const Comparison& comparison, const Report& report, const LogReader& log, bool is_other_text) {
+  if (comparison.interrupted) return "";
   const std::string run = "the run on the " + log.header().clock + " clock";
-  if (verdict == Verdict::unknown)
-    return fmt::format("  log         breaks off at byte {}, before {} s were whole; how the run ended is not known\n",
-                       log.breaks_off(), seconds_text(log.covered()));
-  if (verdict == Verdict::same) return "  same        as " + run + "\n";
-  std::string text = fmt::format("  DIVERGED    from {}, whose digest was 0x{:016x}", run, log.end()->digest);
-  if (report.fault_count != log.end()->faults)
-    text += fmt::format(", with {} faults instead of {}", log.end()->faults, report.fault_count);
-  return text + "\n";
+  std::string text;
+  if (comparison.verdict == Verdict::same) text += "  same        as " + run + "\n";
+  if (comparison.verdict == Verdict::diverged) {
+    text += "  DIVERGED    from " + run;
+    if (comparison.same_until && *comparison.same_until > Duration{})
+      text += " after " + seconds_text(*comparison.same_until) + " s";
+    if (comparison.diverged_until) text += ", before " + seconds_text(*comparison.diverged_until) + " s";
+    text += "\n";
+    if (const std::optional<LogEnd>& end = log.end())
+      text += fmt::format("  it had      activations {}, instants {}, faults {}, digest 0x{:016x}\n", end->activations,
+                          end->instants, end->faults, end->digest);
+    if (report.stopped && (!log.end() || log.end()->faults == 0))
+      text += "              a fault that stops it did not happen there; the replay went on to the end of the log\n";
+    if (is_other_text) text += "              the file of the graph is not what it was\n";
+  }
+  if (!log.end())
+    text +=
+        fmt::format("  log         breaks off at byte {}, before {} s it is whole; how the run ended is not known\n",
+                    log.good_until(), seconds_text(log.covered()));
+  return text;
 }
 
-nlohmann::ordered_json json_of(const RunOutcome& outcome, Verdict verdict, const LogReader& log, const Options& options,
-                               std::size_t misses) {
+nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comparison, const LogReader& log,
+                               const Options& options, std::size_t misses) {
   auto json = to_json(outcome);
+  const auto or_null = [](bool known, const auto& value) {
+    return known ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+  };
   json["schema"] = "jarol.replay/1";
-  json["log"] = {{"file", options.log},
-                 {"clock", log.header().clock},
-                 {"values", log.values()},
-                 {"misses", misses},
-                 {"digest", log.end() ? nlohmann::ordered_json(fmt::format("0x{:016x}", log.end()->digest))
-                                      : nlohmann::ordered_json()}};
-  json["verdict"] = verdict == Verdict::same ? "same" : verdict == Verdict::diverged ? "diverged" : "unknown";
+  json["log"] = {
+      {"file", options.log},
+      {"clock", log.header().clock},
+      {"values", log.values()},
+      {"misses", misses},
+      {"digest", or_null(log.end().has_value(), fmt::format("0x{:016x}", log.end() ? log.end()->digest : 0))}};
+  json["interrupted"] = comparison.interrupted;
+  json["verdict"] = comparison.verdict == Verdict::same       ? "same"
+                    : comparison.verdict == Verdict::diverged ? "diverged"
+                                                              : "unknown";
+  json["same_until_ns"] =
+      or_null(comparison.same_until.has_value(), comparison.same_until.value_or(Duration{}).count());
   return json;
 }
 
 int replay(const Options& options) {
   LogReader log(options.log);
+  const std::string file = options.file.empty() ? log.header().file : options.file;
   const Loaded loaded = load(options, log.header());
   const Graph& graph = *loaded.graph;
-  require_apart({{"LOG", options.log}, {"FILE", options.file.empty() ? log.header().file : options.file}},
+  require_apart({{"LOG", options.log}, {"FILE", file}},
                 {{"--trace", options.files.trace}, {"--plot", options.files.plot}});
   const std::vector<Miss> misses = log.begin(graph);
   RunFiles files(graph, options.files);
@@ -86,38 +141,43 @@ int replay(const Options& options) {
   Executor executor(graph, told.listen(replayed_channels(graph, log)),
                     {.digest = true, .recorder = files.recorder(), .misses = misses});
   const auto start = std::chrono::steady_clock::now();
+  Comparison comparison;
   {
     const Interruptible interruptible([&] { executor.interrupt(); });
     const Progress progress(!options.json && isatty(STDERR_FILENO) != 0, log.covered(), [&] { return executor.now(); });
-    executor.run_until(log.covered());
+    comparison = run_beside(executor, log);
   }
-  files.close();
-  const bool interrupted = executor.now() < log.covered();
-  if (!interrupted) log.require_all_taken();
   const double seconds =
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  if (!comparison.interrupted) log.require_all_taken();
+  std::string unwritten;
+  try {
+    files.close();
+  } catch (const std::exception& error) { unwritten = error.what(); }
   const Report& report = executor.report();
-  const RunOutcome outcome{.graph = graph,
-                           .executor = executor,
-                           .told = told,
-                           .seconds = seconds,
-                           .simulated = interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated)};
-  const Verdict verdict = interrupted ? Verdict::unknown : judge(report, log);
+  const RunOutcome outcome{
+      .graph = graph,
+      .executor = executor,
+      .told = told,
+      .seconds = seconds,
+      .simulated = comparison.interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated)};
   if (options.json) {
-    std::cout << json_of(outcome, verdict, log, options, misses.size()) << "\n";
+    std::cout << json_of(outcome, comparison, log, options, misses.size()) << "\n";
   } else {
     std::cout << fmt::format("{}: replay of {} s in {:.2f} s, {:.0f} times real time{}\n", graph.name,
                              seconds_text(outcome.simulated), seconds, real_time_factor(outcome),
-                             interrupted ? " (interrupted)" : "")
+                             comparison.interrupted ? " (interrupted)" : "")
               << to_text(outcome)
               << fmt::format("  log         {} values from outside, {} activations late or left out\n", log.values(),
                              misses.size());
-    std::cout << to_text(options.files);
-    if (!interrupted) std::cout << verdict_text(verdict, report, log);
+    if (unwritten.empty()) std::cout << to_text(options.files);
+    std::cout << text_of(comparison, report, log, sum_of_text(read_source(file)->text) != log.header().file_sum);
     std::cerr << told_faults(report);
   }
-  if (interrupted) return exit_interrupted;
-  return verdict == Verdict::same ? exit_good : verdict == Verdict::diverged ? exit_negative : exit_unfinished;
+  if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
+  if (comparison.interrupted) return exit_interrupted;
+  if (comparison.verdict == Verdict::diverged) return exit_negative;
+  return comparison.verdict == Verdict::same && unwritten.empty() ? exit_good : exit_unfinished;
 }
 
 }  // namespace
@@ -129,13 +189,14 @@ void add_replay(CommandLine& line, int& exit_code) {
                           "Run again what jarol run --log has logged: on the virtual clock, without vehicles or links, "
                           "with what came from\n"
                           "outside and what was late then. It is the same to the bit, or says that it is not.\n"
-                          "Exit code: 0 the same, 1 diverged, 3 a log that breaks off, 2 bad input, 130 interrupted");
+                          "Exit code: 0 the same, 1 diverged, 2 bad input, 3 a log that breaks off, 130 interrupted");
   command->add_option("LOG", options->log, "The log of a run")->required();
-  command->add_option("FILE", options->file, "The graph; default: that of the run, with its profile and its --set");
+  command->add_option("FILE", options->file, "The graph, if it is elsewhere now; default: that of the run");
   command
-      ->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.parameters.kp=0.5")
+      ->add_option("--set", options->overrides.set,
+                   "Change a value, beside those of the run: path=value, as in tasks.depth.parameters.kp=0.5")
       ->one_value();
-  command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
+  command->add_option("--profile", options->overrides.profile, "Use another profile of the file than the run");
   command->add_flag("--json", options->json, "One JSON object instead of text");
   add_run_file_options(*command, options->files);
   command->callback([options, &exit_code] { exit_code = replay(*options); });

@@ -97,6 +97,7 @@ void start_clock(RealClock& clock, const Executor& executor) {
 LogHeader header_of(const Options& options, const Graph& graph) {
   return {.graph = graph.name,
           .file = std::filesystem::absolute(options.file).lexically_normal().string(),
+          .file_sum = sum_of_text(read_source(options.file)->text),
           .overrides = options.overrides,
           .clock = options.clock};
 }
@@ -144,6 +145,7 @@ int run(const Options& options) {
                      .threads = threads,
                      .log = log ? log->recorder() : nullptr});
   Linked linked(std::move(channels));
+  if (log) log->open();
   auto start = std::chrono::steady_clock::now();
   std::string lost;
   try {
@@ -164,11 +166,14 @@ int run(const Options& options) {
   const Report& report = executor.report();
   const bool interrupted = lost.empty() && !report.stopped && executor.now() < end;
   // the report is there whatever can't be written
-  std::exception_ptr unwritten;
-  try {
-    if (log) log->close(report);
-    files.close();
-  } catch (const std::runtime_error&) { unwritten = std::current_exception(); }
+  std::string unwritten;
+  const auto finish_writing = [&](const std::function<void()>& close) {
+    try {
+      close();
+    } catch (const std::exception& error) { unwritten = error.what(); }
+  };
+  finish_writing([&] { files.close(); });
+  if (log) finish_writing([&] { log->close(report); });
   print(options,
         {.graph = graph,
          .executor = executor,
@@ -181,10 +186,10 @@ int run(const Options& options) {
         interrupted     ? " (interrupted)"
         : !lost.empty() ? " (broken off)"
                         : "",
-        !unwritten);
+        unwritten.empty());
   std::cerr << lost;
-  if (unwritten) std::rethrow_exception(unwritten);
-  if (report.stopped || !lost.empty()) return exit_unfinished;
+  if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
+  if (report.stopped || !lost.empty() || !unwritten.empty()) return exit_unfinished;
   return interrupted ? exit_interrupted : exit_good;
 }
 
