@@ -166,7 +166,7 @@ connections: [a.out -> b.in]
     const TemporaryFolder folder;
     const std::string shared =
         folder.write("s.yaml", "graph: t\ntasks:\n  a: &one {type: Counter, period: 1ms}\n  b: *one\n");
-    const std::string good = folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 1ms}}\n");
+    const std::string good = folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 100ms}}\n");
     const auto told = command::jarol("check --write --for 1s " + shared + " specs/missing.yaml " + good);
     CHECK(told.exit_code == 2);
     CHECK(told.output.find("\n  b            1000 ") < told.output.find("\nerror: two tasks share one place"));
