@@ -135,13 +135,15 @@ inline RealTimeOptions undisturbed() {
   return options;
 }
 
-// All of a stack is locked in memory when its thread is made, and tests make many.
+// All of a stack is locked in memory when its thread is made, and tests make many. What sanitizers add does not fit.
 inline void keep_stacks_small() {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, std::size_t{512} << 10);
   pthread_setattr_default_np(&attributes);
   pthread_attr_destroy(&attributes);
+#endif
 }
 
 inline RealRun run(const std::string& text, Duration end, int times = 1, const RealTimeOptions& options = undisturbed(),
