@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 #include <pthread.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -135,15 +136,18 @@ inline RealTimeOptions undisturbed() {
   return options;
 }
 
-// All of a stack is locked in memory when its thread is made, and tests make many. What sanitizers add does not fit.
+// All of a stack is locked in memory when its thread is made, and tests make many. Sanitizers need more.
 inline void keep_stacks_small() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr std::size_t size = std::size_t{2} << 20;
+#else
+  constexpr std::size_t size = std::size_t{512} << 10;
+#endif
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
-  pthread_attr_setstacksize(&attributes, std::size_t{512} << 10);
+  pthread_attr_setstacksize(&attributes, size);
   pthread_setattr_default_np(&attributes);
   pthread_attr_destroy(&attributes);
-#endif
 }
 
 inline RealRun run(const std::string& text, Duration end, int times = 1, const RealTimeOptions& options = undisturbed(),
@@ -163,6 +167,7 @@ inline RealRun run(const std::string& text, Duration end, int times = 1, const R
   })
       .join();
   recorder.close();
+  munlockall();  // or all threads of the tests that follow would pay for it
   RealRun run;
   run.times = times;
   run.report = executor.report();
