@@ -153,9 +153,9 @@ void ThreadsCore::run_sensor(TimeTrigger& trigger, Duration end) {
       return;
     }
     now_.store(round * period_.count(), std::memory_order_relaxed);
-    const std::int64_t woken = RealClock::monotonic();
-    threads_report_.lateness.add(woken - Duration(trigger.time_of(round).time_since_epoch()).count());
-    woken_.store(woken, std::memory_order_relaxed);
+    const std::int64_t tick = Duration(trigger.time_of(round).time_since_epoch()).count();
+    threads_report_.lateness.add(RealClock::monotonic() - tick);
+    tick_.store(tick, std::memory_order_relaxed);
     sense(false, round);
     rounds_begun_.store(next, std::memory_order_release);
     if (core_signal_.signal() != Signalling::done) ++threads_report_.core_busy;
@@ -194,7 +194,7 @@ void ThreadsCore::run_core() {
     run_round(done - 1);
     ++threads_report_.rounds;
     rounds_done_.store(threads_report_.rounds, std::memory_order_seq_cst);
-    threads_report_.round.add(RealClock::monotonic() - woken_.load(std::memory_order_relaxed));
+    threads_report_.round.add(RealClock::monotonic() - tick_.load(std::memory_order_relaxed));
     static_cast<void>(actuator_signal_.signal());
     static_cast<void>(terminal_signal_.signal());
   }

@@ -30,7 +30,7 @@ struct ThreadsReport {
   std::uint64_t core_busy = 0;        // signals of the sensor thread that found the core at work
   std::uint64_t unawaited_ticks = 0;  // that found the sensor thread at work; their rounds are left out
   Histogram lateness;                 // ns from the tick to the moment at which the sensor thread had woken up
-  Histogram round;                    // ns from that moment to the round's last output
+  Histogram round;                    // ns from the tick to the round's last output
   std::vector<Histogram> execution;   // ns, of each task, with what preempted it
 };
 
@@ -127,7 +127,7 @@ class ThreadsCore {
   std::atomic<std::int64_t> rounds_begun_{0};
   std::atomic<std::uint64_t> rounds_done_{0};
   std::atomic<std::int64_t> now_{0};
-  std::atomic<std::int64_t> woken_{0};  // at the newest tick; ns of the monotonic clock
+  std::atomic<std::int64_t> tick_{0};  // the newest, in ns of the monotonic clock
   std::atomic<bool> interrupted_{false};
   std::atomic<bool> stopped_{false};  // at the end, by a fault or a failure
   std::mutex failure_mutex_;

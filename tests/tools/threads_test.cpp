@@ -41,6 +41,7 @@ TEST_SUITE("tools/threads") {
     CHECK(time["lateness_50_ns"] > 0);
     CHECK(time["lateness_50_ns"] <= time["lateness_99_ns"]);
     CHECK(time["lateness_99_ns"] <= time["lateness_most_ns"]);
+    CHECK(threads["outputs_50_ns"] > time["lateness_50_ns"]);  // both from the tick on
     CHECK(time["tasks"].size() == 7);
     std::uint64_t activations = 0;
     for (const auto& [task, timing] : time["tasks"].items()) {
