@@ -60,6 +60,13 @@ bool Address::is_any() const {
   return family() == AF_INET && reinterpret_cast<const sockaddr_in*>(&storage_)->sin_addr.s_addr == INADDR_ANY;
 }
 
+bool Address::is_loopback() const {
+  if (family() == AF_INET6)
+    return IN6_IS_ADDR_LOOPBACK(&reinterpret_cast<const sockaddr_in6*>(&storage_)->sin6_addr) != 0;
+  return family() == AF_INET &&
+         ntohl(reinterpret_cast<const sockaddr_in*>(&storage_)->sin_addr.s_addr) >> 24 == IN_LOOPBACKNET;
+}
+
 Address Address::with_port(int port) const {
   Address other = *this;
   const std::uint16_t wire = htons(static_cast<std::uint16_t>(port));

@@ -29,6 +29,9 @@ class Address {
   /// Is it all addresses of the machine, as 0.0.0.0?
   bool is_any() const;
 
+  /// Is it this machine alone, as 127.0.0.1?
+  bool is_loopback() const;
+
   /// The same host with that port.
   Address with_port(int port) const;
 

@@ -112,12 +112,18 @@ Address address_of(const Maybe<std::string>& text, Problems& problems) {
   }
 }
 
+// Beyond this machine only if the peer is there.
+Address anywhere_towards(const Address& peer) {
+  const bool v6 = peer && peer.family() == AF_INET6;
+  if (peer && peer.is_loopback()) return Address::parse(v6 ? "[::1]:0" : "127.0.0.1:0");
+  return Address::parse(v6 ? "[::]:0" : "0.0.0.0:0");
+}
+
 std::unique_ptr<Transport> make_udp(const LinkSpec& spec, const Yaml& yaml, const std::string& subject,
                                     Problems& problems) {
   const Address peer = address_of(spec.peer, problems);
   if (!spec.listen && !spec.peer) problems.add(yaml.where, subject + " needs 'listen' or 'peer', or both");
-  const Address listen = spec.listen ? address_of(spec.listen, problems)
-                                     : Address::parse(peer && peer.family() == AF_INET6 ? "[::]:0" : "0.0.0.0:0");
+  const Address listen = spec.listen ? address_of(spec.listen, problems) : anywhere_towards(peer);
   if (listen && peer && listen.family() != peer.family())
     problems.add(spec.peer->where, "'" + spec.peer->value + "' can't be reached from '" + spec.listen->value +
                                        "': one is IPv4, the other IPv6");

@@ -77,6 +77,20 @@ TEST_SUITE("distributers/links/link_spec") {
     CHECK(kept(", port: {in: {kind: plain, packets: 4}}") == std::vector<std::size_t>{0, 3, 4});
   }
 
+  TEST_CASE("nothing is reached from beyond this machine unless that is told") {
+    const auto link = [](const std::string& text) { return make("{" + text + "}")->transport().text(); };
+    CHECK(link("type: udp, listen: 7000") == "udp 127.0.0.1:7000");
+    CHECK(link("type: udp, peer: 7000") == "udp 127.0.0.1:0 with 127.0.0.1:7000");
+    CHECK(link("type: udp, peer: '127.1.2.3:7000'") == "udp 127.0.0.1:0 with 127.1.2.3:7000");
+    CHECK(link("type: udp, peer: '[::1]:7000'") == "udp [::1]:0 with [::1]:7000");
+    CHECK(link("type: tcp_server, listen: 7000") == "tcp at 127.0.0.1:7000");
+    CHECK(link("type: tcp_client, peer: 7000") == "tcp to 127.0.0.1:7000");
+    // told by the address of the peer, or of where it listens
+    CHECK(link("type: udp, peer: '192.0.2.1:7000'") == "udp 0.0.0.0:0 with 192.0.2.1:7000");
+    CHECK(link("type: udp, peer: '[2001:db8::1]:7000'") == "udp [::]:0 with [2001:db8::1]:7000");
+    CHECK(link("type: udp, listen: '0.0.0.0:7000'") == "udp 0.0.0.0:7000");
+  }
+
   TEST_CASE("a port that can't be is told with what would be right") {
     CHECK(report_on("type: udp\nlisten: 0\nport: {in: {packets: 0}, out: {packets: 4097}}\n") ==
           "link.yaml:3:22: error: port 'in' of the link holds from 1 to 4096 packets, not 0\n"
