@@ -46,12 +46,13 @@ TEST_SUITE("tools/command_line") {
         {"graph", "--dot"},         {"graph", "--json"},       {"messages", "--json"}, {"messages", "--decode"},
         {"messages", "--encode"},   {"tasks", "--json"},       {"doctor", "--json"},   {"bench", "--json"},
         {"tasks", "--help"},        {"tasks", "-h"},           {"", "--version"},      {"", "--help"}};
-    for (const auto& [command, flag] : flags)
+    for (const auto& each : flags)
       for (const std::string value : {"3", "false", "true", ""}) {
+        const std::string command = each.first, flag = each.second;
         CAPTURE(command);
-        CHECK(refusal_of(std::string(command) + " " + flag + "=" + value) ==
-              "error: " + std::string(flag) + " takes no value, and has '" + value + "'; write " + flag +
-                  " alone, or leave it out\n");
+        CHECK(refusal_of(command + " " + flag + "=" + value) == "error: " + flag + " takes no value, and has '" +
+                                                                    value + "'; write " + flag +
+                                                                    " alone, or leave it out\n");
       }
     // what follows an option that takes a value is its value
     CHECK(refusal_of("graph no/such.yaml --profile --json=3") ==
