@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "tests/graph/graph_of.h"
 #include "tests/runtime/random_model.h"
@@ -49,6 +50,28 @@ TEST_SUITE("runtime/threads_order") {
     CHECK(order_of("aXY", "XY YX Xa") == "XYa");
     CHECK(order_of("aXYb", "XY YX Xa ab bX") == "abXY");
     CHECK(order_of("aXyZw", "aX Xy ya Zw wZ Zy") == "wZyaX");
+  }
+
+  TEST_CASE("a thousand cycles, each fed by the one before it, take no time to speak of") {
+    constexpr std::size_t cycles = 1000;
+    // names run against the flow, so that the last cycle is the first to be looked at
+    const auto name = [&](std::size_t cycle) { return std::to_string(10'000 + cycles - cycle); };
+    std::string text = "graph: t\ntiming: {period: 10ms}\ntasks:\n", connections = "connections:\n";
+    for (std::size_t i = 0; i < cycles; ++i) {
+      text += "  a" + name(i) + ": {type: Sum}\n  b" + name(i) + ": {type: Sum, let: 10ms}\n";
+      connections += "  - a" + name(i) + ".out -> b" + name(i) + ".a\n  - b" + name(i) + ".out -> a" + name(i) +
+                     ".a\n  - " + (i == 0 ? "zero" : "b" + name(i - 1) + ".out") + " -> a" + name(i) +
+                     ".b\n  - zero -> b" + name(i) + ".b\n";
+    }
+    const Graph graph = tests::graph_of(text + "communicators: {zero: {type: double, direction: in}}\n" + connections);
+    const auto begin = std::chrono::steady_clock::now();
+    const std::vector<std::size_t> order = threads_order(graph);
+    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(5));
+    REQUIRE(order.size() == 2 * cycles);
+    for (std::size_t i = 0; i < cycles; ++i) {
+      CHECK(graph.tasks[order[2 * i]].name == "a" + name(i));
+      CHECK(graph.tasks[order[2 * i + 1]].name == "b" + name(i));
+    }
   }
 
   TEST_CASE("in random graphs each task has its turn, after all that feed it without a LET") {
