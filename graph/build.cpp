@@ -241,10 +241,15 @@ class Builder {
                                             " (counted from 0)");
       resolve_task_class(spec, subject, task);
       if (spec.heap) {
-        constexpr std::int64_t most = std::int64_t{1} << 30;
+        constexpr auto most = static_cast<std::int64_t>(largest_heap), least = static_cast<std::int64_t>(smallest_heap);
+        const bool too_small = spec.heap->value > 0 && spec.heap->value < least;
+        if (too_small)
+          problems_.add(spec.heap->where, subject + " has a heap of " + std::to_string(spec.heap->value) +
+                                              "B, which holds nothing; the smallest has " + std::to_string(least) +
+                                              "B, one that is needed and not stated 64KiB");
         if (spec.heap->value > most)
           problems_.add(spec.heap->where, subject + " has a heap of more than 1GiB, the largest there is");
-        task.heap = static_cast<std::size_t>(std::min(spec.heap->value, most));
+        task.heap = too_small ? default_heap : static_cast<std::size_t>(std::min(spec.heap->value, most));
         if (heaps_ <= most && heaps_ + spec.heap->value > most && spec.heap->value <= most)
           problems_.add(spec.heap->where, subject +
                                               " has a heap with which those of all tasks are more than 1GiB "

@@ -49,8 +49,7 @@ void check_heaps(const Graph& graph, Problems& problems) {
         if (c.to.kind == End::Kind::task && c.to.index == i) trial.add(*c.type, initial_value(graph, c.from));
     } catch (const HeapExhausted& error) {
       problems.add(task.where, "task '" + task.name + "' (" + task.task_class->name +
-                                   ") can't hold the values that it begins with: " + error.what() +
-                                   (trial.size() == 0 ? "" : "; give it a larger 'heap'"));
+                                   ") can't hold the values that it begins with: " + error.what());
     }
   }
 }

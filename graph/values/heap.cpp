@@ -9,7 +9,7 @@
 namespace jarol {
 namespace {
 
-constexpr std::size_t least = 16;  // bytes of a block
+constexpr std::size_t least = smallest_heap;  // bytes of a block
 
 struct BlockClass {
   std::size_t size;
@@ -43,11 +43,18 @@ std::pmr::memory_resource*& memory_of_thread() {
 }  // namespace
 
 HeapExhausted::HeapExhausted(std::size_t wanted, std::size_t used, std::size_t size) noexcept {
-  if (size == 0)
+  if (size == 0) {
     std::snprintf(text_, sizeof text_, "it has no heap for the %zu bytes it wants; add one, as in heap: 64KiB", wanted);
-  else
-    std::snprintf(text_, sizeof text_, "%zu bytes more do not fit its heap: %zu of %zu bytes are in use", wanted, used,
-                  size);
+    return;
+  }
+  const int end = std::snprintf(text_, sizeof text_, "%zu bytes more do not fit its heap: %zu of %zu bytes are in use",
+                                wanted, used, size);
+  if (wanted > largest_heap - used) return;  // none would do
+  // a power of two, as people write sizes
+  const std::size_t enough = std::bit_ceil(std::max(used + wanted, size + 1));
+  const bool large = enough >= 1024;
+  std::snprintf(text_ + end, sizeof text_ - static_cast<std::size_t>(end), "; give it a larger one, as in heap: %zu%s",
+                large ? enough / 1024 : enough, large ? "KiB" : "B");
 }
 
 PrivateHeap::PrivateHeap(std::byte* region, std::size_t size)

@@ -10,14 +10,18 @@
 
 namespace jarol {
 
-/// The heap can't hold what is wanted; says how much, and of how much.
+/// In bytes, of one task.
+inline constexpr std::size_t largest_heap = std::size_t{1} << 30;
+inline constexpr std::size_t smallest_heap = 16;
+
+/// The heap can't hold what is wanted; says how much, of how much, and which might.
 class HeapExhausted : public std::bad_alloc {
  public:
   HeapExhausted(std::size_t wanted, std::size_t used, std::size_t size) noexcept;
   const char* what() const noexcept override { return text_; }
 
  private:
-  char text_[100] = "";
+  char text_[160] = "";
 };
 
 /// Values grow from the bottom of the region, in blocks of some 120 sizes of which freed ones are used again; scratch

@@ -136,7 +136,8 @@ TEST_SUITE("runtime/deep") {
     const auto r = run("tasks: {g: {type: Grows, heap: 1KiB}}\n", 200ms);
     CHECK(r.report.stopped);
     CHECK(fault_of(r) ==
-          "task 'g' activation 3 at 0.03 s: 512 bytes more do not fit its heap: 832 of 1024 bytes are in use");
+          "task 'g' activation 3 at 0.03 s: 512 bytes more do not fit its heap: 832 of 1024 bytes are in use; give it "
+          "a larger one, as in heap: 2KiB");
     CHECK(lines_of(r, "g.size") == "0ns g.size=10; 10ms g.size=20; 20ms g.size=30");
   }
 
@@ -148,7 +149,8 @@ TEST_SUITE("runtime/deep") {
     CHECK_FALSE(r.report.stopped);
     CHECK(r.report.fault_count == 3);
     CHECK(fault_of(r) ==
-          "task 'l' activation 2 at 0.02 s: 48 bytes more do not fit its heap: 64 of 96 bytes are in use");
+          "task 'l' activation 2 at 0.02 s: 48 bytes more do not fit its heap: 64 of 96 bytes are in use; give it a "
+          "larger one, as in heap: 128B");
     CHECK(lines_of(r, "l.out") ==
           "0ns l.out=[]; 10ms l.out=[2]; 30ms l.out=[]; 40ms l.out=[16]; 60ms l.out=[]; 70ms l.out=[1]");
   }

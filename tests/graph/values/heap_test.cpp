@@ -59,8 +59,10 @@ TEST_SUITE("graph/values/heap") {
     Region r(1024);
     void* const kept = r.heap.values()->allocate(512, 16);
     std::memset(kept, 7, 512);
-    CHECK(what_of(r.heap.values(), 513) == "513 bytes more do not fit its heap: 512 of 1024 bytes are in use");
-    CHECK(what_of(r.heap.scratch(), 600) == "600 bytes more do not fit its heap: 512 of 1024 bytes are in use");
+    CHECK(what_of(r.heap.values(), 513) ==
+          "513 bytes more do not fit its heap: 512 of 1024 bytes are in use; give it a larger one, as in heap: 2KiB");
+    CHECK(what_of(r.heap.scratch(), 600) ==
+          "600 bytes more do not fit its heap: 512 of 1024 bytes are in use; give it a larger one, as in heap: 2KiB");
     CHECK(what_of(r.heap.values(), ~std::size_t{0}) ==
           "18446744073709551615 bytes more do not fit its heap: 512 of 1024 bytes are in use");
     CHECK(what_of(r.heap.scratch(), ~std::size_t{0}) ==
