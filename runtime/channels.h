@@ -15,7 +15,8 @@ namespace jarol {
 struct LinkReport {
   std::string link;
   std::vector<std::pair<std::string, std::uint64_t>> counts;
-  std::uint64_t heard = 0;  // packets that came and counted
+  std::uint64_t heard = 0;    // packets that came and counted
+  std::uint64_t dropped = 0;  // what came and did not, each packet and each stretch of garbage once
 };
 
 class Channels {

@@ -265,8 +265,12 @@ void Link::send_pending(std::vector<std::byte>& room) {
 LinkReport Link::report() const {
   const Translator::Counts& in = translator_->counts();
   const TransportCounts& t = transport_->counts;
-  LinkReport report{transport_->text(), {}, in.packets - std::min<std::uint64_t>(in.packets, in.others)};
+  LinkReport report{transport_->text(), {}, in.packets - std::min<std::uint64_t>(in.packets, in.others), 0};
   const auto add = [&](std::string name, std::uint64_t count) { report.counts.emplace_back(std::move(name), count); };
+  const auto add_dropped = [&](const std::string& why, std::uint64_t count) {
+    add("dropped: " + why, count);
+    report.dropped += count;
+  };
   add("packets in", in.packets);
   add("bytes in", in.bytes);
   add("bytes dropped", in.dropped_bytes);
@@ -276,12 +280,12 @@ LinkReport Link::report() const {
   add("ends of stream", t.disconnected);
   add("late", in.late);
   for (std::size_t i = 1; i < messages::flaw_count; ++i)
-    add("dropped: " + std::string(name_of(static_cast<Flaw>(i))), in.dropped[i]);
-  add("dropped: stranger", t.strangers);
-  add("dropped: no room in the system", t.overflown);
-  add("dropped: other source", in.others);
-  add("dropped: input port full", in.refused);
-  if (const auto* push = std::get_if<PushPacketPort>(&input_)) add("dropped: overwritten by newer", push->lost());
+    add_dropped(std::string(name_of(static_cast<Flaw>(i))), in.dropped[i]);
+  add_dropped("stranger", t.strangers);
+  add_dropped("no room in the system", t.overflown);
+  add_dropped("other source", in.others);
+  add_dropped("input port full", in.refused);
+  if (const auto* push = std::get_if<PushPacketPort>(&input_)) add_dropped("overwritten by newer", push->lost());
   add("send signals while busy", busy_);
   add("unsent: output port full", refused_);
   add("unsent: no peer", t.unsent);

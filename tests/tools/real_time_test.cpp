@@ -188,10 +188,13 @@ TEST_SUITE("tools/real_time") {
       CHECK(nlohmann::json::parse(command::jarol(run + " --json", "2>/dev/null").output)["links"][0]["heard"] == false);
     }
     // nor has what is dropped
-    jarol::LinkReport link{"udp 127.0.0.1:7002", {{"packets in", 0}, {"packets out", 3}, {"dropped: stranger", 2}}};
+    jarol::LinkReport link{
+        "udp 127.0.0.1:7002", {{"packets in", 0}, {"packets out", 3}, {"dropped: stranger", 2}}, 0, 2};
     CHECK(jarol::tools::to_text(link) ==
           "  link        udp 127.0.0.1:7002: 3 packets out, 2 dropped: stranger\n"
           "              NO PACKET THAT COUNTS HAS COME over udp 127.0.0.1:7002\n");
+    link.dropped = 0;
+    CHECK(jarol::tools::to_text(link).ends_with("\n              NO PACKET HAS COME over udp 127.0.0.1:7002\n"));
     link.heard = 1;
     CHECK(jarol::tools::to_text(link) == "  link        udp 127.0.0.1:7002: 3 packets out, 2 dropped: stranger\n");
   }

@@ -140,6 +140,9 @@ void throw_at(const std::string& kind, const Protocol& protocol) {
   CHECK(oracle.expected.empty());
   CHECK(count_of(link, "packets in") == oracle.packets);
   CHECK(count_of(link, "dropped: input port full") == 0);
+  const std::uint64_t least = flawed(link);
+  CHECK(least > 0);
+  CHECK(link.report().dropped >= least);
   MESSAGE(kind << ", " << std::string(protocol.set.name) << ": " << thrown << " thrown, " << oracle.packets
                << " with the right checksum taken, " << flawed(link) << " dropped");
 }
