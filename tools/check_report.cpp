@@ -3,40 +3,16 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
 #include "graph/deadlines.h"
 #include "graph/spec/key.h"
+#include "tools/check_words.h"
 #include "tools/gantt.h"
 
 namespace jarol::tools {
 namespace {
 
-using analysis::Standing;
-using analysis::Suggestion;
 using analysis::Verdict;
-using Json = nlohmann::ordered_json;
-
-bool holds(const ReportedChain& c) { return analysis::broken_limits(c.chain, c.latency).empty(); }
-
-std::string text_of(Standing standing) {
-  switch (standing) {
-    case Standing::none: return "none";
-    case Standing::proof: return "proof";
-    case Standing::sufficient: return "sufficient";
-    case Standing::simulated: return "simulated";
-  }
-  return "";
-}
-
-std::string word_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::schedulable: return "schedulable";
-    case Verdict::not_schedulable: return "not_schedulable";
-    case Verdict::unknown: return "unknown";
-  }
-  return "";
-}
 
 // To the microsecond, unless that would leave something out.
 std::string milliseconds(std::int64_t ns) {
@@ -91,10 +67,12 @@ std::string headline(const CheckReport& r) {
   std::string text = r.file + ": NOT SCHEDULABLE";
   if (r.result.late) {
     const analysis::Late& l = *r.result.late;
-    text += fmt::format(" core {}: task '{}' activation {} (released {}) finishes {}, deadline {} (late {})",
-                        r.result.core_at_fault.value_or(0), r.graph->tasks[l.task].name, l.activation,
-                        milliseconds(l.release), milliseconds(l.finish), milliseconds(l.deadline),
-                        milliseconds(l.finish - l.deadline));
+    // under a global policy it is no single core's
+    if (r.result.core_at_fault || r.graph->platform.policy != Policy::global_edf)
+      text += fmt::format(" core {}:", r.result.core_at_fault.value_or(0));
+    text += fmt::format(" task '{}' activation {} (released {}) finishes {}, deadline {} (late {})",
+                        r.graph->tasks[l.task].name, l.activation, milliseconds(l.release), milliseconds(l.finish),
+                        milliseconds(l.deadline), milliseconds(l.finish - l.deadline));
   }
   if (!r.result.late) text += worst_response(r);
   return text + "\n  " + r.result.reason + " on " + platform_text(r.graph->platform) + "\n";
@@ -229,18 +207,6 @@ std::string chain_lines(const CheckReport& r) {
   return text;
 }
 
-std::string text_of(const Suggestion& s, const Graph& graph) {
-  switch (s.kind) {
-    case Suggestion::Kind::lower_wcet:
-      return fmt::format("a 'wcet' of {} for '{}', which has {}", duration(s.value), graph.tasks[s.task].name,
-                         duration_text(*graph.tasks[s.task].wcet));
-    case Suggestion::Kind::other_policy:
-      return "'policy: " + Words<Policy>::list()[static_cast<std::size_t>(s.policy)] + "'";
-    case Suggestion::Kind::more_cores: return fmt::format("'cores: {}'", s.value);
-  }
-  return "";
-}
-
 std::string sensitivity_lines(const CheckReport& r) {
   std::string text;
   if (r.sensitivity && r.sensitivity->alpha) {
@@ -258,35 +224,7 @@ std::string sensitivity_lines(const CheckReport& r) {
   return text;
 }
 
-// Who runs when, and what that costs.
-std::string assumption(const Platform& platform) {
-  std::string how;
-  switch (platform.policy) {
-    case Policy::table: how = "tasks run one after the other as released, never interrupted"; break;
-    case Policy::fixed_priority:
-      how = "the most urgent task runs, interrupting others, as under 'run --clock real'";
-      break;
-    case Policy::edf:
-      how = "the task with the earliest deadline runs, interrupting others; 'run' does not execute this";
-      break;
-    case Policy::fixed_priority_nonpreemptive:
-      how = "the most urgent task starts, and runs to its end; 'run' does not execute this";
-      break;
-    case Policy::edf_nonpreemptive:
-      how = "the task with the earliest deadline starts, and runs to its end; 'run' does not execute this";
-      break;
-    case Policy::global_edf: how = "the earliest deadlines run, on any core; 'run' does not execute this"; break;
-  }
-  std::string overhead = ", without overhead";
-  if (platform.dispatch > Duration{} || platform.copy > Duration{})
-    overhead = ", with " + duration_text(platform.dispatch) + " for each activation and " +
-               duration_text(platform.copy) + " for each byte handed on";
-  return how + overhead + (platform.phasing == Phasing::any ? "; whatever the offsets" : "");
-}
-
 }  // namespace
-
-bool chains_hold(const CheckReport& report) { return std::all_of(report.chains.begin(), report.chains.end(), holds); }
 
 std::string to_text(const CheckReport& r) {
   std::string text = headline(r) + demand_text(r) + gantt_text(*r.graph, r.result) + task_table(r) + core_lines(r);
@@ -301,77 +239,6 @@ std::string to_text(const CheckReport& r) {
     text +=
         "  'check --measure' tells how long they take here, 'check --write' writes that into the file with a margin\n";
   return text;
-}
-
-nlohmann::ordered_json to_json(const CheckReport& r) {
-  auto tasks = Json::array();
-  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
-    const Task& t = r.graph->tasks[i];
-    const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
-    const auto& response = r.result.response[i];
-    Json task{{"name", t.name},
-              {"period_ns", t.period.count()},
-              {"offset_ns", t.offset.count()},
-              {"deadline_ns", t.deadline.count()},
-              {"wcet_ns", t.wcet ? Json(t.wcet->count()) : Json(nullptr)},
-              {"core", or_null(r.result.core[i])},
-              {"response_ns", or_null(response)},
-              {"slack_ns", response ? Json(t.deadline.count() - *response) : Json(nullptr)},
-              {"max_wcet_ns", r.sensitivity ? or_null(r.sensitivity->most_wcet[i]) : Json(nullptr)},
-              {"min_deadline_ns", r.sensitivity ? or_null(r.sensitivity->least_deadline[i]) : Json(nullptr)}};
-    tasks.push_back(std::move(task));
-  }
-  Json witness = nullptr;
-  if (r.result.late || r.result.demand) {
-    witness = Json::object();
-    if (r.result.core_at_fault) witness["core"] = *r.result.core_at_fault;
-    if (r.result.late) {
-      const analysis::Late& l = *r.result.late;
-      witness.update({{"task", r.graph->tasks[l.task].name},
-                      {"activation", l.activation},
-                      {"release_ns", l.release},
-                      {"finish_ns", l.finish},
-                      {"deadline_ns", l.deadline}});
-    }
-    if (r.result.demand)
-      witness["demand"] = {{"length_ns", r.result.demand->length},
-                           {"demand_ns", r.result.demand->demand},
-                           {"blocking_ns", r.result.demand->blocking}};
-  }
-  auto chains = Json::array();
-  for (const ReportedChain& c : r.chains)
-    chains.push_back({{"name", c.chain.name},
-                      {"exact", c.latency.exact},
-                      {"max_reaction_ns", c.latency.max_reaction},
-                      {"min_reaction_ns", c.latency.min_reaction},
-                      {"max_age_ns", c.latency.max_age},
-                      {"jitter_ns", c.latency.jitter},
-                      {"reaction_limit_ns", c.chain.reaction ? Json(c.chain.reaction->count()) : Json(nullptr)},
-                      {"age_limit_ns", c.chain.age ? Json(c.chain.age->count()) : Json(nullptr)},
-                      {"holds", holds(c)}});
-  const Platform& platform = r.graph->platform;
-  auto suggestions = Json::array();
-  for (const Suggestion& s : r.suggestions) suggestions.push_back(text_of(s, *r.graph));
-  return {{"schema", "jarol.check/1"},
-          {"file", r.file},
-          {"graph", r.graph->name},
-          {"cores", platform.cores},
-          {"policy", Words<Policy>::list()[static_cast<std::size_t>(platform.policy)]},
-          {"assumptions",
-           {{"text", assumption(platform)},
-            {"phasing", Words<Phasing>::list()[static_cast<std::size_t>(platform.phasing)]},
-            {"dispatch_ns", platform.dispatch.count()},
-            {"copy_ns_per_byte", platform.copy.count()}}},
-          {"verdict", word_of(r.result.verdict)},
-          {"limits_hold", chains_hold(r)},
-          {"standing", text_of(r.result.standing)},
-          {"reason", r.result.reason},
-          {"witness", std::move(witness)},
-          {"alpha", r.sensitivity && r.sensitivity->alpha ? Json(*r.sensitivity->alpha) : Json(nullptr)},
-          {"tasks", std::move(tasks)},
-          {"chains", std::move(chains)},
-          {"suggestions", std::move(suggestions)},
-          {"utilisation", r.result.utilisation}};
 }
 
 }  // namespace jarol::tools

@@ -1,0 +1,18 @@
+// What the report of a check says in the same words as text and as JSON.
+#pragma once
+
+#include <string>
+
+#include "tools/check_report.h"
+
+namespace jarol::tools {
+
+/// Does the chain keep its limits?
+bool holds(const ReportedChain& chain);
+
+/// Who runs when, and what that costs.
+std::string assumption(const Platform& platform);
+
+std::string text_of(const analysis::Suggestion& suggestion, const Graph& graph);
+
+}  // namespace jarol::tools
