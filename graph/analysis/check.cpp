@@ -6,6 +6,7 @@
 
 #include "graph/analysis/global_edf.h"
 #include "graph/analysis/partition.h"
+#include "graph/analysis/simulate_global.h"
 #include "graph/analysis/time_table.h"
 #include "graph/analysis/urgency.h"
 #include "graph/yaml/problems.h"
@@ -64,7 +65,34 @@ Result check_on_table(const System& system) {
   return result;
 }
 
-Result check_globally(const System& system) {
+// What happens from the offsets on, where that proves something.
+void walk_globally(const System& system, Result& result, Effort& effort) {
+  constexpr std::uint64_t most_activations = 1'000'000, most_steps = 20'000'000;
+  const auto tasks = static_cast<std::uint64_t>(system.loads.size());
+  const GlobalSimulation run = simulate_global(
+      system.loads, system.cores, std::min({most_activations, most_steps / (tasks + 1), effort.left / (tasks + 1)}));
+  effort.spend(run.activations * (tasks + 1));
+  if (run.late) {
+    if (result.verdict != Verdict::not_schedulable) result.reason = "a task is late when every task takes its 'wcet'";
+    result.verdict = Verdict::not_schedulable;
+    result.standing = Standing::proof;
+    result.late = run.late;
+    result.slices = run.slices;
+    return;
+  }
+  const bool only_offsets = std::all_of(system.loads.begin(), system.loads.end(),
+                                        [](const Load& l) { return l.jitter == 0 && l.blocking == 0; });
+  if (!run.repeats || !system.offsets_hold || !only_offsets || result.verdict == Verdict::not_schedulable) return;
+  result.verdict = Verdict::schedulable;
+  result.standing = Standing::proof;
+  result.reason =
+      "every activation of the whole repetition ends by its deadline, where those of equal deadlines go in "
+      "order of name";
+  result.response.assign(run.responses.begin(), run.responses.end());
+}
+
+// `whole`: with a witness where none is needed.
+Result check_globally(const System& system, bool whole, Effort& effort) {
   Result result;
   result.response = global_edf_responses(system.loads, system.cores);
   result.core.resize(system.loads.size());
@@ -75,17 +103,21 @@ Result check_globally(const System& system) {
     result.verdict = Verdict::not_schedulable;
     result.standing = Standing::proof;
     result.reason = "the tasks need more than all cores";
+    if (!whole) return result;
   } else if (!system.follows.empty()) {
     result.reason = "tasks follow each other at one instant, which is not analysed under global_edf";
+    return result;
   } else if (bounded || passes_gfb(system.loads, system.cores)) {
     result.verdict = Verdict::schedulable;
     result.standing = Standing::proof;
     result.reason = bounded ? "every task's response is bounded within its deadline (Bertogna, Cirinei)"
                             : "the densities fit the cores (Goossens, Funk, Baruah)";
+    return result;
   } else {
     result.standing = Standing::sufficient;
     result.reason = "the tests of global_edf are sufficient only, and none of them holds";
   }
+  walk_globally(system, result, effort);
   return result;
 }
 
@@ -164,7 +196,7 @@ Result check(const System& system) {
   if (is_edf_by_another_name(system)) return check(with_edf(system));
   Effort effort;
   Result result = system.policy == Policy::table        ? check_on_table(system)
-                  : system.policy == Policy::global_edf ? check_globally(system)
+                  : system.policy == Policy::global_edf ? check_globally(system, true, effort)
                                                         : check_partitioned(system, true, effort);
   assert(result.response.size() == system.loads.size() && result.core.size() == system.loads.size());
   result.utilisation = utilisation(system.loads);
@@ -173,7 +205,8 @@ Result check(const System& system) {
 
 Verdict verdict_of(const System& system, Effort& effort) {
   if (is_edf_by_another_name(system)) return verdict_of(with_edf(system), effort);
-  if (system.policy == Policy::table || system.policy == Policy::global_edf) return check(system).verdict;
+  if (system.policy == Policy::table) return check(system).verdict;
+  if (system.policy == Policy::global_edf) return check_globally(system, false, effort).verdict;
   return check_partitioned(system, false, effort).verdict;
 }
 

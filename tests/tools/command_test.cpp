@@ -186,7 +186,7 @@ connections: [c.out -> t.in, t.out -> o, c.out -> w.in, w.out -> r.in]
   TEST_CASE("where tasks belong to no core, their utilisation is told of all cores together") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t
-platform: {policy: global_edf, cores: 2}
+platform: {policy: global_edf, cores: 2, phasing: any}
 tasks:
   a: {type: Work, period: 10ms, wcet: 10ms}
   b: {type: Work, period: 10ms, wcet: 5ms}
@@ -203,13 +203,25 @@ tasks:
   c          10ms        0ns       10ms        5ms  50.00%       10ms        0ns     -
   all 2 cores: utilisation 200.00% of 200%
   utilisation 200.00%; a task's response is its longest time from release to end when each takes its wcet;
-  assumed: the earliest deadlines run, on any core; 'run' does not execute this, without overhead
+  assumed: the earliest deadlines run, on any core; 'run' does not execute this, without overhead; whatever the offsets
   all WCETs together may be 0.666666 times as long; alone, 'a' has least room: up to 5ms
   it would hold with a 'wcet' of 5ms for 'a', which has 10ms
-                  or 'policy: table'
                   or 'policy: fixed_priority'
                   or 'policy: edf'
+                  or 'cores: 3'
 )");
+    // with offsets that hold it is decided
+    const Result given = jarol("check " + file + " --set platform.phasing=given");
+    CHECK(given.exit_code == 0);
+    CHECK(given.output.starts_with(
+        file +
+        ": SCHEDULABLE on 2 cores (global_edf): every activation of the whole repetition ends by its deadline, where "
+        "those of equal deadlines go in order of name\n"));
+    const Result late = jarol("check " + file + " --set tasks.a.period=11ms");
+    CHECK(late.exit_code == 1);
+    CHECK(late.output.starts_with(file +
+                                  ": NOT SCHEDULABLE task 'a' activation 0 (released 0.000 ms) finishes 15.000 ms, "
+                                  "deadline 11.000 ms (late 4.000 ms)\n"));
     CHECK(jarol("check " + file + " --set platform.policy=edf").output.find("all 2 cores") == std::string::npos);
     // on one core it is edf, which is decided
     const std::string one = file + " --set platform.cores=1 --set tasks.a.wcet=1ms --set tasks.b.wcet=4ms";

@@ -1,0 +1,123 @@
+#include "graph/analysis/simulate_global.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace jarol::analysis {
+namespace {
+
+constexpr std::size_t most_slices = 400;
+constexpr std::int64_t most_time = std::int64_t{1} << 60;
+
+struct Job {
+  std::size_t task = 0;
+  std::int64_t activation = 0;
+  std::int64_t release = 0;
+  std::int64_t deadline = 0;
+  std::int64_t left = 0;
+};
+
+bool more_urgent(const Job& a, const Job& b) {
+  return std::tie(a.deadline, a.task, a.activation) < std::tie(b.deadline, b.task, b.activation);
+}
+
+class Simulator {
+ public:
+  Simulator(std::span<const Load> loads, std::int64_t cores) : loads_(loads), cores_(static_cast<std::size_t>(cores)) {
+    result_.responses.resize(loads.size(), 0);
+    for (const Load& l : loads) arrivals_.push_back(l.offset);
+    released_.resize(loads.size(), 0);
+  }
+
+  // False if an activation is late, or there are too many.
+  bool run_until(std::int64_t end, std::uint64_t most_activations) {
+    while (now_ < end) {
+      if (result_.activations > most_activations) return false;
+      arrive();
+      const std::size_t running = std::min(cores_, ready_.size());
+      std::int64_t next = std::min(end, *std::min_element(arrivals_.begin(), arrivals_.end()));
+      for (std::size_t i = 0; i < running; ++i) next = std::min(next, now_ + ready_[i].left);
+      for (std::size_t i = 0; i < running; ++i) advance(ready_[i], next);
+      now_ = next;
+      for (std::size_t i = running; i-- > 0;)
+        if (ready_[i].left == 0 && !close(i)) return false;
+    }
+    return true;
+  }
+
+  // Work that is left of each task: with deadlines within periods and nothing late, all that the future depends on.
+  // Nothing if something is late already and has yet to end.
+  std::optional<std::vector<std::int64_t>> left() const {
+    std::vector<std::int64_t> sum(loads_.size(), 0);
+    for (const Job& job : ready_) {
+      if (job.deadline <= now_) return std::nullopt;
+      sum[job.task] += job.left;
+    }
+    return sum;
+  }
+
+  GlobalSimulation& result() { return result_; }
+
+ private:
+  void arrive() {
+    for (std::size_t i = 0; i < loads_.size(); ++i) {
+      if (arrivals_[i] > now_) continue;
+      const Job job{i, released_[i]++, now_, now_ + loads_[i].deadline, loads_[i].wcet};
+      ready_.insert(std::upper_bound(ready_.begin(), ready_.end(), job, more_urgent), job);
+      arrivals_[i] += loads_[i].period;
+      ++result_.activations;
+    }
+  }
+
+  void advance(Job& job, std::int64_t until) {
+    job.left -= until - now_;
+    std::vector<Slice>& slices = result_.slices;
+    const auto same = std::find_if(slices.rbegin(), slices.rend(), [&](const Slice& s) {
+      return s.task == job.task && s.activation == job.activation && s.end == now_;
+    });
+    if (same != slices.rend() && same - slices.rbegin() < static_cast<std::ptrdiff_t>(2 * cores_)) {
+      same->end = until;
+    } else {
+      if (slices.size() >= 2 * most_slices) slices.erase(slices.begin(), slices.begin() + most_slices);
+      slices.push_back({job.task, job.activation, now_, until});
+    }
+  }
+
+  bool close(std::size_t i) {
+    const Job job = ready_[i];
+    ready_.erase(ready_.begin() + static_cast<std::ptrdiff_t>(i));
+    result_.responses[job.task] = std::max(result_.responses[job.task], now_ - job.release);
+    if (now_ <= job.deadline) return true;
+    result_.late = Late{job.task, job.activation, job.release, now_, job.deadline};
+    return false;
+  }
+
+  std::span<const Load> loads_;
+  std::size_t cores_;
+  std::int64_t now_ = 0;
+  std::vector<std::int64_t> arrivals_, released_;  // per task: the next one, how many
+  std::vector<Job> ready_;                         // most urgent first
+  GlobalSimulation result_;
+};
+
+}  // namespace
+
+GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores, std::uint64_t most_activations) {
+  Simulator simulator(loads, cores);
+  const auto lcm = hyperperiod(loads, most_time / 4);
+  std::int64_t end = 0;
+  for (const Load& l : loads) end = std::max(end, l.offset);
+  bool on = !loads.empty() && simulator.run_until(end, most_activations);
+  auto before = simulator.left();
+  while (on) {
+    end = lcm ? end + *lcm : most_time;
+    if (end > most_time || !simulator.run_until(end, most_activations) || !lcm) break;
+    const auto after = simulator.left();
+    simulator.result().repeats = after && after == before;
+    on = !simulator.result().repeats;
+    before = after;
+  }
+  return std::move(simulator.result());
+}
+
+}  // namespace jarol::analysis

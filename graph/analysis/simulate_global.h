@@ -1,0 +1,21 @@
+// What happens under global earliest deadline first when every activation takes its WCET and arrives as the offsets
+// say.
+#pragma once
+
+#include "graph/analysis/simulate.h"
+
+namespace jarol::analysis {
+
+struct GlobalSimulation {
+  bool repeats = false;  // nothing is late, and the last hyperperiod left all as the one before it
+  std::uint64_t activations = 0;
+  std::optional<Late> late;
+  std::vector<std::int64_t> responses;  // per task, the longest of those that ended
+  std::vector<Slice> slices;            // the last ones before the late activation ended
+};
+
+/// Up to the first late activation, or until one hyperperiod after all offsets leaves the same work as the one before,
+/// or so many activations. Preemptive, jitter and blocking left out. Ties: the task that stands first.
+GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores, std::uint64_t most_activations);
+
+}  // namespace jarol::analysis
