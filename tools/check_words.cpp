@@ -41,8 +41,8 @@ std::string assumption(const Platform& platform) {
 std::string text_of(const Suggestion& s, const Graph& graph) {
   switch (s.kind) {
     case Suggestion::Kind::lower_wcet:
-      return fmt::format("a 'wcet' of {} for '{}', which has {}", duration_text(Duration(s.value)), graph.tasks[s.task].name,
-                         duration_text(*graph.tasks[s.task].wcet));
+      return fmt::format("a 'wcet' of {} for '{}', which has {}", duration_text(Duration(s.value)),
+                         graph.tasks[s.task].name, duration_text(*graph.tasks[s.task].wcet));
     case Suggestion::Kind::other_policy:
       return "'policy: " + Words<Policy>::list()[static_cast<std::size_t>(s.policy)] + "'";
     case Suggestion::Kind::more_cores: return fmt::format("'cores: {}'", s.value);

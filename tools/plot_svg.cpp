@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <string_view>
 
+#include "tools/plot_axis.h"
+#include "tools/svg_text.h"
 #include "tools/whole_file.h"
 
 namespace jarol::tools {
@@ -29,103 +30,6 @@ constexpr std::string_view commanded_stroke = R"(stroke="#D55E00" stroke-width="
 constexpr std::string_view title_font = R"(font-size="14" font-weight="bold" fill="#1F2933")";
 
 constexpr double degrees = 180.0 / std::numbers::pi;
-
-// Pixels with at most two decimals.
-std::string px(double number) {
-  std::array<char, 32> digits;
-  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed, 2);
-  std::string text(digits.data(), result.ptr);
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text == "-0" ? "0" : text;
-}
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      // other control characters are no XML at all
-      default: result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return result;
-}
-
-double ten_to(int exponent) {
-  double power = 1;
-  for (int i = 0; i < std::abs(exponent); ++i) power *= 10;
-  return power;
-}
-
-// Ticks lie at whole multiples of digits * 10^exponent.
-struct Ticks {
-  std::int64_t digits = 1;
-  int exponent = 0;
-
-  double at(std::int64_t i) const {
-    const auto number = static_cast<double>(i * digits);
-    return exponent < 0 ? number / ten_to(exponent) : number * ten_to(exponent);
-  }
-
-  std::string label(std::int64_t i) const {
-    std::string text = std::to_string(std::abs(i * digits));
-    if (exponent < -6 || exponent > 6) {
-      if (i != 0) text += "e" + std::to_string(exponent);
-    } else if (exponent < 0) {
-      const auto places = static_cast<std::size_t>(-exponent);
-      if (text.size() <= places) text.insert(0, places + 1 - text.size(), '0');
-      text.insert(text.size() - places, ".");
-    } else if (i != 0) {
-      text.append(static_cast<std::size_t>(exponent), '0');
-    }
-    return i < 0 ? "\u2212" + text : text;
-  }
-};
-
-// The narrowest round ticks that split the range into no more than `most` intervals.
-Ticks find_ticks(double range, int most, bool angle) {
-  const double least = range / most;
-  if (angle && least > 10)
-    for (const int step : {15, 30, 45, 90, 180, 360})
-      if (step >= least) return {step, 0};
-  int exponent = -308;
-  while (Ticks{5, exponent}.at(1) < least) ++exponent;
-  for (const int digits : {1, 2})
-    if (Ticks{digits, exponent}.at(1) >= least) return {digits, exponent};
-  return {5, exponent};
-}
-
-struct Axis {
-  double least = 0;  // value at the left or bottom
-  double most = 1;
-  double from = 0;  // px
-  double to = 1;
-  Ticks ticks;
-
-  double place(double value) const { return from + (to - from) * ((value - least) / (most - least)); }
-
-  template <class Visit>
-  void for_each_tick(Visit&& visit) const {
-    const double step = ticks.at(1);
-    const double slack = 1e-9 * (most - least);
-    const auto first = static_cast<std::int64_t>(std::ceil((least - slack) / step));
-    const auto last = static_cast<std::int64_t>(std::floor((most + slack) / step));
-    for (std::int64_t i = first; i <= last; ++i) visit(place(ticks.at(i)), ticks.label(i));
-  }
-};
-
-Axis time_axis(std::int64_t end) {
-  const double seconds = end > 0 ? static_cast<double>(end) * 1e-9 : 1.0;
-  Axis axis{0, seconds, left, right, find_ticks(seconds, 12, false)};
-  // a run of 100 s ends at 99.98 s: the tick it just misses belongs to it
-  const double next = axis.ticks.at(static_cast<std::int64_t>(std::ceil(seconds / axis.ticks.at(1))));
-  if (next < 1.01 * seconds) axis.most = next;
-  return axis;
-}
 
 std::string_view last_name(std::string_view path) { return path.substr(path.rfind('.') + 1); }
 
@@ -317,7 +221,7 @@ void PlotSvg::draw(const Drawing& drawing, double top, Pen& pen) const {
   }
   y.ticks = find_ticks(y.most - y.least, 5, angle);
   if (whole_numbers && y.ticks.exponent < 0) y.ticks = {1, 0};
-  const Axis x = time_axis(end_);
+  const Axis x = time_axis(end_, left, right);
 
   pen.svg += "<path stroke=\"#E4E7EB\" d=\"";
   x.for_each_tick([&](double at, const std::string&) { pen.svg += "M" + px(at) + "," + px(top) + "V" + px(bottom); });
@@ -370,7 +274,9 @@ std::string PlotSvg::text() const {
     pen.svg += "</g>\n";
   }
   pen.svg += "<g text-anchor=\"middle\">\n";
-  time_axis(end_).for_each_tick([&](double at, const std::string& label) { pen.text(at, bottom + 18, "", label); });
+  time_axis(end_, left, right).for_each_tick([&](double at, const std::string& label) {
+    pen.text(at, bottom + 18, "", label);
+  });
   pen.text((left + right) / 2, bottom + 37, "", "time [s]");
   pen.svg += "</g>\n";
   return pen.svg + "</svg>\n";
