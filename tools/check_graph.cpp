@@ -88,7 +88,7 @@ CheckReport check_graph(const std::string& file, const Graph& graph, bool sensit
   const double cost = searches * cost_of(system), per_task = cost * static_cast<double>(graph.tasks.size());
   // close to full utilisation, or with many ways to spread tasks over cores, a test may take much longer than that
   analysis::Effort effort;
-  if (!sensitivity) effort.left = 100'000'000;
+  if (!sensitivity) effort.left = 30'000'000;
   if (sensitivity || cost < quick)
     report.sensitivity = analysis::sensitivity_of(system, sensitivity || per_task < quick, effort);
   if (report.result.verdict != analysis::Verdict::schedulable && (sensitivity || per_task < quick))

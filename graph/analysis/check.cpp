@@ -67,11 +67,10 @@ Result check_on_table(const System& system) {
 
 // What happens from the offsets on, where that proves something.
 void walk_globally(const System& system, Result& result, Effort& effort) {
-  constexpr std::uint64_t most_activations = 1'000'000, most_steps = 20'000'000;
-  const auto tasks = static_cast<std::uint64_t>(system.loads.size());
-  const GlobalSimulation run = simulate_global(
-      system.loads, system.cores, std::min({most_activations, most_steps / (tasks + 1), effort.left / (tasks + 1)}));
-  effort.spend(run.activations * (tasks + 1));
+  constexpr std::uint64_t most_activations = 1'000'000, steps_of_activation = 40;
+  const GlobalSimulation run =
+      simulate_global(system.loads, system.cores, std::min(most_activations, effort.left / steps_of_activation));
+  effort.spend(run.activations * steps_of_activation);
   if (run.late) {
     if (result.verdict != Verdict::not_schedulable) result.reason = "a task is late when every task takes its 'wcet'";
     result.verdict = Verdict::not_schedulable;

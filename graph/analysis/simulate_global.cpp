@@ -1,6 +1,8 @@
 #include "graph/analysis/simulate_global.h"
 
 #include <algorithm>
+#include <functional>
+#include <queue>
 #include <tuple>
 
 namespace jarol::analysis {
@@ -25,7 +27,7 @@ class Simulator {
  public:
   Simulator(std::span<const Load> loads, std::int64_t cores) : loads_(loads), cores_(static_cast<std::size_t>(cores)) {
     result_.responses.resize(loads.size(), 0);
-    for (const Load& l : loads) arrivals_.push_back(l.offset);
+    for (std::size_t i = 0; i < loads.size(); ++i) arrivals_.emplace(loads[i].offset, i);
     released_.resize(loads.size(), 0);
   }
 
@@ -35,7 +37,7 @@ class Simulator {
       if (result_.activations > most_activations) return false;
       arrive();
       const std::size_t running = std::min(cores_, ready_.size());
-      std::int64_t next = std::min(end, *std::min_element(arrivals_.begin(), arrivals_.end()));
+      std::int64_t next = std::min(end, arrivals_.top().first);
       for (std::size_t i = 0; i < running; ++i) next = std::min(next, now_ + ready_[i].left);
       for (std::size_t i = 0; i < running; ++i) advance(ready_[i], next);
       now_ = next;
@@ -60,11 +62,12 @@ class Simulator {
 
  private:
   void arrive() {
-    for (std::size_t i = 0; i < loads_.size(); ++i) {
-      if (arrivals_[i] > now_) continue;
+    while (arrivals_.top().first <= now_) {
+      const std::size_t i = arrivals_.top().second;
+      arrivals_.pop();
       const Job job{i, released_[i]++, now_, now_ + loads_[i].deadline, loads_[i].wcet};
       ready_.insert(std::upper_bound(ready_.begin(), ready_.end(), job, more_urgent), job);
-      arrivals_[i] += loads_[i].period;
+      arrivals_.emplace(now_ + loads_[i].period, i);
       ++result_.activations;
     }
   }
@@ -95,8 +98,10 @@ class Simulator {
   std::span<const Load> loads_;
   std::size_t cores_;
   std::int64_t now_ = 0;
-  std::vector<std::int64_t> arrivals_, released_;  // per task: the next one, how many
-  std::vector<Job> ready_;                         // most urgent first
+  using Arrival = std::pair<std::int64_t, std::size_t>;  // when, which task
+  std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> arrivals_;
+  std::vector<std::int64_t> released_;  // per task, how many
+  std::vector<Job> ready_;              // most urgent first
   GlobalSimulation result_;
 };
 
