@@ -42,7 +42,7 @@ std::string first_difference(const oracle::Trace& is, const oracle::Trace& shoul
 
 std::uint64_t count_of_graphs() {
   if (std::getenv("JAROL_FULL") != nullptr) return 20'000;
-#ifdef __OPTIMIZE__
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_THREAD__)
   return 2'000;
 #else
   return 300;
