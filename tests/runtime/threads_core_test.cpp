@@ -203,7 +203,7 @@ tasks:
   relay: {type: Relay, period: 10ms}
 connections: [from -> seldom.a, from -> seldom.b, seldom.out -> to, often -> relay.in]
 )";
-    // again where the machine left out more, and there was no round from then on
+    // again where the machine left out more: all before, or all from then on
     CHECK(tests::at_some_speed([&](int times) {
       const Graph graph = graph_with_outside(tests::slowed(text, times));
       External::Diary plant;
@@ -213,11 +213,10 @@ connections: [from -> seldom.a, from -> seldom.b, seldom.out -> to, often -> rel
       channels.push_back(std::make_unique<External>(plant));
       ThreadsCore core(graph, std::move(channels));
       core.run_for(times * 350ms);
-      if (plant.instants.empty() || plant.instants.back() < times * 200ms) return false;
-      CHECK(plant.taken == 2);
-      CHECK(plant.handed.size() == 2);
-      CHECK(core.report().activations == 2 * core.threads_report().rounds + 2);
-      return core.threads_report().rounds < 35;
+      CHECK(plant.taken <= 2);
+      CHECK(plant.handed.size() <= 2);
+      const std::uint64_t rounds = core.threads_report().rounds;
+      return plant.taken == 2 && plant.handed.size() == 2 && core.report().activations == 2 * rounds + 2 && rounds < 35;
     }));
   }
 
