@@ -70,7 +70,7 @@ class Lab {
     Terminal terminal(port_of_(), over_);
     expected_ += terminal.sent;
     wait_for("packets in", expected_);
-    if (over_ == Terminal::Over::tcp) wait_for("peers", ++peers_);
+    wait_for("peers", ++peers_);
     return terminal;
   }
 
