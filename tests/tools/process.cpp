@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <atomic>
 
 #include <array>
 #include <stdexcept>
@@ -79,10 +80,10 @@ int Process::end() {
 
 std::string free_port(int type) {
   constexpr int first = 10'000, count = 20'000;
-  static int next = static_cast<int>(getpid()) * 16;
+  static std::atomic<int> next{static_cast<int>(getpid()) * 16};
   for (int i = 0; i < count; ++i) {
     const std::string port = std::to_string(first + next++ % count);
-    const Descriptor probe(socket(AF_INET, type, 0));
+    const Descriptor probe(socket(AF_INET, type | SOCK_CLOEXEC, 0));  // not for a process made meanwhile
     const Address address = Address::parse(port);
     if (bind(probe.get(), address.get(), address.size()) == 0) return port;
   }
