@@ -61,7 +61,7 @@ struct LogEnd {
   std::uint64_t faults = 0;
 };
 
-/// As "graph: exolauv, ..." in one line of JSON, and back. Throws LogError.
+/// As one line of JSON, and back. Throws LogError.
 std::string to_line(const LogHeader& header);
 LogHeader parse_header(const std::string& line);
 

@@ -198,6 +198,31 @@ connections: [i -> flow.in, flow.out -> timed.in, timed.out -> reader.a, flow.ou
       }
   }
 
+  TEST_CASE("a checkpoint stands before the tasks on threads of which it is not known whether they are late") {
+    // at 1 s `slow`, released at 0.8 s, still runs
+    const std::string text = on(priorities_1, R"(graph: t
+timing: {period: 400ms}
+tasks:
+  fast: {type: Counter, period: 100ms, on_fault: hold}
+  slow: {type: Patient, on_fault: hold, parameters: {waits: 380ms}}
+connections: [fast.out -> slow.in]
+)");
+    const Graph graph = graph_of(text);
+    Checkpoint second;
+    for (int attempt = 0; attempt < 10 && second.settled != 800'000'000; ++attempt) {  // again where it came too late
+      KeptLog log(graph);
+      Recorder recorder({&log});
+      run(text, 1050ms, 1, {}, 1, {}, &recorder);
+      recorder.close();
+      REQUIRE(log.checkpoints.size() == 2);
+      CHECK(log.checkpoints[0].settled == 0);
+      CHECK(log.checkpoints[0].exact == 1);
+      second = log.checkpoints[1];
+    }
+    CHECK(second.settled == 800'000'000);
+    CHECK(second.exact == 0);
+  }
+
   TEST_CASE("what was run before an external system was lost is run again") {
     // after so many instants it can't be reached any more
     class Lost : public tests::Outside {

@@ -113,6 +113,7 @@ nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comp
     return known ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
   };
   json["schema"] = "jarol.replay/1";
+  json.erase("clock");  // that of the run stands in "log"
   json["log"] = {
       {"file", options.log},
       {"clock", log.header().clock},

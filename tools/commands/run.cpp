@@ -201,7 +201,9 @@ void add_run(CommandLine& line, int& exit_code) {
       "run",
       "Run a graph: on the virtual clock, as fast as possible and the same to the bit every time, or\n"
       "on the real clock.\n"
-      "Exit code: 0 good, 1 refused by the real clock, 3 stopped by a fault, 2 bad input, 130 interrupted");
+      "Exit code: 0 good, 1 refused by the real clock, 2 bad input, 3 stopped by a fault, a lost vehicle or a full "
+      "disk,\n"
+      "130 interrupted");
   command->add_option("FILE", options->file, "The graph, a YAML file")->required();
   command->add_option("--for", options->duration,
                       "How long, in logical time, as in 10s; default: until the mission ends");
