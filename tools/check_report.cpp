@@ -6,6 +6,7 @@
 
 #include "graph/deadlines.h"
 #include "graph/spec/key.h"
+#include "graph/text/escape.h"
 #include "tools/check_words.h"
 #include "tools/gantt.h"
 
@@ -57,14 +58,14 @@ std::string broken_limits(const CheckReport& r) {
 std::string headline(const CheckReport& r) {
   switch (r.result.verdict) {
     case Verdict::schedulable:
-      return fmt::format("{}: SCHEDULABLE on {}{}: {}\n", r.file, platform_text(r.graph->platform), broken_limits(r),
-                         r.result.reason);
+      return fmt::format("{}: SCHEDULABLE on {}{}: {}\n", printable(r.file), platform_text(r.graph->platform),
+                         broken_limits(r), r.result.reason);
     case Verdict::unknown:
-      return fmt::format("{}: UNKNOWN on {}{}: {}\n", r.file, platform_text(r.graph->platform), broken_limits(r),
-                         r.result.reason);
+      return fmt::format("{}: UNKNOWN on {}{}: {}\n", printable(r.file), platform_text(r.graph->platform),
+                         broken_limits(r), r.result.reason);
     case Verdict::not_schedulable: break;
   }
-  std::string text = r.file + ": NOT SCHEDULABLE";
+  std::string text = printable(r.file) + ": NOT SCHEDULABLE";
   if (r.result.late) {
     const analysis::Late& l = *r.result.late;
     // under a global policy it is no single core's

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iostream>
 #include <iterator>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 
 #include "graph/yaml/problems.h"
+#include "tools/failure.h"
 
 namespace jarol::tools {
 namespace {
@@ -80,8 +80,8 @@ std::vector<OptionWord> options_among(const CLI::App& command, const std::vector
 std::string flag_with_value(const CLI::App& command, const std::vector<std::string>& words) {
   for (const OptionWord& word : options_among(command, words))
     if (word.option != nullptr && word.option->get_items_expected_max() == 0 && word.joined)
-      return "error: " + word.name + " takes no value, and has '" + *word.joined + "'; write " + word.name +
-             " alone, or leave it out\n";
+      return word.name + " takes no value, and has '" + *word.joined + "'; write " + word.name +
+             " alone, or leave it out";
   return "";
 }
 
@@ -91,8 +91,8 @@ std::string unknown_option(const CLI::App& command, const std::vector<std::strin
     std::vector<std::string> known;
     for (const CLI::Option* option : command.get_options())
       if (!option->get_positional()) known.push_back(option->get_name());
-    return "error: " + command.get_name() + " has no option '" + word.name + "'" +
-           (word.name.starts_with("--") ? did_you_mean(word.name, known) : "") + "; it has: " + list_of(known) + "\n";
+    return command.get_name() + " has no option '" + word.name + "'" +
+           (word.name.starts_with("--") ? did_you_mean(word.name, known) : "") + "; it has: " + list_of(known);
   }
   return "";
 }
@@ -183,29 +183,41 @@ std::vector<std::string> CommandLine::names() const {
   return names;
 }
 
-bool CommandLine::parse(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  const CLI::App* command = app_.get();
+// The command, and the words behind its name.
+struct CommandLine::Words {
+  const CLI::App* command = nullptr;  // the whole, if none is named
+  std::vector<std::string> own;
+};
+
+CommandLine::Words CommandLine::split(int argc, char** argv) const {
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   for (const CLI::App* one : app_->get_subcommands({}))
-    if (!words.empty() && one->get_name() == words.front()) command = one;
-  const bool subcommand = command != app_.get();
-  const std::vector<std::string> own(words.begin() + (subcommand ? 1 : 0), words.end());
-  if (const std::string wrong = flag_with_value(*command, own); !wrong.empty()) {
-    std::cerr << wrong;
-    return false;
-  }
+    if (!words.empty() && one->get_name() == words.front()) return {one, {words.begin() + 1, words.end()}};
+  return {app_.get(), words};
+}
+
+bool CommandLine::asks_for_json(int argc, char** argv) const {
+  const Words words = split(argc, argv);
+  const std::vector<OptionWord> options = options_among(*words.command, words.own);
+  return std::any_of(options.begin(), options.end(), [](const OptionWord& word) {
+    return word.option != nullptr && word.option->check_name("--json") && !word.joined;
+  });
+}
+
+void CommandLine::parse(int argc, char** argv) {
+  const Words words = split(argc, argv);
+  if (const std::string wrong = flag_with_value(*words.command, words.own); !wrong.empty()) throw UsageError(wrong);
   try {
     app_->parse(argc, argv);
-    return true;
   } catch (const CLI::ParseError& error) {
-    // the value of a mistyped option looks like an argument, which CLI11 tells instead
-    if (error.get_exit_code() != 0 && subcommand) {
-      if (const std::string wrong = unknown_option(*command, own); !wrong.empty()) {
-        std::cerr << wrong;
-        return false;
-      }
+    if (error.get_exit_code() == 0) {  // a help, or the version
+      app_->exit(error);
+      return;
     }
-    return app_->exit(error) == 0;
+    // the value of a mistyped option looks like an argument, which CLI11 tells instead
+    if (words.command != app_.get())
+      if (const std::string wrong = unknown_option(*words.command, words.own); !wrong.empty()) throw UsageError(wrong);
+    throw UsageError(error.what(), "Run with --help for more information.\n");
   }
 }
 

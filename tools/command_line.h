@@ -64,10 +64,15 @@ class CommandLine {
   ~CommandLine();
   Command* add_subcommand(const std::string& name, const std::string& text);
   std::vector<std::string> names() const;
-  /// Does what the words say; whether they were understood. Prints what was wrong with them, or the help asked for.
-  bool parse(int argc, char** argv);
+  /// Does what the words say, or prints the help asked for. Throws UsageError if they are not understood.
+  void parse(int argc, char** argv);
+  /// Is --json among the words, as an option of the command? Also where others of them are not understood.
+  bool asks_for_json(int argc, char** argv) const;
 
  private:
+  struct Words;
+  Words split(int argc, char** argv) const;
+
   std::unique_ptr<CLI::App> app_;
   std::deque<Command> commands_;
 };

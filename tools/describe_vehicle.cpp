@@ -7,6 +7,7 @@
 #include "graph/values/bind.h"
 #include "graph/values/type_of.h"
 #include "graph/yaml/quantities.h"
+#include "tools/json_line.h"
 
 namespace jarol::tools {
 namespace {
@@ -89,7 +90,7 @@ void print_json(const vehicles::VehicleClass& vehicle, const std::vector<Section
     }
     whole[section.title] = std::move(list);
   }
-  std::cout << whole << "\n";
+  std::cout << json_line(whole);
 }
 
 }  // namespace

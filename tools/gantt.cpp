@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "graph/text/escape.h"
 #include "graph/yaml/quantities.h"
 
 namespace jarol::tools {
@@ -73,13 +74,13 @@ std::string gantt_svg(const Graph& graph, const analysis::Result& result) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" "
       "font-size=\"13\">\n<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"white\"/>\n"
       "<text x=\"{2:.0f}\" y=\"24\">{3}: activation {4} of {5} is {6} late</text>\n",
-      left + width + 20, height, left, graph.name, late.activation, graph.tasks[late.task].name,
+      left + width + 20, height, left, xml_text(graph.name), late.activation, xml_text(graph.tasks[late.task].name),
       duration_text(Duration(late.finish - late.deadline)));
   for (std::size_t i = 0; i < window.tasks.size(); ++i) {
     const double y = top + row * static_cast<double>(i);
     const std::size_t task = window.tasks[i];
     text += fmt::format("<text x=\"{:.0f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n", left - 8, y + 18,
-                        graph.tasks[task].name);
+                        xml_text(graph.tasks[task].name));
     for (const analysis::Slice& s : result.slices) {
       if (s.task != task || s.end <= window.begin) continue;
       const auto box = [&](std::int64_t begin, std::int64_t end, const char* colour) {

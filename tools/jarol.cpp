@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <iostream>
-#include <new>
 
 #include "graph/yaml/problems.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
+#include "tools/failure.h"
+#include "tools/printable_stream.h"
 
 namespace {
 using namespace jarol;
@@ -37,33 +38,22 @@ int run_command(int argc, char** argv) {
   tools::add_schema(line, exit_code);
   tools::add_tasks(line, exit_code);
   tools::add_vehicle(line, exit_code);
-  // a mistyped command gets a suggestion
-  const std::vector<std::string> names = line.names();
-  if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
-    std::cerr << "error: there is no command '" << argv[1] << "'" << did_you_mean(argv[1], names)
-              << "; there are: " << list_of(names) << "\n";
-    return tools::exit_input;
-  }
   try {
-    return line.parse(argc, argv) ? exit_code : tools::exit_input;
-  } catch (const SpecError& error) {
-    std::cerr << error.what() << "\n";
-    const std::size_t count = error.problems().size();
-    std::cerr << count << (count == 1 ? " error\n" : " errors\n");
-    return tools::exit_input;
-  } catch (const std::bad_alloc&) {
-    std::cerr << "error: there is not enough memory for this\n";
-    return tools::exit_unfinished;
-  } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << "\n";
-    return tools::exit_input;
-  }
+    // a mistyped command gets a suggestion
+    const std::vector<std::string> names = line.names();
+    if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end())
+      throw tools::UsageError("there is no command '" + std::string(argv[1]) + "'" + did_you_mean(argv[1], names) +
+                              "; there are: " + list_of(names));
+    line.parse(argc, argv);
+    return exit_code;
+  } catch (...) { return tools::report(tools::failure_of(std::current_exception()), line.asks_for_json(argc, argv)); }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   keep_standard_streams();
+  const tools::PrintableStream out(std::cout), errors(std::cerr);
   const int exit_code = run_command(argc, argv);
   if (std::cout.flush()) return exit_code;
   std::cerr << "error: can't write to stdout, what stands there is not whole; is the disk full, or stdout closed?\n";

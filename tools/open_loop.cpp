@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "distributers/links/table.h"
+#include "graph/text/escape.h"
 #include "graph/values/bind.h"
 #include "graph/yaml/quantities.h"
 #include "tools/progress.h"
@@ -77,7 +78,7 @@ void run_open_loop(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& veh
   WholeFile file(path);
   std::string row = "time";
   for (const auto* leaves : {&states, &outputs})
-    for (const Leaf& leaf : *leaves) row += "," + leaf.path;
+    for (const Leaf& leaf : *leaves) row += "," + csv_text(leaf.path);
   file.write(row + "\n");
 
   std::atomic<Duration> reached{};

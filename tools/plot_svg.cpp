@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "graph/text/escape.h"
 #include "tools/plot_axis.h"
 #include "tools/svg_text.h"
 #include "tools/whole_file.h"
@@ -57,7 +58,7 @@ class PlotSvg::Pen {
   void text(double x, double y, std::string_view attributes, std::string_view words) {
     svg += "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\"";
     if (!attributes.empty()) svg.append(" ").append(attributes);
-    svg.append(">").append(escaped(words)).append("</text>\n");
+    svg.append(">").append(xml_text(words)).append("</text>\n");
   }
 
   // horizontal
@@ -231,8 +232,8 @@ void PlotSvg::draw(const Drawing& drawing, double top, Pen& pen) const {
              px(panel_height) + "\" stroke=\"#9AA5B1\" fill=\"none\"/>\n";
 
   pen.svg += "<text x=\"" + px(left) + "\" y=\"" + px(top - 9) + "\"><tspan " + std::string(title_font) + ">" +
-             escaped(drawing.panel.title) + "</tspan>";
-  if (!drawing.unit.empty()) pen.svg += " [" + escaped(drawing.unit) + "]";
+             xml_text(drawing.panel.title) + "</tspan>";
+  if (!drawing.unit.empty()) pen.svg += " [" + xml_text(drawing.unit) + "]";
   pen.svg += "</text>\n";
   if (no_data) {
     pen.text((left + right) / 2, top + panel_height / 2 + 5, "font-size=\"14\" text-anchor=\"middle\"", "no data");
@@ -262,7 +263,7 @@ std::string PlotSvg::text() const {
       px(width) + "\" height=\"" + px(height) + "\" viewBox=\"0 0 " + px(width) + " " + px(height) +
       "\" font-family=\"Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif\" font-size=\"12\" "
       "fill=\"#52606D\">\n<title>" +
-      escaped(title_) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\n";
+      xml_text(title_) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\n";
   pen.text(left, 32, "font-size=\"18\" font-weight=\"bold\" fill=\"#1F2933\"", title_);
   if (drawings_.empty()) {
     pen.text(left, first_panel + 16, "", "no data");

@@ -15,6 +15,7 @@
 #include "graph/yaml/quantities.h"
 #include "runtime/machine.h"
 #include "tools/command_line.h"
+#include "tools/failure.h"
 
 namespace jarol::tools {
 namespace {

@@ -32,11 +32,6 @@ RealTimeOptions options_of(const RealTimeArguments& arguments);
 /// Throws std::invalid_argument where this machine has too few CPUs, or SCHED_FIFO too few priorities.
 std::vector<analysis::TaskThread> threads_for(const std::string& file, const Graph& graph, RealTimeOptions& options);
 
-/// What check finds against a graph.
-struct NegativeVerdict : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 /// Throws std::invalid_argument for a graph that can't be executed in real time, and unless forced NegativeVerdict for
 /// one of which check finds that it is not schedulable or breaks a chain's limit; says on stderr when check can't tell.
 /// `file` is what the user called the graph.

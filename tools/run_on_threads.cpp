@@ -11,6 +11,7 @@
 #include "tools/commanded.h"
 #include "tools/commands/commands.h"
 #include "tools/interrupt.h"
+#include "tools/json_line.h"
 #include "tools/linked.h"
 #include "tools/real_time.h"
 #include "tools/told_changes.h"
@@ -92,7 +93,7 @@ void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
                        {"lateness_most_ns", threads.lateness.most()},
                        {"tasks", tasks}};
   for (const LinkReport& link : links) json["links"].push_back(to_json(link));
-  std::cout << json << "\n";
+  std::cout << json_line(json);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "graph/yaml/quantities.h"
 #include "tools/commands/commands.h"
 #include "tools/interrupt.h"
+#include "tools/json_line.h"
 #include "tools/real_time.h"
 #include "tools/vehicle_diary.h"
 
@@ -95,7 +96,7 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
     nlohmann::ordered_json json{{"schema", "jarol.vehicle/1"}};
     json.update(diary.to_json());
     json["link"] = to_json(link.report());
-    std::cout << json << "\n";
+    std::cout << json_line(json);
   } else {
     std::cout << vehicle_class.name << ": " << seconds_text(Duration(instant)) << " s in real time\n"
               << diary.to_text() << to_text(link.report());

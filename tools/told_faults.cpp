@@ -2,11 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "graph/text/escape.h"
+
 namespace jarol::tools {
 
 std::string told_faults(const Report& report) {
   std::string text;
-  for (const Fault& fault : report.faults) text += "fault: " + to_text(fault) + "\n";
+  for (const Fault& fault : report.faults) text += "fault: " + printable(to_text(fault)) + "\n";
   if (report.fault_count > report.faults.size())
     text += "fault: and " + std::to_string(report.fault_count - report.faults.size()) + " more\n";
   return text;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "graph/text/escape.h"
 #include "graph/yaml/quantities.h"
 
 namespace jarol::tools {
@@ -40,7 +41,7 @@ TraceCsv::TraceCsv(std::string path, const std::vector<Output>& outputs) : file_
   cells_.resize(columns.size());
   std::string title = "time";
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    title += "," + columns[i].name;
+    title += "," + csv_text(columns[i].name);
     targets_[columns[i].output].push_back({columns[i].leaf, i});
   }
   title += "\n";

@@ -127,6 +127,6 @@ Json json_of(MessageRef message) {
 
 }  // namespace
 
-std::string to_json(MessageRef message) { return json_of(message).dump(); }
+std::string to_json(MessageRef message) { return json_of(message).dump(-1, ' ', true); }
 
 }  // namespace jarol::messages

@@ -3,35 +3,38 @@
 #include <algorithm>
 #include <tuple>
 
+#include "graph/text/escape.h"
+
 namespace jarol {
 namespace {
 
 std::string place(const Location& where) {
   if (!where.source) return "";
-  return where.source->name + ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
+  return printable(where.source->name) + ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
 }
 
 constexpr std::size_t most_shown = 160;  // characters of a line
 constexpr std::size_t most_problems = 200;
 constexpr std::size_t most_words = 100;  // of a list
 
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
-
-// The line and a caret below the column. Tabs stay tabs, so that the caret stands where it should; other control
-// characters are shown as dots, and of a long line only what surrounds the place.
+// The line and a caret below the column. Tabs stay tabs, so that the caret stands where it should; what is not
+// printable is shown as a dot, and of a long line only what surrounds the place.
 std::string excerpt(const Location& where) {
   if (!where.source) return "";
   const std::string_view line = line_of(*where.source, where.line);
   const std::size_t at = std::min(static_cast<std::size_t>(std::max(where.column, 1) - 1), line.size());
+  const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(line[i]) & 0xc0) == 0x80; };
   std::size_t begin = at > most_shown - 40 ? at - (most_shown - 40) : 0;
   std::size_t end = std::min(begin + most_shown, line.size());
-  while (begin > 0 && continues_character(line[begin])) --begin;
-  while (end < line.size() && continues_character(line[end])) ++end;
+  while (begin > 0 && continues(begin)) --begin;
+  while (end < line.size() && continues(end)) ++end;
   std::string shown(begin > 0 ? "..." : ""), caret(shown.size(), ' ');
-  for (std::size_t i = begin; i < end; ++i) {
-    const bool control = (line[i] >= 0 && line[i] < ' ' && line[i] != '\t') || line[i] == '\x7f';
-    shown += control ? '.' : line[i];
-    if (i < at && !continues_character(line[i])) caret += line[i] == '\t' ? '\t' : ' ';
+  for (std::size_t i = begin; i < end;) {
+    const Character c = first_character(line.substr(i, end - i));
+    const bool tab = line[i] == '\t';
+    shown += c.printable || tab ? line.substr(i, c.size) : ".";
+    if (i < at) caret += tab ? '\t' : ' ';
+    i += c.size;
   }
   if (end < line.size()) shown += "...";
   return "\n  " + shown + "\n  " + caret + "^";
@@ -105,8 +108,9 @@ void Problems::throw_if_any() const {
 }
 
 std::string to_text(const Problem& problem) {
-  std::string text = place(problem.where) + "error: " + problem.text + excerpt(problem.where);
-  for (const Note& note : problem.notes) text += "\n" + place(note.where) + "note: " + note.text + excerpt(note.where);
+  std::string text = place(problem.where) + "error: " + printable(problem.text) + excerpt(problem.where);
+  for (const Note& note : problem.notes)
+    text += "\n" + place(note.where) + "note: " + printable(note.text) + excerpt(note.where);
   return text;
 }
 

@@ -256,7 +256,12 @@ connections: [a.out -> b.in]
         folder.write("bad.yaml", "{graph: t, tasks: {a: {type: Countr, period: 1ms}}, conections: []}\n");
     const Result result = jarol("check --json " + bad + " specs/counting.yaml", "2>/dev/null");
     CHECK(result.exit_code == 2);
-    CHECK(nlohmann::json::parse(result.output)["file"] == "specs/counting.yaml");
+    const std::size_t second = result.output.find('\n') + 1;
+    const auto problems = nlohmann::json::parse(result.output.substr(0, second));
+    CHECK(problems["schema"] == "jarol.problems/1");
+    CHECK(problems["file"] == bad);
+    CHECK(problems["problems"].size() == 2);
+    CHECK(nlohmann::json::parse(result.output.substr(second))["file"] == "specs/counting.yaml");
     CHECK(jarol("check " + bad).output.ends_with(bad + ": 2 errors\n"));
   }
 }

@@ -12,7 +12,7 @@ using command::TemporaryFolder;
 
 void check_refused(const std::string& arguments, const std::string& message) {
   CAPTURE(arguments);
-  const auto refused = jarol(arguments);
+  const auto refused = jarol(arguments, "2>&1 >/dev/null");
   CHECK(refused.exit_code == 2);
   CHECK(refused.output == "error: " + message + "\n");
 }

@@ -252,7 +252,7 @@ TEST_SUITE("tools/plot_svg") {
     PlotSvg plot("", "a<b & \"c\"", {{"x>\n", "<m>", 0, number("x", "m"), {}}});
     const std::string svg = plot.text();
     CHECK(has(svg, "<title>a&lt;b &amp; &quot;c&quot;</title>"));
-    CHECK(has(svg, ">x&gt; </tspan> [&lt;m&gt;]</text>"));
+    CHECK(has(svg, ">x&gt;\\n</tspan> [&lt;m&gt;]</text>"));
   }
 
   TEST_CASE("outputs without a panel are passed over, yet the axis reaches to their last instant") {

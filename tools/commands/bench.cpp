@@ -10,6 +10,7 @@
 #include "tools/bench/figures.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
+#include "tools/json_line.h"
 
 namespace jarol::tools {
 namespace {
@@ -24,19 +25,17 @@ int run_bench(const Options& options) {
   const std::vector<std::string> names = options.names.empty() ? bench::figure_names() : options.names;
   const auto known = bench::figure_names();
   for (const std::string& name : names)
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      std::cerr << "error: there is no figure '" << name << "'" << did_you_mean(name, known)
-                << "; there are: " << list_of(known) << "\n";
-      return exit_input;
-    }
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw std::invalid_argument("there is no figure '" + name + "'" + did_you_mean(name, known) +
+                                  "; there are: " + list_of(known));
   auto figures = nlohmann::ordered_json::array();
   bool all_met = true;
   if (!options.json)
     std::cout << fmt::format("{:<22}{:>10}{:>10}{:>8}{:>8}  {}\n", "figure", "value", "floor", "ratio", "goal", "what");
   for (const std::string& name : names) {
-    if (isatty(STDERR_FILENO) != 0) std::cerr << "\r\033[Kmeasuring " << name << " " << std::flush;
+    if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r\033[Kmeasuring %s ", name.c_str());
     const bench::Figure f = bench::measure(name, options.repeats);
-    if (isatty(STDERR_FILENO) != 0) std::cerr << "\r\033[K" << std::flush;
+    if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
     all_met = all_met && f.ratio <= f.goal;
     if (options.json) {
       figures.push_back({{"name", f.name},
@@ -51,7 +50,7 @@ int run_bench(const Options& options) {
     }
   }
   if (options.json)
-    std::cout << nlohmann::ordered_json{{"schema", "jarol.bench/1"}, {"figures", figures}} << "\n";
+    std::cout << json_line({{"schema", "jarol.bench/1"}, {"figures", figures}});
   else
     std::cout << (all_met ? "all goals met\n" : "not all goals met; machines are noisy, repeat before you conclude\n");
   return all_met ? exit_good : exit_negative;

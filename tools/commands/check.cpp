@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -13,8 +12,10 @@
 #include "tools/check_graph.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
+#include "tools/failure.h"
 #include "tools/gantt.h"
 #include "tools/generate_graphs.h"
+#include "tools/json_line.h"
 #include "tools/load_graph.h"
 #include "tools/measure_file.h"
 #include "tools/whole_file.h"
@@ -110,7 +111,7 @@ int check_file(const std::string& file, const Options& options) {
     picture.commit();
   }
   if (options.json)
-    std::cout << to_json(report) << "\n";
+    std::cout << json_line(to_json(report));
   else
     std::cout << to_text(report);
   return exit_code_of(report);
@@ -121,31 +122,17 @@ int check_files(const Options& options) {
   int exit_code = exit_good;
   for (const std::string& file : options.files) require_apart({{"FILE", file}}, {{"--svg", options.svg}});
   for (const std::string& file : options.files) {
-    const auto failed = [&](std::size_t errors, int code) {
-      std::cerr << file << ": " << errors << (errors == 1 ? " error\n" : " errors\n");
-      exit_code = worst(exit_code, code);
-    };
     try {
       exit_code = worst(exit_code, check_file(file, options));
-    } catch (const SpecError& error) {
-      std::cerr << error.what() << "\n";
-      failed(error.problems().size(), exit_input);
-    } catch (const std::bad_alloc&) {
-      std::cerr << "error: there is not enough memory for this\n";
-      failed(1, exit_unfinished);
-    } catch (const std::exception& error) {
-      std::cerr << "error: " << error.what() << "\n";
-      failed(1, exit_input);
+    } catch (...) {
+      exit_code = worst(exit_code, report(failure_of(std::current_exception(), file), options.json, file));
     }
   }
   return exit_code;
 }
 
 int write_graphs(const Options& options) {
-  if (options.folder.empty()) {
-    std::cerr << "error: --generate needs -o DIR, a folder for the graphs\n";
-    return exit_input;
-  }
+  if (options.folder.empty()) throw std::invalid_argument("--generate needs -o DIR, a folder for the graphs");
   std::filesystem::create_directories(options.folder);
   Generation generation = options.generation;
   generation.kind = options.generate;
@@ -205,14 +192,8 @@ void add_check(CommandLine& line, int& exit_code) {
   command->callback([options, command, &exit_code] {
     require_effect(*command, *options);
     options->measuring.duration = measured_time(options->duration);
-    if (!options->generate.empty()) {
-      exit_code = write_graphs(*options);
-    } else if (options->files.empty()) {
-      std::cerr << "error: check needs a FILE, a graph\n";
-      exit_code = exit_input;
-    } else {
-      exit_code = check_files(*options);
-    }
+    if (options->generate.empty() && options->files.empty()) throw std::invalid_argument("check needs a FILE, a graph");
+    exit_code = options->generate.empty() ? check_files(*options) : write_graphs(*options);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "runtime/machine.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
+#include "tools/json_line.h"
 
 namespace jarol::tools {
 namespace {
@@ -55,7 +56,7 @@ void print_json(const MachineFacts& m, const std::vector<Lateness>& measured) {
                                  {"p50_ns", l.of.percentile(0.5)},
                                  {"p99_ns", l.of.percentile(0.99)},
                                  {"worst_ns", l.of.most()}});
-  std::cout << whole << "\n";
+  std::cout << json_line(whole);
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -96,10 +97,7 @@ int examine(const Options& options) {
   Duration duration{};
   std::string wrong = parse_duration(options.duration, duration);
   if (wrong.empty() && duration < period) wrong = "is less than one period of 1ms";
-  if (!wrong.empty()) {
-    std::cerr << "error: --for: '" << options.duration << "' " << wrong << "\n";
-    return exit_input;
-  }
+  if (!wrong.empty()) throw std::invalid_argument("--for: '" + options.duration + "' " + wrong);
   const MachineFacts facts = find_machine_facts();
   std::vector<Lateness> measured;
   if (const auto ordinary = measure_lateness(period, duration, {})) measured.push_back({"other", *ordinary});

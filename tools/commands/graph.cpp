@@ -3,8 +3,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "graph/text/escape.h"
+
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
+#include "tools/json_line.h"
 #include "tools/load_graph.h"
 #include "tools/value_json.h"
 
@@ -28,7 +31,7 @@ std::string task_text(const Task& task) {
 }
 
 void print_text(const Graph& graph) {
-  std::cout << "graph " << graph.name << "\n\ncommunicators\n";
+  std::cout << "graph " << printable(graph.name) << "\n\ncommunicators\n";
   for (const Communicator& c : graph.communicators) {
     std::cout << "  " << c.name << ": " << (c.direction == Direction::in ? "in" : "out") << ", " << c.type->name << ", "
               << timing_text(c.period, c.offset);
@@ -37,7 +40,9 @@ void print_text(const Graph& graph) {
       std::cout << ", channel " << d.name << "." << d.distributer_class->channels[c.channel].name;
     }
     if (c.timeout) std::cout << ", silent after " << duration_text(*c.timeout);
-    if (c.safe) std::cout << ", while silent " << to_json(*c.type, c.safe->data());
+    if (c.safe)
+      std::cout << ", while silent "
+                << to_json(*c.type, c.safe->data()).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     std::cout << "\n";
   }
   std::cout << "\ntasks, in the order in which they run when released together\n";
@@ -84,12 +89,11 @@ void print_json(const Graph& graph) {
   for (const Connection& c : graph.connections)
     connections.push_back(
         {{"from", end_name(graph, c.from, true)}, {"to", end_name(graph, c.to, false)}, {"type", c.type->name}});
-  std::cout << nlohmann::ordered_json{{"schema", "jarol.graph/1"},
-                                      {"graph", graph.name},
-                                      {"communicators", std::move(communicators)},
-                                      {"tasks", std::move(tasks)},
-                                      {"connections", std::move(connections)}}
-            << "\n";
+  std::cout << json_line({{"schema", "jarol.graph/1"},
+                          {"graph", graph.name},
+                          {"communicators", std::move(communicators)},
+                          {"tasks", std::move(tasks)},
+                          {"connections", std::move(connections)}});
 }
 
 std::string dot_name(const Graph& graph, const End& end) {
@@ -105,7 +109,8 @@ std::string dot_label(const Graph& graph, const Connection& c) {
 }
 
 void print_dot(const Graph& graph) {
-  std::cout << "digraph \"" << graph.name << "\" {\n  rankdir=LR;\n  node [fontname=\"sans-serif\", fontsize=11];\n"
+  std::cout << "digraph \"" << dot_text(graph.name)
+            << "\" {\n  rankdir=LR;\n  node [fontname=\"sans-serif\", fontsize=11];\n"
             << "  edge [fontname=\"sans-serif\", fontsize=9];\n";
   for (const Communicator& c : graph.communicators)
     std::cout << "  " << c.name << " [shape=" << (c.direction == Direction::in ? "cds" : "rarrow") << ", label=\""
@@ -115,11 +120,11 @@ void print_dot(const Graph& graph) {
     std::cout << "  " << t.name
               << " [shape=box, style=" << (t.let ? "\"rounded,filled\", fillcolor=\"#e8f0fe\"" : "rounded")
               << ", label=\"" << t.name << "\\n"
-              << t.task_class->name << "\\n"
+              << dot_text(t.task_class->name) << "\\n"
               << timing_text(t.period, t.offset) << (t.let ? "\\nLET " + duration_text(*t.let) : "") << "\"];\n";
   for (const Connection& c : graph.connections)
     std::cout << "  " << dot_name(graph, c.from) << " -> " << dot_name(graph, c.to) << " [label=\""
-              << dot_label(graph, c) << "\"];\n";
+              << dot_text(dot_label(graph, c)) << "\"];\n";
   std::cout << "}\n";
 }
 

@@ -7,6 +7,7 @@
 #include "graph/yaml/problems.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
+#include "tools/json_line.h"
 #include "tools/packet_lines.h"
 
 namespace jarol::tools {
@@ -111,12 +112,7 @@ void print_json(const std::vector<const MessageForm*>& listed) {
                                  {"bytes", m->wire_size < 0 ? Json() : Json(m->wire_size)},
                                  {"fields", fields}});
   }
-  std::cout << whole << "\n";
-}
-
-int complain(const std::string& what) {
-  std::cerr << "error: " << what << "\n";
-  return exit_input;
+  std::cout << json_line(whole);
 }
 
 int list_messages(const Options& options) {
@@ -124,7 +120,7 @@ int list_messages(const Options& options) {
   std::vector<const MessageForm*> listed;
   if (options.set.empty()) {
     if (options.decode || options.encode)
-      return complain("--decode and --encode need a set; jarol messages lists them");
+      throw std::invalid_argument("--decode and --encode need a set; jarol messages lists them");
     for (const MessageSet* set : messages::message_sets())
       listed.insert(listed.end(), set->messages.begin(), set->messages.end());
     options.json ? print_json(listed) : print_sets();
@@ -133,8 +129,8 @@ int list_messages(const Options& options) {
   const MessageSet* const set = messages::find_message_set(options.set);
   if (set == nullptr) {
     for (const MessageSet* known : messages::message_sets()) names.emplace_back(known->name);
-    return complain("there is no message set '" + options.set + "'" + did_you_mean(options.set, names) +
-                    "; there are: " + list_of(names));
+    throw std::invalid_argument("there is no message set '" + options.set + "'" + did_you_mean(options.set, names) +
+                                "; there are: " + list_of(names));
   }
   if (options.decode) return decode_lines(*set, std::cin, std::cout, std::cerr);
   if (options.encode) return encode_lines(*set, std::cin, std::cout, std::cerr);
@@ -147,8 +143,8 @@ int list_messages(const Options& options) {
   if (form == nullptr) {
     for (const MessageForm* m : set->messages) names.emplace_back(m->name);
     const std::string close = did_you_mean(options.name, names);
-    return complain("set " + options.set + " has no message '" + options.name + "'" +
-                    (close.empty() ? "; jarol messages " + options.set + " lists them" : close));
+    throw std::invalid_argument("set " + options.set + " has no message '" + options.name + "'" +
+                                (close.empty() ? "; jarol messages " + options.set + " lists them" : close));
   }
   options.json ? print_json({form}) : print_message(*form);
   return exit_good;

@@ -10,10 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "graph/text/escape.h"
 #include "runtime/executor.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
 #include "tools/interrupt.h"
+#include "tools/json_line.h"
 #include "tools/load_graph.h"
 #include "tools/log_reader.h"
 #include "tools/progress.h"
@@ -163,9 +165,9 @@ int replay(const Options& options) {
       .seconds = seconds,
       .simulated = comparison.interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated)};
   if (options.json) {
-    std::cout << json_of(outcome, comparison, log, options, misses.size()) << "\n";
+    std::cout << json_line(json_of(outcome, comparison, log, options, misses.size()));
   } else {
-    std::cout << fmt::format("{}: replay of {} s in {:.2f} s, {:.0f} times real time{}\n", graph.name,
+    std::cout << fmt::format("{}: replay of {} s in {:.2f} s, {:.0f} times real time{}\n", printable(graph.name),
                              seconds_text(outcome.simulated), seconds, real_time_factor(outcome),
                              comparison.interrupted ? " (interrupted)" : "")
               << to_text(outcome)

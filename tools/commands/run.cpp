@@ -9,10 +9,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "graph/text/escape.h"
 #include "runtime/executor.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
 #include "tools/interrupt.h"
+#include "tools/json_line.h"
 #include "tools/linked.h"
 #include "tools/load_graph.h"
 #include "tools/log_writer.h"
@@ -69,15 +71,15 @@ Duration end_of_run(const Options& options, const Loaded& loaded) {
 void print(const Options& options, const RunOutcome& outcome, const std::string& ended_early, bool written) {
   const Report& report = outcome.executor.report();
   if (options.json) {
-    std::cout << to_json(outcome) << "\n";
+    std::cout << json_line(to_json(outcome));
     return;
   }
   if (outcome.clock != nullptr) {
-    std::cout << fmt::format("{}: {} s in real time{}\n", outcome.graph.name, seconds_text(outcome.simulated),
-                             ended_early);
+    std::cout << fmt::format("{}: {} s in real time{}\n", printable(outcome.graph.name),
+                             seconds_text(outcome.simulated), ended_early);
   } else {
     std::cout << fmt::format("{}: {} s on the virtual clock in {:.2f} s, {:.0f} times real time{}\n",
-                             outcome.graph.name, seconds_text(outcome.simulated), outcome.seconds,
+                             printable(outcome.graph.name), seconds_text(outcome.simulated), outcome.seconds,
                              real_time_factor(outcome), ended_early);
   }
   std::cout << to_text(outcome);
@@ -230,16 +232,8 @@ void add_run(CommandLine& line, int& exit_code) {
   command->add_option("--log", options->log,
                       "Write what came from outside, and what was late, to this file: all that jarol replay needs");
   command->callback([options, command, &exit_code] {
-    try {
-      require_effect(*command, *options);
-      exit_code = run(*options);
-    } catch (const NegativeVerdict& error) {
-      std::cerr << "error: " << error.what() << "\n";
-      exit_code = exit_negative;
-    } catch (const std::invalid_argument& error) {
-      std::cerr << "error: " << error.what() << "\n";
-      exit_code = exit_input;
-    }
+    require_effect(*command, *options);
+    exit_code = run(*options);
   });
 }
 

@@ -7,6 +7,7 @@
 #include "graph/values/bind.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
+#include "tools/json_line.h"
 #include "tools/load_graph.h"
 
 namespace jarol::tools {
@@ -94,7 +95,7 @@ void print_json(const std::vector<TaskClass>& tasks, const std::vector<Distribut
                                {"distributers", nlohmann::ordered_json::array()}};
   for (const TaskClass& t : tasks) whole["tasks"].push_back(task_json(t));
   for (const DistributerClass& d : distributers) whole["distributers"].push_back(distributer_json(d));
-  std::cout << whole << "\n";
+  std::cout << json_line(whole);
 }
 
 void print_task(const TaskClass& task) {
@@ -132,9 +133,7 @@ int list_tasks(const Options& options) {
   Registry known = registry();
   for (const std::string& plugin : options.plugins) {
     const std::string wrong = load_plugin(plugin, known);
-    if (wrong.empty()) continue;
-    std::cerr << "error: " << wrong << "\n";
-    return exit_input;
+    if (!wrong.empty()) throw std::invalid_argument(wrong);
   }
   if (options.name.empty()) {
     options.json ? print_json(known.tasks(), known.distributers()) : print_all(known);
@@ -150,9 +149,8 @@ int list_tasks(const Options& options) {
   }
   std::vector<std::string> names = names_of(known.tasks());
   for (const auto& name : names_of(known.distributers())) names.push_back(name);
-  std::cerr << "error: there is no task or distributer '" << options.name << "'" << did_you_mean(options.name, names)
-            << "; there are: " << list_of(names) << "\n";
-  return exit_input;
+  throw std::invalid_argument("there is no task or distributer '" + options.name + "'" +
+                              did_you_mean(options.name, names) + "; there are: " + list_of(names));
 }
 
 }  // namespace
