@@ -1,0 +1,26 @@
+// Small random task sets with any mix of features, as graphs and as text.
+#pragma once
+
+#include "tests/graph/analysis/truth.h"
+
+namespace jarol::truth {
+
+/// Which features a set may have.
+struct Features {
+  bool jitter = true, blocking = true, data_flow = true, any_phasing = true;
+  int cores = 2;
+};
+
+Set random_set(std::uint64_t seed, Policy policy, const Features& features);
+
+/// A valid graph, as the loader makes it of `yaml_of`, in a hundredth of the time.
+Graph graph_of(const Set& set);
+
+/// `unit` is the unit of time, as in "ms"; comments are what stands above it.
+std::string yaml_of(const Set& set, const std::string& unit, const std::string& comments = "");
+
+Places places_in(const Graph& graph);
+
+const char* name_of(Policy policy);
+
+}  // namespace jarol::truth

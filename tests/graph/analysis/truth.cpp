@@ -1,0 +1,306 @@
+#include "tests/graph/analysis/truth.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+namespace jarol::truth {
+namespace {
+
+__extension__ using Bits = unsigned __int128;
+
+constexpr std::size_t most_tasks = 5, nobody = 7, root = ~std::size_t{0};
+
+// A task's newest activation, and how long ago it arrived.
+struct Slot {
+  std::uint8_t age = 0;     // also without an activation; the next one arrives at the period
+  std::uint8_t left = 0;    // that it may still run
+  std::uint8_t wait = 0;    // that its release may still be delayed
+  std::uint8_t budget = 0;  // that it may still be held up
+  bool pending = false, released = false, started = false;
+
+  Bits packed() const {
+    return age | left << 5 | wait << 10 | budget << 15 | pending << 20 | released << 21 | started << 22;
+  }
+};
+
+constexpr int slot_bits = 23;
+
+struct State {
+  std::array<Slot, most_tasks> slots;
+  std::size_t judged = nobody;  // the task whose activation is held up; then only its lateness counts
+};
+
+Bits key_of(const State& s) {
+  Bits key = s.judged;
+  for (const Slot& slot : s.slots) key = key << slot_bits | slot.packed();
+  return key;
+}
+
+State state_of(Bits key) {
+  State s;
+  const auto next = [&](int size) {
+    const auto field = static_cast<std::uint8_t>(key & ((1U << size) - 1));
+    key >>= size;
+    return field;
+  };
+  for (std::size_t i = most_tasks; i-- > 0;) {
+    Slot& slot = s.slots[i];
+    for (std::uint8_t* field : {&slot.age, &slot.left, &slot.wait, &slot.budget}) *field = next(5);
+    for (bool* field : {&slot.pending, &slot.released, &slot.started}) *field = next(1) != 0;
+  }
+  s.judged = next(3);
+  return s;
+}
+
+// All states seen, each with the one that led to it.
+class Seen {
+ public:
+  struct Node {
+    Bits key = 0;
+    std::size_t from = root;
+  };
+
+  Seen() : places_(1024) {}
+  const Node& operator[](std::size_t i) const { return nodes_[i]; }
+  std::size_t size() const { return nodes_.size(); }
+  void add(Bits key, std::size_t from) {
+    if (2 * nodes_.size() >= places_.size()) grow();
+    std::size_t& place = find(key);
+    if (place != 0) return;
+    nodes_.push_back({key, from});
+    place = nodes_.size();
+  }
+
+ private:
+  std::size_t& find(Bits key) {
+    std::uint64_t hash = static_cast<std::uint64_t>(key >> 64) * 0x9e3779b97f4a7c15ULL;
+    hash = (hash ^ static_cast<std::uint64_t>(key)) * 0xbf58476d1ce4e5b9ULL;
+    hash ^= hash >> 29;
+    std::size_t at = hash & (places_.size() - 1);
+    while (places_[at] != 0 && !(nodes_[places_[at] - 1].key == key)) at = (at + 1) & (places_.size() - 1);
+    return places_[at];
+  }
+  void grow() {
+    places_.assign(2 * places_.size(), 0);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) find(nodes_[i].key) = i + 1;
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<std::size_t> places_;  // into nodes_, from 1 on
+};
+
+class Search {
+ public:
+  Search(const Set& set, const std::vector<std::size_t>& core, const Places& places)
+      : set_(set), core_(core), places_(places), producers_(set.tasks.size()), n_(set.tasks.size()) {
+    for (const auto& [from, to] : set.feeds)
+      if (!set.tasks[from].let) producers_[to].push_back(from);
+    truth_.longest.resize(n_, 0);
+  }
+
+  Truth run(std::size_t most_states) {
+    State first;
+    for (std::size_t i = 0; i < n_; ++i) {
+      const Task& t = set_.tasks[i];
+      first.slots[i].age = static_cast<std::uint8_t>(set_.offsets_hold ? t.period - t.offset : t.period);
+    }
+    seen_.add(key_of(first), root);
+    // depth first finds a late activation soon; the newest states stand last
+    std::vector<std::size_t> open{0};
+    while (!open.empty() && !late_) {
+      if (seen_.size() > most_states) return truth_;
+      from_ = open.back();
+      open.pop_back();
+      const std::size_t before = seen_.size();
+      arrive(state_of(seen_[from_].key), 0);
+      for (std::size_t i = before; i < seen_.size(); ++i) open.push_back(i);
+    }
+    if (late_) {
+      truth_.answer = Truth::Answer::late;
+    } else if (!lost_) {
+      truth_.answer = Truth::Answer::schedulable;
+    }
+    return truth_;
+  }
+
+ private:
+  bool by_table() const { return set_.policy == Policy::table; }
+  bool by_priority() const {
+    return set_.policy == Policy::fixed_priority || set_.policy == Policy::fixed_priority_nonpreemptive;
+  }
+  bool preemptive() const {
+    return set_.policy == Policy::fixed_priority || set_.policy == Policy::edf || set_.policy == Policy::global_edf;
+  }
+
+  // 1. who arrives
+  void arrive(State s, std::size_t i) {
+    for (; i < n_; ++i) {
+      const Task& t = set_.tasks[i];
+      Slot& slot = s.slots[i];
+      if (slot.age < t.period) continue;
+      if (slot.pending) {  // only beside a hold-up, which judges another
+        lost_ = true;
+        return;
+      }
+      if (!set_.offsets_hold) arrive(s, i + 1);  // not yet
+      slot = {};
+      slot.pending = true;
+      slot.left = static_cast<std::uint8_t>(t.wcet + (by_table() ? t.blocking : 0));
+      slot.wait = static_cast<std::uint8_t>(t.jitter);
+    }
+    if (!by_table() && s.judged == nobody)
+      for (std::size_t held = 0; held < n_; ++held)
+        if (s.slots[held].pending && s.slots[held].age == 0) hold_up(s, held);
+    release(s, 0);
+  }
+
+  // 2. whether it is this activation that is held up, with its producers
+  void hold_up(State s, std::size_t task) {
+    s.judged = task;
+    if (give_budget(s, task) > 0) release(s, 0);
+  }
+  int give_budget(State& s, std::size_t task) {
+    int all = set_.tasks[task].blocking;
+    s.slots[task].budget = static_cast<std::uint8_t>(all);
+    for (const std::size_t p : producers_[task])
+      if (s.slots[p].pending && s.slots[p].age == 0) all += give_budget(s, p);
+    return all;
+  }
+
+  // 3. who is released
+  void release(State s, std::size_t i) {
+    for (; i < n_; ++i) {
+      Slot& slot = s.slots[i];
+      if (!slot.pending || slot.released) continue;
+      if (slot.wait > 0) {
+        --slot.wait;
+        release(s, i + 1);
+        ++slot.wait;
+      }
+      slot.wait = 0;
+      slot.released = true;
+    }
+    dispatch(s, 0, 0);
+  }
+
+  bool eligible(const State& s, std::size_t i) const {
+    if (!s.slots[i].pending || !s.slots[i].released) return false;
+    return std::none_of(producers_[i].begin(), producers_[i].end(), [&](std::size_t p) {
+      return s.slots[p].pending && s.slots[p].age == s.slots[i].age;
+    });
+  }
+
+  using Urgency = std::tuple<int, int, std::size_t>;  // smaller is more urgent
+  Urgency urgency(const State& s, std::size_t i) const {
+    const Task& t = set_.tasks[i];
+    if (by_table()) return {0, -s.slots[i].age, places_.turn[i]};
+    if (by_priority()) return {t.priority ? 0 : 1, t.priority.value_or(t.deadline), places_.order[i]};
+    return {0, t.deadline - s.slots[i].age, set_.policy == Policy::global_edf ? i : places_.order[i]};
+  }
+
+  // The tasks that the policy runs now, as bits.
+  unsigned picked(const State& s) const {
+    unsigned bits = 0;
+    const bool global = set_.policy == Policy::global_edf;
+    for (int c = 0; c < set_.cores; ++c) {
+      std::size_t best = nobody;
+      for (std::size_t i = 0; i < n_; ++i) {
+        if (!s.slots[i].pending || (bits >> i & 1) != 0) continue;
+        if (!global && core_[i] != static_cast<std::size_t>(c)) continue;
+        if (!by_table() && !eligible(s, i)) continue;
+        if (!preemptive() && s.slots[i].started) {
+          best = i;
+          break;
+        }
+        if (best == nobody || urgency(s, i) < urgency(s, best)) best = i;
+      }
+      if (best != nobody && eligible(s, best)) bits |= 1U << best;
+    }
+    return bits;
+  }
+
+  // 4. who runs for the next unit, who is held up, who has ended before
+  void dispatch(const State& s, unsigned decided, unsigned held) {
+    const unsigned runs = picked(s);
+    for (std::size_t i = 0; i < n_; ++i) {
+      if ((runs >> i & 1) == 0 || (decided >> i & 1) != 0) continue;
+      State other = s;
+      if (s.slots[i].budget > 0) {
+        --other.slots[i].budget;
+        dispatch(other, decided | 1U << i, held | 1U << i);
+        other = s;
+      }
+      if (end(other, i, s.slots[i].age)) dispatch(other, decided, held);
+      return dispatch(s, decided | 1U << i, held);
+    }
+    advance(s, runs & ~held);
+  }
+
+  // False where there is nothing more to see.
+  bool end(State& s, std::size_t task, int response) {
+    if (s.judged == nobody || s.judged == task)
+      truth_.longest[task] = std::max(truth_.longest[task], response);
+    const std::uint8_t age = s.slots[task].age;
+    s.slots[task] = {};
+    s.slots[task].age = age;
+    return s.judged != task;
+  }
+
+  // 5. a unit of time
+  void advance(State s, unsigned runs) {
+    if (late_) return;
+    for (std::size_t i = 0; i < n_; ++i) {
+      if ((runs >> i & 1) == 0) continue;
+      s.slots[i].started = !preemptive();
+      if (--s.slots[i].left == 0 && !end(s, i, s.slots[i].age + 1)) return;
+    }
+    bool late = false;
+    for (std::size_t i = 0; i < n_; ++i) {
+      Slot& slot = s.slots[i];
+      if (slot.age < set_.tasks[i].period) ++slot.age;
+      late = late || (slot.pending && slot.age >= set_.tasks[i].deadline && (s.judged == nobody || s.judged == i));
+    }
+    if (late) {
+      late_ = true;
+      tell(s);
+    } else {
+      seen_.add(key_of(s), from_);
+    }
+  }
+
+  void tell(const State& last) {
+    std::vector<State> states{last};
+    for (std::size_t i = from_; i != root; i = seen_[i].from) states.push_back(state_of(seen_[i].key));
+    std::reverse(states.begin(), states.end());
+    for (std::size_t time = 0; time < states.size(); ++time) {
+      truth_.witness += std::to_string(time) + ":";
+      for (std::size_t i = 0; i < n_; ++i) {
+        const Slot& slot = states[time].slots[i];
+        if (!slot.pending) continue;
+        truth_.witness += std::string(" ") + static_cast<char>('a' + i) + " since " + std::to_string(slot.age) +
+                          (slot.released ? " left " + std::to_string(slot.left) : " not released");
+        if (slot.budget > 0) truth_.witness += " hold-up left " + std::to_string(slot.budget);
+      }
+      truth_.witness += "\n";
+    }
+  }
+
+  const Set& set_;
+  const std::vector<std::size_t>& core_;
+  const Places& places_;
+  std::vector<std::vector<std::size_t>> producers_;
+  std::size_t n_;
+  Seen seen_;
+  std::size_t from_ = 0;
+  bool late_ = false, lost_ = false;
+  Truth truth_;
+};
+
+}  // namespace
+
+Truth truth_of(const Set& set, const std::vector<std::size_t>& core, const Places& places, std::size_t most_states) {
+  return Search(set, core, places).run(most_states);
+}
+
+}  // namespace jarol::truth

@@ -1,0 +1,120 @@
+// What `check` says of small random sets, against what is true of them.
+#include "tests/graph/analysis/truth.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "graph/analysis/sensitivity.h"
+#include "tests/graph/analysis/judged.h"
+#include "tests/graph/graph_of.h"
+
+namespace {
+using namespace jarol;
+using analysis::Verdict;
+using truth::Judged;
+using truth::Set;
+using Answer = truth::Truth::Answer;
+
+const Policy policies[] = {Policy::table,
+                           Policy::fixed_priority,
+                           Policy::edf,
+                           Policy::fixed_priority_nonpreemptive,
+                           Policy::edf_nonpreemptive,
+                           Policy::global_edf};
+
+// JAROL_SETS of each policy, else as many as there is time for.
+std::uint64_t count_of_sets() {
+  if (const char* count = std::getenv("JAROL_SETS")) return std::strtoull(count, nullptr, 10);
+#ifdef __OPTIMIZE__
+  return std::getenv("JAROL_FULL") != nullptr ? 100'000 : 20'000;
+#else
+  return 500;
+#endif
+}
+
+// How hard a wrong answer is to read.
+std::size_t size_of(const Set& set) {
+  std::size_t size = 100 * set.tasks.size() + 10 * set.feeds.size();
+  for (const truth::Task& t : set.tasks)
+    size += static_cast<std::size_t>(t.period + t.offset + t.wcet + 2 * (t.jitter + t.blocking)) +
+            (t.priority ? 3U : 0U);
+  return size;
+}
+
+struct Tally {
+  std::uint64_t sets = 0, decidable = 0, schedulable = 0, unknown = 0, safe_no = 0;
+  std::map<std::string, std::uint64_t> wrong;      // by kind
+  std::map<std::string, std::optional<Judged>> least;  // the smallest of each kind
+
+  void add(const Judged& judged) {
+    ++sets;
+    if (!judged.decidable()) return;
+    ++decidable;
+    schedulable += judged.truth.answer == Answer::schedulable ? 1U : 0U;
+    unknown += judged.says(Verdict::unknown) ? 1U : 0U;
+    const std::string kind = judged.wrong();
+    safe_no += kind.empty() && judged.says(Verdict::not_schedulable) && judged.truth.answer == Answer::schedulable ? 1U : 0U;
+    if (kind.empty()) return;
+    ++wrong[kind];
+    auto& known = least[kind];
+    if (!known || size_of(judged.set) < size_of(known->set)) known = judged;
+  }
+
+  void print(Policy policy) {
+    std::printf("%s: %llu sets, %llu decidable, %llu schedulable; unsafe yes %llu, false proofs %llu, short responses "
+                "%llu; unknown %llu, no without proof that is yes %llu\n",
+                truth::name_of(policy), static_cast<unsigned long long>(sets),
+                static_cast<unsigned long long>(decidable), static_cast<unsigned long long>(schedulable),
+                static_cast<unsigned long long>(wrong["unsafe yes"]),
+                static_cast<unsigned long long>(wrong["false proof"]),
+                static_cast<unsigned long long>(wrong["short response"]), static_cast<unsigned long long>(unknown),
+                static_cast<unsigned long long>(safe_no));
+  }
+};
+}  // namespace
+
+TEST_SUITE("graph/analysis/truth") {
+  TEST_CASE("no yes is unsafe, and no proof of a no is false") {
+    for (const Policy policy : policies) {
+      Tally tally;
+      const char* only = std::getenv("JAROL_POLICY");
+      if (only != nullptr && only != std::string(truth::name_of(policy))) continue;
+      const bool all = std::getenv("JAROL_ALL_FEATURES") != nullptr;
+      const truth::Features features{.jitter = all, .blocking = all, .data_flow = all};
+      for (std::uint64_t seed = 0; seed < count_of_sets(); ++seed)
+        tally.add(truth::judge(truth::random_set(seed, policy, features)));
+      tally.print(policy);
+      CHECK(tally.decidable > 99 * tally.sets / 100);
+      for (const auto& [kind, judged] : tally.least)
+        FAIL_CHECK(truth::name_of(policy), ": ", tally.wrong[kind], " of kind ", kind, ", such as\n", judged->text());
+    }
+  }
+
+  TEST_CASE("a set's graph is what the loader makes of its text") {
+    for (std::uint64_t seed = 0; seed < 300; ++seed)
+      for (const Policy policy : {Policy::table, Policy::edf}) {
+        const Set set = truth::random_set(seed, policy, {});
+        const std::string text = truth::yaml_of(set, "ns");
+        CAPTURE(text);
+        const Graph loaded = tests::graph_of(text), made = truth::graph_of(set);
+        REQUIRE(loaded.order == made.order);
+        REQUIRE(loaded.tasks.size() == made.tasks.size());
+        for (std::size_t i = 0; i < made.tasks.size(); ++i) {
+          REQUIRE(loaded.tasks[i].deadline == made.tasks[i].deadline);
+          REQUIRE(loaded.tasks[i].task_class == made.tasks[i].task_class);
+        }
+        REQUIRE(loaded.connections.size() == made.connections.size());
+        for (std::size_t i = 0; i < made.connections.size(); ++i) {
+          REQUIRE(loaded.connections[i].from.index == made.connections[i].from.index);
+          REQUIRE(loaded.connections[i].to.index == made.connections[i].to.index);
+          REQUIRE(loaded.connections[i].to.field == made.connections[i].to.field);
+        }
+        REQUIRE(analysis::check(loaded).verdict == analysis::check(made).verdict);
+      }
+  }
+}
