@@ -49,8 +49,8 @@ int derived_deadline(const Set& set, std::size_t task) {
 }  // namespace
 
 Set random_set(std::uint64_t seed, Policy policy, const Features& features) {
-  static const std::vector<std::vector<int>> families{{2, 4, 8}, {3, 6}, {2, 3, 6}, {4, 6}, {5, 5, 2}, {8, 4}, {6, 3, 2},
-                                                      {3, 4},    {7},    {5},       {8},    {6},       {4}};
+  static const std::vector<std::vector<int>> families{
+      {2, 4, 8}, {3, 6}, {2, 3, 6}, {4, 6}, {5, 5, 2}, {8, 4}, {6, 3, 2}, {3, 4}, {7}, {5}, {8}, {6}, {4}};
   Random random(seed);
   Set set;
   set.policy = policy;
@@ -61,7 +61,9 @@ Set random_set(std::uint64_t seed, Policy policy, const Features& features) {
   const bool tight = set.offsets_hold && random.once_in(4);
   const int tight_period = random.between(4, 12);
   std::vector<int> room(static_cast<std::size_t>(set.cores), tight_period - (random.once_in(4) ? 1 : 0));
-  const int n = tight ? random.between(set.cores + 1, set.cores + 3) : set.offsets_hold ? random.between(set.cores, set.cores + 2) : random.between(2, 3);
+  const int n = tight              ? random.between(set.cores + 1, set.cores + 3)
+                : set.offsets_hold ? random.between(set.cores, set.cores + 2)
+                                   : random.between(2, 3);
   const bool jitters = features.jitter && random.once_in(2), blocks = features.blocking && random.once_in(2);
   const bool together = random.once_in(2), priorities = random.once_in(3), lets = random.once_in(3);
   const bool cores_given = random.once_in(2);
@@ -119,9 +121,8 @@ Set random_set(std::uint64_t seed, Policy policy, const Features& features) {
         set.feeds.emplace_back(rank[i], rank[j]);
         ++inputs[rank[j]];
       }
-    std::sort(set.feeds.begin(), set.feeds.end(), [](const auto& a, const auto& b) {
-      return std::tie(a.second, a.first) < std::tie(b.second, b.first);
-    });
+    std::sort(set.feeds.begin(), set.feeds.end(),
+              [](const auto& a, const auto& b) { return std::tie(a.second, a.first) < std::tie(b.second, b.first); });
     if (!set.offsets_hold)  // what is connected goes together, also by another way
       for (std::size_t again = 0; again < rank.size(); ++again)
         for (const auto& [from, to] : set.feeds) {
@@ -178,7 +179,10 @@ std::string yaml_of(const Set& set, const std::string& unit, const std::string& 
       if (to == i) producers.push_back(from);
     for (const std::size_t from : producers)
       connections += (connections.empty() ? "" : ", ") + std::string(1, static_cast<char>('a' + from)) + ".out -> " +
-                     name + (producers.size() == 1 ? ".in" : inputs++ == 0 ? ".a" : ".b");
+                     name +
+                     (producers.size() == 1 ? ".in"
+                      : inputs++ == 0       ? ".a"
+                                            : ".b");
     text += "  " + name + ": {type: " + (producers.empty() ? "Counter" : producers.size() == 1 ? "Relay" : "Sum");
     const auto say = [&](const char* key, int value) {
       text += std::string(", ") + key + ": " + std::to_string(value) + unit;

@@ -20,20 +20,27 @@ struct Slot {
   bool pending = false, released = false, started = false;
 
   Bits packed() const {
-    return age | left << 5 | wait << 10 | budget << 15 | pending << 20 | released << 21 | started << 22;
+    return age | left << 5 | wait << 10 | budget << 14 | pending << 18 | released << 19 | started << 20;
   }
 };
 
-constexpr int slot_bits = 23;
+constexpr int slot_bits = 21;
+constexpr std::size_t most_cores = 2;
 
 struct State {
   std::array<Slot, most_tasks> slots;
   std::size_t judged = nobody;  // the task whose activation is held up; then only its lateness counts
+  // non-preemptive: what holds up a core, once, for how long yet, and whose `blocking` it is; did the core run anything
+  // just before?
+  std::array<std::uint8_t, most_cores> piece{}, whose{nobody, nobody};
+  std::array<bool, most_cores> busy{};
 };
 
 Bits key_of(const State& s) {
   Bits key = s.judged;
   for (const Slot& slot : s.slots) key = key << slot_bits | slot.packed();
+  for (std::size_t c = 0; c < most_cores; ++c)
+    key = key << 8 | static_cast<Bits>(s.piece[c] | s.whose[c] << 4 | s.busy[c] << 7);
   return key;
 }
 
@@ -44,9 +51,15 @@ State state_of(Bits key) {
     key >>= size;
     return field;
   };
+  for (std::size_t c = most_cores; c-- > 0;) {
+    s.piece[c] = next(4);
+    s.whose[c] = next(3);
+    s.busy[c] = next(1) != 0;
+  }
   for (std::size_t i = most_tasks; i-- > 0;) {
     Slot& slot = s.slots[i];
-    for (std::uint8_t* field : {&slot.age, &slot.left, &slot.wait, &slot.budget}) *field = next(5);
+    for (std::uint8_t* field : {&slot.age, &slot.left}) *field = next(5);
+    for (std::uint8_t* field : {&slot.wait, &slot.budget}) *field = next(4);
     for (bool* field : {&slot.pending, &slot.released, &slot.started}) *field = next(1) != 0;
   }
   s.judged = next(3);
@@ -97,6 +110,8 @@ class Search {
     for (const auto& [from, to] : set.feeds)
       if (!set.tasks[from].let) producers_[to].push_back(from);
     truth_.longest.resize(n_, 0);
+    nonpreemptive_ = !takes_longer() && !preemptive() &&
+                     std::any_of(set.tasks.begin(), set.tasks.end(), [](const Task& t) { return t.blocking > 0; });
   }
 
   Truth run(std::size_t most_states) {
@@ -113,7 +128,9 @@ class Search {
       from_ = open.back();
       open.pop_back();
       const std::size_t before = seen_.size();
-      arrive(state_of(seen_[from_].key), 0);
+      const State s = state_of(seen_[from_].key);
+      if (nonpreemptive_) begin_piece(s, 0);
+      arrive(s, 0);
       for (std::size_t i = before; i < seen_.size(); ++i) open.push_back(i);
     }
     if (late_) {
@@ -125,12 +142,38 @@ class Search {
   }
 
  private:
+  // Where it is time of the core, an activation that is held up just takes longer.
+  bool takes_longer() const { return by_table() || set_.policy == Policy::global_edf; }
   bool by_table() const { return set_.policy == Policy::table; }
   bool by_priority() const {
     return set_.policy == Policy::fixed_priority || set_.policy == Policy::fixed_priority_nonpreemptive;
   }
   bool preemptive() const {
     return set_.policy == Policy::fixed_priority || set_.policy == Policy::edf || set_.policy == Policy::global_edf;
+  }
+
+  // 0. under a non-preemptive policy something holds up a core that ran nothing just before: the judged, or a producer
+  // that it follows there
+  void begin_piece(const State& s, std::size_t first_core) {
+    for (std::size_t c = first_core; c < static_cast<std::size_t>(set_.cores); ++c) {
+      if (s.busy[c] || s.whose[c] != nobody) continue;
+      for (std::size_t task = 0; task < n_; ++task) {
+        if (s.judged != nobody && s.judged != task) continue;
+        for (std::size_t whose = 0; whose < n_; ++whose) {
+          if (core_[whose] != c || set_.tasks[whose].blocking == 0 || !follows(task, whose)) continue;
+          State held = s;
+          held.judged = task;
+          held.piece[c] = static_cast<std::uint8_t>(set_.tasks[whose].blocking);
+          held.whose[c] = static_cast<std::uint8_t>(whose);
+          begin_piece(held, c + 1);
+          arrive(held, 0);
+        }
+      }
+    }
+  }
+  bool follows(std::size_t task, std::size_t producer) const {
+    return task == producer || std::any_of(producers_[task].begin(), producers_[task].end(),
+                                           [&](std::size_t p) { return follows(p, producer); });
   }
 
   // 1. who arrives
@@ -146,10 +189,10 @@ class Search {
       if (!set_.offsets_hold) arrive(s, i + 1);  // not yet
       slot = {};
       slot.pending = true;
-      slot.left = static_cast<std::uint8_t>(t.wcet + (by_table() ? t.blocking : 0));
+      slot.left = static_cast<std::uint8_t>(t.wcet + (takes_longer() ? t.blocking : 0));
       slot.wait = static_cast<std::uint8_t>(t.jitter);
     }
-    if (!by_table() && s.judged == nobody)
+    if (!takes_longer() && preemptive() && s.judged == nobody)
       for (std::size_t held = 0; held < n_; ++held)
         if (s.slots[held].pending && s.slots[held].age == 0) hold_up(s, held);
     release(s, 0);
@@ -182,13 +225,18 @@ class Search {
       slot.released = true;
     }
     dispatch(s, 0, 0);
+    if (s.judged == nobody || preemptive()) return;
+    for (std::size_t c = 0; c < most_cores; ++c)  // what holds up may end sooner
+      if (s.piece[c] > 0) {
+        s.piece[c] = 0;
+        dispatch(s, 0, 0);
+      }
   }
 
   bool eligible(const State& s, std::size_t i) const {
     if (!s.slots[i].pending || !s.slots[i].released) return false;
-    return std::none_of(producers_[i].begin(), producers_[i].end(), [&](std::size_t p) {
-      return s.slots[p].pending && s.slots[p].age == s.slots[i].age;
-    });
+    return std::none_of(producers_[i].begin(), producers_[i].end(),
+                        [&](std::size_t p) { return s.slots[p].pending && s.slots[p].age == s.slots[i].age; });
   }
 
   using Urgency = std::tuple<int, int, std::size_t>;  // smaller is more urgent
@@ -204,6 +252,7 @@ class Search {
     unsigned bits = 0;
     const bool global = set_.policy == Policy::global_edf;
     for (int c = 0; c < set_.cores; ++c) {
+      if (s.piece[static_cast<std::size_t>(c)] > 0) continue;
       std::size_t best = nobody;
       for (std::size_t i = 0; i < n_; ++i) {
         if (!s.slots[i].pending || (bits >> i & 1) != 0) continue;
@@ -227,7 +276,8 @@ class Search {
       if ((runs >> i & 1) == 0 || (decided >> i & 1) != 0) continue;
       State other = s;
       if (s.slots[i].budget > 0) {
-        --other.slots[i].budget;
+        for (std::size_t j = 0; j < n_; ++j)  // it strikes a core once, and holds up all that it can there
+          if (core_[j] == core_[i] && other.slots[j].budget > 0) --other.slots[j].budget;
         dispatch(other, decided | 1U << i, held | 1U << i);
         other = s;
       }
@@ -239,17 +289,27 @@ class Search {
 
   // False where there is nothing more to see.
   bool end(State& s, std::size_t task, int response) {
-    if (s.judged == nobody || s.judged == task)
+    if (s.judged == nobody || (s.judged == task && counts(s)))
       truth_.longest[task] = std::max(truth_.longest[task], response);
     const std::uint8_t age = s.slots[task].age;
     s.slots[task] = {};
     s.slots[task].age = age;
-    return s.judged != task;
+    return s.judged != task || nonpreemptive_;
   }
 
   // 5. a unit of time
   void advance(State s, unsigned runs) {
     if (late_) return;
+    if (nonpreemptive_) {
+      s.busy = {};
+      for (std::size_t i = 0; i < n_; ++i)
+        if ((runs >> i & 1) != 0) s.busy[core_[i]] = true;
+      for (std::size_t c = 0; c < most_cores; ++c)
+        if (s.piece[c] > 0) {
+          --s.piece[c];
+          s.busy[c] = true;
+        }
+    }
     for (std::size_t i = 0; i < n_; ++i) {
       if ((runs >> i & 1) == 0) continue;
       s.slots[i].started = !preemptive();
@@ -258,15 +318,32 @@ class Search {
     bool late = false;
     for (std::size_t i = 0; i < n_; ++i) {
       Slot& slot = s.slots[i];
-      if (slot.age < set_.tasks[i].period) ++slot.age;
+      if (slot.age < set_.tasks[i].period + (nonpreemptive_ ? 1 : 0)) ++slot.age;
       late = late || (slot.pending && slot.age >= set_.tasks[i].deadline && (s.judged == nobody || s.judged == i));
     }
-    if (late) {
+    if (s.judged != nobody && nonpreemptive_ && over(s)) return;
+    if (late && counts(s)) {
       late_ = true;
       tell(s);
     } else {
       seen_.add(key_of(s), from_);
     }
+  }
+
+  // Nothing of what held up a core is felt any more where the judged runs.
+  bool over(const State& s) const {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(set_.cores); ++c) {
+      if (s.busy[c]) return false;
+      for (std::size_t p = 0; p < n_ && s.whose[c] == nobody; ++p)
+        if (core_[p] == c && set_.tasks[p].blocking > 0 && follows(s.judged, p)) return false;
+    }
+    return true;
+  }
+  // Only who arrives with its reader holds it up.
+  bool counts(const State& s) const {
+    return s.judged == nobody || std::all_of(s.whose.begin(), s.whose.end(), [&](std::size_t p) {
+             return p == nobody || s.slots[p].age == s.slots[s.judged].age;
+           });
   }
 
   void tell(const State& last) {
@@ -282,6 +359,9 @@ class Search {
                           (slot.released ? " left " + std::to_string(slot.left) : " not released");
         if (slot.budget > 0) truth_.witness += " hold-up left " + std::to_string(slot.budget);
       }
+      for (std::size_t c = 0; c < most_cores; ++c)
+        if (states[time].piece[c] > 0)
+          truth_.witness += " core " + std::to_string(c) + " held up for " + std::to_string(states[time].piece[c]);
       truth_.witness += "\n";
     }
   }
@@ -291,6 +371,7 @@ class Search {
   const Places& places_;
   std::vector<std::vector<std::size_t>> producers_;
   std::size_t n_;
+  bool nonpreemptive_ = false;  // and something may hold up
   Seen seen_;
   std::size_t from_ = 0;
   bool late_ = false, lost_ = false;

@@ -1,11 +1,11 @@
 // What is true of a small task set, by trying everything: each execution time from 0 to the WCET, each release delay up
-// to the jitter, each hold-up, each shift where shifts are possible. Shares no code with graph/analysis: it counts single
-// units of time and follows states, not schedules, so that what repeats is seen to repeat.
+// to the jitter, each hold-up, each shift where shifts are possible. Shares no code with graph/analysis: it counts
+// single units of time and follows states, not schedules, so that what repeats is seen to repeat.
 //
-// How `blocking` is read. Under `table` an activation that is held up keeps its turn, as if it took so much longer, and
-// all behind it wait. Elsewhere each activation is judged with its own hold-up, in all up to `blocking` between release
-// and end while its core does nothing else, and those of the producers that it follows at its instant, in full;
-// hold-ups of others that are merely more urgent count in its own `blocking`, as in the literature.
+// `blocking` is read as graph/analysis/README.md says. In a table and under global EDF an activation just takes so much
+// longer. Elsewhere one activation is judged with a hold-up of its own core that strikes once, up to its `blocking`:
+// under preemptive policies at any time between its release and its end, under the others begun while the core ran
+// nothing. The producers that it follows at its instant are held up too; on its core that is one hold-up for all.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Set {
   Policy policy = Policy::table;
   bool offsets_hold = true;
   int cores = 1;
-  std::vector<Task> tasks;  // named a, b, c ...
+  std::vector<Task> tasks;                                 // named a, b, c ...
   std::vector<std::pair<std::size_t, std::size_t>> feeds;  // data flow: from, to
 };
 
@@ -43,8 +43,8 @@ struct Truth {
   std::string witness;       // a line for each unit of time
 };
 
-/// `core` is the core of each task; it does not matter under global EDF. Up to five tasks, no
-/// number above 31, WCET and blocking together neither. Beyond `most_states` it is too large.
+/// `core` is the core of each task; it does not matter under global EDF. Up to five tasks on
+/// two cores (global EDF: any), no time above 31, jitter and blocking up to 15. Beyond `most_states` it is too large.
 Truth truth_of(const Set& set, const std::vector<std::size_t>& core, const Places& places, std::size_t most_states);
 
 }  // namespace jarol::truth
