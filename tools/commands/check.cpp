@@ -167,7 +167,9 @@ void add_check(CommandLine& line, int& exit_code) {
   command->add_flag("--write", options->measuring.write,
                     "Measure, and write the longest times with a margin into the file as 'wcet', where none is stated "
                     "or a shorter one; what is then said goes for that file, without --set and --profile");
-  command->add_flag("--lower", options->measuring.lower, "With --write: also where a longer 'wcet' is stated");
+  command->add_flag(
+      "--lower", options->measuring.lower,
+      "With --write: also where a longer 'wcet' is stated, down to what leaves room for a disturbance of 100us");
   command->add_option("--for", options->duration, "How much logical time to measure; default: the mission, else 10s");
   command
       ->add_option("--margin", options->measuring.margin,
