@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "runtime/arithmetic.h"
 #include "tools/commanded.h"
 #include "tools/real_time.h"
 #include "tools/told_faults.h"
@@ -33,6 +34,7 @@ std::string to_text(const RunOutcome& outcome) {
   for (const Task& task : graph.tasks)
     if (task.isolation == Isolation::weak)
       text += "              nothing is claimed of the digest: task '" + task.name + "' is weakly isolated\n";
+  for (const std::string& warning : warnings(find_arithmetic())) text += "  note        " + warning + "\n";
   for (std::size_t i = 0; i < graph.tasks.size(); ++i)
     if (const PrivateHeap* heap = executor.plan().heaps[i].get())
       text += fmt::format("  heap        {}: at most {} of {} bytes in use\n", graph.tasks[i].name, heap->most_used(),
@@ -63,6 +65,7 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
       {"clock", outcome.clock != nullptr ? "real" : "virtual"},
       {"digest", fmt::format("0x{:016x}", report.digest)},
       {"digest_claimed", !has_weak_isolation(graph)},
+      {"digest_notes", warnings(find_arithmetic())},
       {"simulated_ns", outcome.simulated.count()},
       {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
       {"real_time_factor", real_time_factor(outcome)},

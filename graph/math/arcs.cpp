@@ -1,4 +1,5 @@
-// atan and what follows from it: for a quotient near t = i/128, atan(y/x) = atan t + atan((y - t x) / (x + t y)), in pairs.
+// atan and what follows from it: for a quotient near t = i/128, atan(y/x) = atan t + atan((y - t x) / (x + t y)), in
+// pairs.
 #include "graph/math/bits.h"
 #include "graph/math/functions.h"
 #include "graph/math/tables.h"
@@ -8,23 +9,36 @@ namespace {
 
 constexpr auto table = make_atan_table();
 
+// a - b without cancellation
+inline Pair less(Pair a, Pair b) {
+  const Pair s = fast_sum(a.hi, -b.hi);
+  return {s.hi, s.lo + (a.lo - b.lo)};
+}
+
 // atan(y/x), 0 <= y <= x, x not too far from 1 and y/x not below 2^-70 or 0
 inline Pair atan_near(Pair y, Pair x) {
   const Whole i = nearest(y.hi / x.hi * 128.0);
   const double t = i.value * (1.0 / 128);
-  const Pair d = (y - x * t) / (x + y * t);
-  const double z = d.hi * d.hi;
-  const double cubic = d.hi * z * (-1.0 / 3 + z * (1.0 / 5 + z * (-1.0 / 7 + z * (1.0 / 9))));
-  const Pair angle = sum(table[i.number].hi, d.hi);
-  return fast_sum(angle.hi, angle.lo + (table[i.number].lo + d.lo + cubic));
+  // t has 8 bits: times the upper bits of x it is exact, and so is what that leaves of y
+  const double upper = from_bits(bits(x.hi) & ~0xffull), lower = x.hi - upper;
+  const Pair n = sum(y.hi - t * upper, (y.lo - t * x.lo) - t * lower);
+  Pair d = fast_sum(x.hi, t * y.hi);
+  d.lo += x.lo + t * y.lo;
+  const double q = n.hi / d.hi;
+  const Pair p = product(q, d.hi);
+  const double q_lo = ((n.hi - p.hi) - p.lo + (n.lo - q * d.lo)) / d.hi;
+  const double z = q * q;
+  const double cubic = q * z * (-1.0 / 3 + z * (1.0 / 5 + z * (-1.0 / 7 + z * (1.0 / 9))));
+  const Pair angle = fast_sum(table[i.number].hi, q);
+  return fast_sum(angle.hi, angle.lo + (table[i.number].lo + q_lo + cubic));
 }
 
 // the angle of (x, y) from the x axis, 0..pi, for y >= 0
 inline double angle_of(Pair x, Pair y) {
   const bool back = x.hi < 0.0;
   if (back) x = -x;
-  Pair a = y.hi > x.hi ? half_pi - atan_near(x, y) : atan_near(y, x);
-  if (back) a = pi - a;
+  Pair a = y.hi > x.hi ? less(half_pi, atan_near(x, y)) : atan_near(y, x);
+  if (back) a = less(pi, a);
   return a.hi + a.lo;
 }
 

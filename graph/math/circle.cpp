@@ -1,5 +1,5 @@
-// sin, cos and tan: the argument less the nearest multiple n of pi/2 in a pair (Cody and Waite 1980; Payne and Hanek 1983 from
-// 2^20 on), then from the table at t = i/128: sin(t + d) = sin t + (cos t sin d + sin t (cos d - 1)).
+// sin, cos and tan: the argument less the nearest multiple n of pi/2 in a pair (Cody and Waite 1980; Payne and Hanek
+// 1983 from 2^20 on), then from the table at t = i/128: sin(t + d) = sin t + (cos t sin d + sin t (cos d - 1)).
 #include "graph/math/bits.h"
 #include "graph/math/functions.h"
 #include "graph/math/tables.h"
@@ -15,17 +15,32 @@ struct Angle {
 };
 
 // 2/pi = 0.a2f9..., 64 bits a word, after one word of zeros
-constexpr std::uint64_t two_per_pi[]{
-    0,
-    0xa2f9836e4e441529, 0xfc2757d1f534ddc0, 0xdb6295993c439041, 0xfe5163abdebbc561, 0xb7246e3a424dd2e0,
-    0x06492eea09d1921c, 0xfe1deb1cb129a73e, 0xe88235f52ebb4484, 0xe99c7026b45f7e41, 0x3991d639835339f4,
-    0x9c845f8bbdf9283b, 0x1ff897ffde05980f, 0xef2f118b5a0a6d1f, 0x6d367ecf27cb09b7, 0x4f463f669e5fea2d,
-    0x7527bac7ebe5f17b, 0x3d0739f78a5292ea, 0x6bfb5fb11f8d5d08, 0x56033046fc7b6bab, 0xf0cfbc209af4361d};
+constexpr std::uint64_t two_per_pi[]{0,
+                                     0xa2f9836e4e441529,
+                                     0xfc2757d1f534ddc0,
+                                     0xdb6295993c439041,
+                                     0xfe5163abdebbc561,
+                                     0xb7246e3a424dd2e0,
+                                     0x06492eea09d1921c,
+                                     0xfe1deb1cb129a73e,
+                                     0xe88235f52ebb4484,
+                                     0xe99c7026b45f7e41,
+                                     0x3991d639835339f4,
+                                     0x9c845f8bbdf9283b,
+                                     0x1ff897ffde05980f,
+                                     0xef2f118b5a0a6d1f,
+                                     0x6d367ecf27cb09b7,
+                                     0x4f463f669e5fea2d,
+                                     0x7527bac7ebe5f17b,
+                                     0x3d0739f78a5292ea,
+                                     0x6bfb5fb11f8d5d08,
+                                     0x56033046fc7b6bab,
+                                     0xf0cfbc209af4361d};
 
 __extension__ using Wide = unsigned __int128;
 
-// x 2/pi modulo 4 in units of 2^-190: x = M 2^e times the 192 bits of 2/pi from place e - 2 on; what is before them gives
-// multiples of 4, what is after them less than 2^-137
+// x 2/pi modulo 4 in units of 2^-190: x = M 2^e times the 192 bits of 2/pi from place e - 2 on; what is before them
+// gives multiples of 4, what is after them less than 2^-137
 Angle reduce_large(double x) {
   const int e = exponent(x) - 52;
   const std::uint64_t m = (bits(x) & 0xfffffffffffff) | 0x10000000000000;
@@ -49,7 +64,8 @@ Angle reduce_large(double x) {
   // as three doubles of 64 bits each, weights 2^-64, 2^-128, 2^-192
   const double hi = static_cast<double>(static_cast<std::uint64_t>(f >> 64) >> 11) * 0x1p-53;
   const double mid = static_cast<double>(static_cast<std::uint64_t>(f >> 22) & 0x1fffffffffffff) * 0x1p-106;
-  const double low_part = static_cast<double>((static_cast<std::uint64_t>(f) & 0x3fffff) << 31 | f_low >> 33) * 0x1p-159;
+  const double low_part =
+      static_cast<double>((static_cast<std::uint64_t>(f) & 0x3fffff) << 31 | f_low >> 33) * 0x1p-159;
   Pair r = (sum(hi, mid) + low_part) * half_pi;
   if (negative) r = -r;
   return x < 0.0 ? Angle{-r, -n} : Angle{r, n};
@@ -58,9 +74,11 @@ Angle reduce_large(double x) {
 inline Angle reduce(double x) {
   const double a = magnitude(x);
   if (a <= 0x1.921fb54442d18p-1) return {{x, 0.0}, 0};
-  if (a >= 0x1p20) [[unlikely]] return reduce_large(x);
+  if (a >= 0x1p20) [[unlikely]]
+    return reduce_large(x);
   // pi/2 in four parts, the first three of 33 bits
-  constexpr double p1 = 0x1.921fb54400000p+0, p2 = 0x1.0b4611a600000p-34, p3 = 0x1.3198a2e000000p-69, p4 = 0x1.b839a252049c1p-104;
+  constexpr double p1 = 0x1.921fb54400000p+0, p2 = 0x1.0b4611a600000p-34, p3 = 0x1.3198a2e000000p-69,
+                   p4 = 0x1.b839a252049c1p-104;
   const Whole n = nearest(x * 0x1.45f306dc9c883p-1);
   const Pair first = sum(x - n.value * p1, -n.value * p2);
   const double rest = n.value * p3;
@@ -76,8 +94,9 @@ inline Pair sin_near(Pair r) {
   const double a = magnitude(r.hi);
   if (a < 0.13) {
     const double z = r.hi * r.hi;
-    const double cubic = z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880 + z * (-1.0 / 39916800
-      + z * (1.0 / 6227020800.0))))));
+    const double cubic =
+        z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 +
+                                              z * (1.0 / 362880 + z * (-1.0 / 39916800 + z * (1.0 / 6227020800.0))))));
     return {r.hi, r.hi * cubic + (r.lo - 0.5 * z * r.lo)};
   }
   const Whole i = nearest(a * 128.0);

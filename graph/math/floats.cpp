@@ -1,4 +1,5 @@
-// In single precision, and absolute value and argument of complex numbers: by the functions of doubles, rounded once more.
+// In single precision, and absolute value and argument of complex numbers: by the functions of doubles, rounded once
+// more.
 #include "graph/math/functions.h"
 
 namespace {

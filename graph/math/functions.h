@@ -1,6 +1,7 @@
-// The functions of C's <math.h> that are not exact, by fixed algorithms of additions, multiplications, divisions and roots alone:
-// the same bits on every x86-64 processor and with every C library. They carry C's own names, so that whoever calls sin in
-// a program that links them gets these, libraries loaded with it included. README.md has their errors.
+// The functions of C's <math.h> that are not exact, by fixed algorithms of additions, multiplications, divisions and
+// roots alone: the same bits on every x86-64 processor and with every C library. They carry C's own names, so that
+// whoever calls sin in a program that links them gets these, libraries loaded with it included. README.md has their
+// errors.
 #pragma once
 
 extern "C" {

@@ -1,4 +1,5 @@
-// log x = k ln 2 + log c + log(1 + r): x = 2^k m, 1/c in ten bits near 1/m, r = m/c - 1 exactly in two parts (Tang 1990).
+// log x = k ln 2 + log c + log(1 + r): x = 2^k m, 1/c in ten bits near 1/m, r = m/c - 1 exactly in two parts (Tang
+// 1990).
 #pragma once
 
 #include "graph/math/bits.h"

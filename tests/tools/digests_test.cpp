@@ -1,4 +1,5 @@
-// One digest on every processor: applications x workers x what the C library may use of the processor x a run and its replay.
+// One digest on every processor: applications x workers x what the C library may use of the processor x a run and its
+// replay.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -20,9 +21,7 @@ using nlohmann::json;
 // by these glibc picks: as it finds the processor, without fused multiply-add, and as the oldest of this architecture
 const std::vector<std::string> processors{"", "-AVX2,-FMA,-FMA4", "-AVX512F,-AVX2,-AVX,-FMA,-FMA4,-SSE4_1"};
 
-void choose(const std::string& processor) {
-  setenv("GLIBC_TUNABLES", ("glibc.cpu.hwcaps=" + processor).c_str(), 1);
-}
+void choose(const std::string& processor) { setenv("GLIBC_TUNABLES", ("glibc.cpu.hwcaps=" + processor).c_str(), 1); }
 
 std::string digest_of(const std::string& arguments) {
   const command::Result result = command::jarol(arguments + " --json", "");
@@ -62,16 +61,21 @@ TEST_SUITE("tools/digests") {
     const TemporaryFolder folder;
     const std::string functions = folder.write("functions.yaml", std::string(R"(graph: functions
 timing: {period: 1ms}
-plugins: [)") + std::filesystem::absolute(JAROL_PLUGIN_FOLDER "/functions.so").string() + R"(]
+plugins: [)") + std::filesystem::absolute(JAROL_PLUGIN_FOLDER "/functions.so").string() +
+                                                                     R"(]
 tasks:
   functions: {type: Functions}
   sum: {type: Accumulate}
 connections: [functions.out -> sum.in]
 )");
     const bool full = std::getenv("JAROL_FULL") != nullptr;
-    const std::vector<std::string> applications{"specs/exolauv.yaml",  "specs/exolauv.yaml --profile at_sea --seed 3",
-                                                "specs/javiator.yaml", "specs/javiator.yaml --profile original",
-                                                "specs/passthrough.yaml", "specs/counting.yaml", functions};
+    const std::vector<std::string> applications{"specs/exolauv.yaml",
+                                                "specs/exolauv.yaml --profile at_sea --seed 3",
+                                                "specs/javiator.yaml",
+                                                "specs/javiator.yaml --profile original",
+                                                "specs/passthrough.yaml",
+                                                "specs/counting.yaml",
+                                                functions};
     for (const std::string& application : applications) {
       const bool endless = application == functions || application == "specs/counting.yaml";
       const std::string length = full && !endless ? "" : " --for 8s";
@@ -81,7 +85,8 @@ connections: [functions.out -> sum.in]
           choose(processor);
           const std::string with = std::to_string(workers) + " workers, " + processor, log = folder / "run.log";
           std::filesystem::remove(log);
-          const std::string run = "run " + application + length + " --workers " + std::to_string(workers) + " --log " + log;
+          const std::string run =
+              "run " + application + length + " --workers " + std::to_string(workers) + " --log " + log;
           found[digest_of(run)].push_back(with);
           // as on another machine: the log of this processor on the next one
           choose(processors[(static_cast<std::size_t>(workers) + processor.size()) % processors.size()]);

@@ -1,5 +1,5 @@
-// Prints one hash of what the C library's own functions give here, and one of what this program's functions of the same names
-// give: how the settings of a processor change either.
+// Prints one hash of what the C library's own functions give here, and one of what this program's functions of the same
+// names give: how the settings of a processor change either.
 #include <dlfcn.h>
 
 #include <bit>

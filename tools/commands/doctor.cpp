@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/yaml/quantities.h"
+#include "runtime/arithmetic.h"
 #include "runtime/machine.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
@@ -34,21 +35,23 @@ nlohmann::ordered_json permission(const std::string& refused) {
   return json;
 }
 
-void print_json(const MachineFacts& m, const std::vector<Lateness>& measured) {
-  nlohmann::ordered_json whole{{"schema", "jarol.doctor/1"},
-                               {"kernel", m.kernel},
-                               {"preempt_rt", m.preempt_rt},
-                               {"cpus", m.cpus},
-                               {"usable_cpus", m.usable},
-                               {"affinity", permission(m.affinity_refused)},
-                               {"sched_fifo", permission(m.fifo_refused)},
-                               {"lock_memory", permission(m.lock_refused)},
-                               {"default_timer_slack_ns", m.default_slack.count()},
-                               {"least_timer_slack_ns", m.least_slack.count()},
-                               {"clock_resolution_ns", m.resolution.count()},
-                               {"governors", m.governors},
-                               {"period_ns", period.count()},
-                               {"lateness", nlohmann::ordered_json::array()}};
+void print_json(const MachineFacts& m, const Arithmetic& a, const std::vector<Lateness>& measured) {
+  nlohmann::ordered_json whole{
+      {"schema", "jarol.doctor/1"},
+      {"kernel", m.kernel},
+      {"preempt_rt", m.preempt_rt},
+      {"cpus", m.cpus},
+      {"usable_cpus", m.usable},
+      {"affinity", permission(m.affinity_refused)},
+      {"sched_fifo", permission(m.fifo_refused)},
+      {"lock_memory", permission(m.lock_refused)},
+      {"default_timer_slack_ns", m.default_slack.count()},
+      {"least_timer_slack_ns", m.least_slack.count()},
+      {"clock_resolution_ns", m.resolution.count()},
+      {"governors", m.governors},
+      {"math", {{"foreign_calls", a.foreign_calls}, {"blas", a.blas}, {"blas_varies", a.blas_varies}}},
+      {"period_ns", period.count()},
+      {"lateness", nlohmann::ordered_json::array()}};
   whole["sched_fifo"]["highest_priority"] = m.fifo_priority;
   for (const Lateness& l : measured)
     whole["lateness"].push_back({{"scheduler", l.scheduler},
@@ -65,7 +68,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-void print_text(const MachineFacts& m, const std::vector<Lateness>& measured) {
+void print_text(const MachineFacts& m, const Arithmetic& a, const std::vector<Lateness>& measured) {
   const auto line = [](const std::string& what, const std::string& text) {
     std::cout << fmt::format("  {:<13} {}\n", what, text);
   };
@@ -85,6 +88,9 @@ void print_text(const MachineFacts& m, const std::vector<Lateness>& measured) {
        fmt::format("{}, can be set to {}", duration_text(m.default_slack), duration_text(m.least_slack)));
   line("clock", fmt::format("CLOCK_MONOTONIC with a resolution of {}", duration_text(m.resolution)));
   line("governor", m.governors.empty() ? "the machine does not tell" : joined(m.governors));
+  line("sin, exp, ...",
+       a.foreign_calls.empty() ? "this program's own, for all libraries too" : joined(a.foreign_calls));
+  line("BLAS", a.blas.empty() ? "none is loaded" : a.blas + (a.blas_varies ? ", which picks by processor" : ""));
   std::cout << "lateness of bare sleeps at 1 kHz\n";
   for (const Lateness& l : measured)
     line(l.scheduler == "fifo" ? "SCHED_FIFO" : "ordinary",
@@ -103,7 +109,8 @@ int examine(const Options& options) {
   if (const auto ordinary = measure_lateness(period, duration, {})) measured.push_back({"other", *ordinary});
   if (facts.fifo_priority > 0)
     if (const auto fifo = measure_lateness(period, duration, facts.fifo_priority)) measured.push_back({"fifo", *fifo});
-  options.json ? print_json(facts, measured) : print_text(facts, measured);
+  const Arithmetic arithmetic = find_arithmetic();
+  options.json ? print_json(facts, arithmetic, measured) : print_text(facts, arithmetic, measured);
   return exit_good;
 }
 

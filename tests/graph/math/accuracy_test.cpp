@@ -80,7 +80,8 @@ constexpr double least = 5e-324, greatest = 1.7976931348623157e308;
 
 void check(const std::string& name, const Worst& worst, double limit) {
   INFO(name << " at " << worst.x << ", " << worst.y << ": " << worst.error << " ulp");
-  if (std::getenv("JAROL_FULL") || std::getenv("VERBOSE")) MESSAGE(name << ' ' << worst.error << " ulp at " << worst.x << ", " << worst.y);
+  if (std::getenv("JAROL_FULL") || std::getenv("VERBOSE"))
+    MESSAGE(name << ' ' << worst.error << " ulp at " << worst.x << ", " << worst.y);
   CHECK(worst.error <= limit);
 }
 
@@ -100,8 +101,15 @@ TEST_SUITE("graph/math") {
     check("acos", worst(acos, mpfr_acos, units, true), 0.51);
     check("atan", worst(atan, mpfr_atan, {{least, 1.0}, {0.01, 1.0}, {1.0, 100.0}, {1.0, greatest}}, true), 0.51);
     const Range all{least, greatest}, ordinary{1e-3, 1e3}, negative{-1e3, -1e-3}, wide{-1.0, 1.0};
-    check("atan2", worst(atan2, mpfr_atan2, {{all, all}, {ordinary, ordinary}, {negative, negative}, {wide, wide},
-      {{least, 1e-300}, {least, 1e-300}}, {{1e300, greatest}, {1e300, greatest}}}), 0.51);
+    check("atan2",
+          worst(atan2, mpfr_atan2,
+                {{all, all},
+                 {ordinary, ordinary},
+                 {negative, negative},
+                 {wide, wide},
+                 {{least, 1e-300}, {least, 1e-300}},
+                 {{1e300, greatest}, {1e300, greatest}}}),
+          0.51);
   }
 
   TEST_CASE("exponentials are within their errors of MPFR's") {
@@ -120,7 +128,8 @@ TEST_SUITE("graph/math") {
     check("log", worst(log, mpfr_log, positive, false), 0.53);
     check("log2", worst(log2, mpfr_log2, positive, false), 0.51);
     check("log10", worst(log10, mpfr_log10, positive, false), 0.51);
-    check("log1p", worst(log1p, mpfr_log1p, {{-1.0, 1.0}, {-0.01, 0.01}, {least, greatest}, {-0.001, 0.001}}, false), 0.53);
+    check("log1p", worst(log1p, mpfr_log1p, {{-1.0, 1.0}, {-0.01, 0.01}, {least, greatest}, {-0.001, 0.001}}, false),
+          0.53);
     check("asinh", worst(asinh, mpfr_asinh, {{least, 0.1}, {0.01, 10.0}, {1.0, greatest}}, true), 0.52);
     check("acosh", worst(acosh, mpfr_acosh, {{1.0, 1.001}, {1.0, 10.0}, {1.0, greatest}}, false), 0.52);
     check("atanh", worst(atanh, mpfr_atanh, {{least, 0.1}, {0.01, 1.0}, {0.9, 1.0}}, true), 0.52);
@@ -129,10 +138,18 @@ TEST_SUITE("graph/math") {
   TEST_CASE("powers and roots are within their errors of MPFR's") {
     const Range all{least, greatest};
     const Range reals{-300.0, 300.0};
-    check("pow", worst(pow, mpfr_pow, {{{0.1, 10.0}, reals}, {{0.9, 1.1}, {-5000.0, 5000.0}}, {all, {-1.1, 1.1}},
-      {all, {-2.0, 3.0}}, {{0.9999, 1.0001}, {-1e7, 1e7}}}), 0.54);
+    check("pow",
+          worst(pow, mpfr_pow,
+                {{{0.1, 10.0}, reals},
+                 {{0.9, 1.1}, {-5000.0, 5000.0}},
+                 {all, {-1.1, 1.1}},
+                 {all, {-2.0, 3.0}},
+                 {{0.9999, 1.0001}, {-1e7, 1e7}}}),
+          0.54);
     check("cbrt", worst(cbrt, mpfr_cbrt, {{least, greatest}, {1.0, 8.0}}, true), 0.51);
-    check("hypot", worst(hypot, mpfr_hypot, {{reals, reals}, {{1e-3, 1e3}, {1e-9, 1e3}}, {all, all},
-      {{least, 1e-300}, {least, 1e-300}}}), 1.0);
+    check("hypot",
+          worst(hypot, mpfr_hypot,
+                {{reals, reals}, {{1e-3, 1e3}, {1e-9, 1e3}}, {all, all}, {{least, 1e-300}, {least, 1e-300}}}),
+          1.0);
   }
 }
