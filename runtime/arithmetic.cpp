@@ -27,13 +27,13 @@ std::string file_name(const char* path) { return std::filesystem::path(path).fil
 
 // Of one loaded object: what its dynamic section says of its imports.
 struct Imports {
-  const ElfW(Sym)* symbols = nullptr;
+  const ElfW(Sym) * symbols = nullptr;
   const char* strings = nullptr;
-  const ElfW(Rela)* tables[2]{};
+  const ElfW(Rela) * tables[2]{};
   std::size_t sizes[2]{};
 };
 
-Imports imports_of(const ElfW(Dyn)* entry, ElfW(Addr) base) {
+Imports imports_of(const ElfW(Dyn) * entry, ElfW(Addr) base) {
   Imports found;
   for (; entry->d_tag != DT_NULL; ++entry) {
     // an address or, where the C library leaves it so, an offset; or a size

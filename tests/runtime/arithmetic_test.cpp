@@ -29,8 +29,9 @@ TEST_SUITE("runtime/arithmetic") {
     REQUIRE(deep != nullptr);
     const jarol::Arithmetic arithmetic = jarol::find_arithmetic();
     CHECK(arithmetic.foreign_calls == std::vector<std::string>{"deep.so calls sin of libm.so.6"});
-    CHECK(jarol::warnings(arithmetic) ==
-          std::vector<std::string>{"deep.so calls sin of libm.so.6, which may give another digest on another processor"});
+    CHECK(
+        jarol::warnings(arithmetic) ==
+        std::vector<std::string>{"deep.so calls sin of libm.so.6, which may give another digest on another processor"});
   }
 
   TEST_CASE("the same library, loaded as plugins are, calls this program's") {
