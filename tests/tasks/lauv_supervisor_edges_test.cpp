@@ -1,0 +1,263 @@
+// Each limit and time-out of the supervisor, just below and just above, and what it does then.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "tasks/lauv_supervisor.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::tasks;
+
+const Tick every_50_ms{.period = std::chrono::milliseconds(50)};
+constexpr double degrees = std::numbers::pi / 180;
+
+using Change = std::function<void(LauvSupervisor::In&)>;
+
+// Five metres deep, level, at rest, all instruments reporting; their k-th readings.
+LauvSupervisor::In calm(std::int64_t k) {
+  LauvSupervisor::In in;
+  in.setpoint = {3, 1.5, 1.2};
+  Instruments& i = in.instruments;
+  i.depth = {5, k};
+  i.pressure = {1013.25 + 5 * 98.1, k};
+  i.attitude = {0, 0, 0, k};
+  i.rates = {0, 0, 0, k};
+  i.forces = {0, 0, -9.81, k};
+  i.heading = {0, k};
+  i.velocity = {0, 0, 0, k};
+  i.rpm = {0, k};
+  i.altitude = {45, k};
+  i.conductivity = {4.2, k};
+  i.water_temperature = {14, k};
+  i.leak = {0, k};
+  i.voltage = {25, k};
+  i.current = {1, k};
+  return in;
+}
+
+struct Watched {
+  LauvSupervisor::State state{};
+  LauvSupervisor::Out out{};
+  std::int64_t k = 0;
+
+  // So many steps of 50 ms.
+  Alarm run(int steps, const Change& change) {
+    for (int i = 0; i < steps; ++i) {
+      LauvSupervisor::In in = calm(++k);
+      change(in);
+      LauvSupervisor::run({}, every_50_ms, in, state, out);
+    }
+    return out.condition.alarm;
+  }
+};
+
+const Change as_it_is = [](LauvSupervisor::In&) {};
+
+// Steps of 50 ms after a calm second until the alarm; 0: none within 100 s.
+int steps_to_alarm(const Change& change, Alarm expected) {
+  Watched w;
+  w.run(20, as_it_is);
+  for (int step = 1; step <= 2000; ++step) {
+    const Alarm alarm = w.run(1, change);
+    if (alarm == Alarm::none) continue;
+    CHECK(alarm == expected);
+    return step;
+  }
+  return 0;
+}
+}  // namespace
+
+TEST_SUITE("tasks/lauv_supervisor/edges") {
+  TEST_CASE("each instrument that reports no more is lost after two and a half seconds, under its own name") {
+    struct Case {
+      std::int64_t& (*count)(Instruments&);
+      Alarm alarm;
+    };
+    const Case cases[] = {
+        {[](Instruments& i) -> std::int64_t& { return i.depth.count; }, Alarm::depth_gauge},
+        {[](Instruments& i) -> std::int64_t& { return i.pressure.count; }, Alarm::ctd},
+        {[](Instruments& i) -> std::int64_t& { return i.attitude.count; }, Alarm::attitude},
+        {[](Instruments& i) -> std::int64_t& { return i.rates.count; }, Alarm::attitude},
+        {[](Instruments& i) -> std::int64_t& { return i.forces.count; }, Alarm::forces},
+        {[](Instruments& i) -> std::int64_t& { return i.heading.count; }, Alarm::heading},
+        {[](Instruments& i) -> std::int64_t& { return i.velocity.count; }, Alarm::speed},
+        {[](Instruments& i) -> std::int64_t& { return i.rpm.count; }, Alarm::speed},
+        {[](Instruments& i) -> std::int64_t& { return i.altitude.count; }, Alarm::altimeter},
+        {[](Instruments& i) -> std::int64_t& { return i.conductivity.count; }, Alarm::ctd},
+        {[](Instruments& i) -> std::int64_t& { return i.water_temperature.count; }, Alarm::ctd},
+        {[](Instruments& i) -> std::int64_t& { return i.leak.count; }, Alarm::leak},
+        {[](Instruments& i) -> std::int64_t& { return i.voltage.count; }, Alarm::battery},
+        {[](Instruments& i) -> std::int64_t& { return i.current.count; }, Alarm::battery}};
+    for (const Case& c : cases) {
+      const int steps = steps_to_alarm([&](LauvSupervisor::In& in) { c.count(in.instruments) = 20; }, c.alarm);
+      // the sum of 50 steps may lie a rounding above 2.5
+      CHECK((steps == 50 || steps == 51));
+    }
+  }
+
+  TEST_CASE("GPS is lost after four seconds at the surface, and the surface ends at 20 cm") {
+    const auto at = [](double depth) {
+      return [depth](LauvSupervisor::In& in) {
+        in.instruments.depth.value = depth;
+        in.instruments.pressure.value = 1013.25 + depth * 98.1;
+        in.instruments.altitude.value = 50 - depth;
+      };
+    };
+    const int steps = steps_to_alarm(at(0.199), Alarm::gps);
+    CHECK((steps == 80 || steps == 81));
+    CHECK(steps_to_alarm(at(0.201), Alarm::gps) == 0);
+  }
+
+  TEST_CASE("each limit alarms at once when it is exceeded, and not before") {
+    struct Case {
+      double below, above;
+      void (*set)(LauvSupervisor::In&, double);
+      Alarm alarm;
+    };
+    const Case cases[] = {
+        {5, 5.001, [](LauvSupervisor::In& in, double x) { in.contact.silence = x; }, Alarm::operator_lost},
+        {0.5, 0.501, [](LauvSupervisor::In& in, double x) { in.instruments.leak.value = x; }, Alarm::leak},
+        {12, 12.001,
+         [](LauvSupervisor::In& in, double x) {
+           in.instruments.depth.value = x;
+           in.instruments.pressure.value = 1013.25 + x * 98.1;
+           in.instruments.altitude.value = 50 - x;
+         },
+         Alarm::depth_limit},
+        {-2, -1.999, [](LauvSupervisor::In& in, double x) { in.instruments.altitude.value = -x; },
+         Alarm::altitude_limit},
+        {50 * degrees, 50.01 * degrees, [](LauvSupervisor::In& in, double x) { in.instruments.attitude.y = x; },
+         Alarm::pitch_limit},
+        {50 * degrees, 50.01 * degrees, [](LauvSupervisor::In& in, double x) { in.instruments.attitude.y = -x; },
+         Alarm::pitch_limit},
+        {-20, -19.999, [](LauvSupervisor::In& in, double x) { in.instruments.voltage.value = -x; },
+         Alarm::voltage_limit}};
+    for (const Case& c : cases) {
+      Watched w;
+      w.run(20, as_it_is);
+      CHECK(w.run(1, [&](LauvSupervisor::In& in) { c.set(in, c.below); }) == Alarm::none);
+      CHECK(w.run(1, [&](LauvSupervisor::In& in) { c.set(in, c.above); }) == c.alarm);
+    }
+  }
+
+  TEST_CASE("an instrument that differs from what another knows alarms, by its limit and after its time") {
+    struct Case {
+      double below, above;
+      int steps;  // of 50 ms, to the alarm
+      void (*set)(Instruments&, double);
+      Alarm alarm;
+    };
+    const Case cases[] = {
+        {0.299, 0.301, 20, [](Instruments& i, double x) { i.depth.value = 5 + x; }, Alarm::depth_gauge},
+        {0.299, 0.301, 20, [](Instruments& i, double x) { i.depth.value = 5 - x; }, Alarm::depth_gauge},
+        {14.9 * degrees, 15.1 * degrees, 20, [](Instruments& i, double x) { i.heading.value = x; }, Alarm::heading},
+        {14.9 * degrees, 15.1 * degrees, 20, [](Instruments& i, double x) { i.heading.value = -x; }, Alarm::heading},
+        {2.49, 2.51, 20, [](Instruments& i, double x) { i.forces.x = x; }, Alarm::forces},
+        {2.49, 2.51, 20, [](Instruments& i, double x) { i.forces.y = -x; }, Alarm::forces},
+        {2.49, 2.51, 20, [](Instruments& i, double x) { i.forces.z = -9.81 + x; }, Alarm::forces},
+        {0.499, 0.501, 60, [](Instruments& i, double x) { i.velocity.x = x; }, Alarm::speed},
+        {0.499, 0.501, 60, [](Instruments& i, double x) { i.velocity.x = -x; }, Alarm::speed}};
+    for (const Case& c : cases) {
+      CAPTURE(c.above);
+      CHECK(steps_to_alarm([&](LauvSupervisor::In& in) { c.set(in.instruments, c.below); }, c.alarm) == 0);
+      const int steps = steps_to_alarm([&](LauvSupervisor::In& in) { c.set(in.instruments, c.above); }, c.alarm);
+      CHECK(steps >= c.steps);
+      CHECK(steps <= c.steps + 1);
+    }
+  }
+
+  TEST_CASE("a sea floor that steps by more than a metre and a half is the altimeter's, less is the floor's") {
+    // the step decays with half a minute: what begins a little above the limit is above it for a second
+    CHECK(steps_to_alarm([](LauvSupervisor::In& in) { in.instruments.altitude.value = 45 + 1.49; }, Alarm::altimeter) ==
+          0);
+    const int steps =
+        steps_to_alarm([](LauvSupervisor::In& in) { in.instruments.altitude.value = 45 - 1.6; }, Alarm::altimeter);
+    CHECK((steps == 20 || steps == 21));
+  }
+
+  TEST_CASE("an attitude that the rates do not explain alarms, one that they explain does not") {
+    // turned at once by 8 degrees: 2 s later a third of the difference is left, after one second more than 6 of 8
+    const Change jump = [](LauvSupervisor::In& in) { in.instruments.attitude.y = 12 * degrees; };
+    CHECK(steps_to_alarm(jump, Alarm::attitude) > 0);
+    Watched w;
+    double theta = 0;
+    w.run(20, as_it_is);
+    const Alarm alarm = w.run(40, [&](LauvSupervisor::In& in) {
+      theta += 0.05 * 0.1;
+      in.instruments.attitude.y = theta;
+      in.instruments.rates.y = 0.1;
+      in.instruments.forces.x = 9.81 * std::sin(theta);
+      in.instruments.forces.z = -9.81 * std::cos(theta);
+    });
+    CHECK(alarm == Alarm::none);
+  }
+
+  TEST_CASE("the propeller's speed is what its thrust and the drag leave: a log that agrees does not alarm") {
+    // 300 rad/s would be 18 N, bounded to 10 N; 2.4 N s/m u (1 + u) = 10 N at u = 1.6021
+    const double u = (-1 + std::sqrt(1 + 4 * 10 / 2.4)) / 2;
+    Watched w;
+    const Change going = [&](LauvSupervisor::In& at) {
+      at.instruments.rpm.value = 300 * 30 / std::numbers::pi;
+      at.instruments.velocity.x = u;
+    };
+    CHECK(w.run(4000, going) == Alarm::none);
+    CHECK(w.state.speed == doctest::Approx(u).epsilon(1e-6));
+    // below the bound: 150 rad/s are 4.5 N
+    const double slow = (-1 + std::sqrt(1 + 4 * 4.5 / 2.4)) / 2;
+    Watched v;
+    v.run(4000, [&](LauvSupervisor::In& at) {
+      at.instruments.rpm.value = 150 * 30 / std::numbers::pi;
+      at.instruments.velocity.x = slow;
+    });
+    CHECK(v.state.speed == doctest::Approx(slow).epsilon(1e-6));
+    // and 19 kg give the first step from rest: 10 N for 50 ms
+    Watched first;
+    first.run(1, [&](LauvSupervisor::In& at) { at.instruments.rpm.value = 300 * 30 / std::numbers::pi; });
+    CHECK(first.state.speed == doctest::Approx(0.05 * 10 / 19));
+  }
+
+  TEST_CASE("what it does then: it climbs by its propeller, or stops it where steering or power are in doubt") {
+    struct Case {
+      void (*set)(LauvSupervisor::In&);
+      Alarm alarm;
+      bool climbs;
+    };
+    const Case cases[] = {
+        {[](LauvSupervisor::In& in) { in.contact.silence = 6; }, Alarm::operator_lost, true},
+        {[](LauvSupervisor::In& in) { in.instruments.depth.value = 13; }, Alarm::depth_limit, true},
+        {[](LauvSupervisor::In& in) { in.instruments.altitude.value = 1; }, Alarm::altitude_limit, true},
+        {[](LauvSupervisor::In& in) { in.instruments.leak.value = 1; }, Alarm::leak, true},
+        {[](LauvSupervisor::In& in) { in.instruments.depth.count = 20; }, Alarm::depth_gauge, true},
+        {[](LauvSupervisor::In& in) { in.instruments.heading.count = 20; }, Alarm::heading, true},
+        {[](LauvSupervisor::In& in) { in.instruments.altitude.count = 20; }, Alarm::altimeter, true},
+        {[](LauvSupervisor::In& in) { in.instruments.conductivity.count = 20; }, Alarm::ctd, true},
+        {[](LauvSupervisor::In& in) { in.instruments.current.count = 20; }, Alarm::battery, true},
+        {[](LauvSupervisor::In& in) { in.instruments.voltage.value = 19; }, Alarm::voltage_limit, false},
+        {[](LauvSupervisor::In& in) { in.instruments.attitude.y = 1; }, Alarm::pitch_limit, false},
+        {[](LauvSupervisor::In& in) { in.instruments.attitude.count = 20; }, Alarm::attitude, false},
+        {[](LauvSupervisor::In& in) { in.instruments.forces.count = 20; }, Alarm::forces, false},
+        {[](LauvSupervisor::In& in) { in.instruments.velocity.count = 20; }, Alarm::speed, false}};
+    for (const Case& c : cases) {
+      CAPTURE(static_cast<int>(c.alarm));
+      Watched w;
+      w.run(20, as_it_is);
+      CHECK(w.run(52, c.set) == c.alarm);
+      CHECK(w.out.setpoint.speed == (c.climbs ? 1 : 0));
+      CHECK(w.out.setpoint.depth == (c.climbs ? -1000 : 0));
+      CHECK(w.out.setpoint.heading == 1.5);
+    }
+  }
+
+  TEST_CASE("a climb ends after a minute") {
+    Watched w;
+    const Change leak = [](LauvSupervisor::In& in) { in.instruments.leak.value = 1; };
+    w.run(1199, leak);  // 59.95 s
+    CHECK(w.out.setpoint.speed == 1);
+    w.run(3, leak);
+    CHECK(w.out.setpoint.speed == 0);
+  }
+}
