@@ -2,7 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "distributers/messages/imc.h"
@@ -14,9 +17,16 @@ namespace imc = messages::imc;
 
 struct Sent : messages::Receiver {
   void receive(messages::MessageRef message) override {
-    if (const auto* t = message.as<imc::SetThrusterActuation>()) thruster.push_back(*t);
-    if (const auto* s = message.as<imc::SetServoPosition>()) servos.push_back(*s);
+    if (const auto* t = message.as<imc::SetThrusterActuation>()) {
+      thruster.push_back(*t);
+      order += "t";
+    }
+    if (const auto* s = message.as<imc::SetServoPosition>()) {
+      servos.push_back(*s);
+      order += std::to_string(s->id);
+    }
   }
+  std::string order;
   std::vector<imc::SetThrusterActuation> thruster;
   std::vector<imc::SetServoPosition> servos;
 };
@@ -81,11 +91,12 @@ TEST_SUITE("distributers/lauv_vehicle") {
     CHECK(heard.announces[0].services == "imc+info://0.0.0.0/version/5.4.31;imc+udp://127.0.0.1:7002/");
   }
 
-  TEST_CASE("an actuation becomes one thruster and four servo messages") {
+  TEST_CASE("an actuation becomes one thruster and four servo messages, in that order") {
     LauvVehicle adapter;
     Sent sent;
     const tasks::Actuation actuation{0.5, {0.1, 0.2, 0.3, 0.4}};
     adapter.hand_over(1, &actuation, sent);
+    CHECK(sent.order == "t0123");
     REQUIRE(sent.thruster.size() == 1);
     CHECK(sent.thruster[0].value == 0.5F);
     REQUIRE(sent.servos.size() == 4);
@@ -159,6 +170,52 @@ TEST_SUITE("distributers/lauv_vehicle") {
     adapter.receive(messages::refer_to(fix));
     CHECK(adapter.non_finite_inputs() == 7);
     CHECK_FALSE(adapter.take(2, &i));
+  }
+
+  TEST_CASE("a fix that is not valid, a range that is not, and a dry hull are none of what they might be") {
+    LauvVehicle adapter;
+    tasks::Instruments i;
+    imc::GpsFix fix;
+    fix.lat = 0.7;
+    adapter.receive(messages::refer_to(fix));
+    imc::Distance range;
+    range.value = 30;
+    adapter.receive(messages::refer_to(range));
+    CHECK_FALSE(adapter.take(2, &i));
+    range.validity = imc::Distance::Validity::VALID;
+    adapter.receive(messages::refer_to(range));
+    imc::EntityState entity;
+    entity.state = imc::EntityState::State::NORMAL;
+    adapter.receive(messages::refer_to(entity));
+    CHECK(adapter.take(2, &i));
+    CHECK(i.place.count == 0);
+    CHECK(i.altitude.value == 30);
+    CHECK(i.leak.count == 1);
+    CHECK(i.leak.value == 0);
+  }
+
+  TEST_CASE("a fix becomes metres along meridian and parallel, which come together to the north") {
+    LauvVehicle adapter;
+    tasks::Instruments i;
+    imc::GpsFix fix;
+    fix.validity = imc::GpsFix::Validity::VALID_POS;
+    fix.lat = 1;  // rad
+    fix.lon = 0.5;
+    adapter.receive(messages::refer_to(fix));
+    fix.lat += 1e-5;
+    fix.lon += 1e-5;
+    adapter.receive(messages::refer_to(fix));
+    CHECK(adapter.take(2, &i));
+    // through the centre of the earth: WGS-84 as an ellipsoid of 6378137 and 6356752.314245 m, chords of the two points
+    const auto point = [](double latitude, double longitude) {
+      const double a = 6378137.0, b = 6356752.314245;
+      const double n = a * a / std::hypot(a * std::cos(latitude), b * std::sin(latitude));
+      return std::array{n * std::cos(latitude) * std::cos(longitude), n * std::cos(latitude) * std::sin(longitude),
+                        b * b / (a * a) * n * std::sin(latitude)};
+    };
+    const auto apart = [](const auto& p, const auto& q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); };
+    CHECK(i.place.x == doctest::Approx(apart(point(1, 0.5), point(1 + 1e-5, 0.5))).epsilon(1e-5));
+    CHECK(i.place.y == doctest::Approx(apart(point(1, 0.5), point(1, 0.5 + 1e-5))).epsilon(1e-5));
   }
 
   TEST_CASE("the first fix is the origin of the place") {

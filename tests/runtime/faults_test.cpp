@@ -38,6 +38,35 @@ struct Fails {
   }
 };
 
+// Adds one to each of its outputs where they lie, and throws at its third activation after it did.
+struct Counts {
+  static constexpr std::string_view summary = "for tests";
+  struct State {
+    double first = 0;
+    double last = 0;
+    static constexpr auto fields() { return describe(field<&State::first>(), field<&State::last>()); }
+  };
+  struct Out {
+    double seen = 0;
+    double first = 0;
+    double second = 0;
+    double third = 0;
+    static constexpr auto fields() {
+      return describe(field<&Out::seen>("", "in the state"), field<&Out::first>(), field<&Out::second>(),
+                      field<&Out::third>());
+    }
+  };
+  static void run(const Tick& tick, State& state, Out& out) {
+    state.first += 1;
+    state.last += 1;
+    out.seen = state.first == state.last ? state.last : -1;
+    out.first += 1;
+    out.second += 1;
+    out.third += 1;
+    if (tick.activation == 2) throw std::runtime_error("too hot");
+  }
+};
+
 tests::Run run(const std::string& task, Duration end) {
   static const Registry registry = [] {
     Registry made;
@@ -138,6 +167,31 @@ TEST_SUITE("runtime/faults") {
     CHECK(lines_of(r, "before.out") == "5ms before.out=1; 15ms before.out=2; 25ms before.out=3");
     CHECK(r.lines.back() == "25ms other.out=5");
     CHECK(lines_of(r, "zlast.out").ends_with("; 25ms zlast.out=4"));
+  }
+
+  TEST_CASE("after a fault every word of state and outputs is as it was before the activation") {
+    struct Registered {
+      Registry registry;
+      Registered() {
+        tasks::add_tasks(registry);
+        registry.add(task_class<Counts>());
+      }
+    };
+    static const Registered known;
+    for (const std::string mode : {"hold", "skip"})
+      for (const std::string let : {"", ", let: 5ms"}) {
+        const Graph graph = tests::graph_of(
+            known.registry,
+            "graph: t\ntiming: {period: 10ms}\ntasks:\n  c: {type: Counts, on_fault: " + mode + let + "}\n");
+        const auto r = tests::run_graph(graph, 60ms);
+        REQUIRE(r.report.fault_count == 1);
+        // each activation adds one to what it finds; the faulty one left nothing, the one that was skipped neither
+        const std::string last = mode == "hold" ? "5" : "4";
+        const std::string at = let.empty() ? "50ms" : "55ms";
+        for (const std::string output : {"c.first", "c.second", "c.third"})
+          CHECK(lines_of(r, output).ends_with(at + " " + output + "=" + last));
+        CHECK(lines_of(r, "c.seen").ends_with(at + " c.seen=" + last));
+      }
   }
 
   TEST_CASE("only tasks that declare hold or skip pay for a copy of their state") {

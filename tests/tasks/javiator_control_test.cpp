@@ -115,4 +115,18 @@ TEST_SUITE("tasks/javiator_control") {
     CHECK(s[1] == s[3]);
     CHECK(s[1] > s[0]);
   }
+
+  TEST_CASE("the trim that holds a place is learnt up to 1 m/s^2, to either side") {
+    for (const double side : {-1.0, 1.0}) {
+      PositionControl::State state;
+      PositionControl::Out out;
+      PositionControl::In in{.estimate = level(), .directive = {.state = FlightState::flying, .hold_position = true}};
+      PositionControl::run({}, tick, in, state, out);
+      in.estimate.x = -0.1 * side;                                                    // pushed away, and held there
+      for (int i = 0; i < 2000; ++i) PositionControl::run({}, tick, in, state, out);  // 0.3 * 0.1 * 30 s = 0.9
+      CHECK(state.trim_x == doctest::Approx(0.9 * side).epsilon(0.01));
+      for (int i = 0; i < 2000; ++i) PositionControl::run({}, tick, in, state, out);
+      CHECK(state.trim_x == side);
+    }
+  }
 }

@@ -165,4 +165,27 @@ TEST_SUITE("tasks/javiator_filter") {
     heard.directive.state = FlightState::starting;
     CHECK(std::abs(heard.run(1).y) < 1e-3);
   }
+
+  TEST_CASE("a reading counts as often as it is tolerated, and no more") {
+    for (const int repeats : {1, 2, 5}) {
+      CAPTURE(repeats);
+      Heard heard;
+      heard.param.repeats = static_cast<std::uint32_t>(repeats);
+      int step = 0;
+      const auto next = [&] { heard.sensors.sonar = 0.145 + 1e-4 * (++step % 2); };
+      for (int i = 0; i < 100; ++i) {
+        next();
+        heard.run(1);
+      }
+      heard.directive.state = FlightState::flying;
+      for (int i = 0; i < 100; ++i) {
+        next();
+        heard.run(repeats);
+        CHECK(heard.state.sonar.silent == 0);
+      }
+      heard.run(1);
+      CHECK(heard.state.sonar.silent == doctest::Approx(0.015));
+      CHECK_FALSE(heard.state.sonar.lost);
+    }
+  }
 }

@@ -77,21 +77,20 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
       std::int64_t& (*count)(Instruments&);
       Alarm alarm;
     };
-    const Case cases[] = {
-        {[](Instruments& i) -> std::int64_t& { return i.depth.count; }, Alarm::depth_gauge},
-        {[](Instruments& i) -> std::int64_t& { return i.pressure.count; }, Alarm::ctd},
-        {[](Instruments& i) -> std::int64_t& { return i.attitude.count; }, Alarm::attitude},
-        {[](Instruments& i) -> std::int64_t& { return i.rates.count; }, Alarm::attitude},
-        {[](Instruments& i) -> std::int64_t& { return i.forces.count; }, Alarm::forces},
-        {[](Instruments& i) -> std::int64_t& { return i.heading.count; }, Alarm::heading},
-        {[](Instruments& i) -> std::int64_t& { return i.velocity.count; }, Alarm::speed},
-        {[](Instruments& i) -> std::int64_t& { return i.rpm.count; }, Alarm::speed},
-        {[](Instruments& i) -> std::int64_t& { return i.altitude.count; }, Alarm::altimeter},
-        {[](Instruments& i) -> std::int64_t& { return i.conductivity.count; }, Alarm::ctd},
-        {[](Instruments& i) -> std::int64_t& { return i.water_temperature.count; }, Alarm::ctd},
-        {[](Instruments& i) -> std::int64_t& { return i.leak.count; }, Alarm::leak},
-        {[](Instruments& i) -> std::int64_t& { return i.voltage.count; }, Alarm::battery},
-        {[](Instruments& i) -> std::int64_t& { return i.current.count; }, Alarm::battery}};
+    const Case cases[] = {{[](Instruments& i) -> std::int64_t& { return i.depth.count; }, Alarm::depth_gauge},
+                          {[](Instruments& i) -> std::int64_t& { return i.pressure.count; }, Alarm::ctd},
+                          {[](Instruments& i) -> std::int64_t& { return i.attitude.count; }, Alarm::attitude},
+                          {[](Instruments& i) -> std::int64_t& { return i.rates.count; }, Alarm::attitude},
+                          {[](Instruments& i) -> std::int64_t& { return i.forces.count; }, Alarm::forces},
+                          {[](Instruments& i) -> std::int64_t& { return i.heading.count; }, Alarm::heading},
+                          {[](Instruments& i) -> std::int64_t& { return i.velocity.count; }, Alarm::speed},
+                          {[](Instruments& i) -> std::int64_t& { return i.rpm.count; }, Alarm::speed},
+                          {[](Instruments& i) -> std::int64_t& { return i.altitude.count; }, Alarm::altimeter},
+                          {[](Instruments& i) -> std::int64_t& { return i.conductivity.count; }, Alarm::ctd},
+                          {[](Instruments& i) -> std::int64_t& { return i.water_temperature.count; }, Alarm::ctd},
+                          {[](Instruments& i) -> std::int64_t& { return i.leak.count; }, Alarm::leak},
+                          {[](Instruments& i) -> std::int64_t& { return i.voltage.count; }, Alarm::battery},
+                          {[](Instruments& i) -> std::int64_t& { return i.current.count; }, Alarm::battery}};
     for (const Case& c : cases) {
       const int steps = steps_to_alarm([&](LauvSupervisor::In& in) { c.count(in.instruments) = 20; }, c.alarm);
       // the sum of 50 steps may lie a rounding above 2.5

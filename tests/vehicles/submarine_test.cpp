@@ -103,6 +103,29 @@ TEST_SUITE("vehicles/submarine") {
     CHECK(out->actuators.propeller < 1);
   }
 
+  TEST_CASE("actuators rest from the first step after the time-out on, and not before") {
+    SubmarineParameters parameters;
+    parameters.start.depth = 20;
+    parameters.command_timeout = std::chrono::milliseconds(500);
+    Submarine submarine(parameters);
+    const auto* out = static_cast<const SubmarineOutputs*>(submarine.outputs());
+    command(submarine, 0, {0.02F, 0, 0, 0});
+    for (int i = 0; i < 50; ++i) submarine.step();  // 0.5 s
+    CHECK(out->actuators.fin0 == doctest::Approx(0.02));
+    submarine.step();
+    CHECK(out->actuators.fin0 == 0);
+  }
+
+  TEST_CASE("a command that is no number changes nothing") {
+    Submarine submarine({});
+    const auto* out = static_cast<const SubmarineOutputs*>(submarine.outputs());
+    command(submarine, 0, {0.02F, 0, 0, 0});
+    for (int i = 0; i < 10; ++i) submarine.step();
+    submarine.accept(messages::refer_to(imc::SetServoPosition{0, std::numeric_limits<float>::quiet_NaN()}));
+    for (int i = 0; i < 10; ++i) submarine.step();
+    CHECK(out->actuators.fin0 == doctest::Approx(0.02));
+  }
+
   TEST_CASE("fins slew no faster than their servos and no further than their limit") {
     Submarine submarine({});
     const auto* out = static_cast<const SubmarineOutputs*>(submarine.outputs());

@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <tuple>
+#include <utility>
+
 TEST_SUITE("graph/yaml/quantities") {
   using namespace jarol;
 
@@ -108,5 +111,36 @@ TEST_SUITE("graph/yaml/quantities") {
     CHECK(seconds_text(Duration(1)) == "0.000000001");
     CHECK(number_text(0.1) == "0.1");
     CHECK(number_text(0.1F) == "0.1");
+  }
+
+  TEST_CASE("every unit that converts is worth what it is") {
+    const double degree = 3.14159265358979323846 / 180;
+    const std::tuple<const char*, const char*, double> units[] = {
+        {"1deg", "rad", degree},     {"1mrad", "rad", 0.001},     {"1Hz", "rad/s", 360 * degree},
+        {"1deg/s", "rad/s", degree}, {"1mrad/s", "rad/s", 0.001}, {"1km", "m", 1000},
+        {"1cm", "m", 0.01},          {"1mm", "m", 0.001},         {"1cm/s", "m/s", 0.01},
+        {"1mm/s", "m/s", 0.001},     {"1min", "s", 60},           {"1ms", "s", 0.001},
+        {"1us", "s", 1e-6},          {"1g", "kg", 0.001},         {"1kN", "N", 1000}};
+    for (const auto& [text, unit, value] : units) {
+      CAPTURE(text);
+      double number = 0;
+      CHECK(parse_number(text, unit, number) == "");
+      CHECK(number == doctest::Approx(value).epsilon(1e-15));
+    }
+    const std::pair<const char*, std::int64_t> durations[] = {
+        {"1h", 3'600'000'000'000}, {"1min", 60'000'000'000}, {"1s", 1'000'000'000},
+        {"1ms", 1'000'000},        {"1us", 1'000},           {"1ns", 1}};
+    for (const auto& [text, nanoseconds] : durations) {
+      Duration duration{};
+      CHECK(parse_duration(text, duration) == "");
+      CHECK(duration.count() == nanoseconds);
+    }
+    const std::pair<const char*, std::int64_t> sizes[] = {
+        {"1B", 1}, {"1KiB", 1024}, {"1MiB", 1024 * 1024}, {"1GiB", 1024 * 1024 * 1024}};
+    for (const auto& [text, bytes] : sizes) {
+      std::int64_t size = 0;
+      CHECK(parse_bytes(text, size) == "");
+      CHECK(size == bytes);
+    }
   }
 }

@@ -54,6 +54,13 @@ TEST_SUITE("graph/yaml") {
           "  ^");
   }
 
+  TEST_CASE("a key that appears twice is an error however each of the two is quoted") {
+    for (const std::string first : {"a", "'a'", "\"a\""})
+      for (const std::string second : {"a", "'a'", "\"a\"", "\"\\x61\""})
+        CHECK(report_on(first + ": 1\n" + second + ": 3\n")
+                  .starts_with("t.yaml:2:1: error: key 'a' appears twice in one mapping; keep one\n"));
+  }
+
   TEST_CASE("a merge key is an error") {
     CHECK(report_on("a: &x {k: 1}\nb:\n  <<: *x\n") ==
           "t.yaml:3:3: error: merge key '<<' is not supported; write the keys out, or use a profile\n"
