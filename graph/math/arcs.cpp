@@ -28,7 +28,7 @@ inline Pair atan_near(Pair y, Pair x) {
   const Pair p = product(q, d.hi);
   const double q_lo = ((n.hi - p.hi) - p.lo + (n.lo - q * d.lo)) / d.hi;
   const double z = q * q;
-  const double cubic = q * z * (-1.0 / 3 + z * (1.0 / 5 + z * (-1.0 / 7 + z * (1.0 / 9))));
+  const double cubic = q * z * (-1.0 / 3 + z * (1.0 / 5 - z * (1.0 / 7)));
   const Pair angle = fast_sum(table[i.number].hi, q);
   return fast_sum(angle.hi, angle.lo + (table[i.number].lo + q_lo + cubic));
 }

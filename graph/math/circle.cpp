@@ -89,33 +89,36 @@ inline Angle reduce(double x) {
   return {sum(third.hi, third.lo + (exact.lo - n.value * p4)), n.number};
 }
 
+// |r| = t + d with its table entry at t, sin d and cos d - 1, |d| <= 1/256
+struct Step {
+  const CircleEntry& t;
+  double sin_d, cos_d;
+};
+
+inline Step step(Pair r) {
+  const double a = magnitude(r.hi);
+  const Whole i = nearest(a * 128.0);
+  const double d = a - i.value * (1.0 / 128), d_lo = r.hi < 0.0 ? -r.lo : r.lo, z = d * d;
+  return {table[i.number], d + (d_lo + d * z * (-1.0 / 6 + z * (1.0 / 120))),
+          z * (-1.0 / 2 + z * (1.0 / 24 - z * (1.0 / 720))) - d * d_lo};
+}
+
 // sin r and cos r as sums of a double and what is left, relative error below 2^-57
 inline Pair sin_near(Pair r) {
-  const double a = magnitude(r.hi);
-  if (a < 0.13) {
+  if (magnitude(r.hi) < 0.13) {
     const double z = r.hi * r.hi;
-    const double cubic =
-        z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 +
-                                              z * (1.0 / 362880 + z * (-1.0 / 39916800 + z * (1.0 / 6227020800.0))))));
-    return {r.hi, r.hi * cubic + (r.lo - 0.5 * z * r.lo)};
+    const double series =
+        z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880 - z * (1.0 / 39916800)))));
+    return {r.hi, r.hi * series + (r.lo - 0.5 * z * r.lo)};
   }
-  const Whole i = nearest(a * 128.0);
-  const CircleEntry& t = table[i.number];
-  const double d = a - i.value * (1.0 / 128), d_lo = r.hi < 0.0 ? -r.lo : r.lo, z = d * d;
-  const double sin_d = d + (d_lo + d * z * (-1.0 / 6 + z * (1.0 / 120 - z * (1.0 / 5040))));
-  const double cos_d = z * (-1.0 / 2 + z * (1.0 / 24 - z * (1.0 / 720))) - d * d_lo;
-  const double tail = t.cos.hi * sin_d + (t.sin.lo + t.cos.lo * sin_d + t.sin.hi * cos_d);
-  return r.hi < 0.0 ? Pair{-t.sin.hi, -tail} : Pair{t.sin.hi, tail};
+  const Step s = step(r);
+  const double tail = s.t.cos.hi * s.sin_d + (s.t.sin.lo + s.t.cos.lo * s.sin_d + s.t.sin.hi * s.cos_d);
+  return r.hi < 0.0 ? Pair{-s.t.sin.hi, -tail} : Pair{s.t.sin.hi, tail};
 }
 
 inline Pair cos_near(Pair r) {
-  const double a = magnitude(r.hi);
-  const Whole i = nearest(a * 128.0);
-  const CircleEntry& t = table[i.number];
-  const double d = a - i.value * (1.0 / 128), d_lo = r.hi < 0.0 ? -r.lo : r.lo, z = d * d;
-  const double sin_d = d + (d_lo + d * z * (-1.0 / 6 + z * (1.0 / 120 - z * (1.0 / 5040))));
-  const double cos_d = z * (-1.0 / 2 + z * (1.0 / 24 - z * (1.0 / 720))) - d * d_lo;
-  return {t.cos.hi, (t.cos.lo - t.sin.lo * sin_d + t.cos.hi * cos_d) - t.sin.hi * sin_d};
+  const Step s = step(r);
+  return {s.t.cos.hi, (s.t.cos.lo - s.t.sin.lo * s.sin_d + s.t.cos.hi * s.cos_d) - s.t.sin.hi * s.sin_d};
 }
 
 // sin(r + n pi/2)

@@ -77,8 +77,7 @@ double expm1(double x) noexcept {
   const double a = magnitude(x);
   if (a < 0x1p-8) {
     if (a < 0x1p-54) return x;
-    return x +
-           x * x * (1.0 / 2 + x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x * (1.0 / 720 + x * (1.0 / 5040))))));
+    return x + x * x * (1.0 / 2 + x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x * (1.0 / 720)))));
   }
   if (!(x <= highest)) return beyond(x);
   if (x < -40.0) return -1.0 + 0x1p-60;
@@ -93,7 +92,7 @@ double sinh(double x) noexcept {
   if (a < 0x1p-4) {
     if (a < 0x1p-28) return x;
     const double z = x * x;
-    return x + x * z * (1.0 / 6 + z * (1.0 / 120 + z * (1.0 / 5040 + z * (1.0 / 362880 + z * (1.0 / 39916800)))));
+    return x + x * z * (1.0 / 6 + z * (1.0 / 120 + z * (1.0 / 5040 + z * (1.0 / 362880))));
   }
   if (!(a < 711.0)) return is_nan(x) ? x + x : x * 0x1p1000 * 0x1p1000;
   Scaled e = exp_pair({a, 0.0});
@@ -114,12 +113,9 @@ double tanh(double x) noexcept {
   if (a < 0x1p-4) {
     if (a < 0x1p-28) return x;
     const double z = x * x;
-    return x +
-           x * z *
-               (-1.0 / 3 +
-                z * (2.0 / 15 + z * (-17.0 / 315 +
-                                     z * (62.0 / 2835 + z * (-1382.0 / 155925 +
-                                                             z * (21844.0 / 6081075 - z * (929569.0 / 638512875)))))));
+    return x + x * z *
+                   (-1.0 / 3 + z * (2.0 / 15 + z * (-17.0 / 315 + z * (62.0 / 2835 + z * (-1382.0 / 155925 +
+                                                                                          z * (21844.0 / 6081075))))));
   }
   if (is_nan(x)) return x + x;
   if (a > 22.0) return with_sign(1.0 - 0x1p-60, x);

@@ -37,8 +37,7 @@ inline Reduced reduce(double x) {
 
 // (log(1 + r) - r + r^2/2) / r^3, |r| < 2^-7
 inline double rest(double r) {
-  return 1.0 / 3 +
-         r * (-1.0 / 4 + r * (1.0 / 5 + r * (-1.0 / 6 + r * (1.0 / 7 + r * (-1.0 / 8 + r * (1.0 / 9 - r * 0.1))))));
+  return 1.0 / 3 + r * (-1.0 / 4 + r * (1.0 / 5 + r * (-1.0 / 6 + r * (1.0 / 7 + r * (-1.0 / 8 + r * (1.0 / 9))))));
 }
 
 inline Pair log_of(const Reduced& a) {
