@@ -144,6 +144,42 @@ Set random_set(std::uint64_t seed, Policy policy, const Features& features) {
   return set;
 }
 
+Set random_chains(std::uint64_t seed) {
+  Random random(seed + (std::uint64_t{1} << 40));
+  Set set;
+  set.cores = random.between(2, 3);
+  const int period = 2 * random.between(10, 20);
+  const bool delays = random.once_in(4);
+  std::vector<int> room(static_cast<std::size_t>(set.cores), period);
+  const int n = random.between(2 * set.cores, 3 * set.cores + 3);
+  for (int i = 0; i < n; ++i) {
+    Task t;
+    t.core = random.between(0, set.cores - 1);
+    int& left = room[static_cast<std::size_t>(*t.core)];
+    t.period = t.deadline = random.once_in(6) ? period / 2 : period;
+    const int times = period / t.period;
+    t.wcet = random.between(1, std::max(1, left / (3 * times)));
+    left -= times * t.wcet;
+    if (delays && random.once_in(3)) t.jitter = random.between(0, 3);
+    if (delays && random.once_in(3) && left > 3 * times) left -= times * (t.blocking = random.between(0, 2));
+    t.offset = random.once_in(3) ? period / 4 : 0;
+    set.tasks.push_back(t);
+    // mostly of the one before it, wherever that is
+    if (i > 0 && random.between(1, 3) < 3) {
+      set.feeds.emplace_back(i - 1, i);
+      if (random.once_in(2)) set.tasks.back().offset = set.tasks[static_cast<std::size_t>(i) - 1].offset % t.period;
+    }
+  }
+  for (Task& t : set.tasks)
+    if (int& left = room[static_cast<std::size_t>(*t.core)]; left > 0 && t.period == period && random.once_in(2))
+      t.wcet += std::exchange(left, random.once_in(4) ? -1 : 0);
+  for (std::size_t i = set.tasks.size(); i-- > 0;) {
+    Task& t = set.tasks[i];
+    t.deadline = derived_deadline(set, i);
+  }
+  return set;
+}
+
 Places places_in(const Graph& graph) {
   Places places{std::vector<std::size_t>(graph.tasks.size()), std::vector<std::size_t>(graph.tasks.size())};
   const std::vector<std::size_t> turns = turns_of(graph);

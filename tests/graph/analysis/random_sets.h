@@ -13,6 +13,10 @@ struct Features {
 
 Set random_set(std::uint64_t seed, Policy policy, const Features& features);
 
+/// A table of up to twelve tasks on given cores, each core full or almost, chains going from core to core: where waiting
+/// for others may let backlog grow, period by period.
+Set random_chains(std::uint64_t seed);
+
 /// A valid graph, as the loader makes it of `yaml_of`, in a hundredth of the time.
 Graph graph_of(const Set& set);
 
