@@ -150,10 +150,10 @@ inline void keep_stacks_small() {
   pthread_attr_destroy(&attributes);
 }
 
-inline RealRun run(const std::string& text, Duration end, int times = 1, const RealTimeOptions& options = undisturbed(),
-                   int pieces = 1, std::vector<std::unique_ptr<Channels>> channels = {}, Recorder* log = nullptr) {
+// A graph that is so many times as slow as what is told of it.
+inline RealRun run(const Graph& graph, Duration end, int times, const RealTimeOptions& options, int pieces = 1,
+                   std::vector<std::unique_ptr<Channels>> channels = {}, Recorder* log = nullptr) {
   keep_stacks_small();
-  const Graph graph = graph_of(slowed(text, times));
   tests::TraceLines lines(graph, times);
   Recorder recorder({&lines});
   RealClock clock(graph.tasks.size(), options);
@@ -180,6 +180,11 @@ inline RealRun run(const std::string& text, Duration end, int times = 1, const R
     run.worst.push_back(clock.timing(i).execution.most() / times);
   }
   return run;
+}
+
+inline RealRun run(const std::string& text, Duration end, int times = 1, const RealTimeOptions& options = undisturbed(),
+                   int pieces = 1, std::vector<std::unique_ptr<Channels>> channels = {}, Recorder* log = nullptr) {
+  return run(graph_of(slowed(text, times)), end, times, options, pieces, std::move(channels), log);
 }
 
 // Without other misses than those that are meant.

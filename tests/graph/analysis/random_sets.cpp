@@ -202,9 +202,13 @@ const char* name_of(Policy policy) {
   return "";
 }
 
-std::string yaml_of(const Set& set, const std::string& unit, const std::string& comments) {
-  std::string text = comments + "graph: t\nplatform: {cores: " + std::to_string(set.cores) +
-                     ", policy: " + name_of(set.policy) + (set.offsets_hold ? "" : ", phasing: any") + "}\ntasks:\n";
+std::string counting_type(const Task&, std::size_t inputs) {
+  return inputs == 0 ? "Counter" : inputs == 1 ? "Relay" : "Sum";
+}
+
+std::string yaml_of(const Set& set, const std::string& unit, const TypeOf& type) {
+  std::string text = "graph: t\nplatform: {cores: " + std::to_string(set.cores) + ", policy: " + name_of(set.policy) +
+                     (set.offsets_hold ? "" : ", phasing: any") + "}\ntasks:\n";
   std::string connections;
   for (std::size_t i = 0; i < set.tasks.size(); ++i) {
     const Task& t = set.tasks[i];
@@ -219,7 +223,7 @@ std::string yaml_of(const Set& set, const std::string& unit, const std::string& 
                      (producers.size() == 1 ? ".in"
                       : inputs++ == 0       ? ".a"
                                             : ".b");
-    text += "  " + name + ": {type: " + (producers.empty() ? "Counter" : producers.size() == 1 ? "Relay" : "Sum");
+    text += "  " + name + ": {type: " + type(t, producers.size());
     const auto say = [&](const char* key, int value) {
       text += std::string(", ") + key + ": " + std::to_string(value) + unit;
     };

@@ -13,9 +13,9 @@
 namespace jarol::truth {
 
 struct TableWalk {
-  std::string late;                    // the first late activation, as "d 4 ends at 22ns, due at 20ns", or nothing
-  std::vector<std::int64_t> longest;   // response per task, ns
-  std::int64_t hyperperiods = 0;       // until it was seen to repeat, or somebody was late
+  std::string late;                   // the first late activation, as "d 4 ends at 22ns, due at 20ns", or nothing
+  std::vector<std::int64_t> longest;  // response per task, ns
+  std::int64_t hyperperiods = 0;      // until it was seen to repeat, or somebody was late
 };
 
 TableWalk walk_table(const Graph& graph, const std::vector<std::size_t>& core);
