@@ -8,7 +8,7 @@ namespace {
 using analysis::Verdict;
 using Answer = Truth::Answer;
 
-constexpr std::size_t most_states = 30'000;
+constexpr std::size_t most_states = 100'000;
 
 bool keeps_given_cores(const Set& set, const std::vector<std::size_t>& core) {
   for (std::size_t i = 0; i < core.size(); ++i)

@@ -141,6 +141,11 @@ Set random_set(std::uint64_t seed, Policy policy, const Features& features) {
     for (Task& t : set.tasks)
       if (random.once_in(2)) t.deadline = random.between(t.wcet, t.period);
   }
+  // all even, so that a shift by less than the unit is among those that are possible
+  const auto is_delayed = [](const Task& t) { return t.jitter + t.blocking > 0; };
+  if (!set.offsets_hold && std::any_of(set.tasks.begin(), set.tasks.end(), is_delayed))
+    for (Task& t : set.tasks)
+      for (int* time : {&t.wcet, &t.period, &t.deadline, &t.offset, &t.jitter, &t.blocking}) *time *= 2;
   return set;
 }
 
