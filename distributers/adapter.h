@@ -40,6 +40,11 @@ class Adapter : public messages::Receiver {
 
   /// Turns a value of an `out` channel into messages for the external system.
   virtual void hand_over(std::size_t channel, const void* value, messages::Receiver& system) = 0;
+
+  /// The same of an adapter that knows nothing of what the system was told before it, as another was there.
+  virtual void take_over(std::size_t channel, const void* value, messages::Receiver& system) {
+    hand_over(channel, value, system);
+  }
 };
 
 }  // namespace jarol::distributers

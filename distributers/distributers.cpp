@@ -231,4 +231,21 @@ std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
   return all;
 }
 
+std::vector<std::vector<std::byte>> safe_packets(const Graph& graph, std::size_t distributer, Link& link) {
+  struct Encoder : messages::Receiver {
+    explicit Encoder(Link& by) : link(by) {}
+    void receive(messages::MessageRef message) override {
+      const std::span<const std::byte> packet = link.encode(message);
+      packets.emplace_back(packet.begin(), packet.end());
+    }
+    Link& link;
+    std::vector<std::vector<std::byte>> packets;
+  } encoder(link);
+  const Distributer& of = graph.distributers[distributer];
+  const auto adapter = kind_of(of).make_adapter(of.parameters.data());
+  for (const Communicator& c : graph.communicators)
+    if (c.distributer == distributer && c.safe) adapter->take_over(c.channel, c.safe->data(), encoder);
+  return std::move(encoder.packets);
+}
+
 }  // namespace jarol::distributers

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "distributers/links/link.h"
 #include "graph/graph.h"
 #include "runtime/channels.h"
 #include "vehicles/vehicle.h"
@@ -19,5 +20,9 @@ void add_distributers(Registry& registry);
 std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph,
                                                      const std::vector<vehicles::VehicleClass>& vehicles,
                                                      std::uint64_t seed, Problems& problems);
+
+/// The packets that bring the external system of that distributer to rest, whatever it was told before: its `out`s with
+/// a `safe` hand that over. By the translator of its link, which is not connected yet.
+std::vector<std::vector<std::byte>> safe_packets(const Graph& graph, std::size_t distributer, Link& link);
 
 }  // namespace jarol::distributers

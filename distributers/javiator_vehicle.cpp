@@ -74,4 +74,10 @@ void JaviatorVehicle::hand_over(std::size_t, const void* value, messages::Receiv
       javiator::MotorSignals{to_signal(s[0]), to_signal(s[1]), to_signal(s[2]), to_signal(s[3]), ++id_}));
 }
 
+// A ShutDown too many does no harm; a SwitchState might.
+void JaviatorVehicle::take_over(std::size_t channel, const void* value, messages::Receiver& system) {
+  unlocked_ = true;
+  hand_over(channel, value, system);
+}
+
 }  // namespace jarol::distributers

@@ -16,6 +16,7 @@ class JaviatorVehicle : public Adapter {
   void receive(messages::MessageRef message) override;
   bool take(std::size_t channel, void* value) override;
   void hand_over(std::size_t channel, const void* value, messages::Receiver& system) override;
+  void take_over(std::size_t channel, const void* value, messages::Receiver& system) override;
 
  private:
   tasks::JaviatorSensors sensors_{};

@@ -8,6 +8,7 @@
 
 #include "runtime/finite.h"
 #include "runtime/publish.h"
+#include "runtime/running_task.h"
 
 namespace jarol {
 namespace {
@@ -284,12 +285,14 @@ void Executor::tell_bad_outcomes() {
 
 template <bool Digest, bool Record, bool MayMiss>
 void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term) {
+  running_task.tick.store(&tick, std::memory_order_relaxed);
   for (const Activation* next = segment.activations.first; next != segment.activations.last;) {
     if (!MayMiss && next->body != nullptr) {
       next = run_bodies(next, segment.activations.last, tick);
       continue;
     }
     const Activation& activation = *next++;
+    running_task.next(activation.memory);
     const Outcome outcome = MayMiss ? run_in_time(activation, tick) : activation.run(activation.memory, tick);
     if (outcome == Outcome::good) [[likely]] {
       if (!activation.has_let) publish<Digest, Record>(activation.publish, tick.now.count(), instant_term);
@@ -297,6 +300,7 @@ void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64
       on_bad_outcome(activation, outcome, tick);
     }
   }
+  running_task.end();
 }
 
 // Those in a row that are checked at the ends of their LETs; returns the first that is not one. What one throws ends
@@ -305,7 +309,10 @@ const Activation* Executor::run_bodies(const Activation* next, const Activation*
   while (next != last && next->body != nullptr) {
     const Outcome outcome = contain(
         [&] {
-          for (; next != last && next->body != nullptr; ++next) next->body(next->memory, tick);
+          for (; next != last && next->body != nullptr; ++next) {
+            running_task.next(next->memory);
+            next->body(next->memory, tick);
+          }
         },
         [&]() -> FaultText& { return *next->memory.fault; });
     if (outcome != Outcome::good) on_bad_outcome(*next++, outcome, tick);

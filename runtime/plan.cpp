@@ -134,6 +134,7 @@ class PlanBuilder {
     copy_value(*c.out, at(layout_->tasks[i].out), task.out.data());
     make_private(*c.state, layout_->tasks[i].state, status.heap);
     make_private(*c.in, layout_->tasks[i].in, status.heap);
+    status.task = static_cast<std::uint32_t>(i);
     status.undoable = is_undoable(task);
     status.run = c.run;
     if (!status.undoable) return;

@@ -69,6 +69,7 @@ struct Publish {
 
 /// What only faults need to know of a task, away from what every activation reads.
 struct TaskStatus : FaultText {
+  std::uint32_t task = 0;
   std::int64_t activation = 0;  // the faulty one
   bool skip_next = false;       // the next activation is left out
   bool undoable = false;        // state and outputs are kept before each activation

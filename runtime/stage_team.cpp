@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "runtime/copy.h"
+#include "runtime/running_task.h"
 #include "runtime/thread_time.h"
 
 namespace jarol {
@@ -169,7 +170,9 @@ void StageTeam::run_part(Part& part) {
 
 inline void StageTeam::run_item(Item& item, std::uint64_t& digest) const {
   const Activation& activation = *item.activation;
+  running_task.begin(activation.memory, *item.tick);
   item.outcome = activation.run(activation.memory, *item.tick);
+  running_task.end();
   if (item.outcome != Outcome::good || activation.publishes_deep) return;
   for (const Copy& c : activation.publish.copies) transfer(c);
   if (!digest_) return;

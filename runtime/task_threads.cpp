@@ -11,6 +11,8 @@
 #include "graph/values/heap.h"
 #include "runtime/copy.h"
 #include "runtime/futex.h"
+#include "runtime/running_task.h"
+#include "runtime/signal_stack.h"
 
 namespace jarol {
 
@@ -202,6 +204,7 @@ void TaskThreads::drain() {
 
 // In the order in which they were given: one that has to wait for a producer holds up those behind it, as in a table.
 void TaskThreads::run(Thread& thread) {
+  const SignalStack signal_stack;
   const MemoryScope scope(no_heap());  // a task with a heap has a scope of its own
   for (std::uint32_t taken = 0;;) {
     while (thread.released.load(std::memory_order_acquire) == taken) Futex::wait(thread.released, taken, std::nullopt);
@@ -224,7 +227,9 @@ void TaskThreads::execute(Job& job, Core& core) {
     // in this order, so that what preempts in between is counted to this one rather than left out
     const std::int64_t begin = clock_.now();
     const std::int64_t others = core.busy.load(std::memory_order_relaxed);
+    running_task.begin(job.memory, job.tick);
     outcome = job.run(job.memory, job.tick);
+    running_task.end();
     const std::int64_t preempted = core.busy.load(std::memory_order_relaxed) - others;
     job.end = clock_.now();
     const std::int64_t took = job.end - begin - preempted;

@@ -9,6 +9,8 @@
 
 #include "runtime/copy.h"
 #include "runtime/real_clock.h"
+#include "runtime/running_task.h"
+#include "runtime/signal_stack.h"
 #include "runtime/threads_order.h"
 
 namespace jarol {
@@ -181,6 +183,7 @@ void ThreadsCore::sense(bool terminal, std::int64_t round) {
 }
 
 void ThreadsCore::run_core() {
+  const SignalStack signal_stack;
   const MemoryScope scope(no_heap());
   for (std::int64_t done = 0; !report_.stopped;) {
     const auto ready = [&] { return rounds_begun_.load(std::memory_order_acquire) > done; };
@@ -224,7 +227,9 @@ void ThreadsCore::run_round(std::int64_t round) {
 void ThreadsCore::run_task(Counted& task, std::int64_t instant, std::uint64_t instant_term) {
   const Tick tick{Duration(instant), task.activations++, task.period};
   const std::int64_t begin = RealClock::monotonic();
+  running_task.begin(task.activation->memory, tick);
   const Outcome outcome = task.activation->run(task.activation->memory, tick);
+  running_task.end();
   if (outcome == Outcome::left_out) return;
   threads_report_.execution[task.activation->task].add(RealClock::monotonic() - begin);
   ++report_.activations;

@@ -1,6 +1,7 @@
 #include "runtime/workers.h"
 
 #include "graph/values/heap.h"
+#include "runtime/signal_stack.h"
 
 namespace jarol {
 namespace {
@@ -52,6 +53,7 @@ void Workers::run(Job job, void* context) {
 }
 
 void Workers::work(std::size_t first) {
+  const SignalStack signal_stack;
   const MemoryScope scope(no_heap());
   for (std::uint64_t round = 0;;) {
     round = await_change(round_, round);

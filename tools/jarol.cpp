@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "distributers/guardian/guardian_process.h"
 #include "graph/yaml/problems.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
@@ -52,6 +53,7 @@ int run_command(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 1 && distributers::is_guardian(argv[0])) return distributers::run_guardian();
   keep_standard_streams();
   const tools::PrintableStream out(std::cout), errors(std::cerr);
   const int exit_code = run_command(argc, argv);

@@ -6,6 +6,7 @@
 
 #include "runtime/executor.h"
 #include "runtime/thread_time.h"
+#include "tools/crash_line.h"
 
 namespace jarol::tools {
 namespace {
@@ -55,6 +56,7 @@ std::vector<MeasuredTask> measure_tasks(Loaded& loaded, Duration end) {
   for (const auto& channels : loaded.channels) channels->begin();
   Executor executor(*loaded.graph, std::move(loaded.channels),
                     {.digest = false, .recorder = nullptr, .sharing = Sharing::measure});
+  const CrashLine crash_line(*loaded.graph);
   executor.run_until(end);
   if (executor.report().stopped)
     throw std::invalid_argument("nothing was measured, as a fault stopped the run: " +

@@ -57,6 +57,8 @@ void add_real_time_options(Command& command, RealTimeArguments& arguments) {
                      "Real clock: CPUs on which tasks may run, as in 0,2-3, one for each core; default: any");
   command.add_flag("--spin", arguments.spin, "Real clock: wait for the instant without sleeping, at the cost of a CPU");
   command.add_flag("--force", arguments.force, "Real clock: run also what check has a negative verdict on");
+  command.add_flag("--no-guardian", arguments.no_guardian,
+                   "Real clock: no process beside this one that hands over 'safe' after a crash or kill -9");
 }
 
 RealTimeOptions options_of(const RealTimeArguments& arguments) {

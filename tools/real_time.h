@@ -21,6 +21,7 @@ struct RealTimeArguments {
   std::string cpus;
   bool spin = false;
   bool force = false;
+  bool no_guardian = false;
 };
 
 void add_real_time_options(Command& command, RealTimeArguments& arguments);

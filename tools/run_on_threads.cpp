@@ -10,6 +10,8 @@
 #include "runtime/threads_core.h"
 #include "tools/commanded.h"
 #include "tools/commands/commands.h"
+#include "tools/crash_line.h"
+#include "tools/guard.h"
 #include "tools/interrupt.h"
 #include "tools/json_line.h"
 #include "tools/linked.h"
@@ -22,7 +24,7 @@ namespace jarol::tools {
 namespace {
 
 void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& told,
-                const std::vector<LinkReport>& links, bool interrupted) {
+                const std::vector<LinkReport>& links, const Guard& guard, bool interrupted) {
   const Report& report = core.report();
   const ThreadsReport& threads = core.threads_report();
   const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
@@ -51,14 +53,14 @@ void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
     std::cout << "  sensors     " << threads.unawaited_ticks << " ticks found their thread at work\n";
   std::cout << told.to_text();
   for (const LinkReport& link : links) std::cout << to_text(link);
-  std::cout << to_text(graph, core.safe_commands());
+  std::cout << to_text(graph, core.safe_commands()) << guard.to_text();
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
   std::cerr << told_faults(report);
 }
 
 void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& told,
-                const std::vector<LinkReport>& links) {
+                const std::vector<LinkReport>& links, const Guard& guard) {
   const Report& report = core.report();
   const ThreadsReport& threads = core.threads_report();
   nlohmann::ordered_json json{{"schema", "jarol.run/1"},
@@ -92,13 +94,17 @@ void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
                        {"lateness_99_ns", threads.lateness.percentile(0.99)},
                        {"lateness_most_ns", threads.lateness.most()},
                        {"tasks", tasks}};
+  json["guardian"] = guard.to_json();
   for (const LinkReport& link : links) json["links"].push_back(to_json(link));
   std::cout << json_line(json);
 }
 
 }  // namespace
 
-int run_on_threads(Loaded& loaded, Duration end, const RealTimeOptions& options, bool json) {
+int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& arguments, bool json) {
+  const RealTimeOptions options = options_of(arguments);
+  Guard guard(loaded, !arguments.no_guardian, options.priority);
+  const CrashLine crash_line(*loaded.graph, guard.process());
   ToldChanges told(*loaded.graph);
   loaded.channels = told.listen(std::move(loaded.channels));
   const std::vector<Channels*> channels = pointers_to(loaded.channels);
@@ -112,16 +118,20 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeOptions& options,
   };
   try {
     const Interruptible interruptible([&] { core.interrupt(); });
+    guard.arm();
     core.run_for(end, prepare);
   } catch (const std::runtime_error& error) {
     // a vehicle that is lost, or can't be simulated any further
     std::cerr << "error: at " << seconds_text(core.now()) << " s: " << error.what() << "\n";
+    linked.finish();
+    guard.close();
     return exit_unfinished;
   }
   linked.finish();
+  guard.close();
   const bool interrupted = Interruptible::interrupted().load();
-  json ? print_json(*loaded.graph, core, told, linked.reports())
-       : print_text(*loaded.graph, core, told, linked.reports(), interrupted);
+  json ? print_json(*loaded.graph, core, told, linked.reports(), guard)
+       : print_text(*loaded.graph, core, told, linked.reports(), guard, interrupted);
   if (core.report().stopped) return exit_unfinished;
   return interrupted ? exit_interrupted : exit_good;
 }

@@ -1,12 +1,12 @@
 // A run with --concurrency threads.
 #pragma once
 
-#include "runtime/real_clock.h"
 #include "tools/load_graph.h"
+#include "tools/real_time.h"
 
 namespace jarol::tools {
 
 /// Runs and tells; the exit code. Throws std::invalid_argument for a graph that threads can't run.
-int run_on_threads(Loaded& loaded, Duration end, const RealTimeOptions& options, bool json);
+int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& arguments, bool json);
 
 }  // namespace jarol::tools

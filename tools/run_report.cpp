@@ -43,6 +43,7 @@ std::string to_text(const RunOutcome& outcome) {
   if (outcome.clock != nullptr) text += to_text(graph, *outcome.clock);
   for (const LinkReport& link : outcome.links) text += to_text(link);
   text += to_text(graph, executor.safe_commands());
+  if (outcome.guard != nullptr) text += outcome.guard->to_text();
   if (report.non_finite_inputs > 0)
     text += fmt::format("  {} values from outside were not finite and not taken\n", report.non_finite_inputs);
   if (const StageTeam* team = executor.team())
@@ -79,6 +80,7 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
       {"heaps", heaps},
       {"outputs", outputs_to_json(graph, [&](std::size_t communicator) { return executor.last_value(communicator); })}};
   if (outcome.clock != nullptr) json["real_time"] = to_json(graph, *outcome.clock);
+  if (outcome.guard != nullptr) json["guardian"] = outcome.guard->to_json();
   for (const LinkReport& link : outcome.links) json["links"].push_back(to_json(link));
   return json;
 }

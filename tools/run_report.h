@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/executor.h"
+#include "tools/guard.h"
 #include "tools/told_changes.h"
 
 namespace jarol::tools {
@@ -15,6 +16,7 @@ struct RunOutcome {
   const Executor& executor;
   const ToldChanges& told;
   const RealClock* clock = nullptr;  // null: the virtual clock
+  const Guard* guard = nullptr;      // null: the virtual clock
   std::size_t workers = 1;           // that were asked for
   std::vector<LinkReport> links{};
   double seconds = 0;  // that it took, above zero

@@ -3,11 +3,11 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <stdexcept>
 
 #include "distributers/links/stamp_order.h"
+#include "distributers/links/timestamp.h"
 #include "graph/yaml/problems.h"
 
 namespace jarol::distributers {
@@ -168,16 +168,14 @@ Link::Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set
       output_(make_port(options.output, longest_)),
       translator_(std::make_unique<Translator>(set, options, input_)),
       reader_(set),
-      header_(*set.header) {
+      header_(*set.header),
+      timestamp_(find_timestamp(set)) {
   packet_.reserve(longest_);
   room_.resize(peer_size + longest_);
   for (const auto& [name, value] : options.header) {
     const messages::FieldForm& field = find_field(*set.header, name, value);
     std::memcpy(static_cast<std::byte*>(header_.value()) + field.offset, &value, size_of(field.wire));
   }
-  for (const messages::FieldForm& field : set.header->fields)
-    if (field.name == "timestamp" && field.wire == messages::Wire::fp64)
-      timestamp_ = static_cast<std::byte*>(header_.value()) + field.offset;
 }
 
 Link::~Link() { disconnect(); }
@@ -222,14 +220,14 @@ void Link::receive(messages::Receiver& receiver) {
   }
 }
 
+std::span<const std::byte> Link::encode(messages::MessageRef message) {
+  set_timestamp(timestamp_, header_.value());
+  write_packet(header_, message, set_.order, packet_);
+  return packet_;
+}
+
 void Link::send(messages::MessageRef message) {
-  if (timestamp_ != nullptr) {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    const double seconds = std::chrono::duration<double>(now).count();
-    std::memcpy(timestamp_, &seconds, sizeof seconds);
-  }
-  if (!write_packet(header_, message, set_.order, packet_) ||
-      !std::visit([&](auto& port) { return port.write(packet_); }, output_)) {
+  if (encode(message).empty() || !std::visit([&](auto& port) { return port.write(packet_); }, output_)) {
     ++refused_;
     return;
   }

@@ -51,6 +51,12 @@ class Link {
   /// Who sent the packet that was given last: datagrams' peers are numbered from 1; 0: it came in a stream.
   std::uint32_t peer() const { return peer_; }
 
+  /// The packet that `send` would make of a message now.
+  std::span<const std::byte> encode(messages::MessageRef message);
+  const messages::MessageSet& set() const { return set_; }
+  /// From the next `connect` on it learns of the way to the peer; it outlives the link. None: null.
+  void hold_by(Holder* holder) { transport_->holder = holder; }
+
   /// Has the message sent as a packet soon. One that finds no room is counted and dropped.
   void send(messages::MessageRef message);
   /// Wakes the sending thread for what was given to `send` since the last call.
@@ -80,7 +86,7 @@ class Link {
   // of the thread that sends and receives
   messages::PacketReader reader_;
   messages::Message header_;
-  void* timestamp_ = nullptr;  // in the header: seconds since 1970
+  const messages::FieldForm* timestamp_;  // of the header
   std::vector<std::byte> packet_, room_;
   std::uint32_t peer_ = 0;
   std::uint64_t given_ = 0;

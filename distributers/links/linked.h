@@ -13,6 +13,9 @@ class LinkedChannels : public Channels {
   /// `announcer` is for what goes to all who may look for this system, or null.
   LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<Link> announcer, std::unique_ptr<Adapter> adapter);
 
+  Link& link() { return *link_; }
+  const Link& link() const { return *link_; }
+
   void begin() override;
   void finish() override;
   bool needs_real_clock() const override { return true; }

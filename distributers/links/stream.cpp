@@ -29,11 +29,18 @@ bool can_write(int fd, milliseconds time) {
 
 void StreamTransport::replace(Descriptor stream) {
   const std::lock_guard lock(stream_mutex_);
-  if (stream_) ++counts.disconnected;
+  if (stream_) {
+    ++counts.disconnected;
+    // the peer sees the end now, whoever else holds the stream
+    ::shutdown(stream_.get(), SHUT_RDWR);
+    if (holder != nullptr) holder->let_go();
+  }
   stream_.close();
   stream_ = std::move(stream);
   stuck_ = false;
-  if (stream_) ++counts.connected;
+  if (!stream_) return;
+  ++counts.connected;
+  if (holder != nullptr) holder->hold(stream_.get(), {});
 }
 
 void StreamTransport::receive(const Interrupter& interrupter, ByteSink& sink) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "distributers/links/descriptor.h"
+#include "distributers/links/holder.h"
 
 namespace jarol::distributers {
 
@@ -54,6 +55,7 @@ class Transport {
   virtual void close() = 0;
 
   TransportCounts counts;
+  Holder* holder = nullptr;  // who else holds the way to the peer, if anybody; set before `open`
 };
 
 }  // namespace jarol::distributers

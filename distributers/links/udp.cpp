@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 namespace jarol::distributers {
 namespace {
@@ -36,6 +38,17 @@ Datagram receive_from(int fd, std::span<std::byte> room) {
   return datagram;
 }
 
+// The guardian of a program that crashed has the port for a moment longer.
+bool bind_with_patience(int fd, const Address& address) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::milliseconds(500);
+  while (bind(fd, address.get(), address.size()) != 0) {
+    if (errno != EADDRINUSE || Clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string UdpTransport::text() const {
@@ -50,7 +63,7 @@ std::string UdpTransport::address() const {
 
 void UdpTransport::open() {
   Descriptor made(socket(listen_.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  if (!made || bind(made.get(), listen_.get(), listen_.size()) != 0)
+  if (!made || !bind_with_patience(made.get(), listen_))
     throw std::runtime_error("can't listen at " + text() + ": " + std::strerror(errno));
   const int on = 1;
   setsockopt(made.get(), SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
@@ -58,6 +71,7 @@ void UdpTransport::open() {
   socket_ = std::move(made);
   peer_ = named_peer_;
   if (peer_) ++counts.connected;
+  if (holder != nullptr) holder->hold(socket_.get(), peer_);
 }
 
 void UdpTransport::associate(const Address& peer) {
@@ -65,6 +79,7 @@ void UdpTransport::associate(const Address& peer) {
   if (peer_ == peer) return;
   peer_ = peer;
   ++counts.connected;
+  if (holder != nullptr) holder->hold(socket_.get(), peer_);
 }
 
 void UdpTransport::receive(const Interrupter& interrupter, ByteSink& sink) {
@@ -103,6 +118,7 @@ bool UdpTransport::send(std::span<const std::byte> packet) {
 }
 
 void UdpTransport::close() {
+  if (holder != nullptr) holder->let_go();
   socket_.close();
   const std::lock_guard lock(peer_mutex_);
   peer_ = {};

@@ -10,6 +10,7 @@
 #include "runtime/machine.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
+#include "tools/guard.h"
 #include "tools/json_line.h"
 
 namespace jarol::tools {
@@ -35,7 +36,8 @@ nlohmann::ordered_json permission(const std::string& refused) {
   return json;
 }
 
-void print_json(const MachineFacts& m, const Arithmetic& a, const std::vector<Lateness>& measured) {
+void print_json(const MachineFacts& m, const Arithmetic& a, const std::string& guardian,
+                const std::vector<Lateness>& measured) {
   nlohmann::ordered_json whole{
       {"schema", "jarol.doctor/1"},
       {"kernel", m.kernel},
@@ -45,6 +47,7 @@ void print_json(const MachineFacts& m, const Arithmetic& a, const std::vector<La
       {"affinity", permission(m.affinity_refused)},
       {"sched_fifo", permission(m.fifo_refused)},
       {"lock_memory", permission(m.lock_refused)},
+      {"guardian", permission(guardian)},
       {"default_timer_slack_ns", m.default_slack.count()},
       {"least_timer_slack_ns", m.least_slack.count()},
       {"clock_resolution_ns", m.resolution.count()},
@@ -68,7 +71,8 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-void print_text(const MachineFacts& m, const Arithmetic& a, const std::vector<Lateness>& measured) {
+void print_text(const MachineFacts& m, const Arithmetic& a, const std::string& guardian,
+                const std::vector<Lateness>& measured) {
   const auto line = [](const std::string& what, const std::string& text) {
     std::cout << fmt::format("  {:<13} {}\n", what, text);
   };
@@ -84,6 +88,8 @@ void print_text(const MachineFacts& m, const Arithmetic& a, const std::vector<La
                                 "other programs may delay tasks; allow it by 'ulimit -r 99' or run as root"));
   line("memory",
        or_refused(m.lock_refused, "can be locked", "a page fault may delay a task; allow it by 'ulimit -l unlimited'"));
+  line("guardian", or_refused(guardian, "can be started: it hands over 'safe' after a crash",
+                              "after a crash the last commands stay in force"));
   line("timer slack",
        fmt::format("{}, can be set to {}", duration_text(m.default_slack), duration_text(m.least_slack)));
   line("clock", fmt::format("CLOCK_MONOTONIC with a resolution of {}", duration_text(m.resolution)));
@@ -110,7 +116,8 @@ int examine(const Options& options) {
   if (facts.fifo_priority > 0)
     if (const auto fifo = measure_lateness(period, duration, facts.fifo_priority)) measured.push_back({"fifo", *fifo});
   const Arithmetic arithmetic = find_arithmetic();
-  options.json ? print_json(facts, arithmetic, measured) : print_text(facts, arithmetic, measured);
+  const std::string guardian = guardian_refused();
+  options.json ? print_json(facts, arithmetic, guardian, measured) : print_text(facts, arithmetic, guardian, measured);
   return exit_good;
 }
 

@@ -14,6 +14,7 @@
 #include "runtime/executor.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
+#include "tools/crash_line.h"
 #include "tools/interrupt.h"
 #include "tools/json_line.h"
 #include "tools/load_graph.h"
@@ -148,6 +149,7 @@ int replay(const Options& options) {
   {
     const Interruptible interruptible([&] { executor.interrupt(); });
     const Progress progress(!options.json && isatty(STDERR_FILENO) != 0, log.covered(), [&] { return executor.now(); });
+    const CrashLine crash_line(graph);
     comparison = run_beside(executor, log);
   }
   const double seconds =

@@ -13,6 +13,8 @@
 #include "runtime/executor.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
+#include "tools/crash_line.h"
+#include "tools/guard.h"
 #include "tools/interrupt.h"
 #include "tools/json_line.h"
 #include "tools/linked.h"
@@ -106,7 +108,7 @@ LogHeader header_of(const Options& options, const Graph& graph) {
 
 // Options that would have no effect.
 void require_effect(const Command& command, const Options& options) {
-  const std::vector<std::string> of_real_clock{"--rt-priority", "--cpus", "--spin", "--force"};
+  const std::vector<std::string> of_real_clock{"--rt-priority", "--cpus", "--spin", "--force", "--no-guardian"};
   if (options.clock != "real")
     command.refuse(of_real_clock, "belongs to the real clock; add --clock real, or leave it out");
   if (options.concurrency != "threads") return;
@@ -122,11 +124,12 @@ int run(const Options& options) {
   const Graph& graph = *loaded.graph;
   const Duration end = end_of_run(options, loaded);
   require_clock(options, loaded);
-  if (options.concurrency == "threads") return run_on_threads(loaded, end, options_of(options.real_time), options.json);
+  if (options.concurrency == "threads") return run_on_threads(loaded, end, options.real_time, options.json);
   RunFiles files(graph, options.files);
   std::unique_ptr<LogWriter> log;
   if (!options.log.empty()) log = std::make_unique<LogWriter>(options.log, header_of(options, graph), graph);
   std::optional<RealClock> clock;
+  std::optional<Guard> guard;
   std::vector<analysis::TaskThread> threads;
   if (options.clock == "real") {
     if (options.workers > 1)
@@ -135,7 +138,9 @@ int run(const Options& options) {
     RealTimeOptions real_time = options_of(options.real_time);
     threads = threads_for(options.file, graph, real_time);
     clock.emplace(graph.tasks.size(), real_time);
+    guard.emplace(loaded, !options.real_time.no_guardian, real_time.priority);
   }
+  const CrashLine crash_line(graph, guard ? guard->process() : nullptr);
   ToldChanges told(graph);
   loaded.channels = told.listen(std::move(loaded.channels));
   std::vector<Channels*> channels = pointers_to(loaded.channels);
@@ -156,6 +161,7 @@ int run(const Options& options) {
     // its thread is made before this one gets the priority and the CPUs that threads made later would take after
     const Progress progress(shown, end, [&] { return executor.now(); });
     if (clock) start_clock(*clock, executor);
+    if (guard) guard->arm();
     start = std::chrono::steady_clock::now();
     executor.run_until(end);
   } catch (const std::runtime_error& error) {
@@ -163,6 +169,7 @@ int run(const Options& options) {
     lost = "error: at " + seconds_text(executor.now()) + " s: " + error.what() + "\n";
   }
   linked.finish();
+  if (guard) guard->close();
   const double seconds =
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   const Report& report = executor.report();
@@ -181,6 +188,7 @@ int run(const Options& options) {
          .executor = executor,
          .told = told,
          .clock = clock ? &*clock : nullptr,
+         .guard = guard ? &*guard : nullptr,
          .workers = options.workers,
          .links = linked.reports(),
          .seconds = seconds,

@@ -1,0 +1,54 @@
+#include "distributers/guardian/ward.h"
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace jarol::distributers {
+
+void Ward::hold(Descriptor fd, const Address& peer) {
+  fd_ = std::move(fd);
+  peer_ = peer;
+  int type = 0;
+  socklen_t size = sizeof type;
+  datagrams_ = getsockopt(fd_.get(), SOL_SOCKET, SO_TYPE, &type, &size) == 0 && type == SOCK_DGRAM;
+}
+
+void Ward::send() {
+  if (!fd_ || !rest_.empty() || (datagrams_ && !peer_)) return;
+  for (StampedPacket& packet : packets_) {
+    const std::span<const std::byte> bytes = packet.bytes();
+    if (!datagrams_)
+      write(bytes);
+    else if (sendto(fd_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL, peer_.get(), peer_.size()) < 0)
+      continue;
+    ++sent_;
+  }
+}
+
+bool Ward::send_rest() {
+  const std::vector<std::byte> bytes = std::move(rest_);
+  rest_.clear();
+  write(bytes);
+  return !rest_.empty();
+}
+
+// What follows something that waits, waits behind it. A stream that has ended takes nothing any more.
+void Ward::write(std::span<const std::byte> bytes) {
+  while (rest_.empty() && !bytes.empty()) {
+    const auto length = ::write(fd_.get(), bytes.data(), bytes.size());
+    if (length > 0) bytes = bytes.subspan(static_cast<std::size_t>(length));
+    if (length > 0 || (length < 0 && errno == EINTR)) continue;
+    if (length < 0 && errno == EAGAIN) break;
+    fd_.close();
+    return;
+  }
+  rest_.insert(rest_.end(), bytes.begin(), bytes.end());
+}
+
+std::string Ward::text() const {
+  return std::to_string(sent_) + (sent_ == 1 ? " packet" : " packets") + " over " + text_;
+}
+
+}  // namespace jarol::distributers

@@ -1,0 +1,44 @@
+// What a guardian knows of one link, and how it sends.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "distributers/guardian/stamped_packet.h"
+#include "distributers/links/address.h"
+
+namespace jarol::distributers {
+
+class Ward {
+ public:
+  /// The link's text, as people read it.
+  Ward(const messages::MessageSet& set, std::string text) : set_(set), text_(std::move(text)) {}
+
+  void add(std::span<const std::byte> packet) { packets_.emplace_back(set_, packet); }
+  void hold(Descriptor fd, const Address& peer);
+  void let_go() { fd_.close(); }
+
+  /// All packets once. A stream that has no room for them takes them later.
+  void send();
+  /// What a stream had no room for, as much as there is now; false: nothing is left.
+  bool send_rest();
+
+  /// As in "10 packets over udp 127.0.0.1:7002".
+  std::string text() const;
+
+ private:
+  void write(std::span<const std::byte> bytes);
+
+  const messages::MessageSet& set_;
+  std::string text_;
+  std::vector<StampedPacket> packets_;
+  Descriptor fd_;
+  Address peer_;
+  bool datagrams_ = false;
+  std::vector<std::byte> rest_;
+  std::uint64_t sent_ = 0;
+};
+
+}  // namespace jarol::distributers

@@ -1,0 +1,19 @@
+// Who else holds a link's way to its peer.
+#pragma once
+
+#include "distributers/links/address.h"
+
+namespace jarol::distributers {
+
+/// Called by a transport, from whichever of its threads changes the way.
+class Holder {
+ public:
+  virtual ~Holder() = default;
+  /// From now on this is the way; datagrams go to that peer, or nowhere while there is none. Makes a duplicate of the
+  /// descriptor, which stays the transport's.
+  virtual void hold(int fd, const Address& peer) = 0;
+  /// There is no way any more; the transport closes its descriptor after this.
+  virtual void let_go() = 0;
+};
+
+}  // namespace jarol::distributers

@@ -1,0 +1,20 @@
+#include "distributers/links/timestamp.h"
+
+#include <chrono>
+#include <cstring>
+
+namespace jarol::distributers {
+
+const messages::FieldForm* find_timestamp(const messages::MessageSet& set) {
+  for (const messages::FieldForm& field : set.header->fields)
+    if (field.name == "timestamp" && field.wire == messages::Wire::fp64) return &field;
+  return nullptr;
+}
+
+void set_timestamp(const messages::FieldForm* field, void* header) {
+  if (field == nullptr) return;
+  const double now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  std::memcpy(static_cast<std::byte*>(header) + field->offset, &now, sizeof now);
+}
+
+}  // namespace jarol::distributers

@@ -1,0 +1,104 @@
+// Tasks that steer a vehicle, until they end the whole process: each in a way of its own.
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "graph/plugin.h"
+#include "tasks/values/javiator.h"
+#include "tasks/values/lauv.h"
+
+namespace {
+using namespace jarol;
+
+enum class Way : std::uint8_t { none, exit, abort, segmentation, overflow, terminate, divide, bytes };
+
+constexpr auto enumerators(Way) {
+  return std::array<Enumerator<Way>, 8>{{{"none", Way::none},
+                                         {"exit", Way::exit},
+                                         {"abort", Way::abort},
+                                         {"segmentation", Way::segmentation},
+                                         {"overflow", Way::overflow},
+                                         {"terminate", Way::terminate},
+                                         {"divide", Way::divide},
+                                         {"bytes", Way::bytes}}};
+}
+
+volatile int zero = 0;
+int* volatile nowhere = nullptr;
+
+// the compilers don't see that it never ends
+int dive_deeper(volatile int* above);
+int (*volatile go_on)(volatile int*) = dive_deeper;
+
+int dive_deeper(volatile int* above) {
+  volatile int room[64] = {*above + 1};
+  return go_on(room) + room[0];
+}
+
+[[noreturn]] void refuse() { throw std::runtime_error("nobody may see this"); }
+void (*volatile refuses)() = refuse;
+void throw_without_leave() noexcept { refuses(); }
+
+void end_by(Way way) {
+  switch (way) {
+    case Way::none: return;
+    case Way::exit: std::exit(0);
+    case Way::abort: std::abort();
+    case Way::segmentation: *nowhere = 1; return;
+    case Way::overflow: {
+      volatile int top = 0;
+      zero = dive_deeper(&top);
+      return;
+    }
+    case Way::terminate: throw_without_leave(); return;
+    case Way::divide: zero = 1 / zero; return;
+    case Way::bytes: throw std::runtime_error("\xff\xc3\x28 \x1b[31m \x01\xed\xa0\x80\"\\");
+  }
+}
+
+struct CrashParameters {
+  Way way = Way::none;
+  std::int64_t at = 0;
+
+  static constexpr auto fields() {
+    return describe(field<&CrashParameters::way>("", "how it ends"),
+                    field<&CrashParameters::at>("", "in which activation"));
+  }
+};
+
+struct CrashingPilot {
+  static constexpr std::string_view summary = "turns the motors, and crashes the program";
+  using Param = CrashParameters;
+  struct In {
+    tasks::JaviatorSensors sensors{};
+    static constexpr auto fields() { return describe(field<&In::sensors>()); }
+  };
+  struct Out {
+    tasks::MotorCommand motors{};
+    static constexpr auto fields() { return describe(field<&Out::motors>()); }
+  };
+  static void run(const Param& p, const Tick& tick, const In&, Out& out) {
+    out.motors = {.signals = {8000, 8000, 8000, 8000}, .unlocked = true};
+    if (tick.activation >= p.at) end_by(p.way);
+  }
+};
+
+struct CrashingHelmsman {
+  static constexpr std::string_view summary = "turns the propeller, and crashes the program";
+  using Param = CrashParameters;
+  struct In {
+    tasks::Motion motion{};
+    static constexpr auto fields() { return describe(field<&In::motion>()); }
+  };
+  struct Out {
+    tasks::Actuation actuation{};
+    static constexpr auto fields() { return describe(field<&Out::actuation>()); }
+  };
+  static void run(const Param& p, const Tick& tick, const In&, Out& out) {
+    out.actuation = {.thruster = 0.75, .fins = {0.1, 0.2, 0.3, 0.4}};
+    if (tick.activation >= p.at) end_by(p.way);
+  }
+};
+}  // namespace
+
+JAROL_PLUGIN(CrashingPilot, CrashingHelmsman)
