@@ -20,6 +20,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  pid_t id() const { return id_; }
   /// As a crash or a loss of power ends it: it does not get to say anything.
   void kill();
   /// As Ctrl-C ends it.

@@ -51,7 +51,7 @@ void end_by(Way way) {
       return;
     }
     case Way::terminate: throw_without_leave(); return;
-    case Way::divide: zero = 1 / zero; return;
+    case Way::divide: zero = 7 / zero; return;
     case Way::bytes: throw std::runtime_error("\xff\xc3\x28 \x1b[31m \x01\xed\xa0\x80\"\\");
   }
 }
@@ -62,9 +62,13 @@ struct CrashParameters {
 
   static constexpr auto fields() {
     return describe(field<&CrashParameters::way>("", "how it ends"),
-                    field<&CrashParameters::at>("", "in which activation"));
+                    field<&CrashParameters::at>("", "in which activation; below 0: when the vehicle leans"));
   }
 };
+
+void end_if_due(const CrashParameters& p, const Tick& tick, double roll) {
+  if (p.at < 0 ? roll > 0.1 : tick.activation >= p.at) end_by(p.way);
+}
 
 struct CrashingPilot {
   static constexpr std::string_view summary = "turns the motors, and crashes the program";
@@ -77,9 +81,9 @@ struct CrashingPilot {
     tasks::MotorCommand motors{};
     static constexpr auto fields() { return describe(field<&Out::motors>()); }
   };
-  static void run(const Param& p, const Tick& tick, const In&, Out& out) {
+  static void run(const Param& p, const Tick& tick, const In& in, Out& out) {
     out.motors = {.signals = {8000, 8000, 8000, 8000}, .unlocked = true};
-    if (tick.activation >= p.at) end_by(p.way);
+    end_if_due(p, tick, in.sensors.roll);
   }
 };
 
@@ -94,9 +98,9 @@ struct CrashingHelmsman {
     tasks::Actuation actuation{};
     static constexpr auto fields() { return describe(field<&Out::actuation>()); }
   };
-  static void run(const Param& p, const Tick& tick, const In&, Out& out) {
+  static void run(const Param& p, const Tick& tick, const In& in, Out& out) {
     out.actuation = {.thruster = 0.75, .fins = {0.1, 0.2, 0.3, 0.4}};
-    if (tick.activation >= p.at) end_by(p.way);
+    end_if_due(p, tick, in.motion.phi);
   }
 };
 }  // namespace
