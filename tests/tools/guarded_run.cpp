@@ -107,9 +107,9 @@ std::string guarded_run(const command::TemporaryFolder& folder, const GuardedVeh
           (helicopter ? "JaviatorVehicle" : "LauvVehicle") + ", link: " + vehicle.link() +
           "}\ncommunicators:\n  from: {channel: vehicle." + (helicopter ? "sensors" : "motion") +
           ", timeout: 1min}\n  to: {channel: vehicle." + (helicopter ? "motors" : "actuation") + ", safe: {" +
-          (helicopter ? "unlocked: false" : "thruster: 0") + "}}\ntasks:\n  pilot: {type: " +
-          (helicopter ? "CrashingPilot" : "CrashingHelmsman") + ", wcet: 5ms, on_fault: hold, parameters: {way: " + way +
-          ", at: -1}}\nconnections:\n  - from -> pilot." +
+          (helicopter ? "unlocked: false" : "thruster: 0") +
+          "}}\ntasks:\n  pilot: {type: " + (helicopter ? "CrashingPilot" : "CrashingHelmsman") +
+          ", wcet: 5ms, on_fault: hold, parameters: {way: " + way + ", at: -1}}\nconnections:\n  - from -> pilot." +
           (helicopter ? "sensors" : "motion") + "\n  - pilot." + (helicopter ? "motors" : "actuation") + " -> to\n");
   const std::string words = "run " + file + " --json --clock real --for 1h ";
   if (model == "threads") return words + "--concurrency threads";

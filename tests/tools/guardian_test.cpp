@@ -68,9 +68,9 @@ Outcome end_once(const command::TemporaryFolder& folder, const std::string& link
   const std::size_t line = run.errors().find("crash: task 'pilot' activation ");
   expect(kill || (line != std::string::npos && run.errors().find(" s: " + way.line, line) != std::string::npos),
          "no line of a crash in '" + run.errors() + "'");
-  expect(run.errors().find("guardian: the controller is gone without having closed; sent 'safe': ") !=
-             std::string::npos,
-         "the guardian says nothing");
+  expect(
+      run.errors().find("guardian: the controller is gone without having closed; sent 'safe': ") != std::string::npos,
+      "the guardian says nothing");
   expect(run.output().empty(), "it printed a report");
   expect(vehicle.flawed() == flawed, std::to_string(vehicle.flawed() - flawed) + " flawed packets");
   expect(end_of(guardian) == 1, "the guardian did not end");
