@@ -39,13 +39,31 @@ TEST_SUITE("tools/command_line") {
   }
 
   TEST_CASE("a flag takes no value, whatever it is") {
-    const std::pair<const char*, const char*> flags[] = {
-        {"check", "--sensitivity"}, {"check", "--chains"},     {"check", "--measure"}, {"check", "--write"},
-        {"check", "--lower"},       {"check", "--json"},       {"run", "--json"},      {"run", "--spin"},
-        {"run", "--force"},         {"vehicle", "--describe"}, {"vehicle", "--json"},  {"vehicle", "--bare"},
-        {"graph", "--dot"},         {"graph", "--json"},       {"messages", "--json"}, {"messages", "--decode"},
-        {"messages", "--encode"},   {"tasks", "--json"},       {"doctor", "--json"},   {"bench", "--json"},
-        {"tasks", "--help"},        {"tasks", "-h"},           {"", "--version"},      {"", "--help"}};
+    const std::pair<const char*, const char*> flags[] = {{"check", "--sensitivity"},
+                                                         {"check", "--chains"},
+                                                         {"check", "--measure"},
+                                                         {"check", "--write"},
+                                                         {"check", "--lower"},
+                                                         {"check", "--json"},
+                                                         {"run", "--json"},
+                                                         {"run", "--spin"},
+                                                         {"run", "--force"},
+                                                         {"vehicle", "--describe"},
+                                                         {"vehicle", "--json"},
+                                                         {"vehicle", "--bare"},
+                                                         {"graph", "--dot"},
+                                                         {"graph", "--json"},
+                                                         {"messages", "--json"},
+                                                         {"messages", "--decode"},
+                                                         {"messages", "--encode"},
+                                                         {"tasks", "--json"},
+                                                         {"doctor", "--json"},
+                                                         {"bench", "--json"},
+                                                         {"run", "--no-guardian"},
+                                                         {"tasks", "--help"},
+                                                         {"tasks", "-h"},
+                                                         {"", "--version"},
+                                                         {"", "--help"}};
     for (const auto& each : flags)
       for (const std::string value : {"3", "false", "true", ""}) {
         const std::string command = each.first, flag = each.second;

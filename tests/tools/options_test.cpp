@@ -111,7 +111,7 @@ TEST_SUITE("tools/options") {
 
   TEST_CASE("run: what belongs to the real clock needs it, and threads know less of it") {
     const std::string run = "run specs/counting.yaml --for 1s ";
-    for (const std::string option : {"--rt-priority 5", "--cpus 0", "--spin", "--force"})
+    for (const std::string option : {"--rt-priority 5", "--cpus 0", "--spin", "--force", "--no-guardian"})
       check_refused(run + option, option.substr(0, option.find(' ')) +
                                       " belongs to the real clock; add --clock real, or leave it out");
     check_refused(run + "--concurrency threads", "--concurrency threads needs --clock real");
