@@ -33,6 +33,9 @@ TEST_SUITE("tools/doctor") {
     CHECK(doctor["default_timer_slack_ns"] >= 1);
     CHECK(doctor["clock_resolution_ns"] >= 1);
     CHECK(doctor["governors"].is_array());
+    CHECK(doctor["math"]["foreign_calls"] == nlohmann::json::array());
+    CHECK(doctor["math"]["blas"].is_string());
+    CHECK(doctor["math"]["blas_varies"].is_boolean());
     CHECK(doctor["period_ns"] == 1'000'000);
 
     std::vector<std::string> schedulers{"other"};
@@ -53,6 +56,7 @@ TEST_SUITE("tools/doctor") {
     for (const char* part : {"this machine\n  kernel        ", "\n  CPUs          ", "\n  affinity      ",
                              "\n  SCHED_FIFO    ", "\n  memory        ", "\n  guardian      ", "\n  timer slack   ",
                              "\n  clock         CLOCK_MONOTONIC with a resolution of ", "\n  governor      ",
+                             "\n  sin, exp, ... this program's own, for all libraries too\n  BLAS          ",
                              "\nlateness of bare sleeps at 1 kHz\n  ordinary      p50 ", "  of 20\n"}) {
       CAPTURE(part);
       CHECK(text.find(part) != std::string::npos);
