@@ -7,20 +7,9 @@
 namespace jarol::tools {
 namespace {
 
-using analysis::Standing;
 using analysis::Suggestion;
 using analysis::Verdict;
 using Json = nlohmann::ordered_json;
-
-std::string text_of(Standing standing) {
-  switch (standing) {
-    case Standing::none: return "none";
-    case Standing::proof: return "proof";
-    case Standing::sufficient: return "sufficient";
-    case Standing::simulated: return "simulated";
-  }
-  return "";
-}
 
 std::string word_of(Verdict verdict) {
   switch (verdict) {
@@ -94,7 +83,7 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
             {"copy_ns_per_byte", platform.copy.count()}}},
           {"verdict", word_of(r.result.verdict)},
           {"limits_hold", chains_hold(r)},
-          {"standing", text_of(r.result.standing)},
+          {"standing", word_of(r.result.standing)},
           {"reason", r.result.reason},
           {"witness", std::move(witness)},
           {"alpha", r.sensitivity && r.sensitivity->alpha ? Json(*r.sensitivity->alpha) : Json(nullptr)},

@@ -58,8 +58,8 @@ std::string broken_limits(const CheckReport& r) {
 std::string headline(const CheckReport& r) {
   switch (r.result.verdict) {
     case Verdict::schedulable:
-      return fmt::format("{}: SCHEDULABLE on {}{}: {}\n", printable(r.file), platform_text(r.graph->platform),
-                         broken_limits(r), r.result.reason);
+      return fmt::format("{}: SCHEDULABLE on {}, {}{}: {}\n", printable(r.file), platform_text(r.graph->platform),
+                         word_of(r.result.standing), broken_limits(r), r.result.reason);
     case Verdict::unknown:
       return fmt::format("{}: UNKNOWN on {}{}: {}\n", printable(r.file), platform_text(r.graph->platform),
                          broken_limits(r), r.result.reason);
@@ -76,7 +76,8 @@ std::string headline(const CheckReport& r) {
                         milliseconds(l.deadline), milliseconds(l.finish - l.deadline));
   }
   if (!r.result.late) text += worst_response(r);
-  return text + "\n  " + r.result.reason + " on " + platform_text(r.graph->platform) + "\n";
+  return text + "\n  " + word_of(r.result.standing) + ": " + r.result.reason + " on " +
+         platform_text(r.graph->platform) + "\n";
 }
 
 // Who ran how long while the late activation waited and ran.

@@ -38,6 +38,16 @@ std::string assumption(const Platform& platform) {
   return how + overhead + (platform.phasing == Phasing::any ? "; whatever the offsets" : "");
 }
 
+std::string word_of(analysis::Standing standing) {
+  switch (standing) {
+    case analysis::Standing::none: return "none";
+    case analysis::Standing::proof: return "proof";
+    case analysis::Standing::safe: return "safe";
+    case analysis::Standing::by_run: return "by a run";
+  }
+  return "";
+}
+
 std::string text_of(const Suggestion& s, const Graph& graph) {
   switch (s.kind) {
     case Suggestion::Kind::lower_wcet:

@@ -13,6 +13,9 @@ bool holds(const ReportedChain& chain);
 /// Who runs when, and what that costs.
 std::string assumption(const Platform& platform);
 
+/// What a verdict rests on: "proof", "safe", "by a run" or "none".
+std::string word_of(analysis::Standing standing);
+
 std::string text_of(const analysis::Suggestion& suggestion, const Graph& graph);
 
 }  // namespace jarol::tools

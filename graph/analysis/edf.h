@@ -21,12 +21,14 @@ struct EdfResult {
 Wide demand_bound(std::span<const Load> loads, std::int64_t length);
 
 /// Processor demand (Baruah, Rosier, Howell 1990; with jitter Spuri 1996), by QPA (Zhang, Burns 2009). Exact for
-/// sporadic and for synchronous periodic tasks without blocking. Non-preemptive: Jeffay, Stanat, Martel 1991; exact for
-/// sporadic tasks.
+/// sporadic tasks, and for synchronous periodic ones without jitter. Non-preemptive: Jeffay, Stanat, Martel 1991, where
+/// a task does not hold up its own activations; exact for sporadic tasks.
 EdfResult check_edf(std::span<const Load> loads, bool preemptive, Effort& effort);
 
-/// Worst-case response times from the arrival over all offsets (Spuri 1996), ties against the task; of schedulable
-/// preemptive sets. Empty if that takes more than reasonable time.
-std::vector<std::int64_t> edf_responses(std::span<const Load> loads);
+/// Worst-case response times from the arrival over all offsets, ties against the task, whether deadlines are met or
+/// not: Spuri 1996, non-preemptive George, Rivierre, Spuri 1996. Where that would take long, the deadline less the
+/// least time that is left in any interval, which no response is beyond. Empty if utilisation is beyond one or that
+/// takes long too.
+std::vector<std::int64_t> edf_responses(std::span<const Load> loads, bool preemptive, Effort& effort);
 
 }  // namespace jarol::analysis

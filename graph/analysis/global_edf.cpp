@@ -23,9 +23,9 @@ std::int64_t before_deadline(const Load& l, std::int64_t slack, std::int64_t dea
 bool passes_gfb(std::span<const Load> loads, std::int64_t cores) {
   long double sum = 0, largest = 0;
   for (const Load& l : loads) {
+    if (std::min(l.deadline, l.period) <= l.jitter) return false;
     const long double density =
         static_cast<long double>(l.wcet) / static_cast<long double>(std::min(l.deadline, l.period) - l.jitter);
-    if (l.deadline <= l.jitter) return false;
     sum += density;
     largest = std::max(largest, density);
   }
@@ -42,8 +42,10 @@ std::vector<std::optional<std::int64_t>> global_edf_responses(std::span<const Lo
     changed = false;
     for (std::size_t k = 0; k < loads.size(); ++k) {
       const Load& own = loads[k];
+      // from the release on
+      const std::int64_t most = own.deadline - own.jitter;
       std::int64_t response = own.wcet;
-      for (int step = 0; response <= own.deadline; ++step) {
+      for (int step = 0; response <= most; ++step) {
         Wide sum = 0;
         for (std::size_t i = 0; i < loads.size(); ++i)
           if (i != k)
@@ -54,10 +56,10 @@ std::vector<std::optional<std::int64_t>> global_edf_responses(std::span<const Lo
         response = next;
         if (bounded) break;
         // what maps to no more than itself is a bound too: leaps find one where steps would be of a nanosecond
-        if (step >= plain_steps && next < own.deadline)
-          response = std::min(own.deadline, next + (next - own.wcet) / 16);
+        if (step >= plain_steps && next < most) response = std::min(most, next + (next - own.wcet) / 16);
       }
-      if (response > own.deadline) continue;
+      if (response > most) continue;
+      response += own.jitter;
       responses[k] = response;
       if (own.deadline - response > slack[k]) {
         slack[k] = own.deadline - response;

@@ -5,12 +5,14 @@
 
 namespace jarol::analysis {
 
-/// Goossens, Funk, Baruah 2003: sum of densities <= m - (m - 1) largest density. Without rounding up to what a double
-/// holds, on the safe side.
+/// Goossens, Funk, Baruah 2003: sum of densities <= m - (m - 1) largest density, where a task with jitter has its
+/// deadline less that: its activations fit a processor of that speed of their own, one after the other. Without
+/// rounding up to what a double holds, on the safe side.
 bool passes_gfb(std::span<const Load> loads, std::int64_t cores);
 
-/// Bertogna, Cirinei 2007: upper bounds of response times with iterated slack; nothing for a task that none was found
-/// for. Sufficient for constrained deadlines.
+/// Bertogna, Cirinei 2007: upper bounds of response times from the arrival with iterated slack; nothing for a task that
+/// none was found for. Sufficient for constrained deadlines. What a task executes in a window is bounded by its
+/// arrivals and deadlines alone, so that jitter only shortens the time of the task that is looked at.
 std::vector<std::optional<std::int64_t>> global_edf_responses(std::span<const Load> loads, std::int64_t cores);
 
 }  // namespace jarol::analysis

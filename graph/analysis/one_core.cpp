@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "graph/analysis/explore.h"
+#include "graph/analysis/extremes.h"
 #include "graph/analysis/fixed_priority.h"
+#include "graph/analysis/readiness.h"
 
 namespace jarol::analysis {
 namespace {
@@ -13,6 +16,25 @@ constexpr std::uint64_t steps_of_activation = 10;  // that the simulation takes
 
 bool by_deadline(Policy policy) { return policy == Policy::edf || policy == Policy::edf_nonpreemptive; }
 bool is_preemptive(Policy policy) { return policy == Policy::edf || policy == Policy::fixed_priority; }
+Order order_of(Policy policy) { return by_deadline(policy) ? Order::by_deadline : Order::by_priority; }
+
+CoreResult undecided(std::string reason, std::vector<std::optional<std::int64_t>> responses = {}) {
+  return {Verdict::unknown, Standing::none, std::move(reason), std::move(responses), {}, {}, {}};
+}
+
+template <class T>
+CoreResult late_one(const T& run, Standing standing, std::vector<Slice> slices) {
+  CoreResult result = undecided("a task is late when every task takes its 'wcet'");
+  result.verdict = Verdict::not_schedulable;
+  result.standing = standing;
+  result.late = run.late;
+  result.slices = std::move(slices);
+  return result;
+}
+
+std::vector<std::optional<std::int64_t>> optional(const std::vector<std::int64_t>& responses) {
+  return {responses.begin(), responses.end()};
+}
 
 // For sporadic tasks: every shift, every jitter.
 CoreResult check_any_phasing(std::span<const Load> loads, Policy policy, bool responses, Effort& effort) {
@@ -20,15 +42,12 @@ CoreResult check_any_phasing(std::span<const Load> loads, Policy policy, bool re
   result.standing = Standing::proof;
   if (by_deadline(policy)) {
     const EdfResult edf = check_edf(loads, is_preemptive(policy), effort);
-    if (!edf.decided)
-      return {Verdict::unknown, Standing::none, "no end of the processor demand was found", {}, {}, {}, {}};
+    if (responses) result.responses = optional(edf_responses(loads, is_preemptive(policy), effort));
+    if (!edf.decided) return undecided("no end of the processor demand was found", result.responses);
     result.verdict = edf.over ? Verdict::not_schedulable : Verdict::schedulable;
     result.demand = edf.over;
     result.reason = edf.over ? "more work is due in an interval than there is time for"
                              : "in no interval more work is due than there is time for (processor demand)";
-    if (responses && !edf.over && policy == Policy::edf)
-      for (const std::int64_t r : edf_responses(loads)) result.responses.emplace_back(r);
-    result.responses.resize(loads.size());
     return result;
   }
   result.responses = fixed_priority_responses(loads, is_preemptive(policy), effort);
@@ -64,8 +83,12 @@ bool all_at_once(std::span<const Load> loads) {
   return std::all_of(loads.begin(), loads.end(), [](const Load& l) { return l.offset == 0; });
 }
 
-bool only_offsets(std::span<const Load> loads) {
-  return std::all_of(loads.begin(), loads.end(), [](const Load& l) { return l.jitter == 0 && l.blocking == 0; });
+bool has_jitter(std::span<const Load> loads) {
+  return std::any_of(loads.begin(), loads.end(), [](const Load& l) { return l.jitter > 0; });
+}
+
+bool has_blocking(std::span<const Load> loads) {
+  return std::any_of(loads.begin(), loads.end(), [](const Load& l) { return l.blocking > 0; });
 }
 
 // The first late activation if all arrive as given.
@@ -73,70 +96,105 @@ void add_witness(std::span<const Load> loads, Policy policy, CoreResult& result)
   std::int64_t end = 0;
   for (const Load& l : loads) end = std::max(end, l.offset + 4 * l.period);
   end = std::max(end_of_repetition(loads).value_or(end), result.demand ? result.demand->length : 0);
-  Simulation run = simulate(loads, by_deadline(policy) ? Order::by_deadline : Order::by_priority, is_preemptive(policy),
-                            end, most_activations);
+  Simulation run = simulate(loads, order_of(policy), is_preemptive(policy), end, most_activations);
   result.late = run.late;
   if (run.late) result.slices = std::move(run.slices);
 }
 
-CoreResult decide(std::span<const Load> loads, Policy policy, bool offsets_hold, bool responses, Effort& effort) {
-  CoreResult any = check_any_phasing(loads, policy, responses, effort);
-  if (!offsets_hold || (is_preemptive(policy) && all_at_once(loads))) return any;
-  // the offsets are as given: what holds for every shift holds for this one
-  if (any.verdict == Verdict::schedulable && !(responses && is_preemptive(policy))) return any;
-  const auto order = compare_utilisation(loads, 1);
-  if (order && *order > 0) return any;
-  const auto end = only_offsets(loads) && !effort.spent() ? end_of_repetition(loads) : std::nullopt;
-  const std::string undecided = any.reason + " if offsets could shift; that they hold was not decided";
-  if (!end || !order) {
-    if (any.verdict != Verdict::schedulable)
-      any = {Verdict::unknown, Standing::none, undecided, any.responses, {}, {}, {}};
-    return any;
+// With offsets that hold, interrupting: without jitter and blocking one run decides, else one from each worst start.
+CoreResult walk_preemptive(const CoreTasks& tasks, Policy policy, Effort& effort) {
+  if (effort.spent()) return undecided("");
+  const Loads loads = inheriting_loads(tasks);
+  const auto end = end_of_repetition(loads);
+  if (!end) return undecided("");
+  std::vector<std::int64_t> responses;
+  if (!has_jitter(loads) && !has_blocking(loads)) {
+    Simulation run = simulate(loads, order_of(policy), true, *end, 4 * most_activations);
+    effort.spend(run.activations * steps_of_activation);
+    if (run.late) return late_one(run, Standing::proof, std::move(run.slices));
+    if (!run.whole) return undecided("");
+    responses = std::move(run.responses);
+  } else {
+    Extremes walk = walk_extremes(tasks, order_of(policy), effort);
+    if (walk.late) return late_one(walk, Standing::proof, std::move(walk.slices));
+    if (!walk.whole) return undecided("");
+    responses = std::move(walk.responses);
   }
-  const Simulation run = simulate(loads, by_deadline(policy) ? Order::by_deadline : Order::by_priority,
-                                  is_preemptive(policy), *end, 4 * most_activations);
-  effort.spend(run.activations * steps_of_activation);
-  if (run.late) {
-    CoreResult late{Verdict::not_schedulable,
-                    Standing::proof,
-                    "a task is late when every task takes its 'wcet'",
-                    std::vector<std::optional<std::int64_t>>(loads.size()),
-                    {},
-                    run.late,
-                    run.slices};
+  return {Verdict::schedulable,
+          Standing::proof,
+          "every activation of the whole repetition ends by its deadline",
+          optional(responses),
+          {},
+          {},
+          {}};
+}
+
+// With offsets that hold, not interrupting: shorter execution may change the order and so make others late.
+CoreResult walk_nonpreemptive(const CoreTasks& tasks, Policy policy, Effort& effort) {
+  if (effort.spent()) return undecided("");
+  const Exploration found = explore(tasks, order_of(policy), effort);
+  if (found.late) {
+    CoreResult late = late_one(found, Standing::proof, {});
+    late.reason = "a task is late in an order that is possible when tasks take up to their 'wcet'";
+    if (has_jitter(inheriting_loads(tasks))) return late;
+    if (const auto end = end_of_repetition(tasks.loads)) {
+      Simulation run = simulate(tasks.loads, order_of(policy), false, *end, most_activations);
+      if (run.late) return late_one(run, Standing::proof, std::move(run.slices));
+    }
     return late;
   }
-  if (!is_preemptive(policy)) {
-    // shorter execution may change the order, and so make others late
-    if (any.verdict == Verdict::schedulable) return any;
-    return {Verdict::unknown,
-            Standing::simulated,
-            "none is late when every task takes its 'wcet', but shorter execution may make one late",
-            {},
-            {},
-            {},
-            {}};
+  if (!found.whole || has_blocking(tasks.loads)) {
+    const auto end = end_of_repetition(tasks.loads);
+    if (!end) return undecided("");
+    Simulation run = simulate(tasks.loads, order_of(policy), false, *end, most_activations);
+    effort.spend(run.activations * steps_of_activation);
+    if (run.late && !has_jitter(inheriting_loads(tasks))) return late_one(run, Standing::by_run, std::move(run.slices));
+    return undecided("");
   }
-  any.verdict = Verdict::schedulable;
-  any.standing = Standing::proof;
-  any.demand.reset();
-  any.reason = "every activation of the whole repetition ends by its deadline";
-  any.responses.clear();
-  for (const std::int64_t r : run.responses) any.responses.emplace_back(r);
-  return any;
+  return {Verdict::schedulable,
+          Standing::proof,
+          "every activation ends by its deadline in every order that is possible (schedule-abstraction graph)",
+          optional(found.responses),
+          {},
+          {},
+          {}};
+}
+
+CoreResult decide(const CoreTasks& tasks, Policy policy, bool offsets_hold, Detail detail, Effort& effort) {
+  const bool responses = detail != Detail::verdict, tight = detail == Detail::tight;
+  const Loads loads = inheriting_loads(tasks);
+  CoreResult any = check_any_phasing(loads, policy, responses, effort);
+  const auto order = compare_utilisation(loads, 1);
+  if (order && *order > 0) return any;
+  // exact for every shift, but for readers that do not always wait for what they inherited
+  const bool inherited = !tasks.follows.empty() && (has_jitter(loads) || has_blocking(loads));
+  const bool worst_at_once = is_preemptive(policy) && all_at_once(loads) && !has_jitter(loads) && !inherited;
+  if (!inherited && (!offsets_hold || (worst_at_once && !(tight && any.verdict == Verdict::schedulable)))) return any;
+  // what holds for every shift holds for the one that is given
+  if (any.verdict == Verdict::schedulable && !(offsets_hold && responses && (is_preemptive(policy) || tight)))
+    return any;
+  CoreResult given =
+      is_preemptive(policy) ? walk_preemptive(tasks, policy, effort) : walk_nonpreemptive(tasks, policy, effort);
+  // what bounds every shift bounds this one
+  if (given.verdict == Verdict::not_schedulable) given.responses = any.responses;
+  if (given.verdict == Verdict::not_schedulable || (offsets_hold && given.verdict == Verdict::schedulable))
+    return given;
+  if (any.verdict == Verdict::schedulable) return any;
+  if (!offsets_hold && check_any_phasing(tasks.loads, policy, false, effort).verdict == Verdict::not_schedulable)
+    return any;
+  return undecided(any.reason + (offsets_hold ? " if offsets could shift; that they hold was not decided"
+                                              : " if each reader waits for the worst of what it follows; that it does "
+                                                "not was not decided"),
+                   any.responses);
 }
 
 }  // namespace
 
-Verdict verdict_of_core(std::span<const Load> loads, Policy policy, bool offsets_hold, Effort& effort) {
-  return decide(loads, policy, offsets_hold, false, effort).verdict;
-}
-
-CoreResult check_core(std::span<const Load> loads, Policy policy, bool offsets_hold) {
-  Effort effort;
-  CoreResult result = decide(loads, policy, offsets_hold, true, effort);
-  if (result.verdict == Verdict::not_schedulable && !result.late) add_witness(loads, policy, result);
-  result.responses.resize(loads.size());
+CoreResult check_core(const CoreTasks& tasks, Policy policy, bool offsets_hold, Detail detail, Effort& effort) {
+  CoreResult result = decide(tasks, policy, offsets_hold, detail, effort);
+  if (detail == Detail::whole && result.verdict == Verdict::not_schedulable && !result.late)
+    add_witness(tasks.loads, policy, result);
+  result.responses.resize(tasks.loads.size());
   return result;
 }
 

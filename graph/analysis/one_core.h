@@ -1,4 +1,4 @@
-// The verdict on one core, by the policy's own test.
+// The verdict on the tasks of one core, by the policy's own test.
 #pragma once
 
 #include <string>
@@ -8,6 +8,12 @@
 #include "graph/analysis/system.h"
 
 namespace jarol::analysis {
+
+/// What one core has to do, as far as it can be known there.
+struct CoreTasks {
+  Loads loads;  // most urgent first where priorities count, else in data-flow order
+  std::vector<std::pair<std::size_t, std::size_t>> follows;  // of these: the first is more urgent than the second
+};
 
 struct CoreResult {
   Verdict verdict = Verdict::unknown;
@@ -19,10 +25,11 @@ struct CoreResult {
   std::vector<Slice> slices;                           // before that
 };
 
-/// Loads are most urgent first. Not for tables.
-CoreResult check_core(std::span<const Load> loads, Policy policy, bool offsets_hold);
+/// The verdict alone; with responses and witness; or with responses that are as short as offsets and the order of equal
+/// deadlines make them.
+enum class Detail { verdict, whole, tight };
 
-/// The verdict alone, without witness and responses; unknown where it would take more effort.
-Verdict verdict_of_core(std::span<const Load> loads, Policy policy, bool offsets_hold, Effort& effort);
+/// Not for tables. Unknown where it would take more effort.
+CoreResult check_core(const CoreTasks& tasks, Policy policy, bool offsets_hold, Detail detail, Effort& effort);
 
 }  // namespace jarol::analysis

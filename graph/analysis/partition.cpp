@@ -6,15 +6,15 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::size_t most_searched = 12;   // groups that are assigned by exact search
-constexpr std::size_t most_tests = 20'000;  // of a core in that search
-constexpr std::size_t most_tested = 300;    // tasks
+constexpr std::size_t most_tests = 20'000;  // of a core in the search of all assignments
+
+double use_of(const Load& l) { return static_cast<double>(l.wcet) / static_cast<double>(l.period); }
 
 // Tasks that go to one core together.
 struct Together {
   std::vector<std::size_t> tasks;
   std::optional<std::size_t> core;
-  double utilisation = 0;
+  double use = 0;
 };
 
 std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
@@ -22,12 +22,13 @@ std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
   return i;
 }
 
-std::vector<Together> groups_of(const System& system) {
+// Given ones first, then by utilisation. `connected`: tasks that follow each other are one; else each is alone.
+std::vector<Together> groups_of(const System& system, bool connected) {
   const std::size_t n = system.loads.size();
   std::vector<std::size_t> parent(n);
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   for (const auto& [a, b] : system.follows)
-    if (!system.core[a] && !system.core[b]) parent[root_of(parent, a)] = root_of(parent, b);
+    if (connected && !system.core[a] && !system.core[b]) parent[root_of(parent, a)] = root_of(parent, b);
   std::vector<Together> groups;
   std::vector<std::size_t> index(n, n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -39,106 +40,172 @@ std::vector<Together> groups_of(const System& system) {
     Together& group = groups[index[root]];
     group.tasks.push_back(i);
     if (system.core[i]) group.core = static_cast<std::size_t>(*system.core[i]);
-    group.utilisation += static_cast<double>(system.loads[i].wcet) / static_cast<double>(system.loads[i].period);
+    group.use += use_of(system.loads[i]);
   }
   std::stable_sort(groups.begin(), groups.end(), [](const Together& a, const Together& b) {
-    return std::tuple(!a.core.has_value(), -a.utilisation) < std::tuple(!b.core.has_value(), -b.utilisation);
+    return std::tuple(!a.core.has_value(), -a.use) < std::tuple(!b.core.has_value(), -b.use);
   });
   return groups;
 }
 
-void append(std::vector<std::size_t>& to, const std::vector<std::size_t>& tasks) {
-  to.insert(to.end(), tasks.begin(), tasks.end());
-}
+// Tasks by core.
+struct Cores {
+  std::vector<std::vector<std::size_t>> tasks;
+  std::vector<double> use;
 
-// Depth first; a core that is still empty stands for all empty ones.
-struct Search {
-  const std::vector<Together>& groups;
-  const FitsCore& fits;
-  std::vector<std::vector<std::size_t>> cores;
-  bool open = false;  // there may be an assignment that holds
-  std::size_t tests = 0;
-
-  // `sure`: every core is known to hold so far.
-  bool from(std::size_t at, bool sure) {
-    if (at == groups.size()) {
-      open = open || !sure;
-      return sure;
-    }
-    bool empty_tried = false;
-    for (std::size_t c = 0; c < cores.size(); ++c) {
-      if (tests >= most_tests) {
-        open = true;
-        return false;
-      }
-      if (groups[at].core && *groups[at].core != c) continue;
-      if (cores[c].empty() && !groups[at].core) {
-        if (empty_tried) continue;
-        empty_tried = true;
-      }
-      const std::vector<std::size_t> before = cores[c];
-      append(cores[c], groups[at].tasks);
-      ++tests;
-      const Verdict verdict = fits(cores[c]);
-      const bool still_sure = sure && verdict == Verdict::schedulable;
-      const bool worth_it = verdict != Verdict::not_schedulable && (still_sure || !open);
-      if (worth_it && from(at + 1, still_sure)) return true;
-      cores[c] = before;
-    }
-    return false;
+  explicit Cores(std::size_t count) : tasks(count), use(count, 0) {}
+  void put(const Together& group, std::size_t core) {
+    tasks[core].insert(tasks[core].end(), group.tasks.begin(), group.tasks.end());
+    use[core] += group.use;
+  }
+  void take_back(const Together& group, std::size_t core) {
+    tasks[core].resize(tasks[core].size() - group.tasks.size());
+    use[core] -= group.use;
+  }
+  bool overflows(const Together& group, std::size_t core) const { return use[core] + group.use > 1 + 1e-9; }
+  std::vector<std::size_t> of_tasks(std::size_t count) const {
+    std::vector<std::size_t> core(count);
+    for (std::size_t c = 0; c < tasks.size(); ++c)
+      for (const std::size_t i : tasks[c]) core[i] = c;
+    return core;
   }
 };
 
+class Assigner {
+ public:
+  Assigner(const System& system, const FitsCore& fits, const Holds& holds, Effort& effort)
+      : system_(system), fits_(fits), holds_(holds), effort_(effort), count_(static_cast<std::size_t>(system.cores)) {}
+
+  Partition assign() {
+    const std::vector<Together> connected = groups_of(system_, true), alone = groups_of(system_, false);
+    Partition partition;
+    // by utilisation alone, and what does not fit where it does least harm: what a "no" is told of
+    partition.core = by_utilisation(connected).of_tasks(system_.loads.size());
+    if (holds(partition.core)) return found(partition.core);
+    for (const auto& [groups, spread] :
+         {std::pair(&connected, false), {&alone, false}, {&connected, true}, {&alone, true}}) {
+      const auto cores = fit(*groups, spread);
+      if (!cores) continue;
+      const std::vector<std::size_t> core = cores->of_tasks(system_.loads.size());
+      if (holds(core)) return found(core);
+    }
+    Cores cores(count_);
+    if (search(alone, 0, true, cores)) return found(cores.of_tasks(system_.loads.size()));
+    partition.refuted = !open_;
+    return partition;
+  }
+
+ private:
+  static Partition found(std::vector<std::size_t> core) { return {std::move(core), true, false}; }
+
+  bool holds(const std::vector<std::size_t>& core) {
+    if (effort_.spent()) return false;
+    const Verdict verdict = holds_(core, effort_);
+    open_at_leaf_ = verdict == Verdict::unknown;
+    return verdict == Verdict::schedulable;
+  }
+
+  Verdict fits(const std::vector<std::size_t>& tasks) {
+    return effort_.spend(10 * tasks.size()) ? fits_(tasks, effort_) : Verdict::unknown;
+  }
+
+  Cores by_utilisation(const std::vector<Together>& groups) const {
+    Cores cores(count_);
+    for (const Together& group : groups) {
+      std::size_t at = group.core.value_or(0);
+      while (!group.core && at < count_ && cores.use[at] + group.use > 1) ++at;
+      if (at == count_)
+        at = static_cast<std::size_t>(std::min_element(cores.use.begin(), cores.use.end()) - cores.use.begin());
+      cores.put(group, at);
+    }
+    return cores;
+  }
+
+  // Each on the first core that it fits, or on the least used one that it does (`spread`).
+  std::optional<Cores> fit(const std::vector<Together>& groups, bool spread) {
+    Cores cores(count_);
+    std::vector<std::size_t> order(count_);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (const Together& group : groups) {
+      if (spread)
+        std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return cores.use[a] < cores.use[b]; });
+      bool placed = false, empty_tried = false;
+      for (std::size_t k = 0; k < count_ && !placed; ++k) {
+        const std::size_t c = order[k];
+        if ((group.core && *group.core != c) || cores.overflows(group, c)) continue;
+        if (cores.tasks[c].empty() && std::exchange(empty_tried, true) && !group.core) continue;
+        cores.put(group, c);
+        placed = fits(cores.tasks[c]) == Verdict::schedulable;
+        if (!placed) cores.take_back(group, c);
+      }
+      if (!placed || effort_.spent()) return std::nullopt;
+    }
+    return cores;
+  }
+
+  // Depth first; a core that is still empty stands for all empty ones that nothing is bound to. `sure`: every core is
+  // known to hold so far.
+  bool search(const std::vector<Together>& groups, std::size_t at, bool sure, Cores& cores) {
+    if (at == groups.size()) {
+      if (sure && holds(cores.of_tasks(system_.loads.size()))) return true;
+      open_ = open_ || !sure || open_at_leaf_ || effort_.spent();
+      return false;
+    }
+    bool empty_tried = false;
+    for (std::size_t c = 0; c < count_; ++c) {
+      if (tests_ >= most_tests || effort_.spent()) {
+        open_ = true;
+        return false;
+      }
+      if ((groups[at].core && *groups[at].core != c) || cores.overflows(groups[at], c)) continue;
+      // given ones come first, so that the empty ones are alike from there on
+      if (!groups[at].core && cores.tasks[c].empty() && std::exchange(empty_tried, true)) continue;
+      cores.put(groups[at], c);
+      ++tests_;
+      const Verdict verdict = fits(cores.tasks[c]);
+      const bool still_sure = sure && verdict == Verdict::schedulable;
+      const bool worth_it = verdict != Verdict::not_schedulable && (still_sure || !open_);
+      if (worth_it && search(groups, at + 1, still_sure, cores)) return true;
+      cores.take_back(groups[at], c);
+    }
+    return false;
+  }
+
+  const System& system_;
+  const FitsCore& fits_;
+  const Holds& holds_;
+  Effort& effort_;
+  std::size_t count_;
+  bool open_ = false, open_at_leaf_ = false;  // there may be an assignment that holds
+  std::size_t tests_ = 0;
+};
+
+bool all_given(const System& system) {
+  return std::all_of(system.core.begin(), system.core.end(), [](const auto& core) { return core.has_value(); });
+}
+
 }  // namespace
 
-Partition assign_cores(const System& system, const FitsCore& fits_core) {
-  if (system.cores == 1) return {std::vector<std::size_t>(system.loads.size(), 0), true, false};
-  // the test of a core after each of very many tasks would take long
-  const FitsCore by_utilisation = [&](const std::vector<std::size_t>& tasks) {
-    Loads loads;
-    for (const std::size_t i : tasks) loads.push_back(system.loads[i]);
-    return utilisation(loads) <= 1 ? Verdict::schedulable : Verdict::unknown;
-  };
-  const FitsCore& fits = system.loads.size() <= most_tested ? fits_core : by_utilisation;
-  const std::vector<Together> groups = groups_of(system);
-  std::vector<std::vector<std::size_t>> cores(static_cast<std::size_t>(system.cores));
+Partition assign_cores(const System& system, const FitsCore& fits, const Holds& holds, Effort& effort) {
   Partition partition;
-  partition.fits = true;
-  for (const Together& group : groups) {
-    bool placed = false;
-    for (std::size_t c = 0; c < cores.size() && !placed; ++c) {
-      if (group.core && *group.core != c) continue;
-      std::vector<std::size_t> with = cores[c];
-      append(with, group.tasks);
-      placed = fits(with) == Verdict::schedulable;
-      if (placed) cores[c] = std::move(with);
-    }
-    if (placed) continue;
-    partition.fits = false;
-    // where it does least harm
-    std::size_t least = group.core.value_or(0);
-    const auto load = [&](std::size_t c) {
-      double sum = 0;
-      for (const std::size_t i : cores[c])
-        sum += static_cast<double>(system.loads[i].wcet) / static_cast<double>(system.loads[i].period);
-      return sum;
-    };
-    for (std::size_t c = 0; c < cores.size() && !group.core; ++c)
-      if (load(c) < load(least)) least = c;
-    append(cores[least], group.tasks);
+  for (std::size_t i = 0; i < system.loads.size(); ++i)
+    partition.core.push_back(system.cores == 1 ? 0 : static_cast<std::size_t>(system.core[i].value_or(0)));
+  if (system.cores == 1 || all_given(system)) return partition;
+  return Assigner(system, fits, holds, effort).assign();
+}
+
+void qualify_no(const System& system, const Partition& partition, Verdict& verdict, Standing& standing,
+                std::string& reason) {
+  if (verdict != Verdict::not_schedulable || system.cores == 1 || all_given(system)) return;
+  const auto order = compare_utilisation(system.loads, system.cores);
+  if (order && *order > 0) return;
+  if (partition.refuted) {
+    reason += "; no assignment of tasks to cores holds";
+    return;
   }
-  const auto is_free = [](const Together& g) { return !g.core.has_value(); };
-  const auto free = static_cast<std::size_t>(std::count_if(groups.begin(), groups.end(), is_free));
-  if (!partition.fits && free <= most_searched) {
-    Search search{groups, fits, std::vector<std::vector<std::size_t>>(cores.size())};
-    partition.fits = search.from(0, true);
-    partition.refuted = !partition.fits && !search.open;
-    if (partition.fits) cores = std::move(search.cores);
-  }
-  partition.core.resize(system.loads.size());
-  for (std::size_t c = 0; c < cores.size(); ++c)
-    for (const std::size_t i : cores[c]) partition.core[i] = c;
-  return partition;
+  verdict = Verdict::unknown;
+  standing = Standing::none;
+  reason += " with the cores that were assigned; another assignment may hold, which 'core:' per task may say";
 }
 
 }  // namespace jarol::analysis

@@ -14,7 +14,7 @@ constexpr std::int64_t most_time = std::int64_t{1} << 60;
 struct Job {
   std::size_t task = 0;
   std::int64_t activation = 0;
-  std::int64_t release = 0;
+  std::int64_t arrival = 0;
   std::int64_t deadline = 0;
   std::int64_t left = 0;
 };
@@ -25,10 +25,14 @@ bool more_urgent(const Job& a, const Job& b) {
 
 class Simulator {
  public:
-  Simulator(std::span<const Load> loads, std::int64_t cores) : loads_(loads), cores_(static_cast<std::size_t>(cores)) {
+  Simulator(std::span<const Load> loads, std::int64_t cores,
+            std::span<const std::pair<std::size_t, std::size_t>> follows)
+      : loads_(loads), cores_(static_cast<std::size_t>(cores)), producers_(loads.size()) {
     result_.responses.resize(loads.size(), 0);
-    for (std::size_t i = 0; i < loads.size(); ++i) arrivals_.emplace(loads[i].offset, i);
+    for (std::size_t i = 0; i < loads.size(); ++i) arrivals_.emplace(loads[i].offset + loads[i].jitter, i);
+    for (const auto& [producer, reader] : follows) producers_[reader].push_back(producer);
     released_.resize(loads.size(), 0);
+    ended_.resize(loads.size(), 0);
   }
 
   // False if an activation is late, or there are too many.
@@ -36,13 +40,13 @@ class Simulator {
     while (now_ < end) {
       if (result_.activations > most_activations) return false;
       arrive();
-      const std::size_t running = std::min(cores_, ready_.size());
+      choose();
       std::int64_t next = std::min(end, arrivals_.top().first);
-      for (std::size_t i = 0; i < running; ++i) next = std::min(next, now_ + ready_[i].left);
-      for (std::size_t i = 0; i < running; ++i) advance(ready_[i], next);
+      for (const std::size_t i : running_) next = std::min(next, now_ + ready_[i].left);
+      for (const std::size_t i : running_) advance(ready_[i], next);
       now_ = next;
-      for (std::size_t i = running; i-- > 0;)
-        if (ready_[i].left == 0 && !close(i)) return false;
+      for (std::size_t k = running_.size(); k-- > 0;)
+        if (ready_[running_[k]].left == 0 && !close(running_[k])) return false;
     }
     return true;
   }
@@ -65,11 +69,26 @@ class Simulator {
     while (arrivals_.top().first <= now_) {
       const std::size_t i = arrivals_.top().second;
       arrivals_.pop();
-      const Job job{i, released_[i]++, now_, now_ + loads_[i].deadline, loads_[i].wcet};
+      const std::int64_t arrival = now_ - loads_[i].jitter;
+      const Job job{i, released_[i]++, arrival, arrival + loads_[i].deadline, loads_[i].wcet};
       ready_.insert(std::upper_bound(ready_.begin(), ready_.end(), job, more_urgent), job);
       arrivals_.emplace(now_ + loads_[i].period, i);
       ++result_.activations;
     }
+  }
+
+  // Has an activation that it follows yet to end?
+  bool waits(const Job& job) const {
+    return std::any_of(producers_[job.task].begin(), producers_[job.task].end(), [&](std::size_t p) {
+      const std::int64_t since = job.arrival - loads_[p].offset;
+      return since >= 0 && since % loads_[p].period == 0 && ended_[p] <= since / loads_[p].period;
+    });
+  }
+
+  void choose() {
+    running_.clear();
+    for (std::size_t i = 0; i < ready_.size() && running_.size() < cores_; ++i)
+      if (!waits(ready_[i])) running_.push_back(i);
   }
 
   void advance(Job& job, std::int64_t until) {
@@ -89,9 +108,10 @@ class Simulator {
   bool close(std::size_t i) {
     const Job job = ready_[i];
     ready_.erase(ready_.begin() + static_cast<std::ptrdiff_t>(i));
-    result_.responses[job.task] = std::max(result_.responses[job.task], now_ - job.release);
+    ++ended_[job.task];
+    result_.responses[job.task] = std::max(result_.responses[job.task], now_ - job.arrival);
     if (now_ <= job.deadline) return true;
-    result_.late = Late{job.task, job.activation, job.release, now_, job.deadline};
+    result_.late = Late{job.task, job.activation, job.arrival, now_, job.deadline};
     return false;
   }
 
@@ -100,18 +120,21 @@ class Simulator {
   std::int64_t now_ = 0;
   using Arrival = std::pair<std::int64_t, std::size_t>;  // when, which task
   std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> arrivals_;
-  std::vector<std::int64_t> released_;  // per task, how many
-  std::vector<Job> ready_;              // most urgent first
+  std::vector<std::vector<std::size_t>> producers_;
+  std::vector<std::int64_t> released_, ended_;  // per task, how many
+  std::vector<std::size_t> running_;            // of ready_
+  std::vector<Job> ready_;                      // most urgent first
   GlobalSimulation result_;
 };
 
 }  // namespace
 
-GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores, std::uint64_t most_activations) {
-  Simulator simulator(loads, cores);
+GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores, std::uint64_t most_activations,
+                                 std::span<const std::pair<std::size_t, std::size_t>> follows) {
+  Simulator simulator(loads, cores, follows);
   const auto lcm = hyperperiod(loads, most_time / 4);
   std::int64_t end = 0;
-  for (const Load& l : loads) end = std::max(end, l.offset);
+  for (const Load& l : loads) end = std::max(end, l.offset + l.jitter);
   bool on = !loads.empty() && simulator.run_until(end, most_activations);
   auto before = simulator.left();
   while (on) {

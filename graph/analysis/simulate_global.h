@@ -15,7 +15,9 @@ struct GlobalSimulation {
 };
 
 /// Up to the first late activation, or until one hyperperiod after all offsets leaves the same work as the one before,
-/// or so many activations. Preemptive, jitter and blocking left out. Ties: the task that stands first.
-GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores, std::uint64_t most_activations);
+/// or so many activations. Preemptive. Ties: the task that stands first. Releases follow the arrivals by all of the
+/// jitter; who follows another (`follows`: producer, reader) starts where that has ended.
+GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores, std::uint64_t most_activations,
+                                 std::span<const std::pair<std::size_t, std::size_t>> follows = {});
 
 }  // namespace jarol::analysis

@@ -27,8 +27,8 @@ System system_of(const Graph& graph);
 
 enum class Verdict { schedulable, not_schedulable, unknown };
 
-/// What a verdict rests on: a proof, a test that may refuse what would hold, a simulation that shorter execution could
-/// break, or nothing.
-enum class Standing { none, proof, sufficient, simulated };
+/// What a verdict rests on: a test that decides both ways; a sufficient one, which may refuse what would hold; a run
+/// that found a late activation; or, where it is unknown, nothing.
+enum class Standing { none, proof, safe, by_run };
 
 }  // namespace jarol::analysis

@@ -4,110 +4,218 @@
 #include <queue>
 #include <tuple>
 
+#include "graph/analysis/fifo_bound.h"
 #include "graph/analysis/validate_table.h"
 
 namespace jarol::analysis {
 namespace {
 
+constexpr std::int64_t most_time = std::int64_t{1} << 60;
+constexpr std::size_t most_slices = 200, most_validated = 50'000;
+constexpr std::uint64_t steps_of_activation = 10, most_after_late = 200'000;
+
 struct Job {
-  std::int64_t release = 0;
-  std::size_t turn = 0;  // among those released at one instant
+  std::int64_t arrival = 0;
+  std::size_t turn = 0;  // among those that arrive at one instant
   std::size_t task = 0;
   std::int64_t activation = 0;
 };
 
-bool later(const Job& a, const Job& b) { return std::tie(a.release, a.turn) > std::tie(b.release, b.turn); }
+bool later(const Job& a, const Job& b) { return std::tie(a.arrival, a.turn) > std::tie(b.arrival, b.turn); }
+
+// What every activation may take of its core.
+Loads with_blocking(Loads loads) {
+  for (Load& l : loads) l.wcet += l.blocking;
+  return loads;
+}
 
 // Does any core have more to do than there is time?
 bool overloaded(const System& system, const std::vector<std::size_t>& core) {
   std::vector<Loads> of_core(static_cast<std::size_t>(system.cores));
   for (std::size_t i = 0; i < system.loads.size(); ++i) of_core[core[i]].push_back(system.loads[i]);
   return std::any_of(of_core.begin(), of_core.end(), [](const Loads& loads) {
-    const auto order = compare_utilisation(loads, 1);
+    const auto order = compare_utilisation(with_blocking(loads), 1);
     return order && *order > 0;
   });
 }
 
-}  // namespace
-
-CoreResult check_table(const System& system, const std::vector<std::size_t>& core, std::uint64_t most) {
-  constexpr std::size_t most_slices = 200;
-  constexpr std::size_t most_validated = 50'000;
-  constexpr std::int64_t most_time = std::int64_t{1} << 60;
-  const std::size_t n = system.loads.size();
-  CoreResult result;
-  result.responses.resize(n);
-  std::vector<Slice> recent;  // beyond those that are kept for the validation
-  if (!system.offsets_hold) {
-    result.reason = "a table needs offsets that hold; 'phasing: any' has none";
-    return result;
+class TableWalk {
+ public:
+  TableWalk(const System& system, const std::vector<std::size_t>& core)
+      : system_(system),
+        core_(core),
+        producers_(system.loads.size()),
+        arrived_(system.loads.size(), -1),
+        ended_(system.loads.size(), 0),
+        free_(static_cast<std::size_t>(system.cores), 0),
+        jobs_(&later) {
+    responses.resize(system.loads.size(), 0);
+    for (const auto& [producer, reader] : system.follows)
+      if (core[producer] != core[reader]) producers_[reader].push_back(producer);
+    for (std::size_t i = 0; i < system.loads.size(); ++i) jobs_.push({system.loads[i].offset, system.turn[i], i, 0});
   }
-  const bool too_much = overloaded(system, core);
-  if (too_much) {
+
+  // All that arrive before `end`; false when one is late for the first time or there are more than `most`.
+  bool run_until(std::int64_t end, std::uint64_t most) {
+    const bool on_time = !late;
+    while (!jobs_.empty() && jobs_.top().arrival < end) {
+      if (activations >= most) return false;
+      ++activations;
+      run_next();
+      if (late && on_time) return false;
+    }
+    return true;
+  }
+
+  // How much longer than that instant each core has to do.
+  std::vector<std::int64_t> backlog(std::int64_t instant) const {
+    std::vector<std::int64_t> left;
+    for (const std::int64_t f : free_) left.push_back(std::max<std::int64_t>(0, f - instant));
+    return left;
+  }
+
+  std::uint64_t activations = 0;
+  std::optional<Late> late;
+  std::vector<std::int64_t> responses;
+  std::vector<Slice> slices;  // all, as far as they are to be validated
+  std::vector<Slice> recent;  // those after
+
+ private:
+  void run_next() {
+    Job job = jobs_.top();
+    jobs_.pop();
+    const Load& load = system_.loads[job.task];
+    std::int64_t& free = free_[core_[job.task]];
+    std::int64_t start = std::max(free, job.arrival + load.jitter);
+    for (const std::size_t p : producers_[job.task])
+      if (arrived_[p] == job.arrival) start = std::max(start, ended_[p]);
+    const std::int64_t finish = start + load.blocking + load.wcet;
+    free = ended_[job.task] = finish;
+    arrived_[job.task] = job.arrival;
+    responses[job.task] = std::max(responses[job.task], finish - job.arrival);
+    if (!late) (slices.size() < most_validated ? slices : recent).push_back({job.task, job.activation, start, finish});
+    if (recent.size() >= 2 * most_slices) recent.erase(recent.begin(), recent.begin() + most_slices);
+    if (finish > job.arrival + load.deadline && !late)
+      late = Late{job.task, job.activation, job.arrival, finish, job.arrival + load.deadline};
+    job.arrival += load.period;
+    ++job.activation;
+    jobs_.push(job);
+  }
+
+  const System& system_;
+  const std::vector<std::size_t>& core_;
+  std::vector<std::vector<std::size_t>> producers_;  // on other cores
+  std::vector<std::int64_t> arrived_, ended_, free_;
+  std::priority_queue<Job, std::vector<Job>, decltype(&later)> jobs_;
+};
+
+CoreResult result_of(Verdict verdict, Standing standing, std::string reason, std::size_t tasks) {
+  CoreResult result;
+  result.verdict = verdict;
+  result.standing = standing;
+  result.reason = std::move(reason);
+  result.responses.resize(tasks);
+  return result;
+}
+
+// Activations of so many repetitions.
+double activations_of(const System& system, std::int64_t time) {
+  double count = 0;
+  for (const Load& l : system.loads) count += static_cast<double>(time) / static_cast<double>(l.period);
+  return count;
+}
+
+// The walk up to the repetition, within `most` activations; the reason stays empty where that ended it. `whole`: on
+// after the first late one, as far as that is not far.
+CoreResult walk(const System& system, const std::vector<std::size_t>& core, std::optional<std::int64_t> lcm, bool whole,
+                Effort& effort, std::uint64_t most) {
+  TableWalk table(system, core);
+  CoreResult result = result_of(Verdict::unknown, Standing::none, "", system.loads.size());
+  std::int64_t end = 0;
+  for (const Load& l : system.loads) end = std::max(end, l.offset);
+  const auto run = [&] {
+    if (table.run_until(end, most)) return true;
+    if (!table.late || !whole) return false;
+    most = std::min(most, table.activations + most_after_late);
+    return table.run_until(end, most);
+  };
+  const std::int64_t repetitions = system.cores + 2;
+  bool on = run(), repeats = false, grows = false;
+  std::vector<std::int64_t> before = table.backlog(end);
+  for (std::int64_t k = 0; on && !repeats; ++k) {
+    if (lcm && end > most_time - *lcm) break;
+    end = lcm ? end + *lcm : most_time;
+    on = run();
+    if (!on || !lcm) break;
+    std::vector<std::int64_t> now = table.backlog(end);
+    repeats = now == before;
+    if (k >= repetitions && !repeats && !grows) {
+      grows = true;
+      most = std::min(most, table.activations + most_after_late);
+      if (table.late) break;
+    }
+    before = std::move(now);
+  }
+  effort.spend(table.activations * steps_of_activation);
+  if (repeats) result.responses.assign(table.responses.begin(), table.responses.end());
+  if (table.late || grows) {
     result.verdict = Verdict::not_schedulable;
     result.standing = Standing::proof;
-    result.reason = "the tasks need more than the whole core";
+    result.reason = grows && system.cores > 1
+                        ? "waiting for other cores takes longer than there is time: the backlog grows"
+                        : "a task is late when every task takes its 'wcet'";
+    result.late = table.late;
+    // the last ones tell why
+    result.slices = std::move(table.slices);
+    result.slices.insert(result.slices.end(), table.recent.begin(), table.recent.end());
+    if (result.slices.size() > most_slices)
+      result.slices.erase(result.slices.begin(), result.slices.end() - static_cast<std::ptrdiff_t>(most_slices));
+    return result;
   }
-  const auto lcm = hyperperiod(system.loads, most_time / 4);
-  std::int64_t largest_offset = 0;
-  for (const Load& l : system.loads) largest_offset = std::max(largest_offset, l.offset);
-  const std::int64_t end = lcm ? largest_offset + 2 * *lcm : most_time;
-  std::vector<std::vector<std::size_t>> producers(n);
-  for (const auto& [producer, reader] : system.follows)
-    if (core[producer] != core[reader]) producers[reader].push_back(producer);
-  std::vector<std::int64_t> released(n, -1), ended(n, 0), response(n, 0),
-      free(static_cast<std::size_t>(system.cores), 0);
-  std::priority_queue<Job, std::vector<Job>, decltype(&later)> jobs(&later);
-  for (std::size_t i = 0; i < n; ++i) jobs.push({system.loads[i].offset, system.turn[i], i, 0});
-  for (std::uint64_t count = 0; !jobs.empty() && jobs.top().release < end; ++count) {
-    if (count == most) {
-      if (!too_much)
-        result.reason = "the periods repeat only after more than " + std::to_string(most) +
-                        " activations, and none of these is late";
-      return result;
-    }
-    Job job = jobs.top();
-    jobs.pop();
-    const Load& load = system.loads[job.task];
-    std::int64_t start = std::max(free[core[job.task]], job.release + load.jitter);
-    for (const std::size_t p : producers[job.task])
-      if (released[p] == job.release) start = std::max(start, ended[p]);
-    const std::int64_t finish = start + load.blocking + load.wcet;
-    free[core[job.task]] = ended[job.task] = finish;
-    released[job.task] = job.release;
-    response[job.task] = std::max(response[job.task], finish - job.release);
-    if (result.slices.size() < most_validated)
-      result.slices.push_back({job.task, job.activation, start, finish});
-    else
-      recent.push_back({job.task, job.activation, start, finish});
-    if (recent.size() >= 2 * most_slices) recent.erase(recent.begin(), recent.begin() + most_slices);
-    if (finish > job.release + load.deadline) {
-      if (!too_much) result.reason = "a task is late when every task takes its 'wcet'";
-      result.verdict = Verdict::not_schedulable;
-      result.standing = Standing::proof;
-      // the last ones tell why
-      result.slices.insert(result.slices.end(), recent.begin(), recent.end());
-      if (result.slices.size() > most_slices)
-        result.slices.erase(result.slices.begin(), result.slices.end() - static_cast<std::ptrdiff_t>(most_slices));
-      result.late = Late{job.task, job.activation, job.release, finish, job.release + load.deadline};
-      return result;
-    }
-    job.release += load.period;
-    ++job.activation;
-    jobs.push(job);
-  }
-  const std::string fault = recent.empty() && !too_much ? fault_of_table(system, core, result.slices, end) : "";
-  result.slices.clear();
-  result.responses.assign(response.begin(), response.end());
+  if (!repeats) return result;
+  const std::string fault =
+      table.recent.empty() ? fault_of_table(system, core, std::move(table.slices), end, lcm.value_or(end)) : "";
   if (!fault.empty()) {
     result.reason = "the table that was found is wrong, please report this: " + fault;
     return result;
   }
-  if (!too_much) {
-    result.verdict = Verdict::schedulable;
+  result.verdict = Verdict::schedulable;
+  result.standing = Standing::proof;
+  result.reason = "every job of the time table ends by its deadline";
+  return result;
+}
+
+}  // namespace
+
+CoreResult check_table(const System& system, const std::vector<std::size_t>& core, bool whole, Effort& effort,
+                       std::uint64_t most) {
+  const std::size_t n = system.loads.size();
+  if (!system.offsets_hold)
+    return result_of(Verdict::unknown, Standing::none, "a table needs offsets that hold; 'phasing: any' has none", n);
+  const auto lcm = hyperperiod(system.loads, most_time / 4);
+  most = std::min(most, effort.left / steps_of_activation);
+  if (overloaded(system, core)) {
+    // a late one shows why, where there is one soon
+    CoreResult result = walk(system, core, lcm, false, effort, std::min<std::uint64_t>(most, 1'000'000));
+    result.verdict = Verdict::not_schedulable;
     result.standing = Standing::proof;
-    result.reason = "every job of the time table ends by its deadline";
+    result.reason = "the tasks need more than the whole core";
+    return result;
   }
+  // a bound before a walk that leads to no end
+  if (!lcm || activations_of(system, 2 * *lcm) > static_cast<double>(most)) {
+    auto bounds = fifo_bounds(system, core, effort);
+    if (!bounds.empty()) {
+      CoreResult result = result_of(Verdict::schedulable, Standing::safe,
+                                    "whatever may stand before a task in the table, it ends by its deadline", n);
+      result.responses.assign(bounds.begin(), bounds.end());
+      return result;
+    }
+  }
+  CoreResult result = walk(system, core, lcm, whole, effort, most);
+  if (result.reason.empty())
+    result.reason =
+        "the periods repeat only after more than " + std::to_string(most) + " activations, and none of these is late";
   return result;
 }
 

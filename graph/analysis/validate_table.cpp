@@ -7,7 +7,7 @@
 namespace jarol::analysis {
 
 std::string fault_of_table(const System& system, const std::vector<std::size_t>& core, std::vector<Slice> slices,
-                           std::int64_t end) {
+                           std::int64_t end, std::int64_t repetition) {
   const auto named = [](std::size_t task, std::int64_t activation) {
     return "task " + std::to_string(task) + " activation " + std::to_string(activation);
   };
@@ -23,8 +23,8 @@ std::string fault_of_table(const System& system, const std::vector<std::size_t>&
       if (at == found.end()) return named(i, k) + " is missing";
       const Slice& s = *at->second;
       const std::int64_t release = l.offset + k * l.period;
-      if (s.end - s.begin < l.wcet) return named(i, k) + " is cut short";
-      if (s.begin < release) return named(i, k) + " begins before its release";
+      if (s.end - s.begin < l.wcet + l.blocking) return named(i, k) + " is cut short";
+      if (s.begin < release + l.jitter) return named(i, k) + " begins before its release";
       if (s.end > release + l.deadline) return named(i, k) + " ends after its deadline";
     }
   }
@@ -44,6 +44,17 @@ std::string fault_of_table(const System& system, const std::vector<std::size_t>&
   for (std::size_t i = 1; i < slices.size(); ++i)
     if (core[slices[i].task] == core[slices[i - 1].task] && slices[i].begin < slices[i - 1].end)
       return named(slices[i].task, slices[i].activation) + " begins while another runs on its core";
+  // what each core has left to do of all that arrived before an instant
+  const auto backlog = [&](std::int64_t instant) {
+    std::vector<std::int64_t> left(static_cast<std::size_t>(system.cores), 0);
+    for (const Slice& s : slices)
+      if (const Load& l = system.loads[s.task]; l.offset + s.activation * l.period < instant)
+        left[core[s.task]] = std::max(left[core[s.task]], s.end - instant);
+    return left;
+  };
+  const std::vector<std::int64_t> before = backlog(end - repetition), after = backlog(end);
+  for (std::size_t c = 0; c < after.size(); ++c)
+    if (before[c] != after[c]) return "core " + std::to_string(c) + " has another backlog one repetition later";
   return "";
 }
 

@@ -53,7 +53,8 @@ chains:
           std::string::npos);
     const Result bad = jarol("check " + file + " --set chains.c.reaction=11ms");
     CHECK(bad.exit_code == 1);
-    CHECK(bad.output.starts_with(file + ": SCHEDULABLE on one core (table), BUT A LIMIT IS BROKEN by chain 'c': "));
+    CHECK(bad.output.starts_with(file +
+                                 ": SCHEDULABLE on one core (table), proof, BUT A LIMIT IS BROKEN by chain 'c': "));
     CHECK(bad.output.find("    LIMIT BROKEN: reaction 12ms over 11ms\n") != std::string::npos);
     const auto json = json_of("check --json " + file + " --set chains.c.reaction=11ms");
     CHECK(json["verdict"] == "schedulable");

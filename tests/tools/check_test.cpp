@@ -104,10 +104,9 @@ tasks:
     // with offsets that hold it is decided
     const Result given = jarol("check " + file + " --set platform.phasing=given");
     CHECK(given.exit_code == 0);
-    CHECK(given.output.starts_with(
-        file +
-        ": SCHEDULABLE on 2 cores (global_edf): every activation of the whole repetition ends by its deadline, where "
-        "those of equal deadlines go in order of name\n"));
+    CHECK(given.output.starts_with(file + ": SCHEDULABLE on 2 cores (global_edf), proof: every activation of the whole "
+                                          "repetition ends by its deadline, where "
+                                          "those of equal deadlines go in order of name\n"));
     const Result late = jarol("check " + file + " --set tasks.a.period=11ms");
     CHECK(late.exit_code == 1);
     CHECK(late.output.starts_with(file +
@@ -135,7 +134,7 @@ tasks:
         no.output ==
         file +
             R"(: NOT SCHEDULABLE core 0: task 'slow' activation 0 (released 0.000 ms) finishes 8.000 ms, deadline 7.000 ms (late 1.000 ms)
-  a task's worst response is longer than its deadline on one core (fixed_priority)
+  proof: a task's worst response is longer than its deadline on one core (fixed_priority)
   from release to end 8ms: fast 4ms + slow 4ms
     fast ##################...........................##################.........
     slow ^.................###########################..................|!!!!!!!!

@@ -70,7 +70,8 @@ TEST_SUITE("graph/analysis/simulate_global") {
       const bool truth = trial_holds(system, std::nullopt);
       const Result result = check(system);
       REQUIRE(result.verdict == (truth ? Verdict::schedulable : Verdict::not_schedulable));
-      REQUIRE(result.standing == Standing::proof);
+      const bool by_run_alone = !result.reason.starts_with("every task") && !result.reason.starts_with("the densities");
+      REQUIRE(result.standing == (by_run_alone ? Standing::proof : Standing::safe));
       ++(truth ? yes : no);
       by_run += result.reason.starts_with("every activation of the whole repetition") ? 1 : 0;
       if (truth) REQUIRE(trial_holds(system, seed));

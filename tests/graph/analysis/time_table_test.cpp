@@ -12,7 +12,8 @@ using namespace jarol::analysis;
 
 CoreResult table_of(const std::string& text, std::uint64_t most) {
   const System system = system_of(tests::graph_of(text));
-  return check_table(system, std::vector<std::size_t>(system.loads.size(), 0), most);
+  Effort effort;
+  return check_table(system, std::vector<std::size_t>(system.loads.size(), 0), true, effort, most);
 }
 }  // namespace
 
@@ -27,24 +28,25 @@ connections: [a.out -> b.in]
 )"));
     const std::vector<Slice> good{{0, 0, 0, 2}, {1, 0, 2, 5}, {0, 1, 10, 12}, {1, 1, 12, 15}};
     const std::vector<std::size_t> one{0, 0}, two{0, 1};
-    CHECK(fault_of_table(system, one, good, 20) == "");
+    CHECK(fault_of_table(system, one, good, 20, 10) == "");
     const auto with = [&](std::size_t i, Slice slice) {
       std::vector<Slice> changed = good;
       changed[i] = slice;
       return changed;
     };
-    CHECK(fault_of_table(system, one, with(3, {1, 0, 12, 15}), 20) == "task 1 activation 0 stands twice");
-    CHECK(fault_of_table(system, one, {good[0], good[1], good[2]}, 20) == "task 1 activation 1 is missing");
-    CHECK(fault_of_table(system, one, with(1, {1, 0, 2, 4}), 20) == "task 1 activation 0 is cut short");
-    CHECK(fault_of_table(system, one, with(2, {0, 1, 9, 12}), 20) == "task 0 activation 1 begins before its release");
-    CHECK(fault_of_table(system, one, with(1, {1, 0, 6, 9}), 20) == "task 1 activation 0 ends after its deadline");
-    CHECK(fault_of_table(system, two, with(1, {1, 0, 1, 4}), 20) ==
+    CHECK(fault_of_table(system, one, with(3, {1, 0, 12, 15}), 20, 10) == "task 1 activation 0 stands twice");
+    CHECK(fault_of_table(system, one, {good[0], good[1], good[2]}, 20, 10) == "task 1 activation 1 is missing");
+    CHECK(fault_of_table(system, one, with(1, {1, 0, 2, 4}), 20, 10) == "task 1 activation 0 is cut short");
+    CHECK(fault_of_table(system, one, with(2, {0, 1, 9, 12}), 20, 10) ==
+          "task 0 activation 1 begins before its release");
+    CHECK(fault_of_table(system, one, with(1, {1, 0, 6, 9}), 20, 10) == "task 1 activation 0 ends after its deadline");
+    CHECK(fault_of_table(system, two, with(1, {1, 0, 1, 4}), 20, 10) ==
           "task 1 activation 0 begins before the one that it follows has ended");
     System apart = system;
     apart.follows.clear();
-    CHECK(fault_of_table(apart, one, with(1, {1, 0, 1, 4}), 20) ==
+    CHECK(fault_of_table(apart, one, with(1, {1, 0, 1, 4}), 20, 10) ==
           "task 1 activation 0 begins while another runs on its core");
-    CHECK(fault_of_table(apart, two, with(1, {1, 0, 1, 4}), 20) == "");
+    CHECK(fault_of_table(apart, two, with(1, {1, 0, 1, 4}), 20, 10) == "");
   }
 
   using tests::graph_of;
@@ -122,8 +124,8 @@ tasks:
   TEST_CASE("a table of too many jobs leaves the verdict open and says so") {
     const CoreResult r = table_of(R"(graph: t
 tasks:
-  a: {type: Counter, period: 999983ns, wcet: 1us}
-  b: {type: Counter, period: 999979ns, wcet: 1us}
+  a: {type: Counter, period: 999983ns, wcet: 400us}
+  b: {type: Counter, period: 999979ns, wcet: 400us, deadline: 799us}
 )",
                                   1000);
     CHECK(r.verdict == Verdict::unknown);

@@ -1,0 +1,143 @@
+#include "graph/analysis/explore.h"
+
+#include <algorithm>
+#include <map>
+
+namespace jarol::analysis {
+namespace {
+
+constexpr std::int64_t most_time = std::int64_t{1} << 60;
+
+// When the core may be free next.
+struct Free {
+  std::int64_t earliest = 0, latest = 0;
+  std::int64_t repetitions = 0;  // that were taken off
+};
+
+using Started = std::vector<std::int64_t>;  // per task, how many of its activations
+using States = std::map<Started, std::vector<Free>>;
+
+// Unites what meets; false if that was known already.
+bool add(std::vector<Free>& intervals, Free added) {
+  for (const Free& f : intervals)
+    if (f.earliest <= added.earliest && added.latest <= f.latest) return false;
+  for (std::size_t i = 0; i < intervals.size();) {
+    const Free& f = intervals[i];
+    if (f.latest + 1 < added.earliest || added.latest + 1 < f.earliest) {
+      ++i;
+      continue;
+    }
+    added.earliest = std::min(added.earliest, f.earliest);
+    added.latest = std::max(added.latest, f.latest);
+    intervals.erase(intervals.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  intervals.push_back(added);
+  return true;
+}
+
+class Explorer {
+ public:
+  Explorer(const CoreTasks& tasks, Order order, Effort& effort)
+      : loads_(tasks.loads), order_(order), effort_(effort), producers_(tasks.loads.size()) {
+    result_.responses.resize(loads_.size(), 0);
+    for (const auto& [producer, reader] : tasks.follows) producers_[reader].push_back(producer);
+  }
+
+  Exploration run() {
+    const auto lcm = hyperperiod(loads_, most_time / 8);
+    if (!lcm || loads_.empty()) return std::move(result_);
+    repetition_ = *lcm;
+    States now{{Started(loads_.size(), 0), {Free{}}}};
+    while (!now.empty()) {
+      next_.clear();
+      for (const auto& [started, intervals] : now)
+        for (const Free& free : intervals)
+          if (!go_on(started, free)) return std::move(result_);
+      now.swap(next_);
+    }
+    result_.whole = true;
+    return std::move(result_);
+  }
+
+ private:
+  struct Next {
+    std::size_t task;
+    std::int64_t arrival, latest, urgency;
+  };
+
+  // Those that may start next: of each task the first, where what it follows has started.
+  void find_candidates(const Started& started) {
+    candidates_.clear();
+    for (std::size_t i = 0; i < loads_.size(); ++i) {
+      const Load& l = loads_[i];
+      const std::int64_t arrival = l.offset + started[i] * l.period;
+      const auto waits_for = [&](std::size_t p) {
+        const std::int64_t since = arrival - loads_[p].offset;
+        return since >= 0 && since % loads_[p].period == 0 && started[p] <= since / loads_[p].period;
+      };
+      if (std::any_of(producers_[i].begin(), producers_[i].end(), waits_for)) continue;
+      candidates_.push_back({i, arrival, arrival + l.jitter,
+                             order_ == Order::by_priority ? static_cast<std::int64_t>(i) : arrival + l.deadline});
+    }
+    std::sort(candidates_.begin(), candidates_.end(), [](const Next& a, const Next& b) {
+      return std::pair(a.urgency, a.task) < std::pair(b.urgency, b.task);
+    });
+  }
+
+  // Everything that can start when the core is free; false if one may be late, or there is no more effort.
+  bool go_on(const Started& started, const Free& free) {
+    if (!effort_.spend(20 * loads_.size())) return false;
+    find_candidates(started);
+    std::int64_t any = most_time;  // by then one is released for sure
+    for (const Next& c : candidates_) any = std::min(any, c.latest);
+    const std::int64_t busy = std::max(free.latest, any);
+    std::int64_t more_urgent = most_time;  // by then one that goes before is
+    for (const Next& c : candidates_) {
+      const std::int64_t from = std::max(free.earliest, c.arrival), to = std::min(busy, more_urgent - 1);
+      more_urgent = std::min(more_urgent, c.latest);
+      if (from > to) continue;
+      const Load& l = loads_[c.task];
+      const std::int64_t finish = to + l.wcet;
+      result_.responses[c.task] = std::max(result_.responses[c.task], finish - c.arrival);
+      if (finish > c.arrival + l.deadline) {
+        const std::int64_t shift = free.repetitions * repetition_;
+        result_.late = Late{c.task, started[c.task] + shift / l.period, c.arrival + shift, finish + shift,
+                            c.arrival + l.deadline + shift};
+        result_.whole = true;
+        return false;
+      }
+      put(started, c.task, {from, finish, free.repetitions});
+    }
+    return true;
+  }
+
+  void put(Started started, std::size_t task, Free free) {
+    ++started[task];
+    const auto over = [&](std::size_t i) { return started[i] >= repetition_ / loads_[i].period; };
+    bool all = true;
+    for (std::size_t i = 0; i < started.size() && all; ++i) all = over(i);
+    if (all) {
+      for (std::size_t i = 0; i < started.size(); ++i) started[i] -= repetition_ / loads_[i].period;
+      free = {free.earliest - repetition_, free.latest - repetition_, free.repetitions + 1};
+    }
+    if (add(known_[started], free)) add(next_[started], free);
+  }
+
+  Loads loads_;
+  Order order_;
+  Effort& effort_;
+  std::vector<std::vector<std::size_t>> producers_;
+  std::vector<Next> candidates_;
+  std::int64_t repetition_ = 0;
+  States known_, next_;
+  Exploration result_;
+};
+
+}  // namespace
+
+Exploration explore(const CoreTasks& tasks, Order order, Effort& effort) {
+  constexpr std::uint64_t most_steps = 30'000'000;
+  return within(effort, most_steps, [&](Effort& own) { return Explorer(tasks, order, own).run(); });
+}
+
+}  // namespace jarol::analysis

@@ -1,0 +1,20 @@
+// Non-preemptive policies on one core with offsets that hold: every order in which activations can start.
+#pragma once
+
+#include "graph/analysis/one_core.h"
+
+namespace jarol::analysis {
+
+struct Exploration {
+  bool whole = false;  // every state was looked at, or a late activation found
+  std::optional<Late> late;
+  std::vector<std::int64_t> responses;  // per load, the longest
+};
+
+/// The schedule-abstraction graph of one core (Nasri, Brandenburg 2017), exact: a state is which activations have
+/// started, and the interval of instants at which the core may be free after them; states of the same activations whose
+/// intervals meet are one. Executions take from nothing to their WCET, releases jitter. States are the same a hyperperiod
+/// later, so that it ends where no new one is left. `blocking` is left out.
+Exploration explore(const CoreTasks& tasks, Order order, Effort& effort);
+
+}  // namespace jarol::analysis

@@ -1,0 +1,162 @@
+#include "graph/analysis/extremes.h"
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+#include "graph/analysis/readiness.h"
+
+namespace jarol::analysis {
+namespace {
+
+constexpr std::int64_t most_time = std::int64_t{1} << 60;
+constexpr std::size_t most_slices = 200;
+
+struct Job {
+  std::int64_t urgency = 0;  // less first
+  std::size_t task = 0;
+  std::int64_t activation = 0;
+  std::int64_t arrival = 0;
+  std::int64_t left = 0;
+  std::tuple<std::int64_t, std::size_t, std::int64_t> key() const { return {urgency, task, activation}; }
+  bool operator>(const Job& other) const { return key() > other.key(); }
+};
+
+template <class T>
+using LeastFirst = std::priority_queue<T, std::vector<T>, std::greater<>>;
+
+class Walker {
+ public:
+  Walker(const CoreTasks& tasks, Order order, Effort& effort)
+      : tasks_(tasks), loads_(inheriting_loads(tasks)), order_(order), effort_(effort), jitter_at_(tasks) {
+    result_.responses.resize(loads_.size(), 0);
+    for (const Load& l : loads_) {
+      longest_jitter_ = std::max(longest_jitter_, l.jitter);
+      last_offset_ = std::max(last_offset_, l.offset);
+      if (std::find(blockings_.begin(), blockings_.end(), l.blocking) == blockings_.end())
+        blockings_.push_back(l.blocking);
+    }
+  }
+
+  Extremes run() {
+    const auto lcm = hyperperiod(loads_, most_time / 8);
+    if (!lcm) return std::move(result_);
+    repetition_ = *lcm;
+    const auto starts = latest_releases(last_offset_ + longest_jitter_ + *lcm);
+    if (effort_.spent()) return std::move(result_);
+    for (const std::int64_t blocking : blockings_)
+      for (const std::int64_t start : starts)
+        if (!walk_from(start, blocking)) return std::move(result_);
+    result_.whole = true;
+    return std::move(result_);
+  }
+
+ private:
+  // In order, each once.
+  std::vector<std::int64_t> latest_releases(std::int64_t until) {
+    std::vector<std::int64_t> starts;
+    for (std::size_t i = 0; i < loads_.size(); ++i)
+      for (std::int64_t a = loads_[i].offset; a < until && effort_.spend(10); a += loads_[i].period)
+        starts.push_back(a + jitter_at_(i, a));
+    std::sort(starts.begin(), starts.end());
+    starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+    return starts;
+  }
+
+  using Arrival = std::pair<std::int64_t, std::size_t>;  // when, of which task
+
+  Job job_at(const Arrival& a) const {
+    const Load& l = loads_[a.second];
+    const std::int64_t urgency =
+        order_ == Order::by_priority ? static_cast<std::int64_t>(a.second) : a.first + l.deadline;
+    return {urgency, a.second, (a.first - l.offset) / l.period, a.first, l.wcet};
+  }
+
+  // Held up for `blocking` at the start, of those activations that can be for so long. False if one is late, or there is
+  // no more effort.
+  bool walk_from(std::int64_t start, std::int64_t blocking) {
+    LeastFirst<Arrival> arrivals;
+    LeastFirst<Job> ready;
+    for (std::size_t i = 0; i < loads_.size(); ++i) {
+      const Load& l = loads_[i];
+      const std::int64_t back = start - l.jitter - l.offset;
+      std::int64_t a = l.offset + (back <= 0 ? 0 : ceil_div(back, l.period)) * l.period;
+      for (; a <= start; a += l.period)
+        if (a + jitter_at_(i, a) >= start) ready.push(job_at({a, i}));
+      arrivals.emplace(a, i);
+    }
+    if (!effort_.spend(loads_.size() * 4 + 10)) return false;
+    std::vector<Slice> slices;
+    std::int64_t now = start + blocking;
+    // from then on each repetition leaves no more than the one before it
+    const std::int64_t end = start + last_offset_ + 2 * repetition_ + longest_jitter_;
+    while (now < end) {
+      while (arrivals.top().first <= now) {
+        const Arrival a = arrivals.top();
+        arrivals.pop();
+        ready.push(job_at(a));
+        arrivals.emplace(a.first + loads_[a.second].period, a.second);
+        if (!effort_.spend(10)) return false;
+      }
+      if (ready.empty()) return true;
+      Job running = ready.top();
+      ready.pop();
+      const std::int64_t stop = std::min(now + running.left, arrivals.top().first);
+      add(slices, {running.task, running.activation, now, stop});
+      running.left -= stop - now;
+      now = stop;
+      if (running.left > 0) {
+        ready.push(running);
+      } else if (blocking <= blocking_of(running, start) && !close(running, now, slices)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  static void add(std::vector<Slice>& slices, const Slice& slice) {
+    if (!slices.empty() && slices.back().task == slice.task && slices.back().activation == slice.activation &&
+        slices.back().end == slice.begin) {
+      slices.back().end = slice.end;
+      return;
+    }
+    if (slices.size() >= 2 * most_slices) slices.erase(slices.begin(), slices.begin() + most_slices);
+    slices.push_back(slice);
+  }
+
+  // Under EDF what holds up one of an earlier deadline holds up those that wait behind it.
+  std::int64_t blocking_of(const Job& job, std::int64_t start) const {
+    if (order_ == Order::by_priority) return loads_[job.task].blocking;
+    std::int64_t most = 0;
+    for (const Load& l : loads_)
+      if (l.deadline - l.jitter <= job.urgency - start) most = std::max(most, l.blocking);
+    return most;
+  }
+
+  bool close(const Job& job, std::int64_t now, std::vector<Slice>& slices) {
+    result_.responses[job.task] = std::max(result_.responses[job.task], now - job.arrival);
+    const std::int64_t deadline = job.arrival + loads_[job.task].deadline;
+    if (now <= deadline) return true;
+    result_.late = Late{job.task, job.activation, job.arrival, now, deadline};
+    result_.slices = std::move(slices);
+    return false;
+  }
+
+  const CoreTasks& tasks_;
+  Loads loads_;
+  Order order_;
+  Effort& effort_;
+  JitterAt jitter_at_;
+  std::vector<std::int64_t> blockings_;
+  std::int64_t longest_jitter_ = 0, last_offset_ = 0, repetition_ = 0;
+  Extremes result_;
+};
+
+}  // namespace
+
+Extremes walk_extremes(const CoreTasks& tasks, Order order, Effort& effort) {
+  constexpr std::uint64_t most_steps = 100'000'000;
+  return within(effort, most_steps, [&](Effort& own) { return Walker(tasks, order, own).run(); });
+}
+
+}  // namespace jarol::analysis

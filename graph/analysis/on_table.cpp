@@ -1,0 +1,55 @@
+// A time table on each core: which task on which core, then the walk.
+#include <algorithm>
+
+#include "graph/analysis/partition.h"
+#include "graph/analysis/policies.h"
+#include "graph/analysis/time_table.h"
+
+namespace jarol::analysis {
+namespace {
+
+// These tasks alone, on one core.
+System alone(const System& system, std::vector<std::size_t> tasks) {
+  std::sort(tasks.begin(), tasks.end());
+  System part;
+  part.policy = system.policy;
+  part.offsets_hold = system.offsets_hold;
+  for (const std::size_t i : tasks) {
+    part.loads.push_back(system.loads[i]);
+    part.turn.push_back(system.turn[i]);
+  }
+  return part;
+}
+
+}  // namespace
+
+Result check_on_table(const System& system, bool whole, Effort& effort) {
+  constexpr std::uint64_t most_steps_to_assign = 300'000'000;
+  Result result;
+  const auto fits = [&](const std::vector<std::size_t>& tasks, Effort& own) {
+    return check_table(alone(system, tasks), std::vector<std::size_t>(tasks.size(), 0), false, own).verdict;
+  };
+  const auto holds = [&](const std::vector<std::size_t>& core, Effort& own) {
+    return check_table(system, core, false, own).verdict;
+  };
+  const Partition partition = system.offsets_hold
+                                  ? within(effort, most_steps_to_assign,
+                                           [&](Effort& own) { return assign_cores(system, fits, holds, own); })
+                                  : Partition{std::vector<std::size_t>(system.loads.size(), 0), false, false};
+  CoreResult table = check_table(system, partition.core, whole, effort);
+  result.core.assign(partition.core.begin(), partition.core.end());
+  result.verdict = table.verdict;
+  result.standing = table.standing;
+  result.reason = table.reason;
+  result.response = table.responses;
+  qualify_no(system, partition, result.verdict, result.standing, result.reason);
+  if (result.verdict != Verdict::schedulable) result.late = table.late;
+  if (table.late) {
+    result.core_at_fault = partition.core[table.late->task];
+    for (const Slice& s : table.slices)
+      if (partition.core[s.task] == *result.core_at_fault) result.slices.push_back(s);
+  }
+  return result;
+}
+
+}  // namespace jarol::analysis

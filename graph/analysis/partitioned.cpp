@@ -1,0 +1,150 @@
+// Policies that keep a task on its core: each core by its own test, joined where tasks wait for other cores.
+#include <algorithm>
+
+#include "graph/analysis/partition.h"
+#include "graph/analysis/policies.h"
+#include "graph/analysis/urgency.h"
+
+namespace jarol::analysis {
+namespace {
+
+using Follow = std::pair<std::size_t, std::size_t>;  // producer, reader
+
+// Does the policy run the first before the second wherever both are ready?
+bool goes_before(const System& s, std::size_t a, std::size_t b) {
+  if (s.policy == Policy::fixed_priority || s.policy == Policy::fixed_priority_nonpreemptive)
+    return more_urgent(s, a, b);
+  return std::pair(s.loads[a].deadline, s.rank[a]) < std::pair(s.loads[b].deadline, s.rank[b]);
+}
+
+// What the tests of one core know: its tasks, and who goes before whom there anyway.
+CoreTasks tasks_of(const System& system, const std::vector<std::size_t>& tasks,
+                   const std::vector<std::int64_t>& waits) {
+  CoreTasks core;
+  std::vector<std::size_t> index(system.loads.size(), tasks.size());
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    Load load = system.loads[tasks[k]];
+    load.jitter = std::max(load.jitter, waits[tasks[k]]);
+    core.loads.push_back(load);
+    index[tasks[k]] = k;
+  }
+  for (const auto& [producer, reader] : system.follows)
+    if (index[producer] < tasks.size() && index[reader] < tasks.size() && goes_before(system, producer, reader))
+      core.follows.emplace_back(index[producer], index[reader]);
+  return core;
+}
+
+std::vector<std::vector<std::size_t>> by_core(const System& system, const std::vector<std::size_t>& core) {
+  std::vector<std::vector<std::size_t>> tasks(static_cast<std::size_t>(system.cores));
+  for (std::size_t i = 0; i < core.size(); ++i) tasks[core[i]].push_back(i);
+  for (auto& of_core : tasks) of_core = in_order(system, std::move(of_core));
+  return tasks;
+}
+
+// Each core with these waits as jitter.
+class Cores {
+ public:
+  Cores(const System& system, const std::vector<std::size_t>& core) : system_(system), tasks_(by_core(system, core)) {
+    for (const Follow& follow : system.follows)
+      if (core[follow.first] != core[follow.second] || !goes_before(system, follow.first, follow.second))
+        waiting_.push_back(follow);
+  }
+
+  bool waits() const { return !waiting_.empty(); }
+
+  Result check(const std::vector<std::int64_t>& waits, Detail detail, Effort& effort) const {
+    Result result;
+    result.response.resize(system_.loads.size());
+    result.verdict = Verdict::schedulable;
+    result.standing = Standing::proof;
+    if (system_.loads.empty()) result.reason = "there is no task to be late";
+    for (std::size_t c = 0; c < tasks_.size(); ++c)
+      if (!tasks_[c].empty()) add(result, c, waits, detail, effort);
+    return result;
+  }
+
+  // Readers wait for the responses of those that they follow elsewhere, which depend on such waits: from none on, up to
+  // where they stay as they are (holistic analysis: Tindell, Clark 1994).
+  Result check_holistically(Effort& effort) const {
+    constexpr int most_rounds = 100;
+    std::vector<std::int64_t> waits(system_.loads.size(), 0);
+    for (int round = 0; round < most_rounds; ++round) {
+      Result result = check(waits, Detail::tight, effort);
+      if (result.verdict != Verdict::schedulable) return result;
+      bool changed = false;
+      for (const auto& [producer, reader] : waiting_) {
+        if (!result.response[producer]) return {};
+        changed = changed || *result.response[producer] > waits[reader];
+        waits[reader] = std::max(waits[reader], *result.response[producer]);
+      }
+      if (changed) continue;
+      result.standing = Standing::safe;
+      result.reason += ", with the longest waits for those that they follow (holistic analysis)";
+      return result;
+    }
+    return {};
+  }
+
+ private:
+  void add(Result& result, std::size_t c, const std::vector<std::int64_t>& waits, Detail detail, Effort& effort) const {
+    const std::vector<std::size_t>& tasks = tasks_[c];
+    CoreResult core = check_core(tasks_of(system_, tasks, waits), system_.policy, system_.offsets_hold, detail, effort);
+    for (std::size_t i = 0; i < tasks.size() && detail != Detail::verdict; ++i) result.response[tasks[i]] = core.responses[i];
+    if (result.reason.empty() || (result.verdict == Verdict::schedulable && core.verdict != Verdict::schedulable))
+      result.reason = core.reason;
+    if (core.verdict == Verdict::schedulable || result.verdict == Verdict::not_schedulable) return;
+    result.verdict = core.verdict;
+    result.standing = core.standing;
+    if (core.verdict != Verdict::not_schedulable) return;
+    result.reason = core.reason;
+    result.core_at_fault = c;
+    result.demand = core.demand;
+    if (core.late) {
+      core.late->task = tasks[core.late->task];
+      result.late = core.late;
+    }
+    for (Slice s : core.slices) {
+      s.task = tasks[s.task];
+      result.slices.push_back(s);
+    }
+  }
+
+  const System& system_;
+  std::vector<std::vector<std::size_t>> tasks_;
+  std::vector<Follow> waiting_;
+};
+
+// With waits a "yes" is safe; a "no" is one without them, as those waited for may take no time.
+Result check_assigned(const System& system, const std::vector<std::size_t>& core, Detail detail, Effort& effort) {
+  const Cores cores(system, core);
+  Result result = cores.check(std::vector<std::int64_t>(system.loads.size(), 0), detail, effort);
+  if (!cores.waits() || result.verdict != Verdict::schedulable) return result;
+  Result with_waits = cores.check_holistically(effort);
+  if (with_waits.verdict == Verdict::schedulable) return with_waits;
+  result = {};
+  result.reason = "tasks that wait for those that they follow on another core, or of lower priority, may be late";
+  result.response.resize(system.loads.size());
+  return result;
+}
+
+}  // namespace
+
+Result check_partitioned(const System& system, bool whole, Effort& effort) {
+  constexpr std::uint64_t most_steps_to_assign = 300'000'000;
+  const std::vector<std::int64_t> none(system.loads.size(), 0);
+  const auto fits = [&](const std::vector<std::size_t>& tasks, Effort& own) {
+    const CoreTasks core = tasks_of(system, in_order(system, tasks), none);
+    return check_core(core, system.policy, system.offsets_hold, Detail::verdict, own).verdict;
+  };
+  const auto holds = [&](const std::vector<std::size_t>& core, Effort& own) {
+    return check_assigned(system, core, Detail::verdict, own).verdict;
+  };
+  const Partition partition = within(effort, most_steps_to_assign,
+                                     [&](Effort& own) { return assign_cores(system, fits, holds, own); });
+  Result result = check_assigned(system, partition.core, whole ? Detail::whole : Detail::verdict, effort);
+  result.core.assign(partition.core.begin(), partition.core.end());
+  qualify_no(system, partition, result.verdict, result.standing, result.reason);
+  return result;
+}
+
+}  // namespace jarol::analysis

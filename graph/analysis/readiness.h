@@ -1,0 +1,25 @@
+// When a task is ready that follows others: with the last of them.
+#pragma once
+
+#include "graph/analysis/one_core.h"
+
+namespace jarol::analysis {
+
+/// Who reads waits for the jitter and the blocking of whom it follows, and runs after it, since it is less urgent: so the
+/// reader is as a task without precedence that has the longest jitter and blocking of all that it follows (the release
+/// times of Chetto, Silly, Bouchentouf 1990).
+Loads inheriting_loads(const CoreTasks& tasks);
+
+/// Jitter of the activation of `task` that arrives at `instant`, of what arrives with it and goes before it included.
+class JitterAt {
+ public:
+  explicit JitterAt(const CoreTasks& tasks);
+  std::int64_t operator()(std::size_t task, std::int64_t instant);
+
+ private:
+  const CoreTasks& tasks_;
+  std::vector<std::vector<std::size_t>> producers_;
+  std::vector<std::pair<std::int64_t, std::int64_t>> known_;  // per task: the instant it was last asked for, and what
+};
+
+}  // namespace jarol::analysis
