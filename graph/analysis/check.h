@@ -2,7 +2,11 @@
 // on which theorem.
 #pragma once
 
-#include "graph/analysis/one_core.h"
+#include <string>
+
+#include "graph/analysis/edf.h"
+#include "graph/analysis/simulate.h"
+#include "graph/analysis/system.h"
 
 namespace jarol::analysis {
 

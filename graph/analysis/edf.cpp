@@ -154,22 +154,27 @@ EdfResult check_edf(std::span<const Load> loads, bool preemptive, Effort& effort
 
 namespace {
 
+// With the longest `blocking` that may be felt and equal deadlines against the task, or what is sure.
+enum class Count { most, sure };
+
 // Of `own`, arriving so that it is released at `a` after the beginning of a busy period, at the latest.
 std::optional<std::int64_t> response_at(std::span<const Load> loads, std::size_t own, std::int64_t a, bool preemptive,
-                                        Effort& effort) {
+                                        Count what, Effort& effort) {
   const Load& task = loads[own];
   const std::int64_t due_at = a - task.jitter + task.deadline;
-  const Wide before = blocking_bound(loads, due_at, preemptive) + static_cast<Wide>(a / task.period) * task.wcet;
+  const Wide held = what == Count::most ? blocking_bound(loads, due_at, preemptive) : task.blocking;
+  const Wide before = held + static_cast<Wide>(a / task.period) * task.wcet;
   // preemptive: up to its end; else up to its start, from where on nothing interrupts it
   std::int64_t length = preemptive ? task.wcet : 0;
   while (true) {
     Wide next = before + (preemptive ? task.wcet : 0);
     for (std::size_t j = 0; j < loads.size(); ++j) {
       const Load& l = loads[j];
-      if (j == own || due_at - l.deadline + l.jitter < 0) continue;
+      const std::int64_t until = what == Count::sure && j > own ? due_at - 1 : due_at;
+      if (j == own || until - l.deadline + l.jitter < 0) continue;
       const Wide window = static_cast<Wide>(length) + l.jitter;
       const Wide by_time = preemptive ? ceil_div(window, l.period) : window / l.period + 1;
-      next += std::min<Wide>(by_time, due(l, due_at)) * l.wcet;
+      next += std::min<Wide>(by_time, due(l, until)) * l.wcet;
     }
     if (!effort.spend(loads.size()) || next > far) return std::nullopt;
     if (next == length) break;
@@ -180,7 +185,7 @@ std::optional<std::int64_t> response_at(std::span<const Load> loads, std::size_t
 
 // The longest over all releases in a busy period whose deadline coincides with that of another.
 std::vector<std::int64_t> responses_by_deadlines(std::span<const Load> loads, bool preemptive, std::int64_t busy,
-                                                 Effort& effort) {
+                                                 Count what, Effort& effort) {
   std::vector<std::int64_t> responses;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const Load& own = loads[i];
@@ -189,13 +194,13 @@ std::vector<std::int64_t> responses_by_deadlines(std::span<const Load> loads, bo
       const std::int64_t first = other.deadline - other.jitter - (own.deadline - own.jitter);
       for (std::int64_t k = first < 0 ? (-first + other.period - 1) / other.period : 0; k * other.period + first < busy;
            ++k) {
-        const auto found = response_at(loads, i, k * other.period + first, preemptive, effort);
+        const auto found = response_at(loads, i, k * other.period + first, preemptive, what, effort);
         if (!found) return {};
         response = std::max(response, *found);
       }
     }
     // what holds it up most may be what has a later deadline than the first ones
-    const auto first = response_at(loads, i, 0, preemptive, effort);
+    const auto first = response_at(loads, i, 0, preemptive, what, effort);
     if (!first) return {};
     responses.push_back(std::max(response, *first));
   }
@@ -245,30 +250,58 @@ std::vector<std::int64_t> responses_by_slack(std::span<const Load> loads, bool p
 
 }  // namespace
 
-std::vector<std::int64_t> edf_responses(std::span<const Load> loads, bool preemptive, Effort& effort) {
+namespace {
+
+// How long a busy period lasts at most, and at how many instants in it something arrives; nothing if that is open.
+std::optional<std::pair<std::int64_t, long double>> longest_busy(std::span<const Load> loads, bool preemptive,
+                                                                 Effort& effort) {
   const auto order = compare_utilisation(loads, 1);
-  if (!order || *order > 0 || loads.empty()) return {};
-  std::int64_t blocking = 0;
-  for (const Load& l : loads) blocking = std::max({blocking, l.blocking, preemptive ? 0 : l.wcet - 1});
+  if (!order || *order > 0 || loads.empty()) return std::nullopt;
+  // from one hyperperiod to the next demand grows no more than time does
+  const auto lcm = hyperperiod(loads, far / 4);
+  std::int64_t blocking = 0, longest = 0;
+  for (const Load& l : loads) {
+    blocking = std::max({blocking, l.blocking, preemptive ? 0 : l.wcet - 1});
+    longest = std::max(longest, l.deadline);
+  }
+  const std::int64_t most = lcm ? *lcm + longest : far / 2;
+  std::optional<std::int64_t> busy;
+  if (*order < 0 || blocking == 0) busy = busy_period(loads, blocking, most, effort);
+  if (!busy && (!lcm || effort.spent())) return std::nullopt;
+  const std::int64_t length = busy.value_or(most);
+  long double points = 0;
+  for (const Load& l : loads)
+    points += static_cast<long double>(length + l.jitter) / static_cast<long double>(l.period) + 1;
+  return std::pair(length, points);
+}
+
+bool is_quick(long double points, std::size_t tasks, const Effort& effort) {
+  const auto n = static_cast<long double>(tasks);
+  return points * n * n <= static_cast<long double>(std::min<std::uint64_t>(effort.left, most_steps)) / 4;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> edf_responses(std::span<const Load> loads, bool preemptive, Effort& effort) {
   return within(effort, most_steps, [&](Effort& own) -> std::vector<std::int64_t> {
-    // from one hyperperiod to the next demand grows no more than time does
-    const auto lcm = hyperperiod(loads, far / 4);
-    std::int64_t longest = 0;
-    for (const Load& l : loads) longest = std::max(longest, l.deadline);
-    const std::int64_t most = lcm ? *lcm + longest : far / 2;
-    std::optional<std::int64_t> busy;
-    if (*order < 0 || blocking == 0) busy = busy_period(loads, blocking, most, own);
-    if (!busy && (!lcm || own.spent())) return {};
-    const std::int64_t length = busy.value_or(most);
-    long double points = 0;
-    for (const Load& l : loads)
-      points += static_cast<long double>(length + l.jitter) / static_cast<long double>(l.period) + 1;
-    const auto n = static_cast<long double>(loads.size());
-    if (points * n * n <= static_cast<long double>(own.left) / 4) {
-      const auto responses = responses_by_deadlines(loads, preemptive, length, own);
+    const auto busy = longest_busy(loads, preemptive, own);
+    if (!busy) return {};
+    if (is_quick(busy->second, loads.size(), own)) {
+      auto responses = responses_by_deadlines(loads, preemptive, busy->first, Count::most, own);
       if (!responses.empty()) return responses;
     }
-    return points < 1e6L ? responses_by_slack(loads, preemptive, length, own) : std::vector<std::int64_t>{};
+    return busy->second < 1e6L ? responses_by_slack(loads, preemptive, busy->first, own) : std::vector<std::int64_t>{};
+  });
+}
+
+bool is_late_by_own_blocking(std::span<const Load> loads, bool preemptive, Effort& effort) {
+  return within(effort, most_steps, [&](Effort& own) {
+    const auto busy = longest_busy(loads, preemptive, own);
+    if (!busy || !is_quick(busy->second, loads.size(), own)) return false;
+    const auto responses = responses_by_deadlines(loads, preemptive, busy->first, Count::sure, own);
+    for (std::size_t i = 0; i < responses.size(); ++i)
+      if (responses[i] > loads[i].deadline) return true;
+    return false;
   });
 }
 

@@ -31,4 +31,8 @@ EdfResult check_edf(std::span<const Load> loads, bool preemptive, Effort& effort
 /// takes long too.
 std::vector<std::int64_t> edf_responses(std::span<const Load> loads, bool preemptive, Effort& effort);
 
+/// Is a task late with its own `blocking` alone, where of equal deadlines the task that stands first goes first? False
+/// if that takes long.
+bool is_late_by_own_blocking(std::span<const Load> loads, bool preemptive, Effort& effort);
+
 }  // namespace jarol::analysis

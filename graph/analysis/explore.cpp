@@ -79,9 +79,8 @@ class Explorer {
       candidates_.push_back({i, arrival, arrival + l.jitter,
                              order_ == Order::by_priority ? static_cast<std::int64_t>(i) : arrival + l.deadline});
     }
-    std::sort(candidates_.begin(), candidates_.end(), [](const Next& a, const Next& b) {
-      return std::pair(a.urgency, a.task) < std::pair(b.urgency, b.task);
-    });
+    std::sort(candidates_.begin(), candidates_.end(),
+              [](const Next& a, const Next& b) { return std::pair(a.urgency, a.task) < std::pair(b.urgency, b.task); });
   }
 
   // Everything that can start when the core is free; false if one may be late, or there is no more effort.

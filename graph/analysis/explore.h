@@ -13,8 +13,8 @@ struct Exploration {
 
 /// The schedule-abstraction graph of one core (Nasri, Brandenburg 2017), exact: a state is which activations have
 /// started, and the interval of instants at which the core may be free after them; states of the same activations whose
-/// intervals meet are one. Executions take from nothing to their WCET, releases jitter. States are the same a hyperperiod
-/// later, so that it ends where no new one is left. `blocking` is left out.
+/// intervals meet are one. Executions take from nothing to their WCET, releases jitter. States are the same a
+/// hyperperiod later, so that it ends where no new one is left. `blocking` is left out.
 Exploration explore(const CoreTasks& tasks, Order order, Effort& effort);
 
 }  // namespace jarol::analysis

@@ -28,7 +28,7 @@ using LeastFirst = std::priority_queue<T, std::vector<T>, std::greater<>>;
 class Walker {
  public:
   Walker(const CoreTasks& tasks, Order order, Effort& effort)
-      : tasks_(tasks), loads_(inheriting_loads(tasks)), order_(order), effort_(effort), jitter_at_(tasks) {
+      : tasks_(tasks), loads_(inheriting_loads(tasks)), order_(order), effort_(effort), ready_at_(tasks) {
     result_.responses.resize(loads_.size(), 0);
     for (const Load& l : loads_) {
       longest_jitter_ = std::max(longest_jitter_, l.jitter);
@@ -47,7 +47,7 @@ class Walker {
     for (const std::int64_t blocking : blockings_)
       for (const std::int64_t start : starts)
         if (!walk_from(start, blocking)) return std::move(result_);
-    result_.whole = true;
+    result_.whole = !doubtful_;
     return std::move(result_);
   }
 
@@ -57,7 +57,7 @@ class Walker {
     std::vector<std::int64_t> starts;
     for (std::size_t i = 0; i < loads_.size(); ++i)
       for (std::int64_t a = loads_[i].offset; a < until && effort_.spend(10); a += loads_[i].period)
-        starts.push_back(a + jitter_at_(i, a));
+        starts.push_back(a + ready_at_(i, a).jitter);
     std::sort(starts.begin(), starts.end());
     starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
     return starts;
@@ -72,29 +72,34 @@ class Walker {
     return {urgency, a.second, (a.first - l.offset) / l.period, a.first, l.wcet};
   }
 
-  // Held up for `blocking` at the start, of those activations that can be for so long. False if one is late, or there is
-  // no more effort.
+  // Held up for `blocking` at the start, of those activations that can be for so long. False if one is late, or there
+  // is no more effort.
   bool walk_from(std::int64_t start, std::int64_t blocking) {
+    // from then on each repetition leaves no more than the one before it
+    const std::int64_t end = start + last_offset_ + 2 * repetition_ + longest_jitter_;
     LeastFirst<Arrival> arrivals;
     LeastFirst<Job> ready;
+    std::size_t open = 0;  // that arrived before the end
+    const auto arrive = [&](const Arrival& a) {
+      ready.push(job_at(a));
+      open += a.first < end ? 1U : 0U;
+    };
     for (std::size_t i = 0; i < loads_.size(); ++i) {
       const Load& l = loads_[i];
       const std::int64_t back = start - l.jitter - l.offset;
       std::int64_t a = l.offset + (back <= 0 ? 0 : ceil_div(back, l.period)) * l.period;
       for (; a <= start; a += l.period)
-        if (a + jitter_at_(i, a) >= start) ready.push(job_at({a, i}));
+        if (a + ready_at_(i, a).jitter >= start) arrive({a, i});
       arrivals.emplace(a, i);
     }
     if (!effort_.spend(loads_.size() * 4 + 10)) return false;
     std::vector<Slice> slices;
     std::int64_t now = start + blocking;
-    // from then on each repetition leaves no more than the one before it
-    const std::int64_t end = start + last_offset_ + 2 * repetition_ + longest_jitter_;
-    while (now < end) {
+    while (now < end || open > 0) {
       while (arrivals.top().first <= now) {
         const Arrival a = arrivals.top();
         arrivals.pop();
-        ready.push(job_at(a));
+        arrive(a);
         arrivals.emplace(a.first + loads_[a.second].period, a.second);
         if (!effort_.spend(10)) return false;
       }
@@ -107,9 +112,10 @@ class Walker {
       now = stop;
       if (running.left > 0) {
         ready.push(running);
-      } else if (blocking <= blocking_of(running, start) && !close(running, now, slices)) {
-        return false;
+        continue;
       }
+      open -= running.arrival < end ? 1U : 0U;
+      if (blocking <= blocking_of(running, start) && !close(running, now, blocking, slices)) return false;
     }
     return true;
   }
@@ -133,10 +139,11 @@ class Walker {
     return most;
   }
 
-  bool close(const Job& job, std::int64_t now, std::vector<Slice>& slices) {
+  bool close(const Job& job, std::int64_t now, std::int64_t blocking, std::vector<Slice>& slices) {
     result_.responses[job.task] = std::max(result_.responses[job.task], now - job.arrival);
     const std::int64_t deadline = job.arrival + loads_[job.task].deadline;
     if (now <= deadline) return true;
+    if (blocking > ready_at_(job.task, job.arrival).blocking) return doubtful_ = true;
     result_.late = Late{job.task, job.activation, job.arrival, now, deadline};
     result_.slices = std::move(slices);
     return false;
@@ -146,7 +153,8 @@ class Walker {
   Loads loads_;
   Order order_;
   Effort& effort_;
-  JitterAt jitter_at_;
+  ReadinessAt ready_at_;
+  bool doubtful_ = false;  // late by what another is held up for
   std::vector<std::int64_t> blockings_;
   std::int64_t longest_jitter_ = 0, last_offset_ = 0, repetition_ = 0;
   Extremes result_;

@@ -1,4 +1,5 @@
-// Preemptive policies on one core with offsets that hold and releases that jitter: every worst case, one after the other.
+// Preemptive policies on one core with offsets that hold and releases that jitter: every worst case, one after the
+// other.
 #pragma once
 
 #include "graph/analysis/one_core.h"
@@ -6,7 +7,7 @@
 namespace jarol::analysis {
 
 struct Extremes {
-  bool whole = false;  // every busy period was looked at
+  bool whole = false;  // every busy period was looked at, and none is late
   std::optional<Late> late;
   std::vector<std::int64_t> responses;  // per load, the longest
   std::vector<Slice> slices;            // before the late activation ended
@@ -15,9 +16,10 @@ struct Extremes {
 /// What an activation waits for lies within a busy period, which begins at some instant t with a release. It is longest
 /// if all that can be released at t rather than before it are, and all later ones as they arrive, each with its WCET;
 /// and t is the latest release of one of them: so that one walk from each such instant of a repetition decides (as
-/// Tindell 1994 and Palencia, Gonzalez 1998 do for transactions, with all their combinations). `blocking` comes at t, as
-/// long as it can be for the activation that is looked at. Loads are most urgent first; each that follows another is less
-/// urgent than it.
+/// Tindell 1994 and Palencia, Gonzalez 1998 do for transactions, with all their combinations). `blocking` comes at t,
+/// as long as it can be for the activation that is looked at; under EDF what holds up one with an earlier deadline
+/// holds up those behind it, so that these are looked at with the longest, though late for sure only with their own.
+/// Loads are most urgent first; each that follows another is less urgent than it.
 Extremes walk_extremes(const CoreTasks& tasks, Order order, Effort& effort);
 
 }  // namespace jarol::analysis

@@ -17,8 +17,8 @@ Loads with_blocking(Loads loads) {
   return loads;
 }
 
-// Upper bounds with readers that wait for those that they follow: their responses are jitter of the readers (as Tindell,
-// Clark 1994), from none on, up to where they stay as they are. Nothing for one that none was found for.
+// Upper bounds with readers that wait for those that they follow: their responses are jitter of the readers (as
+// Tindell, Clark 1994), from none on, up to where they stay as they are. Nothing for one that none was found for.
 std::vector<std::optional<std::int64_t>> bounds_of(const System& system, const Loads& loads) {
   constexpr int most_rounds = 100;
   Loads waiting = loads;
@@ -45,13 +45,13 @@ void refuse(Result& result, const GlobalSimulation& run, Standing standing) {
   result.slices = run.slices;
 }
 
-// Runs that are possible: a late activation in one is a "no"; without jitter and with offsets that hold there is one only
-// that is worst (Cucu, Goossens 2006; Ha, Liu 1994), so that it decides.
+// Runs that are possible: a late activation in one is a "no"; without jitter and with offsets that hold there is one
+// only that is worst (Cucu, Goossens 2006; Ha, Liu 1994), so that it decides.
 void walk(const System& system, const Loads& loads, Result& result, Effort& effort) {
   constexpr std::uint64_t most_activations = 1'000'000, steps_of_activation = 40;
   const auto run_of = [&](const Loads& with, std::uint64_t most) {
     GlobalSimulation run = simulate_global(with, system.cores, std::min(most, effort.left / steps_of_activation),
-                                           system.follows);
+                                           {.follows = system.follows});
     effort.spend(run.activations * steps_of_activation);
     return run;
   };

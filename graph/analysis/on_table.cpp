@@ -32,10 +32,10 @@ Result check_on_table(const System& system, bool whole, Effort& effort) {
   const auto holds = [&](const std::vector<std::size_t>& core, Effort& own) {
     return check_table(system, core, false, own).verdict;
   };
-  const Partition partition = system.offsets_hold
-                                  ? within(effort, most_steps_to_assign,
-                                           [&](Effort& own) { return assign_cores(system, fits, holds, own); })
-                                  : Partition{std::vector<std::size_t>(system.loads.size(), 0), false, false};
+  const Partition partition =
+      system.offsets_hold
+          ? within(effort, most_steps_to_assign, [&](Effort& own) { return assign_cores(system, fits, holds, own); })
+          : Partition{std::vector<std::size_t>(system.loads.size(), 0), false, false};
   CoreResult table = check_table(system, partition.core, whole, effort);
   result.core.assign(partition.core.begin(), partition.core.end());
   result.verdict = table.verdict;

@@ -91,6 +91,19 @@ bool has_blocking(std::span<const Load> loads) {
   return std::any_of(loads.begin(), loads.end(), [](const Load& l) { return l.blocking > 0; });
 }
 
+Loads without_blocking(Loads loads) {
+  for (Load& l : loads) l.blocking = 0;
+  return loads;
+}
+
+// Is a "no" under EDF one that does not rest on what holds up others that go before?
+bool is_sure(std::span<const Load> loads, Policy policy, Effort& effort) {
+  if (!by_deadline(policy) || !has_blocking(loads)) return true;
+  const Loads freely = without_blocking({loads.begin(), loads.end()});
+  return check_edf(freely, is_preemptive(policy), effort).over ||
+         is_late_by_own_blocking(loads, is_preemptive(policy), effort);
+}
+
 // The first late activation if all arrive as given.
 void add_witness(std::span<const Load> loads, Policy policy, CoreResult& result) {
   std::int64_t end = 0;
@@ -132,11 +145,13 @@ CoreResult walk_preemptive(const CoreTasks& tasks, Policy policy, Effort& effort
 // With offsets that hold, not interrupting: shorter execution may change the order and so make others late.
 CoreResult walk_nonpreemptive(const CoreTasks& tasks, Policy policy, Effort& effort) {
   if (effort.spent()) return undecided("");
-  const Exploration found = explore(tasks, order_of(policy), effort);
+  CoreTasks all = tasks;
+  all.follows.insert(all.follows.end(), tasks.upward.begin(), tasks.upward.end());
+  const Exploration found = explore(all, order_of(policy), effort);
   if (found.late) {
     CoreResult late = late_one(found, Standing::proof, {});
     late.reason = "a task is late in an order that is possible when tasks take up to their 'wcet'";
-    if (has_jitter(inheriting_loads(tasks))) return late;
+    if (has_jitter(inheriting_loads(tasks)) || !tasks.upward.empty()) return late;
     if (const auto end = end_of_repetition(tasks.loads)) {
       Simulation run = simulate(tasks.loads, order_of(policy), false, *end, most_activations);
       if (run.late) return late_one(run, Standing::proof, std::move(run.slices));
@@ -145,7 +160,7 @@ CoreResult walk_nonpreemptive(const CoreTasks& tasks, Policy policy, Effort& eff
   }
   if (!found.whole || has_blocking(tasks.loads)) {
     const auto end = end_of_repetition(tasks.loads);
-    if (!end) return undecided("");
+    if (!end || !tasks.upward.empty()) return undecided("");
     Simulation run = simulate(tasks.loads, order_of(policy), false, *end, most_activations);
     effort.spend(run.activations * steps_of_activation);
     if (run.late && !has_jitter(inheriting_loads(tasks))) return late_one(run, Standing::by_run, std::move(run.slices));
@@ -168,8 +183,11 @@ CoreResult decide(const CoreTasks& tasks, Policy policy, bool offsets_hold, Deta
   if (order && *order > 0) return any;
   // exact for every shift, but for readers that do not always wait for what they inherited
   const bool inherited = !tasks.follows.empty() && (has_jitter(loads) || has_blocking(loads));
-  const bool worst_at_once = is_preemptive(policy) && all_at_once(loads) && !has_jitter(loads) && !inherited;
-  if (!inherited && (!offsets_hold || (worst_at_once && !(tight && any.verdict == Verdict::schedulable)))) return any;
+  const bool worst_at_once = is_preemptive(policy) && all_at_once(loads) && !has_jitter(loads) && !inherited &&
+                             !(by_deadline(policy) && has_blocking(loads));
+  const bool sure = any.verdict != Verdict::not_schedulable || is_sure(tasks.loads, policy, effort);
+  if (sure && !inherited && (!offsets_hold || (worst_at_once && !(tight && any.verdict == Verdict::schedulable))))
+    return any;
   // what holds for every shift holds for the one that is given
   if (any.verdict == Verdict::schedulable && !(offsets_hold && responses && (is_preemptive(policy) || tight)))
     return any;
@@ -180,18 +198,28 @@ CoreResult decide(const CoreTasks& tasks, Policy policy, bool offsets_hold, Deta
   if (given.verdict == Verdict::not_schedulable || (offsets_hold && given.verdict == Verdict::schedulable))
     return given;
   if (any.verdict == Verdict::schedulable) return any;
-  if (!offsets_hold && check_any_phasing(tasks.loads, policy, false, effort).verdict == Verdict::not_schedulable)
+  if (!offsets_hold && sure &&
+      check_any_phasing(tasks.loads, policy, false, effort).verdict == Verdict::not_schedulable)
     return any;
-  return undecided(any.reason + (offsets_hold ? " if offsets could shift; that they hold was not decided"
-                                              : " if each reader waits for the worst of what it follows; that it does "
-                                                "not was not decided"),
-                   any.responses);
+  return undecided(
+      any.reason + (!sure          ? " if all are held up for the longest 'blocking'; with their own it was not decided"
+                    : offsets_hold ? " if offsets could shift; that they hold was not decided"
+                                   : " if each reader waits for the worst of what it follows; that it does "
+                                     "not was not decided"),
+      any.responses);
 }
 
 }  // namespace
 
 CoreResult check_core(const CoreTasks& tasks, Policy policy, bool offsets_hold, Detail detail, Effort& effort) {
   CoreResult result = decide(tasks, policy, offsets_hold, detail, effort);
+  // a reader that would go first does not, so that what the tests say of those behind it is too much; exploring knows
+  const auto order = compare_utilisation(tasks.loads, 1);
+  const bool explored = offsets_hold && !is_preemptive(policy);
+  if (!tasks.upward.empty() && !explored && result.verdict == Verdict::not_schedulable && !(order && *order > 0))
+    result = undecided(
+        "a task has a higher priority than one that it follows at the same instant; give the producer "
+        "the higher one");
   if (detail == Detail::whole && result.verdict == Verdict::not_schedulable && !result.late)
     add_witness(tasks.loads, policy, result);
   result.responses.resize(tasks.loads.size());

@@ -12,7 +12,8 @@ namespace jarol::analysis {
 /// What one core has to do, as far as it can be known there.
 struct CoreTasks {
   Loads loads;  // most urgent first where priorities count, else in data-flow order
-  std::vector<std::pair<std::size_t, std::size_t>> follows;  // of these: the first is more urgent than the second
+  std::vector<std::pair<std::size_t, std::size_t>> follows;  // of these, where the first is more urgent than the second
+  std::vector<std::pair<std::size_t, std::size_t>> upward;   // and where the second is
 };
 
 struct CoreResult {

@@ -3,6 +3,7 @@
 
 #include "graph/analysis/partition.h"
 #include "graph/analysis/policies.h"
+#include "graph/analysis/simulate_global.h"
 #include "graph/analysis/urgency.h"
 
 namespace jarol::analysis {
@@ -29,8 +30,8 @@ CoreTasks tasks_of(const System& system, const std::vector<std::size_t>& tasks,
     index[tasks[k]] = k;
   }
   for (const auto& [producer, reader] : system.follows)
-    if (index[producer] < tasks.size() && index[reader] < tasks.size() && goes_before(system, producer, reader))
-      core.follows.emplace_back(index[producer], index[reader]);
+    if (index[producer] < tasks.size() && index[reader] < tasks.size())
+      (goes_before(system, producer, reader) ? core.follows : core.upward).emplace_back(index[producer], index[reader]);
   return core;
 }
 
@@ -89,7 +90,8 @@ class Cores {
   void add(Result& result, std::size_t c, const std::vector<std::int64_t>& waits, Detail detail, Effort& effort) const {
     const std::vector<std::size_t>& tasks = tasks_[c];
     CoreResult core = check_core(tasks_of(system_, tasks, waits), system_.policy, system_.offsets_hold, detail, effort);
-    for (std::size_t i = 0; i < tasks.size() && detail != Detail::verdict; ++i) result.response[tasks[i]] = core.responses[i];
+    for (std::size_t i = 0; i < tasks.size() && detail != Detail::verdict; ++i)
+      result.response[tasks[i]] = core.responses[i];
     if (result.reason.empty() || (result.verdict == Verdict::schedulable && core.verdict != Verdict::schedulable))
       result.reason = core.reason;
     if (core.verdict == Verdict::schedulable || result.verdict == Verdict::not_schedulable) return;
@@ -114,16 +116,48 @@ class Cores {
   std::vector<Follow> waiting_;
 };
 
+// A run that is possible, with every wait: a late activation in it is a "no". Releases as late as they can be, or at
+// once.
+Result run_with_waits(const System& system, const std::vector<std::size_t>& core, Effort& effort) {
+  constexpr std::uint64_t most_activations = 100'000, steps_of_activation = 40;
+  Result result;
+  result.response.resize(system.loads.size());
+  std::vector<std::size_t> all(system.loads.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  RunRules rules{system.follows, core, std::vector<std::size_t>(all.size()), {}, false};
+  all = in_order(system, std::move(all));
+  for (std::size_t i = 0; i < all.size(); ++i) rules.order[all[i]] = i;
+  rules.by_order = system.policy == Policy::fixed_priority || system.policy == Policy::fixed_priority_nonpreemptive;
+  rules.preemptive = system.policy == Policy::fixed_priority || system.policy == Policy::edf;
+  for (const bool late : {true, false}) {
+    Loads loads = system.loads;
+    for (Load& l : loads) l.jitter = late ? l.jitter : 0;
+    const GlobalSimulation run =
+        simulate_global(loads, system.cores, std::min(most_activations, effort.left / steps_of_activation), rules);
+    effort.spend(run.activations * steps_of_activation);
+    if (!run.late) continue;
+    result.verdict = Verdict::not_schedulable;
+    result.standing = Standing::by_run;
+    result.reason = "a task is late when every task takes its 'wcet'";
+    result.late = run.late;
+    result.core_at_fault = core[run.late->task];
+    for (const Slice& s : run.slices)
+      if (core[s.task] == *result.core_at_fault) result.slices.push_back(s);
+    return result;
+  }
+  return result;
+}
+
 // With waits a "yes" is safe; a "no" is one without them, as those waited for may take no time.
 Result check_assigned(const System& system, const std::vector<std::size_t>& core, Detail detail, Effort& effort) {
   const Cores cores(system, core);
   Result result = cores.check(std::vector<std::int64_t>(system.loads.size(), 0), detail, effort);
-  if (!cores.waits() || result.verdict != Verdict::schedulable) return result;
+  if (!cores.waits() || result.verdict == Verdict::not_schedulable) return result;
   Result with_waits = cores.check_holistically(effort);
   if (with_waits.verdict == Verdict::schedulable) return with_waits;
-  result = {};
+  result = run_with_waits(system, core, effort);
+  if (result.verdict == Verdict::not_schedulable) return result;
   result.reason = "tasks that wait for those that they follow on another core, or of lower priority, may be late";
-  result.response.resize(system.loads.size());
   return result;
 }
 
@@ -139,8 +173,8 @@ Result check_partitioned(const System& system, bool whole, Effort& effort) {
   const auto holds = [&](const std::vector<std::size_t>& core, Effort& own) {
     return check_assigned(system, core, Detail::verdict, own).verdict;
   };
-  const Partition partition = within(effort, most_steps_to_assign,
-                                     [&](Effort& own) { return assign_cores(system, fits, holds, own); });
+  const Partition partition =
+      within(effort, most_steps_to_assign, [&](Effort& own) { return assign_cores(system, fits, holds, own); });
   Result result = check_assigned(system, partition.core, whole ? Detail::whole : Detail::verdict, effort);
   result.core.assign(partition.core.begin(), partition.core.end());
   qualify_no(system, partition, result.verdict, result.standing, result.reason);

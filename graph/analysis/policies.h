@@ -2,6 +2,7 @@
 #pragma once
 
 #include "graph/analysis/check.h"
+#include "graph/analysis/one_core.h"
 
 namespace jarol::analysis {
 

@@ -5,21 +5,26 @@
 
 namespace jarol::analysis {
 
-/// Who reads waits for the jitter and the blocking of whom it follows, and runs after it, since it is less urgent: so the
-/// reader is as a task without precedence that has the longest jitter and blocking of all that it follows (the release
-/// times of Chetto, Silly, Bouchentouf 1990).
+/// Who reads waits for the jitter and the blocking of whom it follows, and runs after it, since it is less urgent: so
+/// the reader is as a task without precedence that has the longest jitter and blocking of all that it follows (the
+/// release times of Chetto, Silly, Bouchentouf 1990).
 Loads inheriting_loads(const CoreTasks& tasks);
 
-/// Jitter of the activation of `task` that arrives at `instant`, of what arrives with it and goes before it included.
-class JitterAt {
+/// How late an activation can be ready, and how long held up, with those that arrive with it and that it follows.
+struct Readiness {
+  std::int64_t jitter = 0, blocking = 0;
+};
+
+/// Of the activation of a task that arrives at an instant.
+class ReadinessAt {
  public:
-  explicit JitterAt(const CoreTasks& tasks);
-  std::int64_t operator()(std::size_t task, std::int64_t instant);
+  explicit ReadinessAt(const CoreTasks& tasks);
+  Readiness operator()(std::size_t task, std::int64_t instant);
 
  private:
   const CoreTasks& tasks_;
   std::vector<std::vector<std::size_t>> producers_;
-  std::vector<std::pair<std::int64_t, std::int64_t>> known_;  // per task: the instant it was last asked for, and what
+  std::vector<std::pair<std::int64_t, Readiness>> known_;  // per task: the instant it was last asked for, and what
 };
 
 }  // namespace jarol::analysis

@@ -12,25 +12,27 @@ constexpr std::size_t most_slices = 400;
 constexpr std::int64_t most_time = std::int64_t{1} << 60;
 
 struct Job {
+  std::int64_t urgency = 0;  // less first
+  std::size_t order = 0;     // of equals
   std::size_t task = 0;
   std::int64_t activation = 0;
   std::int64_t arrival = 0;
   std::int64_t deadline = 0;
   std::int64_t left = 0;
+  bool started = false;
 };
 
 bool more_urgent(const Job& a, const Job& b) {
-  return std::tie(a.deadline, a.task, a.activation) < std::tie(b.deadline, b.task, b.activation);
+  return std::tie(a.urgency, a.order, a.activation) < std::tie(b.urgency, b.order, b.activation);
 }
 
 class Simulator {
  public:
-  Simulator(std::span<const Load> loads, std::int64_t cores,
-            std::span<const std::pair<std::size_t, std::size_t>> follows)
-      : loads_(loads), cores_(static_cast<std::size_t>(cores)), producers_(loads.size()) {
+  Simulator(std::span<const Load> loads, std::int64_t cores, const RunRules& rules)
+      : loads_(loads), cores_(static_cast<std::size_t>(cores)), rules_(rules), producers_(loads.size()) {
     result_.responses.resize(loads.size(), 0);
     for (std::size_t i = 0; i < loads.size(); ++i) arrivals_.emplace(loads[i].offset + loads[i].jitter, i);
-    for (const auto& [producer, reader] : follows) producers_[reader].push_back(producer);
+    for (const auto& [producer, reader] : rules.follows) producers_[reader].push_back(producer);
     released_.resize(loads.size(), 0);
     ended_.resize(loads.size(), 0);
   }
@@ -70,7 +72,9 @@ class Simulator {
       const std::size_t i = arrivals_.top().second;
       arrivals_.pop();
       const std::int64_t arrival = now_ - loads_[i].jitter;
-      const Job job{i, released_[i]++, arrival, arrival + loads_[i].deadline, loads_[i].wcet};
+      const std::int64_t deadline = arrival + loads_[i].deadline;
+      const std::size_t order = rules_.order.empty() ? i : rules_.order[i];
+      const Job job{rules_.by_order ? 0 : deadline, order, i, released_[i]++, arrival, deadline, loads_[i].wcet, false};
       ready_.insert(std::upper_bound(ready_.begin(), ready_.end(), job, more_urgent), job);
       arrivals_.emplace(now_ + loads_[i].period, i);
       ++result_.activations;
@@ -87,8 +91,23 @@ class Simulator {
 
   void choose() {
     running_.clear();
-    for (std::size_t i = 0; i < ready_.size() && running_.size() < cores_; ++i)
-      if (!waits(ready_[i])) running_.push_back(i);
+    if (rules_.core.empty()) {
+      for (std::size_t i = 0; i < ready_.size() && running_.size() < cores_; ++i)
+        if (!waits(ready_[i])) running_.push_back(i);
+      return;
+    }
+    taken_.assign(cores_, false);
+    const auto take = [&](std::size_t i) {
+      if (taken_[rules_.core[ready_[i].task]]) return;
+      taken_[rules_.core[ready_[i].task]] = true;
+      ready_[i].started = true;
+      running_.push_back(i);
+    };
+    for (std::size_t i = 0; i < ready_.size() && !rules_.preemptive; ++i)
+      if (ready_[i].started) take(i);
+    for (std::size_t i = 0; i < ready_.size(); ++i)
+      if (!waits(ready_[i])) take(i);
+    std::sort(running_.begin(), running_.end());
   }
 
   void advance(Job& job, std::int64_t until) {
@@ -117,12 +136,14 @@ class Simulator {
 
   std::span<const Load> loads_;
   std::size_t cores_;
+  const RunRules& rules_;
   std::int64_t now_ = 0;
   using Arrival = std::pair<std::int64_t, std::size_t>;  // when, which task
   std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> arrivals_;
   std::vector<std::vector<std::size_t>> producers_;
   std::vector<std::int64_t> released_, ended_;  // per task, how many
   std::vector<std::size_t> running_;            // of ready_
+  std::vector<bool> taken_;                     // per core
   std::vector<Job> ready_;                      // most urgent first
   GlobalSimulation result_;
 };
@@ -130,8 +151,8 @@ class Simulator {
 }  // namespace
 
 GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores, std::uint64_t most_activations,
-                                 std::span<const std::pair<std::size_t, std::size_t>> follows) {
-  Simulator simulator(loads, cores, follows);
+                                 const RunRules& rules) {
+  Simulator simulator(loads, cores, rules);
   const auto lcm = hyperperiod(loads, most_time / 4);
   std::int64_t end = 0;
   for (const Load& l : loads) end = std::max(end, l.offset + l.jitter);

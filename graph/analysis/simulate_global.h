@@ -1,5 +1,5 @@
-// What happens under global earliest deadline first when every activation takes its WCET and arrives as the offsets
-// say.
+// What happens on several cores when every activation takes its WCET and arrives as the offsets say: under global
+// earliest deadline first, or with tasks on cores of their own that wait for each other.
 #pragma once
 
 #include "graph/analysis/simulate.h"
@@ -14,10 +14,19 @@ struct GlobalSimulation {
   std::vector<Slice> slices;            // the last ones before the late activation ended
 };
 
+/// What runs where and before what; global EDF without any.
+struct RunRules {
+  std::span<const std::pair<std::size_t, std::size_t>> follows{};  // producer, reader
+  std::span<const std::size_t> core{};                             // per task; none: on any
+  std::vector<std::size_t> order{};  // per task, of equals or of all (`by_order`); none: as they stand
+  bool by_order = false;
+  bool preemptive = true;
+};
+
 /// Up to the first late activation, or until one hyperperiod after all offsets leaves the same work as the one before,
-/// or so many activations. Preemptive. Ties: the task that stands first. Releases follow the arrivals by all of the
-/// jitter; who follows another (`follows`: producer, reader) starts where that has ended.
+/// or so many activations. Releases follow the arrivals by all of the jitter; who follows another starts where that has
+/// ended.
 GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores, std::uint64_t most_activations,
-                                 std::span<const std::pair<std::size_t, std::size_t>> follows = {});
+                                 const RunRules& rules = {});
 
 }  // namespace jarol::analysis

@@ -76,7 +76,8 @@ TEST_SUITE("graph/analysis/check_wrong") {
   }
 
   TEST_CASE("who reads waits for the jitter and the blocking of whom it follows, under every policy") {
-    for (const std::string policy : {"fixed_priority", "edf", "table", "edf_nonpreemptive", "fixed_priority_nonpreemptive"})
+    for (const std::string policy :
+         {"fixed_priority", "edf", "table", "edf_nonpreemptive", "fixed_priority_nonpreemptive"})
       for (const std::string held : {"jitter: 8ms", "blocking: 8ms"}) {
         CAPTURE(policy);
         CAPTURE(held);
