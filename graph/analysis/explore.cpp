@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "graph/analysis/readiness.h"
+
 namespace jarol::analysis {
 namespace {
 
@@ -14,7 +16,7 @@ struct Free {
   std::int64_t repetitions = 0;  // that were taken off
 };
 
-using Started = std::vector<std::int64_t>;  // per task, how many of its activations
+using Started = std::vector<std::int64_t>;  // per task, how many of its activations; at the end, whether it was held up
 using States = std::map<Started, std::vector<Free>>;
 
 // Unites what meets; false if that was known already.
@@ -38,8 +40,14 @@ bool add(std::vector<Free>& intervals, Free added) {
 class Explorer {
  public:
   Explorer(const CoreTasks& tasks, Order order, Effort& effort)
-      : loads_(tasks.loads), order_(order), effort_(effort), producers_(tasks.loads.size()) {
+      : loads_(tasks.loads),
+        order_(order),
+        effort_(effort),
+        producers_(tasks.loads.size()),
+        inherited_(inheriting_loads(tasks)),
+        ready_at_(tasks) {
     result_.responses.resize(loads_.size(), 0);
+    jitters_ = std::any_of(loads_.begin(), loads_.end(), [](const Load& l) { return l.jitter > 0; });
     for (const auto& [producer, reader] : tasks.follows) producers_[reader].push_back(producer);
   }
 
@@ -47,19 +55,32 @@ class Explorer {
     const auto lcm = hyperperiod(loads_, most_time / 8);
     if (!lcm || loads_.empty()) return std::move(result_);
     repetition_ = *lcm;
-    States now{{Started(loads_.size(), 0), {Free{}}}};
-    while (!now.empty()) {
-      next_.clear();
-      for (const auto& [started, intervals] : now)
-        for (const Free& free : intervals)
-          if (!go_on(started, free)) return std::move(result_);
-      now.swap(next_);
-    }
+    std::vector<std::int64_t> lengths{0};
+    for (const Load& l : loads_)
+      if (std::find(lengths.begin(), lengths.end(), l.blocking) == lengths.end()) lengths.push_back(l.blocking);
+    for (const std::int64_t length : lengths)
+      if (!run_with(length)) return std::move(result_);
     result_.whole = true;
     return std::move(result_);
   }
 
  private:
+  // Held up once, for `blocking`.
+  bool run_with(std::int64_t blocking) {
+    blocking_ = blocking;
+    known_.clear();
+    // idle before it began
+    States now{{Started(loads_.size() + 1, 0), {Free{-1, -1, 0}}}};
+    while (!now.empty()) {
+      next_.clear();
+      for (const auto& [started, intervals] : now)
+        for (const Free& free : intervals)
+          if (!go_on(started, free)) return false;
+      now.swap(next_);
+    }
+    return true;
+  }
+
   struct Next {
     std::size_t task;
     std::int64_t arrival, latest, urgency;
@@ -90,6 +111,12 @@ class Explorer {
     std::int64_t any = most_time;  // by then one is released for sure
     for (const Next& c : candidates_) any = std::min(any, c.latest);
     const std::int64_t busy = std::max(free.latest, any);
+    const bool was_held = started.back() != 0;
+    if (blocking_ > 0 && !was_held && any > free.earliest) {
+      Started held = started;
+      held.back() = 1;
+      put(std::move(held), {free.earliest + 1, any + blocking_, free.repetitions});
+    }
     std::int64_t more_urgent = most_time;  // by then one that goes before is
     for (const Next& c : candidates_) {
       const std::int64_t from = std::max(free.earliest, c.arrival), to = std::min(busy, more_urgent - 1);
@@ -97,26 +124,31 @@ class Explorer {
       if (from > to) continue;
       const Load& l = loads_[c.task];
       const std::int64_t finish = to + l.wcet;
-      result_.responses[c.task] = std::max(result_.responses[c.task], finish - c.arrival);
-      if (finish > c.arrival + l.deadline) {
+      const bool counts = !was_held || blocking_ <= inherited_[c.task].blocking;
+      if (counts) result_.responses[c.task] = std::max(result_.responses[c.task], finish - c.arrival);
+      if (counts && finish > c.arrival + l.deadline) {
+        // for sure only by what holds up those of its instant
+        const std::int64_t sure = jitters_ ? l.blocking : ready_at_(c.task, c.arrival).blocking;
+        if (was_held && blocking_ > sure) return !(doubtful_ = true);
         const std::int64_t shift = free.repetitions * repetition_;
         result_.late = Late{c.task, started[c.task] + shift / l.period, c.arrival + shift, finish + shift,
                             c.arrival + l.deadline + shift};
         result_.whole = true;
         return false;
       }
-      put(started, c.task, {from, finish, free.repetitions});
+      Started next = started;
+      ++next[c.task];
+      put(std::move(next), {from, finish, free.repetitions});
     }
     return true;
   }
 
-  void put(Started started, std::size_t task, Free free) {
-    ++started[task];
+  void put(Started started, Free free) {
     const auto over = [&](std::size_t i) { return started[i] >= repetition_ / loads_[i].period; };
     bool all = true;
-    for (std::size_t i = 0; i < started.size() && all; ++i) all = over(i);
+    for (std::size_t i = 0; i < loads_.size() && all; ++i) all = over(i);
     if (all) {
-      for (std::size_t i = 0; i < started.size(); ++i) started[i] -= repetition_ / loads_[i].period;
+      for (std::size_t i = 0; i < loads_.size(); ++i) started[i] -= repetition_ / loads_[i].period;
       free = {free.earliest - repetition_, free.latest - repetition_, free.repetitions + 1};
     }
     if (add(known_[started], free)) add(next_[started], free);
@@ -127,7 +159,10 @@ class Explorer {
   Effort& effort_;
   std::vector<std::vector<std::size_t>> producers_;
   std::vector<Next> candidates_;
-  std::int64_t repetition_ = 0;
+  std::int64_t repetition_ = 0, blocking_ = 0;
+  Loads inherited_;
+  ReadinessAt ready_at_;
+  bool jitters_ = false, doubtful_ = false;
   States known_, next_;
   Exploration result_;
 };

@@ -14,7 +14,9 @@ struct Exploration {
 /// The schedule-abstraction graph of one core (Nasri, Brandenburg 2017), exact: a state is which activations have
 /// started, and the interval of instants at which the core may be free after them; states of the same activations whose
 /// intervals meet are one. Executions take from nothing to their WCET, releases jitter. States are the same a
-/// hyperperiod later, so that it ends where no new one is left. `blocking` is left out.
+/// hyperperiod later, so that it ends where no new one is left. What holds up an activation with a `blocking` begins
+/// once while the core is idle: for each length there is such a state more, behind which only those count that can be
+/// held up so long.
 Exploration explore(const CoreTasks& tasks, Order order, Effort& effort);
 
 }  // namespace jarol::analysis

@@ -143,7 +143,10 @@ class Walker {
     result_.responses[job.task] = std::max(result_.responses[job.task], now - job.arrival);
     const std::int64_t deadline = job.arrival + loads_[job.task].deadline;
     if (now <= deadline) return true;
-    if (blocking > ready_at_(job.task, job.arrival).blocking) return doubtful_ = true;
+    // for sure only by what holds itself up, or one of its instant that has not gone before it
+    const std::int64_t own = tasks_.loads[job.task].blocking;
+    const std::int64_t sure = longest_jitter_ > 0 ? own : ready_at_(job.task, job.arrival).blocking;
+    if (blocking > sure) return doubtful_ = true;
     result_.late = Late{job.task, job.activation, job.arrival, now, deadline};
     result_.slices = std::move(slices);
     return false;

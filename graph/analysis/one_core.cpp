@@ -96,6 +96,16 @@ Loads without_blocking(Loads loads) {
   return loads;
 }
 
+// As if readers took no time.
+Loads without_readers(const CoreTasks& tasks) {
+  std::vector<bool> reads(tasks.loads.size(), false);
+  for (const auto& [producer, reader] : tasks.follows) reads[reader] = true;
+  Loads loads;
+  for (std::size_t i = 0; i < tasks.loads.size(); ++i)
+    if (!reads[i]) loads.push_back(tasks.loads[i]);
+  return loads;
+}
+
 // Is a "no" under EDF one that does not rest on what holds up others that go before?
 bool is_sure(std::span<const Load> loads, Policy policy, Effort& effort) {
   if (!by_deadline(policy) || !has_blocking(loads)) return true;
@@ -158,7 +168,7 @@ CoreResult walk_nonpreemptive(const CoreTasks& tasks, Policy policy, Effort& eff
     }
     return late;
   }
-  if (!found.whole || has_blocking(tasks.loads)) {
+  if (!found.whole) {
     const auto end = end_of_repetition(tasks.loads);
     if (!end || !tasks.upward.empty()) return undecided("");
     Simulation run = simulate(tasks.loads, order_of(policy), false, *end, most_activations);
@@ -182,7 +192,8 @@ CoreResult decide(const CoreTasks& tasks, Policy policy, bool offsets_hold, Deta
   const auto order = compare_utilisation(loads, 1);
   if (order && *order > 0) return any;
   // exact for every shift, but for readers that do not always wait for what they inherited
-  const bool inherited = !tasks.follows.empty() && (has_jitter(loads) || has_blocking(loads));
+  const bool readers_hold_up = !is_preemptive(policy) && !tasks.follows.empty();  // those that they wait for: hardly
+  const bool inherited = readers_hold_up || (!tasks.follows.empty() && (has_jitter(loads) || has_blocking(loads)));
   const bool worst_at_once = is_preemptive(policy) && all_at_once(loads) && !has_jitter(loads) && !inherited &&
                              !(by_deadline(policy) && has_blocking(loads));
   const bool sure = any.verdict != Verdict::not_schedulable || is_sure(tasks.loads, policy, effort);
@@ -199,7 +210,8 @@ CoreResult decide(const CoreTasks& tasks, Policy policy, bool offsets_hold, Deta
     return given;
   if (any.verdict == Verdict::schedulable) return any;
   if (!offsets_hold && sure &&
-      check_any_phasing(tasks.loads, policy, false, effort).verdict == Verdict::not_schedulable)
+      check_any_phasing(readers_hold_up ? without_readers(tasks) : tasks.loads, policy, false, effort).verdict ==
+          Verdict::not_schedulable)
     return any;
   return undecided(
       any.reason + (!sure          ? " if all are held up for the longest 'blocking'; with their own it was not decided"

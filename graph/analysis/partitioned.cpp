@@ -89,7 +89,14 @@ class Cores {
  private:
   void add(Result& result, std::size_t c, const std::vector<std::int64_t>& waits, Detail detail, Effort& effort) const {
     const std::vector<std::size_t>& tasks = tasks_[c];
-    CoreResult core = check_core(tasks_of(system_, tasks, waits), system_.policy, system_.offsets_hold, detail, effort);
+    CoreTasks of_core = tasks_of(system_, tasks, waits);
+    if (detail == Detail::tight) {
+      // who waits for several there waits for what holds up any of them
+      std::int64_t longest = 0;
+      for (const Load& l : of_core.loads) longest = std::max(longest, l.blocking);
+      for (Load& l : of_core.loads) l.blocking = longest;
+    }
+    CoreResult core = check_core(of_core, system_.policy, system_.offsets_hold, detail, effort);
     for (std::size_t i = 0; i < tasks.size() && detail != Detail::verdict; ++i)
       result.response[tasks[i]] = core.responses[i];
     if (result.reason.empty() || (result.verdict == Verdict::schedulable && core.verdict != Verdict::schedulable))

@@ -16,7 +16,7 @@ struct TaskThread {
 
 /// On the cores that check assigns. Of a table: one thread per core. Of fixed priorities: one for each task, but tasks
 /// of a core that are always released together, follow each other in urgency and run in that order share one, for none
-/// of them could preempt another. In order of core and urgency.
+/// of them could preempt another; not behind one that waits for another core. In order of core and urgency.
 std::vector<TaskThread> threads_of(const Graph& graph);
 
 }  // namespace jarol::analysis

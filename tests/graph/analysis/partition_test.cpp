@@ -64,4 +64,47 @@ TEST_SUITE("graph/analysis/partition") {
     CHECK(counts[static_cast<int>(Verdict::schedulable)] > 0);
     CHECK(counts[static_cast<int>(Verdict::not_schedulable)] > 0);
   }
+
+  TEST_CASE("four hundred tasks find their cores among sixty-four") {
+    for (const Policy policy : {Policy::table, Policy::fixed_priority, Policy::edf, Policy::edf_nonpreemptive}) {
+      CAPTURE(static_cast<int>(policy));
+      System system;
+      system.policy = policy;
+      system.cores = 64;
+      std::uint64_t seed = 7;
+      const std::int64_t ms = 1'000'000, periods[] = {5 * ms, 10 * ms, 20 * ms, 50 * ms, 100 * ms};
+      for (std::size_t i = 0; i < 400; ++i) {
+        const std::int64_t period = periods[drawn(seed, 0, 4)], wcet = period * drawn(seed, 60, 180) / 1000;
+        system.loads.push_back({wcet, period, period, 0, 0, 0, 0});
+        system.rank.push_back(i);
+        system.turn.push_back(i);
+        if (i % 4 == 1 && system.loads[i - 1].period == period) system.follows.emplace_back(i - 1, i);
+      }
+      system.priority.resize(400);
+      system.core.resize(400);
+      CHECK(utilisation(system.loads) > 40);
+      Effort effort{200'000'000};  // a second or two
+      CHECK(verdict_of(system, effort) == Verdict::schedulable);
+      CHECK(!effort.spent());
+    }
+  }
+
+  TEST_CASE("of tasks that follow each other some go elsewhere, and no is said of all only after these too") {
+    System system;
+    system.policy = Policy::fixed_priority;
+    system.cores = 2;
+    for (std::size_t i = 0; i < 4; ++i) {
+      system.loads.push_back({i == 0 ? 1 : 4, 10, 10, 0, 0, 0, 0});
+      system.rank.push_back(i);
+      system.turn.push_back(i);
+      if (i > 0) system.follows.emplace_back(0, i);
+    }
+    system.priority.resize(4);
+    system.core.resize(4);
+    CHECK(check(system).verdict == Verdict::schedulable);
+    for (std::size_t i = 1; i < 4; ++i) system.loads[i].wcet = 6;
+    const Result no = check(system);
+    CHECK(no.verdict == Verdict::not_schedulable);
+    CHECK(no.reason.ends_with("; no assignment of tasks to cores holds"));
+  }
 }

@@ -45,6 +45,19 @@ tasks:
 )") == "0.0: e; 0.1: b c; 0.2: d; 0.3: a");
   }
 
+  TEST_CASE("under fixed priorities nobody shares a thread behind a task that waits for another core") {
+    CHECK(threads_text(R"(graph: t
+platform: {policy: fixed_priority, cores: 2}
+timing: {period: 10ms}
+tasks:
+  a: {type: Relay, core: 0, wcet: 1ms}
+  p: {type: Counter, core: 1, wcet: 1ms}
+  y: {type: Counter, core: 0, wcet: 1ms}
+  z: {type: Counter, core: 0, wcet: 1ms}
+connections: [p.out -> a.in]
+)") == "0.0: a; 0.1: y z; 1.0: p");
+  }
+
   TEST_CASE("what is more urgent than what runs before it has a thread of its own") {
     CHECK(threads_text(R"(graph: t
 platform: {policy: fixed_priority}
