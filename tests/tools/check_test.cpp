@@ -181,7 +181,7 @@ tasks:
   TEST_CASE("where only jitter makes a task late, the worst response is told") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t
-platform: {policy: fixed_priority}
+platform: {policy: fixed_priority, phasing: any}
 tasks:
   a: {type: Work, period: 5ms, wcet: 2ms, jitter: 3ms}
   b: {type: Work, period: 10ms, wcet: 3ms, deadline: 6ms}
