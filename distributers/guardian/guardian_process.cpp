@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <sched.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <array>
@@ -35,7 +37,7 @@ class Watch {
     std::vector<std::byte> room(longest_words);
     while (std::optional<Heard> heard = hear(guardian_socket, room)) {
       if (heard->sentence.word == Word::closed) return true;
-      if (heard->sentence.word == Word::crashed) break;
+      if (heard->sentence.word == Word::crashed) await_end();
       take(*heard);
     }
     return !armed_;
@@ -60,6 +62,12 @@ class Watch {
   }
 
  private:
+  // Its other threads may send until it is gone; not for long, even where a core is dumped before that.
+  static void await_end() {
+    const timeval patience{0, 10'000};
+    setsockopt(guardian_socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  }
+
   void take(Heard& heard) {
     const auto [word, link] = heard.sentence;
     if (word == Word::link) return add_ward(heard);

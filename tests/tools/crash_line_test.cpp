@@ -88,10 +88,11 @@ TEST_SUITE("tools/crash_line") {
       std::unique_ptr<Process> process;
     };
     std::vector<Run> runs;
+    const std::string file = crashing(folder, "none");
     for (const std::string way : {"exit", "abort", "segmentation", "overflow"}) {
       const std::string log = folder / (way + ".log");
       runs.push_back({log, way,
-                      std::make_unique<Process>("run " + crashing(folder, "none") + " --clock real --for 1h --set " +
+                      std::make_unique<Process>("run " + file + " --clock real --for 1h --set " +
                                                 "'tasks.b.parameters={way: " + way + ", at: 250}' --log " + log)});
     }
     for (const Run& run : runs) {

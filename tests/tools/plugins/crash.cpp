@@ -39,7 +39,8 @@ int dive_deeper(volatile int* above) {
 void (*volatile refuses)() = refuse;
 void throw_without_leave() noexcept { refuses(); }
 
-void end_by(Way way) {
+// as it is without a sanitizer, which would say it in its own way
+__attribute__((no_sanitize("undefined"))) __attribute__((no_sanitize("address"))) void end_by(Way way) {
   switch (way) {
     case Way::none: return;
     case Way::exit: std::exit(0);
