@@ -35,15 +35,16 @@ inline Whole nearest(double x) {
 
 // m 2^k, rounded once, for m.hi in [0.99, 2.01]
 inline double scaled(Pair m, int k) {
-  const double value = m.hi + m.lo;
+  const Pair exact = fast_sum(m.hi, m.lo);
+  const double value = exact.hi;
   if (k >= -1021) [[likely]]
     return k < 1023 ? value * power_of_two(k) : value * 0x1p1022 * power_of_two(k < 2045 ? k - 1022 : 1023);
   if (k < -1080) return 0x1p-1000 * 0x1p-1000;
   // in units of the least double: where it is below 2^52, a whole number of them, by the addition of 2^52
-  const double unit = power_of_two(k + 1074), units = m.hi * unit;
+  const double unit = power_of_two(k + 1074), units = value * unit;
   if (units >= 0x1p52) return value * power_of_two(k + 1000) * 0x1p-1000;
   const Pair s = fast_sum(0x1p52, units);
-  return ((s.hi + (s.lo + m.lo * unit)) - 0x1p52) * 0x1p-1000 * 0x1p-74;
+  return ((s.hi + (s.lo + exact.lo * unit)) - 0x1p52) * 0x1p-1000 * 0x1p-74;
 }
 
 }  // namespace jarol::math

@@ -113,10 +113,14 @@ TEST_SUITE("graph/math") {
   }
 
   TEST_CASE("exponentials are within their errors of MPFR's") {
-    const std::vector<Range> both{{least, 1e-3}, {1e-3, 1.0}, {-1.0, 1.0}, {-50.0, 50.0}, {-746.0, 710.0}};
+    // the last range ends where doubles lose bits
+    const std::vector<Range> both{{least, 1e-3}, {1e-3, 1.0},     {-1.0, 1.0},
+                                  {-50.0, 50.0}, {-746.0, 710.0}, {-708.5, -708.3}};
     check("exp", worst(exp, mpfr_exp, both, false), 0.52);
-    check("exp2", worst(exp2, mpfr_exp2, {{least, 1.0}, {-1.0, 1.0}, {-1076.0, 1024.0}}, false), 0.51);
-    check("exp10", worst(exp10, mpfr_exp10, {{least, 1.0}, {-1.0, 1.0}, {-325.0, 309.0}}, false), 0.51);
+    check("exp2", worst(exp2, mpfr_exp2, {{least, 1.0}, {-1.0, 1.0}, {-1076.0, 1024.0}, {-1022.1, -1021.9}}, false),
+          0.51);
+    check("exp10", worst(exp10, mpfr_exp10, {{least, 1.0}, {-1.0, 1.0}, {-325.0, 309.0}, {-307.7, -307.6}}, false),
+          0.51);
     check("expm1", worst(expm1, mpfr_expm1, both, true), 0.52);
     check("sinh", worst(sinh, mpfr_sinh, {{least, 0.1}, {0.01, 1.0}, {1.0, 50.0}, {50.0, 711.0}}, true), 0.52);
     check("cosh", worst(cosh, mpfr_cosh, {{least, 0.1}, {0.01, 1.0}, {1.0, 50.0}, {50.0, 711.0}}, true), 0.52);
