@@ -339,10 +339,15 @@ class Search {
     }
     return true;
   }
-  // Only who arrives with its reader holds it up.
+  // Only who arrives with its reader, and all between them, holds it up.
   bool counts(const State& s) const {
-    return s.judged == nobody || std::all_of(s.whose.begin(), s.whose.end(), [&](std::size_t p) {
-             return p == nobody || s.slots[p].age == s.slots[s.judged].age;
+    return s.judged == nobody || std::all_of(s.whose.begin(), s.whose.end(), [&](std::size_t whose) {
+             return whose == nobody || follows_now(s, s.judged, whose);
+           });
+  }
+  bool follows_now(const State& s, std::size_t task, std::size_t producer) const {
+    return task == producer || std::any_of(producers_[task].begin(), producers_[task].end(), [&](std::size_t p) {
+             return s.slots[p].age == s.slots[task].age && follows_now(s, p, producer);
            });
   }
 

@@ -34,16 +34,9 @@ std::uint64_t count_of_sets() {
 #endif
 }
 
-// What all that is compared so far may have; JAROL_FEATURES, as in "jbf", in its place.
-truth::Features features_of(Policy policy) {
-  std::string letters = policy == Policy::fixed_priority                 ? "b"
-                        : policy == Policy::fixed_priority_nonpreemptive ? "jb"
-                        : policy == Policy::global_edf                   ? "f"
-                        : policy == Policy::table                        ? "j"
-                                                                         : "";
-  if (const char* others = std::getenv("JAROL_FEATURES")) letters = others;
-  const auto has = [&](char letter) { return letters.find(letter) != std::string::npos; };
-  return {.jitter = has('j'), .blocking = has('b'), .data_flow = has('f')};
+// Of a hundred sets, so many may be left open; measured: 0, 1.3, 1.6, 1.4, 1.2 and 9 of 20,000.
+std::uint64_t most_unknown(Policy policy) {
+  return policy == Policy::table ? 0 : policy == Policy::global_edf ? 10 : 2;
 }
 
 // How hard a wrong answer is to read.
@@ -91,10 +84,10 @@ TEST_SUITE("graph/analysis/truth") {
   TEST_CASE("no yes is unsafe, and no proof of a no is false") {
     for (const Policy policy : policies) {
       Tally tally;
-      const truth::Features features = features_of(policy);
       for (std::uint64_t seed = 0; seed < count_of_sets(); ++seed)
-        tally.add(truth::judge(truth::random_set(seed, policy, features)));
+        tally.add(truth::judge(truth::random_set(seed, policy, {})));
       tally.print(policy);
+      CHECK(tally.unknown <= most_unknown(policy) * tally.sets / 100);
       CHECK(tally.decidable > 95 * tally.sets / 100);
       for (const auto& [kind, judged] : tally.least)
         FAIL_CHECK(std::string(truth::name_of(policy)), ": ", tally.wrong[kind], " of kind ", kind, ", such as\n",
