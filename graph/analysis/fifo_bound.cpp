@@ -7,6 +7,8 @@
 namespace jarol::analysis {
 namespace {
 
+constexpr std::int64_t most_time = std::int64_t{1} << 60;
+
 // Tasks of cores that wait for each other.
 std::vector<std::vector<std::size_t>> parts_of(const System& system, const std::vector<std::size_t>& core) {
   std::vector<std::size_t> part(static_cast<std::size_t>(system.cores));
@@ -52,7 +54,9 @@ struct Part {
     std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> before;
     for (const std::size_t i : tasks) before.emplace(nearest(own, i), i);
     // from there on the line of utilisation lies below what was found
-    const auto reach = static_cast<std::int64_t>(static_cast<long double>(all) / (1 - used) * (1 + 1e-9L)) + 1;
+    const long double line = static_cast<long double>(all) / (1 - used) * (1 + 1e-9L);
+    if (line > static_cast<long double>(most_time)) return std::nullopt;
+    const auto reach = static_cast<std::int64_t>(line) + 1;
     Wide sum = 0, most = 0;
     while (before.top().first <= reach) {
       if (!effort.spend(10)) return std::nullopt;
@@ -62,7 +66,7 @@ struct Part {
       most = std::max(most, sum - back);
       before.emplace(back + system.loads[i].period, i);
     }
-    return static_cast<std::int64_t>(jitter + most);
+    return static_cast<std::int64_t>(std::min<Wide>(jitter + most, most_time));
   }
 };
 

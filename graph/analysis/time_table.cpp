@@ -62,7 +62,7 @@ class TableWalk {
       if (activations >= most) return false;
       ++activations;
       run_next();
-      if (late && on_time) return false;
+      if (late && (on_time || latest_ > most_time)) return false;
     }
     return true;
   }
@@ -91,6 +91,7 @@ class TableWalk {
       if (arrived_[p] == job.arrival) start = std::max(start, ended_[p]);
     const std::int64_t finish = start + load.blocking + load.wcet;
     free = ended_[job.task] = finish;
+    latest_ = std::max(latest_, finish);
     arrived_[job.task] = job.arrival;
     responses[job.task] = std::max(responses[job.task], finish - job.arrival);
     if (!late) (slices.size() < most_validated ? slices : recent).push_back({job.task, job.activation, start, finish});
@@ -106,6 +107,7 @@ class TableWalk {
   const std::vector<std::size_t>& core_;
   std::vector<std::vector<std::size_t>> producers_;  // on other cores
   std::vector<std::int64_t> arrived_, ended_, free_;
+  std::int64_t latest_ = 0;
   std::priority_queue<Job, std::vector<Job>, decltype(&later)> jobs_;
 };
 

@@ -131,4 +131,36 @@ tasks:
     CHECK(r.verdict == Verdict::unknown);
     CHECK(r.reason == "the periods repeat only after more than 1000 activations, and none of these is late");
   }
+
+  TEST_CASE("what lasts decades beside what comes each second is late, and no time overflows on the way") {
+    const Result r = check(graph_of(R"(graph: t
+tasks:
+  a: {type: Counter, period: 87600h, wcet: 87600h, jitter: 87600h}
+  b: {type: Work, period: 87600h, offset: 87599h, wcet: 1h, blocking: 87600h}
+  c: {type: Work, period: 1s, wcet: 87600h, blocking: 87600h, jitter: 87600h}
+)"));
+    CHECK(r.verdict == Verdict::not_schedulable);
+    CHECK(r.standing == Standing::proof);
+    REQUIRE(r.late);
+    CHECK(r.late->finish > r.late->deadline);
+  }
+
+  TEST_CASE("periods that never repeat are judged by what stands before each task, with its jitter and blocking") {
+    const std::string text = R"(graph: t
+tasks:
+  a: {type: Counter, period: 1000003ns, wcet: 100us, jitter: 50us}
+  b: {type: Work, period: 1000033ns, wcet: 200us, blocking: 20us, deadline: %s}
+  c: {type: Work, period: 1000037ns, wcet: 1us}
+)";
+    // 50 us late, then a and c, then b with what holds it up
+    const auto with = [&](const std::string& deadline) {
+      std::string changed = text;
+      return check(graph_of(changed.replace(changed.find("%s"), 2, deadline)));
+    };
+    const Result yes = with("371us");
+    CHECK(yes.verdict == Verdict::schedulable);
+    CHECK(yes.standing == Standing::safe);
+    CHECK(yes.response[1] == 370'999);  // c at the same instant comes after it
+    CHECK(with("319us").verdict == Verdict::not_schedulable);
+  }
 }
