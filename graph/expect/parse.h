@@ -1,0 +1,22 @@
+// From the text of a condition or a metric to what it means in a graph.
+#pragma once
+
+#include <string>
+
+#include "graph/expect/names.h"
+
+namespace jarol::expect {
+
+/// Reports what is wrong, with its place in the text, and returns nothing then.
+std::optional<Condition> parse_condition(const Yaml& text, const Graph& graph, const std::vector<TrueValues>& vehicles,
+                                         Problems& problems);
+
+/// A metric alone: a condition whose comparison does not count.
+std::optional<Condition> parse_metric(const Yaml& text, const Graph& graph, const std::vector<TrueValues>& vehicles,
+                                      Problems& problems);
+
+/// The key `expect` of a graph: a list of conditions.
+std::vector<Condition> read_expectations(const Maybe<Yaml>& list, const Graph& graph,
+                                         const std::vector<TrueValues>& vehicles, Problems& problems);
+
+}  // namespace jarol::expect
