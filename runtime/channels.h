@@ -17,6 +17,21 @@ struct LinkReport {
   std::vector<std::pair<std::string, std::uint64_t>> counts;
   std::uint64_t heard = 0;    // packets that came and counted
   std::uint64_t dropped = 0;  // what came and did not, each packet and each stretch of garbage once
+
+  /// Who sent without being the link's peer; those beyond the first few are in `more_strangers`.
+  struct Stranger {
+    std::string address;
+    std::uint64_t times = 0;  // datagrams, or connections
+  };
+  std::vector<Stranger> strangers{};
+  std::uint64_t more_strangers = 0;  // their datagrams or connections
+
+  /// A peer that had fallen silent was replaced by another; the first few.
+  struct Takeover {
+    std::string from, to;
+    Duration at{};  // since the link was connected
+  };
+  std::vector<Takeover> takeovers{};
 };
 
 class Channels {

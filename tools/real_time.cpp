@@ -189,6 +189,12 @@ std::string to_text(const LinkReport& link) {
     if (count > 0) counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + name;
   std::string text =
       "  link        " + link.link + ": " + (counts.empty() ? "nothing came and nothing went" : counts) + "\n";
+  for (const LinkReport::Takeover& takeover : link.takeovers)
+    text += fmt::format("              taken over by {} at {} s, after {} had been silent\n", takeover.to,
+                        seconds_text(takeover.at), takeover.from);
+  for (const LinkReport::Stranger& stranger : link.strangers)
+    text += fmt::format("              stranger {}, {} times\n", stranger.address, stranger.times);
+  if (link.more_strangers > 0) text += fmt::format("              more strangers, {} times\n", link.more_strangers);
   if (link.heard > 0) return text;
   return text + "              NO PACKET " + (link.dropped > 0 ? "THAT COUNTS " : "") + "HAS COME over " + link.link +
          "\n";
@@ -197,7 +203,13 @@ std::string to_text(const LinkReport& link) {
 nlohmann::ordered_json to_json(const LinkReport& link) {
   auto counts = nlohmann::ordered_json::object();
   for (const auto& [name, count] : link.counts) counts[name] = count;
-  return {{"link", link.link}, {"heard", link.heard > 0}, {"counts", counts}};
+  auto strangers = nlohmann::ordered_json::array(), takeovers = nlohmann::ordered_json::array();
+  for (const LinkReport::Stranger& stranger : link.strangers)
+    strangers.push_back({{"address", stranger.address}, {"times", stranger.times}});
+  for (const LinkReport::Takeover& takeover : link.takeovers)
+    takeovers.push_back({{"from", takeover.from}, {"to", takeover.to}, {"at_ns", takeover.at.count()}});
+  return {{"link", link.link},         {"heard", link.heard > 0},           {"counts", counts},
+          {"strangers", strangers},    {"more_strangers", link.more_strangers}, {"takeovers", takeovers}};
 }
 
 }  // namespace jarol::tools

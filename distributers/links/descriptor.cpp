@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <span>
 #include <system_error>
 
 namespace jarol::distributers {
@@ -32,17 +33,32 @@ void Interrupter::reset() {
   [[maybe_unused]] const auto got = ::read(event_.get(), &count, sizeof count);
 }
 
-Interrupter::Woken Interrupter::wait(int fd, std::chrono::milliseconds time, bool write) const {
-  std::array<pollfd, 2> polled{{{event_.get(), POLLIN, 0}, {fd, static_cast<short>(write ? POLLOUT : POLLIN), 0}}};
+namespace {
+
+// How many are ready. A signal to the process is no reason to come back.
+int poll_for(std::span<pollfd> polled, std::chrono::milliseconds time) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + time;
   int ready = 0;
-  // a signal to the process is no reason to come back
   while ((ready = poll(polled.data(), polled.size(), static_cast<int>(time.count()))) < 0 && errno == EINTR)
     if (time.count() >= 0)
       time = std::max(std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()), std::chrono::milliseconds(0));
+  return ready;
+}
+
+}  // namespace
+
+Interrupter::Woken Interrupter::wait(int fd, std::chrono::milliseconds time, bool write) const {
+  std::array<pollfd, 2> polled{{{event_.get(), POLLIN, 0}, {fd, static_cast<short>(write ? POLLOUT : POLLIN), 0}}};
+  const int ready = poll_for(polled, time);
   if (ready > 0 && polled[0].revents != 0) return Woken::interrupted;
   return ready == 0 ? Woken::timed_out : Woken::ready;
+}
+
+Interrupter::Either Interrupter::wait_for_either(int one, int other, std::chrono::milliseconds time) const {
+  std::array<pollfd, 3> polled{{{event_.get(), POLLIN, 0}, {one, POLLIN, 0}, {other, POLLIN, 0}}};
+  if (poll_for(polled, time) <= 0) return {};
+  return {polled[0].revents != 0, polled[1].revents != 0, polled[2].revents != 0};
 }
 
 }  // namespace jarol::distributers

@@ -37,6 +37,12 @@ class Interrupter {
   /// never ready; a negative time is no limit.
   Woken wait(int fd, std::chrono::milliseconds time, bool write = false) const;
 
+  /// Waits until one of two can be read or has failed.
+  struct Either {
+    bool interrupted = false, one = false, other = false;
+  };
+  Either wait_for_either(int one, int other, std::chrono::milliseconds time) const;
+
  private:
   Descriptor event_;
 };

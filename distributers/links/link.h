@@ -3,34 +3,14 @@
 
 #include <atomic>
 #include <memory>
-#include <string>
 #include <thread>
-#include <variant>
 #include <vector>
 
-#include "distributers/links/transport.h"
-#include "distributers/messages/packet.h"
-#include "distributers/messages/stream_reader.h"
-#include "runtime/channels.h"
-#include "runtime/port.h"
-#include "runtime/push_port.h"
+#include "distributers/links/link_options.h"
+#include "distributers/links/translator.h"
 #include "runtime/signal.h"
 
 namespace jarol::distributers {
-
-enum class PortKind { plain, push };
-
-struct PortOptions {
-  PortKind kind = PortKind::plain;
-  std::size_t packets = 64;
-};
-
-struct LinkOptions {
-  PortOptions input{PortKind::push};
-  PortOptions output{PortKind::plain};
-  std::vector<std::pair<std::string, std::uint64_t>> header;    // fields of the packets sent, as the sender's id
-  std::vector<std::pair<std::string, std::uint64_t>> accept{};  // of packets received; others are dropped
-};
 
 /// Connect, disconnect, send and receive belong to one thread, which never waits but in `disconnect`.
 class Link {
@@ -66,18 +46,16 @@ class Link {
   LinkReport report() const;
 
  private:
-  using PacketPorts = std::variant<PacketPort, PushPacketPort>;
-  class Translator;
-
   static PacketPorts make_port(const PortOptions& options, std::size_t longest);
   void run_sender();
-  void send_pending(std::vector<std::byte>& room);
+  void send_pending(std::vector<std::byte>& room, std::vector<std::byte>& sealed);
 
   const messages::MessageSet& set_;
   std::unique_ptr<Transport> transport_;
   std::size_t longest_;
   PacketPorts input_, output_;
-  std::unique_ptr<Translator> translator_;  // used by the receiving thread
+  std::unique_ptr<Seal> seal_;
+  Translator translator_;  // used by the receiving thread
   Interrupter interrupter_;
   Signal send_signal_;
   std::thread receiver_, sender_;

@@ -44,8 +44,9 @@ const std::vector<Key<PortsSpec>>& ports_keys() {
 }
 
 struct LinkSpec {
-  Maybe<std::string> type, listen, peer, device, announce;
+  Maybe<std::string> type, listen, peer, device, announce, key;
   Maybe<std::int64_t> baud, id, source;
+  Maybe<Duration> silence;
   Maybe<Yaml> port;
 };
 
@@ -53,6 +54,11 @@ const Key<LinkSpec> type_key = key<&LinkSpec::type>("type", Form::word, "kind of
 const Key<LinkSpec> id_key = key<&LinkSpec::id>("id", Form::id, "the sender's id in what is sent, as in 0x00D1");
 const Key<LinkSpec> source_key =
     key<&LinkSpec::source>("source", Form::id, "the sender's id in what counts, as in 0x00D1; default: any");
+const Key<LinkSpec> key_key =
+    key<&LinkSpec::key>("key", Form::word, "file of the key that both ends have; default: none, anyone is believed");
+const Key<LinkSpec> silence_key =
+    key<&LinkSpec::silence>("silence", Form::positive_duration,
+                            "of the peer, after which another may take its place; default 5 s");
 const Key<LinkSpec> ports_key = key<&LinkSpec::port>("port", Form::mapping, "kind and size of the link's ports");
 
 const std::vector<Key<LinkSpec>>& udp_keys() {
@@ -64,6 +70,8 @@ const std::vector<Key<LinkSpec>>& udp_keys() {
                            "address and port of the other end; default: whoever sent the last valid packet"),
       key<&LinkSpec::announce>("announce", Form::word,
                                "where to announce itself, as in 127.0.0.1:30100-30104; default: nowhere"),
+      silence_key,
+      key_key,
       id_key,
       source_key,
       ports_key,
@@ -73,8 +81,8 @@ const std::vector<Key<LinkSpec>>& udp_keys() {
 
 const std::vector<Key<LinkSpec>>& client_keys() {
   static const std::vector<Key<LinkSpec>> keys{
-      type_key, key<&LinkSpec::peer>("peer", Form::word, "address and port to connect to", true), id_key, source_key,
-      ports_key};
+      type_key, key<&LinkSpec::peer>("peer", Form::word, "address and port to connect to", true), key_key, id_key,
+      source_key, ports_key};
   return keys;
 }
 
@@ -82,6 +90,8 @@ const std::vector<Key<LinkSpec>>& server_keys() {
   static const std::vector<Key<LinkSpec>> keys{
       type_key,
       key<&LinkSpec::listen>("listen", Form::word, "port to listen at, with an address where not the loopback", true),
+      silence_key,
+      key_key,
       id_key,
       source_key,
       ports_key,
@@ -119,6 +129,10 @@ Address anywhere_towards(const Address& peer) {
   return Address::parse(v6 ? "[::]:0" : "0.0.0.0:0");
 }
 
+std::chrono::nanoseconds silence_of(const LinkSpec& spec) {
+  return spec.silence ? spec.silence->value : std::chrono::nanoseconds(Ownership::default_silence);
+}
+
 std::unique_ptr<Transport> make_udp(const LinkSpec& spec, const Yaml& yaml, const std::string& subject,
                                     Problems& problems) {
   const Address peer = address_of(spec.peer, problems);
@@ -130,7 +144,8 @@ std::unique_ptr<Transport> make_udp(const LinkSpec& spec, const Yaml& yaml, cons
   try {
     // all who may look for it are told the same: where the first of them sees it
     return std::make_unique<UdpTransport>(listen, peer,
-                                          spec.announce ? Announcer::parse(spec.announce->value).front() : Address{});
+                                          spec.announce ? Announcer::parse(spec.announce->value).front() : Address{},
+                                          silence_of(spec));
   } catch (const std::invalid_argument& error) {
     problems.add(spec.announce->where, error.what());
     return nullptr;
@@ -151,7 +166,7 @@ std::unique_ptr<Transport> make_transport(const Yaml& yaml, LinkSpec& spec, cons
   }
   if (type == "tcp_server") {
     read_keys(yaml, server_keys(), spec, subject, problems);
-    return problems.size() > before ? nullptr : std::make_unique<TcpServer>(address_of(spec.listen, problems));
+    return problems.size() > before ? nullptr : std::make_unique<TcpServer>(address_of(spec.listen, problems), silence_of(spec));
   }
   read_keys(yaml, serial_keys(), spec, subject, problems);
   if (problems.size() > before) return nullptr;
@@ -181,6 +196,15 @@ void read_port(const Maybe<Yaml>& yaml, PortOptions& to, const std::string& subj
 
 }  // namespace
 
+std::optional<SecretKey> key_of(const Located<std::string>& path, Problems& problems) {
+  try {
+    return read_key(path.value);
+  } catch (const std::invalid_argument& error) {
+    problems.add(path.where, error.what());
+    return std::nullopt;
+  }
+}
+
 const std::vector<std::string>& link_types() {
   static const std::vector<std::string> types{"udp", "tcp_client", "tcp_server", "serial"};
   return types;
@@ -192,6 +216,8 @@ std::unique_ptr<Link> make_link(const Yaml& yaml, const messages::MessageSet& se
   LinkSpec spec;
   std::unique_ptr<Transport> transport = make_transport(yaml, spec, subject, problems);
   LinkOptions options;
+  options.silence = silence_of(spec);
+  if (spec.key) options.key = key_of(*spec.key, problems);
   if (spec.port) {
     PortsSpec ports;
     read_keys(spec.port->value, ports_keys(), ports, "port of the " + subject, problems);

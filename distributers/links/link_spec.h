@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "distributers/links/link.h"
+#include "graph/spec/spec.h"
 #include "graph/yaml/problems.h"
 #include "graph/yaml/yaml.h"
 
@@ -13,6 +15,9 @@ namespace jarol::distributers {
 
 /// The types of links to other processes and devices.
 const std::vector<std::string>& link_types();
+
+/// The key in that file; what is wrong with it is a problem of the place where the path stands.
+std::optional<SecretKey> key_of(const Located<std::string>& path, Problems& problems);
 
 /// The link that a mapping describes; it has a type that is one of `link_types`. What is wrong goes to `problems`, and
 /// then there is none. `subject` is what the messages call it.

@@ -8,7 +8,6 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <utility>
 
 namespace jarol::distributers {
 namespace {
@@ -17,12 +16,26 @@ using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 constexpr milliseconds first_pause{20};
 constexpr milliseconds longest_pause{1000};
-constexpr milliseconds look{100};        // for a newer peer, while there is one
 constexpr milliseconds send_limit{200};  // how long a send waits for room; the next one does not wait if it was in vain
+constexpr std::size_t max_waiting = 8;
+constexpr std::size_t max_begin = 1 << 17;  // bytes of a stream to look at before it is taken
 
 bool can_write(int fd, milliseconds time) {
   pollfd polled{fd, POLLOUT, 0};
   return poll(&polled, 1, static_cast<int>(time.count())) > 0;
+}
+
+Address peer_of(const Descriptor& stream) {
+  sockaddr_storage storage{};
+  socklen_t size = sizeof storage;
+  if (getpeername(stream.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return {};
+  return Address::of(storage, size);
+}
+
+bool has_gone(const Descriptor& stream) {
+  std::byte first{};
+  const auto length = ::recv(stream.get(), &first, 1, MSG_PEEK | MSG_DONTWAIT);
+  return length == 0 || (length < 0 && errno != EAGAIN && errno != EINTR);
 }
 
 }  // namespace
@@ -43,62 +56,103 @@ void StreamTransport::replace(Descriptor stream) {
   if (holder != nullptr) holder->hold(stream_.get(), {});
 }
 
+void StreamTransport::turn_away(const Address& peer) {
+  ++counts.strangers;
+  ownership_.count_stranger(peer);
+}
+
 void StreamTransport::receive(const Interrupter& interrupter, ByteSink& sink) {
   const auto interrupted = [&](int fd, milliseconds time) {
     return interrupter.wait(fd, time) == Interrupter::Woken::interrupted;
   };
+  ownership_.begin(Clock::now());
   for (milliseconds pause{0};; pause = std::clamp(2 * pause, first_pause, longest_pause)) {
     if (interrupted(-1, pause)) return;
-    if (!newer_ && announces_peer() >= 0 && interrupted(announces_peer(), milliseconds(-1))) return;
-    Descriptor stream = newer_ ? std::move(newer_) : get_stream();
-    if (!stream) continue;
-    replace(std::move(stream));
+    if (waiting_.empty() && announces_peer() >= 0 && interrupted(announces_peer(), milliseconds(-1))) return;
+    Waiting next;
+    if (waiting_.empty()) {
+      next = {get_stream(), {}};
+      if (announces_peer() >= 0) next.peer = peer_of(next.stream);
+    } else {
+      next = std::move(waiting_.front());
+      waiting_.erase(waiting_.begin());
+    }
+    if (!next.stream) continue;
+    replace(std::move(next.stream));
     sink.begin_stream();
-    const End end = receive_stream(interrupter, sink);
+    const End end = receive_stream(interrupter, sink, next.peer);
     if (end == End::interrupted) return;
     if (end == End::good) pause = milliseconds(0);
   }
 }
 
-StreamTransport::End StreamTransport::receive_stream(const Interrupter& interrupter, ByteSink& sink) {
+StreamTransport::End StreamTransport::receive_stream(const Interrupter& interrupter, ByteSink& sink,
+                                                     const Address& peer) {
   std::array<std::byte, 65536> room;
   const auto begin = Clock::now();
-  auto looked = begin;
-  Clock::duration silence{};
   bool valid = false;
   const auto end = [&] { return valid || Clock::now() - begin > longest_pause ? End::good : End::bad; };
   for (;;) {
-    // what takes longer than a look is this machine's, which has halted: no silence of the peer
-    const auto now = Clock::now();
-    silence += std::min<Clock::duration>(now - std::exchange(looked, now), look);
-    if (announces_peer() >= 0 && is_displaced(silence > longest_pause)) return end();
-    switch (interrupter.wait(stream_.get(), milliseconds(announces_peer() >= 0 ? look.count() : -1))) {
+    ownership_.look(Clock::now());
+    if (announces_peer() >= 0 && is_displaced(sink, valid)) {
+      if (!valid) turn_away(peer);
+      return end();
+    }
+    switch (interrupter.wait(stream_.get(), announces_peer() >= 0 ? Ownership::look_interval : milliseconds(-1))) {
       case Interrupter::Woken::interrupted: return End::interrupted;
       case Interrupter::Woken::timed_out: continue;
       case Interrupter::Woken::ready: break;
     }
     const auto length = ::read(stream_.get(), room.data(), room.size());
     if (length < 0 && (errno == EAGAIN || errno == EINTR)) continue;
-    if (length <= 0) {
+    const bool has_valid = length > 0 && sink.take(std::span(room).first(static_cast<std::size_t>(length)));
+    if (length > 0)
+      if (const auto answer = sink.answer(); !answer.empty()) send(answer);
+    if (length <= 0 || sink.is_broken()) {
+      if (valid) ownership_.gone();
       replace({});
       return end();
     }
-    if (!sink.take(std::span(room).first(static_cast<std::size_t>(length)))) continue;
+    if (!has_valid) continue;
     valid = true;
-    silence = {};
+    if (announces_peer() >= 0) ownership_.heard(peer, Clock::now());
   }
 }
 
-// A peer may have been started anew without the end of its old stream. But one that is there and speaks keeps its
-// place.
-bool StreamTransport::is_displaced(bool silent) {
-  if (!newer_) newer_ = get_stream();
-  if (!newer_) return false;
-  std::byte first{};
-  const auto length = ::recv(newer_.get(), &first, 1, MSG_PEEK | MSG_DONTWAIT);
-  const bool gone = length == 0 || (length < 0 && errno != EAGAIN && errno != EINTR);
-  if (!silent || gone) newer_.close();
-  return newer_ && (length > 0 || stuck_);
+// The oldest make room for those who come; no more at a time than a flood of them may take.
+void StreamTransport::collect_waiting() {
+  for (int i = 0; i < 64; ++i) {
+    Descriptor stream = get_stream();
+    if (!stream) break;
+    if (waiting_.size() == max_waiting) {
+      turn_away(waiting_.front().peer);
+      waiting_.erase(waiting_.begin());
+    }
+    const Address peer = peer_of(stream);
+    waiting_.push_back({std::move(stream), peer});
+  }
+  std::erase_if(waiting_, [](const Waiting& waiting) { return has_gone(waiting.stream); });
+}
+
+// One that has spoken validly keeps its place until it is silent; others are turned away. Until then, and after that,
+// the place is that of the first other who speaks validly: it may have been started anew without the end of its stream.
+bool StreamTransport::is_displaced(ByteSink& sink, bool valid) {
+  collect_waiting();
+  if (waiting_.empty()) return false;
+  if (valid && !ownership_.is_silent()) {
+    for (const Waiting& waiting : waiting_) turn_away(waiting.peer);
+    waiting_.clear();
+    return false;
+  }
+  std::vector<std::byte> room(max_begin);
+  auto next = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
+    const auto length = ::recv(waiting.stream.get(), room.data(), room.size(), MSG_PEEK | MSG_DONTWAIT);
+    return length > 0 && sink.is_valid_begin(std::span(room).first(static_cast<std::size_t>(length)));
+  });
+  if (next == waiting_.end() && valid && stuck_) next = waiting_.begin();
+  if (next == waiting_.end()) return false;
+  std::rotate(waiting_.begin(), next, next + 1);
+  return true;
 }
 
 bool StreamTransport::send(std::span<const std::byte> packet) {
@@ -127,7 +181,7 @@ bool StreamTransport::send(std::span<const std::byte> packet) {
 
 void StreamTransport::close() {
   replace({});
-  newer_.close();
+  waiting_.clear();
 }
 
 }  // namespace jarol::distributers

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <vector>
 
 #include "distributers/links/transport.h"
 
@@ -17,22 +18,32 @@ class StreamTransport : public Transport {
   void close() override;
 
  protected:
+  explicit StreamTransport(std::chrono::nanoseconds silence = Ownership::default_silence) : ownership_(silence) {}
+
   /// One try to get a stream; none if there is no peer now. It does not wait where peers are announced.
   virtual Descriptor get_stream() = 0;
   /// A descriptor that becomes readable when a peer comes, also while there is one already; none: only time helps.
   virtual int announces_peer() const { return -1; }
 
+  Ownership ownership_;  // where peers are announced
+
  private:
   enum class End { good, bad, interrupted };
+  struct Waiting {
+    Descriptor stream;
+    Address peer;
+  };
 
   void replace(Descriptor stream);
+  void turn_away(const Address& peer);
   // Until the stream ends or another peer takes its place.
-  End receive_stream(const Interrupter& interrupter, ByteSink& sink);
-  bool is_displaced(bool silent);
+  End receive_stream(const Interrupter& interrupter, ByteSink& sink, const Address& peer);
+  void collect_waiting();
+  bool is_displaced(ByteSink& sink, bool valid);
 
   std::mutex stream_mutex_;
   Descriptor stream_;
-  Descriptor newer_;                // a peer that may take the place; of the receiving thread
+  std::vector<Waiting> waiting_;    // peers that may take the place; of the receiving thread
   std::atomic<bool> stuck_{false};  // the last send waited in vain
 };
 

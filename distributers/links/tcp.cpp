@@ -39,11 +39,11 @@ Descriptor TcpClient::get_stream() {
   return made;
 }
 
-Descriptor listen_at(const Address& address) {
+Descriptor listen_at(const Address& address, int backlog) {
   Descriptor made(socket(address.family(), SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const int on = 1;
   if (made) setsockopt(made.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  if (!made || bind(made.get(), address.get(), address.size()) != 0 || listen(made.get(), 1) != 0)
+  if (!made || bind(made.get(), address.get(), address.size()) != 0 || listen(made.get(), backlog) != 0)
     throw std::runtime_error("can't listen at tcp " + address.text() + ": " + std::strerror(errno));
   return made;
 }

@@ -7,7 +7,7 @@
 namespace jarol::distributers {
 
 /// A socket that listens and does not block. Throws std::runtime_error with the cause.
-Descriptor listen_at(const Address& address);
+Descriptor listen_at(const Address& address, int backlog = 1);
 /// Whoever has connected to a socket that listens; none: nobody waits.
 Descriptor accept_from(const Descriptor& socket);
 
@@ -25,17 +25,19 @@ class TcpClient : public StreamTransport {
   Address peer_;
 };
 
-/// One peer at a time. One that speaks keeps its place: others are turned away until nothing valid has come from it for
-/// a second. Then the newer one takes its place as soon as it speaks itself, or when nothing can be sent to the old
-/// one: it may have been started anew without the end of its old stream. So two clients don't push each other out for
-/// ever.
+/// One peer at a time. The link is that of the first that speaks validly (ownership.h), others are turned away; who is
+/// connected without a valid word gives way to the first who says one. One that has been silent for long gives way as
+/// well, also to one that says nothing when nothing can be sent to it: it may have been started anew without the end of
+/// its old stream.
 class TcpServer : public StreamTransport {
  public:
-  explicit TcpServer(const Address& listen) : listen_(listen) {}
+  explicit TcpServer(const Address& listen, std::chrono::nanoseconds silence = Ownership::default_silence)
+      : StreamTransport(silence), listen_(listen) {}
   std::string text() const override { return "tcp at " + listen_.text(); }
   std::string address() const override { return "tcp://" + listen_.with_port(port()).text(); }
-  void open() override { socket_ = listen_at(listen_); }
+  void open() override { socket_ = listen_at(listen_, backlog); }
   void close() override;
+  const Ownership* ownership() const override { return &ownership_; }
 
   /// The port that it listens at.
   int port() const { return port_of(socket_); }
@@ -45,6 +47,8 @@ class TcpServer : public StreamTransport {
   int announces_peer() const override { return socket_.get(); }
 
  private:
+  static constexpr int backlog = 16;  // connections that come between two looks
+
   Address listen_;
   Descriptor socket_;
 };

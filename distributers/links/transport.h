@@ -9,6 +9,7 @@
 
 #include "distributers/links/descriptor.h"
 #include "distributers/links/holder.h"
+#include "distributers/links/ownership.h"
 
 namespace jarol::distributers {
 
@@ -19,6 +20,12 @@ class ByteSink {
   /// One datagram of the peer of that number, or the next piece of a stream, whose peers have none. True if there was
   /// anything valid in it: its sender is the peer.
   virtual bool take(std::span<const std::byte> bytes, std::uint32_t peer = 0) = 0;
+  /// What has to go at once to the sender of what was taken last, or nothing.
+  virtual std::span<const std::byte> answer() { return {}; }
+  /// Is there anything valid in these, the first bytes of another stream? It is not taken by that.
+  virtual bool is_valid_begin(std::span<const std::byte>) const { return false; }
+  /// Nothing that follows in the stream can be understood.
+  virtual bool is_broken() const { return false; }
   /// A stream begins anew: what was left of the one before is lost.
   virtual void begin_stream() = 0;
 };
@@ -27,7 +34,8 @@ class ByteSink {
 struct TransportCounts {
   std::atomic<std::uint64_t> connected{0};     // how often there was a new peer
   std::atomic<std::uint64_t> disconnected{0};  // how often a stream ended or failed
-  std::atomic<std::uint64_t> strangers{0};     // datagrams from another than the peer that was named
+  std::atomic<std::uint64_t> strangers{0};     // datagrams and connections of others than the peer
+  std::atomic<std::uint64_t> closed{0};        // how often the peer's port turned out to be closed
   std::atomic<std::uint64_t> overflown{0};     // datagrams that the system had no room for before the last one received
   std::atomic<std::uint64_t> unsent{0};        // packets that could not be sent
 };
@@ -53,6 +61,9 @@ class Transport {
 
   /// Lets go of everything; after that it can be opened again.
   virtual void close() = 0;
+
+  /// Whose it is; none: whoever is at the other end of a line, or of a connection that this end has made.
+  virtual const Ownership* ownership() const { return nullptr; }
 
   TransportCounts counts;
   Holder* holder = nullptr;  // who else holds the way to the peer, if anybody; set before `open`

@@ -11,6 +11,12 @@
 namespace jarol::distributers {
 namespace {
 
+using std::chrono::milliseconds;
+
+// in a flood of strangers the door is left alone for a while, so that it costs little
+constexpr int strangers_before_rest = 64;
+constexpr milliseconds rest{10};
+
 struct Datagram {
   ssize_t length = -1;  // bytes; negative: none
   Address sender;
@@ -49,6 +55,27 @@ bool bind_with_patience(int fd, const Address& address) {
   return true;
 }
 
+void set_option(const Descriptor& socket, int option, int value) {
+  setsockopt(socket.get(), SOL_SOCKET, option, &value, sizeof value);
+}
+
+// A socket at the same port as another, to which only that peer's datagrams go. The port is shared with it alone.
+Descriptor connect_beside(const Descriptor& door, const Address& peer) {
+  sockaddr_storage storage{};
+  socklen_t size = sizeof storage;
+  if (getsockname(door.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return {};
+  Descriptor made(socket(peer.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!made) return {};
+  set_option(door, SO_REUSEADDR, 1);
+  set_option(made, SO_REUSEADDR, 1);
+  const bool there = bind(made.get(), reinterpret_cast<const sockaddr*>(&storage), size) == 0 &&
+                     connect(made.get(), peer.get(), peer.size()) == 0;
+  set_option(door, SO_REUSEADDR, 0);
+  set_option(made, SO_REUSEADDR, 0);
+  set_option(made, SO_RXQ_OVFL, 1);
+  return there ? std::move(made) : Descriptor();
+}
+
 }  // namespace
 
 std::string UdpTransport::text() const {
@@ -65,63 +92,118 @@ void UdpTransport::open() {
   Descriptor made(socket(listen_.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!made || !bind_with_patience(made.get(), listen_))
     throw std::runtime_error("can't listen at " + text() + ": " + std::strerror(errno));
-  const int on = 1;
-  setsockopt(made.get(), SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
-  overflown_ = 0;
-  socket_ = std::move(made);
-  peer_ = named_peer_;
-  if (peer_) ++counts.connected;
-  if (holder != nullptr) holder->hold(socket_.get(), peer_);
+  set_option(made, SO_RXQ_OVFL, 1);
+  door_ = {std::move(made), 0};
+  ownership_.begin(Ownership::Clock::now());
+  strangers_in_row_ = 0;
+  peer_closed_ = false;
+  if (named_peer_)
+    associate(named_peer_);
+  else if (holder != nullptr)
+    holder->hold(door_.socket.get(), {});
 }
 
 void UdpTransport::associate(const Address& peer) {
+  Descriptor made = connect_beside(door_.socket, peer);
   const std::lock_guard lock(peer_mutex_);
-  if (peer_ == peer) return;
   peer_ = peer;
+  peer_socket_ = {std::move(made), 0};
   ++counts.connected;
-  if (holder != nullptr) holder->hold(socket_.get(), peer_);
+  if (holder != nullptr) holder->hold(door_.socket.get(), peer_);
+}
+
+void UdpTransport::forget_peer() {
+  const std::lock_guard lock(peer_mutex_);
+  peer_ = {};
+  peer_socket_.socket.close();
 }
 
 void UdpTransport::receive(const Interrupter& interrupter, ByteSink& sink) {
   std::array<std::byte, 65536> room;
-  while (interrupter.wait(socket_.get(), std::chrono::milliseconds(-1)) != Interrupter::Woken::interrupted) {
-    // an error is that of a datagram sent before, as by a peer that has gone: the next may arrive all the same
-    const Datagram datagram = receive_from(socket_.get(), room);
-    if (datagram.length < 0) continue;
-    if (datagram.overflown) {
-      counts.overflown += *datagram.overflown - overflown_;
-      overflown_ = *datagram.overflown;
-    }
-    const Address& sender = datagram.sender;
-    if (named_peer_ && !(sender == named_peer_)) {
-      ++counts.strangers;
-      continue;
-    }
-    // its number goes with the packet, for the packet may be looked at before there is an answer to it
-    const std::uint64_t peer = counts.connected + (peer_ == sender ? 0 : 1);
-    const bool valid =
-        sink.take(std::span(room).first(static_cast<std::size_t>(datagram.length)), static_cast<std::uint32_t>(peer));
-    if (valid && !named_peer_) associate(sender);
+  for (;;) {
+    const bool rests = peer_socket_.socket && strangers_in_row_ >= strangers_before_rest;
+    const auto ready =
+        interrupter.wait_for_either(rests ? -1 : door_.socket.get(), peer_socket_.socket.get(),
+                                    rests ? rest : (ownership_.owner() ? Ownership::look_interval : milliseconds(-1)));
+    if (ready.interrupted) return;
+    ownership_.look(Ownership::Clock::now());
+    if (rests) strangers_in_row_ = 0;
+    if (ready.other) receive_one(peer_socket_, sink, room);
+    if (peer_closed_.exchange(false)) leave_closed_port(sink, room);
+    if (!ready.one) continue;
+    const std::uint64_t peers = counts.connected;
+    receive_one(door_, sink, room);
+    // what a new peer has sent before it had a socket of its own comes first
+    for (int i = 0; counts.connected != peers && i < 1024 && receive_one(door_, sink, room); ++i) {}
   }
 }
 
-bool UdpTransport::send(std::span<const std::byte> packet) {
-  Address peer;
-  {
-    const std::lock_guard lock(peer_mutex_);
-    peer = peer_;
+// False: there is none now.
+bool UdpTransport::receive_one(Receiving& from, ByteSink& sink, std::span<std::byte> room) {
+  const Datagram datagram = receive_from(from.socket.get(), room);
+  if (datagram.length < 0) {
+    // an error is that of a datagram sent before
+    if (errno == ECONNREFUSED) peer_closed_ = true;
+    return false;
   }
-  if (peer && sendto(socket_.get(), packet.data(), packet.size(), MSG_NOSIGNAL, peer.get(), peer.size()) >= 0)
-    return true;
+  if (datagram.overflown) {
+    counts.overflown += *datagram.overflown - from.overflown;
+    from.overflown = *datagram.overflown;
+  }
+  take(room.first(static_cast<std::size_t>(datagram.length)), datagram.sender, sink);
+  return true;
+}
+
+void UdpTransport::take(std::span<const std::byte> bytes, const Address& sender, ByteSink& sink) {
+  if (!ownership_.may_speak(sender)) {
+    ++counts.strangers;
+    ++strangers_in_row_;
+    ownership_.count_stranger(sender);
+    return;
+  }
+  strangers_in_row_ = 0;
+  // its number goes with the packet, for the packet may be looked at before there is an answer to it
+  const bool is_owner = ownership_.owner() && *ownership_.owner() == sender;
+  const std::uint64_t peer = counts.connected + (is_owner ? 0 : 1);
+  const bool valid = sink.take(bytes, static_cast<std::uint32_t>(peer));
+  if (const auto answer = sink.answer(); !answer.empty())
+    sendto(door_.socket.get(), answer.data(), answer.size(), MSG_NOSIGNAL, sender.get(), sender.size());
+  if (!valid) return;
+  ownership_.heard(sender, Ownership::Clock::now());
+  if (!is_owner) associate(sender);
+}
+
+// A named peer may come again, and is sent to all the same. Of another what it has sent before still counts.
+void UdpTransport::leave_closed_port(ByteSink& sink, std::span<std::byte> room) {
+  ++counts.closed;
+  if (named_peer_) return;
+  while (peer_socket_.socket && receive_one(peer_socket_, sink, room)) {}
+  peer_closed_ = false;
+  ownership_.gone();
+  forget_peer();
+  if (holder != nullptr) holder->hold(door_.socket.get(), {});
+}
+
+bool UdpTransport::send(std::span<const std::byte> packet) {
+  const std::lock_guard lock(peer_mutex_);
+  const auto sent_by = [&](const Descriptor& socket) {
+    return socket && sendto(socket.get(), packet.data(), packet.size(), MSG_NOSIGNAL, peer_.get(), peer_.size()) >= 0;
+  };
+  if (peer_) {
+    if (sent_by(peer_socket_.socket)) return true;
+    const bool closed = peer_socket_.socket && errno == ECONNREFUSED;
+    if (closed) peer_closed_ = true;
+    // the error was that of a packet before; or the way to the peer is another now
+    if ((!closed || named_peer_) && sent_by(door_.socket)) return true;
+  }
   ++counts.unsent;
   return false;
 }
 
 void UdpTransport::close() {
   if (holder != nullptr) holder->let_go();
-  socket_.close();
-  const std::lock_guard lock(peer_mutex_);
-  peer_ = {};
+  forget_peer();
+  door_.socket.close();
 }
 
 }  // namespace jarol::distributers

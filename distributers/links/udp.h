@@ -3,19 +3,21 @@
 
 #include <mutex>
 
-#include "distributers/links/address.h"
-#include "distributers/links/descriptor.h"
 #include "distributers/links/transport.h"
 
 namespace jarol::distributers {
 
-/// With a peer named, only its datagrams count. Without, the sender of the last valid one is the peer, so that one that
-/// was started anew is found again.
+/// With a peer named, only its datagrams count. Without, the link is that of the first that speaks validly
+/// (ownership.h), until its port is closed.
+///
+/// The peer has a socket of its own beside that at which all arrive: the same port, but connected. So the system keeps
+/// its datagrams apart, whatever flood there is of others', and tells when its port is closed.
 class UdpTransport : public Transport {
  public:
   /// `seen_from`: who is told where it can be reached, or none. It matters where it listens at all addresses.
-  UdpTransport(const Address& listen, const Address& peer, const Address& seen_from = {})
-      : listen_(listen), named_peer_(peer), seen_from_(seen_from) {}
+  UdpTransport(const Address& listen, const Address& peer, const Address& seen_from = {},
+               std::chrono::nanoseconds silence = Ownership::default_silence)
+      : listen_(listen), named_peer_(peer), seen_from_(seen_from), ownership_(silence, peer) {}
 
   std::string text() const override;
   std::string address() const override;
@@ -23,20 +25,34 @@ class UdpTransport : public Transport {
   void receive(const Interrupter& interrupter, ByteSink& sink) override;
   bool send(std::span<const std::byte> packet) override;
   void close() override;
+  const Ownership* ownership() const override { return &ownership_; }
 
   /// The port that it listens at; of "0" the one that the system chose.
-  int port() const { return port_of(socket_); }
+  int port() const { return port_of(door_.socket); }
 
  private:
+  struct Receiving {
+    Descriptor socket;
+    std::uint32_t overflown = 0;  // datagrams that the system had no room for, as last told
+  };
+
   void associate(const Address& peer);
+  void forget_peer();
+  bool receive_one(Receiving& from, ByteSink& sink, std::span<std::byte> room);
+  void take(std::span<const std::byte> bytes, const Address& sender, ByteSink& sink);
+  void leave_closed_port(ByteSink& sink, std::span<std::byte> room);
 
   Address listen_;
   Address named_peer_;
   Address seen_from_;
-  Descriptor socket_;
-  std::uint32_t overflown_ = 0;  // datagrams that the system had no room for, as last told
-  std::mutex peer_mutex_;
-  Address peer_;  // written by the receiving thread
+  Receiving door_;  // where all arrive that are not the peer
+  Ownership ownership_;
+  int strangers_in_row_ = 0;
+  std::atomic<bool> peer_closed_{false};  // the sender has learned that
+
+  std::mutex peer_mutex_;  // written by the receiving thread, read by that which sends
+  Address peer_;
+  Receiving peer_socket_;  // none: it can't be had now, as without a way to the peer
 };
 
 }  // namespace jarol::distributers

@@ -307,6 +307,8 @@ void add_vehicle(CommandLine& line, int& exit_code) {
       {"peer", "Link: address and port of the other end, as in 127.0.0.1:7002"},
       {"device", "Link: the serial line, as in /dev/ttyS0"},
       {"baud", "Link: rate of the serial line; default 115200"},
+      {"key", "Link: file of the key that both ends have"},
+      {"silence", "Link: of the peer, after which another may take its place; default 5 s"},
       {"id", "Link: the sender's id in what is sent, in hex or decimal, as in 0x00D1"},
   };
   command

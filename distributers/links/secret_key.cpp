@@ -1,0 +1,51 @@
+#include "distributers/links/secret_key.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sodium.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include "distributers/links/descriptor.h"
+
+namespace jarol::distributers {
+namespace {
+
+constexpr std::size_t min_bytes = 32, max_bytes = 4096;
+
+}  // namespace
+
+SecretKey read_key(const std::string& path) {
+  const auto refuse = [&](const std::string& why) { throw std::invalid_argument("the key file '" + path + "' " + why); };
+  const std::string by = "; make one by: (umask 077; head -c 32 /dev/urandom > " + path + ")";
+  // a pipe without a writer would be waited for
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+  if (!file) refuse(std::string("can't be read: ") + std::strerror(errno) + (errno == ENOENT ? by : ""));
+  struct stat found {};
+  if (fstat(file.get(), &found) != 0) refuse(std::string("can't be read: ") + std::strerror(errno));
+  if (!S_ISREG(found.st_mode)) refuse("is no regular file" + by);
+  if ((found.st_mode & 077) != 0)
+    refuse(fmt::format("has the mode {:04o}, so that others than its owner may use it; chmod 600 {}",
+                       found.st_mode & 07777, path));
+  std::array<unsigned char, max_bytes + 1> bytes{};
+  std::size_t size = 0;
+  while (size < bytes.size()) {
+    const auto length = ::read(file.get(), bytes.data() + size, bytes.size() - size);
+    if (length < 0 && errno != EINTR) refuse(std::string("can't be read: ") + std::strerror(errno));
+    if (length == 0) break;
+    if (length > 0) size += static_cast<std::size_t>(length);
+  }
+  if (size < min_bytes || size > max_bytes)
+    refuse(fmt::format("has {} bytes; it needs from {} to {}{}", size > max_bytes ? "too many" : std::to_string(size),
+                       min_bytes, max_bytes, by));
+  SecretKey key{};
+  crypto_generichash(reinterpret_cast<unsigned char*>(key.data()), key.size(), bytes.data(), size, nullptr, 0);
+  sodium_memzero(bytes.data(), bytes.size());
+  return key;
+}
+
+}  // namespace jarol::distributers

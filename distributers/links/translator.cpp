@@ -1,0 +1,224 @@
+#include "distributers/links/translator.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "graph/yaml/problems.h"
+
+namespace jarol::distributers {
+
+using messages::Flaw;
+
+namespace {
+
+std::vector<std::string> names_of_fields(const messages::MessageForm& form) {
+  std::vector<std::string> names;
+  for (const messages::FieldForm& field : form.fields) names.emplace_back(field.name);
+  return names;
+}
+
+template <class Array, class Finding>
+auto& count_of(Array& counts, Finding finding) {
+  return counts[static_cast<std::size_t>(finding)];
+}
+
+}  // namespace
+
+const messages::FieldForm& find_header_field(const messages::MessageForm& form, const std::string& name,
+                                             std::uint64_t value) {
+  for (const messages::FieldForm& field : form.fields) {
+    if (field.name != name || field.wire > messages::Wire::uint64) continue;
+    const std::size_t size = size_of(field.wire);
+    if (size < 8 && value >> (8 * size) != 0)
+      throw std::invalid_argument("field '" + name + "' of the header has no room for " + std::to_string(value));
+    return field;
+  }
+  throw std::invalid_argument("the header has no integer field '" + name +
+                              "'; it has: " + list_of(names_of_fields(form)));
+}
+
+std::size_t longest_packet(const messages::MessageSet& set) {
+  return set.header_size() + set.most_payload + set.footer_size();
+}
+
+// What a field of a header has to be; little-endian machines only.
+bool Translator::Accepted::accepts(messages::MessageRef header) const {
+  return std::memcmp(static_cast<const std::byte*>(header.value) + field->offset, &value, size_of(field->wire)) == 0;
+}
+
+Translator::Translator(const messages::MessageSet& set, const LinkOptions& options, Seal* seal, PacketPorts& input)
+    : set_(set),
+      datagrams_(set),
+      input_(input),
+      seal_(seal),
+      limits_(set, options.silence),
+      order_(set),
+      entry_(peer_size + longest_packet(set)) {
+  for (const auto& [name, value] : options.accept)
+    accepted_.push_back({&find_header_field(*set.header, name, value), value});
+}
+
+bool Translator::take(std::span<const std::byte> bytes, std::uint32_t peer) {
+  answers_.clear();
+  if (seal_ != nullptr) return streams_ ? take_sealed_stream(bytes) : take_sealed(bytes, peer);
+  return streams_ ? take_stream(bytes) : take_datagram(bytes, peer);
+}
+
+void Translator::begin_stream() {
+  if (stream_) {
+    stream_->give_up();
+    while (stream_->next()) write(stream_->header(), stream_->packet(), 0);
+    store(stream_->counts());
+    before_ = told_;
+  }
+  streams_ = begins_ = true;
+  broken_ = false;
+  sealed_.clear();
+  if (seal_ == nullptr) stream_ = std::make_unique<messages::StreamReader>(set_);
+  limits_.begin();
+  order_.begin();
+}
+
+bool Translator::is_valid_begin(std::span<const std::byte> bytes) const {
+  if (seal_ != nullptr) return seal_->is_authentic(bytes);
+  messages::StreamReader reader(set_);
+  while (!bytes.empty()) {
+    const std::span<std::byte> room = reader.room();
+    const std::size_t part = std::min(room.size(), bytes.size());
+    std::memcpy(room.data(), bytes.data(), part);
+    reader.filled(part);
+    bytes = bytes.subspan(part);
+    while (reader.next())
+      if (accepts(reader.header())) return true;
+  }
+  return false;
+}
+
+bool Translator::take_datagram(std::span<const std::byte> bytes, std::uint32_t peer) {
+  const Flaw flaw = datagrams_.read(bytes);
+  if (flaw != Flaw::none && seal_ == nullptr && Seal::is_sealed(bytes)) {
+    ++counts_.sealed;
+    return false;
+  }
+  told_.count(flaw, bytes.size());
+  const bool counts = flaw == Flaw::none && write(datagrams_.header(), bytes, peer);
+  store(told_);
+  return counts;
+}
+
+bool Translator::take_stream(std::span<const std::byte> bytes) {
+  if (std::exchange(begins_, false) && Seal::is_sealed(bytes)) {
+    ++counts_.sealed;
+    broken_ = true;
+    return false;
+  }
+  bool valid = false;
+  while (!bytes.empty()) {
+    const std::span<std::byte> room = stream_->room();
+    const std::size_t part = std::min(room.size(), bytes.size());
+    std::memcpy(room.data(), bytes.data(), part);
+    stream_->filled(part);
+    bytes = bytes.subspan(part);
+    while (stream_->next()) valid |= write(stream_->header(), stream_->packet(), 0);
+  }
+  store(stream_->counts());
+  return valid;
+}
+
+bool Translator::take_sealed(std::span<const std::byte> bytes, std::uint32_t peer) {
+  const Seal::Opened opened = seal_->open(bytes);
+  answers_.insert(answers_.end(), seal_->answer().begin(), seal_->answer().end());
+  if (opened.finding == Seal::Finding::content) return take_datagram(opened.content, peer);
+  ++count_of(counts_.seals, opened.finding);
+  return opened.fresh;
+}
+
+// What does not begin as a sealed packet, or has another key, has no end that could be trusted.
+bool Translator::take_sealed_stream(std::span<const std::byte> bytes) {
+  sealed_.insert(sealed_.end(), bytes.begin(), bytes.end());
+  std::span<const std::byte> rest = sealed_;
+  bool valid = false;
+  while (!broken_ && rest.size() >= Seal::head_size) {
+    const std::size_t size = Seal::size_of(rest);
+    const bool is_one = Seal::is_sealed(rest) && size <= Seal::overhead + longest_packet(set_);
+    if (is_one && size > rest.size()) break;
+    const auto packet = rest.first(is_one ? size : rest.size());
+    const std::uint64_t wrong = count_of(counts_.seals, Seal::Finding::wrong_key);
+    valid |= take_sealed(packet, 0);
+    broken_ = !is_one || count_of(counts_.seals, Seal::Finding::wrong_key) > wrong;
+    rest = rest.subspan(packet.size());
+  }
+  sealed_.erase(sealed_.begin(), sealed_.end() - static_cast<std::ptrdiff_t>(rest.size()));
+  return valid;
+}
+
+bool Translator::accepts(messages::MessageRef header) const {
+  return std::all_of(accepted_.begin(), accepted_.end(), [&](const Accepted& field) { return field.accepts(header); });
+}
+
+// False: it does not count, as from another sender than the one that does.
+bool Translator::write(messages::MessageRef header, std::span<const std::byte> packet, std::uint32_t peer) {
+  if (!accepts(header)) {
+    ++counts_.others;
+    return false;
+  }
+  const double here = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  if (const auto stamp = limits_.look(header, StampLimits::Clock::now(), here); stamp != StampLimits::Finding::good) {
+    ++count_of(counts_.stamps, stamp);
+    return false;
+  }
+  if (order_.is_late(header, peer)) ++counts_.late;
+  std::memcpy(entry_.data(), &peer, peer_size);
+  std::memcpy(entry_.data() + peer_size, packet.data(), packet.size());
+  const auto entry = std::span(entry_).first(peer_size + packet.size());
+  if (!std::visit([&](auto& port) { return port.write(entry); }, input_)) ++counts_.refused;
+  return true;
+}
+
+// After what is counted is in the port: who sees the count finds the packets.
+void Translator::store(const messages::PacketCounts& now) {
+  if (stream_) {
+    told_ = before_;
+    told_.packets += now.packets;
+    told_.bytes += now.bytes;
+    told_.dropped_bytes += now.dropped_bytes;
+    for (std::size_t i = 0; i < now.dropped.size(); ++i) told_.dropped[i] += now.dropped[i];
+  }
+  counts_.bytes.store(told_.bytes, std::memory_order_relaxed);
+  counts_.dropped_bytes.store(told_.dropped_bytes, std::memory_order_relaxed);
+  for (std::size_t i = 0; i < told_.dropped.size(); ++i)
+    counts_.dropped[i].store(told_.dropped[i], std::memory_order_relaxed);
+  counts_.packets.store(told_.packets, std::memory_order_release);
+}
+
+void Translator::add_carried_to(LinkReport& report) const {
+  const std::uint64_t packets = counts_.packets;  // before the others: no more of them than these
+  const std::uint64_t stamps = counts_.stamps[1] + counts_.stamps[2] + counts_.stamps[3];
+  report.heard = packets - std::min<std::uint64_t>(packets, counts_.others + stamps);
+  report.counts.emplace_back("packets in", packets);
+  report.counts.emplace_back("bytes in", counts_.bytes);
+  report.counts.emplace_back("bytes dropped", counts_.dropped_bytes);
+  report.counts.emplace_back("late", counts_.late);
+}
+
+void Translator::add_dropped_to(LinkReport& report) const {
+  const auto add_dropped = [&](const std::string& why, std::uint64_t count) {
+    report.counts.emplace_back("dropped: " + why, count);
+    report.dropped += count;
+  };
+  for (std::size_t i = 1; i < messages::flaw_count; ++i)
+    add_dropped(std::string(name_of(static_cast<Flaw>(i))), counts_.dropped[i]);
+  add_dropped("other source", counts_.others);
+  add_dropped("stamp is no time", count_of(counts_.stamps, StampLimits::Finding::no_time));
+  add_dropped("stamp in the future", count_of(counts_.stamps, StampLimits::Finding::ahead));
+  add_dropped("stamp in the past", count_of(counts_.stamps, StampLimits::Finding::behind));
+  add_dropped("sealed with a key", counts_.sealed);
+  for (std::size_t i = static_cast<std::size_t>(Seal::Finding::no_key); i < Seal::finding_count; ++i)
+    add_dropped(std::string(name_of(static_cast<Seal::Finding>(i))), counts_.seals[i]);
+  add_dropped("input port full", counts_.refused);
+  if (const auto* push = std::get_if<PushPacketPort>(&input_)) add_dropped("overwritten by newer", push->lost());
+}
+
+}  // namespace jarol::distributers

@@ -1,0 +1,89 @@
+// What a link's receiving thread does with bytes: packets that are valid and count go into the input port.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "distributers/links/link_options.h"
+#include "distributers/links/seal.h"
+#include "distributers/links/stamp_limits.h"
+#include "distributers/links/stamp_order.h"
+#include "distributers/links/transport.h"
+#include "distributers/messages/packet.h"
+#include "distributers/messages/stream_reader.h"
+#include "runtime/channels.h"
+#include "runtime/port.h"
+#include "runtime/push_port.h"
+
+namespace jarol::distributers {
+
+using PacketPorts = std::variant<PacketPort, PushPacketPort>;
+
+/// The integer field of a set's header that has room for the value. Throws std::invalid_argument if there is none.
+const messages::FieldForm& find_header_field(const messages::MessageForm& form, const std::string& name,
+                                             std::uint64_t value);
+
+/// Bytes of the longest packet of a set.
+std::size_t longest_packet(const messages::MessageSet& set);
+
+class Translator : public ByteSink {
+ public:
+  /// In the input port the number of its peer goes before a packet.
+  static constexpr std::size_t peer_size = sizeof(std::uint32_t);
+
+  /// `seal`: with which packets come, or null.
+  Translator(const messages::MessageSet& set, const LinkOptions& options, Seal* seal, PacketPorts& input);
+
+  bool take(std::span<const std::byte> bytes, std::uint32_t peer) override;
+  std::span<const std::byte> answer() override { return answers_; }
+  bool is_valid_begin(std::span<const std::byte> bytes) const override;
+  bool is_broken() const override { return broken_; }
+  void begin_stream() override;
+
+  /// From any thread.
+  void add_carried_to(LinkReport& report) const;
+  void add_dropped_to(LinkReport& report) const;
+
+ private:
+  struct Accepted {
+    const messages::FieldForm* field;
+    std::uint64_t value;
+    bool accepts(messages::MessageRef header) const;
+  };
+
+  bool take_datagram(std::span<const std::byte> bytes, std::uint32_t peer);
+  bool take_stream(std::span<const std::byte> bytes);
+  bool take_sealed(std::span<const std::byte> bytes, std::uint32_t peer);
+  bool take_sealed_stream(std::span<const std::byte> bytes);
+  bool accepts(messages::MessageRef header) const;
+  bool write(messages::MessageRef header, std::span<const std::byte> packet, std::uint32_t peer);
+  void store(const messages::PacketCounts& now);
+
+  // read by other threads
+  struct Counts {
+    std::atomic<std::uint64_t> packets{0}, bytes{0}, dropped_bytes{0}, refused{0}, others{0}, late{0}, sealed{0};
+    std::array<std::atomic<std::uint64_t>, messages::flaw_count> dropped{};
+    std::array<std::atomic<std::uint64_t>, StampLimits::finding_count> stamps{};
+    std::array<std::atomic<std::uint64_t>, Seal::finding_count> seals{};
+  };
+
+  const messages::MessageSet& set_;
+  messages::PacketReader datagrams_;
+  std::unique_ptr<messages::StreamReader> stream_;
+  bool streams_ = false, begins_ = false, broken_ = false;
+  PacketPorts& input_;
+  Seal* seal_;
+  std::vector<std::byte> sealed_;   // of a stream, the begin of a packet
+  std::vector<std::byte> answers_;  // to what was taken last
+  StampLimits limits_;
+  StampOrder order_;
+  std::vector<std::byte> entry_;
+  std::vector<Accepted> accepted_;
+  messages::PacketCounts told_, before_;  // before_: of the streams that have ended
+  Counts counts_;
+};
+
+}  // namespace jarol::distributers
