@@ -134,7 +134,7 @@ std::unique_ptr<Channels> make_simulation(const Graph& graph, std::size_t index,
 }
 
 struct LockstepSpec {
-  Maybe<std::string> type, peer;
+  Maybe<std::string> type, peer, key;
 };
 
 const std::vector<Key<LockstepSpec>>& lockstep_keys() {
@@ -142,6 +142,7 @@ const std::vector<Key<LockstepSpec>>& lockstep_keys() {
       key<&LockstepSpec::type>("type", Form::word, "lockstep: a vehicle in another process, on the logical clock",
                                true),
       key<&LockstepSpec::peer>("peer", Form::word, "address and port where it listens", true),
+      key<&LockstepSpec::key>("key", Form::word, "file of the key that both ends have; default: none"),
   };
   return keys;
 }
@@ -151,13 +152,16 @@ std::unique_ptr<Channels> make_lockstep(const Graph& graph, std::size_t index, s
   LockstepSpec spec;
   read_keys(distributer.link, lockstep_keys(), spec, "link of distributer '" + distributer.name + "'", problems);
   if (!spec.peer) return nullptr;
+  LockstepOptions options;
+  if (spec.key && !(options.key = key_of(*spec.key, problems))) return nullptr;
   try {
     return std::make_unique<LockstepChannels>(Address::parse(spec.peer->value), seed,
                                               kind_of(distributer).make_adapter(distributer.parameters.data()),
                                               [&graph, index](Duration grid) {
                                                 const std::vector<Problem> wrong = off_grid(graph, index, grid);
                                                 return wrong.empty() ? std::string() : wrong.front().text;
-                                              });
+                                              },
+                                              std::move(options));
   } catch (const std::invalid_argument& error) {
     problems.add(spec.peer->where, error.what());
     return nullptr;

@@ -3,7 +3,6 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "distributers/links/lockstep.h"
 #include "distributers/links/tcp.h"
 #include "graph/yaml/quantities.h"
 #include "tools/commands/commands.h"
@@ -105,7 +104,9 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
 }
 
 int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,
-                              const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make) {
+                              const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
+                              distributers::LockstepOptions options) {
+  options.note = [](const std::string& text) { std::cerr << "note: " << text << "\n"; };
   const distributers::Descriptor socket = distributers::listen_at(listen);
   distributers::Interrupter interrupter;
   const Interruptible interruptible([&] { interrupter.interrupt(); });
@@ -114,8 +115,10 @@ int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const
   while (interrupter.wait(socket.get(), std::chrono::milliseconds(-1)) != Woken::interrupted) {
     distributers::Descriptor runner = distributers::accept_from(socket);
     if (!runner) continue;
+    const std::string who = "the runner at " + peer_of(runner).text();
     try {
-      serve_lockstep(distributers::FrameStream(std::move(runner)), *vehicle_class.message_set, make, interrupter);
+      serve_lockstep(distributers::FrameStream(std::move(runner), who, options.patience), *vehicle_class.message_set,
+                     make, interrupter, options, socket);
     } catch (const distributers::FrameEnd&) {
       // the run is over
     } catch (const distributers::FrameError& error) { std::cerr << "note: " << error.what() << "\n"; }

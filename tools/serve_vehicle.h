@@ -6,6 +6,7 @@
 
 #include "distributers/links/address.h"
 #include "distributers/links/link.h"
+#include "distributers/links/lockstep.h"
 #include "runtime/real_clock.h"
 #include "vehicles/vehicle.h"
 
@@ -26,6 +27,7 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
 /// On the logical clocks of those who connect, one after the other, each with a vehicle of its own from the start;
 /// until Ctrl-C. Throws std::runtime_error if it can't listen there.
 int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,
-                              const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make);
+                              const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
+                              distributers::LockstepOptions options = {});
 
 }  // namespace jarol::tools

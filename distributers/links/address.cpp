@@ -112,4 +112,11 @@ int port_of(const Descriptor& socket) {
   return Address::of(storage, size).port();
 }
 
+Address peer_of(const Descriptor& socket) {
+  sockaddr_storage storage{};
+  socklen_t size = sizeof storage;
+  if (getpeername(socket.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return {};
+  return Address::of(storage, size);
+}
+
 }  // namespace jarol::distributers

@@ -49,4 +49,7 @@ Address local_towards(const Address& peer);
 /// The port to which a socket is bound; of "0" the one that the system chose.
 int port_of(const Descriptor& socket);
 
+/// To whom a socket is connected; none: it is not.
+Address peer_of(const Descriptor& socket);
+
 }  // namespace jarol::distributers

@@ -5,34 +5,37 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+
+#include "graph/yaml/quantities.h"
 
 namespace jarol::distributers {
 namespace {
 
 constexpr std::size_t longest = std::size_t{1} << 20;
 
-bool wait_for(int fd, short events, std::chrono::milliseconds limit = FrameStream::patience) {
+using Clock = FrameStream::Clock;
+
+bool wait_for(int fd, short events, Clock::time_point deadline) {
   pollfd polled{fd, events, 0};
   int ready = 0;
-  while ((ready = poll(&polled, 1, static_cast<int>(limit.count()))) < 0 && errno == EINTR) {}
+  do {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    if (left <= 0) return false;
+    ready = poll(&polled, 1, static_cast<int>(left));
+  } while (ready < 0 && errno == EINTR);
   return ready > 0;
 }
 
 // 0, or what went wrong.
 int finish_connecting(int fd, std::chrono::milliseconds limit) {
-  if (!wait_for(fd, POLLOUT, limit)) return ETIMEDOUT;
+  if (!wait_for(fd, POLLOUT, Clock::now() + limit)) return ETIMEDOUT;
   int error = 0;
   socklen_t size = sizeof error;
   return getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) == 0 ? error : errno;
-}
-
-// A peer that goes with bytes unread resets the connection: an end as well.
-[[noreturn]] void throw_ended(int error) {
-  if (error == 0 || error == ECONNRESET || error == EPIPE) throw FrameEnd("the other end has ended the connection");
-  throw FrameError(std::string("the connection has failed: ") + std::strerror(error));
 }
 
 }  // namespace
@@ -47,7 +50,7 @@ FrameStream FrameStream::connect(const Address& peer, std::chrono::milliseconds 
                      "'");
   const int on = 1;
   setsockopt(made.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-  return FrameStream(std::move(made));
+  return FrameStream(std::move(made), "the vehicle at " + peer.text(), limit);
 }
 
 void FrameStream::put(FrameKind kind, std::span<const std::byte> bytes) {
@@ -58,42 +61,96 @@ void FrameStream::put(FrameKind kind, std::span<const std::byte> bytes) {
 }
 
 void FrameStream::flush() {
-  std::span<const std::byte> rest = out_;
-  while (!rest.empty()) {
-    const auto length = ::send(socket_.get(), rest.data(), rest.size(), MSG_NOSIGNAL);
-    if (length > 0) {
-      rest = rest.subspan(static_cast<std::size_t>(length));
-    } else if (errno != EINTR && (errno != EAGAIN || !wait_for(socket_.get(), POLLOUT))) {
-      throw_ended(errno);
-    }
-  }
+  if (out_.empty()) return;
+  if (seal_) seal_->seal(out_, sealed_);
+  write_raw(seal_ ? sealed_ : out_);
   out_.clear();
 }
 
-void FrameStream::read_bytes(std::span<std::byte> to) {
-  while (!to.empty()) {
-    if (!wait_for(socket_.get(), POLLIN)) throw FrameError("the other end has been silent for 10 s");
-    const auto length = ::read(socket_.get(), to.data(), to.size());
-    if (length == 0) throw_ended(0);
-    if (length < 0 && errno != EINTR && errno != EAGAIN) throw_ended(errno);
-    if (length > 0) to = to.subspan(static_cast<std::size_t>(length));
+void FrameStream::write_raw(std::span<const std::byte> bytes) {
+  const auto until = Clock::now() + patience_;
+  while (!bytes.empty()) {
+    const auto length = ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (length > 0)
+      bytes = bytes.subspan(static_cast<std::size_t>(length));
+    else if (errno == EAGAIN && !wait_for(socket_.get(), POLLOUT, until))
+      fail("has taken nothing for " + duration_text(patience_));
+    else if (errno != EINTR && errno != EAGAIN)
+      fail_ended(errno);
   }
 }
 
-bool FrameStream::wait(const Interrupter& interrupter) const {
-  return interrupter.wait(socket_.get(), std::chrono::milliseconds(-1)) != Interrupter::Woken::interrupted;
+// A peer that goes with bytes unread resets the connection: an end as well.
+void FrameStream::fail_ended(int error) const {
+  if (error == 0 || error == ECONNRESET || error == EPIPE) throw FrameEnd(who_ + " has ended the connection");
+  throw FrameError("the connection with " + who_ + " has failed: " + std::strerror(error));
 }
 
-FrameStream::Frame FrameStream::read() {
+void FrameStream::read_raw(std::span<std::byte> to, Clock::time_point deadline) {
+  while (!to.empty()) {
+    if (!wait_for(socket_.get(), POLLIN, deadline))
+      fail(heard_ ? "has not come to an end within " + duration_text(patience_)
+                  : "has been silent for " + duration_text(patience_));
+    const auto length = ::read(socket_.get(), to.data(), to.size());
+    if (length == 0) fail_ended(0);
+    if (length < 0 && errno != EINTR && errno != EAGAIN) fail_ended(errno);
+    if (length <= 0) continue;
+    heard_ = true;
+    to = to.subspan(static_cast<std::size_t>(length));
+  }
+}
+
+void FrameStream::secure(const SecretKey& key, std::string_view context) {
+  seal_ = std::make_unique<Seal>(key, "lockstep " + std::string(context));
+  write_raw(seal_->hello());
+  for (const auto until = begin_wait(); !seal_->knows_peer();) read_sealed(until);
+}
+
+// One packet; what was in it follows what is plain.
+void FrameStream::read_sealed(Clock::time_point deadline) {
+  sealed_.resize(Seal::head_size);
+  read_raw(sealed_, deadline);
+  if (!Seal::is_sealed(sealed_)) fail("has no key; both ends need the same, or none");
+  const std::size_t size = Seal::size_of(sealed_);
+  if (size > Seal::overhead + 2 * longest) fail("does not speak the lockstep protocol");
+  sealed_.resize(size);
+  read_raw(std::span(sealed_).subspan(Seal::head_size), deadline);
+  const Seal::Opened opened = seal_->open(sealed_);
+  if (opened.finding == Seal::Finding::wrong_key) fail("has another key");
+  if (opened.finding == Seal::Finding::content)
+    plain_.insert(plain_.end(), opened.content.begin(), opened.content.end());
+  else if (opened.finding != Seal::Finding::hello)
+    fail("has sent what can't be taken: " + std::string(name_of(opened.finding)));
+  if (!seal_->answer().empty()) write_raw(seal_->answer());
+}
+
+void FrameStream::read_bytes(std::span<std::byte> to, Clock::time_point deadline) {
+  if (!seal_) return read_raw(to, deadline);
+  while (plain_.size() - plain_at_ < to.size()) read_sealed(deadline);
+  std::copy_n(plain_.begin() + static_cast<std::ptrdiff_t>(plain_at_), to.size(), to.begin());
+  plain_at_ += to.size();
+  if (plain_at_ < plain_.size()) return;
+  plain_.clear();
+  plain_at_ = 0;
+}
+
+Interrupter::Either FrameStream::wait(const Interrupter& interrupter, int other, std::chrono::milliseconds time) const {
+  if (plain_at_ < plain_.size()) return {.interrupted = false, .one = true, .other = false};
+  return interrupter.wait_for_either(socket_.get(), other, time);
+}
+
+FrameStream::Frame FrameStream::read(Clock::time_point deadline) {
+  if (Clock::now() >= deadline) fail("has not come to an end within " + duration_text(patience_));
   std::array<std::byte, 5> head{};
-  read_bytes(head);
+  read_bytes(head, deadline);
   std::uint32_t size = 0;
   for (std::size_t i = 0; i < 4; ++i) size |= std::to_integer<std::uint32_t>(head[i]) << (8 * i);
   const auto kind = static_cast<FrameKind>(head[4]);
-  if (kind < FrameKind::welcome || kind > FrameKind::no_state || size > longest)
-    throw FrameError("the other end does not speak the lockstep protocol");
+  if (!seal_ && Seal::is_sealed(head)) fail("asks for a key; both ends need the same, or none");
+  if (kind < FrameKind::welcome || kind > FrameKind::busy || size > longest)
+    fail("does not speak the lockstep protocol");
   in_.resize(size);
-  read_bytes(in_);
+  read_bytes(in_, deadline);
   return {kind, in_};
 }
 

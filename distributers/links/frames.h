@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "distributers/links/address.h"
 #include "distributers/links/descriptor.h"
+#include "distributers/links/seal.h"
 
 namespace jarol::distributers {
 
@@ -33,17 +35,33 @@ enum class FrameKind : std::uint8_t {
   sense,        // runner to vehicle: what do the sensors tell?
   sensed,       // vehicle to runner: that was all
   no_state,     // vehicle to runner: it can't be stepped any more; a text
+  busy,         // vehicle to runner: it has another; a text
 };
 
-/// Waits for the other end as long as `patience` says, and throws FrameError then.
+/// Waits for the other end as long as `patience` says, for the whole of what it waits for, and throws FrameError then.
 class FrameStream {
  public:
-  static constexpr std::chrono::milliseconds patience{10'000};
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds usual_patience{10'000};
 
-  explicit FrameStream(Descriptor socket) : socket_(std::move(socket)) {}
+  /// `who`: what errors call the other end.
+  explicit FrameStream(Descriptor socket, std::string who = "the other end",
+                       std::chrono::milliseconds patience = usual_patience)
+      : socket_(std::move(socket)), who_(std::move(who)), patience_(patience) {}
 
   /// Connects, within that time. Throws FrameError that names the address.
-  static FrameStream connect(const Address& peer, std::chrono::milliseconds limit = patience);
+  static FrameStream connect(const Address& peer, std::chrono::milliseconds limit = usual_patience);
+
+  /// All that follows is sealed, both ways, once the other end has proved that it has the key.
+  void secure(const SecretKey& key, std::string_view context);
+
+  const std::string& who() const { return who_; }
+  std::chrono::milliseconds patience() const { return patience_; }
+  /// When the patience with what is waited for from now on is over.
+  Clock::time_point begin_wait() {
+    heard_ = false;
+    return Clock::now() + patience_;
+  }
 
   /// Adds a frame to those that `flush` sends.
   void put(FrameKind kind, std::span<const std::byte> bytes = {});
@@ -53,15 +71,29 @@ class FrameStream {
     FrameKind kind{};
     std::span<const std::byte> bytes;  // until the next is read
   };
-  /// The next frame. With a wait for the first byte that may be interrupted: none then.
-  Frame read();
-  bool wait(const Interrupter& interrupter) const;
+  /// The next frame, which has to be there as a whole by then.
+  Frame read() { return read(begin_wait()); }
+  Frame read(Clock::time_point deadline);
+  /// Waits for the begin of a frame, or for somebody at another socket, where there is one.
+  Interrupter::Either wait(const Interrupter& interrupter, int other, std::chrono::milliseconds time) const;
 
  private:
-  void read_bytes(std::span<std::byte> to);
+  void read_bytes(std::span<std::byte> to, Clock::time_point deadline);
+  void read_raw(std::span<std::byte> to, Clock::time_point deadline);
+  void write_raw(std::span<const std::byte> bytes);
+  void read_sealed(Clock::time_point deadline);
+  [[noreturn]] void fail(const std::string& what) const { throw FrameError(who_ + " " + what); }
+  [[noreturn]] void fail_ended(int error) const;
 
   Descriptor socket_;
+  std::string who_;
+  std::chrono::milliseconds patience_;
   std::vector<std::byte> out_, in_;
+  bool heard_ = false;  // within what is waited for
+
+  std::unique_ptr<Seal> seal_;
+  std::vector<std::byte> sealed_, plain_;
+  std::size_t plain_at_ = 0;
 };
 
 }  // namespace jarol::distributers

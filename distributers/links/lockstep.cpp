@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "distributers/links/tcp.h"
 #include "distributers/messages/packet.h"
 #include "graph/yaml/quantities.h"
 
@@ -20,9 +21,13 @@ std::vector<std::byte> numbers(std::initializer_list<std::uint64_t> all, const s
 
 std::uint64_t number(const FrameStream::Frame& frame, std::size_t index) {
   std::uint64_t value = 0;
-  if (frame.bytes.size() < 8 * (index + 1)) throw FrameError("the other end does not speak the lockstep protocol");
+  if (frame.bytes.size() < 8 * (index + 1)) throw FrameError("a frame of the lockstep protocol is too short");
   std::memcpy(&value, frame.bytes.data() + 8 * index, 8);
   return value;
+}
+
+[[noreturn]] void throw_unfit(const FrameStream& stream) {
+  throw FrameError(stream.who() + " does not speak the lockstep protocol");
 }
 
 std::string text_after(const FrameStream::Frame& frame, std::size_t count) {
@@ -51,7 +56,7 @@ class Taker {
   explicit Taker(const messages::MessageSet& set) : reader_(set) {}
   messages::MessageRef message(const FrameStream::Frame& frame) {
     if (reader_.read(frame.bytes) != messages::Flaw::none)
-      throw FrameError("the other end has sent a message that can't be read");
+      throw FrameError("a frame of the lockstep protocol has a message that can't be read");
     return reader_.message();
   }
 
@@ -72,11 +77,11 @@ class RemoteVehicle : public vehicles::Stepped {
   void sense(messages::Receiver& receiver) const override {
     stream_.put(FrameKind::sense);
     stream_.flush();
-    for (;;) {
-      const FrameStream::Frame frame = stream_.read();
+    for (const auto deadline = stream_.begin_wait();;) {
+      const FrameStream::Frame frame = stream_.read(deadline);
       if (frame.kind == FrameKind::sensed) return;
       if (frame.kind == FrameKind::no_state) throw vehicles::NoState(text_after(frame, 0));
-      if (frame.kind != FrameKind::message) throw FrameError("the other end does not speak the lockstep protocol");
+      if (frame.kind != FrameKind::message) throw_unfit(stream_);
       receiver.receive(taker_.message(frame));
     }
   }
@@ -91,17 +96,23 @@ class RemoteVehicle : public vehicles::Stepped {
 }  // namespace
 
 LockstepChannels::LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<Adapter> adapter,
-                                   CheckGrid check_grid)
-    : peer_(peer), seed_(seed), adapter_(std::move(adapter)), check_grid_(std::move(check_grid)) {}
+                                   CheckGrid check_grid, LockstepOptions options)
+    : peer_(peer),
+      seed_(seed),
+      adapter_(std::move(adapter)),
+      check_grid_(std::move(check_grid)),
+      options_(std::move(options)) {}
 
 LockstepChannels::~LockstepChannels() = default;
 
 void LockstepChannels::begin() {
-  FrameStream stream = FrameStream::connect(peer_);
+  FrameStream stream = FrameStream::connect(peer_, options_.patience);
+  if (options_.key) stream.secure(*options_.key, adapter_->message_set().name);
   const FrameStream::Frame welcome = stream.read();
   const auto refuse = [&](const std::string& why) {
     throw FrameError("the vehicle at " + peer_.text() + " does not fit: " + why);
   };
+  if (welcome.kind == FrameKind::busy) throw FrameError(stream.who() + " is busy: " + text_after(welcome, 0));
   if (welcome.kind != FrameKind::welcome || number(welcome, 0) != version)
     refuse("it does not speak version " + std::to_string(version) + " of the lockstep protocol");
   const Duration grid(static_cast<std::int64_t>(number(welcome, 1)));
@@ -115,20 +126,60 @@ void LockstepChannels::begin() {
   simulation_ = std::make_unique<SimulationChannels>(std::move(vehicle), std::move(adapter_));
 }
 
+namespace {
+
+// no runner has as much to say between two looks at the sensors
+constexpr int max_frames = 65536;
+
+// Another has come while the vehicle is with a runner.
+void turn_away(const Descriptor& door, const FrameStream& runner, const LockstepOptions& options) {
+  Descriptor other = accept_from(door);
+  if (!other) return;
+  const std::string who = "the runner at " + peer_of(other).text();
+  options.note(who + " was turned away: the vehicle is with " + runner.who());
+  const std::string why = "it is with " + runner.who();
+  try {
+    FrameStream stream(std::move(other), who, options.patience);
+    stream.put(FrameKind::busy, std::as_bytes(std::span(why)));
+    stream.flush();
+  } catch (const FrameError&) {
+    // it has gone by itself
+  }
+}
+
+}  // namespace
+
 void serve_lockstep(FrameStream stream, const messages::MessageSet& set,
                     const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
-                    const Interrupter& interrupter) {
+                    const Interrupter& interrupter, const LockstepOptions& options, const Descriptor& door) {
+  using Clock = FrameStream::Clock;
   const auto grid = static_cast<std::uint64_t>(make(0)->grid().count());
+  if (options.key) stream.secure(*options.key, set.name);
   stream.put(FrameKind::welcome, numbers({version, grid}, std::string(set.name)));
   stream.flush();
   Putter putter(set, stream);
   Taker taker(set);
   std::unique_ptr<vehicles::Vehicle> vehicle;
   std::optional<std::string> no_state;
-  while (stream.wait(interrupter)) {
+  auto heard = Clock::now();
+  const auto is_silent = [&] { return Clock::now() - heard >= stream.patience(); };
+  int frames = 0;
+  for (;;) {
+    const auto ready = stream.wait(interrupter, door.get(), std::chrono::milliseconds(vehicle == nullptr ? 100 : -1));
+    if (ready.interrupted) return;
+    if (!ready.one) {
+      if (is_silent() && (ready.other || vehicle == nullptr))
+        throw FrameError(stream.who() + " has been silent for " + duration_text(stream.patience()) +
+                         (vehicle == nullptr ? "" : " and makes room for another"));
+      if (ready.other) turn_away(door, stream, options);
+      continue;
+    }
     const FrameStream::Frame frame = stream.read();
+    if (++frames > max_frames)
+      throw FrameError(stream.who() + " has sent " + std::to_string(max_frames) +
+                       " frames without a look at the sensors");
     if (vehicle == nullptr) {
-      if (frame.kind != FrameKind::begin) throw FrameError("the other end does not speak the lockstep protocol");
+      if (frame.kind != FrameKind::begin) throw_unfit(stream);
       vehicle = make(number(frame, 0));
     } else if (frame.kind == FrameKind::message) {
       vehicle->accept(taker.message(frame));
@@ -137,14 +188,16 @@ void serve_lockstep(FrameStream stream, const messages::MessageSet& set,
         if (!no_state) vehicle->step();
       } catch (const vehicles::NoState& error) { no_state = error.what(); }
     } else if (frame.kind == FrameKind::sense) {
+      frames = 0;
       if (no_state)
         stream.put(FrameKind::no_state, std::as_bytes(std::span(*no_state)));
       else
         vehicle->sense(putter), stream.put(FrameKind::sensed);
       stream.flush();
     } else {
-      throw FrameError("the other end does not speak the lockstep protocol");
+      throw_unfit(stream);
     }
+    heard = Clock::now();
   }
 }
 

@@ -14,9 +14,18 @@ namespace jarol::distributers {
 /// Says what is wrong with a vehicle that has that grid, or nothing.
 using CheckGrid = std::function<std::string(Duration grid)>;
 
+struct LockstepOptions {
+  std::optional<SecretKey> key{};
+  /// With the whole answer to a question, and with a silence.
+  std::chrono::milliseconds patience = FrameStream::usual_patience;
+  /// What people should know that is no error.
+  std::function<void(const std::string&)> note = [](const std::string&) {};
+};
+
 class LockstepChannels : public Channels {
  public:
-  LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<Adapter> adapter, CheckGrid check_grid);
+  LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<Adapter> adapter, CheckGrid check_grid,
+                   LockstepOptions options = {});
   ~LockstepChannels() override;
 
   /// Connects, and has the vehicle begin. Throws FrameError, also if it is not one for this adapter and grid.
@@ -33,13 +42,15 @@ class LockstepChannels : public Channels {
   std::uint64_t seed_;
   std::unique_ptr<Adapter> adapter_;  // until it begins
   CheckGrid check_grid_;
+  LockstepOptions options_;
   std::unique_ptr<SimulationChannels> simulation_;
 };
 
 /// The other end: what a vehicle's process does with one runner, until that one has gone or it is interrupted. `make`
-/// gives a vehicle with that seed.
+/// gives a vehicle with that seed. Who comes to the `door` meanwhile is turned away, unless the runner has been silent
+/// for too long: then FrameError is thrown, and the next can be served.
 void serve_lockstep(FrameStream stream, const messages::MessageSet& set,
                     const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
-                    const Interrupter& interrupter);
+                    const Interrupter& interrupter, const LockstepOptions& options = {}, const Descriptor& door = {});
 
 }  // namespace jarol::distributers

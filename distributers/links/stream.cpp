@@ -25,13 +25,6 @@ bool can_write(int fd, milliseconds time) {
   return poll(&polled, 1, static_cast<int>(time.count())) > 0;
 }
 
-Address peer_of(const Descriptor& stream) {
-  sockaddr_storage storage{};
-  socklen_t size = sizeof storage;
-  if (getpeername(stream.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return {};
-  return Address::of(storage, size);
-}
-
 bool has_gone(const Descriptor& stream) {
   std::byte first{};
   const auto length = ::recv(stream.get(), &first, 1, MSG_PEEK | MSG_DONTWAIT);

@@ -192,9 +192,12 @@ Yaml link_of(const Options& options) {
 int serve_in_lockstep(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
                       Problems& problems) {
   std::string listen;
+  distributers::LockstepOptions lockstep;
   for (const auto& [key, text] : options.link) {
     if (key == "listen")
       listen = text;
+    else if (key == "key")
+      lockstep.key = distributers::read_key(text);
     else if (key != "type")
       throw std::invalid_argument("--link lockstep has no --" + key + "; it needs --listen");
   }
@@ -204,7 +207,7 @@ int serve_in_lockstep(const Options& options, const vehicles::VehicleClass& vehi
   return serve_vehicle_in_lockstep(vehicle_class, distributers::Address::parse(listen), [&](std::uint64_t seed) {
     Problems none;
     return make_vehicle(options, vehicle_class, parameters, seed, none);
-  });
+  }, lockstep);
 }
 
 int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,

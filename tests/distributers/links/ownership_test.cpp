@@ -1,0 +1,147 @@
+#include "distributers/links/ownership.h"
+
+#include <doctest/doctest.h>
+
+#include <map>
+#include <random>
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+using namespace std::chrono_literals;
+using Clock = Ownership::Clock;
+
+Address at(int port) { return Address::parse(std::to_string(port)); }
+
+// Time goes on as a receiving thread sees it.
+Clock::time_point pass(Ownership& ownership, Clock::time_point now, std::chrono::milliseconds time) {
+  for (; time > 0ms; time -= std::min(time, Ownership::look_interval))
+    ownership.look(now += std::min(time, Ownership::look_interval));
+  return now;
+}
+
+LinkReport report_of(const Ownership& ownership) {
+  LinkReport report;
+  ownership.add_to(report);
+  return report;
+}
+}  // namespace
+
+TEST_SUITE("distributers/links/ownership") {
+  TEST_CASE("a link is that of the first that speaks, until it has been silent for the limit") {
+    Ownership ownership(2s);
+    auto now = Clock::time_point(100s);
+    ownership.begin(now);
+    CHECK(ownership.may_speak(at(1)));
+    CHECK(ownership.may_speak(at(2)));
+    ownership.heard(at(1), now);
+    CHECK(ownership.may_speak(at(1)));
+    CHECK_FALSE(ownership.may_speak(at(2)));
+    now = pass(ownership, now, 1999ms);
+    CHECK_FALSE(ownership.may_speak(at(2)));
+    now = pass(ownership, now, 1ms);
+    CHECK(ownership.may_speak(at(2)));
+    CHECK(ownership.may_speak(at(1)));
+    ownership.heard(at(1), now);  // it speaks again: not taken over
+    CHECK_FALSE(ownership.may_speak(at(2)));
+    CHECK(ownership.takeovers() == 0);
+    now = pass(ownership, now, 2s);
+    ownership.heard(at(2), now);
+    CHECK_FALSE(ownership.may_speak(at(1)));
+    const LinkReport report = report_of(ownership);
+    REQUIRE(report.takeovers.size() == 1);
+    CHECK(report.takeovers[0].from == "127.0.0.1:1");
+    CHECK(report.takeovers[0].to == "127.0.0.1:2");
+    CHECK(report.takeovers[0].at == 4s);
+  }
+
+  TEST_CASE("a halt of this machine is no silence of the owner") {
+    Ownership ownership(2s);
+    const auto now = Clock::time_point(100s);
+    ownership.begin(now);
+    ownership.heard(at(1), now);
+    ownership.look(now + 1h);
+    CHECK_FALSE(ownership.may_speak(at(2)));
+  }
+
+  TEST_CASE("an owner that has gone leaves the link to the next, which is no takeover") {
+    Ownership ownership(2s);
+    const auto now = Clock::time_point(100s);
+    ownership.begin(now);
+    ownership.heard(at(1), now);
+    ownership.gone();
+    CHECK(ownership.may_speak(at(2)));
+    ownership.heard(at(2), now);
+    CHECK(ownership.takeovers() == 0);
+  }
+
+  TEST_CASE("a named peer owns the link for ever") {
+    Ownership ownership(1ms, at(1));
+    const auto now = Clock::time_point(100s);
+    ownership.begin(now);
+    CHECK_FALSE(ownership.may_speak(at(2)));
+    ownership.gone();
+    pass(ownership, now, 10s);
+    CHECK_FALSE(ownership.may_speak(at(2)));
+    CHECK(ownership.may_speak(at(1)));
+  }
+
+  TEST_CASE("strangers and takeovers are listed up to sixteen, and counted beyond") {
+    Ownership ownership(1ms);
+    auto now = Clock::time_point(100s);
+    ownership.begin(now);
+    for (int port = 1; port <= 20; ++port)
+      for (int times = 0; times < port; ++times) ownership.count_stranger(at(port));
+    for (int port = 1; port <= 20; ++port) {
+      ownership.heard(at(port), now);
+      now = pass(ownership, now, 1ms);
+    }
+    const LinkReport report = report_of(ownership);
+    REQUIRE(report.strangers.size() == 16);
+    CHECK(report.strangers[15].address == "127.0.0.1:16");
+    CHECK(report.strangers[15].times == 16);
+    CHECK(report.more_strangers == 17 + 18 + 19 + 20);
+    CHECK(report.takeovers.size() == 16);
+    CHECK(ownership.takeovers() == 19);
+  }
+
+  TEST_CASE("of random speakers and silences those are heard who ought to be") {
+    // the rule again, from the times at which the owner spoke alone
+    std::mt19937 random(7);
+    for (int round = 0; round < 200; ++round) {
+      const auto limit = 100ms * (1 + random() % 5);
+      Ownership ownership(limit);
+      auto now = Clock::time_point(100s);
+      ownership.begin(now);
+      int owner = 0;
+      Clock::time_point last{};
+      std::uint64_t takeovers = 0;
+      std::map<int, std::uint64_t> strangers;
+      for (int step = 0; step < 300; ++step) {
+        now = pass(ownership, now, std::chrono::milliseconds(random() % (random() % 8 == 0 ? 700 : 60)));
+        const int speaker = 1 + static_cast<int>(random() % 4);
+        const bool valid = random() % 3 != 0;
+        if (random() % 50 == 0) {
+          ownership.gone();
+          owner = 0;
+        }
+        const bool may = owner == 0 || owner == speaker || now - last >= limit;
+        REQUIRE(ownership.may_speak(at(speaker)) == may);
+        if (!may) {
+          ownership.count_stranger(at(speaker));
+          ++strangers[speaker];
+        } else if (valid) {
+          ownership.heard(at(speaker), now);
+          if (owner != 0 && owner != speaker) ++takeovers;
+          owner = speaker;
+          last = now;
+        }
+      }
+      CHECK(ownership.takeovers() == takeovers);
+      const LinkReport report = report_of(ownership);
+      CHECK(report.strangers.size() == strangers.size());
+      for (const LinkReport::Stranger& stranger : report.strangers)
+        CHECK(stranger.times == strangers[Address::parse(stranger.address).port()]);
+    }
+  }
+}
