@@ -155,13 +155,13 @@ std::unique_ptr<Channels> make_lockstep(const Graph& graph, std::size_t index, s
   LockstepOptions options;
   if (spec.key && !(options.key = key_of(*spec.key, problems))) return nullptr;
   try {
-    return std::make_unique<LockstepChannels>(Address::parse(spec.peer->value), seed,
-                                              kind_of(distributer).make_adapter(distributer.parameters.data()),
-                                              [&graph, index](Duration grid) {
-                                                const std::vector<Problem> wrong = off_grid(graph, index, grid);
-                                                return wrong.empty() ? std::string() : wrong.front().text;
-                                              },
-                                              std::move(options));
+    return std::make_unique<LockstepChannels>(
+        Address::parse(spec.peer->value), seed, kind_of(distributer).make_adapter(distributer.parameters.data()),
+        [&graph, index](Duration grid) {
+          const std::vector<Problem> wrong = off_grid(graph, index, grid);
+          return wrong.empty() ? std::string() : wrong.front().text;
+        },
+        std::move(options));
   } catch (const std::invalid_argument& error) {
     problems.add(spec.peer->where, error.what());
     return nullptr;

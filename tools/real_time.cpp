@@ -208,8 +208,12 @@ nlohmann::ordered_json to_json(const LinkReport& link) {
     strangers.push_back({{"address", stranger.address}, {"times", stranger.times}});
   for (const LinkReport::Takeover& takeover : link.takeovers)
     takeovers.push_back({{"from", takeover.from}, {"to", takeover.to}, {"at_ns", takeover.at.count()}});
-  return {{"link", link.link},         {"heard", link.heard > 0},           {"counts", counts},
-          {"strangers", strangers},    {"more_strangers", link.more_strangers}, {"takeovers", takeovers}};
+  return {{"link", link.link},
+          {"heard", link.heard > 0},
+          {"counts", counts},
+          {"strangers", strangers},
+          {"more_strangers", link.more_strangers},
+          {"takeovers", takeovers}};
 }
 
 }  // namespace jarol::tools

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "distributers/links/secret_key.h"
 #include "distributers/links/ownership.h"
+#include "distributers/links/secret_key.h"
 
 namespace jarol::distributers {
 
@@ -25,7 +25,7 @@ struct LinkOptions {
   PortOptions output{PortKind::plain};
   std::vector<std::pair<std::string, std::uint64_t>> header{};  // fields of the packets sent, as the sender's id
   std::vector<std::pair<std::string, std::uint64_t>> accept{};  // of packets received; others are dropped
-  std::optional<SecretKey> key{};                                     // with which packets are sealed, both ways
+  std::optional<SecretKey> key{};                               // with which packets are sealed, both ways
   std::chrono::nanoseconds silence = Ownership::default_silence;
 };
 

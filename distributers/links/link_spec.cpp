@@ -56,9 +56,8 @@ const Key<LinkSpec> source_key =
     key<&LinkSpec::source>("source", Form::id, "the sender's id in what counts, as in 0x00D1; default: any");
 const Key<LinkSpec> key_key =
     key<&LinkSpec::key>("key", Form::word, "file of the key that both ends have; default: none, anyone is believed");
-const Key<LinkSpec> silence_key =
-    key<&LinkSpec::silence>("silence", Form::positive_duration,
-                            "of the peer, after which another may take its place; default 5 s");
+const Key<LinkSpec> silence_key = key<&LinkSpec::silence>(
+    "silence", Form::positive_duration, "of the peer, after which another may take its place; default 5 s");
 const Key<LinkSpec> ports_key = key<&LinkSpec::port>("port", Form::mapping, "kind and size of the link's ports");
 
 const std::vector<Key<LinkSpec>>& udp_keys() {
@@ -81,7 +80,8 @@ const std::vector<Key<LinkSpec>>& udp_keys() {
 
 const std::vector<Key<LinkSpec>>& client_keys() {
   static const std::vector<Key<LinkSpec>> keys{
-      type_key, key<&LinkSpec::peer>("peer", Form::word, "address and port to connect to", true), key_key, id_key,
+      type_key,   key<&LinkSpec::peer>("peer", Form::word, "address and port to connect to", true),
+      key_key,    id_key,
       source_key, ports_key};
   return keys;
 }
@@ -143,9 +143,8 @@ std::unique_ptr<Transport> make_udp(const LinkSpec& spec, const Yaml& yaml, cons
                                        "': one is IPv4, the other IPv6");
   try {
     // all who may look for it are told the same: where the first of them sees it
-    return std::make_unique<UdpTransport>(listen, peer,
-                                          spec.announce ? Announcer::parse(spec.announce->value).front() : Address{},
-                                          silence_of(spec));
+    return std::make_unique<UdpTransport>(
+        listen, peer, spec.announce ? Announcer::parse(spec.announce->value).front() : Address{}, silence_of(spec));
   } catch (const std::invalid_argument& error) {
     problems.add(spec.announce->where, error.what());
     return nullptr;
@@ -166,7 +165,8 @@ std::unique_ptr<Transport> make_transport(const Yaml& yaml, LinkSpec& spec, cons
   }
   if (type == "tcp_server") {
     read_keys(yaml, server_keys(), spec, subject, problems);
-    return problems.size() > before ? nullptr : std::make_unique<TcpServer>(address_of(spec.listen, problems), silence_of(spec));
+    return problems.size() > before ? nullptr
+                                    : std::make_unique<TcpServer>(address_of(spec.listen, problems), silence_of(spec));
   }
   read_keys(yaml, serial_keys(), spec, subject, problems);
   if (problems.size() > before) return nullptr;

@@ -20,7 +20,9 @@ constexpr std::size_t min_bytes = 32, max_bytes = 4096;
 }  // namespace
 
 SecretKey read_key(const std::string& path) {
-  const auto refuse = [&](const std::string& why) { throw std::invalid_argument("the key file '" + path + "' " + why); };
+  const auto refuse = [&](const std::string& why) {
+    throw std::invalid_argument("the key file '" + path + "' " + why);
+  };
   const std::string by = "; make one by: (umask 077; head -c 32 /dev/urandom > " + path + ")";
   // a pipe without a writer would be waited for
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));

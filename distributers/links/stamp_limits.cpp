@@ -16,7 +16,8 @@ StampLimits::StampLimits(const messages::MessageSet& set, std::chrono::nanosecon
 }
 
 StampLimits::Source& StampLimits::find(std::uint64_t id) {
-  const auto found = std::find_if(sources_.begin(), sources_.end(), [&](const Source& s) { return s.used && s.id == id; });
+  const auto found =
+      std::find_if(sources_.begin(), sources_.end(), [&](const Source& s) { return s.used && s.id == id; });
   if (found != sources_.end()) return *found;
   Source& oldest = *std::min_element(sources_.begin(), sources_.end(), [](const Source& a, const Source& b) {
     return a.used != b.used ? b.used : a.taken < b.taken;

@@ -11,10 +11,10 @@
 namespace jarol::distributers {
 
 /// A stamp is held against the clock of its source, as the latest of its stamps that were taken tells it. One that is
-/// far ahead of that is refused, unless it is nearer to this machine's own time (then the one before was old); so is one
-/// that is far behind. Systems do send again what they said long ago: DUNE answers a new peer with a message that it
-/// made when it began to log. When nothing of a source was taken for as long as a peer may be silent, its clock was set,
-/// or it is another system: it begins anew.
+/// far ahead of that is refused, unless it is nearer to this machine's own time (then the one before was old); so is
+/// one that is far behind. Systems do send again what they said long ago: DUNE answers a new peer with a message that
+/// it made when it began to log. When nothing of a source was taken for as long as a peer may be silent, its clock was
+/// set, or it is another system: it begins anew.
 class StampLimits {
  public:
   using Clock = std::chrono::steady_clock;

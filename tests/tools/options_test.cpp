@@ -155,6 +155,20 @@ TEST_SUITE("tools/options") {
     CHECK(jarol(tcp).output.starts_with("--link:1:1: error: link lacks the key 'listen': port to listen at"));
   }
 
+  TEST_CASE("vehicle: a key is read before anything else, on each link that can have one") {
+    const std::string why = "the key file 'no_such.key' can't be read: No such file or directory; make one by: ";
+    for (const std::string link : {"udp --listen 0", "tcp --listen 0", "tcp --peer 1"}) {
+      const auto refused = jarol("vehicle submarine --link " + link + " --key no_such.key");
+      CHECK(refused.exit_code == 2);
+      CHECK(refused.output.starts_with("--key:1:1: error: " + why));
+    }
+    check_refused("vehicle submarine --link lockstep --listen 7010 --key no_such.key",
+                  why + "(umask 077; head -c 32 /dev/urandom > no_such.key)");
+    CHECK(jarol("vehicle submarine --link serial --device x --key no_such.key")
+              .output.starts_with(
+                  "--key:1:1: error: link has no key 'key'; it has: type, device, baud, id, source, port"));
+  }
+
   TEST_CASE("vehicle: in lockstep those who run a graph with it say how long, and with what seed") {
     const std::string lockstep = "vehicle submarine --link lockstep --listen 7010 ";
     check_refused(lockstep + "--for 1s",

@@ -199,6 +199,25 @@ TEST_SUITE("tools/real_time") {
     CHECK(jarol::tools::to_text(link) == "  link        udp 127.0.0.1:7002: 3 packets out, 2 dropped: stranger\n");
   }
 
+  TEST_CASE("strangers and takeovers of a link are in its report, as text and as JSON") {
+    jarol::LinkReport link;
+    link.link = "udp 127.0.0.1:7002";
+    link.counts = {{"packets in", 5}};
+    link.heard = 5;
+    link.strangers = {{"127.0.0.1:5000", 12}};
+    link.more_strangers = 3;
+    link.takeovers = {{"127.0.0.1:4000", "127.0.0.1:4001", std::chrono::milliseconds(12340)}};
+    CHECK(jarol::tools::to_text(link) ==
+          "  link        udp 127.0.0.1:7002: 5 packets in\n"
+          "              taken over by 127.0.0.1:4001 at 12.34 s, after 127.0.0.1:4000 had been silent\n"
+          "              stranger 127.0.0.1:5000, 12 times\n"
+          "              more strangers, 3 times\n");
+    CHECK(jarol::tools::to_json(link).dump() ==
+          R"({"link":"udp 127.0.0.1:7002","heard":true,"counts":{"packets in":5},)"
+          R"("strangers":[{"address":"127.0.0.1:5000","times":12}],"more_strangers":3,)"
+          R"("takeovers":[{"from":"127.0.0.1:4000","to":"127.0.0.1:4001","at_ns":12340000000}]})");
+  }
+
   TEST_CASE("what can't be executed is refused with what would be right") {
     const TemporaryFolder folder;
     const std::string one = folder.write("one.yaml", on_core(0));

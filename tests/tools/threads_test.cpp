@@ -59,11 +59,11 @@ TEST_SUITE("tools/threads") {
 
   TEST_CASE("a vehicle that is lost ends the run, and is told") {
     // later where the machine had not come so far that there was anything to lose
-    std::string errors;
+    std::string errors, port;
     int exit_code = -1;
     double lost_at = 0;
     for (auto wait = std::chrono::milliseconds(500); lost_at == 0 && wait < std::chrono::minutes(1); wait *= 2) {
-      const std::string port = jarol::tests::free_port(SOCK_STREAM);
+      port = jarol::tests::free_port(SOCK_STREAM);
       jarol::tests::Process vehicle("vehicle submarine --link lockstep --listen " + port);
       REQUIRE(vehicle.says("in lockstep at"));
       jarol::tests::Process run(std::string("run specs/exolauv.yaml") + on_threads +
@@ -78,7 +78,7 @@ TEST_SUITE("tools/threads") {
     CHECK(exit_code == 3);
     CHECK(lost_at > 0);
     CHECK(errors.substr(errors.find(" s: ", errors.find("error: at "))) ==
-          " s: the other end has ended the connection\n");
+          " s: the vehicle at 127.0.0.1:" + port + " has ended the connection\n");
   }
 
   TEST_CASE("the first thousand faults are told, and how many more there were") {

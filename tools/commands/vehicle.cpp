@@ -204,10 +204,13 @@ int serve_in_lockstep(const Options& options, const vehicles::VehicleClass& vehi
   if (listen.empty()) throw std::invalid_argument("--link lockstep needs --listen, as in --listen 7010");
   make_vehicle(options, vehicle_class, parameters, own_seed(options, vehicle_class),
                problems);  // what is wrong with it is told at once
-  return serve_vehicle_in_lockstep(vehicle_class, distributers::Address::parse(listen), [&](std::uint64_t seed) {
-    Problems none;
-    return make_vehicle(options, vehicle_class, parameters, seed, none);
-  }, lockstep);
+  return serve_vehicle_in_lockstep(
+      vehicle_class, distributers::Address::parse(listen),
+      [&](std::uint64_t seed) {
+        Problems none;
+        return make_vehicle(options, vehicle_class, parameters, seed, none);
+      },
+      lockstep);
 }
 
 int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,

@@ -75,8 +75,8 @@ void say(const Descriptor& to, const Bytes& bytes) { ::send(to.get(), bytes.data
 // What a run says that looks at its sensors once.
 std::string said_with(const Address& address, std::optional<SecretKey> key = {}) {
   try {
-    LockstepChannels channels(address, 0, std::make_unique<JaviatorVehicle>(),
-                              [](Duration) { return std::string(); }, {.key = key, .patience = patience});
+    LockstepChannels channels(address, 0, std::make_unique<JaviatorVehicle>(), [](Duration) { return std::string(); },
+                              {.key = key, .patience = patience});
     channels.begin();
     channels.reach(Duration{});
   } catch (const FrameError& error) {
@@ -112,7 +112,9 @@ struct Server {
           serve_lockstep(
               FrameStream(std::move(runner), who, patience), javiator::message_set(),
               [](std::uint64_t) { return std::make_unique<Box>(); }, interrupter, options, socket);
-        } catch (const FrameEnd&) { add("end"); } catch (const FrameError& error) { add(error.what()); }
+        } catch (const FrameEnd&) { add("end"); } catch (const FrameError& error) {
+          add(error.what());
+        }
       }
     });
   }
@@ -281,8 +283,8 @@ TEST_SUITE("distributers/links/lockstep_patience") {
     });
     std::string said;
     try {
-      LockstepChannels channels(address, 0, std::make_unique<JaviatorVehicle>(),
-                                [](Duration) { return std::string(); }, {.key = key_of(1), .patience = patience});
+      LockstepChannels channels(address, 0, std::make_unique<JaviatorVehicle>(), [](Duration) { return std::string(); },
+                                {.key = key_of(1), .patience = patience});
       channels.begin();
       for (int i = 0; i < 100; ++i) channels.reach(i * 5ms);
     } catch (const FrameError& error) { said = error.what(); }

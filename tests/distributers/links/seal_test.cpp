@@ -192,8 +192,8 @@ TEST_SUITE("distributers/links/seal") {
 
   TEST_CASE("a key file is regular, for its owner only, and long enough") {
     const std::string by = "; make one by: (umask 077; head -c 32 /dev/urandom > ";
-    CHECK(refusal_of("/no/such.key") == "the key file '/no/such.key' can't be read: No such file or directory" + by +
-                                            "/no/such.key)");
+    CHECK(refusal_of("/no/such.key") ==
+          "the key file '/no/such.key' can't be read: No such file or directory" + by + "/no/such.key)");
     CHECK(refusal_of("/dev/null") == "the key file '/dev/null' is no regular file" + by + "/dev/null)");
     CHECK(refusal_of("/tmp") == "the key file '/tmp' is no regular file" + by + "/tmp)");
     {

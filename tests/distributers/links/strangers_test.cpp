@@ -42,8 +42,7 @@ std::vector<std::byte> packet_of(int id) {
   const javiator::MotorSignals signals{0, 0, 0, 0, static_cast<std::uint16_t>(id)};
   const javiator::Header header;
   std::vector<std::byte> bytes;
-  REQUIRE(write_packet(messages::refer_to(header), messages::refer_to(signals),
-                       javiator::message_set().order, bytes));
+  REQUIRE(write_packet(messages::refer_to(header), messages::refer_to(signals), javiator::message_set().order, bytes));
   return bytes;
 }
 
@@ -52,19 +51,20 @@ struct Ids : messages::Receiver {
   std::vector<int> ids;
 };
 
+template <class Listens>
+std::unique_ptr<Listens> listening(std::chrono::nanoseconds silence) {
+  if constexpr (std::is_same_v<Listens, UdpTransport>)
+    return std::make_unique<UdpTransport>(any, Address{}, Address{}, silence);
+  else
+    return std::make_unique<Listens>(any, silence);
+}
+
 // A link that names no peer.
 template <class Listens>
 struct Open {
   explicit Open(std::chrono::nanoseconds silence = 1h, LinkOptions options = {}) {
     options.input = {PortKind::plain, 4096};
-    auto transport = std::make_unique<Listens>(any, [&] {
-      if constexpr (std::is_same_v<Listens, UdpTransport>)
-        return Address{};
-      else
-        return silence;
-    }());
-    if constexpr (std::is_same_v<Listens, UdpTransport>)
-      transport = std::make_unique<UdpTransport>(any, Address{}, Address{}, silence);
+    auto transport = listening<Listens>(silence);
     const Listens& at = *transport;
     link = std::make_unique<Link>(std::move(transport), javiator::message_set(), options);
     link->connect();
@@ -242,8 +242,8 @@ TEST_SUITE("distributers/links/strangers") {
       peer.say(id);
       if (id % 8 != 0) continue;  // some together, which wait in the peer's own room
       CHECK(wait_for([&] { return open.count("packets in") == static_cast<std::uint64_t>(id) + 1; }));
-      longest = std::max(longest, std::chrono::duration_cast<std::chrono::milliseconds>(
-                                      std::chrono::steady_clock::now() - start));
+      longest = std::max(
+          longest, std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - start));
     }
     ending = true;
     flood.join();
@@ -251,10 +251,9 @@ TEST_SUITE("distributers/links/strangers") {
     open.link->receive(got);
     CHECK(got.ids.size() == packets + 1);
     CHECK(std::count(got.ids.begin(), got.ids.end(), 60000) == 0);
-    MESSAGE(open.count("dropped: stranger") << " of the stranger were looked at, "
-                                            << open.count("dropped: no room in the system")
-                                            << " had no room; a packet of the peer waited " << longest.count()
-                                            << " ms at most");
+    MESSAGE(open.count("dropped: stranger")
+            << " of the stranger were looked at, " << open.count("dropped: no room in the system")
+            << " had no room; a packet of the peer waited " << longest.count() << " ms at most");
   }
 
   TEST_CASE("a hello from a stray socket does not swallow the pilot's next command") {
@@ -423,7 +422,8 @@ TEST_SUITE("distributers/links/strangers") {
       header.src = 1;
       header.timestamp = stamp;
       std::vector<std::byte> bytes;
-      REQUIRE(write_packet(messages::refer_to(header), messages::refer_to(imc::Depth{1}), imc::message_set().order, bytes));
+      REQUIRE(
+          write_packet(messages::refer_to(header), messages::refer_to(imc::Depth{1}), imc::message_set().order, bytes));
       speaker.say(bytes);
     };
     say(now);
