@@ -29,7 +29,8 @@ SecretKey read_key(const std::string& path) {
   if (!file) refuse(std::string("can't be read: ") + std::strerror(errno) + (errno == ENOENT ? by : ""));
   struct stat found {};
   if (fstat(file.get(), &found) != 0) refuse(std::string("can't be read: ") + std::strerror(errno));
-  if (!S_ISREG(found.st_mode)) refuse("is no regular file" + by);
+  if (!S_ISREG(found.st_mode))
+    refuse(fmt::format("is no regular file; it has to be one of {} to {} bytes", min_bytes, max_bytes));
   if ((found.st_mode & 077) != 0)
     refuse(fmt::format("has the mode {:04o}, so that others than its owner may use it; chmod 600 {}",
                        found.st_mode & 07777, path));

@@ -53,7 +53,8 @@ TEST_SUITE("distributers/links/lockstep") {
 
   TEST_CASE("a connection has ended also when the other end goes with bytes unread, which resets it") {
     const Descriptor socket = listen_at(Address::parse("0"));
-    FrameStream stream = FrameStream::connect(Address::parse(std::to_string(port_of(socket))));
+    const std::string port = std::to_string(port_of(socket));
+    FrameStream stream = FrameStream::connect(Address::parse(port));
     Descriptor other;
     while (!other) other = accept_from(socket);
     stream.put(FrameKind::step);
@@ -61,7 +62,8 @@ TEST_SUITE("distributers/links/lockstep") {
     pollfd unread{other.get(), POLLIN, 0};
     REQUIRE(poll(&unread, 1, 20'000) == 1);
     other = Descriptor();
-    CHECK_THROWS_WITH_AS(stream.read(), "the other end has ended the connection", FrameEnd);
+    CHECK_THROWS_WITH_AS(stream.read(), ("the vehicle at 127.0.0.1:" + port + " has ended the connection").c_str(),
+                         FrameEnd);
   }
 
   TEST_CASE("connecting to where nobody answers has an end") {
