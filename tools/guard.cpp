@@ -35,6 +35,8 @@ Guard::Guard(const Loaded& loaded, bool wanted, std::optional<int> priority) {
   if (!wanted) missing_ = "--no-guardian";
   if (guarded.empty() || !wanted) return;
   try {
+    for (const auto& [distributer, link] : guarded)
+      if (link->has_key()) throw std::runtime_error("a link has a key, and its peer believes no other process");
     auto guardian = std::make_unique<distributers::Guardian>();
     std::vector<distributers::Holder*> holders;
     for (const auto& [distributer, link] : guarded)
