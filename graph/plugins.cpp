@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "graph/plugin.h"
+#include "graph/yaml/inputs.h"
 
 namespace jarol {
 
@@ -12,6 +13,7 @@ std::string load_plugin(const std::string& path, Registry& registry) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return "there is no file '" + path + "'";
+  note_input(path);
   // without a slash dlopen would search elsewhere
   const std::string place = path.find('/') == std::string::npos ? "./" + path : path;
   void* const library = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -34,11 +36,15 @@ std::string load_plugin(const std::string& path, Registry& registry) {
   return "";
 }
 
-void load_plugins(const GraphSpec& spec, Registry& registry, Problems& problems) {
+std::string plugin_path(const GraphSpec& spec, const std::string& plugin) {
   const std::filesystem::path folder =
       spec.where.source ? std::filesystem::path(spec.where.source->name).parent_path() : "";
+  return (folder / plugin).string();
+}
+
+void load_plugins(const GraphSpec& spec, Registry& registry, Problems& problems) {
   for (const Located<std::string>& plugin : spec.plugins) {
-    const std::string wrong = load_plugin((folder / plugin.value).string(), registry);
+    const std::string wrong = load_plugin(plugin_path(spec, plugin.value), registry);
     if (!wrong.empty()) problems.add(plugin.where, wrong);
   }
 }

@@ -11,7 +11,10 @@ namespace jarol {
 /// The library stays loaded.
 std::string load_plugin(const std::string& path, Registry& registry);
 
-/// Adds the tasks of all plugins that a graph names, their paths relative to its file, and reports what is wrong.
+/// Where a plugin stands that a graph names: paths are relative to its file.
+std::string plugin_path(const GraphSpec& spec, const std::string& plugin);
+
+/// Adds the tasks of all plugins that a graph names, and reports what is wrong.
 void load_plugins(const GraphSpec& spec, Registry& registry, Problems& problems);
 
 }  // namespace jarol

@@ -154,6 +154,10 @@ Option* Command::add_flag(const std::string& name, bool& value, const std::strin
   return &options_.emplace_back(*app_.add_flag(name, value, text));
 }
 
+Option* Command::add_flag(const std::string& name, const std::function<void()>& take, const std::string& text) {
+  return &options_.emplace_back(*app_.add_flag_callback(name, take, text));
+}
+
 bool Command::given(const std::string& name) const { return app_.count(name) > 0; }
 
 void Command::refuse(const std::vector<std::string>& names, const std::string& why) const {

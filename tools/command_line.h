@@ -44,6 +44,7 @@ class Command {
   Option* add_option(const std::string& name, const std::function<void(const std::string&)>& take,
                      const std::string& text);
   Option* add_flag(const std::string& name, bool& value, const std::string& text);
+  Option* add_flag(const std::string& name, const std::function<void()>& take, const std::string& text);
   /// Was the option of that name among the words?
   bool given(const std::string& name) const;
   /// Throws std::invalid_argument for the first of these options that was given: its name and this text, as in

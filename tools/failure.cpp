@@ -3,6 +3,7 @@
 #include <iostream>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "graph/text/escape.h"
 #include "tools/commands/commands.h"
@@ -55,6 +56,11 @@ Failure failure_of(const std::exception_ptr& error, const std::string& file) {
     failure = of_one(exit_negative, negative.what());
   } catch (const std::bad_alloc&) {
     failure = of_one(exit_unfinished, "there is not enough memory for this");
+  } catch (const std::system_error& refused) {
+    // no room for another thread, as a rule
+    const bool no_room = refused.code() == std::errc::resource_unavailable_try_again;
+    failure = no_room ? of_one(exit_unfinished, "there is not enough memory for this, or there are too many threads")
+                      : of_one(exit_input, refused.what());
   } catch (const std::exception& wrong) { failure = of_one(exit_input, wrong.what()); }
   if (!file.empty()) failure.text += sum(1);
   return failure;

@@ -1,8 +1,12 @@
 #include "tools/load_graph.h"
 
+#include <iostream>
+#include <set>
+
 #include "distributers/distributers.h"
 #include "graph/build.h"
 #include "graph/plugins.h"
+#include "graph/text/escape.h"
 #include "tasks/tasks.h"
 #ifdef JAROL_VEHICLES
 #include "vehicles/catalogue.h"
@@ -18,16 +22,28 @@ Registry make_registry() {
   return made;
 }
 
+// What is loaded runs as the user: who it is stands there first, once each.
+void announce_plugins(const GraphSpec& spec) {
+  static std::set<std::string> announced;
+  for (const Located<std::string>& plugin : spec.plugins) {
+    const std::string path = plugin_path(spec, plugin.value);
+    if (announced.insert(path).second) std::cerr << "note: loads plugin '" << printable(path) << "'\n";
+  }
+}
+
 Loaded load(const std::shared_ptr<const Source>& source, const Overrides& overrides, Problems& problems) {
   const GraphSpec spec = load_spec(source, overrides, problems);
   Loaded loaded;
   loaded.registry = std::make_unique<Registry>(registry());
+  announce_plugins(spec);
   load_plugins(spec, *loaded.registry, problems);
   loaded.graph = std::make_unique<Graph>(build_graph(spec, *loaded.registry, problems));
   return loaded;
 }
 
 }  // namespace
+
+Overrides without_changes(const Overrides& overrides) { return {"", {}, overrides.no_plugins}; }
 
 const Registry& registry() {
   static const Registry known = make_registry();

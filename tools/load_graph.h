@@ -21,11 +21,14 @@ struct Loaded {
   std::vector<std::unique_ptr<Channels>> channels;
 };
 
+/// The file as it stands, its plugins as allowed.
+Overrides without_changes(const Overrides& overrides);
+
 /// Every vehicle that this program has.
 const std::vector<vehicles::VehicleClass>& known_vehicles();
 
 /// Throws SpecError with everything that is wrong with the file, its overrides and its links. The seed is that of all
-/// noise.
+/// noise. A plugin is named on stderr before it is loaded.
 Loaded load_graph(const std::string& path, const Overrides& overrides, std::uint64_t seed = 0);
 Loaded load_graph(const std::shared_ptr<const Source>& source, const Overrides& overrides, std::uint64_t seed = 0);
 

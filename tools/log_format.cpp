@@ -24,6 +24,11 @@ std::string signature_of(const Type& type) {
 
 std::string sum_of_text(std::string_view text) { return fmt::format("{:016x}", digest::name_hash(text)); }
 
+bool names_plugins(const std::string& set) {
+  const std::string_view path = std::string_view(set).substr(0, set.find('='));
+  return path == "plugins" || path.starts_with("plugins.");
+}
+
 std::string to_line(const LogHeader& header) {
   nlohmann::ordered_json json{{"schema", LogHeader::schema},
                               {"graph", header.graph},
@@ -41,7 +46,12 @@ std::string to_line(const LogHeader& header) {
 
 LogHeader parse_header(const std::string& line) {
   try {
-    const auto json = nlohmann::json::parse(line);
+    std::size_t values = 0;
+    const auto bound = [&](int depth, nlohmann::json::parse_event_t, const nlohmann::json&) {
+      if (depth > 4 || ++values > 2'000'000) throw LogError("is no log");
+      return true;
+    };
+    const auto json = nlohmann::json::parse(line, bound);
     if (json.at("schema") != LogHeader::schema) throw LogError("is no log");
     LogHeader header{.graph = json.at("graph"),
                      .file = json.at("file"),

@@ -61,6 +61,9 @@ struct LogEnd {
   std::uint64_t faults = 0;
 };
 
+/// Is it plugins that this "path=value" of Overrides sets? A log has no such: it names no code to load.
+bool names_plugins(const std::string& set);
+
 /// As one line of JSON, and back. Throws LogError.
 std::string to_line(const LogHeader& header);
 LogHeader parse_header(const std::string& line);

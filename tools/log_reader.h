@@ -38,19 +38,23 @@ class LogReader : public TakenValues {
 
  private:
   bool next();
+  void keep();
   void next_value();
   void require_not_before(Duration instant) const;
   [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail_in_record(const std::string& what) const;
   [[noreturn]] void fail_for_graph(const std::string& what) const;
 
   std::string path_;
   std::ifstream file_;
   std::streamoff first_ = 0;  // of the records
+  std::streamoff at_ = 0;     // of the record
   std::streamoff good_until_ = 0;
   LogHeader header_;
   std::optional<LogEnd> end_;
   std::uint64_t values_ = 0;
-  std::vector<Miss> misses_;  // by the header's tasks
+  std::int64_t last_value_ = 0;  // ns; its instant
+  std::vector<Miss> misses_;     // by the header's tasks
   std::vector<Checkpoint> checkpoints_;
   const Graph* graph_ = nullptr;
   std::vector<std::size_t> communicators_;  // per input of the header

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "graph/values/pack.h"
+#include "tools/sync.h"
+#include "tools/whole_file.h"
 
 namespace jarol::tools {
 namespace {
@@ -37,6 +39,8 @@ LogWriter::~LogWriter() {
 }
 
 void LogWriter::open() {
+  require_no_input(path_);
+  lock_ = OutputLock(target_of(path_));
   if (!may_be_replaced(path_)) fail("it is there and no log; choose another file, or remove it");
   file_ = std::fopen(path_.c_str(), "wb");
   if (file_ == nullptr || std::fwrite(line_.data(), 1, line_.size(), file_) != line_.size()) fail(std::strerror(errno));
@@ -49,8 +53,10 @@ void LogWriter::close(const Report& report) {
   const LogEnd end{report.covered.count(), report.simulated.count(), report.digest,
                    report.activations,     report.instants,          report.fault_count};
   append(report.covered, LogRecord::end, &end, sizeof end);
-  // the buffer goes out on closing, so that a full disk shows here at the latest
+  // what is in the buffer goes out here at the latest, so that a full disk shows
+  if (!sync(file_)) fail(std::strerror(errno));
   if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(std::strerror(errno));
+  sync_folder_of(path_);
 }
 
 void LogWriter::take(Duration instant, std::uint32_t output, const void* value) {

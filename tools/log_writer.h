@@ -8,6 +8,7 @@
 
 #include "runtime/executor.h"
 #include "tools/log_format.h"
+#include "tools/output_lock.h"
 
 namespace jarol::tools {
 
@@ -40,6 +41,7 @@ class LogWriter : private RecordSink {
   std::string line_;             // the header
   std::vector<Output> outputs_;  // of the recorder
   std::string packed_;
+  OutputLock lock_;
   std::FILE* file_ = nullptr;
   std::unique_ptr<Recorder> recorder_;
 };

@@ -90,10 +90,10 @@ void choose_written(const Graph& in_file, const MeasureOptions& options, std::ve
   }
 }
 
-void write_wcets(const std::string& file, const std::shared_ptr<const Source>& source, const Graph& in_file,
-                 const std::vector<Row>& rows) {
+void write_wcets(const std::string& file, const std::shared_ptr<const Source>& source, const Overrides& overrides,
+                 const Graph& in_file, const std::vector<Row>& rows) {
   Problems none;
-  const GraphSpec spec = load_spec(source, {}, none);
+  const GraphSpec spec = load_spec(source, overrides, none);
   std::vector<std::optional<Duration>> wcets;
   for (const Task& task : in_file.tasks) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == task.name; });
@@ -102,8 +102,8 @@ void write_wcets(const std::string& file, const std::shared_ptr<const Source>& s
   const std::string edited = with_wcets(source->text, spec, in_file, wcets);
   if (read_source(file)->text != source->text)
     throw std::invalid_argument("'" + file + "' was changed while it was measured; nothing is written, measure again");
-  load_graph(std::make_shared<Source>(Source{file, edited}), {});
-  WholeFile whole(file);
+  load_graph(std::make_shared<Source>(Source{file, edited}), overrides);
+  WholeFile whole(file, Replaces::all);
   whole.write(edited);
   whole.commit();
 }
@@ -115,7 +115,7 @@ void measure_file(const std::string& file, const Overrides& overrides, const Mea
   require_in_process(loaded);
   const Duration end = measured_time(options, loaded);
   const auto source = options.write ? read_source(file) : nullptr;
-  const Loaded in_file = options.write ? load_graph(source, {}) : Loaded{};
+  const Loaded in_file = options.write ? load_graph(source, without_changes(overrides)) : Loaded{};
   const std::vector<MeasuredTask> measured = measure_tasks(loaded, end);
   std::vector<Row> rows;
   for (std::size_t i = 0; i < measured.size(); ++i)
@@ -129,7 +129,7 @@ void measure_file(const std::string& file, const Overrides& overrides, const Mea
               << table(rows, written);
   };
   try {
-    if (writes) write_wcets(file, source, *in_file.graph, rows);
+    if (writes) write_wcets(file, source, without_changes(overrides), *in_file.graph, rows);
   } catch (...) {
     // what was measured is worth its time, also where it can't be written
     tell(false);

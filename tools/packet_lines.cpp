@@ -24,15 +24,41 @@ struct Wrong {
 
 constexpr std::string_view space = " \t\r";
 
+constexpr std::size_t longest_line = std::size_t{1} << 20;
+
+// Of one that is too long no more than shows that it is.
+bool next_line(std::istream& in, std::string& line) {
+  line.clear();
+  bool any = false;
+  for (int c = 0; (c = in.get()) != std::istream::traits_type::eof() && c != '\n'; any = true)
+    if (line.size() <= longest_line) line += static_cast<char>(c);
+  return any || in;
+}
+
+// An object that is nested no deeper than messages may be.
+Json parse_object(const std::string& line) {
+  constexpr int deepest = 64;
+  const auto check_depth = [](int depth, Json::parse_event_t, const Json&) {
+    if (depth > deepest) throw Wrong{"the line is nested deeper than " + std::to_string(deepest) + " levels"};
+    return true;
+  };
+  Json packet = Json::parse(line, check_depth, false);
+  if (!packet.is_object())
+    throw Wrong{R"(the line is no JSON object; it needs {"name": ..., "header": ..., "fields": ...})"};
+  return packet;
+}
+
 // Calls act(line, number) for every line that is not empty; returns the worst exit code.
 template <class Act>
 int for_each_line(std::istream& in, std::ostream& errors, Act act) {
   int exit_code = exit_good;
   std::size_t number = 0;
-  for (std::string line; std::getline(in, line);) {
+  for (std::string line; next_line(in, line);) {
     ++number;
     if (line.find_first_not_of(space) == std::string::npos) continue;
     try {
+      if (line.size() > longest_line)
+        throw Wrong{"the line is longer than " + std::to_string(longest_line >> 10) + " KiB; a packet has 64 at most"};
       exit_code = std::max(exit_code, act(line));
     } catch (const Wrong& wrong) {
       errors << "line " << number << ": error: " << wrong.text << "\n";
@@ -128,9 +154,7 @@ int decode_lines(const messages::MessageSet& set, std::istream& in, std::ostream
 
 int encode_lines(const messages::MessageSet& set, std::istream& in, std::ostream& out, std::ostream& errors) {
   return for_each_line(in, errors, [&](const std::string& line) -> int {
-    const Json packet = Json::parse(line, nullptr, false);
-    if (!packet.is_object())
-      throw Wrong{R"(the line is no JSON object; it needs {"name": ..., "header": ..., "fields": ...})"};
+    const Json packet = parse_object(line);
     check_keys(packet);
     const messages::Message message = message_of(form_in(packet, set), packet, "fields");
     const messages::Message header = message_of(*set.header, packet, "header");

@@ -5,8 +5,9 @@
 
 namespace jarol::tools {
 
-/// From now on SIGINT, SIGTERM and SIGHUP remove the file where they would end the program, and those of which nobody
-/// else takes care end it. One of more than a few at once, or with a very long path, is not known.
+/// From now on SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE and SIGXFSZ remove the file where they would end the program,
+/// and those of which nobody else takes care end it. One of more than a few at once, or with a very long path, is not
+/// known.
 void add_partial_file(const std::string& path);
 
 /// It is whole, or gone.

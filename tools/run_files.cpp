@@ -6,6 +6,7 @@
 #include "tools/commanded.h"
 #include "tools/plot_svg.h"
 #include "tools/trace_csv.h"
+#include "tools/whole_file.h"
 
 namespace jarol::tools {
 namespace {
@@ -49,6 +50,8 @@ std::string to_text(const RunFileArguments& arguments) {
 // The plan gives trace and plot their outputs before there is an executor.
 RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments) {
   if (arguments.trace.empty() && arguments.plot.empty()) return;
+  for (const std::string& path : {arguments.trace, arguments.plot})
+    if (!path.empty()) require_no_input(path);
   const Plan plan(graph);
   if (!arguments.trace.empty()) sinks_.push_back(std::make_unique<TraceCsv>(arguments.trace, plan.outputs));
   if (!arguments.plot.empty())

@@ -8,13 +8,18 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/output_lock.h"
+
 namespace jarol::tools {
+
+/// What may stand where a file is written: nothing; a file, but for those that the process has read; any.
+enum class Replaces { nothing, outputs, all };
 
 class WholeFile {
  public:
   /// Links are followed, and what they lead to is replaced; it keeps its permissions.
   /// Throws std::runtime_error, "can't write 'path': reason", if the file can't be made; so do the others.
-  explicit WholeFile(std::string path);
+  explicit WholeFile(std::string path, Replaces replaces = Replaces::outputs);
   /// What was not committed is gone, also if a signal ends the program.
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
@@ -24,13 +29,22 @@ class WholeFile {
   void commit();
 
  private:
-  std::string partial() const { return target_.string() + ".part"; }
+  void open_partial();
+  bool put_in_place() const;
 
   std::string path_;              // as the user calls it
   std::filesystem::path target_;  // where links lead
-  bool in_place_ = false;
+  OutputLock lock_;
+  std::string partial_;  // what it is called until then; empty: written in place
+  Replaces replaces_;
   std::FILE* file_ = nullptr;
 };
+
+/// Where a link leads, also where nothing stands there yet.
+std::filesystem::path target_of(const std::string& path);
+
+/// Throws std::invalid_argument, "can't write 'path': ...", where that is a file that the process has read.
+void require_no_input(const std::string& path);
 
 /// A file of a command: the option that names it, as "--trace" or "FILE", and its path; none where that is empty.
 struct NamedFile {

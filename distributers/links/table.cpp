@@ -40,6 +40,12 @@ bool parse_time(const std::string& text, Duration& time) {
 
 Table read_table(const std::shared_ptr<const Source>& source, Problems& problems) {
   Table table;
+  constexpr std::ptrdiff_t most_cells = 1'000'000;
+  if (std::count_if(source->text.begin(), source->text.end(), [](char c) { return c == ',' || c == '\n'; }) >
+      most_cells) {
+    problems.add({source, 1, 1}, "the table has more than " + std::to_string(most_cells) + " cells; leave rows out");
+    return table;
+  }
   bool titled = false;
   int number = 0;
   for (std::size_t begin = 0; begin < source->text.size();) {

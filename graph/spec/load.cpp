@@ -88,17 +88,20 @@ void read_connections(const Yaml& graph, std::vector<ConnectionSpec>& to, Proble
   }
 }
 
-void read_plugins(const Yaml& graph, std::vector<Located<std::string>>& to, Problems& problems) {
+void read_plugins(const Yaml& graph, const std::string& refused, std::vector<Located<std::string>>& to,
+                  Problems& problems) {
   const Yaml* yaml = graph.find("plugins");
   if (yaml == nullptr || yaml->kind == Yaml::Kind::null) return;
   if (yaml->kind != Yaml::Kind::sequence)
     return problems.add(yaml->where,
                         "'plugins' needs a list of shared libraries, not " + std::string(kind_name(*yaml)));
   for (const Yaml& child : yaml->children) {
-    if (child.kind == Yaml::Kind::scalar)
-      to.push_back({child.text, child.where});
-    else
+    if (child.kind != Yaml::Kind::scalar)
       problems.add(child.where, "'plugins' needs paths of shared libraries, not " + std::string(kind_name(child)));
+    else if (!refused.empty())
+      problems.add(child.where, "plugin '" + child.text + "' is not loaded: " + refused);
+    else
+      to.push_back({child.text, child.where});
   }
 }
 
@@ -140,7 +143,7 @@ GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides
   refuse_later_keys(graph, problems);
   read_keys(graph, graph_keys(), spec, "a graph", problems);
   read_section(graph, "timing", timing_keys(), spec.timing, problems);
-  read_plugins(graph, spec.plugins, problems);
+  read_plugins(graph, overrides.no_plugins, spec.plugins, problems);
   read_section(graph, "platform", platform_keys(), spec.platform, problems);
   read_entries(graph, "distributers", "distributer", distributer_keys(), spec.distributers, problems);
   read_entries(graph, "communicators", "communicator", communicator_keys(), spec.communicators, problems);

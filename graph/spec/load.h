@@ -13,6 +13,7 @@ namespace jarol {
 struct Overrides {
   std::string profile;           // empty: none
   std::vector<std::string> set;  // "path=value", as in "tasks.depth.parameters.kp=0.7"
+  std::string no_plugins{};      // why plugins that it names are an error; empty: they are none
 };
 
 /// Reads a graph. All that is wrong goes to `problems`; what could be read is returned.

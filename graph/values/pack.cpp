@@ -67,6 +67,47 @@ std::byte* pack(const Type& type, const void* value, std::byte* to) {
   return to;
 }
 
+namespace {
+
+// Looks through packed bytes from `at` on, and moves it behind the value.
+std::string wrong_from(const Type& type, std::span<const std::byte> packed, std::size_t& at) {
+  const std::size_t left = packed.size() - at;
+  if (!type.is_deep() && left < type.size) return "ends before its bytes do";
+  if (type.kind == Kind::boolean) {
+    const auto byte = std::to_integer<unsigned>(packed[at++]);
+    return byte > 1 ? "has " + std::to_string(byte) + " where true or false stand" : "";
+  }
+  if (!has_length(type)) {
+    const std::size_t begin = at;
+    std::string wrong;
+    for_each_part(type, [&](const Type& part, std::size_t offset) {
+      if (!type.is_deep()) at = begin + offset;  // as in memory, with room between
+      if (wrong.empty()) wrong = wrong_from(part, packed, at);
+    });
+    if (!type.is_deep()) at = begin + type.size;
+    return wrong;
+  }
+  std::uint64_t length = 0;
+  if (left < sizeof length) return "ends before its length";
+  std::memcpy(&length, packed.data() + at, sizeof length);
+  at += sizeof length;
+  const Type& element = element_of(type);
+  const std::size_t least = element.is_deep() ? sizeof length : element.size;
+  if (length > (packed.size() - at) / least) return "has a length of " + std::to_string(length) + " and fewer bytes";
+  for (std::uint64_t i = 0; i < length; ++i)
+    if (const std::string wrong = wrong_from(element, packed, at); !wrong.empty()) return wrong;
+  return "";
+}
+
+}  // namespace
+
+std::string wrong_packed(const Type& type, std::span<const std::byte> packed) {
+  std::size_t at = 0;
+  const std::string wrong = wrong_from(type, packed, at);
+  if (!wrong.empty() || at == packed.size()) return wrong;
+  return "ends " + std::to_string(packed.size() - at) + " bytes before they do";
+}
+
 const std::byte* unpack(const Type& type, const std::byte* from, void* value) {
   auto* bytes = static_cast<std::byte*>(value);
   if (!type.is_deep()) {

@@ -115,6 +115,8 @@ std::string to_text(const Problem& problem) {
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t longest = 200;  // the distance takes time as the square of it
+  if (word.size() > longest) return "";
   const std::string* best = nullptr;
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {

@@ -6,32 +6,71 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
+#include <istream>
 #include <map>
-#include <sstream>
+#include <streambuf>
 #include <unordered_set>
+
+#include "graph/yaml/read_source.h"
 
 namespace jarol {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{64} << 20;
 constexpr std::size_t most_values = 1'000'000;
 constexpr std::size_t most_aliased = 100'000;
 constexpr std::size_t most_depth = 64;
+// what yaml-cpp may scan before it has understood what it began with
+constexpr std::size_t most_bytes_ahead = std::size_t{2} << 20;
+constexpr std::size_t most_marks_ahead = 250'000;
 
-struct TooMuch {};
+struct TooMuch {
+  bool ahead = false;
+};
+
+// Gives yaml-cpp the text in pieces. What it has scanned and not understood yet, it keeps, in 250 bytes a mark; and a
+// bracket that is never closed makes it scan on to the end.
+class Pieces : public std::streambuf {
+ public:
+  explicit Pieces(std::string_view text) : end_(const_cast<char*>(text.data() + text.size())) {
+    char* const begin = const_cast<char*>(text.data());  // a streambuf that is only read does not write
+    setg(begin, begin, begin);
+  }
+
+  void understood() { bytes_ = marks_ = 0; }
+
+ protected:
+  int_type underflow() override {
+    constexpr std::ptrdiff_t piece = 4096;
+    if (gptr() == end_) return traits_type::eof();
+    const std::ptrdiff_t size = std::min(piece, end_ - gptr());
+    bytes_ += static_cast<std::size_t>(size);
+    for (const char c : std::string_view(gptr(), static_cast<std::size_t>(size)))
+      if (std::string_view("[]{},:'\"&*!?-|>%").find(c) != std::string_view::npos) ++marks_;
+    if (bytes_ > most_bytes_ahead || marks_ > most_marks_ahead) throw TooMuch{true};
+    setg(eback(), gptr(), gptr() + size);
+    return traits_type::to_int_type(*gptr());
+  }
+
+ private:
+  char* end_;
+  std::size_t bytes_ = 0, marks_ = 0;  // since something was understood; the marks are what YAML is made of
+};
 
 // Builds the tree from yaml-cpp's events, which still know anchors, quotes and every key.
 class Builder : public YAML::EventHandler {
  public:
-  Builder(std::shared_ptr<const Source> source, Problems& problems) : source_(std::move(source)), problems_(problems) {}
+  Builder(std::shared_ptr<const Source> source, Pieces& pieces, Problems& problems)
+      : source_(std::move(source)), pieces_(pieces), problems_(problems) {}
 
   Yaml take() { return std::move(root_); }
 
-  void OnDocumentStart(const YAML::Mark&) override {}
+  void report_too_far_ahead() {
+    problems_.add(last_, "what follows here is too long for one line, text, comment or nest of brackets: more than " +
+                             std::to_string(most_bytes_ahead >> 20) + " MiB or " + std::to_string(most_marks_ahead) +
+                             " marks; write it without outer brackets, on several lines");
+  }
+
+  void OnDocumentStart(const YAML::Mark& mark) override { at(mark); }
   void OnDocumentEnd() override {}
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
@@ -89,7 +128,12 @@ class Builder : public YAML::EventHandler {
     std::unordered_set<std::string> keys;  // asked, never iterated
   };
 
-  Location at(const YAML::Mark& mark) const { return {source_, mark.line + 1, mark.column + 1}; }
+  // of each event
+  Location at(const YAML::Mark& mark) {
+    pieces_.understood();
+    if (!mark.is_null()) last_ = {source_, mark.line + 1, mark.column + 1};
+    return last_;
+  }
 
   void refuse_tag(const std::string& tag, const YAML::Mark& mark) {
     if (tag.empty() || tag == "?" || tag == "!") return;
@@ -126,7 +170,8 @@ class Builder : public YAML::EventHandler {
   }
 
   void finish(Yaml value, YAML::anchor_t anchor) {
-    if (++values_ > most_values) too_much({}, "the text holds more than " + std::to_string(most_values) + " values");
+    if (++values_ > most_values)
+      too_much(YAML::Mark::null_mark(), "the text holds more than " + std::to_string(most_values) + " values");
     if (anchor != 0) keep(anchor, value);
     if (open_.empty()) {
       root_ = std::move(value);
@@ -176,7 +221,9 @@ class Builder : public YAML::EventHandler {
   }
 
   std::shared_ptr<const Source> source_;
+  Pieces& pieces_;
   Problems& problems_;
+  Location last_{source_, 1, 1};
   Yaml root_;
   std::vector<Open> open_;
   std::map<YAML::anchor_t, Yaml> anchored_;
@@ -216,12 +263,13 @@ std::string_view kind_name(const Yaml& yaml) {
 }
 
 Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) {
-  if (source->text.size() > most_bytes) {
-    problems.add({source, 1, 1}, "the text is larger than " + std::to_string(most_bytes >> 20) + " MiB");
+  if (source->text.size() > most_source_bytes) {
+    problems.add({source, 1, 1}, "the text is larger than " + std::to_string(most_source_bytes >> 20) + " MiB");
     return {};
   }
-  Builder builder(source, problems);
-  std::istringstream stream(source->text);
+  Pieces pieces(source->text);
+  Builder builder(source, pieces, problems);
+  std::istream stream(&pieces);
   try {
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) {
@@ -230,7 +278,7 @@ Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) 
       return empty;
     }
     Yaml root = builder.take();
-    Builder second(source, problems);
+    Builder second(source, pieces, problems);
     if (parser.HandleNextDocument(second)) {
       problems.add(second.take().where, "a second document begins here; a file holds one");
     }
@@ -238,26 +286,10 @@ Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) 
   } catch (const YAML::Exception& error) {
     const bool known = !error.mark.is_null();
     refuse_syntax({source, known ? error.mark.line + 1 : 1, known ? error.mark.column + 1 : 1}, error.msg, problems);
-  } catch (const TooMuch&) {
-    // reported where it was found
+  } catch (const TooMuch& much) {
+    if (much.ahead) builder.report_too_far_ahead();  // else it was reported where it was found
   }
   return {};
-}
-
-std::shared_ptr<const Source> read_source(const std::string& path) {
-  auto source = std::make_shared<Source>();
-  source->name = path;
-  if (std::filesystem::is_directory(path)) throw SpecError({{{}, "can't read '" + path + "': it is a directory", {}}});
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || file.bad() || (text.fail() && file.peek() != std::ifstream::traits_type::eof())) {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "it can't be opened";
-    throw SpecError({{{}, "can't read '" + path + "': " + reason, {}}});
-  }
-  source->text = std::move(text).str();
-  return source;
 }
 
 }  // namespace jarol

@@ -91,4 +91,16 @@ TEST_SUITE("distributers/trim_file") {
     JaviatorOperator next;
     CHECK(command_of(next).kept_trim_roll == 0);
   }
+
+  TEST_CASE("a trim file is a small file") {
+    const Place place;
+    std::ofstream(place.path()) << "roll 0\npitch 0\n" << std::string(4096, 'x');
+    CHECK_THROWS_WITH_AS(
+        read_trim(place.path()),
+        ("'" + place.path() +
+         "' is no trim file; it needs a line 'roll' and a line 'pitch', each with a number of rad from "
+         "-1 to 1")
+            .c_str(),
+        std::invalid_argument);
+  }
 }

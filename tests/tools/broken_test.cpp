@@ -29,12 +29,20 @@ const std::vector<std::string> brought_about_elsewhere{
     // a library that was built for it: tests/tools/plugins_test.cpp
     "' is a shared library without tasks; name them with JAROL_PLUGIN, see graph/plugin.h", "' was built for ",
     ", this is ", "; build it again", "' brings a task type '", "', which there is already", "unknown reason",
+    // a command: tests/tools/plugins_test.cpp
+    "plugin '", "' is not loaded: ",
     // an argument: tests/graph/spec/override_test.cpp
     "' is no override; write path=value, as in ", "' gives no value; write path=value, as in ",
     // a value of a program's own: tests/graph/values/type_test.cpp
     " needs a mapping of its ", "is beyond what a float holds", "is a single word",
+    // a log: tests/tools/log_mutations_test.cpp
+    "ends before its bytes do", "has ", " where true or false stand", "ends before its length", "has a length of ",
+    " and fewer bytes", "ends ", " bytes before they do",
     // megabytes of text, no text at all: tests/graph/yaml/yaml_test.cpp
-    "the text holds more than ", "the text is larger than ", "': it is a directory", "it can't be opened"};
+    "the text holds more than ", "the text is larger than ", "it is a directory", "it is larger than ",
+    "it is no regular file; give - for what comes on stdin",
+    "what follows here is too long for one line, text, comment or nest of brackets: more than ", " MiB or ",
+    " marks; write it without outer brackets, on several lines"};
 
 // What messages are made of: the texts between quotes that have a blank in them, cut at numbers to come and line ends.
 std::vector<std::string> words_of(const fs::path& source) {

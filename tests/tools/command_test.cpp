@@ -15,7 +15,9 @@ using command::jarol;
 using command::Result;
 using command::TemporaryFolder;
 
-nlohmann::json json_of(const std::string& arguments) { return nlohmann::json::parse(jarol(arguments).output); }
+nlohmann::json json_of(const std::string& arguments) {
+  return nlohmann::json::parse(jarol(arguments, "2>/dev/null").output);
+}
 
 std::string digest_of(const std::string& arguments) { return json_of("run " + arguments + " --json")["digest"]; }
 

@@ -99,7 +99,7 @@ TEST_SUITE("tools/crash_line") {
       CAPTURE(run.way);
       run.process->end();
       CHECK(names_task(*run.process, "real", ""));
-      const auto replay = command::jarol("replay --json " + run.log, "2>/dev/null");
+      const auto replay = command::jarol("replay --json " + run.log + " " + file, "2>/dev/null");
       CHECK(replay.exit_code == 3);
       const auto json = nlohmann::json::parse(replay.output);
       CHECK(json["verdict"] == "unknown");
@@ -112,7 +112,7 @@ TEST_SUITE("tools/crash_line") {
     const std::string log = folder / "good.log", file = crashing(folder, "none");
     REQUIRE(command::jarol("run " + file + " --for 1s --log " + log).exit_code == 0);
     crashing(folder, "segmentation");  // the same file, changed
-    Process replay("replay " + log);
+    Process replay("replay " + log + " " + file);
     CHECK(replay.end() == -SIGSEGV);
     CHECK(replay.errors().find(line + "segmentation fault at address 0x0; the process ends\n") != std::string::npos);
   }

@@ -90,7 +90,8 @@ connections: [functions.out -> sum.in]
           found[digest_of(run)].push_back(with);
           // as on another machine: the log of this processor on the next one
           choose(processors[(static_cast<std::size_t>(workers) + processor.size()) % processors.size()]);
-          found[digest_of("replay " + log)].push_back("replay of " + with);
+          found[digest_of("replay " + log + (application == functions ? " " + functions : ""))].push_back("replay of " +
+                                                                                                          with);
         }
       std::string all;
       for (const auto& [digest, runs] : found)

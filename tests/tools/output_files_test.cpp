@@ -4,9 +4,13 @@
 #include <sys/sysmacros.h>
 
 #include <fstream>
+#include <set>
 #include <string>
 
 #include "tests/tools/run_command.h"
+#include "tools/load_graph.h"
+#include "tools/log_reader.h"
+#include "tools/log_writer.h"
 #include "tools/whole_file.h"
 
 namespace {
@@ -16,6 +20,12 @@ using command::TemporaryFolder;
 std::string content(const std::string& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+int partials_in(const TemporaryFolder& folder) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "")) count += entry.path().extension() == ".part";
+  return count;
 }
 
 void write(const std::string& path, const std::string& text) {
@@ -41,7 +51,7 @@ TEST_SUITE("tools/output_files") {
     write(folder / "ahead", "new");
     CHECK(fs::is_symlink(folder / "ahead"));
     CHECK(content(folder / "not there yet") == "new");
-    CHECK(!fs::exists(folder / "link.part"));
+    CHECK(partials_in(folder) == 0);
   }
 
   TEST_CASE("what is not committed leaves the file as it was") {
@@ -49,33 +59,49 @@ TEST_SUITE("tools/output_files") {
     const std::string path = folder.write("file", "old");
     { jarol::tools::WholeFile(path).write("new"); }
     CHECK(content(path) == "old");
-    CHECK(!fs::exists(path + ".part"));
+    CHECK(partials_in(folder) == 0);
   }
 
-  TEST_CASE("what a killed run left is overwritten") {
+  TEST_CASE("a partial file has a name that nobody foresees, and its own permissions") {
     const TemporaryFolder folder;
-    const std::string path = folder / "file";
-    write(path + ".part", std::string(100'000, 'x'));
-    write(path, "new");
-    CHECK(content(path) == "new");
-    CHECK(!fs::exists(path + ".part"));
+    std::set<std::string> names;
+    for (int i = 0; i < 20; ++i) {
+      const jarol::tools::WholeFile file(folder / "file");
+      for (const auto& entry : fs::directory_iterator(folder / "")) names.insert(entry.path().filename());
+      CHECK(partials_in(folder) == 1);
+    }
+    CHECK(names.size() == 20);
+    // as long as one writes, no other does, by whatever path; and then it does
+    fs::create_directory_symlink(folder / "", folder / "again");
+    {
+      const jarol::tools::WholeFile first(folder / "file");
+      const std::string other = folder / "again/file";
+      CHECK_THROWS_WITH_AS(
+          jarol::tools::WholeFile{other},
+          ("can't write '" + other + "': another run writes it; choose another file, or wait until that ends").c_str(),
+          std::runtime_error);
+      const jarol::tools::WholeFile beside(folder / "file2");
+    }
+    write(folder / "file", "new");
+    CHECK(content(folder / "file") == "new");
   }
 
 #ifdef JAROL_VEHICLES
   TEST_CASE("a signal that ends a command leaves nothing half written") {
     const TemporaryFolder folder;
     const std::string script = folder.write("s.csv", "time,thruster\n0,0.5\n"), csv = folder / "o.csv";
-    for (const std::string signal : {"INT", "TERM", "HUP"}) {
+    for (const std::string signal : {"INT", "TERM", "HUP", "PIPE", "QUIT"}) {
       CAPTURE(signal);
       // in the foreground: what a shell starts in the background ignores SIGINT
       const std::string pid = folder / "pid";
-      const auto ended = command::jarol(
-          "schema > /dev/null; (for i in $(seq 600); do [ -s " + csv + ".part ] && break; sleep 0.05; done; kill -" +
-          signal + " $(cat " + pid + ")) & exec sh -c 'echo $$ > " + pid +
-          "; exec " JAROL_COMMAND " vehicle submarine --for 100000s --script " + script + " --csv " + csv + "'");
+      const auto ended = command::jarol("schema > /dev/null; (for i in $(seq 600); do ls " + csv +
+                                        ".*.part >/dev/null 2>&1 && break; sleep 0.05; done; kill -" + signal +
+                                        " $(cat " + pid + ")) & exec sh -c 'echo $$ > " + pid +
+                                        "; exec " JAROL_COMMAND " vehicle submarine --for 100000s --script " + script +
+                                        " --csv " + csv + "'");
       CHECK(ended.exit_code == -1);  // by the signal
       CHECK(ended.output == "");
-      CHECK(!fs::exists(csv + ".part"));
+      CHECK(partials_in(folder) == 0);
       CHECK(!fs::exists(csv));
     }
   }
@@ -126,6 +152,83 @@ TEST_SUITE("tools/output_files") {
           "error: --svg '" + graph + "' would replace what FILE names; choose another file\n");
     CHECK(content(graph) == content("specs/counting.yaml"));
     CHECK(command::jarol("run " + graph + " --for 1s --trace /dev/null --plot /dev/null").exit_code == 0);
+  }
+
+  TEST_CASE("no output takes the place of a file that the run has read, by whatever name") {
+    const TemporaryFolder folder;
+    fs::copy("specs", folder / "specs", fs::copy_options::recursive);
+    const std::string graph = folder / "specs/exolauv.yaml";
+    for (const std::string input : {"specs/missions/dive.csv", "specs/vehicles/submarine.yaml"}) {
+      const std::string path = folder / input, hard = folder / "hard", soft = folder / "soft", before = content(path);
+      REQUIRE(before != "");
+      fs::create_hard_link(path, hard);
+      fs::create_symlink(path, soft);
+      for (const std::string& name : {path, hard, soft})
+        for (const std::string option : {"--trace", "--plot", "--log"}) {
+          CAPTURE(option + " " + name);
+#ifndef JAROL_VEHICLES
+          if (true) continue;
+#endif
+          const auto refused = command::jarol("run " + graph + " --for 1s " + option + " " + name);
+          CHECK(refused.exit_code == 2);
+          CHECK(refused.output ==
+                "error: can't write '" + name + "': it is '" + path + "', which was read; choose another file\n");
+          CHECK(content(path) == before);
+        }
+      fs::remove(hard);
+      fs::remove(soft);
+    }
+    // a plugin is read too, and a log by its replay
+    const std::string so = folder / "t.so",
+                      with = folder.write("w.yaml",
+                                          "graph: g\nplugins: [t.so]\ntasks: {a: {type: Counter, period: 10ms}}\n");
+    fs::copy_file(std::string(JAROL_PLUGIN_FOLDER) + "/twice.so", so);
+    CHECK(command::jarol("run " + with + " --for 1s --trace " + so, "2>&1 >/dev/null")
+              .output.ends_with("error: can't write '" + so + "': it is '" + so +
+                                "', which was read; choose another file\n"));
+    const std::string log = folder / "log", same = folder / "same";
+    REQUIRE(command::jarol("run specs/counting.yaml --for 1s --log " + log).exit_code == 0);
+    fs::create_hard_link(log, same);
+    CHECK(command::jarol("replay " + log + " --trace " + same).exit_code == 2);
+    CHECK(command::jarol("replay " + log).exit_code == 0);
+  }
+
+  TEST_CASE("of two runs into one log the second is refused, and the first goes on") {
+    const TemporaryFolder folder;
+    const std::string log = folder / "run.log", fifo = folder / "fifo";
+    const auto header =
+        jarol::tools::LogHeader{.graph = "counting", .file = "", .file_sum = "", .overrides = {}, .clock = "virtual"};
+    const auto loaded = jarol::tools::load_graph("specs/counting.yaml", {});
+    jarol::tools::LogWriter first(log, header, *loaded.graph);
+    first.open();
+    const auto second = command::jarol("run specs/counting.yaml --for 1s --log " + log);
+    CHECK(second.exit_code == 2);
+    CHECK(second.output ==
+          "error: can't write '" + log + "': another run writes it; choose another file, or wait until that ends\n");
+    first.close({});
+    CHECK(jarol::tools::LogReader(log).end());
+  }
+
+  TEST_CASE("check --generate overwrites nothing, and says so before it writes anything") {
+    const TemporaryFolder folder;
+    const std::string graphs = folder / "g", third = graphs + "/waters_7.yaml";
+    const std::string generate = "check --generate waters -o " + graphs + " --count 3 --seed ";
+    CHECK(command::jarol(generate + "5").exit_code == 0);
+    std::ofstream(third) << "mine";
+    const auto refused = command::jarol(generate + "3");
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output == "error: '" + graphs +
+                                "/waters_5.yaml' is there, and --generate overwrites nothing; choose another folder or "
+                                "--seed, or remove it\n");
+    CHECK(!fs::exists(graphs + "/waters_3.yaml"));
+    CHECK(content(third) == "mine");
+    CHECK_THROWS_WITH_AS((jarol::tools::WholeFile{third, jarol::tools::Replaces::nothing}),
+                         ("can't write '" + third + "': File exists").c_str(), std::runtime_error);
+    // also where it has come to be there meanwhile
+    jarol::tools::WholeFile late(graphs + "/late", jarol::tools::Replaces::nothing);
+    std::ofstream(graphs + "/late") << "mine";
+    CHECK_THROWS_AS(late.commit(), std::runtime_error);
+    CHECK(content(graphs + "/late") == "mine");
   }
 
   TEST_CASE("output that can't be written is told, and exits with 3") {

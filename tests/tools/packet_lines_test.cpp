@@ -77,6 +77,17 @@ TEST_SUITE("tools/packet_lines") {
     }
   }
 
+  TEST_CASE("a line without an end is not kept, and what is nested without an end is not followed") {
+    const std::string endless((std::size_t{1} << 20) + 1, '0'), last = "\n42\n";
+    const std::string wrong = "line 1: error: the line is longer than 1024 KiB; a packet has 64 at most\n";
+    CHECK(decode(endless + endless + last).errors.starts_with(wrong + "line 2: error: "));
+    CHECK(encode(endless + endless + last).errors.starts_with(wrong + "line 2: error: "));
+    CHECK(decode(endless.substr(1) + last).errors.find("longer") == std::string::npos);
+    const std::string deep = R"({"name":"Abort","fields":{"a":)" + std::string(1'000'000, '[');
+    CHECK(encode(deep).errors == "line 1: error: the line is nested deeper than 64 levels\n");
+    CHECK(encode(deep + "\n" + R"({"name":"Abort"})").lines.size() == 1);
+  }
+
   TEST_CASE("an object of the listing's form") {
     CHECK(decode("ffff0f021f400070", javiator_set).lines ==
           std::vector<std::string>{R"({"name":"IDLE_LIMIT","header":{"sync":65535,"mgid":15,"size":2},)"

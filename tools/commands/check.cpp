@@ -18,6 +18,7 @@
 #include "tools/json_line.h"
 #include "tools/load_graph.h"
 #include "tools/measure_file.h"
+#include "tools/no_plugins.h"
 #include "tools/whole_file.h"
 
 namespace jarol::tools {
@@ -102,7 +103,8 @@ void tell_what_lacks(const CheckReport& report, const Options& options) {
 int check_file(const std::string& file, const Options& options) {
   if (options.measuring.measure || options.measuring.write) measure_file(file, options.overrides, options.measuring);
   // what is written is judged as it was written
-  const Loaded loaded = load_graph(file, options.measuring.write ? Overrides{} : options.overrides);
+  const Loaded loaded =
+      load_graph(file, options.measuring.write ? without_changes(options.overrides) : options.overrides);
   const CheckReport report = check_graph(file, *loaded.graph, options.sensitivity, options.all_chains);
   tell_what_lacks(report, options);
   if (!options.svg.empty() && report.result.late) {
@@ -136,8 +138,16 @@ int write_graphs(const Options& options) {
   std::filesystem::create_directories(options.folder);
   Generation generation = options.generation;
   generation.kind = options.generate;
+  const auto path_of = [&](std::uint64_t seed) {
+    return options.folder + "/" + generation.kind + "_" + std::to_string(seed) + ".yaml";
+  };
+  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(options.count); ++i)
+    if (const std::string path = path_of(generation.seed + i); std::filesystem::exists(path))
+      throw std::invalid_argument("'" + path +
+                                  "' is there, and --generate overwrites nothing; choose another folder or --seed, or "
+                                  "remove it");
   for (int i = 0; i < options.count; ++i, ++generation.seed) {
-    WholeFile file(options.folder + "/" + generation.kind + "_" + std::to_string(generation.seed) + ".yaml");
+    WholeFile file(path_of(generation.seed), Replaces::nothing);
     file.write(generate_graph(generation));
     file.commit();
   }
@@ -157,6 +167,7 @@ void add_check(CommandLine& line, int& exit_code) {
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.wcet=2ms")
       ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
+  add_no_plugins(*command, options->overrides);
   command->add_flag("--sensitivity", options->sensitivity,
                     "How much longer each WCET may be, and what would help, also where finding it takes long");
   command->add_flag("--chains", options->all_chains, "Latency of every path from an 'in' to an 'out'");

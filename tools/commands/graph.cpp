@@ -9,6 +9,7 @@
 #include "tools/commands/commands.h"
 #include "tools/json_line.h"
 #include "tools/load_graph.h"
+#include "tools/no_plugins.h"
 #include "tools/value_json.h"
 
 namespace jarol::tools {
@@ -137,6 +138,7 @@ void add_graph(CommandLine& line, int& exit_code) {
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.period=100ms")
       ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
+  add_no_plugins(*command, options->overrides);
   auto* dot = command->add_flag("--dot", options->dot, "A DOT drawing: jarol graph FILE --dot | dot -Tsvg > graph.svg");
   command->add_flag("--json", options->json, "One JSON object instead of text")->excludes(dot);
   command->callback([options, &exit_code] {

@@ -19,6 +19,7 @@
 #include "tools/json_line.h"
 #include "tools/load_graph.h"
 #include "tools/log_reader.h"
+#include "tools/no_plugins.h"
 #include "tools/progress.h"
 #include "tools/run_files.h"
 #include "tools/run_report.h"
@@ -36,9 +37,14 @@ struct Options {
   RunFileArguments files;
 };
 
-// The graph of the run, or FILE in its place, with the run's overrides and those given here.
+// The graph of the run, or FILE in its place, with the run's overrides and those given here. A log is no program: code
+// is loaded only where the user's own words name the file or the plugin that brings it.
 Loaded load(const Options& options, const LogHeader& header) {
   Overrides overrides = header.overrides;
+  overrides.no_plugins = options.overrides.no_plugins;
+  const std::vector<std::string>& own = options.overrides.set;
+  if (overrides.no_plugins.empty() && options.file.empty() && std::none_of(own.begin(), own.end(), names_plugins))
+    overrides.no_plugins = "the log names this graph, and a log names no code; name it yourself: jarol replay LOG FILE";
   if (!options.overrides.profile.empty()) overrides.profile = options.overrides.profile;
   overrides.set.insert(overrides.set.end(), options.overrides.set.begin(), options.overrides.set.end());
   if (!options.file.empty()) return load_without_channels(options.file, overrides);
@@ -196,12 +202,14 @@ void add_replay(CommandLine& line, int& exit_code) {
                           "outside and what was late then. It is the same to the bit, or says that it is not.\n"
                           "Exit code: 0 the same, 1 diverged, 2 bad input, 3 a log that breaks off, 130 interrupted");
   command->add_option("LOG", options->log, "The log of a run")->required();
-  command->add_option("FILE", options->file, "The graph, if it is elsewhere now; default: that of the run");
+  command->add_option("FILE", options->file,
+                      "The graph, if it is elsewhere now or names plugins; default: that of the run");
   command
       ->add_option("--set", options->overrides.set,
                    "Change a value, beside those of the run: path=value, as in tasks.depth.parameters.kp=0.5")
       ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use another profile of the file than the run");
+  add_no_plugins(*command, options->overrides);
   command->add_flag("--json", options->json, "One JSON object instead of text");
   add_run_file_options(*command, options->files);
   command->callback([options, &exit_code] { exit_code = replay(*options); });

@@ -20,6 +20,7 @@
 #include "tools/linked.h"
 #include "tools/load_graph.h"
 #include "tools/log_writer.h"
+#include "tools/no_plugins.h"
 #include "tools/progress.h"
 #include "tools/real_time.h"
 #include "tools/run_files.h"
@@ -99,10 +100,13 @@ void start_clock(RealClock& clock, const Executor& executor) {
 }
 
 LogHeader header_of(const Options& options, const Graph& graph) {
+  Overrides overrides = options.overrides;
+  if (std::erase_if(overrides.set, names_plugins) > 0)
+    std::cerr << "note: the log does not name the plugins of --set; give them again to jarol replay\n";
   return {.graph = graph.name,
           .file = std::filesystem::absolute(options.file).lexically_normal().string(),
           .file_sum = sum_of_text(read_source(options.file)->text),
-          .overrides = options.overrides,
+          .overrides = std::move(overrides),
           .clock = options.clock};
 }
 
@@ -221,6 +225,7 @@ void add_run(CommandLine& line, int& exit_code) {
       ->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.parameters.kp=0.5")
       ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
+  add_no_plugins(*command, options->overrides);
   command->add_option("--seed", options->seed, "Seed of vehicles and distributers that have noise; default 0");
   command
       ->add_option("--workers", options->workers,

@@ -21,10 +21,19 @@ std::string one_line(const char* text) {
 class XmlReader {
  public:
   XmlReader(std::shared_ptr<const Source> source, Problems& problems)
-      : source_(std::move(source)), problems_(problems) {}
+      : source_(std::move(source)), problems_(problems) {
+    for (std::size_t at = 0; (at = source_->text.find('\n', at)) != std::string::npos;) lines_.push_back(++at);
+  }
 
   Definition read() {
     Definition definition;
+    constexpr std::ptrdiff_t most_marks = 500'000;  // elements, their ends and attributes
+    const std::string& text = source_->text;
+    if (std::count_if(text.begin(), text.end(), [](char c) { return c == '<' || c == '='; }) > most_marks) {
+      problems_.add({source_, 1, 1}, "the XML has more than " + std::to_string(most_marks) +
+                                         " elements and attributes; a definition has a few thousand");
+      return definition;
+    }
     pugi::xml_document document;
     const pugi::xml_parse_result result = document.load_buffer(source_->text.data(), source_->text.size());
     if (!result) {
@@ -77,10 +86,9 @@ class XmlReader {
 
  private:
   Location place(std::ptrdiff_t offset) const {
-    const auto before = source_->text.substr(0, static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
-    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-    const std::size_t begin = before.rfind('\n') + 1;  // npos + 1 is 0
-    return {source_, static_cast<int>(line), static_cast<int>(before.size() - begin) + 1};
+    const auto at = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
+    const auto after = std::upper_bound(lines_.begin(), lines_.end(), at);  // behind the line's begin
+    return {source_, static_cast<int>(after - lines_.begin()), static_cast<int>(at - *std::prev(after)) + 1};
   }
   // of the name after the bracket
   Location place(pugi::xml_node node) const { return place(node.offset_debug()); }
@@ -255,6 +263,7 @@ class XmlReader {
                                    did_you_mean(wanted, names) + "; there are: " + list_of(names));
   }
 
+  std::vector<std::size_t> lines_{0};  // where each begins
   std::shared_ptr<const Source> source_;
   Problems& problems_;
 };

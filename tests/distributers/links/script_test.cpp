@@ -105,4 +105,9 @@ TEST_SUITE("distributers/links/script") {
           "  \n"
           "  ^");
   }
+
+  TEST_CASE("a table of more cells than anyone drives by is an error") {
+    CHECK(report_on(std::string(1'000'001, ','))
+              .starts_with("m.csv:1:1: error: the table has more than 1000000 cells; leave rows out\n"));
+  }
 }

@@ -291,4 +291,12 @@ TEST_SUITE("tools/messages/definition") {
     CHECK(report_on(readme.substr(begin, end - begin)) == "");
     CHECK(read(readme.substr(begin, end - begin)).messages[0].wire_size == 5);
   }
+
+  TEST_CASE("a definition of more than a hundred times what there is, is not read") {
+    std::string deep;
+    for (int i = 0; i < 500'001; ++i) deep += "<a>";
+    CHECK(report_on(deep) ==
+          "t.xml:1:1: error: the XML has more than 500000 elements and attributes; a definition has a few thousand");
+    CHECK(report_on(std::string(500'001, '=')).find("more than 500000") != std::string::npos);
+  }
 }
