@@ -91,8 +91,6 @@ CheckReport check_graph(const std::string& file, const Graph& graph, bool sensit
   if (!sensitivity) effort.left = 30'000'000;
   if (sensitivity || cost < quick)
     report.sensitivity = analysis::sensitivity_of(system, sensitivity || per_task < quick, effort);
-  if (report.result.verdict != analysis::Verdict::schedulable && (sensitivity || per_task < quick))
-    report.suggestions = analysis::suggestions_for(system, effort);
   return report;
 }
 

@@ -7,7 +7,6 @@
 namespace jarol::tools {
 namespace {
 
-using analysis::Suggestion;
 using analysis::Verdict;
 using Json = nlohmann::ordered_json;
 
@@ -70,7 +69,9 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
                       {"holds", holds(c)}});
   const Platform& platform = r.graph->platform;
   auto suggestions = Json::array();
-  for (const Suggestion& s : r.suggestions) suggestions.push_back(text_of(s, *r.graph));
+  for (const Remedy& remedy : r.remedies) suggestions.push_back(remedy.text);
+  auto sets = Json::array();
+  for (const Remedy& remedy : r.remedies) sets.push_back(remedy.set);
   return {{"schema", "jarol.check/1"},
           {"file", r.file},
           {"graph", r.graph->name},
@@ -90,6 +91,7 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
           {"tasks", std::move(tasks)},
           {"chains", std::move(chains)},
           {"suggestions", std::move(suggestions)},
+          {"suggested_sets", std::move(sets)},
           {"utilisation", r.result.utilisation}};
 }
 

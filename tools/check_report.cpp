@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "graph/analysis/system.h"
 #include "graph/deadlines.h"
 #include "graph/spec/key.h"
 #include "graph/text/escape.h"
@@ -66,6 +67,11 @@ std::string headline(const CheckReport& r) {
     case Verdict::not_schedulable: break;
   }
   std::string text = printable(r.file) + ": NOT SCHEDULABLE";
+  // the plainest reason of all
+  if (compare_utilisation(analysis::system_of(*r.graph).loads, r.graph->platform.cores) ==
+      std::strong_ordering::greater)
+    text += fmt::format(" utilisation {:.2f}% of {}: there is more to do than time;", 100 * r.result.utilisation,
+                        r.graph->platform.cores == 1 ? "one core" : fmt::format("{} cores", r.graph->platform.cores));
   if (r.result.late) {
     const analysis::Late& l = *r.result.late;
     // under a global policy it is no single core's
@@ -220,9 +226,8 @@ std::string sensitivity_lines(const CheckReport& r) {
     }
     text += "\n";
   }
-  for (std::size_t i = 0; i < r.suggestions.size(); ++i)
-    text += fmt::format("  {} {}\n", i == 0 ? "it would hold with" : "                or",
-                        text_of(r.suggestions[i], *r.graph));
+  for (std::size_t i = 0; i < r.remedies.size(); ++i)
+    text += fmt::format("  {} {}\n", i == 0 ? "it would hold with" : "                or", r.remedies[i].text);
   return text;
 }
 

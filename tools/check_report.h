@@ -8,6 +8,7 @@
 #include "graph/analysis/chains.h"
 #include "graph/analysis/check.h"
 #include "graph/analysis/sensitivity.h"
+#include "tools/remedies.h"
 
 namespace jarol::tools {
 
@@ -22,7 +23,7 @@ struct CheckReport {
   const Graph* graph = nullptr;
   analysis::Result result;
   std::optional<analysis::Sensitivity> sensitivity;
-  std::vector<analysis::Suggestion> suggestions;
+  std::vector<Remedy> remedies;
   std::vector<ReportedChain> chains;
   bool more_paths = false;  // than those of --chains
 };

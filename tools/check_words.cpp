@@ -7,8 +7,6 @@
 
 namespace jarol::tools {
 
-using analysis::Suggestion;
-
 bool holds(const ReportedChain& c) { return analysis::broken_limits(c.chain, c.latency).empty(); }
 
 bool chains_hold(const CheckReport& report) { return std::all_of(report.chains.begin(), report.chains.end(), holds); }
@@ -44,18 +42,6 @@ std::string word_of(analysis::Standing standing) {
     case analysis::Standing::proof: return "proof";
     case analysis::Standing::safe: return "safe";
     case analysis::Standing::by_run: return "by a run";
-  }
-  return "";
-}
-
-std::string text_of(const Suggestion& s, const Graph& graph) {
-  switch (s.kind) {
-    case Suggestion::Kind::lower_wcet:
-      return fmt::format("a 'wcet' of {} for '{}', which has {}", duration_text(Duration(s.value)),
-                         graph.tasks[s.task].name, duration_text(*graph.tasks[s.task].wcet));
-    case Suggestion::Kind::other_policy:
-      return "'policy: " + Words<Policy>::list()[static_cast<std::size_t>(s.policy)] + "'";
-    case Suggestion::Kind::more_cores: return fmt::format("'cores: {}'", s.value);
   }
   return "";
 }

@@ -16,6 +16,4 @@ std::string assumption(const Platform& platform);
 /// What a verdict rests on: "proof", "safe", "by a run" or "none".
 std::string word_of(analysis::Standing standing);
 
-std::string text_of(const analysis::Suggestion& suggestion, const Graph& graph);
-
 }  // namespace jarol::tools

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "graph/spec/tables.h"
-
 namespace jarol::analysis {
 namespace {
 
@@ -51,13 +49,6 @@ std::optional<std::int64_t> least_deadline(const System& system, std::size_t tas
   return -largest(-now, 0, good);
 }
 
-std::vector<Policy> other_policies(Policy policy) {
-  std::vector<Policy> others;
-  for (const Policy p : {Policy::table, Policy::fixed_priority, Policy::edf})
-    if (p != policy) others.push_back(p);
-  return others;
-}
-
 }  // namespace
 
 std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, Effort& effort) {
@@ -89,30 +80,19 @@ std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, E
   return result;
 }
 
-std::vector<Suggestion> suggestions_for(const System& system, Effort& effort) {
-  constexpr std::size_t most = 4;
-  std::vector<Suggestion> found;
-  // the smallest cut of one WCET
-  std::vector<std::pair<double, Suggestion>> cuts;
-  for (std::size_t i = 0; i < system.loads.size() && system.loads.size() <= 100; ++i)
-    if (const auto wcet = most_wcet(system, i, effort);
-        wcet && !effort.spent() && *wcet < system.loads[i].wcet - system.loads[i].overhead)
-      cuts.push_back(
-          {1 - static_cast<double>(*wcet) / static_cast<double>(system.loads[i].wcet - system.loads[i].overhead),
-           {Suggestion::Kind::lower_wcet, i, *wcet, system.policy}});
-  std::stable_sort(cuts.begin(), cuts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [cut, suggestion] : cuts)
-    if (found.size() < 2) found.push_back(suggestion);
-  for (const Policy policy : other_policies(system.policy)) {
-    System changed = system;
-    changed.policy = policy;
-    if (found.size() < most && holds(changed, effort)) found.push_back({Suggestion::Kind::other_policy, 0, 0, policy});
+std::vector<WcetCut> wcet_cuts(const System& system, Effort& effort) {
+  if (system.loads.size() > 100) return {};
+  std::vector<std::pair<double, WcetCut>> cuts;
+  for (std::size_t i = 0; i < system.loads.size(); ++i) {
+    const std::int64_t now = system.loads[i].wcet - system.loads[i].overhead;
+    const auto wcet = most_wcet(system, i, effort);
+    if (!wcet || effort.spent() || *wcet >= now) continue;
+    cuts.push_back({1 - static_cast<double>(*wcet) / static_cast<double>(now), {i, *wcet}});
   }
-  System wider = system;
-  wider.cores = system.cores + 1;
-  if (found.size() < most && wider.cores <= most_cores && holds(wider, effort))
-    found.push_back({Suggestion::Kind::more_cores, 0, wider.cores, system.policy});
-  return found;
+  std::stable_sort(cuts.begin(), cuts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<WcetCut> sorted;
+  for (const auto& [cut, of_task] : cuts) sorted.push_back(of_task);
+  return sorted;
 }
 
 }  // namespace jarol::analysis

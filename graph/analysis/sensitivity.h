@@ -19,15 +19,13 @@ struct Sensitivity {
 /// `per_task`: also what costs a search for each task. Nothing if it would take more effort.
 std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, Effort& effort);
 
-/// A single change that turns "no" into "yes".
-struct Suggestion {
-  enum class Kind { lower_wcet, other_policy, more_cores } kind = Kind::lower_wcet;
+/// The largest WCET of one task with which the system is schedulable that is not with the one it has.
+struct WcetCut {
   std::size_t task = 0;
-  std::int64_t value = 0;  // ns, or cores
-  Policy policy = Policy::table;
+  std::int64_t wcet = 0;  // ns
 };
 
-/// The cheapest few, each checked again; fewer where it would take more effort.
-std::vector<Suggestion> suggestions_for(const System& system, Effort& effort);
+/// The smallest cut of its own first; none for more than a hundred tasks, and fewer where it would take more effort.
+std::vector<WcetCut> wcet_cuts(const System& system, Effort& effort);
 
 }  // namespace jarol::analysis

@@ -96,10 +96,10 @@ tasks:
   utilisation 200.00%; a task's response is its longest time from release to end when each takes its wcet;
   assumed: the earliest deadlines run, on any core; 'run' does not execute this, without overhead; whatever the offsets
   all WCETs together may be 0.666666 times as long; alone, 'a' has least room: up to 5ms
-  it would hold with a 'wcet' of 5ms for 'a', which has 10ms
-                  or 'policy: fixed_priority'
-                  or 'policy: edf'
+  it would hold with 'policy: fixed_priority'
                   or 'cores: 3'
+                  or a 'wcet' of 5ms for 'a', which has 10ms
+                  or 'policy: edf', which 'run' does not execute
 )");
     // with offsets that hold it is decided
     const Result given = jarol("check " + file + " --set platform.phasing=given");
@@ -145,10 +145,11 @@ tasks:
   utilisation 97.14%; a task's response is its longest time from release to end when each takes its wcet;
   assumed: the most urgent task runs, interrupting others, as under 'run --clock real', without overhead
   all WCETs together may be 0.875 times as long; alone, 'fast' has least room: up to 1.5ms
-  it would hold with a 'wcet' of 1.5ms for 'fast', which has 2ms
+  it would hold with 'policy: table'
+                  or 'cores: 2'
+                  or a 'wcet' of 1.5ms for 'fast', which has 2ms
                   or a 'wcet' of 3ms for 'slow', which has 4ms
-                  or 'policy: table'
-                  or 'policy: edf'
+                  or 'policy: edf', which 'run' does not execute
 )");
     CHECK(jarol("check " + file + " --set platform.policy=edf").exit_code == 0);
     const auto late = json_of("check --json --set platform.policy=edf --set tasks.slow.deadline=5ms " + file);

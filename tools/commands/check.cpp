@@ -103,9 +103,12 @@ void tell_what_lacks(const CheckReport& report, const Options& options) {
 int check_file(const std::string& file, const Options& options) {
   if (options.measuring.measure || options.measuring.write) measure_file(file, options.overrides, options.measuring);
   // what is written is judged as it was written
-  const Loaded loaded =
-      load_graph(file, options.measuring.write ? without_changes(options.overrides) : options.overrides);
-  const CheckReport report = check_graph(file, *loaded.graph, options.sensitivity, options.all_chains);
+  const Overrides overrides = options.measuring.write ? without_changes(options.overrides) : options.overrides;
+  const Loaded loaded = load_graph(file, overrides);
+  CheckReport report = check_graph(file, *loaded.graph, options.sensitivity, options.all_chains);
+  analysis::Effort effort;
+  if (!options.sensitivity) effort.left = 30'000'000;
+  report.remedies = find_remedies(read_source(file), overrides, *loaded.registry, report, effort);
   tell_what_lacks(report, options);
   if (!options.svg.empty() && report.result.late) {
     WholeFile picture(options.svg);
