@@ -47,6 +47,9 @@ class Channels {
   /// The external system goes on by itself, whatever the logical clock says.
   virtual bool needs_real_clock() const { return false; }
 
+  /// The external system is there after the run, and goes on with what it was handed last.
+  virtual bool outlives_run() const { return needs_real_clock(); }
+
   /// What was carried until now, for channels that are on a link.
   virtual std::optional<LinkReport> link_report() const { return std::nullopt; }
 
@@ -61,6 +64,9 @@ class Channels {
 
   /// Gives the channel a value at the present instant.
   virtual void hand_over(std::size_t channel, const void* value) = 0;
+
+  /// Sends what was handed over, where it would wait for the next instant. Throws std::runtime_error if it can't.
+  virtual void flush() {}
 
   /// The instant at which the mission ends, for an external system that has one.
   virtual std::optional<Duration> end() const { return std::nullopt; }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "runtime/channels_in_use.h"
 #include "runtime/finite.h"
 #include "runtime/publish.h"
 #include "runtime/running_task.h"
@@ -68,33 +69,38 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
 
 const void* Executor::last_value(std::size_t communicator) const { return last_[communicator]; }
 
+namespace {
+// The calling thread covers instants while this lives.
+struct RunningHere {
+  explicit RunningHere(std::atomic<const RunningTask*>& to) : running(to) { running.store(&running_task); }
+  ~RunningHere() { running.store(nullptr); }
+  std::atomic<const RunningTask*>& running;
+};
+}  // namespace
+
 void Executor::run_until(Duration end) {
+  try {
+    cover(end);
+  } catch (...) {
+    // an external system is lost; what was released before is part of the run
+    finish();
+    throw;
+  }
+  finish();
+}
+
+void Executor::cover(Duration end) {
   if (report_.stopped && missed_ == nullptr) return;
   const MemoryScope scope(no_heap());  // a task with a heap has a scope of its own
+  const RunningHere here(running_);
   const bool record = options_.recorder != nullptr;
-  if (options_.clock != nullptr) {
-    try {
-      record ? walk<true, true, true>(end) : walk<true, false, true>(end);
-    } catch (...) {
-      // an external system is lost; what was released before is part of the run
-      if (threads_ != nullptr) drain_threads();
-      throw;
-    }
-    if (threads_ != nullptr) drain_threads();
-    // the vehicle goes on without us
-    if (report_.stopped) {
-      const MemoryScope outside(nullptr);
-      safe_commands_.hand_over_at_end(channels_);
-    }
-  } else if (missed_ != nullptr) {
+  if (options_.clock != nullptr || missed_ != nullptr) {
     record ? walk<true, true, true>(end) : walk<true, false, true>(end);
   } else if (options_.digest) {
     record ? walk<true, true, false>(end) : walk<true, false, false>(end);
   } else {
     record ? walk<false, true, false>(end) : walk<false, false, false>(end);
   }
-  report_.non_finite_inputs = refused_inputs_;
-  for (const auto& channels : channels_) report_.non_finite_inputs += channels->non_finite_inputs();
 }
 
 template <bool Digest, bool Record, bool MayMiss>
@@ -111,7 +117,8 @@ void Executor::walk(Duration end) {
     if (options_.log != nullptr && instant >= checkpoint_due_) log_checkpoint(instant);
     now_.store(instant, std::memory_order_relaxed);
     due_ = calendar_.take();
-    step_instant<Digest, Record, MayMiss>(instant);
+    const bool done = step_instant<Digest, Record, MayMiss>(instant);
+    if (!done) return;
     report_.instants += 1;
     report_.simulated = Duration(instant);
     report_.covered = Duration(instant + 1);
@@ -122,10 +129,13 @@ void Executor::walk(Duration end) {
   now_.store(end.count(), std::memory_order_relaxed);
 }
 
+// False: the run was closed before anything of the instant took place.
 template <bool Digest, bool Record, bool MayMiss>
-void Executor::step_instant(std::int64_t instant) {
+bool Executor::step_instant(std::int64_t instant) {
   const std::uint64_t instant_term = Digest ? digest::instant_term(instant) : 0;
   if (!last_.empty()) gather_communicators();
+  ChannelsInUse channels_in_use(outs_.empty() && ins_.empty() ? nullptr : &use_);
+  if (channels_in_use.closed()) return false;
   // step 0: external systems reach this instant with the inputs they held before it
   if (!outs_.empty() || !ins_.empty()) {
     const MemoryScope outside(nullptr);
@@ -152,6 +162,7 @@ void Executor::step_instant(std::int64_t instant) {
     take(*in, Duration(instant));
     publish<Digest, Record>(in->publish, instant, instant_term);
   }
+  channels_in_use.end();
   // step 4: tasks released now
   if (MayMiss && threads_ != nullptr) {
     release_on_threads(instant);
@@ -165,6 +176,7 @@ void Executor::step_instant(std::int64_t instant) {
   } else {
     run_stages<Digest, Record, MayMiss>(instant, instant_term);
   }
+  return true;
 }
 
 // As a LET task among those that are under way has a fault, or may have one.

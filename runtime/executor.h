@@ -7,12 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "runtime/attend.h"
 #include "runtime/calendar.h"
 #include "runtime/channels.h"
 #include "runtime/log.h"
 #include "runtime/plan.h"
 #include "runtime/real_clock.h"
 #include "runtime/recorder.h"
+#include "runtime/running_task.h"
 #include "runtime/safe_commands.h"
 #include "runtime/stage_team.h"
 #include "runtime/task_threads.h"
@@ -70,6 +72,20 @@ class Executor {
 
   /// Covers the instants from where it stands to before `end`, or stops at a fault. In pieces it is the same run.
   void run_until(Duration end);
+  /// The same without waiting for threads that run tasks, which `finish` does.
+  void cover(Duration end);
+
+  /// No more is handed over, but now, once, all that is safe: on the real clock to every external system, else to those
+  /// that outlive the run. Whatever thread calls, while another one may cover instants; what that one has begun to hand
+  /// over is waited for until then.
+  void close(Futex::Time patience = Futex::Time::max());
+  /// Waits for threads that run tasks; what they still run at that time. Once done the report is
+  /// complete.
+  Finish finish(std::optional<Futex::Time> patience = {});
+  /// What the thread that covers instants runs now, if anything.
+  std::optional<HangingTask> running() const;
+  /// The same where it is the thread that keeps the time, in a run to that instant.
+  std::optional<Holdup> holdup(Duration end) const;
 
   /// The logical instant reached, for progress; may be read by another thread.
   Duration now() const { return Duration(now_.load(std::memory_order_relaxed)); }
@@ -94,7 +110,7 @@ class Executor {
   template <bool Digest, bool Record, bool MayMiss>
   void walk(Duration end);
   template <bool Digest, bool Record, bool MayMiss>
-  void step_instant(std::int64_t instant);
+  bool step_instant(std::int64_t instant);
   template <bool Digest, bool Record>
   void publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term);
   template <bool Digest, bool Record, bool MayMiss>
@@ -109,6 +125,7 @@ class Executor {
   void publish_one_by_one(const Group& group, std::int64_t instant, std::uint64_t instant_term);
   bool has_late_fault(const LetEnd& let_end, std::int64_t instant);
   const Activation* run_bodies(const Activation* next, const Activation* last, const Tick& tick);
+  const Task* task_that_runs() const;
   void tell_bad_outcomes();
   void start_groups(std::int64_t instant);
   void gather_communicators();
@@ -129,7 +146,6 @@ class Executor {
   void settle(std::int64_t instant);
   void end_let(const LetEnd& let_end, std::int64_t instant);
   void release_on_threads(std::int64_t instant);
-  void drain_threads();
   void publish_in_time(const Publish& what, std::int64_t instant);
   void on_bad_outcome_in_time(std::uint32_t task, Outcome outcome, std::int64_t instant);
 
@@ -153,13 +169,18 @@ class Executor {
   Report report_;
   std::atomic<std::int64_t> now_{0};
   std::atomic<bool> interrupted_{false};
-  std::vector<std::uint32_t> log_outputs_;     // per communicator: that of the log
-  std::uint32_t log_misses_ = 0;               // the log's output for them; that for checkpoints is the next
-  std::int64_t checkpoint_due_ = 0;            // if there is a log
-  std::unique_ptr<MissedActivations> missed_;  // null: this is no replay
-  std::optional<Duration> ended_after_;        // of the activation that was found late last, from its release
-  std::unique_ptr<TaskThreads> threads_;       // null: tasks run on the caller's
-  std::vector<const Activation*> under_way_;   // data-flow tasks on threads that were not yet seen to end
+  // of the channels, by an instant that covers them or by whoever closed the run
+  enum class Use : std::uint32_t { free, covering, closed };
+  class ChannelsInUse;
+  std::atomic<Use> use_{Use::free};
+  std::atomic<const RunningTask*> running_{nullptr};  // of the thread that covers instants, meanwhile
+  std::vector<std::uint32_t> log_outputs_;            // per communicator: that of the log
+  std::uint32_t log_misses_ = 0;                      // the log's output for them; that for checkpoints is the next
+  std::int64_t checkpoint_due_ = 0;                   // if there is a log
+  std::unique_ptr<MissedActivations> missed_;         // null: this is no replay
+  std::optional<Duration> ended_after_;               // of the activation that was found late last, from its release
+  std::unique_ptr<TaskThreads> threads_;              // null: tasks run on the caller's
+  std::vector<const Activation*> under_way_;          // data-flow tasks on threads that were not yet seen to end
 };
 
 }  // namespace jarol

@@ -63,11 +63,6 @@ void Executor::release_on_threads(std::int64_t instant) {
   threads_->release();
 }
 
-void Executor::drain_threads() {
-  threads_->drain();
-  settle(0);
-}
-
 void Executor::publish_in_time(const Publish& what, std::int64_t instant) {
   report_.digest += make_visible<true>(what, digest::instant_term(instant));
   if (options_.recorder != nullptr) record(*options_.recorder, what, instant);

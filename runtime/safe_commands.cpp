@@ -1,6 +1,7 @@
 #include "runtime/safe_commands.h"
 
 #include <algorithm>
+#include <exception>
 
 #include "graph/safe_commands.h"
 
@@ -35,12 +36,30 @@ const void* SafeCommands::in_place_of_input(std::size_t out, Duration instant) {
   return graph_.communicators[out].safe->data();
 }
 
-void SafeCommands::hand_over_at_end(std::span<const std::unique_ptr<Channels>> channels) {
+template <class Do>
+void SafeCommands::at_end(std::span<const std::unique_ptr<Channels>> channels, Duration time, bool outliving, Do act) {
   for (SafeCommandReport& report : reports_) {
     const Communicator& out = graph_.communicators[report.communicator];
-    channels[*out.distributer]->hand_over(out.channel, out.safe->data());
-    report.at_end = true;
+    Channels& to = *channels[*out.distributer];
+    if (outliving && !to.outlives_run()) continue;
+    report.at_end = {.time = time, .failure = act(out, to)};
   }
+}
+
+void SafeCommands::hand_over_at_end(std::span<const std::unique_ptr<Channels>> channels, Duration time,
+                                    bool outliving) {
+  at_end(channels, time, outliving, [](const Communicator& out, Channels& to) -> std::string {
+    try {
+      to.hand_over(out.channel, out.safe->data());
+      to.flush();
+      return "";
+    } catch (const std::exception& error) { return error.what(); }
+  });
+}
+
+void SafeCommands::fail_at_end(std::span<const std::unique_ptr<Channels>> channels, Duration time, bool outliving,
+                               const std::string& why) {
+  at_end(channels, time, outliving, [&](const Communicator&, Channels&) { return why; });
 }
 
 }  // namespace jarol

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "graph/graph.h"
@@ -20,8 +22,16 @@ struct SafeCommandReport {
   std::uint64_t times = 0;     // that it fell silent after that
   std::uint64_t commands = 0;  // that were handed over meanwhile
   Duration first{}, last{};    // instants of these, if any
-  bool at_end = false;         // once more, as a fault ended the run
+  // as no command follows
+  struct AtEnd {
+    Duration time{};      // since the start, by the run's clock
+    std::string failure;  // why it could not be handed over; empty: it was
+  };
+  std::optional<AtEnd> at_end{};
 };
+
+/// Why a link may not be given a safe value at the end.
+inline constexpr const char* busy_link_text = "the link has not done what it was given before";
 
 class SafeCommands {
  public:
@@ -35,8 +45,12 @@ class SafeCommands {
   /// anything is silent from the start; else one whose newest value is older than its time-out.
   const void* in_place_of_input(std::size_t out, Duration instant);
 
-  /// Hands over every safe value that there is: no command follows. What is published does not change by it.
-  void hand_over_at_end(std::span<const std::unique_ptr<Channels>> channels);
+  /// Hands over every safe value that there is: no command follows. What is published does not change by it. With
+  /// `outliving` only to external systems that outlive the run.
+  void hand_over_at_end(std::span<const std::unique_ptr<Channels>> channels, Duration time, bool outliving);
+  /// It can't: notes why.
+  void fail_at_end(std::span<const std::unique_ptr<Channels>> channels, Duration time, bool outliving,
+                   const std::string& why);
 
   /// Per `out` communicator with a safe value, in their order.
   const std::vector<SafeCommandReport>& reports() const { return reports_; }
@@ -49,6 +63,9 @@ class SafeCommands {
     std::size_t report = 0;
     bool in_force = false;
   };
+
+  template <class Do>
+  void at_end(std::span<const std::unique_ptr<Channels>> channels, Duration time, bool outliving, Do act);
 
   const Graph& graph_;
   std::vector<Duration> newest_;  // per communicator

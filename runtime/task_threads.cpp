@@ -193,13 +193,21 @@ void TaskThreads::undo(std::size_t task, bool skip) {
   jobs_[task].to_skip = skip;
 }
 
-void TaskThreads::drain() {
+std::vector<HangingTask> TaskThreads::drain(std::optional<Futex::Time> patience) {
+  std::vector<HangingTask> hanging, waiting;
   for (Thread& thread : threads_) {
     thread.watched.store(true, std::memory_order_seq_cst);
-    for (std::uint32_t done; (done = thread.done.load(std::memory_order_seq_cst)) != thread.given;)
-      Futex::wait(thread.done, done, std::nullopt);
+    for (std::uint32_t done; (done = thread.done.load(std::memory_order_seq_cst)) != thread.given;) {
+      if (Futex::wait(thread.done, done, patience)) continue;
+      const Job& job = *thread.ring[done % thread.ring.size()];
+      auto& whose = job.awaited.load(std::memory_order_acquire) == 0 ? hanging : waiting;
+      whose.push_back({graph_.tasks[job.task].name, job.tick.activation, job.tick.now});
+      break;
+    }
     thread.watched.store(false, std::memory_order_relaxed);
   }
+  // one that waits for what another thread runs is not to blame
+  return hanging.empty() ? waiting : hanging;
 }
 
 // In the order in which they were given: one that has to wait for a producer holds up those behind it, as in a table.

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "graph/analysis/threads.h"
+#include "runtime/ending.h"
+#include "runtime/futex.h"
 #include "runtime/memory.h"
 #include "runtime/plan.h"
 #include "runtime/real_clock.h"
@@ -49,8 +51,8 @@ class TaskThreads {
   /// Before its next activation the task is put back to before the newest, and with `skip` that one is left out too.
   void undo(std::size_t task, bool skip);
 
-  /// Waits until nothing runs any more.
-  void drain();
+  /// Waits until nothing runs any more; what still runs at that time.
+  std::vector<HangingTask> drain(std::optional<Futex::Time> patience = {});
 
  private:
   // idle: the dispatcher's. released: the thread's. ended: the dispatcher's, who has not looked yet. abandoned: the

@@ -17,7 +17,7 @@ namespace jarol {
 
 ThreadsCore::ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels)
     : graph_(graph), plan_(graph), channels_(std::move(channels)), period_(choose_period()), safe_commands_(graph) {
-  for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::mutex>());
+  for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::timed_mutex>());
   last_.resize(graph.communicators.size());
   threads_report_.execution.resize(graph.tasks.size());
   gather();
@@ -84,56 +84,112 @@ void ThreadsCore::gather() {
   }
 }
 
+ThreadsCore::~ThreadsCore() { finish(); }
+
 void ThreadsCore::run_for(Duration end, const std::function<void()>& prepare) {
-  std::optional<TimeTrigger> trigger;
-  std::thread sensor, core, actuator, terminal;
-  const auto contained = [this](const auto& work) {
-    try {
-      work();
-    } catch (...) { fail(std::current_exception()); }
-  };
-  const auto begin = [&](std::thread& thread, auto work) {
-    if (stopped()) return;
-    try {
-      thread = std::thread([&, work] {
-        contained([&] {
-          prepare();
-          work();
-        });
-      });
-    } catch (const std::system_error& error) {
-      fail(std::make_exception_ptr(std::runtime_error("there is no thread to be had: " + std::string(error.what()))));
-    }
-  };
-  begin(core, [this] { run_core(); });
-  begin(actuator, [this] { run_actuator(); });
-  begin(terminal, [this] { run_terminal(); });
-  begin(sensor, [&] {
-    if (start_signal_.await() == Awaiting::signalled) run_sensor(*trigger, end);
+  try {
+    cover(end, prepare);
+  } catch (...) {
+    finish();
+    throw;
+  }
+  finish();
+  throw_failure();
+}
+
+void ThreadsCore::throw_failure() {
+  const std::lock_guard lock(failure_mutex_);
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+template <class Work>
+void ThreadsCore::begin(Part& part, Signal& signal, const std::function<void()>& prepare, Work work) {
+  if (stopped()) return;
+  part.signal = &signal;
+  try {
+    part.thread = std::thread([this, &part, prepare, work] {
+      try {
+        prepare();
+        work();
+      } catch (...) { fail(std::current_exception()); }
+      part.ended.store(1, std::memory_order_release);
+      Futex::wake_all(part.ended);
+    });
+  } catch (const std::system_error& error) {
+    fail(std::make_exception_ptr(std::runtime_error("there is no thread to be had: " + std::string(error.what()))));
+  }
+}
+
+void ThreadsCore::cover(Duration end, const std::function<void()>& prepare) {
+  begin(core_, core_signal_, prepare, [this] { run_core(); });
+  begin(actuator_, actuator_signal_, prepare, [this] { run_actuator(); });
+  begin(terminal_, terminal_signal_, prepare, [this] { run_terminal(); });
+  begin(sensor_, start_signal_, prepare, [this, end] {
+    if (start_signal_.await() == Awaiting::signalled) run_sensor(end);
   });
   // the clock starts when all wait to be signalled
   for (const Signal* signal : {&core_signal_, &actuator_signal_, &terminal_signal_, &start_signal_})
     while (!stopped() && signal->waiting() == 0) std::this_thread::yield();
+  try {
+    if (!stopped()) prepare();
+  } catch (...) { fail(std::current_exception()); }
   if (!stopped()) {
-    contained(prepare);
-    trigger.emplace(period_);
+    trigger_.emplace(period_);
     static_cast<void>(start_signal_.signal());
   }
   constexpr auto look = std::chrono::milliseconds(10);
   while (!interrupted_.load(std::memory_order_relaxed) && !stopped()) std::this_thread::sleep_for(look);
+  throw_failure();
+}
+
+Finish ThreadsCore::finish(std::optional<Futex::Time> patience) {
   // in the order of the flow: what was sensed is still computed, and what was computed handed over
-  if (trigger) trigger->stop();
-  for (const auto& [signal, thread] :
-       {std::pair(&start_signal_, &sensor), std::pair(&core_signal_, &core), std::pair(&actuator_signal_, &actuator),
-        std::pair(&terminal_signal_, &terminal)}) {
-    signal->interrupt();
-    if (thread->joinable()) thread->join();
+  if (trigger_) trigger_->stop();
+  for (Part* part : {&sensor_, &core_, &actuator_, &terminal_}) {
+    if (!part->thread.joinable()) continue;
+    part->signal->interrupt();
+    while (part->ended.load(std::memory_order_acquire) == 0) {
+      if (Futex::wait(part->ended, 0, patience)) continue;
+      Finish finish{.done = false};
+      if (auto hanging = running()) finish.hanging.push_back(std::move(*hanging));
+      return finish;
+    }
+    part->thread.join();
   }
-  if (report_.stopped && !failure_) safe_commands_.hand_over_at_end(channels_);
   report_.non_finite_inputs = refused_inputs_;
   for (const auto& channels : channels_) report_.non_finite_inputs += channels->non_finite_inputs();
   report_.simulated = now();
-  if (failure_) std::rethrow_exception(failure_);
+  return {};
+}
+
+// From here on the threads that carry values find nothing to do.
+void ThreadsCore::close(Futex::Time patience) {
+  interrupt();
+  if (closed_.exchange(true)) return;
+  const Duration time = now();
+  std::vector<std::unique_lock<std::timed_mutex>> locks;
+  for (const auto& mutex : channel_mutexes_)
+    if (!locks.emplace_back(*mutex, std::defer_lock).try_lock_until(patience)) {
+      safe_commands_.fail_at_end(channels_, time, false, busy_link_text);
+      return;
+    }
+  safe_commands_.hand_over_at_end(channels_, time, false);
+}
+
+std::optional<HangingTask> ThreadsCore::running() const {
+  const Counted* const task = running_.task.load(std::memory_order_acquire);
+  if (task == nullptr) return std::nullopt;
+  return HangingTask{graph_.tasks[task->activation->task].name, running_.activation.load(std::memory_order_relaxed),
+                     Duration(running_.instant.load(std::memory_order_relaxed))};
+}
+
+// Nobody looks whether it comes in time, but it holds up the core.
+std::optional<Holdup> ThreadsCore::holdup() const {
+  const Counted* const task = running_.task.load(std::memory_order_acquire);
+  std::optional<HangingTask> hanging = running();
+  if (task == nullptr || !hanging) return std::nullopt;
+  const Duration late = now() - hanging->instant - task->period;
+  return Holdup{.task = std::move(*hanging), .late = late, .stops = false};
 }
 
 void ThreadsCore::fail(std::exception_ptr failure) {
@@ -143,7 +199,8 @@ void ThreadsCore::fail(std::exception_ptr failure) {
 }
 
 // A round's number goes by the clock, also where ticks found this thread at work.
-void ThreadsCore::run_sensor(TimeTrigger& trigger, Duration end) {
+void ThreadsCore::run_sensor(Duration end) {
+  TimeTrigger& trigger = *trigger_;
   const std::int64_t rounds = end / period_ + (end % period_ != Duration{} ? 1 : 0);
   for (std::int64_t next = 0; !stopped() && trigger.await() == Awaiting::signalled;) {
     const std::int64_t round = std::min(trigger.ticks() - 1, rounds);
@@ -170,6 +227,7 @@ void ThreadsCore::sense(bool terminal, std::int64_t round) {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     if (graph_.distributers[i].distributer_class->is_vehicle == terminal) continue;
     const std::lock_guard lock(*channel_mutexes_[i]);
+    if (closed_.load(std::memory_order_relaxed)) return;
     channels_[i]->reach(now);
     for (Carried& in : ins_) {
       const Communicator& c = graph_.communicators[in.communicator];
@@ -227,9 +285,13 @@ void ThreadsCore::run_round(std::int64_t round) {
 void ThreadsCore::run_task(Counted& task, std::int64_t instant, std::uint64_t instant_term) {
   const Tick tick{Duration(instant), task.activations++, task.period};
   const std::int64_t begin = RealClock::monotonic();
+  running_.activation.store(tick.activation, std::memory_order_relaxed);
+  running_.instant.store(instant, std::memory_order_relaxed);
+  running_.task.store(&task, std::memory_order_release);
   running_task.begin(task.activation->memory, tick);
   const Outcome outcome = task.activation->run(task.activation->memory, tick);
   running_task.end();
+  running_.task.store(nullptr, std::memory_order_relaxed);
   if (outcome == Outcome::left_out) return;
   threads_report_.execution[task.activation->task].add(RealClock::monotonic() - begin);
   ++report_.activations;
@@ -265,6 +327,7 @@ void ThreadsCore::act(bool terminal) {
     const Communicator& c = graph_.communicators[out.communicator];
     if (!c.distributer || out.terminal != terminal || !out.port->read(out.room.data())) continue;
     const std::lock_guard lock(*channel_mutexes_[*c.distributer]);
+    if (closed_.load(std::memory_order_relaxed)) return;
     channels_[*c.distributer]->hand_over(c.channel, out.room.data());
   }
 }

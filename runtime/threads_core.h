@@ -9,10 +9,12 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "runtime/attend.h"
 #include "runtime/channels.h"
 #include "runtime/executor.h"
 #include "runtime/histogram.h"
@@ -40,12 +42,21 @@ class ThreadsCore {
   /// std::invalid_argument for a graph whose periods can't be counted in those of the sensor thread, or with deep
   /// values between threads.
   ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels);
+  ~ThreadsCore();
 
   /// Covers the instants before `end`, unless a fault stops it or it is interrupted; once. `prepare` is called in each
   /// thread, in the caller's last, before the clock starts. The first exception that a thread ends with is thrown here
   /// when all have ended; std::runtime_error where the system has no more threads.
   void run_for(
       Duration end, const std::function<void()>& prepare = [] {});
+  /// The same without the end of its threads, which `finish` waits for; what one of them has thrown by then.
+  void cover(Duration end, const std::function<void()>& prepare);
+
+  // as of Executor, by any thread
+  void close(Futex::Time patience = Futex::Time::max());
+  Finish finish(std::optional<Futex::Time> patience = {});
+  std::optional<HangingTask> running() const;
+  std::optional<Holdup> holdup() const;
 
   void interrupt() { interrupted_.store(true, std::memory_order_relaxed); }
 
@@ -91,6 +102,13 @@ class ThreadsCore {
     std::int64_t activations = 0;
   };
 
+  // A thread, and whether it has ended.
+  struct Part {
+    Signal* signal = nullptr;
+    std::thread thread;
+    std::atomic<std::uint32_t> ended{0};
+  };
+
   Duration choose_period() const;
   std::int64_t rounds_of(const std::string& what, Duration period) const;
   void gather();
@@ -98,8 +116,11 @@ class ThreadsCore {
 
   bool stopped() const { return stopped_.load(std::memory_order_acquire); }
   void fail(std::exception_ptr failure);
+  void throw_failure();
+  template <class Work>
+  void begin(Part& part, Signal& signal, const std::function<void()>& prepare, Work work);
 
-  void run_sensor(TimeTrigger& trigger, Duration end);
+  void run_sensor(Duration end);
   void run_core();
   void run_actuator();
   void run_terminal();
@@ -114,7 +135,7 @@ class ThreadsCore {
   const Graph& graph_;
   Plan plan_;
   std::vector<std::unique_ptr<Channels>> channels_;
-  std::vector<std::unique_ptr<std::mutex>> channel_mutexes_;  // sensor and actuator thread share a vehicle's
+  std::vector<std::unique_ptr<std::timed_mutex>> channel_mutexes_;  // sensor and actuator thread share a vehicle's
   Duration period_{};
   std::vector<Carried> ins_, outs_;
   std::vector<Counted> tasks_;  // data-flow order
@@ -130,8 +151,16 @@ class ThreadsCore {
   std::atomic<std::int64_t> tick_{0};  // the newest, in ns of the monotonic clock
   std::atomic<bool> interrupted_{false};
   std::atomic<bool> stopped_{false};  // at the end, by a fault or a failure
+  std::atomic<bool> closed_{false};
+  // what the core thread runs; for others who ask why it does not end
+  struct Running {
+    std::atomic<const Counted*> task{nullptr};
+    std::atomic<std::int64_t> activation{0}, instant{0};
+  } running_;
   std::mutex failure_mutex_;
   std::exception_ptr failure_;  // the first
+  std::optional<TimeTrigger> trigger_;
+  Part sensor_, core_, actuator_, terminal_;
 };
 
 }  // namespace jarol

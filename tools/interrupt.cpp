@@ -13,6 +13,7 @@ namespace jarol::tools {
 namespace {
 
 std::atomic<bool> flag{false};
+std::atomic<int> number{0};
 std::atomic<bool> alive{false};
 std::atomic<std::int64_t> first_at{0};  // ns; 0: none has come
 std::function<void()> call;
@@ -29,6 +30,7 @@ extern "C" void interrupt(int signal) {
   // another thread may take the second signal before this one has done more
   std::int64_t first = 0;
   if (first_at.compare_exchange_strong(first, now())) {
+    number.store(signal);
     flag.store(true);
     if (alive.load()) call();
     return;
@@ -44,23 +46,34 @@ extern "C" void interrupt(int signal) {
 
 }  // namespace
 
-Interruptible::Interruptible(std::function<void()> at_once) {
+Interruptible::Interruptible(std::function<void()> at_once, HaltKey halt_key)
+    : count_(signals.size() - (halt_key == HaltKey::halts ? 1 : 0)) {
   call = std::move(at_once);
   flag.store(false);
+  number.store(0);
   first_at.store(0);
   alive.store(true);
-  for (std::size_t i = 0; i < signals.size(); ++i) before_[i] = std::signal(signals[i], interrupt);
-  // what was started under nohup goes on when its terminal is gone
-  if (before_[2] == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  for (std::size_t i = 0; i < count_; ++i) {
+    before_[i] = std::signal(signals[i], interrupt);
+    // what was started under nohup goes on when its terminal is gone, and a shell may keep Ctrl-Z for itself
+    if ((signals[i] == SIGHUP || signals[i] == SIGTSTP) && before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);
+  }
 }
 
 Interruptible::~Interruptible() {
   alive.store(false);
   // after an interruption a second signal still must not cut off the report
   if (flag.load()) return;
-  for (std::size_t i = 0; i < signals.size(); ++i) std::signal(signals[i], before_[i]);
+  for (std::size_t i = 0; i < count_; ++i) std::signal(signals[i], before_[i]);
 }
 
 const std::atomic<bool>& Interruptible::interrupted() { return flag; }
+
+int Interruptible::signal() { return number.load(); }
+
+void let_writing_fail() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
 
 }  // namespace jarol::tools

@@ -16,6 +16,7 @@
 #include "runtime/machine.h"
 #include "tools/command_line.h"
 #include "tools/failure.h"
+#include "tools/value_json.h"
 
 namespace jarol::tools {
 namespace {
@@ -42,7 +43,23 @@ void add_cpus(const std::string& part, const std::string& list, std::vector<int>
   }
 }
 
+// The safe value as a graph has it: {signals: [0, 0, 0, 0], unlocked: false}.
+std::string value_text(const Communicator& out) {
+  std::string text;
+  for (const char c : to_json(*out.type, out.safe->data()).dump())
+    if (c != '"') text += c == ':' || c == ',' ? std::string(1, c) + " " : std::string(1, c);
+  return text;
+}
+
 }  // namespace
+
+void take_priority(std::optional<int> priority) {
+  if (!priority) return;
+  sched_param parameter{};
+  parameter.sched_priority = *priority;
+  // where it is refused, it is so for the thread that keeps the time, which says it
+  sched_setscheduler(0, SCHED_FIFO, &parameter);
+}
 
 void add_real_time_options(Command& command, RealTimeArguments& arguments) {
   command
@@ -159,7 +176,7 @@ nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock) {
           {"tasks", tasks}};
 }
 
-std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands) {
+std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands, const Ending& ending) {
   std::string text;
   for (const SafeCommandReport& safe : safe_commands) {
     const std::string& name = graph.communicators[safe.communicator].name;
@@ -168,18 +185,33 @@ std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& sa
     if (safe.commands > 0)
       text += fmt::format("  safe        {}: {} times for silence, {} commands, the first at {} s, the last at {} s\n",
                           name, safe.times, safe.commands, seconds_text(safe.first), seconds_text(safe.last));
-    if (safe.at_end) text += fmt::format("  safe        {}: the last command, as a fault ended the run\n", name);
+    if (!safe.at_end) continue;
+    const std::string when = seconds_text(safe.at_end->time) + " s, as " + ending.reason;
+    if (safe.at_end->failure.empty())
+      text +=
+          "  safe        " + name + ": " + value_text(graph.communicators[safe.communicator]) + " at " + when + "\n";
+    else
+      text += "  safe        " + name + ": NOT HANDED OVER at " + when + ": " + safe.at_end->failure + "\n";
   }
   return text;
 }
 
 nlohmann::ordered_json to_json(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands) {
   auto json = nlohmann::ordered_json::object();
-  for (const SafeCommandReport& safe : safe_commands)
-    json[graph.communicators[safe.communicator].name] = {
-        {"heard", safe.heard},       {"at_start", safe.at_start},      {"times", safe.times},
-        {"commands", safe.commands}, {"first_ns", safe.first.count()}, {"last_ns", safe.last.count()},
-        {"at_end", safe.at_end}};
+  for (const SafeCommandReport& safe : safe_commands) {
+    const Communicator& out = graph.communicators[safe.communicator];
+    json[out.name] = {{"heard", safe.heard},
+                      {"at_start", safe.at_start},
+                      {"times", safe.times},
+                      {"commands", safe.commands},
+                      {"first_ns", safe.first.count()},
+                      {"last_ns", safe.last.count()},
+                      {"at_end", safe.at_end.has_value() && safe.at_end->failure.empty()}};
+    if (!safe.at_end) continue;
+    json[out.name]["at_end_ns"] = safe.at_end->time.count();
+    json[out.name]["at_end_value"] = to_json(*out.type, out.safe->data());
+    if (!safe.at_end->failure.empty()) json[out.name]["at_end_failure"] = safe.at_end->failure;
+  }
   return json;
 }
 

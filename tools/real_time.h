@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "graph/analysis/threads.h"
 #include "graph/graph.h"
 #include "runtime/channels.h"
+#include "runtime/ending.h"
 #include "runtime/real_clock.h"
 #include "runtime/safe_commands.h"
 
@@ -29,6 +31,10 @@ void add_real_time_options(Command& command, RealTimeArguments& arguments);
 /// Throws std::invalid_argument for a bad list of CPUs.
 RealTimeOptions options_of(const RealTimeArguments& arguments);
 
+/// Gives the calling thread that priority under SCHED_FIFO, and those that it makes from now on, as the threads of
+/// links.
+void take_priority(std::optional<int> priority);
+
 /// The threads that run tasks, where it takes more than the one that keeps the time; completes the options for them.
 /// Throws std::invalid_argument where this machine has too few CPUs, or SCHED_FIFO too few priorities.
 std::vector<analysis::TaskThread> threads_for(const std::string& file, const Graph& graph, RealTimeOptions& options);
@@ -42,8 +48,8 @@ void require_executable(const std::string& file, const Graph& graph, const RealT
 std::string to_text(const Graph& graph, const RealClock& clock);
 nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock);
 
-/// When safe values were handed over; in the text only those that were.
-std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands);
+/// When safe values were handed over, and why at the end; in the text only those that were.
+std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands, const Ending& ending);
 nlohmann::ordered_json to_json(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands);
 
 /// What a link has carried; in the text only what there was, and whether nobody was heard.

@@ -16,6 +16,7 @@
 #include "tools/json_line.h"
 #include "tools/linked.h"
 #include "tools/real_time.h"
+#include "tools/run_end.h"
 #include "tools/told_changes.h"
 #include "tools/told_faults.h"
 #include "tools/value_json.h"
@@ -24,12 +25,12 @@ namespace jarol::tools {
 namespace {
 
 void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& told,
-                const std::vector<LinkReport>& links, const Guard& guard, bool interrupted) {
+                const std::vector<LinkReport>& links, const Guard& guard, const RunEnd& end) {
   const Report& report = core.report();
   const ThreadsReport& threads = core.threads_report();
   const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
   std::cout << fmt::format("{}: {} s in real time on threads{}\n", graph.name, seconds_text(report.simulated),
-                           interrupted ? " (interrupted)" : "")
+                           suffix_of(end))
             << reached_text(graph, [&](std::size_t communicator) { return core.last_value(communicator); })
             << fmt::format("  activations {}, rounds {} of {}\n", report.activations, threads.rounds,
                            duration_text(core.period()))
@@ -53,14 +54,14 @@ void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
     std::cout << "  sensors     " << threads.unawaited_ticks << " ticks found their thread at work\n";
   std::cout << told.to_text();
   for (const LinkReport& link : links) std::cout << to_text(link);
-  std::cout << to_text(graph, core.safe_commands()) << guard.to_text();
+  std::cout << to_text(graph, core.safe_commands(), end.ending) << guard.to_text();
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
   std::cerr << told_faults(report);
 }
 
 void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& told,
-                const std::vector<LinkReport>& links, const Guard& guard) {
+                const std::vector<LinkReport>& links, const Guard& guard, const RunEnd& end) {
   const Report& report = core.report();
   const ThreadsReport& threads = core.threads_report();
   nlohmann::ordered_json json{{"schema", "jarol.run/1"},
@@ -80,6 +81,7 @@ void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
                               {"faults", faults_to_json(report)},
                               {"fault_count", report.fault_count},
                               {"non_finite_inputs", report.non_finite_inputs},
+                              {"ending", to_json(end)},
                               {"safe_commands", to_json(graph, core.safe_commands())},
                               {"told", told.to_json()}};
   json["outputs"] = outputs_to_json(graph, [&](std::size_t communicator) { return core.last_value(communicator); });
@@ -99,6 +101,30 @@ void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
   std::cout << json_line(json);
 }
 
+class ThreadsRun : public AttendedRun {
+ public:
+  ThreadsRun(ThreadsCore& core, Duration end, const RealTimeOptions& options)
+      : core_(core), end_(end), options_(options) {}
+  void cover() override {
+    // what one thread is refused, all are
+    core_.cover(end_, [this, caller = std::this_thread::get_id()] {
+      const std::vector<std::string> refusals = prepare_thread(options_);
+      if (std::this_thread::get_id() != caller) return;
+      for (const std::string& refusal : refusals) std::cerr << "note: " << refusal << "\n";
+    });
+  }
+  bool stopped_by_fault() const override { return core_.report().stopped; }
+  void close(const Ending&, Futex::Time patience) override { core_.close(patience); }
+  std::optional<Holdup> holdup() const override { return core_.holdup(); }
+  std::optional<HangingTask> running() const override { return core_.running(); }
+  Finish finish(Futex::Time patience) override { return core_.finish(patience); }
+
+ private:
+  ThreadsCore& core_;
+  Duration end_;
+  const RealTimeOptions& options_;
+};
+
 }  // namespace
 
 int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& arguments, bool json) {
@@ -109,31 +135,24 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
   loaded.channels = told.listen(std::move(loaded.channels));
   const std::vector<Channels*> channels = pointers_to(loaded.channels);
   ThreadsCore core(*loaded.graph, std::move(loaded.channels));
+  let_writing_fail();
+  const Interruptible interruptible([] {}, HaltKey::ends);
+  take_priority(options.priority);
   Linked linked(channels);
-  // what one thread is refused, all are
-  const auto prepare = [&options, caller = std::this_thread::get_id()] {
-    const std::vector<std::string> refusals = prepare_thread(options);
-    if (std::this_thread::get_id() != caller) return;
-    for (const std::string& refusal : refusals) std::cerr << "note: " << refusal << "\n";
-  };
-  try {
-    const Interruptible interruptible([&] { core.interrupt(); });
-    guard.arm();
-    core.run_for(end, prepare);
-  } catch (const std::runtime_error& error) {
-    // a vehicle that is lost, or can't be simulated any further
-    std::cerr << "error: at " << seconds_text(core.now()) << " s: " << error.what() << "\n";
+  take_priority_above(options.priority);
+  ThreadsRun attended(core, end, options);
+  const RunEnd run_end = attend(
+      attended, [&] { guard.arm(); }, Interruptible::signal);
+  if (run_end.links_are_free()) {
     linked.finish();
     guard.close();
-    return exit_unfinished;
   }
-  linked.finish();
-  guard.close();
-  const bool interrupted = Interruptible::interrupted().load();
-  json ? print_json(*loaded.graph, core, told, linked.reports(), guard)
-       : print_text(*loaded.graph, core, told, linked.reports(), guard, interrupted);
-  if (core.report().stopped) return exit_unfinished;
-  return interrupted ? exit_interrupted : exit_good;
+  halt_if_asked(run_end);
+  json ? print_json(*loaded.graph, core, told, linked.reports(), guard, run_end)
+       : print_text(*loaded.graph, core, told, linked.reports(), guard, run_end);
+  std::cerr << errors_of(run_end, core.now());
+  if (run_end.hangs) end_at_once(exit_code_of(run_end));
+  return exit_code_of(run_end);
 }
 
 }  // namespace jarol::tools

@@ -42,7 +42,7 @@ std::string to_text(const RunOutcome& outcome) {
   text += outcome.told.to_text();
   if (outcome.clock != nullptr) text += to_text(graph, *outcome.clock);
   for (const LinkReport& link : outcome.links) text += to_text(link);
-  text += to_text(graph, executor.safe_commands());
+  text += to_text(graph, executor.safe_commands(), outcome.end.ending);
   if (outcome.guard != nullptr) text += outcome.guard->to_text();
   if (report.non_finite_inputs > 0)
     text += fmt::format("  {} values from outside were not finite and not taken\n", report.non_finite_inputs);
@@ -75,6 +75,7 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
       {"faults", faults_to_json(report)},
       {"fault_count", report.fault_count},
       {"non_finite_inputs", report.non_finite_inputs},
+      {"ending", to_json(outcome.end)},
       {"safe_commands", to_json(graph, executor.safe_commands())},
       {"told", outcome.told.to_json()},
       {"heaps", heaps},

@@ -7,6 +7,7 @@
 
 #include "runtime/executor.h"
 #include "tools/guard.h"
+#include "tools/run_end.h"
 #include "tools/told_changes.h"
 
 namespace jarol::tools {
@@ -15,6 +16,7 @@ struct RunOutcome {
   const Graph& graph;
   const Executor& executor;
   const ToldChanges& told;
+  const RunEnd& end;
   const RealClock* clock = nullptr;  // null: the virtual clock
   const Guard* guard = nullptr;      // null: the virtual clock
   std::size_t workers = 1;           // that were asked for

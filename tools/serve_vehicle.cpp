@@ -100,7 +100,7 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
     std::cout << vehicle_class.name << ": " << seconds_text(Duration(instant)) << " s in real time\n"
               << diary.to_text() << to_text(link.report());
   }
-  return exit_code == exit_good && interrupted ? exit_interrupted : exit_code;
+  return exit_of({exit_code, exit_of_signal(Interruptible::signal())});
 }
 
 int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,
@@ -123,7 +123,7 @@ int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const
       // the run is over
     } catch (const distributers::FrameError& error) { std::cerr << "note: " << error.what() << "\n"; }
   }
-  return exit_interrupted;
+  return exit_of_signal(Interruptible::signal());
 }
 
 }  // namespace jarol::tools

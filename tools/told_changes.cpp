@@ -57,6 +57,8 @@ class ToldChanges::Listening : public Channels {
   void begin() override { to_->begin(); }
   void finish() override { to_->finish(); }
   bool needs_real_clock() const override { return to_->needs_real_clock(); }
+  bool outlives_run() const override { return to_->outlives_run(); }
+  void flush() override { to_->flush(); }
   std::optional<LinkReport> link_report() const override { return to_->link_report(); }
   std::uint64_t non_finite_inputs() const override { return to_->non_finite_inputs(); }
   std::optional<Duration> end() const override { return to_->end(); }

@@ -64,6 +64,8 @@ class Taker {
   messages::PacketReader reader_;
 };
 
+}  // namespace
+
 // The vehicle as its runner sees it: commands and steps go out together with the next look at its sensors.
 class RemoteVehicle : public vehicles::Stepped {
  public:
@@ -73,6 +75,7 @@ class RemoteVehicle : public vehicles::Stepped {
   std::chrono::nanoseconds grid() const override { return grid_; }
   void accept(messages::MessageRef command) override { putter_.receive(command); }
   void step() override { stream_.put(FrameKind::step); }
+  void flush() { stream_.flush(); }
 
   void sense(messages::Receiver& receiver) const override {
     stream_.put(FrameKind::sense);
@@ -92,8 +95,6 @@ class RemoteVehicle : public vehicles::Stepped {
   Putter putter_;
   mutable Taker taker_;
 };
-
-}  // namespace
 
 LockstepChannels::LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<Adapter> adapter,
                                    CheckGrid check_grid, LockstepOptions options)
@@ -123,7 +124,17 @@ void LockstepChannels::begin() {
   if (const std::string wrong = check_grid_(grid); !wrong.empty()) refuse(wrong);
   stream.put(FrameKind::begin, numbers({seed_}));
   auto vehicle = std::make_unique<RemoteVehicle>(std::move(stream), grid, adapter_->message_set());
+  vehicle_ = vehicle.get();
   simulation_ = std::make_unique<SimulationChannels>(std::move(vehicle), std::move(adapter_));
+}
+
+void LockstepChannels::finish() {
+  vehicle_ = nullptr;
+  simulation_.reset();
+}
+
+void LockstepChannels::flush() {
+  if (vehicle_ != nullptr) vehicle_->flush();
 }
 
 namespace {

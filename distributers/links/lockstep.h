@@ -22,6 +22,8 @@ struct LockstepOptions {
   std::function<void(const std::string&)> note = [](const std::string&) {};
 };
 
+class RemoteVehicle;
+
 class LockstepChannels : public Channels {
  public:
   LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<Adapter> adapter, CheckGrid check_grid,
@@ -30,7 +32,9 @@ class LockstepChannels : public Channels {
 
   /// Connects, and has the vehicle begin. Throws FrameError, also if it is not one for this adapter and grid.
   void begin() override;
-  void finish() override { simulation_.reset(); }
+  void finish() override;
+  bool outlives_run() const override { return true; }
+  void flush() override;
 
   std::uint64_t non_finite_inputs() const override { return simulation_ ? simulation_->non_finite_inputs() : 0; }
   void reach(Duration instant) override { simulation_->reach(instant); }
@@ -43,6 +47,7 @@ class LockstepChannels : public Channels {
   std::unique_ptr<Adapter> adapter_;  // until it begins
   CheckGrid check_grid_;
   LockstepOptions options_;
+  RemoteVehicle* vehicle_ = nullptr;  // the simulation's, while it runs
   std::unique_ptr<SimulationChannels> simulation_;
 };
 

@@ -161,7 +161,7 @@ TEST_SUITE("runtime/safe_commands") {
     }));
   }
 
-  TEST_CASE("where a fault ends a run in real time the safe value is the last one, beside what is published") {
+  TEST_CASE("where a run in real time is closed the safe value is the last one, beside what is published") {
     const Graph graph = graph_with_timeout("Accumulate");
     const std::vector<std::pair<Duration, double>> beyond_double{{0ms, 1e308}, {10ms, 1e308}};
     std::vector<double> handed;
@@ -169,6 +169,8 @@ TEST_SUITE("runtime/safe_commands") {
     executor.run_until(80ms);
     CHECK(executor.report().stopped);
     CHECK(handed == std::vector<double>{1e308});
+    executor.close();
+    CHECK(handed == std::vector<double>{1e308});  // on the virtual clock, in this process: it ends with the run
     CHECK_FALSE(executor.safe_commands().front().at_end);
     CHECK(tests::at_some_speed([&](int times) {
       handed.clear();
@@ -177,10 +179,13 @@ TEST_SUITE("runtime/safe_commands") {
       Executor real(slow, sensor(beyond_double, handed, times), {.clock = &clock});
       clock.start();
       real.run_until(times * 80ms);
+      real.close();
       real.run_until(times * 90ms);
+      real.close();
       CHECK(real.report().stopped);
       CHECK(handed.back() == -1);
-      CHECK(real.safe_commands().front().at_end);
+      REQUIRE(real.safe_commands().front().at_end);
+      CHECK(real.safe_commands().front().at_end->failure == "");
       if (tests::misses_of(real.report()) != "") return false;
       CHECK(handed == std::vector<double>{1e308, -1});
       handed.clear();
@@ -189,7 +194,7 @@ TEST_SUITE("runtime/safe_commands") {
       CHECK(real.report().digest == same.report().digest);
       return true;
     }));
-    // a run to its end leaves its last command
+    // so it is where a run comes to its end
     CHECK(tests::at_some_speed([&](int times) {
       handed.clear();
       const Graph slow = graph_with_timeout("Accumulate", times);
@@ -197,7 +202,11 @@ TEST_SUITE("runtime/safe_commands") {
       Executor whole(slow, sensor({{0ms, 1}}, handed), {.clock = &clock});
       clock.start();
       whole.run_until(times * 10ms);
-      return tests::misses_of(whole.report()) == "" && handed == std::vector<double>{1};
+      whole.close();
+      // and nothing follows
+      whole.run_until(times * 30ms);
+      CHECK(whole.report().covered == times * 10ms);
+      return tests::misses_of(whole.report()) == "" && handed == std::vector<double>{1, -1};
     }));
   }
 
@@ -206,6 +215,7 @@ TEST_SUITE("runtime/safe_commands") {
     std::vector<double> handed;
     ThreadsCore core(graph, sensor({{0ms, 1e308}, {1ms, 1e308}, {30ms, 1e308}}, handed));
     core.run_for(1min);  // two rounds, whenever they are
+    core.close();
     CHECK(core.report().stopped);
     CHECK(handed.back() == -1);
     CHECK(core.safe_commands().front().at_end);

@@ -28,7 +28,15 @@ Process::Process(const std::string& arguments) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
-  const int failed = posix_spawn(&id_, "/bin/sh", &actions, nullptr, words.data(), environ);
+  // whatever is ignored here, as under nohup
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t signals;
+  sigfillset(&signals);
+  posix_spawnattr_setsigdefault(&attributes, &signals);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  const int failed = posix_spawn(&id_, "/bin/sh", &actions, &attributes, words.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   close(out[1]);
   close(err[1]);
@@ -53,7 +61,14 @@ void Process::read(int fd, std::string& to) {
 
 void Process::kill() { ::kill(id_, SIGKILL); }
 
-void Process::interrupt() { ::kill(id_, SIGINT); }
+void Process::interrupt() { signal(SIGINT); }
+
+void Process::signal(int number) { ::kill(id_, number); }
+
+bool Process::runs() {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
+}
 
 bool Process::says(const std::string& text, std::chrono::seconds patience) {
   for (const auto end = std::chrono::steady_clock::now() + patience; std::chrono::steady_clock::now() < end;) {

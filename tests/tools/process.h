@@ -25,6 +25,9 @@ class Process {
   void kill();
   /// As Ctrl-C ends it.
   void interrupt();
+  void signal(int number);
+  /// False once it has ended, and before `end` is called.
+  bool runs();
   /// Waits until its errors, or notes, have this. False if it does not come.
   bool says(const std::string& text, std::chrono::seconds patience = std::chrono::seconds(20));
   /// Waits for its end; its exit code, or minus the signal that ended it.

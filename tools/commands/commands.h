@@ -3,12 +3,11 @@
 
 #include <string>
 
+#include "tools/exit_code.h"
+
 namespace jarol::tools {
 
 class CommandLine;
-
-/// Exit codes of the command, as the README says.
-enum ExitCode { exit_good = 0, exit_negative = 1, exit_input = 2, exit_unfinished = 3, exit_interrupted = 130 };
 
 // Each adds its subcommand; `exit_code` is what the program returns once it has run.
 void add_bench(CommandLine& line, int& exit_code);

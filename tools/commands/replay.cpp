@@ -21,6 +21,7 @@
 #include "tools/log_reader.h"
 #include "tools/no_plugins.h"
 #include "tools/progress.h"
+#include "tools/run_end.h"
 #include "tools/run_files.h"
 #include "tools/run_report.h"
 #include "tools/told_faults.h"
@@ -64,8 +65,7 @@ struct Comparison {
 };
 
 // Goes from checkpoint to checkpoint, so that where the two diverge can be told.
-Comparison run_beside(Executor& executor, const LogReader& log) {
-  Comparison comparison;
+void run_beside(Executor& executor, const LogReader& log, Comparison& comparison) {
   const auto go_to = [&](Duration end) {
     executor.run_until(end);
     comparison.interrupted = executor.now() < end;
@@ -74,10 +74,10 @@ Comparison run_beside(Executor& executor, const LogReader& log) {
   for (const Checkpoint& checkpoint : log.checkpoints()) {
     const Duration settled(checkpoint.settled);
     if (checkpoint.exact == 0 || comparison.diverged_until || settled > log.covered()) continue;
-    if (!go_to(settled)) return comparison;
+    if (!go_to(settled)) return;
     (executor.report().digest == checkpoint.digest ? comparison.same_until : comparison.diverged_until) = settled;
   }
-  if (!go_to(log.covered())) return comparison;
+  if (!go_to(log.covered())) return;
   const Report& report = executor.report();
   const std::optional<LogEnd>& end = log.end();
   const bool same = !end || (report.digest == end->digest && report.activations == end->activations &&
@@ -87,8 +87,22 @@ Comparison run_beside(Executor& executor, const LogReader& log) {
   } else if (end) {
     comparison.verdict = Verdict::same;
   }
-  return comparison;
 }
+
+class ReplayRun : public ExecutorRun {
+ public:
+  ReplayRun(Executor& executor, const LogReader& log)
+      : ExecutorRun(executor, log.covered()), executor_(executor), log_(log) {}
+  void cover() override { run_beside(executor_, log_, comparison); }
+  // it goes on after the fault, to the end of the log
+  bool stopped_by_fault() const override { return false; }
+
+  Comparison comparison;
+
+ private:
+  Executor& executor_;
+  const LogReader& log_;
+};
 
 std::string text_of(const Comparison& comparison, const Report& report, const LogReader& log, bool is_other_text) {
   if (comparison.interrupted) return "";
@@ -151,25 +165,32 @@ int replay(const Options& options) {
   Executor executor(graph, told.listen(replayed_channels(graph, log)),
                     {.digest = true, .recorder = files.recorder(), .misses = misses});
   const auto start = std::chrono::steady_clock::now();
-  Comparison comparison;
-  {
-    const Interruptible interruptible([&] { executor.interrupt(); });
-    const Progress progress(!options.json && isatty(STDERR_FILENO) != 0, log.covered(), [&] { return executor.now(); });
-    const CrashLine crash_line(graph);
-    comparison = run_beside(executor, log);
-  }
+  ReplayRun attended(executor, log);
+  const CrashLine crash_line(graph);
+  const Interruptible interruptible;
+  std::optional<Progress> progress;
+  progress.emplace(!options.json && isatty(STDERR_FILENO) != 0, log.covered(), [&] { return executor.now(); });
+  const RunEnd run_end = attend(
+      attended, [] {}, Interruptible::signal);
+  progress.reset();
+  if (run_end.failure) std::rethrow_exception(run_end.failure);
+  Comparison& comparison = attended.comparison;
+  comparison.interrupted = comparison.interrupted || run_end.hangs;
   const double seconds =
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   if (!comparison.interrupted) log.require_all_taken();
   std::string unwritten;
   try {
-    files.close();
+    if (run_end.hangs && files.recorder() != nullptr)
+      unwritten = "trace and picture are not written, as the replay has not ended";
+    if (!run_end.hangs) files.close();
   } catch (const std::exception& error) { unwritten = error.what(); }
   const Report& report = executor.report();
   const RunOutcome outcome{
       .graph = graph,
       .executor = executor,
       .told = told,
+      .end = run_end,
       .seconds = seconds,
       .simulated = comparison.interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated)};
   if (options.json) {
@@ -186,9 +207,13 @@ int replay(const Options& options) {
     std::cerr << told_faults(report);
   }
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
-  if (comparison.interrupted) return exit_interrupted;
-  if (comparison.verdict == Verdict::diverged) return exit_negative;
-  return comparison.verdict == Verdict::same && unwritten.empty() ? exit_good : exit_unfinished;
+  std::cerr << errors_of(run_end, executor.now());
+  const int verdict = comparison.interrupted || comparison.verdict == Verdict::same ? exit_good
+                      : comparison.verdict == Verdict::diverged                     ? exit_negative
+                                                                                    : exit_unfinished;
+  const int exit_code = exit_of({exit_code_of(run_end), verdict, unwritten.empty() ? exit_good : exit_unfinished});
+  if (run_end.hangs) end_at_once(exit_code);
+  return exit_code;
 }
 
 }  // namespace
@@ -200,7 +225,8 @@ void add_replay(CommandLine& line, int& exit_code) {
                           "Run again what jarol run --log has logged: on the virtual clock, without vehicles or links, "
                           "with what came from\n"
                           "outside and what was late then. It is the same to the bit, or says that it is not.\n"
-                          "Exit code: 0 the same, 1 diverged, 2 bad input, 3 a log that breaks off, 130 interrupted");
+                          "Exit code: 0 the same, 1 diverged, 2 bad input, 3 a log that breaks off,\n"
+                          "129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
   command->add_option("LOG", options->log, "The log of a run")->required();
   command->add_option("FILE", options->file,
                       "The graph, if it is elsewhere now or names plugins; default: that of the run");

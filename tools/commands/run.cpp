@@ -23,6 +23,7 @@
 #include "tools/no_plugins.h"
 #include "tools/progress.h"
 #include "tools/real_time.h"
+#include "tools/run_end.h"
 #include "tools/run_files.h"
 #include "tools/run_on_threads.h"
 #include "tools/run_report.h"
@@ -71,7 +72,7 @@ Duration end_of_run(const Options& options, const Loaded& loaded) {
   return end;
 }
 
-void print(const Options& options, const RunOutcome& outcome, const std::string& ended_early, bool written) {
+void print(const Options& options, const RunOutcome& outcome, bool written) {
   const Report& report = outcome.executor.report();
   if (options.json) {
     std::cout << json_line(to_json(outcome));
@@ -79,11 +80,11 @@ void print(const Options& options, const RunOutcome& outcome, const std::string&
   }
   if (outcome.clock != nullptr) {
     std::cout << fmt::format("{}: {} s in real time{}\n", printable(outcome.graph.name),
-                             seconds_text(outcome.simulated), ended_early);
+                             seconds_text(outcome.simulated), suffix_of(outcome.end));
   } else {
     std::cout << fmt::format("{}: {} s on the virtual clock in {:.2f} s, {:.0f} times real time{}\n",
                              printable(outcome.graph.name), seconds_text(outcome.simulated), outcome.seconds,
-                             real_time_factor(outcome), ended_early);
+                             real_time_factor(outcome), suffix_of(outcome.end));
   }
   std::cout << to_text(outcome);
   if (written) std::cout << to_text(options.files);
@@ -155,29 +156,39 @@ int run(const Options& options) {
                      .clock = clock ? &*clock : nullptr,
                      .threads = threads,
                      .log = log ? log->recorder() : nullptr});
+  const bool steers =
+      clock || std::any_of(channels.begin(), channels.end(), [](const Channels* c) { return c->outlives_run(); });
+  const bool shown = !options.json && isatty(STDERR_FILENO) != 0 && end != Duration::max();
+  let_writing_fail();
+  const Interruptible interruptible([] {}, steers ? HaltKey::ends : HaltKey::halts);
+  std::optional<Progress> progress;
+  // made before the priority that threads of links take after this one
+  progress.emplace(shown, end, [&] { return executor.now(); });
+  const std::optional<int> priority = clock ? clock->options().priority : std::nullopt;
+  if (clock) take_priority(priority);
   Linked linked(std::move(channels));
   if (log) log->open();
+  take_priority_above(priority);
   auto start = std::chrono::steady_clock::now();
-  std::string lost;
-  try {
-    const Interruptible interruptible([&] { executor.interrupt(); });
-    const bool shown = !options.json && isatty(STDERR_FILENO) != 0 && end != Duration::max();
-    // its thread is made before this one gets the priority and the CPUs that threads made later would take after
-    const Progress progress(shown, end, [&] { return executor.now(); });
-    if (clock) start_clock(*clock, executor);
-    if (guard) guard->arm();
-    start = std::chrono::steady_clock::now();
-    executor.run_until(end);
-  } catch (const std::runtime_error& error) {
-    // a vehicle that is lost, or can't be simulated any further
-    lost = "error: at " + seconds_text(executor.now()) + " s: " + error.what() + "\n";
+  ExecutorRun attended(executor, end);
+  const RunEnd run_end = attend(
+      attended,
+      [&] {
+        if (clock) start_clock(*clock, executor);
+        if (guard) guard->arm();
+        start = std::chrono::steady_clock::now();
+      },
+      Interruptible::signal);
+  progress.reset();
+  // a link that is in use can't be finished, and what it has to be handed is left to the guardian
+  if (run_end.links_are_free()) {
+    linked.finish();
+    if (guard) guard->close();
   }
-  linked.finish();
-  if (guard) guard->close();
+  halt_if_asked(run_end);
   const double seconds =
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   const Report& report = executor.report();
-  const bool interrupted = lost.empty() && !report.stopped && executor.now() < end;
   // the report is there whatever can't be written
   std::string unwritten;
   const auto finish_writing = [&](const std::function<void()>& close) {
@@ -185,26 +196,30 @@ int run(const Options& options) {
       close();
     } catch (const std::exception& error) { unwritten = error.what(); }
   };
-  finish_writing([&] { files.close(); });
-  if (log) finish_writing([&] { log->close(report); });
+  if (run_end.hangs) {
+    // a log is whole up to its last checkpoint
+    if (files.recorder() != nullptr) unwritten = "trace and picture are not written, as the run has not ended";
+  } else {
+    finish_writing([&] { files.close(); });
+    if (log) finish_writing([&] { log->close(report); });
+  }
   print(options,
         {.graph = graph,
          .executor = executor,
          .told = told,
+         .end = run_end,
          .clock = clock ? &*clock : nullptr,
          .guard = guard ? &*guard : nullptr,
          .workers = options.workers,
          .links = linked.reports(),
          .seconds = seconds,
          .simulated = report.simulated},
-        interrupted     ? " (interrupted)"
-        : !lost.empty() ? " (broken off)"
-                        : "",
         unwritten.empty());
-  std::cerr << lost;
+  std::cerr << errors_of(run_end, executor.now());
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
-  if (report.stopped || !lost.empty() || !unwritten.empty()) return exit_unfinished;
-  return interrupted ? exit_interrupted : exit_good;
+  const int exit_code = exit_of({exit_code_of(run_end), unwritten.empty() ? exit_good : exit_unfinished});
+  if (run_end.hangs) end_at_once(exit_code);
+  return exit_code;
 }
 
 }  // namespace
@@ -215,9 +230,9 @@ void add_run(CommandLine& line, int& exit_code) {
       "run",
       "Run a graph: on the virtual clock, as fast as possible and the same to the bit every time, or\n"
       "on the real clock.\n"
-      "Exit code: 0 good, 1 refused by the real clock, 2 bad input, 3 stopped by a fault, a lost vehicle or a full "
-      "disk,\n"
-      "130 interrupted");
+      "Exit code: 0 good, 1 refused by the real clock, 2 bad input, 3 stopped by a fault, a lost vehicle, a task "
+      "that does not end or a full disk,\n"
+      "129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
   command->add_option("FILE", options->file, "The graph, a YAML file")->required();
   command->add_option("--for", options->duration,
                       "How long, in logical time, as in 10s; default: until the mission ends");

@@ -1,0 +1,203 @@
+// However a run ends, whatever its links, clock and threads: what has a `safe` gets it, in time, and nothing after it.
+#include <doctest/doctest.h>
+#include <signal.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "tests/tools/actuator_peer.h"
+#include "tests/tools/process.h"
+#include "tests/tools/run_command.h"
+
+namespace {
+using namespace jarol::tests;
+using namespace std::chrono_literals;
+using command::TemporaryFolder;
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+constexpr double steers = 0.5, safe = 0.25;  // thrusts
+constexpr auto period = 20ms;                // of all communicators and tasks
+constexpr auto in_time = 100ms;
+
+// How a run is ended. A row more is an element more of `endings`.
+struct Ending {
+  std::string name;
+  std::string task;     // type and keys of a task that ends it, or none
+  std::string options;  // of the command
+  std::chrono::milliseconds before_act{};
+  // done from outside, with the run and what it steers; none: it ends by itself
+  std::function<void(Process&, ActuatorPeer* lost)> act;
+  // ms after the run's start at which it ends by itself
+  std::chrono::milliseconds at{};
+  int exit_code = 0;
+  std::string reason;  // in its report
+  bool loses = false;  // a vehicle of its own in lockstep, which vanishes
+};
+
+void wait_for_end(Process& run) {
+  // Ctrl-Z halts it; what goes on with it too early takes Ctrl-Z back
+  while (run.runs()) {
+    run.signal(SIGCONT);
+    std::this_thread::sleep_for(5ms);
+  }
+}
+
+const auto send(int signal) {
+  return [signal](Process& run, ActuatorPeer*) { run.signal(signal); };
+}
+
+const std::vector<Ending>& endings() {
+  static const std::vector<Ending> all{
+      {"SIGINT", "", "--for 1h", 100ms, send(SIGINT), {}, 130, "SIGINT ended the run"},
+      {"SIGTERM", "", "--for 1h", 100ms, send(SIGTERM), {}, 143, "SIGTERM ended the run"},
+      {"SIGHUP", "", "--for 1h", 100ms, send(SIGHUP), {}, 129, "SIGHUP ended the run"},
+      {"SIGTSTP", "", "--for 1h", 100ms, send(SIGTSTP), {}, 148, "SIGTSTP ended the run"},
+      {"--for", "", "--for 300ms", 0ms, nullptr, 300ms, 0, "the run was over"},
+      {"a fault", "{type: Throws, parameters: {at: 15}}", "--for 1h", 0ms, nullptr, 300ms, 3, "a fault ended the run"},
+      {"a task that never ends", "{type: Hangs, parameters: {at: 15}}", "--for 1h", 0ms, nullptr, 320ms, 3, ""},
+      {"one that never ends where faults are held",
+       "{type: Hangs, on_fault: hold, parameters: {at: 5}}",
+       "--for 1h",
+       300ms,
+       send(SIGINT),
+       {},
+       3,
+       "SIGINT ended the run"},
+      {"--for with one that never ends", "{type: Hangs, on_fault: hold, parameters: {at: 10}}", "--for 300ms", 0ms,
+       nullptr, 300ms, 3, ""},
+      {"a lost vehicle",
+       "",
+       "--for 1h",
+       100ms,
+       [](Process&, ActuatorPeer* lost) { lost->vanish(); },
+       {},
+       3,
+       "an external system was lost",
+       true},
+  };
+  return all;
+}
+
+struct Way {
+  std::string link, clock, policy;
+};
+
+std::vector<Way> ways() {
+  std::vector<Way> all;
+  for (const std::string link : {"udp", "tcp_client", "tcp_server", "serial", "lockstep"})
+    for (const std::string policy :
+         {"{cores: 1, policy: table}", "{cores: 2, policy: table}", "{cores: 1, policy: fixed_priority}",
+          "{cores: 2, policy: fixed_priority}", "threads"})
+      all.push_back({link, "real", policy});
+  all.push_back({"lockstep", "virtual", "{cores: 1, policy: table}"});
+  return all;
+}
+
+std::string graph_of(const Ending& ending, const Way& way, const ActuatorPeer& peer, const ActuatorPeer* lost) {
+  const std::string platform = way.policy == "threads" ? "{cores: 1, policy: table}" : way.policy;
+  std::string text = "graph: ends\ntiming: {period: 20ms}\nplugins: [ends.so]\nplatform: " + platform +
+                     "\ndistributers:\n  dune: {type: LauvVehicle, link: " + peer.link() + "}\n" +
+                     (lost != nullptr ? "  other: {type: LauvVehicle, link: " + lost->link() + "}\n" : "") +
+                     "communicators:\n"
+                     "  idle: {type: Actuation, direction: in, init: {thruster: 0.5}}\n"
+                     "  from_dune: {channel: dune.motion, timeout: 1min}\n"
+                     "  to_dune: {channel: dune.actuation, safe: {thruster: 0.25}}\n" +
+                     (lost != nullptr ? "  from_other: {channel: other.motion}\n" : "") +
+                     "tasks:\n"
+                     "  forward: {type: LauvForward}\n" +
+                     (lost != nullptr ? "  second: {type: LauvForward}\n" : "") +
+                     (ending.task.empty() ? "" : "  ends: " + ending.task + "\n") +
+                     "connections:\n"
+                     "  - from_dune -> forward.motion\n"
+                     "  - idle -> forward.actuation\n"
+                     "  - forward.actuation -> to_dune\n";
+  if (lost != nullptr) text += "  - from_other -> second.motion\n  - idle -> second.actuation\n";
+  return text;
+}
+
+// One run; how long after its end the peer had what is safe. None: it ended before it had steered.
+std::optional<double> end_one(const Ending& ending, const Way& way) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(JAROL_PLUGIN_FOLDER "/ends.so", folder / "ends.so",
+                             std::filesystem::copy_options::overwrite_existing);
+  const auto peer = make_actuator_peer(way.link);
+  const auto lost = ending.loses ? make_actuator_peer("lockstep") : nullptr;
+  const std::string graph = folder.write("g.yaml", graph_of(ending, way, *peer, lost.get()));
+  Process run("run " + graph + " --json --force --clock " + way.clock + " " + ending.options +
+              (way.policy == "threads" ? " --concurrency threads" : ""));
+  while (run.runs() && !peer->has(steers)) std::this_thread::sleep_for(1ms);
+  if (!peer->has(steers)) {
+    CAPTURE(run.end());
+    CAPTURE(run.errors());
+    CHECK(ending.act == nullptr);
+    return std::nullopt;
+  }
+  PeerClock::time_point ended{};
+  if (ending.act) {
+    std::this_thread::sleep_for(ending.before_act);
+    ended = PeerClock::now();
+    ending.act(run, lost.get());
+  }
+  const bool got_safe = peer->gets(safe);
+  wait_for_end(run);
+  CHECK(run.end() == ending.exit_code);
+  CAPTURE(run.errors());
+  CAPTURE(run.output());
+  CHECK(got_safe);
+  const std::vector<Thrust> thrusts = peer->thrusts();
+  // at the start the run may have taken its peer for silent
+  const auto steered =
+      std::find_if(thrusts.rbegin(), thrusts.rend(), [](const Thrust& t) { return t.value == steers; });
+  const auto last = steered.base();
+  REQUIRE(last != thrusts.end());
+  CHECK(last->value == safe);
+  // and no other command follows
+  CHECK(last + 1 == thrusts.end());
+  const auto json = run.json();
+  if (!ending.reason.empty()) CHECK(json["ending"]["reason"] == ending.reason);
+  CHECK(json["safe_commands"]["to_dune"]["at_end"] == true);
+  CHECK(json["safe_commands"]["to_dune"]["at_end_value"]["thruster"] == safe);
+  if (!ending.act) ended = thrusts.front().at + ending.at;
+  return std::chrono::duration_cast<Milliseconds>(last->at - ended).count();
+}
+
+void check_one(const Ending& ending, const Way& way) {
+  CAPTURE(ending.name);
+  CAPTURE(way.link);
+  CAPTURE(way.clock);
+  CAPTURE(way.policy);
+  double least = 1e9;
+  // a machine that is busy with other things may be late
+  for (int attempt = 0; attempt < 10 && least > Milliseconds(in_time).count(); ++attempt)
+    least = std::min(least, end_one(ending, way).value_or(least));
+  CHECK(least <= Milliseconds(in_time).count());
+}
+
+// On the virtual clock what ends a run by itself has no time that a peer could measure, and nothing holds it up.
+bool exists(const Ending& ending, const Way& way) {
+  if (way.clock == "virtual") return ending.act && ending.task.empty();
+  // whether a task comes in time is not looked at there: it ends the run after a second
+  if (way.policy == "threads" && ending.name == "a task that never ends") return false;
+  return true;
+}
+}  // namespace
+
+TEST_SUITE("tools/endings") {
+  TEST_CASE("what is safe goes out at each ending, on each link, in each way of running, and nothing after it") {
+    const bool all = std::getenv("JAROL_FULL") != nullptr;
+    int count = 0;
+    for (const Way& way : ways())
+      for (const Ending& ending : endings()) {
+        // else each ending on each link, and in each way on one
+        const bool plain = way.policy == "{cores: 1, policy: table}";
+        if (!exists(ending, way) || (!all && !plain && way.link != "udp")) continue;
+        const auto begin = PeerClock::now();
+        check_one(ending, way);
+        ++count;
+        if (std::getenv("JAROL_TIMES") != nullptr)
+          MESSAGE(way.link << " " << way.policy << " " << ending.name << " "
+                           << std::chrono::duration_cast<Milliseconds>(PeerClock::now() - begin).count() << " ms");
+      }
+    MESSAGE(count << " endings");
+  }
+}
