@@ -160,11 +160,6 @@ bool ActuatorPeer::has(double thrust) const {
   return std::any_of(all.begin(), all.end(), [&](const Thrust& t) { return t.value == thrust; });
 }
 
-bool ActuatorPeer::gets(double thrust) const {
-  for (int i = 0; i < 20'000 && !has(thrust); ++i) std::this_thread::sleep_for(1ms);
-  return has(thrust);
-}
-
 std::unique_ptr<ActuatorPeer> make_actuator_peer(const std::string& kind) {
   if (kind == "lockstep") return std::make_unique<LockstepPeer>();
   if (kind == "serial") {

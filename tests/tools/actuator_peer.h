@@ -28,8 +28,6 @@ class ActuatorPeer {
 
   /// It was commanded that thrust.
   bool has(double thrust) const;
-  /// Waits until it was commanded that thrust; false: not within 20 s.
-  bool gets(double thrust) const;
 };
 
 /// `kind`: udp, tcp_client, tcp_server, serial or lockstep, as the graph calls its own end.

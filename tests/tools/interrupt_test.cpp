@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/tools/default_signals.h"
 #include "tests/tools/run_command.h"
 
 namespace {
@@ -22,6 +23,7 @@ std::string content(const std::string& path) {
 
 TEST_SUITE("tools/interrupt") {
   TEST_CASE("each signal ends a run with its report and trace, also when it comes again at once") {
+    const command::DefaultSignals taken;
     const TemporaryFolder folder;
     // mostly at work, which is brought to its end
     const std::string graph = folder.write(
@@ -72,5 +74,29 @@ TEST_SUITE("tools/interrupt") {
     CHECK(!std::filesystem::exists(trace));
     for (const auto& entry : std::filesystem::directory_iterator(folder / ""))
       CHECK(entry.path().extension() != ".part");
+  }
+
+  TEST_CASE("under nohup a run goes on when its terminal is gone") {
+    const command::DefaultSignals taken;
+    const auto run = jarol("run specs/counting.yaml --clock real --for 300ms",
+                           "2>&1 & id=$!; sleep 0.1; kill -HUP $id; wait $id; echo \"exit code $?\"");
+    CHECK(run.output.ends_with("exit code 129\n"));
+    const auto kept =
+        jarol("schema > /dev/null; trap '' HUP; " JAROL_COMMAND " run specs/counting.yaml --clock real --for 300ms",
+              "2>&1 & id=$!; sleep 0.1; kill -HUP $id; wait $id; echo \"exit code $?\"");
+    CHECK(kept.output.ends_with("exit code 0\n"));
+  }
+
+  TEST_CASE("a pipe that nobody reads, or a file at its limit, is an error of writing and ends no run") {
+    const TemporaryFolder folder;
+    const std::string report = folder / "report.txt", trace = folder / "t.csv";
+    jarol("run specs/counting.yaml --clock real --for 1s --trace /dev/stdout", "2> " + report + " | true");
+    CHECK(content(report).find("error: can't write '/dev/stdout': Broken pipe\n") != std::string::npos);
+    // it comes to its end all the same: one that a signal ended has no report
+    const auto limited =
+        jarol("schema > /dev/null; ulimit -f 1; " JAROL_COMMAND " run specs/counting.yaml --for 100s --trace " + trace);
+    CHECK(limited.output.starts_with("counting: 100 s on the virtual clock"));
+    CHECK(limited.output.find("error: can't write '" + trace + "': File too large\n") != std::string::npos);
+    CHECK(limited.exit_code == 3);
   }
 }

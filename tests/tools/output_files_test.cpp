@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "tests/tools/default_signals.h"
 #include "tests/tools/run_command.h"
 #include "tools/load_graph.h"
 #include "tools/log_reader.h"
@@ -88,6 +89,7 @@ TEST_SUITE("tools/output_files") {
 
 #ifdef JAROL_VEHICLES
   TEST_CASE("a signal that ends a command leaves nothing half written") {
+    const command::DefaultSignals taken;
     const TemporaryFolder folder;
     const std::string script = folder.write("s.csv", "time,thruster\n0,0.5\n"), csv = folder / "o.csv";
     for (const std::string signal : {"INT", "TERM", "HUP", "PIPE", "QUIT"}) {

@@ -26,7 +26,8 @@ class Process {
   /// As Ctrl-C ends it.
   void interrupt();
   void signal(int number);
-  /// False once it has ended, and before `end` is called.
+  pid_t id() const { return id_; }
+  /// False once it has ended; before `end` is called.
   bool runs();
   /// Waits until its errors, or notes, have this. False if it does not come.
   bool says(const std::string& text, std::chrono::seconds patience = std::chrono::seconds(20));

@@ -1,0 +1,97 @@
+// The threads of a command in real time, as the system schedules them.
+#include <doctest/doctest.h>
+#include <sched.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "tests/tools/actuator_peer.h"
+#include "tests/tools/process.h"
+#include "tests/tools/run_command.h"
+
+namespace {
+using namespace jarol::tests;
+
+// Priorities under SCHED_FIFO, 0 for each thread of the ordinary scheduler, in order.
+std::vector<int> priorities_of(pid_t process) {
+  std::vector<int> all;
+  std::error_code gone;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task", gone)) {
+    const int id = std::stoi(thread.path().filename());
+    sched_param parameter{};
+    sched_getparam(id, &parameter);
+    all.push_back(sched_getscheduler(id) == SCHED_FIFO ? parameter.sched_priority : 0);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+void check_priorities(Process& process, const std::vector<int>& should) {
+  std::vector<int> found;
+  for (int look = 0; look < 2000 && found != should; ++look) {
+    found = priorities_of(process.id());
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  CHECK(found == should);
+}
+
+bool fifo_is_permitted() {
+  bool permitted = false;
+  std::thread([&] {
+    const sched_param parameter{30};
+    permitted = sched_setscheduler(0, SCHED_FIFO, &parameter) == 0;
+  }).join();
+  return permitted;
+}
+}  // namespace
+
+TEST_SUITE("tools/priorities") {
+  TEST_CASE("threads that receive and send have the priority of the one that keeps the time") {
+    if (!fifo_is_permitted()) {
+      MESSAGE("SCHED_FIFO is refused here");
+      return;
+    }
+    const command::TemporaryFolder folder;
+    const auto peer = make_actuator_peer("udp");
+    const std::string graph = folder.write("g.yaml", "graph: g\ntiming: {period: 20ms}\ndistributers:\n"
+                                                     "  dune: {type: LauvVehicle, link: " + peer->link() + "}\n"
+                                                     "communicators:\n"
+                                                     "  from_dune: {channel: dune.motion}\n"
+                                                     "  idle: {type: Actuation, direction: in}\n"
+                                                     "  to_dune: {channel: dune.actuation}\n"
+                                                     "tasks: {forward: {type: LauvForward, on_fault: hold}}\n"
+                                                     "connections: [from_dune -> forward.motion, "
+                                                     "idle -> forward.actuation, forward.actuation -> to_dune]\n");
+    const std::string run = "run " + graph + " --clock real --for 1h --rt-priority 20";
+    {
+      // it, one that receives, one that sends, and the one that looks after it
+      Process on_one(run);
+      check_priorities(on_one, {20, 20, 20, 21});
+    }
+    {
+      // and the core's
+      Process on_two(run + " --set platform.policy=fixed_priority");
+      check_priorities(on_two, {19, 20, 20, 20, 21});
+    }
+    {
+      // and those for the core, actuators and terminal
+      Process on_threads(run + " --concurrency threads");
+      check_priorities(on_threads, {20, 20, 20, 20, 20, 20, 20, 21});
+    }
+    {
+      Process plain("run " + graph + " --clock real --for 1h");
+      check_priorities(plain, {0, 0, 0, 0});
+    }
+  }
+
+#ifdef JAROL_VEHICLES
+  TEST_CASE("so it is for a vehicle") {
+    if (!fifo_is_permitted()) return;
+    const std::string port = free_port(SOCK_DGRAM);
+    Process vehicle("vehicle submarine --link udp --listen " + port + " --rt-priority 20");
+    check_priorities(vehicle, {20, 20, 20});
+  }
+#endif
+}
