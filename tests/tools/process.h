@@ -26,7 +26,6 @@ class Process {
   /// As Ctrl-C ends it.
   void interrupt();
   void signal(int number);
-  pid_t id() const { return id_; }
   /// False once it has ended; before `end` is called.
   bool runs();
   /// Waits until its errors, or notes, have this. False if it does not come.
