@@ -8,12 +8,19 @@
 // $(pkg-config --cflags eigen3) twice.cpp -o twice.so; named in a graph as `plugins: [twice.so]`.
 #pragma once
 
-#include "graph/registry.h"
+// before the headers that such structs do not fit
+struct JarolUnpacked {
+  char first;
+  double second;
+};
+static_assert(sizeof(JarolUnpacked) == 2 * sizeof(double), "a plugin can't be built with -fpack-struct");
+
+// first, so that the compiler's lines around an error in a description are few
+#include "graph/values/describe.h"
+
+#include "graph/plugin_build.h"
 
 namespace jarol {
-
-/// Changes with every change of the binary interface; the compiler is part of it.
-inline constexpr const char* plugin_form = "form 3 of " __VERSION__;
 
 template <class... T>
 void add_tasks_of_plugin(Registry& registry) {
@@ -23,6 +30,9 @@ void add_tasks_of_plugin(Registry& registry) {
 }  // namespace jarol
 
 /// Names the tasks that the library brings, once in a library.
-#define JAROL_PLUGIN(...)                                                   \
-  extern "C" const char* jarol_plugin_form() { return jarol::plugin_form; } \
+#define JAROL_PLUGIN(...)                                                                                 \
+  extern "C" [[gnu::used]] const jarol::PluginBuild jarol_plugin_build = jarol::build_of_this_file();     \
+  extern "C" bool jarol_plugin_rounds_products(const volatile double& x, const volatile double& square) { \
+    return jarol::rounds_products(x, square);                                                             \
+  }                                                                                                       \
   extern "C" void jarol_plugin_add(jarol::Registry& registry) { jarol::add_tasks_of_plugin<__VA_ARGS__>(registry); }

@@ -17,4 +17,13 @@ std::string plugin_path(const GraphSpec& spec, const std::string& plugin);
 /// Adds the tasks of all plugins that a graph names, and reports what is wrong.
 void load_plugins(const GraphSpec& spec, Registry& registry, Problems& problems);
 
+/// What a library with tasks exports.
+struct PluginLibrary {
+  void (*add)(Registry& registry) = nullptr;
+};
+
+/// Loads it and looks how it computes; returns what is wrong, as words that follow its name. Runs its static
+/// constructors, which may do anything.
+std::string open_plugin(const std::string& path, PluginLibrary& library);
+
 }  // namespace jarol

@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 
+#include "graph/floating_point.h"
 #include "graph/values/type_of.h"
 
 namespace jarol {
@@ -37,6 +38,7 @@ inline void keep_text(FaultText& fault, std::string_view text, std::size_t from 
 template <class Run, class Text>
 Outcome contain(Run&& run, Text&& fault_text) {
   const auto keep_threw = [&](const char* what) {
+    set_floating_point_control(default_floating_point_control());
     constexpr std::string_view threw = "threw: ";
     keep_text(fault_text(), threw);
     keep_text(fault_text(), what, threw.size());
@@ -46,6 +48,7 @@ Outcome contain(Run&& run, Text&& fault_text) {
     run();
     return Outcome::good;
   } catch (const HeapExhausted& error) {
+    set_floating_point_control(default_floating_point_control());
     keep_text(fault_text(), error.what());
     return Outcome::heap_exhausted;
   } catch (const std::exception& error) { return keep_threw(error.what()); } catch (...) {
@@ -129,12 +132,16 @@ auto present(Pointer* pointer) {
   }
 }
 
+// The task gets a tick of its own: one that it changes in spite of `const` reaches no other.
 template <class T>
 inline void call(const TaskMemory& memory, const Tick& tick) {
+  const Tick own = tick;
   std::apply(T::run, std::tuple_cat(present<const decltype(parameters_of<T>())>(memory.parameters),
-                                    std::tuple<const Tick&>(tick), present<const decltype(in_of<T>())>(memory.in),
+                                    std::tuple<const Tick&>(own), present<const decltype(in_of<T>())>(memory.in),
                                     present<decltype(state_of<T>())>(memory.state),
                                     present<decltype(out_of<T>())>(memory.out)));
+  if (!computes_by_default()) [[unlikely]]
+    reject_floating_point();
 }
 
 template <class T>

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "graph/floating_point.h"
 #include "runtime/channels_in_use.h"
 #include "runtime/finite.h"
 #include "runtime/publish.h"
@@ -93,6 +94,7 @@ void Executor::cover(Duration end) {
   if (report_.stopped && missed_ == nullptr) return;
   const MemoryScope scope(no_heap());  // a task with a heap has a scope of its own
   const RunningHere here(running_);
+  const DefaultFloatingPoint arithmetic;
   const bool record = options_.recorder != nullptr;
   if (options_.clock != nullptr || missed_ != nullptr) {
     record ? walk<true, true, true>(end) : walk<true, false, true>(end);

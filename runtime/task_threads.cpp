@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "graph/floating_point.h"
 #include "graph/stages.h"
 #include "graph/values/heap.h"
 #include "runtime/copy.h"
@@ -113,6 +114,7 @@ void TaskThreads::begin(std::span<const analysis::TaskThread> threads) {
     prepared.push_back(prepare.get_future());
     try {
       thread.thread = std::thread([this, &thread, prepare = std::move(prepare)]() mutable {
+        set_floating_point_control(default_floating_point_control());
         prepare();
         run(thread);
       });

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "graph/floating_point.h"
 #include "runtime/copy.h"
 #include "runtime/real_clock.h"
 #include "runtime/running_task.h"
@@ -108,6 +109,7 @@ void ThreadsCore::begin(Part& part, Signal& signal, const std::function<void()>&
   part.signal = &signal;
   try {
     part.thread = std::thread([this, &part, prepare, work] {
+      set_floating_point_control(default_floating_point_control());
       try {
         prepare();
         work();

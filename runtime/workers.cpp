@@ -1,5 +1,6 @@
 #include "runtime/workers.h"
 
+#include "graph/floating_point.h"
 #include "graph/values/heap.h"
 #include "runtime/signal_stack.h"
 
@@ -54,6 +55,7 @@ void Workers::run(Job job, void* context) {
 
 void Workers::work(std::size_t first) {
   const SignalStack signal_stack;
+  set_floating_point_control(default_floating_point_control());
   const MemoryScope scope(no_heap());
   for (std::uint64_t round = 0;;) {
     round = await_change(round_, round);

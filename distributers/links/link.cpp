@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "distributers/links/timestamp.h"
+#include "graph/floating_point.h"
 
 namespace jarol::distributers {
 namespace {
@@ -51,10 +52,12 @@ void Link::connect() {
   send_signal_.resume();
   ending_ = false;
   receiver_ = std::thread([this] {
+    set_floating_point_control(default_floating_point_control());
     take_no_signals();
     transport_->receive(interrupter_, translator_);
   });
   sender_ = std::thread([this] {
+    set_floating_point_control(default_floating_point_control());
     take_no_signals();
     run_sender();
   });

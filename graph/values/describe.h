@@ -8,6 +8,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "graph/values/members.h"
+#include "graph/values/substitutes.h"
+
 namespace jarol {
 namespace detail {
 
@@ -76,17 +79,80 @@ struct Field {
   std::string_view text;
 };
 
+namespace detail {
+
+template <auto Member, class T = typename Field<Member>::Value>
+constexpr void require_value() {
+  static_assert(!is_pointer<T>,
+                "a value owns what it holds: copy what a pointer leads to into the struct, or keep an index");
+  static_assert(!is_vector<T>,
+                "a value lies in its task's heap: use jarol::Sequence<T> or std::array in place of std::vector");
+  static_assert(!is_text<T>, "a value lies in its task's heap: use jarol::String in place of std::string");
+  static_assert(!is_choice<T>,
+                "a value has one form: use a bool beside a member in place of std::optional or std::variant");
+}
+
+#if defined(__clang__)
+// no place within a value can be an argument of a template here, so that the member's number stands for it
+#define JAROL_MEMBER(T, I) I
+#else
+#define JAROL_MEMBER(T, I) detail::address_of_member<T, I>()
+#endif
+
+template <auto...>
+inline constexpr bool never = false;
+
+template <auto Member>
+constexpr void reject_missing() {
+  static_assert(never<Member>, "fields() must describe every member of the struct; it lacks 'Member'");
+}
+template <auto Member, auto Field>
+constexpr void reject_order() {
+  static_assert(never<Member, Field>,
+                "fields() must describe the members in their order; 'Member' comes before 'Field'");
+}
+template <auto Field>
+constexpr void reject_surplus() {
+  static_assert(never<Field>, "fields() must describe each member once; 'Field' is there twice");
+}
+
+template <auto First, auto...>
+struct OwnerOf {
+  using Type = typename MemberPointer<decltype(First)>::Owner;
+};
+
+}  // namespace detail
+
 /// Describes one member; `unit` is an SI unit, "rad", or empty for a number without one.
 template <auto Member>
 constexpr Field<Member> field(std::string_view unit = "", std::string_view text = "") {
+  detail::require_value<Member>();
   return {unit, text};
 }
 
-/// The description of a struct: its fields in the order of their declaration.
-template <class... F>
-constexpr std::tuple<F...> describe(F... fields) {
+/// The description of a struct: its fields in the order of their declaration. One that is missing, twice or misplaced
+/// does not compile, and the compiler's lines name it.
+template <auto... Member>
+constexpr std::tuple<Field<Member>...> describe(Field<Member>... fields) {
+  if constexpr (sizeof...(Member) > 0) {
+    using T = typename detail::OwnerOf<Member...>::Type;
+    static_assert((std::is_same_v<typename Field<Member>::Owner, T> && ...),
+                  "fields() may describe members of its own struct only");
+    constexpr std::size_t wrong = detail::first_difference<T, Member...>();
+    if constexpr (wrong < detail::member_count<T>()) {
+      constexpr auto field = detail::element<wrong, Member..., nullptr>();
+      if constexpr (wrong == sizeof...(Member)) {
+        detail::reject_missing<JAROL_MEMBER(T, wrong)>();
+      } else {
+        detail::reject_order<JAROL_MEMBER(T, wrong), field>();
+      }
+    } else if constexpr (wrong < sizeof...(Member)) {
+      detail::reject_surplus<detail::element<wrong, Member...>()>();
+    }
+  }
   return {fields...};
 }
+#undef JAROL_MEMBER
 
 /// An enumerator and its name, as `enumerators(Mode)` lists them. One that people have to be told about has a meaning,
 /// as "there is water in the hull": a run's report tells when it goes out.
@@ -108,32 +174,4 @@ concept DescribedEnum = std::is_enum_v<E> && requires(E e) {
   enumerators(e);
 };
 
-namespace detail {
-
-struct Anything {
-  template <class T>
-  operator T() const;
-};
-
-template <class T, std::size_t... I>
-constexpr bool takes(std::index_sequence<I...>) {
-  return requires { T{(static_cast<void>(I), Anything{})...}; };
-}
-
-// How many members an aggregate has: the longest list of initializers that it takes.
-template <class T, std::size_t N = 0>
-constexpr std::size_t member_count() {
-  if constexpr (takes<T>(std::make_index_sequence<N + 1>{})) {
-    return member_count<T, N + 1>();
-  } else {
-    return N;
-  }
-}
-
-template <class T>
-constexpr bool each_field_owned_and_in_order() {
-  return std::apply([](auto... f) { return (std::is_same_v<typename decltype(f)::Owner, T> && ...); }, T::fields());
-}
-
-}  // namespace detail
 }  // namespace jarol

@@ -174,6 +174,8 @@ inline std::uint64_t hash_words(const T& value) {
 
 template <class T>
 Type make_type();
+template <class T>
+void fill_type(Type& type);
 
 }  // namespace detail
 
@@ -222,10 +224,38 @@ void set_length_operations(Type& type) {
 }
 
 template <class T>
+inline constexpr bool is_value = Described<T> || DescribedEnum<T> || std::is_arithmetic_v<T> ||
+                                 std::same_as<T, Duration> || std::same_as<T, String> || SequenceOf<T> || Array<T>;
+
+template <auto Member, class T>
+constexpr bool require_description() {
+  static_assert(is_value<T> || has_substitute<T>,
+                "a struct within a value needs a fields() of its own, an enumeration enumerators(E)");
+  return is_value<T>;
+}
+
+// False if something in the description has been rejected: then no more errors follow from it.
+template <class T>
+constexpr bool is_well_described() {
+  if constexpr (Described<T>) {
+    return []<auto... Member>(std::tuple<Field<Member>...>*) {
+      return (require_description<Member, typename Field<Member>::Value>() && ...);
+    }
+    (static_cast<decltype(T::fields())*>(nullptr));
+  } else {
+    return true;
+  }
+}
+
+template <class T>
 Type make_type() {
-  static_assert(!std::is_pointer_v<T> && !std::is_reference_v<T>,
-                "a value owns all it says: no pointers, no references");
   Type type;
+  if constexpr (is_well_described<T>()) fill_type<T>(type);
+  return type;
+}
+
+template <class T>
+void fill_type(Type& type) {
   type.size = sizeof(T);
   type.alignment = alignof(T);
   type.construct = [](void* to) {
@@ -270,9 +300,8 @@ Type make_type() {
   } else {
     static_assert(Described<T>, "a struct is a value once its fields() describes every member");
     static_assert(std::is_aggregate_v<T>, "a value is a plain struct without constructors or private members");
-    static_assert(std::tuple_size_v<decltype(T::fields())> == member_count<T>(),
-                  "fields() must describe every member of the struct");
-    static_assert(each_field_owned_and_in_order<T>(), "fields() may describe members of its own struct only");
+    static_assert(std::tuple_size_v<decltype(T::fields())> > 0 || member_count<T>() == 0,
+                  "fields() must describe every member of the struct; it describes none");
     type.name = type_name<T>();
     type.kind = Kind::structure;
     const T& value = example<T>();
@@ -284,7 +313,6 @@ Type make_type() {
         },
         T::fields());
   }
-  return type;
 }
 
 }  // namespace detail

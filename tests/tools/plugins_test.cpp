@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "graph/floating_point.h"
 #include "graph/plugin.h"
 #include "tests/tools/run_command.h"
 #include "tools/load_graph.h"
@@ -15,13 +16,18 @@ using namespace jarol;
 
 std::string library(const std::string& name) { return std::string(JAROL_PLUGIN_FOLDER) + "/" + name + ".so"; }
 
+// What is said of a library after its name; then nothing of it was added, and nothing changed here.
 std::string report_on(const std::string& name) {
   Registry registry = tools::registry();
   const std::size_t before = registry.tasks().size();
-  const std::string report = load_plugin(library(name), registry);
+  std::string report = load_plugin(library(name), registry);
   if (!report.empty()) CHECK(registry.tasks().size() == before);
-  return report;
+  CHECK(describe_difference(floating_point_control()) == "");
+  const std::string start = "'" + library(name) + "' ";
+  return report.rfind(start, 0) == 0 ? report.substr(start.size()) : report;
 }
+
+const std::string again = "; build it again as graph/plugin.h says";
 }  // namespace
 
 TEST_SUITE("tools/plugins") {
@@ -33,14 +39,82 @@ TEST_SUITE("tools/plugins") {
     CHECK(registry.find_task("Reverse")->is_deep());
   }
 
-  TEST_CASE("a library that can't be used is told with the reason, and nothing of it is added") {
+  TEST_CASE("a plugin's tasks may have names that the headers use, too") {
+    Registry registry = tools::registry();
+    CHECK(load_plugin(library("names"), registry) == "");
+    CHECK(registry.find_task("Source")->summary == "counts");
+    CHECK(registry.find_task("Problem")->summary == "does nothing");
+    CHECK(registry.find_task("Sequence")->is_deep());
+  }
+
+  TEST_CASE("a library that can't be used is refused with the reason") {
     CHECK(report_on("nowhere") == "there is no file '" + library("nowhere") + "'");
-    CHECK(report_on("none") == "'" + library("none") +
-                                   "' is a shared library without tasks; name them with JAROL_PLUGIN, see "
-                                   "graph/plugin.h");
-    CHECK(report_on("old") == "'" + library("old") + "' was built for form 0 of 4.2, this is " +
-                                  std::string(plugin_form) + "; build it again");
-    CHECK(report_on("clash") == "'" + library("clash") + "' brings a task type 'Counter', which there is already");
+    CHECK(report_on("none") == "is no shared library with tasks; name them with JAROL_PLUGIN, see graph/plugin.h");
+    CHECK(report_on("old") == "was built for form 3 of the interface, this is form 4" + again);
+    CHECK(report_on("clash") == "brings a task type 'Counter', which there is already");
+  }
+
+  TEST_CASE("a library of another layout or arithmetic is refused by the name of the difference") {
+    CHECK(report_on("old_strings") == "was built with -D_GLIBCXX_USE_CXX11_ABI=0" + again);
+    CHECK(report_on("debug_containers") == "was built with -D_GLIBCXX_DEBUG" + again);
+    CHECK(report_on("short_enums") == "was built with -fshort-enums" + again);
+    CHECK(report_on("fast_math") ==
+          "was built with -ffast-math or a part of it, so that it computes otherwise" + again);
+    CHECK(report_on("finite_math") ==
+          "was built with -ffast-math or a part of it, so that it computes otherwise" + again);
+  }
+
+  TEST_CASE("what differs is found by every number of a build") {
+    const PluginBuild ours = build_of_this_file();
+    CHECK(find_difference(ours, ours) == "");
+    const auto with = [&](std::int32_t PluginBuild::*number, std::int32_t value) {
+      PluginBuild other = ours;
+      other.*number = value;
+      return find_difference(other, ours);
+    };
+    CHECK(with(&PluginBuild::packed_structs, 1) == "with -fpack-struct");
+    CHECK(with(&PluginBuild::x87_math, 1) == "with -mfpmath=387, so that it computes otherwise");
+    CHECK(with(&PluginBuild::address_sanitizer, 1 - ours.address_sanitizer) ==
+          (ours.address_sanitizer != 0 ? "without the address sanitizer" : "with the address sanitizer"));
+    CHECK(with(&PluginBuild::thread_sanitizer, 1 - ours.thread_sanitizer) ==
+          (ours.thread_sanitizer != 0 ? "without the thread sanitizer" : "with the thread sanitizer"));
+    CHECK(with(&PluginBuild::long_double, 8) == "with options that give a long double 8 bytes instead of 16");
+    CHECK(with(&PluginBuild::wide_char, 2) == "with options that give a wchar_t 2 bytes instead of 4");
+    CHECK(with(&PluginBuild::eigen_alignment, 64) ==
+          "with options that give the alignment of Eigen's vectors (-march, or EIGEN_MAX_ALIGN_BYTES) 64 bytes "
+          "instead of " +
+              std::to_string(ours.eigen_alignment));
+    for (const auto number : {&PluginBuild::task_class, &PluginBuild::type, &PluginBuild::sequence,
+                              &PluginBuild::string, &PluginBuild::registry})
+      CHECK(with(number, 1).rfind("with options that give ", 0) == 0);
+    PluginBuild other = ours;
+    other.compiler[0] = 'x';
+    CHECK(find_difference(other, ours) ==
+          "by " + std::string(other.compiler) + ", this program by " + std::string(ours.compiler));
+  }
+
+#if defined(__x86_64__)
+  TEST_CASE("a library for a processor with FMA is refused without -ffp-contract=off") {
+    // a processor without FMA refuses it, too, by another word
+    if (!__builtin_cpu_supports("fma")) return;
+    CHECK(report_on("fused") ==
+          "was built without -ffp-contract=off for a processor with FMA, so that it computes otherwise" + again);
+    CHECK(report_on("not_fused") == "");
+  }
+#endif
+
+  TEST_CASE("what a library does when it is loaded harms nobody, and is why it is refused") {
+    CHECK(report_on("at_load_0") == "");
+    CHECK(report_on("at_load_1") == "throws when it is loaded: no licence");
+    CHECK(report_on("at_load_2") == "does not end to load within 5 s; look at its static objects");
+    CHECK(report_on("at_load_3").rfind("ends the process when it is loaded", 0) == 0);
+    CHECK(report_on("at_load_4") == "ends the process when it is loaded, with exit code 0");
+#if defined(__x86_64__)
+    CHECK(report_on("at_load_5") ==
+          "leaves another floating-point environment behind when it is loaded (flush-to-zero, denormals-are-zero), as "
+          "what is linked with -ffast-math does; link it without");
+    CHECK(report_on("linked_fast_math") == report_on("at_load_5"));
+#endif
   }
 
   TEST_CASE("a plugin is named before it is loaded, once, and --no-plugins refuses it on every command") {

@@ -1,32 +1,73 @@
 // What does not compile as a value; NOT_A_VALUE says which, 0 is one that does.
-#include "graph/values/type_of.h"
+#include "graph/plugin.h"
 
 namespace {
-using namespace jarol;
+using jarol::describe, jarol::field;
 
 #if NOT_A_VALUE == 1  // a pointer
 struct Value {
   const double* number = nullptr;
   static constexpr auto fields() { return describe(field<&Value::number>()); }
 };
-#elif NOT_A_VALUE == 2  // a reference
+#elif NOT_A_VALUE == 2   // a reference
 struct Value {
   double& number;
   static constexpr auto fields() { return describe(); }
 };
-#elif NOT_A_VALUE == 3  // a member that is not described
+#elif NOT_A_VALUE == 3   // a member that is not described
 struct Value {
   double number = 0;
   double forgotten = 0;
   static constexpr auto fields() { return describe(field<&Value::number>()); }
 };
-#elif NOT_A_VALUE == 4  // a member without a description of its own
+#elif NOT_A_VALUE == 4   // a member without a description of its own
 struct Inner {
   double number = 0;
 };
 struct Value {
   Inner inner{};
   static constexpr auto fields() { return describe(field<&Value::inner>()); }
+};
+#elif NOT_A_VALUE == 5   // a field twice
+struct Value {
+  double number = 0;
+  double other = 0;
+  static constexpr auto fields() { return describe(field<&Value::number>(), field<&Value::number>()); }
+};
+#elif NOT_A_VALUE == 6   // fields in another order
+struct Value {
+  double number = 0;
+  double other = 0;
+  static constexpr auto fields() { return describe(field<&Value::other>(), field<&Value::number>()); }
+};
+#elif NOT_A_VALUE == 7   // one field too many
+struct Value {
+  double number = 0;
+  double other = 0;
+  static constexpr auto fields() {
+    return describe(field<&Value::number>(), field<&Value::other>(), field<&Value::other>());
+  }
+};
+#elif NOT_A_VALUE == 8   // a vector of the standard library
+struct Value {
+  std::vector<double> numbers;
+  static constexpr auto fields() { return describe(field<&Value::numbers>()); }
+};
+#elif NOT_A_VALUE == 9   // a string of the standard library
+struct Value {
+  std::string text;
+  static constexpr auto fields() { return describe(field<&Value::text>()); }
+};
+#elif NOT_A_VALUE == 10  // what may be or not be
+struct Value {
+  std::optional<double> number;
+  static constexpr auto fields() { return describe(field<&Value::number>()); }
+};
+#elif NOT_A_VALUE == 11  // an enumeration without names
+enum class Mode { on, off };
+struct Value {
+  Mode mode = Mode::on;
+  static constexpr auto fields() { return describe(field<&Value::mode>()); }
 };
 #else
 struct Value {
@@ -36,4 +77,12 @@ struct Value {
 #endif
 }  // namespace
 
-const Type& what() { return type_of<Value>(); }
+namespace {
+struct Task {
+  static constexpr std::string_view summary = "has such an output";
+  using Out = Value;
+  static void run(const jarol::Tick&, Out&) {}
+};
+}  // namespace
+
+JAROL_PLUGIN(Task)

@@ -1,7 +1,7 @@
 #include "graph/plugin.h"
 
 namespace {
-using namespace jarol;
+using jarol::describe, jarol::field, jarol::Tick;
 
 struct LowPass {
   static constexpr std::string_view summary = "smooths its input";

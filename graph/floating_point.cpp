@@ -1,0 +1,83 @@
+#include "graph/floating_point.h"
+
+#include <cfenv>
+#include <stdexcept>
+
+namespace jarol {
+namespace {
+
+#if defined(__x86_64__)
+// Intel SDM volume 1, 8.1.5 and 10.2.3
+constexpr unsigned vector_flags = 0x3f;
+constexpr FloatingPointControl by_default{0x1f80, 0x37f};
+constexpr unsigned masks = 0x3f, vector_masks = masks << 7;
+constexpr unsigned flush_to_zero = 1U << 15, denormals_are_zero = 1U << 6;
+constexpr unsigned vector_rounding = 3U << 13, x87_rounding = 3U << 10, x87_precision = 3U << 8;
+
+const char* rounding_name(unsigned bits) {
+  constexpr const char* names[] = {"to nearest", "downward", "upward", "toward zero"};
+  return names[bits & 3U];
+}
+#endif
+
+}  // namespace
+
+#if defined(__x86_64__)
+
+FloatingPointControl floating_point_control() {
+  unsigned vector = 0;
+  unsigned short x87 = 0;
+  asm volatile("stmxcsr %0" : "=m"(vector));
+  asm volatile("fnstcw %0" : "=m"(x87));
+  // bit 6 of the x87 control word is reserved and reads as either
+  return {vector & ~vector_flags, x87 & ~0xe0c0U};
+}
+
+void set_floating_point_control(const FloatingPointControl& control) {
+  const unsigned vector = control.vector;
+  const auto x87 = static_cast<unsigned short>(control.x87 | 0x40U);
+  asm volatile("ldmxcsr %0" : : "m"(vector));
+  // flags that are set would raise what the new word no longer masks
+  asm volatile("fnclex\n\tfldcw %0" : : "m"(x87));
+}
+
+FloatingPointControl default_floating_point_control() { return {by_default.vector, by_default.x87 & ~0x40U}; }
+
+std::string describe_difference(const FloatingPointControl& control) {
+  const FloatingPointControl expected = default_floating_point_control();
+  const unsigned vector = control.vector ^ expected.vector, x87 = control.x87 ^ expected.x87;
+  std::string text;
+  const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+  if ((vector & flush_to_zero) != 0) add("flush-to-zero");
+  if ((vector & denormals_are_zero) != 0) add("denormals-are-zero");
+  if ((vector & vector_rounding) != 0) add(std::string("rounding ") + rounding_name(control.vector >> 13));
+  if ((vector & vector_rounding) == 0 && (x87 & x87_rounding) != 0)
+    add(std::string("rounding of long double ") + rounding_name(control.x87 >> 10));
+  if ((x87 & x87_precision) != 0) add("less precision of long double");
+  if ((vector & vector_masks) != 0 || (x87 & masks) != 0) add("exceptions that raise a signal");
+  return text;
+}
+
+#else
+
+FloatingPointControl floating_point_control() { return {static_cast<unsigned>(std::fegetround()), 0}; }
+
+void set_floating_point_control(const FloatingPointControl& control) {
+  std::fesetround(static_cast<int>(control.vector));
+}
+
+FloatingPointControl default_floating_point_control() { return {FE_TONEAREST, 0}; }
+
+std::string describe_difference(const FloatingPointControl& control) {
+  return control == default_floating_point_control() ? "" : "another rounding mode";
+}
+
+#endif
+
+void reject_floating_point() {
+  const std::string difference = describe_difference(floating_point_control());
+  set_floating_point_control(default_floating_point_control());
+  throw std::runtime_error("left another floating-point environment behind: " + difference);
+}
+
+}  // namespace jarol

@@ -1,0 +1,33 @@
+// What can't be a member of a value, and what takes its place.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace jarol::detail {
+
+template <class T, template <class...> class Template>
+struct IsA : std::false_type {};
+template <template <class...> class Template, class... A>
+struct IsA<Template<A...>, Template> : std::true_type {};
+
+template <class T>
+inline constexpr bool is_pointer =
+    std::is_pointer_v<T> || std::is_member_pointer_v<T> || IsA<T, std::unique_ptr>::value ||
+    IsA<T, std::shared_ptr>::value || IsA<T, std::weak_ptr>::value;
+template <class T>
+inline constexpr bool is_text = IsA<T, std::basic_string>::value || IsA<T, std::basic_string_view>::value;
+template <class T>
+inline constexpr bool is_vector = IsA<T, std::vector>::value;
+template <class T>
+inline constexpr bool is_choice = IsA<T, std::optional>::value || IsA<T, std::variant>::value;
+
+template <class T>
+inline constexpr bool has_substitute = is_pointer<T> || is_text<T> || is_vector<T> || is_choice<T>;
+
+}  // namespace jarol::detail

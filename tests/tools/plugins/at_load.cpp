@@ -1,0 +1,30 @@
+// A plugin that does something when it is loaded; AT_LOAD says what.
+#include <cstdlib>
+#include <stdexcept>
+
+#include "graph/plugin.h"
+
+namespace {
+struct Nothing {
+  static constexpr std::string_view summary = "does nothing";
+  static void run(const jarol::Tick&) {}
+};
+
+const struct AtLoad {
+  AtLoad() {
+#if AT_LOAD == 1
+    throw std::runtime_error("no licence");
+#elif AT_LOAD == 2
+    for (volatile bool goes_on = true; goes_on;) {}
+#elif AT_LOAD == 3
+    *static_cast<volatile int*>(nullptr) = 1;
+#elif AT_LOAD == 4
+    std::_Exit(0);
+#elif AT_LOAD == 5
+    jarol::set_floating_point_control({0x9fc0, 0x33f});
+#endif
+  }
+} at_load;
+}  // namespace
+
+JAROL_PLUGIN(Nothing)
