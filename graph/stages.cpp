@@ -37,10 +37,23 @@ Stages stages_of(const Graph& graph) {
   return stages;
 }
 
+GroupDeadlines group_deadlines(const Graph& graph) {
+  GroupDeadlines least;
+  for (const Task& task : graph.tasks) {
+    const auto [at, is_first] = least.emplace(std::pair(task.period, task.offset), task.deadline);
+    if (!is_first) at->second = std::min(at->second, task.deadline);
+  }
+  return least;
+}
+
 std::vector<std::size_t> turns_of(const Graph& graph) {
   const Stages stages = stages_of(graph);
+  const GroupDeadlines of_groups = group_deadlines(graph);
+  std::vector<Duration> of_group;
+  for (const Task& task : graph.tasks) of_group.push_back(of_groups.at({task.period, task.offset}));
   const auto key = [&](std::size_t i) {
-    return std::tuple(stages.stage[i], graph.tasks[i].period, graph.tasks[i].offset, stages.level[i]);
+    const Task& task = graph.tasks[i];
+    return std::tuple(stages.stage[i], of_group[i], task.period, task.offset, stages.level[i], task.deadline);
   };
   std::vector<std::size_t> order = graph.order;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });

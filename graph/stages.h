@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "graph/graph.h"
@@ -18,8 +20,14 @@ struct Stages {
 
 Stages stages_of(const Graph& graph);
 
+/// Of each group, by period and offset: the least deadline of its tasks.
+using GroupDeadlines = std::map<std::pair<Duration, Duration>, Duration>;
+GroupDeadlines group_deadlines(const Graph& graph);
+
 /// The tasks in the order in which those that are released at one instant run one after the other: by stage, then by
-/// group (period, offset), then by level, then as in the order of the graph.
+/// group (its least deadline, period, offset), then by level, then by deadline, then as in the order of the graph. Of
+/// tasks released together that don't feed each other, the order by deadline meets all deadlines if any order does
+/// (Jackson 1955).
 std::vector<std::size_t> turns_of(const Graph& graph);
 
 }  // namespace jarol

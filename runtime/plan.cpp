@@ -56,6 +56,7 @@ class PlanBuilder {
   void build() {
     sort_connections();
     stages_ = stages_of(graph_);
+    group_deadlines_ = group_deadlines(graph_);
     lay_out();
     fill();
     name_outputs();
@@ -63,7 +64,7 @@ class PlanBuilder {
   }
 
  private:
-  using GroupKey = std::pair<Duration, Duration>;  // period, first instant
+  using GroupKey = std::tuple<Duration, Duration, Duration>;  // least deadline of its tasks, period, first instant
 
   void sort_connections() {
     from_task_.resize(graph_.tasks.size());
@@ -72,12 +73,20 @@ class PlanBuilder {
       (c.from.kind == End::Kind::task ? from_task_ : from_communicator_)[c.from.index].push_back(&c);
   }
 
+  // Without tasks a group has none, and its place among the others does not matter.
+  Duration deadline_of_group(Duration period, Duration first) const {
+    const auto found = group_deadlines_.find({period, first});
+    return found == group_deadlines_.end() ? Duration::max() : found->second;
+  }
+
   // Tasks of one group lie in the order in which they run.
   std::vector<std::size_t> execution_order() const {
     std::vector<std::size_t> order = turns_of(graph_);
+    std::vector<Duration> deadlines;
+    for (const Task& task : graph_.tasks) deadlines.push_back(deadline_of_group(task.period, task.offset));
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       const Task &s = graph_.tasks[a], &t = graph_.tasks[b];
-      return std::tie(s.period, s.offset) < std::tie(t.period, t.offset);
+      return std::tie(deadlines[a], s.period, s.offset) < std::tie(deadlines[b], t.period, t.offset);
     });
     return order;
   }
@@ -283,20 +292,23 @@ class PlanBuilder {
       std::vector<std::size_t> let_ends, outs, ins, tasks;
     };
     std::map<GroupKey, Members> groups;
+    const auto members_at = [&](Duration period, Duration first) -> Members& {
+      return groups[{deadline_of_group(period, first), period, first}];
+    };
     for (const std::size_t i : order_) {
       const Task& task = graph_.tasks[i];
-      groups[{task.period, task.offset}].tasks.push_back(i);
-      if (task.let) groups[{task.period, task.offset + *task.let}].let_ends.push_back(i);
+      members_at(task.period, task.offset).tasks.push_back(i);
+      if (task.let) members_at(task.period, task.offset + *task.let).let_ends.push_back(i);
     }
     for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
       const Communicator& c = graph_.communicators[i];
-      Members& members = groups[{c.period, c.offset}];
+      Members& members = members_at(c.period, c.offset);
       (c.direction == Direction::in ? members.ins : members.outs).push_back(i);
     }
     for (const auto& [key, members] : groups) {
       Group group;
-      group.period = key.first;
-      group.first = key.second;
+      group.period = std::get<1>(key);
+      group.first = std::get<2>(key);
       group.activations = members.tasks.size();
       std::size_t first = plan_.let_ends_.size();
       const std::size_t first_copy = plan_.copies_.size(), first_publication = plan_.publications_.size();
@@ -331,6 +343,7 @@ class PlanBuilder {
   Plan& plan_;
   std::vector<std::vector<const Connection*>> from_task_, from_communicator_;
   Stages stages_;
+  GroupDeadlines group_deadlines_;
   std::vector<std::size_t> order_;
   std::optional<Layout> layout_;
   std::map<std::string, std::uint32_t> output_index_;
