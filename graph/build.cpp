@@ -38,6 +38,7 @@ class Builder {
     graph_.platform.dispatch = value_of(spec_.platform.dispatch).value_or(Duration{});
     graph_.platform.copy = value_of(spec_.platform.copy).value_or(Duration{});
     if (spec_.platform.phasing) graph_.platform.phasing = spec_.platform.phasing->value;
+    graph_.fault_limit = value_of(spec_.fault_limit).value_or(graph_.fault_limit);
     add_distributers();
     add_communicators();
     add_tasks();

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "graph/end.h"
+#include "graph/expect/condition.h"
 #include "graph/registry.h"
 #include "graph/values/value.h"
 
@@ -54,13 +56,6 @@ struct Distributer {
   Value parameters;  // of the class, if it has any
 };
 
-/// One end of a connection: a field of a task's In or Out, or a communicator.
-struct End {
-  enum class Kind { task, communicator } kind = Kind::task;
-  std::size_t index = 0;
-  std::size_t field = 0;  // of a task
-};
-
 struct Connection {
   End from;
   End to;
@@ -96,7 +91,9 @@ struct Graph {
   std::vector<Connection> connections;      // by reader, in the order of tasks, fields, communicators
   std::vector<std::size_t> order;           // of tasks: data-flow tasks before those they feed, then by name
   Platform platform;
-  std::vector<Chain> chains;  // in bytewise order of name
+  std::vector<Chain> chains;                    // in bytewise order of name
+  std::vector<expect::Condition> expectations;  // in the order of the file; `read_expectations` fills it
+  double fault_limit = 0.1;                     // share of a task's activations that faults may leave without outputs
 };
 
 /// "task.output", or the communicator's name: what publications are called in trace and digest.

@@ -56,6 +56,13 @@ class Channels {
   /// What was not finite within what came, and was left out of a channel's value.
   virtual std::uint64_t non_finite_inputs() const { return 0; }
 
+  /// Describes the true values of a vehicle that is simulated in this process; null: there is none.
+  virtual const Type* true_type() const { return nullptr; }
+  /// They, at the instant that was reached last.
+  virtual void copy_true_values(void*) const {}
+  /// What has become of that vehicle that no mission wants; empty: nothing.
+  virtual std::string mishap() const { return {}; }
+
   /// Step 0 of an instant: the external system reaches it with the inputs that it held before; sensors sample.
   virtual void reach(Duration instant) = 0;
 

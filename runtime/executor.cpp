@@ -8,6 +8,7 @@
 
 #include "graph/floating_point.h"
 #include "runtime/channels_in_use.h"
+#include "runtime/expectations.h"
 #include "runtime/finite.h"
 #include "runtime/publish.h"
 #include "runtime/running_task.h"
@@ -53,6 +54,10 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
     bad_items_.reserve(graph.tasks.size());
     team_ = std::make_unique<StageTeam>(useful_workers(options.workers, options.sharing), options.sharing, plan_);
   }
+  for (const std::size_t distributer : watched_vehicles(graph))
+    if (const Type* type = channels_[distributer]->true_type();
+        type != nullptr && options.record_truth && options.recorder != nullptr)
+      watched_.push_back({distributer, Value(*type)});
   const std::size_t groups = plan_.groups.size();
   cursors_.resize(groups);
   in_stage_.resize(groups);
@@ -61,6 +66,7 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
   ins_.reserve(graph.communicators.size());
   releases_.resize(groups);
   last_.resize(graph.communicators.size());
+  report_.left_out.resize(graph.tasks.size());
   for (const Group& group : plan_.groups) {
     calendar_.add(group.first.count(), group.period.count());
     for (const auto& actions : {group.outs, group.ins})
@@ -142,6 +148,8 @@ bool Executor::step_instant(std::int64_t instant) {
   if (!outs_.empty() || !ins_.empty()) {
     const MemoryScope outside(nullptr);
     for (const auto& channels : channels_) channels->reach(Duration(instant));
+    if constexpr (Record)
+      if (!watched_.empty()) record_true_values(instant);
   }
   // step 1: outputs of LET tasks that end now
   for (const std::uint32_t g : due_) {
@@ -208,6 +216,14 @@ void Executor::gather_communicators() {
   }
   sort_by_name(outs_);
   sort_by_name(ins_);
+}
+
+void Executor::record_true_values(std::int64_t instant) {
+  for (WatchedVehicle& vehicle : watched_) {
+    channels_[vehicle.distributer]->copy_true_values(vehicle.values.data());
+    const auto output = static_cast<std::uint32_t>(plan_.outputs.size() + vehicle.distributer);
+    record(*options_.recorder, output, *vehicle.values.type(), vehicle.values.data(), instant);
+  }
 }
 
 void Executor::start_groups(std::int64_t instant) {

@@ -10,6 +10,7 @@
 #include "runtime/attend.h"
 #include "runtime/calendar.h"
 #include "runtime/channels.h"
+#include "runtime/fault_summary.h"
 #include "runtime/log.h"
 #include "runtime/plan.h"
 #include "runtime/real_clock.h"
@@ -20,14 +21,6 @@
 #include "runtime/task_threads.h"
 
 namespace jarol {
-
-/// A fault as the report tells it.
-struct Fault {
-  std::string task;
-  std::int64_t activation = 0;
-  Duration instant{};  // at which it would have published
-  std::string cause;
-};
 
 /// One line, as it goes to people: "task 'a' activation 3 at 0.03s: ...".
 std::string to_text(const Fault& fault);
@@ -44,9 +37,12 @@ struct Report {
   std::uint64_t fault_count = 0;
   std::uint64_t non_finite_inputs = 0;  // from outside, not taken
   bool stopped = false;                 // by a fault
+  FaultSummary fault_summary;           // of all faults
+  std::vector<std::uint64_t> left_out;  // per task: activations without outputs
 
   Report() { faults.reserve(faults_kept); }
   void add(Fault fault) {
+    fault_summary.add(fault);
     if (faults.size() < faults_kept) faults.push_back(std::move(fault));
     ++fault_count;
   }
@@ -55,7 +51,8 @@ struct Report {
 struct ExecutorOptions {
   bool digest = true;
   Recorder* recorder = nullptr;
-  std::size_t workers = 1;  // threads that run tasks, the caller's among them; the outcome is the same for any number
+  bool record_truth = false;  // the recorder gets true values too, for the conditions of the graph: see Expectations
+  std::size_t workers = 1;    // threads that run tasks, the caller's among them; the outcome is the same for any number
   Sharing sharing = Sharing::if_it_pays;
   RealClock* clock = nullptr;                       // none: the virtual clock; with one there is a single worker
   std::span<const analysis::TaskThread> threads{};  // on the real clock: who runs the tasks; none: the caller
@@ -140,6 +137,7 @@ class Executor {
   void log_late(std::uint32_t task, std::int64_t activation, std::optional<Duration> ended_after, std::int64_t instant);
   void log_miss(const Miss& miss, std::int64_t instant);
   [[gnu::cold]] void log_checkpoint(std::int64_t instant);
+  void record_true_values(std::int64_t instant);
 
   // with threads that run tasks
   void begin_threads();
@@ -181,6 +179,11 @@ class Executor {
   std::optional<Duration> ended_after_;               // of the activation that was found late last, from its release
   std::unique_ptr<TaskThreads> threads_;              // null: tasks run on the caller's
   std::vector<const Activation*> under_way_;          // data-flow tasks on threads that were not yet seen to end
+  struct WatchedVehicle {
+    std::size_t distributer;
+    Value values;
+  };
+  std::vector<WatchedVehicle> watched_;  // whose true values are recorded
 };
 
 }  // namespace jarol

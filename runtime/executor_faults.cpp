@@ -31,6 +31,7 @@ void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, con
   }
   if (outcome == Outcome::left_out) {
     --report_.activations;
+    ++report_.left_out[activation.task];
     return;
   }
   if (outcome == Outcome::overrun) {
@@ -60,6 +61,7 @@ void Executor::record_fault(std::uint32_t task, std::int64_t instant) {
 }
 
 void Executor::add_fault(std::uint32_t task, std::int64_t activation, std::int64_t instant, const std::string& cause) {
+  ++report_.left_out[task];
   report_.add({graph_.tasks[task].name, activation, Duration(instant), cause});
   if (graph_.tasks[task].on_fault == OnFault::stop) report_.stopped = true;
 }

@@ -55,6 +55,7 @@ void Executor::release_on_threads(std::int64_t instant) {
       for (const Activation& activation : segment.activations) {
         const Outcome outcome = threads_->add(activation.task, ticks_[i]);
         if (outcome != Outcome::good) --report_.activations;
+        if (outcome == Outcome::left_out) ++report_.left_out[activation.task];
         if (outcome == Outcome::overrun) log_miss({ticks_[i].activation, Miss::unknown, activation.task, 1}, instant);
         if (activation.has_let) continue;  // what it was shows at the end of the LET
         if (outcome == Outcome::good) under_way_.push_back(&activation);

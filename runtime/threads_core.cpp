@@ -21,6 +21,7 @@ ThreadsCore::ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channel
   for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::timed_mutex>());
   last_.resize(graph.communicators.size());
   threads_report_.execution.resize(graph.tasks.size());
+  report_.left_out.resize(graph.tasks.size());
   gather();
 }
 
@@ -160,7 +161,7 @@ Finish ThreadsCore::finish(std::optional<Futex::Time> patience) {
   }
   report_.non_finite_inputs = refused_inputs_;
   for (const auto& channels : channels_) report_.non_finite_inputs += channels->non_finite_inputs();
-  report_.simulated = now();
+  report_.simulated = report_.covered = now();
   return {};
 }
 
@@ -313,6 +314,7 @@ void ThreadsCore::on_fault(const Counted& task, Outcome outcome, std::int64_t in
   const Task& t = graph_.tasks[task.activation->task];
   TaskStatus& status = plan_.status[task.activation->task];
   if (outcome == Outcome::non_finite) keep_text(status, "an output is not finite");
+  ++report_.left_out[task.activation->task];
   report_.add({t.name, task.activations - 1, Duration(instant), status.text});
   if (t.on_fault == OnFault::stop) {
     report_.stopped = true;

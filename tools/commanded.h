@@ -3,12 +3,14 @@
 #pragma once
 
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "graph/graph.h"
 #include "graph/values/bind.h"
+#include "runtime/channels.h"
 
 namespace jarol::tools {
 
@@ -27,7 +29,21 @@ struct Reported {
 /// The fields of every `out` communicator that answers at least one command.
 std::vector<Reported> find_reported(const Graph& graph);
 
-/// A table of what was commanded and reached last; `last_value` gives the newest value of a communicator.
-std::string reached_text(const Graph& graph, const std::function<const void*(std::size_t)>& last_value);
+/// Where the vehicle of a distributer truly is.
+struct TrueState {
+  std::string distributer;
+  Value values;
+};
+
+/// Of each vehicle that is simulated on these channels, one per distributer of the graph.
+std::vector<TrueState> find_true_states(const Graph& graph, const std::vector<Channels*>& channels);
+
+/// A table of what was commanded, reported as reached and truly reached last; `last_value` gives the newest value of a
+/// communicator.
+std::string reached_text(const Graph& graph, const std::function<const void*(std::size_t)>& last_value,
+                         const std::vector<TrueState>& true_states);
+
+/// All true values by the names of distributers.
+nlohmann::ordered_json to_json(const std::vector<TrueState>& true_states);
 
 }  // namespace jarol::tools

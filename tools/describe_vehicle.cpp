@@ -56,6 +56,7 @@ std::vector<Section> sections_of(const vehicles::VehicleClass& vehicle, const Va
       sections.back().entries.push_back(std::move(entry));
     }
   }
+  sections.push_back({"true values", "", entries_of(*vehicle.truth, nullptr)});
   sections.push_back({"parameters", "value", entries_of(*vehicle.parameters, parameters.data())});
   return sections;
 }
@@ -88,7 +89,7 @@ void print_json(const vehicles::VehicleClass& vehicle, const std::vector<Section
       if (!section.value_title.empty()) entry[section.value_title] = e.value;
       list.push_back(std::move(entry));
     }
-    whole[section.title] = std::move(list);
+    whole[section.title == "true values" ? "true_values" : section.title] = std::move(list);
   }
   std::cout << json_line(whole);
 }

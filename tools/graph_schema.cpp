@@ -24,7 +24,8 @@ Json value_schema(const Key<S>& key) {
     case Form::integer: return {{"type", "integer"}, {"minimum", key.least}, {"maximum", key.most}};
     case Form::id: return {{"type", "integer"}, {"minimum", 0}};
     case Form::bytes: return {{"type", "string"}, {"pattern", bytes_pattern}};
-    case Form::frequency: return {{"type", {"string", "number"}}};
+    case Form::frequency:
+    case Form::share: return {{"type", {"string", "number"}}};
     case Form::choice: return {{"enum", key.choices}};
     case Form::mapping: return {{"type", "object"}};
     case Form::any:
@@ -71,6 +72,7 @@ std::string graph_schema() {
                    {{"type", "array"}, {"items", {{"type", "string"}, {"pattern", arrow_pattern}}}});
   describe_section(schema, "chains", entries_schema(mapping_schema(chain_keys())));
   describe_section(schema, "platform", mapping_schema(platform_keys()));
+  describe_section(schema, "expect", {{"type", "array"}, {"items", {{"type", "string"}}}});
   describe_section(schema, "profiles", {{"type", "object"}, {"additionalProperties", {{"type", "object"}}}});
   Json whole{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "A graph of Jarol"}};
   whole.update(schema);

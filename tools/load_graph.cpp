@@ -5,6 +5,7 @@
 
 #include "distributers/distributers.h"
 #include "graph/build.h"
+#include "graph/expect/parse.h"
 #include "graph/plugins.h"
 #include "graph/text/escape.h"
 #include "tasks/tasks.h"
@@ -31,8 +32,24 @@ void announce_plugins(const GraphSpec& spec) {
   }
 }
 
-Loaded load(const std::shared_ptr<const Source>& source, const Overrides& overrides, Problems& problems) {
-  const GraphSpec spec = load_spec(source, overrides, problems);
+// Where the vehicle of each distributer is.
+std::vector<expect::TrueValues> true_values_of(const Loaded& loaded) {
+  using Where = expect::TrueValues::Where;
+  std::vector<expect::TrueValues> all;
+  for (std::size_t i = 0; i < loaded.graph->distributers.size(); ++i) {
+    const Distributer& distributer = loaded.graph->distributers[i];
+    const Yaml* link = distributer.link.kind == Yaml::Kind::mapping ? distributer.link.find("type") : nullptr;
+    const Type* type = i < loaded.channels.size() && loaded.channels[i] ? loaded.channels[i]->true_type() : nullptr;
+    const bool is_vehicle = distributer.distributer_class == nullptr || distributer.distributer_class->is_vehicle;
+    all.push_back({type != nullptr                                              ? Where::here
+                   : !is_vehicle || (link != nullptr && link->text == "script") ? Where::nowhere
+                                                                                : Where::elsewhere,
+                   type});
+  }
+  return all;
+}
+
+Loaded load(const GraphSpec& spec, Problems& problems) {
   Loaded loaded;
   loaded.registry = std::make_unique<Registry>(registry());
   announce_plugins(spec);
@@ -61,7 +78,9 @@ const std::vector<vehicles::VehicleClass>& known_vehicles() {
 
 Loaded load_without_channels(const std::string& path, const Overrides& overrides) {
   Problems problems;
-  Loaded loaded = load(read_source(path), overrides, problems);
+  const GraphSpec spec = load_spec(read_source(path), overrides, problems);
+  Loaded loaded = load(spec, problems);
+  loaded.graph->expectations = expect::read_expectations(spec.expect, *loaded.graph, true_values_of(loaded), problems);
   problems.throw_if_any();
   return loaded;
 }
@@ -72,8 +91,10 @@ Loaded load_graph(const std::string& path, const Overrides& overrides, std::uint
 
 Loaded load_graph(const std::shared_ptr<const Source>& source, const Overrides& overrides, std::uint64_t seed) {
   Problems problems;
-  Loaded loaded = load(source, overrides, problems);
+  const GraphSpec spec = load_spec(source, overrides, problems);
+  Loaded loaded = load(spec, problems);
   loaded.channels = distributers::make_channels(*loaded.graph, known_vehicles(), seed, problems);
+  loaded.graph->expectations = expect::read_expectations(spec.expect, *loaded.graph, true_values_of(loaded), problems);
   problems.throw_if_any();
   return loaded;
 }

@@ -37,6 +37,8 @@ std::string to_line(const LogHeader& header) {
                               {"profile", header.overrides.profile},
                               {"set", header.overrides.set},
                               {"clock", header.clock},
+                              {"until_ns", header.until.count()},
+                              {"mission_ns", header.mission.count()},
                               {"inputs", nlohmann::ordered_json::array()},
                               {"tasks", header.tasks}};
   for (const LogHeader::Input& input : header.inputs)
@@ -58,6 +60,8 @@ LogHeader parse_header(const std::string& line) {
                      .file_sum = json.at("file_sum"),
                      .overrides = {json.at("profile"), json.at("set")},
                      .clock = json.at("clock"),
+                     .until = Duration(json.value("until_ns", std::int64_t{0})),
+                     .mission = Duration(json.value("mission_ns", std::int64_t{0})),
                      .tasks = json.at("tasks")};
     for (const auto& input : json.at("inputs")) header.inputs.push_back({input.at("name"), input.at("type")});
     return header;

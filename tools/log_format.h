@@ -32,6 +32,8 @@ struct LogHeader {
   std::string file_sum;  // of its text
   Overrides overrides;
   std::string clock;                 // of the run: virtual or real
+  Duration until{};                  // what the run was to reach; the greatest there is: until it was ended
+  Duration mission{};                // the end of the mission; zero: there was none, or it is not known
   std::vector<Input> inputs{};       // a record's `output` is an index into these
   std::vector<std::string> tasks{};  // a miss tells an index into these
 };

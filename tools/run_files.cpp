@@ -49,7 +49,7 @@ std::string to_text(const RunFileArguments& arguments) {
 
 // The plan gives trace and plot their outputs before there is an executor.
 RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments) {
-  if (arguments.trace.empty() && arguments.plot.empty()) return;
+  if (arguments.trace.empty() && arguments.plot.empty() && graph.expectations.empty()) return;
   for (const std::string& path : {arguments.trace, arguments.plot})
     if (!path.empty()) require_no_input(path);
   const Plan plan(graph);
@@ -57,6 +57,7 @@ RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments) {
   if (!arguments.plot.empty())
     sinks_.push_back(std::make_unique<PlotSvg>(arguments.plot, graph.name, panels_of(graph, plan)));
   std::vector<RecordSink*> sinks;
+  if (!graph.expectations.empty()) sinks.push_back(&expectations_.emplace(graph, plan.outputs));
   for (const auto& sink : sinks_) sinks.push_back(sink.get());
   recorder_ = std::make_unique<Recorder>(std::move(sinks));
 }
@@ -65,6 +66,10 @@ RunFiles::~RunFiles() = default;
 
 void RunFiles::close() {
   if (recorder_) recorder_->close();
+}
+
+std::vector<Verdict> RunFiles::judge(Duration end, const std::string& cut_short) const {
+  return expectations_ ? expectations_->judge(end, cut_short) : std::vector<Verdict>();
 }
 
 }  // namespace jarol::tools

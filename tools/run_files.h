@@ -1,4 +1,4 @@
-// What a run writes beside its report: its trace and its picture.
+// Who looks on at a run: its trace, its picture, and what the graph expects of it.
 #pragma once
 
 #include <memory>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "graph/graph.h"
+#include "runtime/expectations.h"
 #include "runtime/recorder.h"
 
 namespace jarol::tools {
@@ -30,13 +31,18 @@ class RunFiles {
   RunFiles(const RunFiles&) = delete;
   RunFiles& operator=(const RunFiles&) = delete;
 
-  /// Null if there is nothing to write.
+  /// Null if nobody looks on.
   Recorder* recorder() { return recorder_.get(); }
 
   /// Writes all that is left. Throws std::runtime_error if something could not be written.
   void close();
 
+  /// After `close`, of a run that covered the instants before `end`. `cut_short`: why it ended before what it was meant
+  /// to do; else empty.
+  std::vector<Verdict> judge(Duration end, const std::string& cut_short) const;
+
  private:
+  std::optional<Expectations> expectations_;
   std::vector<std::unique_ptr<RecordSink>> sinks_;
   std::unique_ptr<Recorder> recorder_;
 };

@@ -20,18 +20,21 @@
 #include "tools/told_changes.h"
 #include "tools/told_faults.h"
 #include "tools/value_json.h"
+#include "tools/verdicts.h"
 
 namespace jarol::tools {
 namespace {
 
 void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& told,
-                const std::vector<LinkReport>& links, const Guard& guard, const RunEnd& end) {
+                const std::vector<LinkReport>& links, const Guard& guard, const RunEnd& end, const RunVerdict& verdict,
+                const std::vector<TrueState>& true_states) {
   const Report& report = core.report();
   const ThreadsReport& threads = core.threads_report();
   const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
   std::cout << fmt::format("{}: {} s in real time on threads{}\n", graph.name, seconds_text(report.simulated),
                            suffix_of(end))
-            << reached_text(graph, [&](std::size_t communicator) { return core.last_value(communicator); })
+            << reached_text(
+                   graph, [&](std::size_t communicator) { return core.last_value(communicator); }, true_states)
             << fmt::format("  activations {}, rounds {} of {}\n", report.activations, threads.rounds,
                            duration_text(core.period()))
             << fmt::format("  digest      0x{:016x}; nothing is claimed of it\n", report.digest)
@@ -57,11 +60,13 @@ void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
   std::cout << to_text(graph, core.safe_commands(), end.ending) << guard.to_text();
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
+  std::cout << to_text(verdict);
   std::cerr << told_faults(report);
 }
 
 void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& told,
-                const std::vector<LinkReport>& links, const Guard& guard, const RunEnd& end) {
+                const std::vector<LinkReport>& links, const Guard& guard, const RunEnd& end, const RunVerdict& verdict,
+                const std::vector<TrueState>& true_states) {
   const Report& report = core.report();
   const ThreadsReport& threads = core.threads_report();
   nlohmann::ordered_json json{{"schema", "jarol.run/1"},
@@ -80,6 +85,7 @@ void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
                               {"outputs_most_ns", threads.round.most()},
                               {"faults", faults_to_json(report)},
                               {"fault_count", report.fault_count},
+                              {"fault_summary", fault_summary_to_json(report)},
                               {"non_finite_inputs", report.non_finite_inputs},
                               {"ending", to_json(end)},
                               {"safe_commands", to_json(graph, core.safe_commands())},
@@ -98,6 +104,8 @@ void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
                        {"tasks", tasks}};
   json["guardian"] = guard.to_json();
   for (const LinkReport& link : links) json["links"].push_back(to_json(link));
+  json["true_values"] = to_json(true_states);
+  json["judgement"] = to_json(verdict);
   std::cout << json_line(json);
 }
 
@@ -148,11 +156,21 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
     guard.close();
   }
   halt_if_asked(run_end);
-  json ? print_json(*loaded.graph, core, told, linked.reports(), guard, run_end)
-       : print_text(*loaded.graph, core, told, linked.reports(), guard, run_end);
-  std::cerr << errors_of(run_end, core.now());
-  if (run_end.hangs) end_at_once(exit_code_of(run_end));
-  return exit_code_of(run_end);
+  RunVerdict verdict;
+  for (const expect::Condition& condition : loaded.graph->expectations)
+    verdict.expectations.push_back({.outcome = Verdict::Outcome::not_judged,
+                                    .condition = condition.text,
+                                    .why = "--concurrency threads does not watch what is published"});
+  if (!run_end.hangs) verdict.mishaps = find_mishaps(*loaded.graph, channels);
+  verdict.left_out = find_left_out(*loaded.graph, core.report());
+  const std::vector<TrueState> true_states =
+      run_end.hangs ? std::vector<TrueState>{} : find_true_states(*loaded.graph, channels);
+  json ? print_json(*loaded.graph, core, told, linked.reports(), guard, run_end, verdict, true_states)
+       : print_text(*loaded.graph, core, told, linked.reports(), guard, run_end, verdict, true_states);
+  std::cerr << errors_of(run_end, core.now()) << failures_text(verdict);
+  const int exit_code = exit_of({exit_code_of(run_end), verdict.is_negative() ? exit_negative : exit_good});
+  if (run_end.hangs) end_at_once(exit_code);
+  return exit_code;
 }
 
 }  // namespace jarol::tools

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/arithmetic.h"
-#include "tools/commanded.h"
 #include "tools/real_time.h"
 #include "tools/told_faults.h"
 #include "tools/value_json.h"
+#include "tools/verdicts.h"
 
 namespace jarol::tools {
 namespace {
@@ -28,7 +28,8 @@ std::string to_text(const RunOutcome& outcome) {
   const Graph& graph = outcome.graph;
   const Executor& executor = outcome.executor;
   const Report& report = executor.report();
-  std::string text = reached_text(graph, [&](std::size_t communicator) { return executor.last_value(communicator); });
+  std::string text = reached_text(
+      graph, [&](std::size_t communicator) { return executor.last_value(communicator); }, outcome.true_states);
   text += fmt::format("  activations {}, instants {}\n  digest      0x{:016x}\n", report.activations, report.instants,
                       report.digest);
   for (const Task& task : graph.tasks)
@@ -49,6 +50,7 @@ std::string to_text(const RunOutcome& outcome) {
   if (const StageTeam* team = executor.team())
     text += fmt::format("  workers     {}, {} of {} levels of tasks shared\n", outcome.workers, team->shared(),
                         team->shared() + team->alone());
+  text += to_text(outcome.verdict);
   return text;
 }
 
@@ -74,6 +76,7 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
       {"instants", report.instants},
       {"faults", faults_to_json(report)},
       {"fault_count", report.fault_count},
+      {"fault_summary", fault_summary_to_json(report)},
       {"non_finite_inputs", report.non_finite_inputs},
       {"ending", to_json(outcome.end)},
       {"safe_commands", to_json(graph, executor.safe_commands())},
@@ -82,6 +85,8 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
       {"outputs", outputs_to_json(graph, [&](std::size_t communicator) { return executor.last_value(communicator); })}};
   if (outcome.clock != nullptr) json["real_time"] = to_json(graph, *outcome.clock);
   if (outcome.guard != nullptr) json["guardian"] = outcome.guard->to_json();
+  json["true_values"] = to_json(outcome.true_states);
+  json["judgement"] = to_json(outcome.verdict);
   for (const LinkReport& link : outcome.links) json["links"].push_back(to_json(link));
   return json;
 }

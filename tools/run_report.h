@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "runtime/executor.h"
+#include "tools/commanded.h"
 #include "tools/guard.h"
 #include "tools/run_end.h"
 #include "tools/told_changes.h"
+#include "tools/verdicts.h"
 
 namespace jarol::tools {
 
@@ -23,6 +25,8 @@ struct RunOutcome {
   std::vector<LinkReport> links{};
   double seconds = 0;  // that it took, above zero
   Duration simulated{};
+  RunVerdict verdict{};
+  std::vector<TrueState> true_states{};
 };
 
 /// All but the first line.

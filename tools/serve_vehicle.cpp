@@ -91,16 +91,21 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
     exit_code = exit_unfinished;
   }
   link.disconnect();
+  const std::optional<vehicles::Mishap> mishap = vehicle.mishap();
   if (telling.json) {
     nlohmann::ordered_json json{{"schema", "jarol.vehicle/1"}};
     json.update(diary.to_json());
     json["link"] = to_json(link.report());
+    json["mishap"] = mishap ? nlohmann::ordered_json(mishap->text) : nlohmann::ordered_json();
     std::cout << json_line(json);
   } else {
     std::cout << vehicle_class.name << ": " << seconds_text(Duration(instant)) << " s in real time\n"
               << diary.to_text() << to_text(link.report());
   }
-  return exit_of({exit_code, exit_of_signal(Interruptible::signal())});
+  if (mishap)
+    std::cerr << "error: the " << vehicle_class.name << " has " << mishap->text << ", at "
+              << seconds_text(mishap->instant) << " s\n";
+  return exit_of({exit_code, exit_of_signal(Interruptible::signal()), mishap ? exit_negative : exit_good});
 }
 
 int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,

@@ -62,6 +62,9 @@ class ToldChanges::Listening : public Channels {
   std::optional<LinkReport> link_report() const override { return to_->link_report(); }
   std::uint64_t non_finite_inputs() const override { return to_->non_finite_inputs(); }
   std::optional<Duration> end() const override { return to_->end(); }
+  const Type* true_type() const override { return to_->true_type(); }
+  void copy_true_values(void* to) const override { to_->copy_true_values(to); }
+  std::string mishap() const override { return to_->mishap(); }
   bool take(std::size_t channel, void* value) override { return to_->take(channel, value); }
   void reach(Duration instant) override {
     now_ = instant;

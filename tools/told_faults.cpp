@@ -8,10 +8,31 @@ namespace jarol::tools {
 
 std::string told_faults(const Report& report) {
   std::string text;
-  for (const Fault& fault : report.faults) text += "fault: " + printable(to_text(fault)) + "\n";
-  if (report.fault_count > report.faults.size())
-    text += "fault: and " + std::to_string(report.fault_count - report.faults.size()) + " more\n";
+  for (const FaultGroup& group : report.fault_summary.groups()) {
+    const Fault& first = group.first;
+    if (group.count == 1) {
+      text += "fault: " + printable(to_text(first)) + "\n";
+      continue;
+    }
+    text += "fault: task '" + first.task + "' " + std::to_string(group.count) + " times, from activation " +
+            std::to_string(first.activation) + " at " + seconds_text(first.instant) + " s to activation " +
+            std::to_string(group.last_activation) + " at " + seconds_text(group.last_instant) +
+            " s: " + printable(first.cause) + "\n";
+  }
+  if (const std::uint64_t others = report.fault_summary.others(); others > 0)
+    text += "fault: and " + std::to_string(others) + " of other causes\n";
   return text;
+}
+
+nlohmann::ordered_json fault_summary_to_json(const Report& report) {
+  auto groups = nlohmann::ordered_json::array();
+  for (const FaultGroup& group : report.fault_summary.groups())
+    groups.push_back({{"task", group.first.task},
+                      {"cause", group.first.cause},
+                      {"count", group.count},
+                      {"first_instant_ns", group.first.instant.count()},
+                      {"last_instant_ns", group.last_instant.count()}});
+  return groups;
 }
 
 nlohmann::ordered_json faults_to_json(const Report& report) {

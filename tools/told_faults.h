@@ -8,8 +8,9 @@
 
 namespace jarol::tools {
 
-/// A line for each that was kept, and how many more there were.
+/// A line for each task and cause.
 std::string told_faults(const Report& report);
+nlohmann::ordered_json fault_summary_to_json(const Report& report);
 /// Those that were kept.
 nlohmann::ordered_json faults_to_json(const Report& report);
 

@@ -49,6 +49,7 @@ TraceCsv::TraceCsv(std::string path, const std::vector<Output>& outputs) : file_
 }
 
 void TraceCsv::take(Duration instant, std::uint32_t output, const void* value) {
+  if (output >= targets_.size()) return;  // true values of a vehicle
   if (pending_ && instant != instant_) write_row();
   instant_ = instant;
   pending_ = true;

@@ -21,6 +21,7 @@ VehicleClass entry(std::string name, const messages::MessageSet& set, std::strin
   made.inputs = &type_of<typename V::Inputs>();
   made.ranges = V::Inputs::ranges();
   made.outputs = &type_of<typename V::Outputs>();
+  made.truth = &type_of<typename V::Truth>();
   made.make = [](const void* parameters, std::uint64_t seed) -> std::unique_ptr<Vehicle> {
     return std::make_unique<V>(*static_cast<const typename V::Parameters*>(parameters), seed);
   };

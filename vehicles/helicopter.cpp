@@ -52,7 +52,8 @@ Helicopter::Helicopter(const HelicopterParameters& parameters, std::uint64_t see
       battery_(parameters.battery),
       wind_(parameters.air, spread_seed(seed, "wind")),
       sensors_(parameters, seed),
-      voltage_(battery_.calc_voltage(0.0)) {
+      voltage_(battery_.calc_voltage(0.0)),
+      judge_(parameters, plant_->motion()) {
   sensors_.sample(0, scene());
   sensors_.sample_imu(0, scene());
   tell_outputs(0.0);
@@ -76,6 +77,7 @@ void Helicopter::step() {
   for (std::size_t i = 0; i < 4; ++i) command.settings[i] = setting_of(parameters_, robostix_.signals()[i], voltage_);
   plant_->step(command);
   nanoseconds_ += HelicopterPlant::step_nanoseconds;
+  judge_.look(std::chrono::nanoseconds(nanoseconds_), plant_->motion(), plant_->settings());
 
   // a rotor's thrust as a part of its full thrust
   std::array<double, 4> thrusts = plant_->settings();
@@ -129,6 +131,7 @@ void Helicopter::place(const VehicleState& s) {
   motion.v_b = {s.u, s.v, s.w};
   motion.omega_b = {s.p, s.q, s.r};
   plant_ = make_plant(parameters_, motion);
+  judge_ = HelicopterJudge(parameters_, motion);
   sensors_.sample(0, scene());
   sensors_.sample_imu(0, scene());
 }

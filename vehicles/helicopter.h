@@ -4,8 +4,10 @@
 #include <memory>
 
 #include "distributers/messages/javiator.h"
+#include "graph/values/type_of.h"
 #include "vehicles/battery.h"
 #include "vehicles/helicopter_io.h"
+#include "vehicles/helicopter_judge.h"
 #include "vehicles/helicopter_sensors.h"
 #include "vehicles/robostix.h"
 #include "vehicles/vehicle.h"
@@ -22,6 +24,7 @@ class Helicopter : public Vehicle {
   using Parameters = HelicopterParameters;
   using Inputs = HelicopterInputs;
   using Outputs = HelicopterOutputs;
+  using Truth = HelicopterTruth;
 
   /// `seed`: of all noise. Throws std::runtime_error if no body can have these parameters.
   explicit Helicopter(const HelicopterParameters& parameters, std::uint64_t seed = 0);
@@ -31,6 +34,9 @@ class Helicopter : public Vehicle {
   void accept(messages::MessageRef command) override { robostix_.accept(command); }
   void step() override;
   void sense(messages::Receiver& receiver) const override;
+  const Type* true_type() const override { return &type_of<HelicopterTruth>(); }
+  const void* true_values() const override { return &judge_.truth(); }
+  std::optional<Mishap> mishap() const override { return judge_.mishap(); }
   VehicleState state() const override;
   /// z is that of the centre of gravity, negative above the ground.
   void place(const VehicleState& state) override;
@@ -55,6 +61,7 @@ class Helicopter : public Vehicle {
   messages::javiator::JaviatorData answer_{};
   double voltage_ = 0.0;
   HelicopterOutputs outputs_;
+  HelicopterJudge judge_;
   std::int64_t nanoseconds_ = 0;
 };
 

@@ -77,13 +77,17 @@ fossen::Vector6 calc_loads(const HelicopterBody& body, const HelicopterMotion& m
   for (std::size_t i = 0; i < body.feet.r_b.size(); ++i) {
     const Vector3& r_b = body.feet.r_b[i];
     if (motion.p_n[2] + fossen::dot(down_b, r_b) <= 0.0) continue;
-    const FootMotion foot = {sum(motion.p_n, to_ned(motion.R_nb, r_b)),
-                             to_ned(motion.R_nb, sum(motion.v_b, fossen::cross(motion.omega_b, r_b)))};
+    const FootMotion foot = foot_motion(motion, r_b);
     const Vector3 on_foot = from_ned(motion.R_nb, calc_foot_force(body.feet, foot, input.anchors[i]));
     add(force, on_foot);
     add(moment, fossen::cross(r_b, on_foot));
   }
   return {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
+}
+
+FootMotion foot_motion(const HelicopterMotion& motion, const Vector3& r_b) {
+  return {sum(motion.p_n, to_ned(motion.R_nb, r_b)),
+          to_ned(motion.R_nb, sum(motion.v_b, fossen::cross(motion.omega_b, r_b)))};
 }
 
 }  // namespace jarol::vehicles

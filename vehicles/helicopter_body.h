@@ -64,6 +64,8 @@ double calc_thrust(const HelicopterBody& body, double setting);
 
 /// In NED axes.
 fossen::Vector3 to_ned(const std::array<fossen::Vector3, 3>& R_nb, const fossen::Vector3& b);
+/// Of a foot that stands there in the body.
+FootMotion foot_motion(const HelicopterMotion& motion, const fossen::Vector3& r_b);
 /// In body axes.
 fossen::Vector3 from_ned(const std::array<fossen::Vector3, 3>& R_nb, const fossen::Vector3& n);
 

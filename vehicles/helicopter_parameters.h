@@ -2,6 +2,8 @@
 // plant that its recorded flight was made with; the rest measured on the V2 or estimated, as helicopter.yaml says.
 #pragma once
 
+#include <numbers>
+
 #include "graph/values/describe.h"
 #include "vehicles/helicopter_sensor_parameters.h"
 
@@ -121,6 +123,22 @@ struct AirParameters {
   }
 };
 
+/// What a flight that ends well keeps to.
+struct LimitParameters {
+  double touch_speed = 2.0;
+  double tilt = std::numbers::pi / 2;
+  double take_off_signal = 8000.0;
+  double take_off_time = 5.0;
+
+  static constexpr auto fields() {
+    using S = LimitParameters;
+    return describe(field<&S::touch_speed>("m/s", "speed down of a foot at the ground, beyond which it has crashed"),
+                    field<&S::tilt>("rad", "of its axis from the vertical, beyond which it has capsized"),
+                    field<&S::take_off_signal>("", "mean motor signal that is an order to take off, 0 to 16000"),
+                    field<&S::take_off_time>("s", "of that order, after which it has to have left the ground"));
+  }
+};
+
 /// Level and at rest, standing or in the air.
 struct LiftOffParameters {
   double north = 0.0;
@@ -147,6 +165,7 @@ struct HelicopterParameters {
   SensorParameters sensors{};
   NoiseParameters noise{};
   FailureParameters failures{};
+  LimitParameters limits{};
   LiftOffParameters start{};
 
   static constexpr auto fields() {
@@ -155,7 +174,7 @@ struct HelicopterParameters {
                     field<&S::feet>("", "the four feet"), field<&S::battery>("", "the battery"),
                     field<&S::air>("", "the air"), field<&S::sensors>("", "places of the sensors"),
                     field<&S::noise>("", "of the sensors"), field<&S::failures>("", "of the sensors"),
-                    field<&S::start>("", "the start"));
+                    field<&S::limits>("", "of a flight that ends well"), field<&S::start>("", "the start"));
   }
 };
 

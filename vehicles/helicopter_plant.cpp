@@ -45,14 +45,6 @@ class Loads : public ForceWithInput<HelicopterInput> {
   const HelicopterBody& body_;
 };
 
-FootMotion foot_motion(const HelicopterMotion& motion, const fossen::Vector3& r_b) {
-  const fossen::Vector3 r_n = to_ned(motion.R_nb, r_b);
-  const fossen::Vector3 turning = fossen::cross(motion.omega_b, r_b);
-  const fossen::Vector3 v_n =
-      to_ned(motion.R_nb, {motion.v_b[0] + turning[0], motion.v_b[1] + turning[1], motion.v_b[2] + turning[2]});
-  return {{motion.p_n[0] + r_n[0], motion.p_n[1] + r_n[1], motion.p_n[2] + r_n[2]}, v_n};
-}
-
 }  // namespace
 
 struct HelicopterPlant::Simulation {

@@ -43,7 +43,8 @@ Submarine::Submarine(const SubmarineParameters& parameters, std::uint64_t seed)
       actuation_(parameters),
       sensors_(parameters.sensors, parameters.sea, floating_depth(parameters), seed),
       power_(parameters.power),
-      waves_(parameters.sea.wave_height, parameters.sea.wave_period, parameters.sea.wave_direction) {
+      waves_(parameters.sea.wave_height, parameters.sea.wave_period, parameters.sea.wave_direction),
+      judge_(parameters, start_of(parameters)) {
   Submarine::place(start_of(parameters));
 }
 
@@ -76,6 +77,7 @@ void Submarine::step() {
   at_ = motion_->state();
   const auto& servos = actuation_.servos();
   outputs_.actuators = {actuation_.propeller(), servos[0], servos[1], servos[2], servos[3]};
+  judge_.look(steps_ * grid(), state());
   power_.draw(actuation_.propeller() / parameters_.thruster.full_speed, step_seconds);
   sample();
 }
@@ -129,6 +131,7 @@ void Submarine::place(const VehicleState& s) {
     motion_ = std::make_unique<SubmarinePlant>(make_body(parameters_), waves_, start);
   }
   at_ = motion_->state();
+  judge_ = SubmarineJudge(parameters_, s);
   // what the sensors tell at the start; they begin anew
   sensors_ = SubmarineSensors(parameters_.sensors, parameters_.sea, floating_depth(parameters_), seed_);
   sample();

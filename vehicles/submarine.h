@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <memory>
 
+#include "graph/values/type_of.h"
 #include "vehicles/submarine_actuation.h"
 #include "vehicles/submarine_io.h"
+#include "vehicles/submarine_judge.h"
 #include "vehicles/submarine_motion.h"
 #include "vehicles/submarine_parameters.h"
 #include "vehicles/submarine_sensors.h"
@@ -21,6 +23,7 @@ class Submarine : public Vehicle {
   using Parameters = SubmarineParameters;
   using Inputs = SubmarineInputs;
   using Outputs = SubmarineOutputs;
+  using Truth = SubmarineTruth;
 
   /// Throws std::runtime_error if no body can have these parameters.
   explicit Submarine(const SubmarineParameters& parameters, std::uint64_t seed = 0);
@@ -30,6 +33,9 @@ class Submarine : public Vehicle {
   void accept(messages::MessageRef command) override;
   void step() override;
   void sense(messages::Receiver& receiver) const override;
+  const Type* true_type() const override { return &type_of<SubmarineTruth>(); }
+  const void* true_values() const override { return &judge_.truth(); }
+  std::optional<Mishap> mishap() const override { return judge_.mishap(); }
   VehicleState state() const override;
   void place(const VehicleState& state) override;
   void command(const void* inputs) override;
@@ -48,6 +54,7 @@ class Submarine : public Vehicle {
   PlantState at_;
   std::int64_t steps_ = 0;
   SubmarineOutputs outputs_;
+  SubmarineJudge judge_;
 };
 
 }  // namespace jarol::vehicles

@@ -232,6 +232,18 @@ struct StartParameters {
   }
 };
 
+/// What a dive that ends well keeps to.
+struct DiveLimitParameters {
+  double depth = 100.0;
+  double tilt = 90.0 * degree;
+
+  static constexpr auto fields() {
+    using S = DiveLimitParameters;
+    return describe(field<&S::depth>("m", "beyond which it has sunk"),
+                    field<&S::tilt>("rad", "of its axis down from the vertical, beyond which it has capsized"));
+  }
+};
+
 struct SubmarineParameters {
   bool vsim_compatible = false;
   VsimParameters vsim{};
@@ -248,6 +260,7 @@ struct SubmarineParameters {
   SubmarineSensorParameters sensors{};
   Duration leak_at{};
   SeaParameters sea{};
+  DiveLimitParameters limits{};
   StartParameters start{};
 
   static constexpr auto fields() {
@@ -262,7 +275,7 @@ struct SubmarineParameters {
                     field<&S::thruster>("", "the propeller"), field<&S::servos>("", "the servos of the fins"),
                     field<&S::power>("", "battery, and warmth of the hull"), field<&S::sensors>("", "the sensors"),
                     field<&S::leak_at>("", "when water enters the hull; 0 never"), field<&S::sea>("", "the sea"),
-                    field<&S::start>("", "the start"));
+                    field<&S::limits>("", "of a dive that ends well"), field<&S::start>("", "the start"));
   }
 };
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,12 @@ struct VehicleState {
   }
 };
 
+/// What no mission wants of a vehicle, and when it was so first.
+struct Mishap {
+  std::chrono::nanoseconds instant{};
+  std::string text;  // "crashed: a foot met the ground at 4.2 m/s"
+};
+
 /// What stands at a whole number of its own grid steps since the start. Who looks, or how often, changes nothing.
 class Stepped {
  public:
@@ -51,6 +58,13 @@ class Stepped {
 
   /// Sends what its sensors tell at the present instant.
   virtual void sense(messages::Receiver& receiver) const = 0;
+
+  /// Describes the true values, a struct of numbers; null: they are not known here.
+  virtual const Type* true_type() const { return nullptr; }
+  virtual const void* true_values() const { return nullptr; }
+
+  /// What has become of it that no mission wants; none: nothing, or it is not known here.
+  virtual std::optional<Mishap> mishap() const { return std::nullopt; }
 };
 
 /// A simulated vehicle in this process.
@@ -84,6 +98,7 @@ struct VehicleClass {
   std::vector<Range> ranges;     // of the inputs
   const messages::MessageSet* message_set = nullptr;
   const Type* outputs = nullptr;  // a struct of structs of numbers
+  const Type* truth = nullptr;    // of its true values, as operators name them
   // from a value of the type of parameters; throws std::runtime_error if there can be no such vehicle
   std::unique_ptr<Vehicle> (*make)(const void* parameters, std::uint64_t seed) = nullptr;
   // passes on what the vehicle tells and adds what a peer expects beside it; null: nothing

@@ -1,5 +1,7 @@
 #include "distributers/links/simulation.h"
 
+#include "graph/yaml/quantities.h"
+
 namespace jarol::distributers {
 
 SimulationChannels::SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle, std::unique_ptr<Adapter> adapter)
@@ -16,6 +18,11 @@ void SimulationChannels::reach(Duration instant) {
     at_ += vehicle_->grid();
     vehicle_->sense(*adapter_);
   }
+}
+
+std::string SimulationChannels::mishap() const {
+  const auto mishap = vehicle_->mishap();
+  return mishap ? mishap->text + ", at " + seconds_text(mishap->instant) + " s" : "";
 }
 
 bool SimulationChannels::take(std::size_t channel, void* value) { return adapter_->take(channel, value); }

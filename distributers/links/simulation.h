@@ -14,6 +14,9 @@ class SimulationChannels : public Channels {
   SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle, std::unique_ptr<Adapter> adapter);
 
   std::uint64_t non_finite_inputs() const override { return adapter_->non_finite_inputs(); }
+  const Type* true_type() const override { return vehicle_->true_type(); }
+  void copy_true_values(void* to) const override { copy_value(*true_type(), to, vehicle_->true_values()); }
+  std::string mishap() const override;
   void reach(Duration instant) override;
   bool take(std::size_t channel, void* value) override;
   void hand_over(std::size_t channel, const void* value) override;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "graph/graph.h"
+#include "graph/end.h"
 #include "graph/values/bind.h"
 #include "graph/yaml/quantities.h"
 

@@ -55,6 +55,15 @@ bool read_frequency(const Yaml& yaml, double& to, const std::string& subject, Pr
   return passes(yaml, to > 0 ? "" : "is not above zero", subject, problems);
 }
 
+bool read_share(const Yaml& yaml, double& to, const std::string& subject, Problems& problems) {
+  if (!is_scalar(yaml, "a share, as in 10%", subject, problems)) return false;
+  const bool percent = yaml.text.ends_with("%");
+  const std::string number = percent ? yaml.text.substr(0, yaml.text.size() - 1) : yaml.text;
+  if (!passes(yaml, parse_number(number, "", to), subject, problems)) return false;
+  if (percent) to /= 100;
+  return passes(yaml, to >= 0 && to <= 1 ? "" : "is not from 0% to 100%", subject, problems);
+}
+
 bool read_choice(const Yaml& yaml, const std::vector<std::string>& choices, std::size_t& to, const std::string& subject,
                  Problems& problems) {
   if (!is_scalar(yaml, "one of " + list_of(choices), subject, problems)) return false;

@@ -14,7 +14,20 @@
 namespace jarol {
 
 /// How the value of a key is written.
-enum class Form { word, duration, positive_duration, integer, id, bytes, frequency, choice, mapping, any, section };
+enum class Form {
+  word,
+  duration,
+  positive_duration,
+  integer,
+  id,
+  bytes,
+  frequency,
+  share,
+  choice,
+  mapping,
+  any,
+  section
+};
 
 /// One key of a mapping that is read into an S.
 template <class S>
@@ -74,6 +87,7 @@ bool read_integer(const Yaml& yaml, std::int64_t least, std::int64_t most, std::
 bool read_id(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems);
 bool read_bytes(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems);
 bool read_frequency(const Yaml& yaml, double& to, const std::string& subject, Problems& problems);  // rad/s
+bool read_share(const Yaml& yaml, double& to, const std::string& subject, Problems& problems);      // of 1
 bool read_choice(const Yaml& yaml, const std::vector<std::string>& choices, std::size_t& to, const std::string& subject,
                  Problems& problems);
 bool read_mapping_value(const Yaml& yaml, const std::string& subject, Problems& problems);
@@ -93,7 +107,8 @@ void read_member(const Key<S>& key, const Yaml& yaml, S& to, const std::string& 
            : key.form == Form::id  ? read_id(yaml, value.value, what, problems)
                                    : detail::read_integer(yaml, key.least, key.most, value.value, what, problems);
   } else if constexpr (std::is_same_v<T, double>) {
-    good = read_frequency(yaml, value.value, what, problems);
+    good = key.form == Form::share ? read_share(yaml, value.value, what, problems)
+                                   : read_frequency(yaml, value.value, what, problems);
   } else if constexpr (std::is_same_v<T, Yaml>) {
     good = key.form == Form::any || read_mapping_value(yaml, what, problems);
     value.value = yaml;

@@ -109,6 +109,8 @@ struct GraphSpec {
   std::vector<ConnectionSpec> connections;
   PlatformSpec platform;
   std::vector<ChainSpec> chains;
+  Maybe<Yaml> expect;
+  Maybe<double> fault_limit;
 };
 
 }  // namespace jarol

@@ -13,6 +13,10 @@ const std::vector<Key<GraphSpec>>& graph_keys() {
       {"connections", Form::section, false, "one connection a line: 'from.output -> to.input'", {}, nullptr},
       {"chains", Form::section, false, "paths whose reaction time and data age check tells", {}, nullptr},
       {"platform", Form::section, false, "what check analyses and run executes", {}, nullptr},
+      key<&GraphSpec::expect>("expect", Form::any,
+                              "conditions on which run judges itself, as in 'depth of dune within 0.1 of 3'"),
+      key<&GraphSpec::fault_limit>("fault_limit", Form::share,
+                                   "share of a task's activations that faults may leave without outputs, default 10%"),
       {"profiles", Form::section, false, "named sets of overrides, chosen by run --profile", {}, nullptr},
   };
   return keys;

@@ -22,7 +22,7 @@ struct Outcome {
 };
 
 Outcome outcome(const std::string& arguments) {
-  Process run("run " + arguments + " --clock real --json");
+  Process run("run " + arguments + " --clock real --json --set fault_limit=100%");
   Outcome o{run.end(), run.errors(), {}};
   if (o.exit_code == 0) o.run = run.json();
   return o;

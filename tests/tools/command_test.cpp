@@ -147,7 +147,16 @@ connections: [i -> sum.in]
     CHECK(run["faults"] ==
           nlohmann::json::parse(
               R"([{"task": "sum", "activation": 1, "instant_ns": 10000000, "cause": "output 'out' is inf"}])"));
-    CHECK(jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold").exit_code == 0);
+    const Result held = jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold");
+    CHECK(held.exit_code == 1);
+    CHECK(held.output.find("fault: task 'sum' 99 times, from activation 1 at 0.01 s to activation 99 at 0.99 s: output "
+                           "'out' is inf\nerror: task 'sum' gave nothing in 99 of 100 activations, 99.0 %, above the "
+                           "fault limit of 10 %\n") != std::string::npos);
+    CHECK(jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold --set fault_limit=99%").exit_code == 0);
+    const auto summary = nlohmann::json::parse(
+        jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold --json", "2>/dev/null").output)["fault_summary"];
+    CHECK(summary == nlohmann::json::parse(R"([{"task": "sum", "cause": "output 'out' is inf", "count": 99,
+      "first_instant_ns": 10000000, "last_instant_ns": 990000000}])"));
   }
 
   TEST_CASE("usage errors and unreadable files exit with 2 and a sentence") {

@@ -55,15 +55,18 @@ TEST_SUITE("tools/priorities") {
     }
     const command::TemporaryFolder folder;
     const auto peer = make_actuator_peer("udp");
-    const std::string graph = folder.write("g.yaml", "graph: g\ntiming: {period: 20ms}\ndistributers:\n"
-                                                     "  dune: {type: LauvVehicle, link: " + peer->link() + "}\n"
-                                                     "communicators:\n"
-                                                     "  from_dune: {channel: dune.motion}\n"
-                                                     "  idle: {type: Actuation, direction: in}\n"
-                                                     "  to_dune: {channel: dune.actuation}\n"
-                                                     "tasks: {forward: {type: LauvForward, on_fault: hold}}\n"
-                                                     "connections: [from_dune -> forward.motion, "
-                                                     "idle -> forward.actuation, forward.actuation -> to_dune]\n");
+    const std::string graph = folder.write("g.yaml",
+                                           "graph: g\ntiming: {period: 20ms}\ndistributers:\n"
+                                           "  dune: {type: LauvVehicle, link: " +
+                                               peer->link() +
+                                               "}\n"
+                                               "communicators:\n"
+                                               "  from_dune: {channel: dune.motion}\n"
+                                               "  idle: {type: Actuation, direction: in}\n"
+                                               "  to_dune: {channel: dune.actuation}\n"
+                                               "tasks: {forward: {type: LauvForward, on_fault: hold}}\n"
+                                               "connections: [from_dune -> forward.motion, "
+                                               "idle -> forward.actuation, forward.actuation -> to_dune]\n");
     const std::string run = "run " + graph + " --clock real --for 1h --rt-priority 20";
     {
       // it, one that receives, one that sends, and the one that looks after it

@@ -20,6 +20,7 @@ using command::TemporaryFolder;
 
 // A source feeds two, of which one has a LET; on two cores where there are two.
 const std::string graph = R"(graph: t
+fault_limit: 100%
 tasks:
   source: {type: Counter, period: 20ms, wcet: 1ms, on_fault: hold, core: 0}
   flow: {type: Accumulate, period: 20ms, wcet: 1ms, on_fault: hold, core: 0}

@@ -71,12 +71,14 @@ class Scenarios {
     return "vehicle submarine --bare --link udp --listen " + port + " --id 209 --json " + more;
   }
   std::string submarine_control(const std::string& port, const std::string& more) const {
-    return "run specs/exolauv_bare.yaml --clock real --json --profile dune --set distributers.neptus.link.file=" +
+    return "run specs/exolauv_bare.yaml --set expect=null --set fault_limit=100% --clock real --json --profile dune "
+           "--set distributers.neptus.link.file=" +
            dive_ + " --set distributers.dune.link.listen=0 --set distributers.dune.link.peer=" + port + " " + more;
   }
   std::string helicopter_control(const std::string& link, const std::string& more) const {
-    return "run specs/javiator.yaml --clock real --json --set distributers.terminal.link.file=" + rise_ +
-           " --set 'distributers.robostix.link=" + link + "' " + more;
+    return "run specs/javiator.yaml --set expect=null --set fault_limit=100% --clock real --json --set "
+           "distributers.terminal.link.file=" +
+           rise_ + " --set 'distributers.robostix.link=" + link + "' " + more;
   }
 
   static Outcome outcome(Process& run, Process* vehicle) {
@@ -147,15 +149,17 @@ class Scenarios {
       std::this_thread::sleep_for(7s);
     }
     std::this_thread::sleep_for(1500ms);
-    Process second("run specs/javiator.yaml --clock real --json --for 2s --set 'distributers.robostix.link=" + link +
-                   "' --set distributers.terminal.link.file=" + wait_);
+    Process second(
+        "run specs/javiator.yaml --set expect=null --set fault_limit=100% --clock real --json --for 2s --set "
+        "'distributers.robostix.link=" +
+        link + "' --set distributers.terminal.link.file=" + wait_);
     return outcome(second, &vehicle);
   }
 
   Outcome take_terminal() const {
     const std::string port = tests::free_port(SOCK_DGRAM);
     Process run(
-        "run specs/javiator.yaml --clock real --json --profile terminal --for 12s --set "
+        "run specs/javiator.yaml --set fault_limit=100% --clock real --json --profile terminal --for 12s --set "
         "distributers.terminal.link.listen=" +
         port);
     std::this_thread::sleep_for(1s);
@@ -183,7 +187,7 @@ class Scenarios {
     using namespace distributers;
     const std::string port = tests::free_port(SOCK_DGRAM);
     Process run(
-        "run specs/exolauv.yaml --clock real --json --profile console --for 14s --set "
+        "run specs/exolauv.yaml --set fault_limit=100% --clock real --json --profile console --for 14s --set "
         "distributers.neptus.link.listen=" +
         port);
     std::this_thread::sleep_for(500ms);

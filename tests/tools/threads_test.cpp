@@ -22,7 +22,7 @@ TEST_SUITE("tools/threads") {
     CHECK(run.exit_code == 0);
     CHECK(
         run.output.starts_with("exolauv: 1.2 s in real time on threads\n"
-                               "               commanded     reached\n  depth            0.000"));
+                               "               commanded     reached        true\n  depth            0.000"));
   }
 
   TEST_CASE("a run on threads tells lateness, what each task took, and the last outputs, as one of exotasks does") {

@@ -54,11 +54,11 @@ Loaded load(const Options& options, const LogHeader& header) {
   return load_without_channels(header.file, overrides);
 }
 
-enum class Verdict { same, diverged, unknown };
+enum class Standing { same, diverged, unknown };
 
 // What the replay shows beside the run.
 struct Comparison {
-  Verdict verdict = Verdict::unknown;
+  Standing standing = Standing::unknown;
   std::optional<Duration> same_until;      // the newest checkpoint up to which it was
   std::optional<Duration> diverged_until;  // the first one up to which it was not
   bool interrupted = false;
@@ -83,9 +83,9 @@ void run_beside(Executor& executor, const LogReader& log, Comparison& comparison
   const bool same = !end || (report.digest == end->digest && report.activations == end->activations &&
                              report.instants == end->instants && report.fault_count == end->faults);
   if (comparison.diverged_until || !same) {
-    comparison.verdict = Verdict::diverged;
+    comparison.standing = Standing::diverged;
   } else if (end) {
-    comparison.verdict = Verdict::same;
+    comparison.standing = Standing::same;
   }
 }
 
@@ -108,8 +108,8 @@ std::string text_of(const Comparison& comparison, const Report& report, const Lo
   if (comparison.interrupted) return "";
   const std::string run = "the run on the " + log.header().clock + " clock";
   std::string text;
-  if (comparison.verdict == Verdict::same) text += "  same        as " + run + "\n";
-  if (comparison.verdict == Verdict::diverged) {
+  if (comparison.standing == Standing::same) text += "  same        as " + run + "\n";
+  if (comparison.standing == Standing::diverged) {
     text += "  DIVERGED    from " + run;
     if (comparison.same_until && *comparison.same_until > Duration{})
       text += " after " + seconds_text(*comparison.same_until) + " s";
@@ -144,9 +144,9 @@ nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comp
       {"misses", misses},
       {"digest", or_null(log.end().has_value(), fmt::format("0x{:016x}", log.end() ? log.end()->digest : 0))}};
   json["interrupted"] = comparison.interrupted;
-  json["verdict"] = comparison.verdict == Verdict::same       ? "same"
-                    : comparison.verdict == Verdict::diverged ? "diverged"
-                                                              : "unknown";
+  json["verdict"] = comparison.standing == Standing::same       ? "same"
+                    : comparison.standing == Standing::diverged ? "diverged"
+                                                                : "unknown";
   json["same_until_ns"] =
       or_null(comparison.same_until.has_value(), comparison.same_until.value_or(Duration{}).count());
   return json;
@@ -186,13 +186,19 @@ int replay(const Options& options) {
     if (!run_end.hangs) files.close();
   } catch (const std::exception& error) { unwritten = error.what(); }
   const Report& report = executor.report();
-  const RunOutcome outcome{
-      .graph = graph,
-      .executor = executor,
-      .told = told,
-      .end = run_end,
-      .seconds = seconds,
-      .simulated = comparison.interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated)};
+  RunVerdict verdict;
+  const Duration reached = comparison.interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated);
+  if (unwritten.empty())
+    verdict.expectations =
+        files.judge(report.covered, why_cut_short(reached, log.header().until, log.header().mission));
+  verdict.left_out = find_left_out(graph, report);
+  const RunOutcome outcome{.graph = graph,
+                           .executor = executor,
+                           .told = told,
+                           .end = run_end,
+                           .seconds = seconds,
+                           .simulated = reached,
+                           .verdict = verdict};
   if (options.json) {
     std::cout << json_line(json_of(outcome, comparison, log, options, misses.size()));
   } else {
@@ -206,12 +212,15 @@ int replay(const Options& options) {
     std::cout << text_of(comparison, report, log, sum_of_text(read_source(file)->text) != log.header().file_sum);
     std::cerr << told_faults(report);
   }
+  std::cerr << failures_text(verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
   std::cerr << errors_of(run_end, executor.now());
-  const int verdict = comparison.interrupted || comparison.verdict == Verdict::same ? exit_good
-                      : comparison.verdict == Verdict::diverged                     ? exit_negative
-                                                                                    : exit_unfinished;
-  const int exit_code = exit_of({exit_code_of(run_end), verdict, unwritten.empty() ? exit_good : exit_unfinished});
+  const int compared = comparison.interrupted || comparison.standing == Standing::same ? exit_good
+                       : comparison.standing == Standing::diverged                     ? exit_negative
+                                                                                       : exit_unfinished;
+  const int judged = !comparison.interrupted && verdict.is_negative() ? exit_negative : exit_good;
+  const int exit_code =
+      exit_of({exit_code_of(run_end), compared, judged, unwritten.empty() ? exit_good : exit_unfinished});
   if (run_end.hangs) end_at_once(exit_code);
   return exit_code;
 }

@@ -55,6 +55,13 @@ void require_clock(const Options& options, const Loaded& loaded) {
                                 "' has a link to what goes on by itself; run it with --clock real");
 }
 
+// Of all scripts; zero: there is none.
+Duration end_of_mission(const std::vector<Channels*>& channels) {
+  Duration end{};
+  for (const Channels* each : channels) end = std::max(end, each->end().value_or(Duration{}));
+  return end;
+}
+
 // --for, else the end of the longest mission; on the real clock a graph without one runs until it is interrupted.
 Duration end_of_run(const Options& options, const Loaded& loaded) {
   Duration end{};
@@ -64,7 +71,7 @@ Duration end_of_run(const Options& options, const Loaded& loaded) {
     if (end <= Duration{}) throw std::invalid_argument("--for: '" + options.duration + "' is not above zero");
     return end;
   }
-  for (const auto& channels : loaded.channels) end = std::max(end, channels->end().value_or(Duration{}));
+  end = end_of_mission(pointers_to(loaded.channels));
   if (end == Duration{} && options.clock == "real") return Duration::max();
   if (end == Duration{})
     throw std::invalid_argument("'" + options.file +
@@ -100,7 +107,7 @@ void start_clock(RealClock& clock, const Executor& executor) {
   clock.start();
 }
 
-LogHeader header_of(const Options& options, const Graph& graph) {
+LogHeader header_of(const Options& options, const Graph& graph, Duration until, Duration mission) {
   Overrides overrides = options.overrides;
   if (std::erase_if(overrides.set, names_plugins) > 0)
     std::cerr << "note: the log does not name the plugins of --set; give them again to jarol replay\n";
@@ -108,7 +115,9 @@ LogHeader header_of(const Options& options, const Graph& graph) {
           .file = std::filesystem::absolute(options.file).lexically_normal().string(),
           .file_sum = sum_of_text(read_source(options.file)->text),
           .overrides = std::move(overrides),
-          .clock = options.clock};
+          .clock = options.clock,
+          .until = until,
+          .mission = mission};
 }
 
 // Options that would have no effect.
@@ -132,7 +141,9 @@ int run(const Options& options) {
   if (options.concurrency == "threads") return run_on_threads(loaded, end, options.real_time, options.json);
   RunFiles files(graph, options.files);
   std::unique_ptr<LogWriter> log;
-  if (!options.log.empty()) log = std::make_unique<LogWriter>(options.log, header_of(options, graph), graph);
+  if (!options.log.empty())
+    log = std::make_unique<LogWriter>(
+        options.log, header_of(options, graph, end, end_of_mission(pointers_to(loaded.channels))), graph);
   std::optional<RealClock> clock;
   std::optional<Guard> guard;
   std::vector<analysis::TaskThread> threads;
@@ -152,6 +163,7 @@ int run(const Options& options) {
   Executor executor(graph, std::move(loaded.channels),
                     {.digest = true,
                      .recorder = files.recorder(),
+                     .record_truth = true,
                      .workers = options.workers,
                      .clock = clock ? &*clock : nullptr,
                      .threads = threads,
@@ -166,7 +178,7 @@ int run(const Options& options) {
   progress.emplace(shown, end, [&] { return executor.now(); });
   const std::optional<int> priority = clock ? clock->options().priority : std::nullopt;
   if (clock) take_priority(priority);
-  Linked linked(std::move(channels));
+  Linked linked(channels);
   if (log) log->open();
   take_priority_above(priority);
   auto start = std::chrono::steady_clock::now();
@@ -203,6 +215,11 @@ int run(const Options& options) {
     finish_writing([&] { files.close(); });
     if (log) finish_writing([&] { log->close(report); });
   }
+  RunVerdict verdict;
+  if (unwritten.empty() && !run_end.hangs)
+    verdict.expectations = files.judge(report.covered, why_cut_short(report.simulated, end, end_of_mission(channels)));
+  if (!run_end.hangs) verdict.mishaps = find_mishaps(graph, channels);
+  verdict.left_out = find_left_out(graph, report);
   print(options,
         {.graph = graph,
          .executor = executor,
@@ -213,11 +230,14 @@ int run(const Options& options) {
          .workers = options.workers,
          .links = linked.reports(),
          .seconds = seconds,
-         .simulated = report.simulated},
+         .simulated = report.simulated,
+         .verdict = verdict,
+         .true_states = run_end.hangs ? std::vector<TrueState>{} : find_true_states(graph, channels)},
         unwritten.empty());
-  std::cerr << errors_of(run_end, executor.now());
+  std::cerr << errors_of(run_end, executor.now()) << failures_text(verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
-  const int exit_code = exit_of({exit_code_of(run_end), unwritten.empty() ? exit_good : exit_unfinished});
+  const int exit_code = exit_of({exit_code_of(run_end), verdict.is_negative() ? exit_negative : exit_good,
+                                 unwritten.empty() ? exit_good : exit_unfinished});
   if (run_end.hangs) end_at_once(exit_code);
   return exit_code;
 }
@@ -230,9 +250,11 @@ void add_run(CommandLine& line, int& exit_code) {
       "run",
       "Run a graph: on the virtual clock, as fast as possible and the same to the bit every time, or\n"
       "on the real clock.\n"
-      "Exit code: 0 good, 1 refused by the real clock, 2 bad input, 3 stopped by a fault, a lost vehicle, a task "
-      "that does not end or a full disk,\n"
-      "129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
+      "Exit code: 0 good, 1 not what 'expect' says, a vehicle that has crashed, capsized or sunk, too much left out "
+      "by\n"
+      "faults, or refused by the real clock, 2 bad input, 3 stopped by a fault, a lost vehicle, a task that does not "
+      "end\n"
+      "or a full disk, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
   command->add_option("FILE", options->file, "The graph, a YAML file")->required();
   command->add_option("--for", options->duration,
                       "How long, in logical time, as in 10s; default: until the mission ends");
