@@ -1,7 +1,9 @@
 // Vehicles and runners in lockstep that are mute, talk without end, or come when there is one already.
 #include <doctest/doctest.h>
+
 #include <sys/socket.h>
 #include <unistd.h>
+#include <cerrno>
 
 #include <atomic>
 #include <cstring>
@@ -70,7 +72,14 @@ struct Strange {
   std::thread thread;
 };
 
-void say(const Descriptor& to, const Bytes& bytes) { ::send(to.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL); }
+// All of it, or nothing more once the other end has gone: half a message would be another finding.
+void say(const Descriptor& to, const Bytes& bytes) {
+  for (std::size_t sent = 0; sent < bytes.size();) {
+    const ssize_t now = ::send(to.get(), bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+    if (now < 0 && errno != EAGAIN && errno != EINTR) return;
+    if (now > 0) sent += static_cast<std::size_t>(now);
+  }
+}
 
 // What a run says that looks at its sensors once.
 std::string said_with(const Address& address, std::optional<SecretKey> key = {}) {

@@ -45,7 +45,7 @@ TEST_SUITE("graph/analysis/full") {
     CHECK(verdict_of(system, little) == Verdict::unknown);
     CHECK(little.spent());
     CHECK(!sensitivity_of(system, true, little).has_value());
-    CHECK(suggestions_for(system, little).empty());
+    CHECK(wcet_cuts(system, little).empty());
     CHECK(verdict_of(system, enough) == Verdict::schedulable);
     CHECK(!enough.spent());
     CHECK(!sensitivity_of(system, true, enough).has_value());

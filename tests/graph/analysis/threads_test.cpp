@@ -62,8 +62,8 @@ connections: [p.out -> a.in]
     CHECK(threads_text(R"(graph: t
 platform: {policy: fixed_priority}
 tasks:
-  a: {type: Counter, period: 40ms, let: 40ms}
-  b: {type: Counter, period: 40ms, let: 6ms}
+  a: {type: Counter, period: 40ms, let: 6ms, priority: 2}
+  b: {type: Counter, period: 40ms, let: 40ms, priority: 1}
 )") == "0.0: b; 0.1: a");
   }
 

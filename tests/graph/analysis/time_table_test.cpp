@@ -51,16 +51,22 @@ connections: [a.out -> b.in]
 
   using tests::graph_of;
 
-  TEST_CASE("tasks released together take their turns as they are run: by period, not by name") {
+  TEST_CASE("tasks released together take their turns as they are run: by deadline, not by period or name") {
+    CHECK(check(graph_of(R"(graph: t
+tasks:
+  b: {type: Counter, period: 400ms, let: 45ms, wcet: 30ms}
+  a: {type: Counter, period: 200ms, let: 200ms, wcet: 80ms}
+)"))
+              .verdict == Verdict::schedulable);
     const Result r = check(graph_of(R"(graph: t
 tasks:
-  a: {type: Counter, period: 400ms, let: 45ms, wcet: 30ms}
-  b: {type: Counter, period: 200ms, let: 200ms, wcet: 80ms}
+  a: {type: Counter, period: 200ms, let: 45ms, wcet: 30ms}
+  b: {type: Counter, period: 400ms, let: 40ms, wcet: 20ms}
 )"));
     CHECK(r.verdict == Verdict::not_schedulable);
     REQUIRE(r.late);
     CHECK(r.late->task == 0);
-    CHECK(r.late->finish == 110'000'000);
+    CHECK(r.late->finish == 50'000'000);
   }
 
   TEST_CASE("tasks that fit are schedulable, and their responses are told") {
