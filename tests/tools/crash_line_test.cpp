@@ -45,12 +45,14 @@ TEST_SUITE("tools/crash_line") {
       std::string name, cause;
       int exit_code;
     };
-    for (const auto& [name, cause, exit_code] :
+    for (const Way& way :
          {Way{"exit", "called exit(0); the process ends\n", 3}, Way{"abort", "abort; the process ends\n", -SIGABRT},
           Way{"segmentation", "segmentation fault at address 0x0; the process ends\n", -SIGSEGV},
           Way{"overflow", "stack overflow at address 0x", -SIGSEGV},
           Way{"terminate", "abort; the process ends\n", -SIGABRT},
           Way{"divide", "arithmetic exception; the process ends\n", -SIGFPE}}) {
+      const std::string &name = way.name, &cause = way.cause;
+      const int exit_code = way.exit_code;
       const std::string file = crashing(folder, name);
       for (const std::string how :
            {"run ", "run --workers 3 ", "run --set tasks.b.let=8ms ", "run --clock real ",

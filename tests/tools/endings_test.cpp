@@ -42,7 +42,7 @@ void wait_for_end(Process& run) {
   }
 }
 
-const auto send(int signal) {
+auto send(int signal) {
   return [signal](Process& run, ActuatorPeer*) { run.signal(signal); };
 }
 

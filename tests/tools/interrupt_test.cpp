@@ -29,8 +29,9 @@ TEST_SUITE("tools/interrupt") {
     const std::string graph = folder.write(
         "w.yaml",
         "{graph: g, tasks: {a: {type: Work, period: 70ms, on_fault: hold, parameters: {rounds: 50000000}}}}\n");
-    for (const auto& [signal, code] :
+    for (const auto& each :
          std::vector<std::pair<std::string, std::string>>{{"INT", "130"}, {"TERM", "143"}, {"HUP", "129"}}) {
+      const std::string signal = each.first, code = each.second;
       CAPTURE(signal);
       const std::string trace = folder / (signal + ".csv"), report = folder / (signal + ".txt");
       const std::string kill = "kill -" + signal + " $id";

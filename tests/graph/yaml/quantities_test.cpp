@@ -121,11 +121,12 @@ TEST_SUITE("graph/yaml/quantities") {
         {"1cm", "m", 0.01},          {"1mm", "m", 0.001},         {"1cm/s", "m/s", 0.01},
         {"1mm/s", "m/s", 0.001},     {"1min", "s", 60},           {"1ms", "s", 0.001},
         {"1us", "s", 1e-6},          {"1g", "kg", 0.001},         {"1kN", "N", 1000}};
-    for (const auto& [text, unit, value] : units) {
+    for (const auto& each : units) {
+      const std::string text = std::get<0>(each);
       CAPTURE(text);
       double number = 0;
-      CHECK(parse_number(text, unit, number) == "");
-      CHECK(number == doctest::Approx(value).epsilon(1e-15));
+      CHECK(parse_number(text, std::get<1>(each), number) == "");
+      CHECK(number == doctest::Approx(std::get<2>(each)).epsilon(1e-15));
     }
     const std::pair<const char*, std::int64_t> durations[] = {
         {"1h", 3'600'000'000'000}, {"1min", 60'000'000'000}, {"1s", 1'000'000'000},
