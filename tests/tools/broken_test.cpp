@@ -26,9 +26,6 @@ std::string report_on(const std::string& name) {
 
 // Words that no file can bring about, and the test of what does.
 const std::vector<std::string> brought_about_elsewhere{
-    // a library that was built for it: tests/tools/plugins_test.cpp
-    "' is a shared library without tasks; name them with JAROL_PLUGIN, see graph/plugin.h", "' was built for ",
-    ", this is ", "; build it again", "' brings a task type '", "', which there is already", "unknown reason",
     // a command: tests/tools/plugins_test.cpp
     "plugin '", "' is not loaded: ",
     // a metric alone: tests/graph/expect/parse_test.cpp
@@ -113,6 +110,8 @@ TEST_SUITE("tools/broken") {
         // the tables hold what help and schema say
         const fs::path name = entry.path().filename();
         if ((name.extension() != ".cpp" && name != "key.h") || name == "tables.cpp") continue;
+        // libraries, which tests/tools/plugins_test.cpp loads, and a task's fault, which no loader sees
+        if (name.string().starts_with("plugin") || name == "floating_point.cpp") continue;
         for (const std::string& word : words_of(entry.path())) {
           ++seen;
           const auto& other = brought_about_elsewhere;

@@ -16,7 +16,6 @@ using command::TemporaryFolder;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr double steers = 0.5, safe = 0.25;  // thrusts
-constexpr auto period = 20ms;                // of all communicators and tasks
 constexpr auto in_time = 100ms;
 
 // How a run is ended. A row more is an element more of `endings`.

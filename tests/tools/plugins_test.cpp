@@ -100,6 +100,9 @@ TEST_SUITE("tools/plugins") {
     CHECK(report_on("fused") ==
           "was built without -ffp-contract=off for a processor with FMA, so that it computes otherwise" + again);
     CHECK(report_on("not_fused") == "");
+    // -march and the like make Eigen's vectors larger, too
+    CHECK(report_on("wide_vectors").find("the alignment of Eigen's vectors (-march, or EIGEN_MAX_ALIGN_BYTES)") !=
+          std::string::npos);
   }
 #endif
 

@@ -81,7 +81,7 @@ TEST_SUITE("tools/threads") {
           " s: the vehicle at 127.0.0.1:" + port + " has ended the connection\n");
   }
 
-  TEST_CASE("the first thousand faults are told, and how many more there were") {
+  TEST_CASE("the first thousand faults stand in JSON, and the text sums them up by task and cause") {
     const TemporaryFolder folder;
     std::string text =
         "graph: g\ntiming: {period: 1ms}\ncommunicators: {i: {type: double, direction: in, init: 1e308}}\n";
@@ -103,14 +103,13 @@ TEST_SUITE("tools/threads") {
         json = nlohmann::json::parse(command::jarol(arguments + time + " --json", "2>/dev/null").output);
         if (json["fault_count"] <= 1000) continue;
         told = command::jarol(arguments + time, "2>&1 >/dev/null").output;
-        more = told.find("fault: and ");
+        more = told.find(" times, from activation ");
       }
       CHECK(json["faults"].size() == 1000);
       CHECK(json["fault_count"] == json["activations"]);
       REQUIRE(more != std::string::npos);
-      CHECK(std::count(told.begin(), told.end(), '\n') == 1001);
-      CHECK(std::stoi(told.substr(more + 11)) % 50 == 0);
-      CHECK(told.ends_with(" more\n"));
+      // a line for each task and cause, and one for what each task left out
+      CHECK(std::count(told.begin(), told.end(), '\n') == 100);
     }
   }
 }

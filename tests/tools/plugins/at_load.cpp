@@ -17,7 +17,8 @@ const struct AtLoad {
 #elif AT_LOAD == 2
     for (volatile bool goes_on = true; goes_on;) {}
 #elif AT_LOAD == 3
-    *static_cast<volatile int*>(nullptr) = 1;
+    volatile int* volatile nowhere = nullptr;
+    *nowhere = 1;
 #elif AT_LOAD == 4
     std::_Exit(0);
 #elif AT_LOAD == 5
