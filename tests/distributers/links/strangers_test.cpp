@@ -364,13 +364,17 @@ TEST_SUITE("distributers/links/strangers") {
           link.send(messages::refer_to(javiator::MotorSignals{0, 0, 0, 0, static_cast<std::uint16_t>(id)}));
           link.flush();
         };
+        // one after the other: over TCP the second may else be turned away before it has said anything
         {
-          const auto wrong = dial(key_of(2)), none = dial(std::nullopt);
+          const auto wrong = dial(key_of(2));
           CHECK(wait_for([&] { return say(*wrong, 60000), open.count("dropped: wrong key") > 0; }));
-          CHECK(wait_for([&] { return say(*none, 60001), open.count("dropped: without the key") > 0; }));
-          CHECK(open.link->report().heard == 0);
-          CHECK(open.count("takeovers") == 0);
         }
+        {
+          const auto none = dial(std::nullopt);
+          CHECK(wait_for([&] { return say(*none, 60001), open.count("dropped: without the key") > 0; }));
+        }
+        CHECK(open.link->report().heard == 0);
+        CHECK(open.count("takeovers") == 0);
         for (int restart = 1; restart <= 3; ++restart) {
           const auto peer = dial(key_of(1));
           CHECK(wait_for([&] { return say(*peer, restart), open.count("packets in") >= 10U * restart; }));
