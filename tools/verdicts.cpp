@@ -45,6 +45,7 @@ std::string why_cut_short(Duration reached, Duration until, Duration mission) {
 
 std::vector<std::string> find_left_out(const Graph& graph, const Report& report) {
   std::vector<std::string> lines;
+  if (report.stopped) return lines;  // the fault that ended the run says it all
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Task& task = graph.tasks[i];
     const std::int64_t after_first = (report.covered - task.offset).count() - 1;
