@@ -141,11 +141,11 @@ class Scenarios {
 
   Outcome kill_pilot() const {
     const std::string port = tests::free_port(SOCK_DGRAM);
-    Process vehicle(noisy_helicopter + " --link udp --json --for 12s --listen " + port);
+    Process vehicle(noisy_helicopter + " --link udp --json --for 12s --silence 1s --listen " + port);
     if (!vehicle.says("until Ctrl-C")) return {};
     const std::string link = "{type: udp, peer: \"127.0.0.1:" + port + "\"}";
     {
-      const Process first(helicopter_control(link, "--for 60s"));
+      const Process first(helicopter_control(link, "--for 60s --no-guardian"));
       std::this_thread::sleep_for(7s);
     }
     std::this_thread::sleep_for(1500ms);
