@@ -18,7 +18,7 @@ namespace jarol {
 
 ThreadsCore::ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels)
     : graph_(graph), plan_(graph), channels_(std::move(channels)), period_(choose_period()), safe_commands_(graph) {
-  for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::timed_mutex>());
+  for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::mutex>());
   last_.resize(graph.communicators.size());
   threads_report_.execution.resize(graph.tasks.size());
   report_.left_out.resize(graph.tasks.size());
@@ -165,14 +165,25 @@ Finish ThreadsCore::finish(std::optional<Futex::Time> patience) {
   return {};
 }
 
+namespace {
+// Tries again and again: the thread sanitizer does not know a mutex that is waited for until a time.
+bool lock_until(std::unique_lock<std::mutex>& lock, Futex::Time patience) {
+  while (!lock.try_lock()) {
+    if (std::chrono::steady_clock::now() >= patience) return false;
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+  return true;
+}
+}  // namespace
+
 // From here on the threads that carry values find nothing to do.
 void ThreadsCore::close(Futex::Time patience) {
   interrupt();
   if (closed_.exchange(true)) return;
   const Duration time = now();
-  std::vector<std::unique_lock<std::timed_mutex>> locks;
+  std::vector<std::unique_lock<std::mutex>> locks;
   for (const auto& mutex : channel_mutexes_)
-    if (!locks.emplace_back(*mutex, std::defer_lock).try_lock_until(patience)) {
+    if (!lock_until(locks.emplace_back(*mutex, std::defer_lock), patience)) {
       safe_commands_.fail_at_end(channels_, time, false, busy_link_text);
       return;
     }

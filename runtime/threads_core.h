@@ -135,7 +135,7 @@ class ThreadsCore {
   const Graph& graph_;
   Plan plan_;
   std::vector<std::unique_ptr<Channels>> channels_;
-  std::vector<std::unique_ptr<std::timed_mutex>> channel_mutexes_;  // sensor and actuator thread share a vehicle's
+  std::vector<std::unique_ptr<std::mutex>> channel_mutexes_;  // sensor and actuator thread share a vehicle's
   Duration period_{};
   std::vector<Carried> ins_, outs_;
   std::vector<Counted> tasks_;  // data-flow order
