@@ -46,7 +46,7 @@ std::string fault_of_table(const System& system, const std::vector<std::size_t>&
       return named(slices[i].task, slices[i].activation) + " begins while another runs on its core";
   // what each core has left to do of all that arrived before an instant
   const auto backlog = [&](std::int64_t instant) {
-    std::vector<std::int64_t> left(static_cast<std::size_t>(system.cores), 0);
+    std::vector<std::int64_t> left(core.empty() ? 0 : *std::max_element(core.begin(), core.end()) + 1, 0);
     for (const Slice& s : slices)
       if (const Load& l = system.loads[s.task]; l.offset + s.activation * l.period < instant)
         left[core[s.task]] = std::max(left[core[s.task]], s.end - instant);
