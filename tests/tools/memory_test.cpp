@@ -26,7 +26,7 @@ command::Result within(int size, const std::string& arguments) {
   return result;
 }
 
-std::string large_graph() {
+[[maybe_unused]] std::string large_graph() {
   std::string text = "graph: g\ntasks:\n", connections = "connections:\n";
   for (int i = 0; i < 3000; ++i) {
     const std::string name = "t" + std::to_string(i);
@@ -36,7 +36,7 @@ std::string large_graph() {
   return text + "  first: {type: Counter, period: 10ms, wcet: 1us}\n" + connections;
 }
 // What the program takes before it begins.
-int size_at_start() {
+[[maybe_unused]] int size_at_start() {
   int size = 16'000;
   while (within(size, "--version").exit_code != 0 && size < 4'000'000) size += 4'000;
   return size + 1'000;
