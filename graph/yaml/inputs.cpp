@@ -33,8 +33,14 @@ std::string input_at(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return "";
   const std::lock_guard lock(mutex);
-  const auto found = names().find(Identity(status.st_dev, status.st_ino));
-  return found == names().end() ? "" : found->second;
+  const Identity identity(status.st_dev, status.st_ino);
+  const auto found = names().find(identity);
+  if (found == names().end()) return "";
+  // one that was removed since may have left its number to another file
+  struct stat now {};
+  if (::stat(found->second.c_str(), &now) == 0 && Identity(now.st_dev, now.st_ino) == identity) return found->second;
+  names().erase(found);
+  return "";
 }
 
 }  // namespace jarol
