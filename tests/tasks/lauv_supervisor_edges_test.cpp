@@ -6,38 +6,17 @@
 #include <functional>
 #include <string>
 
-#include "tasks/lauv_supervisor.h"
+#include "tests/tasks/calm_submarine.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
+using tests::calm_submarine;
 
 const Tick every_50_ms{.period = std::chrono::milliseconds(50)};
 constexpr double degrees = std::numbers::pi / 180;
 
 using Change = std::function<void(LauvSupervisor::In&)>;
-
-// Five metres deep, level, at rest, all instruments reporting; their k-th readings.
-LauvSupervisor::In calm(std::int64_t k) {
-  LauvSupervisor::In in;
-  in.setpoint = {3, 1.5, 1.2};
-  Instruments& i = in.instruments;
-  i.depth = {5, k};
-  i.pressure = {1013.25 + 5 * 98.1, k};
-  i.attitude = {0, 0, 0, k};
-  i.rates = {0, 0, 0, k};
-  i.forces = {0, 0, -9.81, k};
-  i.heading = {0, k};
-  i.velocity = {0, 0, 0, k};
-  i.rpm = {0, k};
-  i.altitude = {45, k};
-  i.conductivity = {4.2, k};
-  i.water_temperature = {14, k};
-  i.leak = {0, k};
-  i.voltage = {25, k};
-  i.current = {1, k};
-  return in;
-}
 
 struct Watched {
   LauvSupervisor::State state{};
@@ -47,7 +26,7 @@ struct Watched {
   // So many steps of 50 ms.
   Alarm run(int steps, const Change& change) {
     for (int i = 0; i < steps; ++i) {
-      LauvSupervisor::In in = calm(++k);
+      LauvSupervisor::In in = calm_submarine(++k);
       change(in);
       LauvSupervisor::run({}, every_50_ms, in, state, out);
     }

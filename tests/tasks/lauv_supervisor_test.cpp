@@ -2,34 +2,15 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/tasks/calm_submarine.h"
+
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
+using tests::calm_submarine;
 
 const Tick every_50_ms{.period = std::chrono::milliseconds(50)};
 const Setpoint wanted{3, 1.5, 1.2};
-
-// Five metres deep, level, at rest, all telling; the k-th readings.
-LauvSupervisor::In calm(std::int64_t k) {
-  LauvSupervisor::In in;
-  in.setpoint = wanted;
-  Instruments& i = in.instruments;
-  i.depth = {5, k};
-  i.pressure = {1013.25 + 5 * 98.1, k};
-  i.attitude = {0, 0, 0, k};
-  i.rates = {0, 0, 0, k};
-  i.forces = {0, 0, -9.81, k};
-  i.heading = {0, k};
-  i.velocity = {0, 0, 0, k};
-  i.rpm = {0, k};
-  i.altitude = {45, k};
-  i.conductivity = {4.2, k};
-  i.water_temperature = {14, k};
-  i.leak = {0, k};
-  i.voltage = {25, k};
-  i.current = {1, k};
-  return in;
-}
 
 // After some seconds in which `change` spoils the instruments from the first second on.
 template <class Change>
@@ -37,7 +18,7 @@ LauvSupervisor::Out after(double seconds, Change change) {
   LauvSupervisor::State state;
   LauvSupervisor::Out out;
   for (int k = 0; k < static_cast<int>(20 * seconds); ++k) {
-    LauvSupervisor::In in = calm(k + 1);
+    LauvSupervisor::In in = calm_submarine(k + 1);
     if (k >= 20) change(in);
     LauvSupervisor::run({}, every_50_ms, in, state, out);
   }
@@ -92,14 +73,14 @@ TEST_SUITE("tasks/lauv_supervisor") {
   TEST_CASE("the first alarm stays, whatever comes after, and it is not taken back") {
     LauvSupervisor::State state;
     LauvSupervisor::Out out;
-    LauvSupervisor::In in = calm(1);
+    LauvSupervisor::In in = calm_submarine(1);
     in.instruments.leak.value = 1;
     LauvSupervisor::run({}, every_50_ms, in, state, out);
-    in = calm(2);
+    in = calm_submarine(2);
     in.contact.silence = 100;
     LauvSupervisor::run({}, every_50_ms, in, state, out);
     CHECK(out.condition.alarm == Alarm::leak);
-    LauvSupervisor::run({}, every_50_ms, calm(3), state, out);
+    LauvSupervisor::run({}, every_50_ms, calm_submarine(3), state, out);
     CHECK(out.condition.alarm == Alarm::leak);
   }
 
@@ -108,7 +89,7 @@ TEST_SUITE("tasks/lauv_supervisor") {
     LauvSupervisor::Out out;
     std::int64_t k = 0;
     const auto run = [&](double leak, std::uint32_t stops) {
-      LauvSupervisor::In in = calm(++k);
+      LauvSupervisor::In in = calm_submarine(++k);
       in.instruments.leak.value = leak;
       in.contact.stops = stops;
       LauvSupervisor::run({}, every_50_ms, in, state, out);

@@ -120,6 +120,7 @@ connections: [c.out -> t.in, t.out -> o, c.out -> w.in, w.out -> r.in]
     CHECK(run["faults"].size() == 1);
     CHECK(run["faults"][0]["cause"] == "threw: more than three");
     CHECK(run["outputs"]["o"] == 4);
+    CHECK(run.at("non_finite_inputs") == 0);
     CHECK(jarol("tasks Twice --plugin " JAROL_PLUGIN_FOLDER "/twice.so").output ==
           "Twice: doubles its input\n\ninputs\n  in  double\n\noutputs\n  out  double  twice the input\n");
     CHECK(jarol("tasks --plugin nowhere.so").output == "error: there is no file 'nowhere.so'\n");

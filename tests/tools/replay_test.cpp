@@ -317,4 +317,27 @@ connections: [count.out -> sum.in]
     CHECK(command::jarol("run specs/counting.yaml --for 1s --log x --clock real --concurrency threads").output ==
           "error: --log belongs to --concurrency exotasks\n");
   }
+
+  TEST_CASE("a log is whole, or the run says that it is not: wherever the room for it ends") {
+    const TemporaryFolder folder;
+    const std::string whole = folder / "whole.log", limited = folder / "limited.log";
+    int failed = 0;
+    for (int seconds = 1; seconds <= 30; ++seconds) {
+      CAPTURE(seconds);
+      const std::string run = "run specs/counting.yaml --for " + std::to_string(seconds) + "s --log ";
+      REQUIRE(command::jarol(run + whole).exit_code == 0);
+      // one block, in the middle of a record or between two
+      const auto result = command::jarol("schema > /dev/null; ulimit -f 1; " JAROL_COMMAND " " + run + limited);
+      if (content(limited).size() == content(whole).size()) {
+        CHECK(result.exit_code == 0);
+      } else {
+        CHECK(result.exit_code == 3);
+        CHECK(result.output.find("error: can't write '" + limited + "': File too large\n") != std::string::npos);
+        ++failed;
+      }
+      std::filesystem::remove(limited);
+    }
+    CHECK(failed > 5);
+    CHECK(failed < 30);
+  }
 }
