@@ -43,16 +43,16 @@ class DefaultFloatingPoint {
 
 namespace detail {
 
-// Sums whose results depend on rounding mode, flush-to-zero and denormals-are-zero. Reading MXCSR takes as long as a
-// whole activation; two additions take next to nothing, for nothing waits for them.
-struct alignas(16) Pair {
-  double low, high;
+// Four sums at once whose results depend on rounding mode, flush-to-zero and denormals-are-zero, which are the same for
+// every width. Reading MXCSR takes as long as a whole activation; one addition takes next to nothing, for nothing waits
+// for it.
+struct alignas(16) Four {
+  float lanes[4];
 };
-inline constexpr Pair one{1.0, 1.0};
-inline constexpr Pair little{0x1p-60, -0x1p-60};           // too little to change 1 where one rounds to nearest
-inline constexpr Pair small{0x1.8p-1022, 0x1p-1023};       // normal, subnormal
-inline constexpr Pair other{-0x1p-1022, 0x1p-1023};        // normal, subnormal
-inline constexpr Pair sum_of_small{0x1p-1023, 0x1p-1022};  // subnormal, normal
+// too little to change 1 upwards or downwards where one rounds to nearest; a subnormal sum; subnormal summands
+inline constexpr Four summands{{1.0F, 1.0F, 0x1.8p-126F, 0x1p-127F}};
+inline constexpr Four others{{0x1p-30F, -0x1p-30F, -0x1p-126F, 0x1p-127F}};
+inline constexpr Four sums{{1.0F, 1.0F, 0x1p-127F, 0x1p-126F}};
 
 }  // namespace detail
 
@@ -60,22 +60,17 @@ inline constexpr Pair sum_of_small{0x1p-1023, 0x1p-1022};  // subnormal, normal
 inline bool computes_by_default() {
 #if defined(__x86_64__)
   using Bits [[gnu::vector_size(16)]] = unsigned;
-  Bits rounded, small;
+  Bits sum;
+  unsigned equal;
   // in assembly, so that no optimisation of the including file computes it in advance
   asm volatile(
-      "movapd %[one], %[rounded]\n\t"
-      "addpd %[little], %[rounded]\n\t"
-      "pcmpeqd %[one], %[rounded]\n\t"
-      "movapd %[a], %[small]\n\t"
-      "addpd %[b], %[small]\n\t"
-      "pcmpeqd %[sum], %[small]\n\t"
-      "pand %[small], %[rounded]"
-      : [rounded] "=&x"(rounded), [small] "=&x"(small)
-      : [one] "m"(detail::one), [little] "m"(detail::little), [a] "m"(detail::small), [b] "m"(detail::other),
-        [sum] "m"(detail::sum_of_small));
-  unsigned mask;
-  asm("pmovmskb %1, %0" : "=r"(mask) : "x"(rounded));
-  return mask == 0xffff;
+      "movaps %[summands], %[sum]\n\t"
+      "addps %[others], %[sum]\n\t"
+      "pcmpeqd %[sums], %[sum]\n\t"
+      "movmskps %[sum], %[equal]"
+      : [sum] "=&x"(sum), [equal] "=r"(equal)
+      : [summands] "m"(detail::summands), [others] "m"(detail::others), [sums] "m"(detail::sums));
+  return equal == 0xf;
 #else
   return floating_point_control() == default_floating_point_control();
 #endif

@@ -112,7 +112,7 @@ TEST_SUITE("runtime/floating_point") {
     CHECK(describe_difference({0x1d80, 0x33f}) == "exceptions that raise a signal");
   }
 
-  TEST_CASE("two sums see every environment in which doubles are rounded or flushed otherwise") {
+  TEST_CASE("four sums see every environment in which numbers are rounded or flushed otherwise") {
     CHECK(computes_by_default());
     for (const unsigned control : {0x9f80U, 0x1fc0U, 0x3f80U, 0x5f80U, 0x7f80U}) {
       CAPTURE(control);
