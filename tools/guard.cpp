@@ -35,13 +35,14 @@ Guard::Guard(const Loaded& loaded, bool wanted, std::optional<int> priority) {
   if (!wanted) missing_ = "--no-guardian";
   if (guarded.empty() || !wanted) return;
   try {
-    for (const auto& [distributer, link] : guarded)
-      if (link->has_key()) throw std::runtime_error("a link has a key, and its peer believes no other process");
     auto guardian = std::make_unique<distributers::Guardian>();
     std::vector<distributers::Holder*> holders;
-    for (const auto& [distributer, link] : guarded)
+    for (const auto& [distributer, link] : guarded) {
+      const auto key = link->guardian_key();
       holders.push_back(guardian->add(link->set(), link->transport().text(),
-                                      distributers::safe_packets(*loaded.graph, distributer, *link)));
+                                      distributers::safe_packets(*loaded.graph, distributer, *link),
+                                      key ? &*key : nullptr));
+    }
     guardian->await_ready(priority);
     for (std::size_t i = 0; i < guarded.size(); ++i) guarded[i].link->hold_by(holders[i]);
     guardian_ = std::move(guardian);

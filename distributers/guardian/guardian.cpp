@@ -79,10 +79,11 @@ Guardian::Guardian(const std::string& program) {
 Guardian::~Guardian() { end(); }
 
 Holder* Guardian::add(const messages::MessageSet& set, const std::string& text,
-                      std::span<const std::vector<std::byte>> packets) {
+                      std::span<const std::vector<std::byte>> packets, const GuardianKey* key) {
   const auto link = static_cast<std::uint32_t>(holders_.size());
   const std::string known_as = std::string(set.name) + " " + text;
   said_all_ &= say(socket_.get(), {Word::link, link}, std::as_bytes(std::span(known_as)));
+  if (key != nullptr) said_all_ &= say(socket_.get(), {Word::key, link}, bytes_of(*key));
   for (const std::vector<std::byte>& packet : packets) said_all_ &= say(socket_.get(), {Word::packet, link}, packet);
   return &holders_.emplace_back(*this, link);
 }

@@ -14,6 +14,7 @@
 
 #include "distributers/links/descriptor.h"
 #include "distributers/links/holder.h"
+#include "distributers/links/seal.h"
 #include "distributers/messages/message_set.h"
 
 namespace jarol::distributers {
@@ -33,9 +34,9 @@ class Guardian {
   Guardian& operator=(const Guardian&) = delete;
 
   /// Before `await_ready`: a link of that set, as people read it, and what brings its system to rest, in this order.
-  /// Who learns of its way to the peer; lives as long as the guardian.
-  Holder* add(const messages::MessageSet& set, const std::string& text,
-              std::span<const std::vector<std::byte>> packets);
+  /// Who learns of its way to the peer; lives as long as the guardian. `key`: packets go out sealed, or null.
+  Holder* add(const messages::MessageSet& set, const std::string& text, std::span<const std::vector<std::byte>> packets,
+              const GuardianKey* key = nullptr);
   /// Waits until all of this is there. The guardian takes that priority of SCHED_FIFO, if it may. Throws
   /// std::runtime_error if it is not to be had.
   void await_ready(std::optional<int> priority = {});

@@ -75,6 +75,7 @@ class Watch {
     if (word == Word::ready) begin(heard.bytes);
     if (link >= wards_.size()) return;
     if (word == Word::packet) wards_[link].add(heard.bytes);
+    if (word == Word::key) seal(wards_[link], heard.bytes);
     if (word == Word::let_go) wards_[link].let_go();
     if (word != Word::hold) return;
     sockaddr_storage peer{};
@@ -88,6 +89,12 @@ class Watch {
     const std::size_t end = text.find(' ');
     if (const messages::MessageSet* set = messages::find_message_set(text.substr(0, end)))
       wards_.emplace_back(*set, std::string(text.substr(end + 1)));
+  }
+
+  static void seal(Ward& ward, std::span<const std::byte> bytes) {
+    GuardianKey key;
+    std::memcpy(&key, bytes.data(), std::min(bytes.size(), sizeof key));
+    ward.seal_with(key);
   }
 
   void begin(std::span<const std::byte> bytes) {

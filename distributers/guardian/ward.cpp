@@ -18,7 +18,11 @@ void Ward::hold(Descriptor fd, const Address& peer) {
 void Ward::send() {
   if (!fd_ || !rest_.empty() || (datagrams_ && !peer_)) return;
   for (StampedPacket& packet : packets_) {
-    const std::span<const std::byte> bytes = packet.bytes();
+    std::span<const std::byte> bytes = packet.bytes();
+    if (seal_) {
+      seal_->seal(bytes, sealed_);
+      bytes = sealed_;
+    }
     if (!datagrams_)
       write(bytes);
     else if (sendto(fd_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL, peer_.get(), peer_.size()) < 0)

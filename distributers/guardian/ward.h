@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "distributers/guardian/stamped_packet.h"
 #include "distributers/links/address.h"
+#include "distributers/links/seal.h"
 
 namespace jarol::distributers {
 
@@ -17,6 +19,7 @@ class Ward {
   Ward(const messages::MessageSet& set, std::string text) : set_(set), text_(std::move(text)) {}
 
   void add(std::span<const std::byte> packet) { packets_.emplace_back(set_, packet); }
+  void seal_with(const GuardianKey& key) { seal_.emplace(key); }
   void hold(Descriptor fd, const Address& peer);
   void let_go() { fd_.close(); }
 
@@ -34,6 +37,8 @@ class Ward {
   const messages::MessageSet& set_;
   std::string text_;
   std::vector<StampedPacket> packets_;
+  std::optional<GuardianSeal> seal_;
+  std::vector<std::byte> sealed_;
   Descriptor fd_;
   Address peer_;
   bool datagrams_ = false;

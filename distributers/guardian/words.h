@@ -15,6 +15,7 @@ namespace jarol::distributers {
 enum class Word : std::uint32_t {
   link,     // the next link; bytes: name of its message set, a space, text
   packet,   // of a link: one of those that bring its system to rest; bytes: the packet
+  key,      // of a link whose packets are sealed; bytes: GuardianKey
   ready,    // all that was said is understood: asked by the program, answered by the guardian; bytes: Urgency
   hold,     // of a link: its way to the peer, a descriptor; bytes: the peer's address, or none
   let_go,   // of a link: it has no way any more

@@ -34,8 +34,10 @@ class Link {
   /// The packet that `send` would make of a message now.
   std::span<const std::byte> encode(messages::MessageRef message);
   const messages::MessageSet& set() const { return set_; }
-  /// Packets go out sealed: what `encode` gives would not be believed.
-  bool has_key() const { return seal_ != nullptr; }
+  /// None: packets go out as `encode` gives them.
+  std::optional<GuardianKey> guardian_key() const {
+    return seal_ ? std::optional(seal_->guardian_key()) : std::nullopt;
+  }
   /// From the next `connect` on it learns of the way to the peer; it outlives the link. None: null.
   void hold_by(Holder* holder) { transport_->holder = holder; }
 

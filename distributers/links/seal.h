@@ -11,6 +11,10 @@
 // so that nothing recorded before, in whatever session, counts again. A hello answers each packet of a session that is
 // not known, each hello without the right challenge, and the one that began a session.
 //
+// A guardian that speaks after the end of a process gets no more than a key made of the link's and that process's
+// session, for content of kind `last`, numbered from 2^63: what the process has sent before, and is still on its way or
+// was held up, counts no more once such content was taken, and with the next session neither does the guardian's.
+//
 // What this does not give: secrecy; a packet that is held up, or kept from arriving, for as long as a link waits; a
 // difference between links that share a key and a message set, or between the two ends; a peer that was taken over.
 #pragma once
@@ -26,6 +30,25 @@
 
 namespace jarol::distributers {
 
+/// With which a guardian seals: good for nothing but the last words of one session. Goes over sockets as it lies in
+/// memory.
+struct GuardianKey {
+  SecretKey key{};
+  std::uint64_t session = 0;
+};
+
+/// Seals what a process leaves to be sent after its end.
+class GuardianSeal {
+ public:
+  explicit GuardianSeal(const GuardianKey& key) : key_(key) {}
+  /// Replaces `to` by the packet, sealed.
+  void seal(std::span<const std::byte> packet, std::vector<std::byte>& to);
+
+ private:
+  GuardianKey key_;
+  std::uint64_t number_ = std::uint64_t{1} << 63;
+};
+
 /// Of one end of a link. `seal` may be called from any thread, all else from the one that receives.
 class Seal {
  public:
@@ -36,6 +59,9 @@ class Seal {
 
   /// Replaces `to` by the packet, sealed.
   void seal(std::span<const std::byte> packet, std::vector<std::byte>& to);
+
+  /// For content that is sent after this end has gone, to whoever knows its session.
+  GuardianKey guardian_key() const;
 
   enum class Finding : std::uint8_t { content, hello, no_key, truncated, wrong_key, unknown_session, replayed };
   static constexpr std::size_t finding_count = 7;
@@ -64,10 +90,8 @@ class Seal {
   static std::size_t size_of(std::span<const std::byte> bytes);
 
  private:
-  enum class Kind : std::uint8_t { content, hello };
   using Challenge = std::array<std::byte, 16>;
 
-  void write(Kind kind, std::uint64_t number, std::span<const std::byte> content, std::vector<std::byte>& to) const;
   void write_hello(const Challenge& echo, std::vector<std::byte>& to) const;
   Opened open_hello(std::uint64_t session, std::uint64_t number, std::span<const std::byte> content);
   bool is_new(std::uint64_t number);

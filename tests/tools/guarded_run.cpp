@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include "distributers/links/serial.h"
@@ -44,13 +46,28 @@ Ends make_ends(const std::string& link, std::unique_ptr<SerialProxy>& line) {
 
 GuardedVehicle::GuardedVehicle(const std::string& link, bool helicopter)
     : helicopter_(helicopter), resting_(helicopter ? 2 : 5) {
-  Ends ends = make_ends(link, line_);
-  link_of_run_ = "{" + ends.run + (helicopter ? "}" : ", id: 0x4001}");
+  const std::string with_key = " with a key";
+  const bool sealed = link.ends_with(with_key);
+  Ends ends = make_ends(sealed ? link.substr(0, link.size() - with_key.size()) : link, line_);
   LinkOptions options{.input = {PortKind::plain, 512}, .output = {}, .header = {}};
+  if (sealed) {
+    static std::atomic<int> count{0};
+    key_file_ = std::filesystem::temp_directory_path() /
+                ("jarol_key_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+    std::ofstream(key_file_) << "a secret of at least thirty-two bytes, number " << count;
+    std::filesystem::permissions(key_file_, std::filesystem::perms::owner_read);
+    options.key = read_key(key_file_);
+    ends.run += ", key: " + key_file_;
+  }
+  link_of_run_ = "{" + ends.run + (helicopter ? "}" : ", id: 0x4001}");
   if (!helicopter) options.accept.emplace_back("src", 0x4001);
   end_ = std::make_unique<Link>(std::move(ends.vehicle), helicopter ? javiator::message_set() : imc::message_set(),
                                 options);
   end_->connect();
+}
+
+GuardedVehicle::~GuardedVehicle() {
+  if (!key_file_.empty()) std::filesystem::remove(key_file_);
 }
 
 void GuardedVehicle::pause() { std::this_thread::sleep_for(1ms); }

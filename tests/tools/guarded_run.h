@@ -20,8 +20,9 @@ class GuardedVehicle : public messages::Receiver {
   using Clock = std::chrono::steady_clock;
 
   /// "udp", "udp without peer", "tcp_client", "tcp_server" or "serial": the run's side of the link. A helicopter, else
-  /// a submarine.
+  /// a submarine. Behind it " with a key": the link has one.
   GuardedVehicle(const std::string& link, bool helicopter);
+  ~GuardedVehicle() override;
 
   bool is_helicopter() const { return helicopter_; }
   /// For the run.
@@ -54,6 +55,7 @@ class GuardedVehicle : public messages::Receiver {
   void hear(std::size_t part, bool is_safe);
 
   bool helicopter_;
+  std::string key_file_;  // or none
   std::string link_of_run_;
   std::unique_ptr<SerialProxy> line_;
   std::unique_ptr<distributers::Link> end_;

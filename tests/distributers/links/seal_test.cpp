@@ -152,6 +152,63 @@ TEST_SUITE("distributers/links/seal") {
     }
   }
 
+  TEST_CASE("a guardian's packets count after all that its end has sent, once, and until there is a new session") {
+    const SecretKey key = key_of(1);
+    auto one = std::make_unique<Seal>(key, "imc");
+    Seal other(key, "imc");
+    GuardianSeal guardian(one->guardian_key());
+    const auto last = [&](const std::string& content) {
+      Bytes bytes;
+      guardian.seal(text(content), bytes);
+      return bytes;
+    };
+    std::vector<Bytes> recorded{last("nobody knows the session yet")};
+    CHECK(opened(other, recorded[0]) == "session not yet known");
+    meet(other, *one, answer_of(other));
+    CHECK(opened(other, recorded[0]) == "nobody knows the session yet");
+    const Bytes held_up = sealed(*one, "held up");
+    CHECK(opened(other, sealed(*one, "command")) == "replayed");
+    for (int i = 0; i < 5; ++i) {
+      recorded.push_back(last("safe"));
+      CHECK(opened(other, recorded.back()) == "safe");
+      CHECK(other.answer().empty());
+    }
+    CHECK(opened(other, held_up) == "replayed");
+    for (const Bytes& bytes : recorded) CHECK(opened(other, bytes) == "replayed");
+    const Bytes late = last("late");
+    one = std::make_unique<Seal>(key, "imc");
+    meet(*one, other, one->hello());
+    CHECK(opened(other, sealed(*one, "next")) == "next");
+    for (const Bytes& bytes : recorded) CHECK(opened(other, bytes) == "session not yet known");
+    CHECK(opened(other, late) == "session not yet known");
+    CHECK(opened(other, sealed(*one, "and on")) == "and on");
+  }
+
+  TEST_CASE("a guardian's key makes nothing but last words of its session") {
+    Seal one(key_of(1), "imc"), other(key_of(1), "imc"), third(key_of(1), "imc");
+    meet(one, other, one.hello());
+    const GuardianKey right = one.guardian_key();
+    Bytes packet;
+    GuardianSeal(right).seal(text("safe"), packet);
+    for (std::size_t bit = 0; bit < 8 * packet.size(); ++bit) {
+      Bytes changed = packet;
+      changed[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+      const Finding finding = other.open(changed).finding;
+      REQUIRE((finding == Finding::wrong_key || finding == Finding::no_key || finding == Finding::truncated));
+      REQUIRE(other.answer().empty());
+    }
+    GuardianKey of_third = third.guardian_key();
+    CHECK(of_third.key != right.key);
+    of_third.session = right.session;
+    Bytes forged;
+    GuardianSeal(of_third).seal(text("safe"), forged);
+    CHECK(opened(other, forged) == "wrong key");
+    Seal as_if_shared(right.key, "imc");  // who takes it for the key of the link
+    CHECK(opened(other, as_if_shared.hello()) == "wrong key");
+    CHECK(opened(one, packet) == "wrong key");  // nobody is moved by its own
+    CHECK(opened(other, packet) == "safe");
+  }
+
   TEST_CASE("ends that both speak first, with many packets under way, meet after few hellos") {
     Seal ends[2] = {Seal(key_of(1), "imc"), Seal(key_of(1), "imc")};
     std::mt19937 random(3);
