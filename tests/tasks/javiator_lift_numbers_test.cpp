@@ -1,0 +1,291 @@
+// The numbers of the helicopter's law of altitude and of its mixer: each gain, limit and time, at its edge.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tasks/javiator_control.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::tasks;
+using namespace std::chrono_literals;
+
+constexpr Tick tick{.now = 0ms, .activation = 0, .period = 15ms};
+constexpr double dt = 0.015, gravity = 9.81;
+
+// Hovering at 1 m.
+struct Altitude {
+  AltitudeControl::State state{.z = {.place = 1}, .trim = 1, .mean_trim = 1, .lifted = true};
+  AltitudeControl::Out out{};
+  AltitudeControl::In in{
+      .estimate = {.altitude = 1, .lift = gravity, .rates_known = true, .attitude_known = true, .altitude_known = true},
+      .directive = {.state = FlightState::flying, .altitude = 1}};
+
+  double run(int periods = 1) {
+    for (int i = 0; i < periods; ++i) AltitudeControl::run({}, tick, in, state, out);
+    return out.lift.thrust;
+  }
+};
+
+// Standing with rotors at idle.
+struct Grounded : Altitude {
+  Grounded() {
+    state = {.trim = 0.5};
+    out.lift.thrust = 0.5;
+    in.estimate.altitude = 0;
+  }
+};
+
+struct Mixer {
+  MotorMixer::Param param{.quick_lag = 0.05};  // signals as they are due
+  MotorMixer::State state{};
+  MotorMixer::Out out{};
+  MotorMixer::In in{.lift = {1}, .directive = {.state = FlightState::flying}, .estimate = {.battery = 15.887}};
+
+  const std::array<double, 4>& run() {
+    MotorMixer::run(param, tick, in, state, out);
+    return out.motors.signals;
+  }
+};
+}  // namespace
+
+TEST_SUITE("tasks/javiator_control/lift") {
+  TEST_CASE("an error of altitude is 12/s^2, and 1/s^3 of its integral, an error of climb 7/s") {
+    Altitude low;
+    low.in.estimate.altitude = 0.99;
+    low.state.z.place = low.in.directive.altitude;
+    CHECK(low.run() == doctest::Approx(1 + 0.01 * (12 + dt) / gravity));
+    Altitude rising;
+    rising.in.estimate.climb = 0.01;
+    CHECK(rising.run() == doctest::Approx(1 - 0.07 / gravity));
+  }
+
+  TEST_CASE("a lasting error of altitude is made up for with 1 m/s^2 at most, to either side") {
+    for (const double side : {-1.0, 1.0}) {
+      Altitude a;
+      a.in.estimate.altitude = 1 - 0.1 * side;
+      a.run(1000);
+      CHECK(a.state.sunk == side);
+    }
+  }
+
+  TEST_CASE("a climb begins with 15 m/s^3, is felt with a lag of 0.08 s, and near its end it is critically damped") {
+    Altitude a;
+    a.in.directive.altitude = 100;
+    a.run();
+    CHECK(a.state.z.demand == doctest::Approx(15 * dt));
+    CHECK(a.state.z.felt == doctest::Approx(15 * dt * dt / (0.08 + dt)));
+    double greatest = 0;
+    for (int i = 0; i < 1000; ++i) {
+      a.in.estimate.altitude = a.state.z.place;
+      a.run();
+      greatest = std::max(greatest, a.state.z.demand);
+    }
+    CHECK(greatest == 2);
+    CHECK(a.state.z.speed == doctest::Approx(1));
+    Altitude near;
+    near.in.directive.altitude = 1.01;
+    near.run();
+    CHECK(near.state.z.demand == doctest::Approx(2.2 * 2.2 * 0.01));
+  }
+
+  TEST_CASE("thrust is learnt at 10 rad/s from the lift that is felt, between 0.4 and 1.7 of hover") {
+    Altitude a;
+    a.in.estimate.lift = 0.9 * gravity;
+    a.run();
+    CHECK(a.state.trim == doctest::Approx(1 + 10 * dt * 0.1));
+    CHECK(a.state.mean_trim == doctest::Approx(1 + 10 * dt * 0.1 * dt));
+    a.in.estimate.lift = 0;
+    a.run(1000);
+    CHECK(a.state.trim == 1.7);
+    a.in.estimate.lift = 4 * gravity;
+    a.run(1000);
+    CHECK(a.state.trim == 0.4);
+  }
+
+  TEST_CASE("what is demanded is felt after 0.06 s") {
+    Altitude a;
+    a.in.estimate.climb = 0.01;
+    a.run();
+    CHECK(a.state.expected == doctest::Approx(-0.07 / gravity * dt / (0.06 + dt)));
+  }
+
+  TEST_CASE("a lean is made up for until half of the thrust is lost, which is at 60 degrees") {
+    for (const double lean : {0.5, 1.0, 1.04, 1.1, 1.5}) {
+      CAPTURE(lean);
+      Altitude rolled;
+      rolled.state.trim = 0.5;
+      rolled.in.estimate.lift = gravity;
+      rolled.in.estimate.roll = lean;
+      CHECK(rolled.run() == doctest::Approx(0.5 + 1 / std::max(std::cos(lean), 0.5) - 1));
+      Altitude both;
+      both.state.trim = 0.5;
+      both.in.estimate.roll = both.in.estimate.pitch = -lean / 2;
+      CHECK(both.run() ==
+            doctest::Approx(0.5 + 1 / std::max(std::cos(lean / 2) * std::cos(lean / 2), 0.5) - 1));
+    }
+  }
+
+  TEST_CASE("thrust is a tenth of that of hover at least, twice it at most") {
+    Altitude a;
+    a.in.estimate.climb = 10;
+    CHECK(a.run() == 0.1);
+    a.in.estimate.climb = -10;
+    CHECK(a.run() == 2);
+  }
+
+  TEST_CASE("to idle it takes a second and a half, and from full thrust to rest as long as it has thrust") {
+    Grounded g;
+    g.in.directive.state = FlightState::starting;
+    g.out.lift.thrust = 0;
+    CHECK(g.run() == doctest::Approx(0.5 * dt / 1.5));
+    CHECK(g.run(98) < 0.5);
+    CHECK(g.run(2) == 0.5);
+    g.in.directive.state = FlightState::ground;
+    CHECK(g.run() == doctest::Approx(0.5 - dt));
+    g.in.directive.state = FlightState::halt;
+    CHECK(g.run() == 0);
+  }
+
+  TEST_CASE("before it lifts off thrust grows by a quarter each second, to one and a half, and goes back to idle") {
+    Grounded g;
+    CHECK(g.run() == doctest::Approx(0.5 + 0.25 * dt));
+    CHECK(g.run(1000) == 1.5);
+    g.in.directive.altitude = 0.02;  // not above the ground
+    CHECK(g.run() == doctest::Approx(1.5 - 0.25 * dt));
+    CHECK(g.run(1000) == 0.5);
+    CHECK_FALSE(g.state.lifted);
+  }
+
+  TEST_CASE("it has left the ground at more than 2 cm") {
+    Grounded g;
+    g.in.estimate.altitude = 0.02;
+    g.run();
+    CHECK_FALSE(g.state.lifted);
+    g.in.estimate.altitude = 0.021;
+    g.run();
+    CHECK(g.state.lifted);
+  }
+
+  TEST_CASE("it is back on the ground below 2 cm and 5 cm/s where it is told to be there") {
+    struct Case {
+      double goal, altitude, climb;
+      bool lifted;
+    };
+    for (const Case& c : {Case{0.02, 0.019, 0.049, false}, Case{0.021, 0.019, 0.049, true},
+                          Case{0.02, 0.02, 0.049, true}, Case{0.02, 0.019, -0.051, true}}) {
+      Altitude a;
+      a.in.directive.altitude = c.goal;
+      a.in.estimate.altitude = c.altitude;
+      a.in.estimate.climb = c.climb;
+      a.run();
+      CHECK(a.state.lifted == c.lifted);
+    }
+  }
+
+  TEST_CASE("it comes down at half a metre a second, and below half a metre, or what it takes for it, at 20 cm/s") {
+    const auto demand_at = [](double altitude, bool known) {
+      Altitude a;
+      a.in.directive.state = FlightState::landing;
+      a.in.estimate.altitude = altitude;
+      a.in.estimate.altitude_known = known;
+      a.state.z = {.place = altitude};
+      a.run();
+      CHECK(a.state.z.speed == doctest::Approx(a.state.z.demand * dt));
+      return a.state.z.demand;
+    };
+    CHECK(demand_at(0.501, true) == doctest::Approx(3 * -0.5));
+    CHECK(demand_at(0.499, true) == doctest::Approx(3 * -0.2));
+    CHECK(demand_at(0.501, false) == doctest::Approx(3 * -0.2));
+  }
+
+  TEST_CASE("a landing brakes with 2 m/s^2 at most, and its goal is never more than 15 cm below") {
+    Altitude a;
+    a.in.directive.state = FlightState::landing;
+    a.state.z.speed = -5;
+    a.run();
+    CHECK(a.state.z.demand == 2);
+    CHECK(a.state.z.place == doctest::Approx(1 - (5 - 2 * dt) * dt));
+    a.run(3);
+    CHECK(a.state.z.place == 0.85);
+  }
+
+  TEST_CASE("blind, it sinks at 25 cm/s near what carried it, by 6 hundredths of it at most") {
+    Altitude a;
+    a.in.estimate.rates_known = false;
+    a.in.estimate.climb = -0.25;
+    CHECK(a.run() == doctest::Approx(1 - 0.03));
+    a.in.estimate.climb = -0.15;
+    CHECK(a.run() == doctest::Approx(1 - 0.03 - 0.15 * 0.1));
+    a.in.estimate.climb = 1;
+    CHECK(a.run() == doctest::Approx(1 - 0.03 - 0.06));
+    a.in.estimate.climb = -1;
+    CHECK(a.run() == doctest::Approx(1 - 0.03 + 0.06));
+  }
+}
+
+TEST_SUITE("tasks/javiator_control/mixer") {
+  TEST_CASE("thrust grows with the signal to the power of 1.415, up to a signal of 16000") {
+    Mixer m;
+    m.in.lift.thrust = 1.5;
+    for (const double signal : m.run()) CHECK(signal == doctest::Approx(8000 * std::pow(1.5, 1 / 1.415)));
+    Mixer full;
+    full.in.lift.thrust = 4;
+    for (const double signal : full.run()) CHECK(signal == 16000);
+    Mixer none;
+    none.in.lift.thrust = -0.1;
+    for (const double signal : none.run()) CHECK(signal == 0);
+  }
+
+  TEST_CASE("a battery is made up for from eight tenths to thirteen tenths of the signal; an unknown one is not") {
+    const auto signal_at = [](double battery) {
+      Mixer m;
+      m.in.estimate.battery = battery;
+      return m.run()[0];
+    };
+    CHECK(signal_at(15.887 / 1.29) == doctest::Approx(8000 * 1.29));
+    CHECK(signal_at(15.887 / 1.31) == doctest::Approx(8000 * 1.3));
+    CHECK(signal_at(15.887 / 0.81) == doctest::Approx(8000 * 0.81));
+    CHECK(signal_at(15.887 / 0.79) == doctest::Approx(8000 * 0.8));
+    CHECK(signal_at(0) == doctest::Approx(8000));
+  }
+
+  TEST_CASE("each demand of turning is shared by the rotors that give it") {
+    const auto thrusts = [](TurnDemand turn) {
+      Mixer m;
+      m.in.turn = turn;
+      std::array<double, 4> parts = m.run();
+      for (double& part : parts) part = std::pow(part / 8000, 1.415) - 1;
+      return parts;
+    };
+    const auto is = [](const std::array<double, 4>& parts, double front, double right, double rear, double left) {
+      CHECK(parts[0] == doctest::Approx(front));
+      CHECK(parts[1] == doctest::Approx(right));
+      CHECK(parts[2] == doctest::Approx(rear));
+      CHECK(parts[3] == doctest::Approx(left));
+    };
+    is(thrusts({.roll = 0.1}), 0, -0.1, 0, 0.1);
+    is(thrusts({.pitch = 0.1}), 0.1, 0, -0.1, 0);
+    is(thrusts({.yaw = 0.1}), -0.1, 0.1, -0.1, 0.1);
+  }
+
+  TEST_CASE("rotors of 50 ms follow as if they had 20 ms") {
+    Mixer m;
+    m.param = {};
+    m.in.lift.thrust = 0.5;
+    const double signal = m.run()[0], due = 8000 * std::pow(0.5, 1 / 1.415);
+    // what a rotor with a lag of 50 ms reaches with that signal, one with 20 ms reaches with what is due
+    CHECK(signal * (1 - std::exp(-dt / 0.05)) == doctest::Approx(due * (1 - std::exp(-dt / 0.02))));
+    CHECK(m.state.reached[0] == doctest::Approx(due * (1 - std::exp(-dt / 0.02))));
+  }
+
+  TEST_CASE("only in flight and while landing does it steer") {
+    for (const FlightState state : {FlightState::ground, FlightState::starting}) {
+      Mixer m;
+      m.in.directive.state = state;
+      m.in.turn = {0.1, 0.1, 0.1};
+      for (const double signal : m.run()) CHECK(signal == doctest::Approx(8000));
+    }
+  }
+}
