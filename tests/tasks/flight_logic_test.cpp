@@ -132,4 +132,68 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(starting.run(1) == FlightState::ground);
     CHECK(starting.out.directive.cause == LandingCause::sonar_lost);
   }
+
+  TEST_CASE("each limit makes it land when it is exceeded, to either side, and not before") {
+    struct Case {
+      double FlightEstimate::*value;
+      double inside, outside;
+      LandingCause cause;
+    };
+    const Case cases[] = {{&FlightEstimate::roll, 0.6, 0.601, LandingCause::roll},
+                          {&FlightEstimate::roll, -0.6, -0.601, LandingCause::roll},
+                          {&FlightEstimate::pitch, 0.6, 0.601, LandingCause::pitch},
+                          {&FlightEstimate::pitch, -0.6, -0.601, LandingCause::pitch},
+                          {&FlightEstimate::yaw, 4, 4.001, LandingCause::yaw},
+                          {&FlightEstimate::yaw, -4, -4.001, LandingCause::yaw},
+                          {&FlightEstimate::altitude, 2.8, 2.801, LandingCause::altitude},
+                          {&FlightEstimate::battery, 13.4, 13.399, LandingCause::battery_low}};
+    for (const Case& c : cases) {
+      CAPTURE(c.outside);
+      Logic logic;
+      logic.fly();
+      logic.in.estimate.*c.value = c.inside;
+      CHECK(logic.run(10) == FlightState::flying);
+      logic.in.estimate.*c.value = c.outside;
+      CHECK(logic.run(1) == FlightState::landing);
+      CHECK(logic.out.directive.cause == c.cause);
+    }
+  }
+
+  TEST_CASE("it has landed after a second, below half a metre and 8 cm/s, or with less than 0.6 of its weight") {
+    struct Case {
+      double altitude, climb, thrust;
+      bool landed;
+    };
+    for (const Case& c : {Case{0.499, 0, 1, true}, Case{0.501, 0, 1, false}, Case{0.4, 0.079, 1, true},
+                          Case{0.4, 0.081, 1, false}, Case{0.4, -0.079, 1, true}, Case{0.4, -0.081, 1, false},
+                          Case{1, -1, 0.599, true}, Case{1, -1, 0.601, false}}) {
+      CAPTURE(c.altitude);
+      CAPTURE(c.climb);
+      CAPTURE(c.thrust);
+      Logic logic;
+      logic.fly();
+      logic.press();
+      logic.in.estimate.altitude = c.altitude;
+      logic.in.estimate.climb = c.climb;
+      logic.in.lift.thrust = c.thrust;
+      CHECK(logic.run(65) == FlightState::landing);  // 0.99 s
+      CHECK((logic.run(2) == FlightState::ground) == c.landed);
+      CHECK((logic.run(1000) == FlightState::ground) == c.landed);
+    }
+  }
+
+  TEST_CASE("it has landed when it is still for 0.3 s on end") {
+    Logic logic;
+    logic.fly();
+    logic.press();
+    logic.run(100);
+    logic.in.estimate.altitude = 0.1;
+    CHECK(logic.run(19) == FlightState::landing);
+    logic.in.estimate.climb = -0.1;
+    CHECK(logic.run(1) == FlightState::landing);
+    logic.in.estimate.climb = 0;
+    // the sum of twenty periods may lie a rounding above 0.3
+    CHECK(logic.run(19) == FlightState::landing);
+    CHECK(logic.run(2) == FlightState::ground);
+  }
 }

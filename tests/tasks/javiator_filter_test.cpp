@@ -1,52 +1,13 @@
-#include "tasks/javiator_filter.h"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 
+#include "tests/tasks/heard_helicopter.h"
+
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
-using namespace std::chrono_literals;
-
-// A filter with what it hears: level and at rest at an altitude, 15 ms a period, every sensor new each period.
-struct Heard {
-  JaviatorFilter::Param param{.imu_repeats = 0, .repeats = 0};
-  JaviatorFilter::State state{};
-  JaviatorFilter::Out out{};
-  JaviatorSensors sensors{.a_z = -9.81,
-                          .sonar = 0.145,
-                          .laser_x = 8.07,
-                          .laser_y = 8.077,
-                          .pressure = 101325,
-                          .battery = 15,
-                          .new_imu = true,
-                          .new_bmu = true,
-                          .new_sonar = true,
-                          .new_x = true,
-                          .new_y = true};
-  FlightDirective directive{.state = FlightState::ground};
-
-  const FlightEstimate& run(int periods) {
-    for (int i = 0; i < periods; ++i) {
-      ++sensors.answers;
-      JaviatorFilter::run(param, {.period = 15ms}, {sensors, directive}, state, out);
-    }
-    return out.estimate;
-  }
-
-  // Takes off, and is lifted slowly to an altitude, as all sensors tell.
-  void lift_to(double altitude) {
-    run(100);
-    directive.state = FlightState::flying;
-    for (int i = 1; i <= 200; ++i) {
-      sensors.sonar = 0.145 + altitude * i / 200;
-      sensors.pressure = 101325 - 12 * altitude * i / 200;
-      run(1);
-    }
-    run(300);
-  }
-};
+using Heard = tests::HeardHelicopter;
 }  // namespace
 
 TEST_SUITE("tasks/javiator_filter") {

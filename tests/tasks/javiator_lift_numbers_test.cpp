@@ -122,8 +122,7 @@ TEST_SUITE("tasks/javiator_control/lift") {
       Altitude both;
       both.state.trim = 0.5;
       both.in.estimate.roll = both.in.estimate.pitch = -lean / 2;
-      CHECK(both.run() ==
-            doctest::Approx(0.5 + 1 / std::max(std::cos(lean / 2) * std::cos(lean / 2), 0.5) - 1));
+      CHECK(both.run() == doctest::Approx(0.5 + 1 / std::max(std::cos(lean / 2) * std::cos(lean / 2), 0.5) - 1));
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace {
@@ -77,5 +78,66 @@ TEST_SUITE("tasks/lauv_navigation") {
     CHECK(out.motion.x == doctest::Approx(11));
     LauvNavigation::run({}, every_50_ms, {i}, state, out);
     CHECK(out.motion.x == doctest::Approx(11));
+  }
+
+  TEST_CASE("each instrument is followed over its own time") {
+    LauvNavigation::State state;
+    LauvNavigation::Out out;
+    Instruments i = turning(0);
+    i.rates = {};
+    i.velocity = {};
+    LauvNavigation::run({}, every_50_ms, {i}, state, out);
+    i.depth.value += 0.1;
+    i.attitude.x = 0.01;
+    i.attitude.y = -0.01;
+    i.heading.value = 0.01;
+    i.velocity = {0.1, 0.2, 0.3, 2};
+    LauvNavigation::run({}, every_50_ms, {i}, state, out);
+    CHECK(out.motion.z == doctest::Approx(5 + 0.1 * 0.05 / 0.7));
+    CHECK(out.motion.phi == doctest::Approx(0.01 * 0.05 / 0.5));
+    CHECK(out.motion.theta == doctest::Approx(-0.01 * 0.05 / 0.5));
+    CHECK(out.motion.psi == doctest::Approx(0.01 * 0.05 / 0.5));
+    CHECK(out.motion.u == doctest::Approx(0.1 * 0.05 / 0.2));
+    CHECK(out.motion.v == doctest::Approx(0.2 * 0.05 / 0.2));
+    CHECK(out.motion.w == doctest::Approx(0.3 * 0.05 / 0.2));
+  }
+
+  TEST_CASE("in any attitude it moves and turns as rotations have it") {
+    LauvNavigation::Param rates_only;
+    rates_only.angle_time = rates_only.depth_time = rates_only.speed_time = 1e9;
+    const Tick every_us{.period = std::chrono::microseconds(1)};
+    const double dt = 1e-6;
+    for (const double phi : {-0.9, 0.0, 0.7}) {
+      for (const double theta : {-0.5, 0.0, 0.8}) {
+        for (const double psi : {-2.5, 0.0, 1.2}) {
+          const Eigen::Vector3d v_b(1, -0.6, 0.4), omega_b(0.2, -0.3, 0.5);
+          LauvNavigation::State state{.started = true};
+          Motion& m = state.motion;
+          m.phi = phi;
+          m.theta = theta;
+          m.psi = psi;
+          m.u = v_b.x();
+          m.v = v_b.y();
+          m.w = v_b.z();
+          m.p = omega_b.x();
+          m.q = omega_b.y();
+          m.r = omega_b.z();
+          // R_nb from roll, pitch and yaw (Fossen 2011, 2.18)
+          const auto rotation = [&] {
+            return (Eigen::AngleAxisd(m.psi, Eigen::Vector3d::UnitZ()) *
+                    Eigen::AngleAxisd(m.theta, Eigen::Vector3d::UnitY()) *
+                    Eigen::AngleAxisd(m.phi, Eigen::Vector3d::UnitX()))
+                .toRotationMatrix();
+          };
+          const Eigen::Matrix3d before = rotation();
+          LauvNavigation::Out out;
+          LauvNavigation::run(rates_only, every_us, {}, state, out);
+          const Eigen::Vector3d moved(out.motion.x, out.motion.y, out.motion.z);
+          CHECK((moved / dt - before * v_b).norm() < 1e-6);
+          const Eigen::AngleAxisd turned(before.transpose() * rotation());
+          CHECK((turned.axis() * turned.angle() / dt - omega_b).norm() < 1e-5);
+        }
+      }
+    }
   }
 }

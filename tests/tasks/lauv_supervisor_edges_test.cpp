@@ -1,6 +1,7 @@
 // Each limit and time-out of the supervisor, just below and just above, and what it does then.
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -145,6 +146,28 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
       const int steps = steps_to_alarm([&](LauvSupervisor::In& in) { c.set(in.instruments, c.above); }, c.alarm);
       CHECK(steps >= c.steps);
       CHECK(steps <= c.steps + 1);
+    }
+  }
+
+  TEST_CASE("gravity in a rolled and pitched hull is what its accelerometers have to feel") {
+    for (const double phi : {-0.5, 0.5}) {
+      for (const double theta : {-0.4, 0.4}) {
+        const Eigen::Matrix3d R_nb =
+            (Eigen::AngleAxisd(theta, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(phi, Eigen::Vector3d::UnitX()))
+                .toRotationMatrix();
+        const Eigen::Vector3d felt_b = R_nb.transpose() * Eigen::Vector3d(0, 0, -9.81);
+        const auto lies = [&](double error) {
+          Watched w;
+          return w.run(60, [&](LauvSupervisor::In& in) {
+            in.instruments.attitude = {phi, theta, 0, in.instruments.attitude.count};
+            in.instruments.forces = {felt_b.x(), felt_b.y() + error, felt_b.z(), in.instruments.forces.count};
+            in.instruments.altitude.value = 4;  // low: the lean makes little of it
+          });
+        };
+        CHECK(lies(0) == Alarm::none);
+        CHECK(lies(2.49) == Alarm::none);
+        CHECK(lies(-2.51) == Alarm::forces);
+      }
     }
   }
 

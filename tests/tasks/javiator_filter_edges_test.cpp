@@ -1,0 +1,180 @@
+// The numbers of the helicopter's filter: each gain, limit and time, at its edge.
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "tests/tasks/heard_helicopter.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::tasks;
+using jarol::tests::HeardHelicopter;
+
+constexpr double dt = 0.015;
+
+HeardHelicopter hovering() {
+  HeardHelicopter heard;
+  heard.lift_to(1);
+  return heard;
+}
+}  // namespace
+
+TEST_SUITE("tasks/javiator_filter/edges") {
+  TEST_CASE("a range is credible up to 30 cm from where it should be") {
+    for (const double side : {-1.0, 1.0}) {
+      HeardHelicopter near = hovering();
+      near.sensors.sonar += 0.299 * side;
+      CHECK(std::abs(near.run(1).altitude - 1) > 0.01);
+      CHECK(near.state.sonar.silent == 0);
+      HeardHelicopter far = hovering();
+      far.sensors.sonar += 0.301 * side;
+      CHECK(far.run(1).altitude == doctest::Approx(1).epsilon(1e-3));
+      CHECK(far.state.sonar.silent == doctest::Approx(dt));
+    }
+  }
+
+  TEST_CASE("errors of place, speed and bias die out with three poles of 6 rad/s") {
+    const HeardHelicopter before = hovering();
+    const auto next = [&](const Eigen::Vector3d& error) {
+      HeardHelicopter heard = before;
+      heard.state.x.place += error.x();
+      heard.state.x.speed += error.y();
+      heard.state.x.bias += error.z();
+      heard.run(1);
+      return Eigen::Vector3d(heard.state.x.place, heard.state.x.speed, heard.state.x.bias);
+    };
+    // what a step makes of each error alone; (lambda - pole)^3 is its characteristic polynomial
+    Eigen::Matrix3d step;
+    for (int i = 0; i < 3; ++i) step.col(i) = (next(0.01 * Eigen::Vector3d::Unit(i)) - next({0, 0, 0})) / 0.01;
+    const double pole = std::exp(-6 * dt), trace = step.trace();
+    CHECK(trace == doctest::Approx(3 * pole));
+    CHECK((trace * trace - (step * step).trace()) / 2 == doctest::Approx(3 * pole * pole));
+    CHECK(step.determinant() == doctest::Approx(pole * pole * pole));
+  }
+
+  TEST_CASE("roll and pitch are believed up to 0.1 rad from where the rates turned them, and half of it is taken") {
+    for (double JaviatorSensors::*angle : {&JaviatorSensors::roll, &JaviatorSensors::pitch}) {
+      for (const double side : {-1.0, 1.0}) {
+        HeardHelicopter near = hovering();
+        near.sensors.*angle = 0.099 * side;
+        near.run(1);
+        CHECK(near.state.roll + near.state.pitch == doctest::Approx(0.0495 * side));
+        CHECK(near.run(10).attitude_known);
+        HeardHelicopter far = hovering();
+        far.sensors.*angle = 0.101 * side;
+        CHECK(far.run(2).attitude_known);
+        CHECK_FALSE(far.run(1).attitude_known);  // 45 ms
+        CHECK(far.state.roll == doctest::Approx(0));
+        CHECK(far.state.pitch == doctest::Approx(0));
+      }
+    }
+  }
+
+  TEST_CASE("half of a yaw that is measured is taken, however far it is") {
+    HeardHelicopter heard = hovering();
+    heard.sensors.yaw = 0.4;
+    CHECK(heard.run(1).yaw == doctest::Approx(0.2));
+  }
+
+  TEST_CASE("a pressure that jumps by more than 15 Pa from one reading to the next is lost, to either side") {
+    for (const double side : {-1.0, 1.0}) {
+      HeardHelicopter heard = hovering();
+      heard.sensors.pressure += 14.9 * side;
+      CHECK(heard.run(1).pressure_known);
+      heard.sensors.pressure -= 15.1 * side;
+      CHECK_FALSE(heard.run(1).pressure_known);
+    }
+  }
+
+  TEST_CASE("a sonar is lost where pressure differs by more than 60 cm, averaged over twenty readings") {
+    for (const double side : {-1.0, 1.0}) {
+      HeardHelicopter heard = hovering();
+      heard.sensors.pressure -= 12 * side;  // a metre: 1 - 0.95^n is 0.582 after 17 readings, 0.603 after 18
+      CHECK(heard.run(17).altitude_known);
+      CHECK_FALSE(heard.run(1).altitude_known);
+      HeardHelicopter less = hovering();
+      less.sensors.pressure -= 0.59 * 12 * side;
+      CHECK(less.run(1000).altitude_known);
+      HeardHelicopter more = hovering();
+      more.sensors.pressure -= 0.61 * 12 * side;
+      CHECK_FALSE(more.run(1000).altitude_known);
+    }
+  }
+
+  TEST_CASE("without a sonar a tenth of what pressure differs by is taken, as place and as speed") {
+    HeardHelicopter heard = hovering();
+    heard.state.sonar.lost = true;
+    const AxisObserver before = heard.state.z;
+    heard.sensors.pressure -= 1.2;  // ten centimetres
+    heard.run(1);
+    const double residual = 1.1 - before.place - before.speed * dt;
+    CHECK(heard.state.z.place - before.place == doctest::Approx(0.1 * residual).epsilon(0.01));
+    CHECK(heard.state.z.speed - before.speed == doctest::Approx(0.1 * residual).epsilon(0.01));
+  }
+
+  TEST_CASE("each sensor has 0.3 s of patience, the IMU 40 ms") {
+    struct Case {
+      bool JaviatorSensors::*is_new;
+      bool FlightEstimate::*known;
+      int periods;
+    };
+    const Case cases[] = {{&JaviatorSensors::new_x, &FlightEstimate::position_known, 20},
+                          {&JaviatorSensors::new_y, &FlightEstimate::position_known, 20},
+                          {&JaviatorSensors::new_sonar, &FlightEstimate::altitude_known, 20},
+                          {&JaviatorSensors::new_bmu, &FlightEstimate::pressure_known, 20},
+                          {&JaviatorSensors::new_imu, &FlightEstimate::rates_known, 2}};
+    for (const Case& c : cases) {
+      HeardHelicopter heard = hovering();
+      heard.sensors.*c.is_new = false;
+      // the sum of twenty periods may lie a rounding above 0.3
+      CHECK(heard.run(c.periods - 1).*c.known);
+      CHECK_FALSE(heard.run(2).*c.known);
+    }
+  }
+
+  TEST_CASE("an IMU that repeats all its readings a fourth time is stuck, another sensor that does so a fortieth") {
+    HeardHelicopter heard = hovering();
+    heard.param.imu_repeats = 3;
+    heard.param.repeats = 40;
+    heard.sensors.p = 1e-6;
+    CHECK(heard.run(3).rates_known);
+    CHECK(heard.state.imu.silent == 0);
+    heard.run(1);
+    CHECK(heard.state.imu.silent == doctest::Approx(dt));
+  }
+
+  TEST_CASE("attitude is turned on by the rates for 20 ms") {
+    HeardHelicopter heard = hovering();
+    heard.param.angle_gain = 0;
+    heard.sensors.p = 0.5;
+    heard.sensors.q = -0.25;
+    heard.sensors.r = 0.125;
+    const FlightEstimate& e = heard.run(1);
+    CHECK(e.roll == doctest::Approx(0.5 * (dt + 0.02)));
+    CHECK(e.pitch == doctest::Approx(-0.25 * (dt + 0.02)));
+    CHECK(e.yaw == doctest::Approx(0.125 * (dt + 0.02)));
+  }
+
+  TEST_CASE("the battery is averaged over a second") {
+    HeardHelicopter heard = hovering();
+    heard.sensors.battery = 14;
+    CHECK(heard.run(1).battery == doctest::Approx(15 - dt));
+  }
+
+  TEST_CASE("before the first flight a tenth of what is measured is taken for zero, after it for the place") {
+    HeardHelicopter heard;
+    heard.run(100);
+    heard.sensors.sonar += 0.01;
+    heard.sensors.a_z += 0.5;
+    heard.run(1);
+    CHECK(heard.state.zero_z == doctest::Approx(0.055 + 0.145 + 0.001));
+    CHECK(heard.state.z.bias == doctest::Approx(-0.02 * 0.5));
+    CHECK(heard.out.estimate.altitude == 0);
+    HeardHelicopter landed = hovering();
+    landed.directive.state = FlightState::ground;
+    landed.sensors.sonar = 0.145;
+    const double before = landed.state.z.place;
+    CHECK(landed.run(1).altitude == doctest::Approx(0.9 * before).epsilon(1e-4));
+  }
+}
