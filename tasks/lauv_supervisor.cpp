@@ -44,23 +44,24 @@ double calc_force(const Param& p, double rpm, double speed) {
 }
 
 Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
-  const double theta = i.attitude.y, phi = i.attitude.x;
+  const double theta = i.attitude.y, phi = i.attitude.x, c_theta = std::max(std::cos(theta), 0.1);
+  const double floor = i.altitude.value * c_theta * std::cos(phi) + i.depth.value;
   if (!state.started) {
     if (std::find(state.counts.begin(), state.counts.end(), 0) != state.counts.end()) return Alarm::none;
     state.started = true;
     state.theta = theta;
     state.psi = i.attitude.z;
     state.speed = i.velocity.x;
-    state.floor = i.altitude.value + i.depth.value;
+    state.floor = floor;
   }
-  const double c_theta = std::max(std::cos(theta), 0.1), part = std::min(dt / watch_time, 1.0);
+  const double part = std::min(dt / watch_time, 1.0);
   state.theta += dt * (i.rates.y * std::cos(phi) - i.rates.z * std::sin(phi));
   state.psi += dt * (i.rates.y * std::sin(phi) + i.rates.z * std::cos(phi)) / c_theta;
   const double theta_error = theta - state.theta, psi_error = wrapped(i.attitude.z - state.psi);
   state.theta += part * theta_error;
   state.psi += part * psi_error;
   state.speed += dt * calc_force(p, i.rpm.value, state.speed) / p.surge_mass;
-  const double floor_error = i.altitude.value * c_theta * std::cos(phi) + i.depth.value - state.floor;
+  const double floor_error = floor - state.floor;
   state.floor += std::min(dt / floor_time, 1.0) * floor_error;
 
   const double depth = (i.pressure.value - air_pressure) * 100 / (water_density * gravity);

@@ -11,16 +11,16 @@ struct HeardHelicopter {
   tasks::JaviatorFilter::State state{};
   tasks::JaviatorFilter::Out out{};
   tasks::JaviatorSensors sensors{.a_z = -9.81,
-                          .sonar = 0.145,
-                          .laser_x = 8.07,
-                          .laser_y = 8.077,
-                          .pressure = 101325,
-                          .battery = 15,
-                          .new_imu = true,
-                          .new_bmu = true,
-                          .new_sonar = true,
-                          .new_x = true,
-                          .new_y = true};
+                                 .sonar = 0.145,
+                                 .laser_x = 8.07,
+                                 .laser_y = 8.077,
+                                 .pressure = 101325,
+                                 .battery = 15,
+                                 .new_imu = true,
+                                 .new_bmu = true,
+                                 .new_sonar = true,
+                                 .new_x = true,
+                                 .new_y = true};
   tasks::FlightDirective directive{.state = tasks::FlightState::ground};
 
   const tasks::FlightEstimate& run(int periods) {

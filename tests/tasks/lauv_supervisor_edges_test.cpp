@@ -161,7 +161,7 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
           return w.run(60, [&](LauvSupervisor::In& in) {
             in.instruments.attitude = {phi, theta, 0, in.instruments.attitude.count};
             in.instruments.forces = {felt_b.x(), felt_b.y() + error, felt_b.z(), in.instruments.forces.count};
-            in.instruments.altitude.value = 4;  // low: the lean makes little of it
+            in.instruments.altitude.value = 45 / (std::cos(phi) * std::cos(theta));  // along the hull's own down
           });
         };
         CHECK(lies(0) == Alarm::none);
