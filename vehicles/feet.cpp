@@ -1,16 +1,15 @@
 #include "vehicles/feet.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace jarol::vehicles {
 namespace {
 
-// N = k d (1 + c d_dot) at depth d, never pulling
+// N = k d (1 + c d_dot) at depth d; below zero the ground would have to pull
 double push(const Feet& feet, const FootMotion& foot) {
   const double depth = foot.p_n[2];
   if (depth <= 0.0) return 0.0;
-  return std::max(feet.stiffness * depth * (1.0 + feet.dissipation * foot.v_n[2]), 0.0);
+  return feet.stiffness * depth * (1.0 + feet.dissipation * foot.v_n[2]);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ HelicopterBody make_body(const HelicopterParameters& parameters) {
   body.feet.dissipation = feet.dissipation;
   body.feet.friction = feet.friction;
   body.feet.grip_stiffness = feet.stiffness;
-  // critical for the whole mass on four feet
+  // half of what is critical for the whole mass on four feet
   body.feet.grip_damping = 0.5 * std::sqrt(feet.stiffness * frame.mass);
   return body;
 }

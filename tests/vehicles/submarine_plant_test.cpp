@@ -15,12 +15,14 @@ using namespace jarol::vehicles;
 
 constexpr double angle = std::numbers::pi / 180;
 
-PlantState deep(double surge) {
+PlantState at(double depth, double surge) {
   PlantState start;
-  start.eta[2] = 20;
+  start.eta[2] = depth;
   start.nu[0] = surge;
   return start;
 }
+
+PlantState deep(double surge) { return at(20, surge); }
 
 // Propeller and fins of a smooth minute: a dive, a turn to either side, more and less thrust.
 SubmarineInput minute(double time) {
@@ -45,7 +47,9 @@ double kinetic_energy(const SubmarineBody& body, const PlantState& state) {
 TEST_SUITE("vehicles/submarine_plant") {
   TEST_CASE("after a minute of dives and turns it stands within a millionth of the way where the oracle stands") {
     SubmarineParameters parameters;
+    double depth = 20;
     SUBCASE("in still water") {}
+    SUBCASE("at the surface") { depth = 0.05; }
     SUBCASE("in a current, in waves, in salt water, with a propeller that loses thrust ahead") {
       parameters.sea.current_north = 0.3;
       parameters.sea.current_east = -0.2;
@@ -58,10 +62,11 @@ TEST_SUITE("vehicles/submarine_plant") {
       parameters.thruster.advance_coefficient = 0.01;
     }
     const SeaParameters& sea = parameters.sea;
-    SubmarinePlant plant(make_body(parameters), Waves(sea.wave_height, sea.wave_period, sea.wave_direction), deep(1.0));
-    jarol::test::SubmarineOracle oracle(parameters, 20, 1.0);
+    SubmarinePlant plant(make_body(parameters), Waves(sea.wave_height, sea.wave_period, sea.wave_direction),
+                         at(depth, 1.0));
+    jarol::test::SubmarineOracle oracle(parameters, depth, 1.0);
     double way = 0, worst = 0;
-    Eigen::Vector3d last(0, 0, 20);
+    Eigen::Vector3d last(0, 0, depth);
     for (int i = 0; i < 6000; ++i) {
       const SubmarineInput input = minute(0.01 * i);
       plant.step(input);

@@ -72,6 +72,18 @@ TEST_SUITE("vehicles/submarine_sensors") {
     CHECK(calc_sound_speed(15, 35, 0) == doctest::Approx(1506.7).epsilon(1e-3));
   }
 
+  TEST_CASE("sound is as fast as Mackenzie says, too") {
+    // "Nine-term equation for sound speed in the oceans", 1981: within the 0.5 m/s that the simple one is good for
+    const auto mackenzie = [](double t, double S, double D) {
+      return 1448.96 + 4.591 * t - 5.304e-2 * t * t + 2.374e-4 * t * t * t + 1.340 * (S - 35) + 1.630e-2 * D +
+             1.675e-7 * D * D - 1.025e-2 * t * (S - 35) - 7.139e-13 * t * D * D * D;
+    };
+    for (const double t : {2.0, 10.0, 20.0, 30.0})
+      for (const double S : {30.0, 35.0, 40.0})
+        for (const double D : {0.0, 100.0, 500.0, 1000.0})
+          CHECK(std::abs(calc_sound_speed(t, S, D) - mackenzie(t, S, D)) < 0.6);
+  }
+
   TEST_CASE("each speaks at its rate, GPS only where the antenna is out of the water") {
     Submarine afloat({}), dived = deep();
     Told from_afloat, from_dived;
