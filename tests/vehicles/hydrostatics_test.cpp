@@ -56,11 +56,11 @@ TEST_SUITE("vehicles/hydrostatics") {
           CAPTURE(z);
           CAPTURE(pitch);
           CAPTURE(roll);
-          const Vector3d down_b = (Eigen::AngleAxisd(pitch, Vector3d::UnitY()) *
-                                   Eigen::AngleAxisd(roll, Vector3d::UnitX()))
-                                      .toRotationMatrix()
-                                      .transpose() *
-                                  Vector3d::UnitZ();
+          const Vector3d down_b =
+              (Eigen::AngleAxisd(pitch, Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Vector3d::UnitX()))
+                  .toRotationMatrix()
+                  .transpose() *
+              Vector3d::UnitZ();
           const Immersion at{z, {down_b.x(), down_b.y(), down_b.z()}};
           const Immersed immersed = calc_immersed(hull, at);
           const Cells cells = count_cells(hull, z, down_b);

@@ -113,6 +113,18 @@ TEST_SUITE("distributers/links/seal") {
     CHECK(opened(other, packet) == "packet");
   }
 
+  TEST_CASE("a packet is authentic as a whole, with or without more behind it, and no part of it is") {
+    Seal one(key_of(1), "imc");
+    const Seal other(key_of(1), "imc");
+    Bytes bytes = sealed(one, "packet");
+    // what is beyond the part would make it whole: whoever reads it is found out
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+      REQUIRE_FALSE(other.is_authentic(std::span(bytes).first(size)));
+    CHECK(other.is_authentic(bytes));
+    bytes.push_back(std::byte{1});
+    CHECK(other.is_authentic(bytes));
+  }
+
   TEST_CASE("what was recorded counts no more after either end was started anew") {
     const SecretKey key = key_of(1);
     auto one = std::make_unique<Seal>(key, "imc"), other = std::make_unique<Seal>(key, "imc");
