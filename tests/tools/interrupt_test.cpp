@@ -12,8 +12,9 @@ namespace {
 using command::jarol;
 using command::TemporaryFolder;
 
-// Waits, in a shell, until process $id takes the signals HUP, INT and TERM.
-const std::string until_taken = "until grep -Eq '^SigCgt:.*[4-7c-f]..[37bf]$' /proc/$id/status; do sleep 0.01; done; ";
+// Waits, in a shell, until process $id takes the signals HUP, INT and TERM, or is gone.
+const std::string until_taken =
+    "until grep -Eq '^SigCgt:.*[4-7c-f]..[37bf]$|^State:.Z' /proc/$id/status; do sleep 0.01; done; ";
 
 std::string content(const std::string& path) {
   std::ifstream file(path);
@@ -53,6 +54,7 @@ TEST_SUITE("tools/interrupt") {
   }
 
   TEST_CASE("a run whose task never ends ends within a second of the first signal, and names it") {
+    const command::DefaultSignals taken;
     const TemporaryFolder folder;
     std::filesystem::copy_file(JAROL_PLUGIN_FOLDER "/endless.so", folder / "endless.so",
                                std::filesystem::copy_options::overwrite_existing);
