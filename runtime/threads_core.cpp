@@ -9,6 +9,8 @@
 
 #include "graph/floating_point.h"
 #include "runtime/copy.h"
+#include "runtime/expectations.h"
+#include "runtime/publish.h"
 #include "runtime/real_clock.h"
 #include "runtime/running_task.h"
 #include "runtime/signal_stack.h"
@@ -16,13 +18,24 @@
 
 namespace jarol {
 
-ThreadsCore::ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels)
-    : graph_(graph), plan_(graph), channels_(std::move(channels)), period_(choose_period()), safe_commands_(graph) {
+ThreadsCore::ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, Recorder* recorder)
+    : graph_(graph),
+      plan_(graph),
+      channels_(std::move(channels)),
+      period_(choose_period()),
+      recorder_(recorder),
+      safe_commands_(graph) {
   for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::mutex>());
   last_.resize(graph.communicators.size());
   threads_report_.execution.resize(graph.tasks.size());
   report_.left_out.resize(graph.tasks.size());
   gather();
+  if (recorder_ == nullptr) return;
+  recorder_->expect(plan_.outputs);
+  recorder_->never_wait();
+  for (const std::size_t distributer : watched_vehicles(graph))
+    if (const Type* type = channels_[distributer]->true_type())
+      watched_.push_back(std::make_unique<Watched>(distributer, *type));
 }
 
 bool ThreadsCore::on_vehicle(std::size_t communicator) const {
@@ -161,7 +174,9 @@ Finish ThreadsCore::finish(std::optional<Futex::Time> patience) {
   }
   report_.non_finite_inputs = refused_inputs_;
   for (const auto& channels : channels_) report_.non_finite_inputs += channels->non_finite_inputs();
-  report_.simulated = report_.covered = now();
+  report_.simulated = now();
+  // the instant at which a run is broken off was run
+  report_.covered = now() + Duration(reached_end_ || threads_report_.rounds == 0 ? 0 : 1);
   return {};
 }
 
@@ -222,6 +237,7 @@ void ThreadsCore::run_sensor(Duration end) {
     next = round + 1;
     if (round == rounds) {
       now_.store(end.count(), std::memory_order_relaxed);
+      reached_end_ = true;
       stopped_.store(true, std::memory_order_release);
       return;
     }
@@ -243,6 +259,11 @@ void ThreadsCore::sense(bool terminal, std::int64_t round) {
     const std::lock_guard lock(*channel_mutexes_[i]);
     if (closed_.load(std::memory_order_relaxed)) return;
     channels_[i]->reach(now);
+    for (const auto& vehicle : watched_) {
+      if (vehicle->distributer != i) continue;
+      channels_[i]->copy_true_values(vehicle->outside.data());
+      vehicle->port.write(vehicle->outside.data());
+    }
     for (Carried& in : ins_) {
       const Communicator& c = graph_.communicators[in.communicator];
       if (c.distributer != i || !in.outside.due(round) || !channels_[i]->take(c.channel, in.room.data())) continue;
@@ -279,10 +300,11 @@ void ThreadsCore::run_round(std::int64_t round) {
   const std::int64_t instant = round * period_.count();
   const std::uint64_t instant_term = digest::instant_term(instant);
   ++report_.instants;
+  if (!watched_.empty()) record_true_values(instant);
   for (Carried& in : ins_) {
     if (!in.core.due(round)) continue;
     while (in.port->read(in.action->value)) safe_commands_.took(in.communicator, Duration(instant));
-    publish(in.action->publish, instant_term);
+    publish(in.action->publish, instant, instant_term);
   }
   for (Counted& task : tasks_)
     if (task.cadence.due(round)) run_task(task, instant, instant_term);
@@ -291,7 +313,7 @@ void ThreadsCore::run_round(std::int64_t round) {
     const void* const safe = safe_commands_.in_place_of_input(out.communicator, Duration(instant));
     copy_value(*graph_.communicators[out.communicator].type, out.action->value,
                safe != nullptr ? safe : out.action->input);
-    publish(out.action->publish, instant_term);
+    publish(out.action->publish, instant, instant_term);
     out.port->write(out.action->value);
   }
 }
@@ -310,15 +332,22 @@ void ThreadsCore::run_task(Counted& task, std::int64_t instant, std::uint64_t in
   threads_report_.execution[task.activation->task].add(RealClock::monotonic() - begin);
   ++report_.activations;
   if (outcome == Outcome::good)
-    publish(*task.publish, instant_term);
+    publish(*task.publish, instant, instant_term);
   else
     on_fault(task, outcome, instant);
 }
 
-void ThreadsCore::publish(const Publish& what, std::uint64_t instant_term) {
-  for (const Copy& c : what.copies) transfer(c);
-  for (const Publication& p : what.publications)
-    report_.digest += digest::publication(p.name_hash, instant_term, p.hash_words(p.value));
+void ThreadsCore::publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term) {
+  report_.digest += make_visible<true>(what, instant_term);
+  if (recorder_ != nullptr) record(*recorder_, what, instant);
+}
+
+void ThreadsCore::record_true_values(std::int64_t instant) {
+  for (const auto& vehicle : watched_) {
+    const auto output = static_cast<std::uint32_t>(plan_.outputs.size() + vehicle->distributer);
+    if (vehicle->port.read(vehicle->core.data()))
+      record(*recorder_, output, *vehicle->core.type(), vehicle->core.data(), instant);
+  }
 }
 
 void ThreadsCore::on_fault(const Counted& task, Outcome outcome, std::int64_t instant) {

@@ -20,6 +20,7 @@
 #include "runtime/histogram.h"
 #include "runtime/plan.h"
 #include "runtime/push_port.h"
+#include "runtime/recorder.h"
 #include "runtime/safe_commands.h"
 #include "runtime/signal.h"
 #include "runtime/time_trigger.h"
@@ -40,8 +41,9 @@ class ThreadsCore {
  public:
   /// One Channels per distributer of the graph, in its order. The graph outlives the core. Throws
   /// std::invalid_argument for a graph whose periods can't be counted in those of the sensor thread, or with deep
-  /// values between threads.
-  ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels);
+  /// values between threads. `recorder`: gets what is published, and true values for the conditions of the graph; or
+  /// null.
+  ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, Recorder* recorder = nullptr);
   ~ThreadsCore();
 
   /// Covers the instants before `end`, unless a fault stops it or it is interrupted; once. `prepare` is called in each
@@ -94,6 +96,13 @@ class ThreadsCore {
     std::unique_ptr<PushBytesPort> port;
     std::vector<std::byte> room;  // of the thread that serves it
   };
+  // A vehicle whose true values are recorded, from the thread that serves it to the core's.
+  struct Watched {
+    Watched(std::size_t of, const Type& type) : distributer(of), port(1, type.size), outside(type), core(type) {}
+    std::size_t distributer;
+    PushBytesPort port;
+    Value outside, core;  // of these threads
+  };
   struct Counted {
     const Activation* activation = nullptr;
     const Publish* publish = nullptr;
@@ -129,7 +138,8 @@ class ThreadsCore {
   void act(bool terminal);
   void run_round(std::int64_t round);
   void run_task(Counted& task, std::int64_t instant, std::uint64_t instant_term);
-  void publish(const Publish& what, std::uint64_t instant_term);
+  void publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term);
+  void record_true_values(std::int64_t instant);
   void on_fault(const Counted& task, Outcome outcome, std::int64_t instant);
 
   const Graph& graph_;
@@ -137,6 +147,8 @@ class ThreadsCore {
   std::vector<std::unique_ptr<Channels>> channels_;
   std::vector<std::unique_ptr<std::mutex>> channel_mutexes_;  // sensor and actuator thread share a vehicle's
   Duration period_{};
+  Recorder* recorder_;  // of the core thread; null: nobody looks on
+  std::vector<std::unique_ptr<Watched>> watched_;
   std::vector<Carried> ins_, outs_;
   std::vector<Counted> tasks_;  // data-flow order
   std::vector<const std::byte*> last_;
@@ -152,6 +164,7 @@ class ThreadsCore {
   std::atomic<bool> interrupted_{false};
   std::atomic<bool> stopped_{false};  // at the end, by a fault or a failure
   std::atomic<bool> closed_{false};
+  bool reached_end_ = false;  // of the sensor thread
   // what the core thread runs; for others who ask why it does not end
   struct Running {
     std::atomic<const Counted*> task{nullptr};

@@ -17,6 +17,7 @@
 #include "tools/linked.h"
 #include "tools/real_time.h"
 #include "tools/run_end.h"
+#include "tools/run_files.h"
 #include "tools/told_changes.h"
 #include "tools/told_faults.h"
 #include "tools/value_json.h"
@@ -142,7 +143,8 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
   ToldChanges told(*loaded.graph);
   loaded.channels = told.listen(std::move(loaded.channels));
   const std::vector<Channels*> channels = pointers_to(loaded.channels);
-  ThreadsCore core(*loaded.graph, std::move(loaded.channels));
+  RunFiles files(*loaded.graph, {});
+  ThreadsCore core(*loaded.graph, std::move(loaded.channels), files.recorder());
   let_writing_fail();
   const Interruptible interruptible([] {}, HaltKey::ends);
   take_priority(options.priority);
@@ -157,18 +159,24 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
   }
   halt_if_asked(run_end);
   RunVerdict verdict;
-  for (const expect::Condition& condition : loaded.graph->expectations)
-    verdict.expectations.push_back({.outcome = Verdict::Outcome::not_judged,
-                                    .condition = condition.text,
-                                    .why = "--concurrency threads does not watch what is published"});
-  if (!run_end.hangs) verdict.mishaps = find_mishaps(*loaded.graph, channels);
+  std::string unwatched;
+  if (!run_end.hangs) {
+    try {
+      files.close();
+      verdict.expectations =
+          files.judge(core.report().covered, why_cut_short(core.report().simulated, end, end_of_mission(channels)));
+    } catch (const std::exception& error) { unwatched = error.what(); }
+    verdict.mishaps = find_mishaps(*loaded.graph, channels);
+  }
   verdict.left_out = find_left_out(*loaded.graph, core.report());
   const std::vector<TrueState> true_states =
       run_end.hangs ? std::vector<TrueState>{} : find_true_states(*loaded.graph, channels);
   json ? print_json(*loaded.graph, core, told, linked.reports(), guard, run_end, verdict, true_states)
        : print_text(*loaded.graph, core, told, linked.reports(), guard, run_end, verdict, true_states);
   std::cerr << errors_of(run_end, core.now()) << failures_text(verdict);
-  const int exit_code = exit_of({exit_code_of(run_end), verdict.is_negative() ? exit_negative : exit_good});
+  if (!unwatched.empty()) std::cerr << "error: " << unwatched << "\n";
+  const int exit_code = exit_of({exit_code_of(run_end), verdict.is_negative() ? exit_negative : exit_good,
+                                 unwatched.empty() ? exit_good : exit_unfinished});
   if (run_end.hangs) end_at_once(exit_code);
   return exit_code;
 }

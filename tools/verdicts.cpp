@@ -43,6 +43,12 @@ std::string why_cut_short(Duration reached, Duration until, Duration mission) {
   return "";
 }
 
+Duration end_of_mission(const std::vector<Channels*>& channels) {
+  Duration end{};
+  for (const Channels* each : channels) end = std::max(end, each->end().value_or(Duration{}));
+  return end;
+}
+
 std::vector<std::string> find_left_out(const Graph& graph, const Report& report) {
   std::vector<std::string> lines;
   if (report.stopped) return lines;  // the fault that ended the run says it all

@@ -35,6 +35,9 @@ std::vector<std::string> find_left_out(const Graph& graph, const Report& report)
 /// ends at `mission`; else empty.
 std::string why_cut_short(Duration reached, Duration until, Duration mission);
 
+/// Of all scripts on these channels; zero: there is none.
+Duration end_of_mission(const std::vector<Channels*>& channels);
+
 /// A line for each condition.
 std::string to_text(const RunVerdict& verdict);
 nlohmann::ordered_json to_json(const RunVerdict& verdict);

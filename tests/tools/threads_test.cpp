@@ -57,7 +57,40 @@ TEST_SUITE("tools/threads") {
     CHECK(text.find(" us worst\n  task        activations     99 % us    worst us\n  depth ") != std::string::npos);
   }
 
-  TEST_CASE("a vehicle that is lost ends the run, and is told") {
+  TEST_CASE("a run on threads judges what is published and true values, as one of exotasks does") {
+    const TemporaryFolder folder;
+    const std::string mission = " --set distributers.neptus.link.file=" +
+                                folder.write("short.csv", "time,setpoint.depth,setpoint.speed\n0,1,1.2\n1.5,1,1.2\n");
+    const auto run = [&](const std::string& expect, const std::string& options) {
+      return command::jarol("run specs/exolauv_bare.yaml --clock real --set 'expect=[" + expect + "]' " + options);
+    };
+    for (const std::string concurrency : {"exotasks", "threads"}) {
+      CAPTURE(concurrency);
+      const std::string options = "--concurrency " + concurrency + mission;
+      const auto good = run("speed of dune > 0.2, always depth of dune < 1, max(to_dune.thruster) > 0.2", options);
+      CAPTURE(good.output);
+      CHECK(good.exit_code == 0);
+      CHECK(good.output.find("  expected    speed of dune > 0.2: holds, ") != std::string::npos);
+      CHECK(good.output.find("  expected    always depth of dune < 1: holds\n") != std::string::npos);
+      CHECK(good.output.find("  expected    max(to_dune.thruster) > 0.2: holds, ") != std::string::npos);
+      CHECK(good.output.find("not judged") == std::string::npos);
+      const auto bad = run("speed of dune < 0.1, never to_dune.thruster > 0.2", options);
+      CAPTURE(bad.output);
+      CHECK(bad.exit_code == 1);
+      CHECK(bad.output.find("  expected    speed of dune < 0.1: FAILS: reached ") != std::string::npos);
+      CHECK(bad.output.find("error: expected 'speed of dune < 0.1', but it reached ") != std::string::npos);
+      CHECK(bad.output.find("error: expected 'never to_dune.thruster > 0.2', but it was so at ") != std::string::npos);
+      const auto cut =
+          run("speed of dune < 0.1, max(to_dune.thruster) < 0.2, once depth of dune > 100", options + " --for 1s");
+      CHECK(cut.exit_code == 1);
+      const std::string short_run = ": not judged: the run ended at 1 s, its mission ends at 1.5 s\n";
+      CHECK(cut.output.find("  expected    speed of dune < 0.1" + short_run) != std::string::npos);
+      CHECK(cut.output.find("  expected    once depth of dune > 100" + short_run) != std::string::npos);
+      CHECK(cut.output.find("  expected    max(to_dune.thruster) < 0.2: FAILS: reached ") != std::string::npos);
+    }
+  }
+
+  TEST_CASE("a vehicle that is lost ends the run, and is reported") {
     // later where the machine had not come so far that there was anything to lose
     std::string errors, port;
     int exit_code = -1;

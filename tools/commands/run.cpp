@@ -55,13 +55,6 @@ void require_clock(const Options& options, const Loaded& loaded) {
                                 "' has a link to what goes on by itself; run it with --clock real");
 }
 
-// Of all scripts; zero: there is none.
-Duration end_of_mission(const std::vector<Channels*>& channels) {
-  Duration end{};
-  for (const Channels* each : channels) end = std::max(end, each->end().value_or(Duration{}));
-  return end;
-}
-
 // --for, else the end of the longest mission; on the real clock a graph without one runs until it is interrupted.
 Duration end_of_run(const Options& options, const Loaded& loaded) {
   Duration end{};
