@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "distributers/javiator_operator.h"
-#include "distributers/javiator_vehicle.h"
-#include "distributers/lauv_operator.h"
-#include "distributers/lauv_vehicle.h"
+#include "distributers/javiator/operator.h"
+#include "distributers/javiator/vehicle.h"
+#include "distributers/lauv/operator.h"
+#include "distributers/lauv/vehicle.h"
 #include "distributers/links/link_spec.h"
 #include "distributers/links/linked.h"
 #include "distributers/links/lockstep.h"
 #include "distributers/links/script.h"
 #include "distributers/links/simulation.h"
 #include "distributers/vehicle_file.h"
-#include "graph/spec/key.h"
+#include "graph/language/key.h"
 #include "graph/values/bind.h"
 #include "graph/values/seed.h"
 

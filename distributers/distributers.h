@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
+#include "distributers/interfaces/vehicle.h"
 #include "distributers/links/link.h"
-#include "graph/graph.h"
+#include "graph/model/graph.h"
 #include "runtime/channels.h"
-#include "vehicles/vehicle.h"
 
 namespace jarol::distributers {
 

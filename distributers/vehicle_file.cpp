@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "graph/language/key.h"
 #include "graph/registry.h"
-#include "graph/spec/key.h"
 #include "graph/values/bind.h"
 
 namespace jarol::distributers {

@@ -3,9 +3,9 @@
 
 #include <optional>
 
+#include "distributers/interfaces/vehicle.h"
+#include "graph/language/yaml.h"
 #include "graph/values/value.h"
-#include "graph/yaml/yaml.h"
-#include "vehicles/vehicle.h"
 
 namespace jarol::distributers {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "graph/spec/spec.h"
+#include "graph/language/spec.h"
 #include "graph/task.h"
 
 namespace jarol {

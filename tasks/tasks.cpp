@@ -1,14 +1,14 @@
 #include "tasks/tasks.h"
 
-#include "tasks/flight_logic.h"
 #include "tasks/generic.h"
-#include "tasks/javiator_control.h"
-#include "tasks/javiator_filter.h"
-#include "tasks/lauv_control.h"
-#include "tasks/lauv_navigation.h"
-#include "tasks/lauv_supervisor.h"
-#include "tasks/original_control.h"
-#include "tasks/original_filter.h"
+#include "tasks/javiator/control.h"
+#include "tasks/javiator/filter.h"
+#include "tasks/javiator/flight_logic.h"
+#include "tasks/javiator/original_control.h"
+#include "tasks/javiator/original_filter.h"
+#include "tasks/lauv/control.h"
+#include "tasks/lauv/navigation.h"
+#include "tasks/lauv/supervisor.h"
 
 namespace jarol::tasks {
 namespace {

@@ -1,9 +1,12 @@
 // The shape of the tree: which folder may include which, and that nothing else stands at the top.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,8 +19,8 @@ const std::map<std::string, std::vector<std::string>> allowed{
     {"graph", {}},
     {"runtime", {"graph/"}},
     {"tasks", {"graph/"}},
-    {"distributers", {"graph/", "runtime/", "tasks/values/", "vehicles/vehicle.h"}},
-    {"vehicles", {"graph/", "distributers/messages/"}},
+    {"distributers", {"graph/", "runtime/", "tasks/values/"}},
+    {"vehicles", {"graph/", "distributers/messages/", "distributers/interfaces/"}},
 };
 
 std::vector<std::string> project_includes(const fs::path& file) {
@@ -53,12 +56,41 @@ TEST_SUITE("tree") {
     CHECK(seen > 100);  // it did read the tree
   }
 
+  TEST_CASE("no rooms include each other in a circle") {
+    std::map<std::string, std::set<std::string>> rooms;  // what each folder includes
+    for (const char* top : {"graph", "runtime", "tasks", "distributers", "vehicles", "tools"})
+      for (const auto& entry : fs::recursive_directory_iterator(top)) {
+        const std::string extension = entry.path().extension();
+        if (extension != ".h" && extension != ".cpp") continue;
+        const std::string room = entry.path().parent_path();
+        for (const std::string& include : project_includes(entry.path()))
+          if (const std::string other = fs::path(include).parent_path(); other != room) rooms[room].insert(other);
+      }
+    CHECK(rooms.size() > 20);
+    // rooms that include none of those left are taken away until none is left, or a circle
+    for (bool some = true; some;) {
+      some = false;
+      for (auto room = rooms.begin(); room != rooms.end();) {
+        const bool last = std::none_of(room->second.begin(), room->second.end(),
+                                       [&](const std::string& other) { return rooms.contains(other); });
+        some = some || last;
+        room = last ? rooms.erase(room) : std::next(room);
+      }
+    }
+    std::string circle;
+    for (const auto& [room, others] : rooms)
+      for (const std::string& other : others)
+        if (rooms.contains(other)) circle += room + " includes " + other + "\n";
+    CHECK(circle == "");
+  }
+
   TEST_CASE("Simbody, Boost and yaml-cpp stay out of headers that others include") {
     std::string wrong;
     for (const auto& [folder, may] : allowed)
       for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         // what the one unit that knows Simbody shares within itself
-        const bool in_unit = entry.path() == "vehicles/frames.h" || entry.path() == "vehicles/force_with_input.h";
+        const bool in_unit =
+            entry.path() == "vehicles/mechanics/frames.h" || entry.path() == "vehicles/mechanics/force_with_input.h";
         if (entry.path().extension() != ".h" || in_unit) continue;
         std::ifstream in(entry.path());
         for (std::string line; std::getline(in, line);)
@@ -66,6 +98,25 @@ TEST_SUITE("tree") {
             if (line.starts_with("#include " + std::string(library)))
               wrong += entry.path().string() + ": " + line + "\n";
       }
+    CHECK(wrong == "");
+  }
+
+  TEST_CASE("the page of each folder names its rooms, and what it links to is there") {
+    std::string wrong;
+    for (const std::string folder : {"graph", "runtime", "tasks", "distributers", "vehicles", "tools"}) {
+      std::ifstream in(folder + "/README.md");
+      const std::string page{std::istreambuf_iterator<char>(in), {}};
+      for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string room = entry.path().filename();
+        if (entry.is_directory() && !fs::is_empty(entry) && room[0] != '_' &&
+            page.find("`" + room + "/`") == std::string::npos)
+          wrong += folder + "/README.md doesn't name " + room + "/\n";
+      }
+      const std::regex link(R"(\]\(([^)#:]+)\))");
+      for (std::sregex_iterator found(page.begin(), page.end(), link), end; found != end; ++found)
+        if (!fs::exists(fs::path(folder) / (*found)[1].str()))
+          wrong += folder + "/README.md links to " + (*found)[1].str() + ", which is not there\n";
+    }
     CHECK(wrong == "");
   }
 

@@ -5,11 +5,11 @@
 #include <iostream>
 
 #include "distributers/guardian/guardian_process.h"
-#include "graph/yaml/problems.h"
-#include "tools/command_line.h"
+#include "graph/language/problems.h"
 #include "tools/commands/commands.h"
-#include "tools/failure.h"
-#include "tools/printable_stream.h"
+#include "tools/report/command_line.h"
+#include "tools/report/failure.h"
+#include "tools/report/printable_stream.h"
 
 namespace {
 using namespace jarol;

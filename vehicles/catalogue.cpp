@@ -3,9 +3,9 @@
 #include "distributers/messages/imc.h"
 #include "distributers/messages/javiator.h"
 #include "graph/values/type_of.h"
-#include "vehicles/helicopter.h"
-#include "vehicles/submarine.h"
-#include "vehicles/submarine_telemetry.h"
+#include "vehicles/helicopter/helicopter.h"
+#include "vehicles/submarine/submarine.h"
+#include "vehicles/submarine/telemetry.h"
 
 namespace jarol::vehicles {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "vehicles/vehicle.h"
+#include "distributers/interfaces/vehicle.h"
 
 namespace jarol::vehicles {
 

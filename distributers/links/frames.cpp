@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "graph/yaml/quantities.h"
+#include "graph/language/quantities.h"
 
 namespace jarol::distributers {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "distributers/links/link_options.h"
 #include "distributers/links/translator.h"
-#include "runtime/signal.h"
+#include "runtime/jarol/signal.h"
 
 namespace jarol::distributers {
 

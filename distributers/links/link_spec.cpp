@@ -6,7 +6,7 @@
 #include "distributers/links/serial.h"
 #include "distributers/links/tcp.h"
 #include "distributers/links/udp.h"
-#include "graph/spec/key.h"
+#include "graph/language/key.h"
 
 namespace jarol {
 

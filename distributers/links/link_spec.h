@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "distributers/links/link.h"
-#include "graph/spec/spec.h"
-#include "graph/yaml/problems.h"
-#include "graph/yaml/yaml.h"
+#include "graph/language/problems.h"
+#include "graph/language/spec.h"
+#include "graph/language/yaml.h"
 
 namespace jarol::distributers {
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "distributers/adapter.h"
+#include "distributers/interfaces/adapter.h"
 #include "distributers/links/link.h"
 
 namespace jarol::distributers {

@@ -4,7 +4,7 @@
 
 #include "distributers/links/tcp.h"
 #include "distributers/messages/packet.h"
-#include "graph/yaml/quantities.h"
+#include "graph/language/quantities.h"
 
 namespace jarol::distributers {
 namespace {

@@ -1,6 +1,6 @@
 #include "distributers/links/simulation.h"
 
-#include "graph/yaml/quantities.h"
+#include "graph/language/quantities.h"
 
 namespace jarol::distributers {
 

@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "distributers/adapter.h"
+#include "distributers/interfaces/adapter.h"
+#include "distributers/interfaces/vehicle.h"
 #include "runtime/channels.h"
-#include "vehicles/vehicle.h"
 
 namespace jarol::distributers {
 

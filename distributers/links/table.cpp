@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "graph/yaml/quantities.h"
+#include "graph/language/quantities.h"
 
 namespace jarol::distributers {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "graph/language/problems.h"
 #include "graph/values/type_of.h"
-#include "graph/yaml/problems.h"
 
 namespace jarol::distributers {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "graph/yaml/problems.h"
+#include "graph/language/problems.h"
 
 namespace jarol::distributers {
 

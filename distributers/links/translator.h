@@ -15,8 +15,8 @@
 #include "distributers/messages/packet.h"
 #include "distributers/messages/stream_reader.h"
 #include "runtime/channels.h"
-#include "runtime/port.h"
-#include "runtime/push_port.h"
+#include "runtime/jarol/port.h"
+#include "runtime/jarol/push_port.h"
 
 namespace jarol::distributers {
 

@@ -9,7 +9,7 @@
 
 #include "distributers/messages/json.h"
 #include "distributers/messages/payload.h"
-#include "graph/yaml/problems.h"
+#include "graph/language/problems.h"
 
 namespace jarol::messages {
 namespace {

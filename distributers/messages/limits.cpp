@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "distributers/messages/payload.h"
-#include "graph/yaml/quantities.h"
+#include "graph/language/quantities.h"
 
 namespace jarol::messages {
 namespace {

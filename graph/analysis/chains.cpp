@@ -4,7 +4,7 @@
 #include <limits>
 #include <numeric>
 
-#include "graph/yaml/quantities.h"
+#include "graph/language/quantities.h"
 
 namespace jarol::analysis {
 namespace {

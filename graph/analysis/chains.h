@@ -1,7 +1,7 @@
 // Latency along a path of tasks and communicators, in logical time: what `run` does, exactly.
 #pragma once
 
-#include "graph/graph.h"
+#include "graph/model/graph.h"
 
 namespace jarol::analysis {
 

@@ -3,7 +3,7 @@
 #include <cassert>
 
 #include "graph/analysis/policies.h"
-#include "graph/yaml/problems.h"
+#include "graph/language/problems.h"
 
 namespace jarol::analysis {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "graph/stages.h"
+#include "graph/model/stages.h"
 
 namespace jarol::analysis {
 

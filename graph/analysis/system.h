@@ -4,7 +4,7 @@
 #include <string>
 
 #include "graph/analysis/load.h"
-#include "graph/graph.h"
+#include "graph/model/graph.h"
 
 namespace jarol::analysis {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "graph/graph.h"
+#include "graph/model/graph.h"
 
 namespace jarol::analysis {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "graph/expect/condition.h"
-#include "graph/graph.h"
+#include "graph/model/condition.h"
+#include "graph/model/graph.h"
 
 namespace jarol::expect {
 

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <limits>
 
-#include "graph/yaml/quantities.h"
+#include "graph/language/quantities.h"
 
 namespace jarol {
 namespace {

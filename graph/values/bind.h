@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "graph/language/yaml.h"
 #include "graph/values/type.h"
-#include "graph/yaml/yaml.h"
 
 namespace jarol {
 

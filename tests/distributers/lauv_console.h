@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "distributers/lauv_operator.h"
+#include "distributers/lauv/operator.h"
 #include "distributers/messages/imc.h"
 
 namespace jarol::tests {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "graph/build.h"
-#include "graph/spec/load.h"
+#include "graph/language/load.h"
+#include "graph/model/build.h"
 #include "tasks/tasks.h"
 
 namespace jarol::tests {

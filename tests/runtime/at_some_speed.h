@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "graph/yaml/quantities.h"
-#include "runtime/executor.h"
+#include "graph/language/quantities.h"
+#include "runtime/execute/executor.h"
 
 namespace jarol::tests {
 

@@ -10,7 +10,7 @@
 #include "graph/values/sequence.h"
 #include "graph/values/type_of.h"
 #include "runtime/channels.h"
-#include "runtime/real_clock.h"
+#include "runtime/machine/real_clock.h"
 
 namespace jarol::tests {
 

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "runtime/executor.h"
+#include "runtime/execute/executor.h"
 #include "tests/graph/graph_of.h"
 #include "tests/runtime/oracle.h"
 #include "tests/runtime/random_model.h"

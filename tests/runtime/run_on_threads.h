@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "graph/analysis/threads.h"
-#include "runtime/executor.h"
-#include "runtime/machine.h"
+#include "runtime/execute/executor.h"
+#include "runtime/machine/machine.h"
 #include "tests/runtime/at_some_speed.h"
 #include "tests/runtime/outside.h"
 #include "tests/runtime/trace_of.h"

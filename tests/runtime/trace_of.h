@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "graph/values/bind.h"
-#include "runtime/executor.h"
+#include "runtime/execute/executor.h"
 #include "tests/graph/graph_of.h"
 
 namespace jarol::tests {

@@ -1,7 +1,7 @@
 // The supervisor's inputs while nothing is wrong, for tests.
 #pragma once
 
-#include "tasks/lauv_supervisor.h"
+#include "tasks/lauv/supervisor.h"
 
 namespace jarol::tests {
 

@@ -1,7 +1,7 @@
 // What the helicopter's filter hears while it stands or hovers, for tests.
 #pragma once
 
-#include "tasks/javiator_filter.h"
+#include "tasks/javiator/filter.h"
 
 namespace jarol::tests {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tasks/javiator_control.h"
+#include "tasks/javiator/control.h"
 
 namespace {
 using namespace jarol;

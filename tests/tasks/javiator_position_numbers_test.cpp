@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tasks/javiator_control.h"
+#include "tasks/javiator/control.h"
 
 namespace {
 using namespace jarol;

@@ -1,7 +1,7 @@
 // Gains that the operator changes in flight, by hand computations.
 #include <doctest/doctest.h>
 
-#include "tasks/original_control.h"
+#include "tasks/javiator/original_control.h"
 
 namespace {
 using namespace jarol;

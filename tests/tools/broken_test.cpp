@@ -6,9 +6,9 @@
 #include <sstream>
 #include <vector>
 
-#include "graph/yaml/problems.h"
-#include "graph/yaml/yaml.h"
-#include "tools/load_graph.h"
+#include "graph/language/problems.h"
+#include "graph/language/yaml.h"
+#include "tools/run/load_graph.h"
 
 namespace {
 namespace fs = std::filesystem;
@@ -32,14 +32,14 @@ const std::vector<std::string> brought_about_elsewhere{
     "a metric is a number; this is a ",
     // no error: tests/graph/expect/parse_test.cpp
     "' is not simulated in this process",
-    // an argument: tests/graph/spec/override_test.cpp
+    // an argument: tests/graph/language/override_test.cpp
     "' is no override; write path=value, as in ", "' gives no value; write path=value, as in ",
     // a value of a program's own: tests/graph/values/type_test.cpp
     " needs a mapping of its ", "is beyond what a float holds", "is a single word",
     // a log: tests/tools/log_mutations_test.cpp
     "ends before its bytes do", "has ", " where true or false stand", "ends before its length", "has a length of ",
     " and fewer bytes", "ends ", " bytes before they do",
-    // megabytes of text, no text at all: tests/graph/yaml/yaml_test.cpp
+    // megabytes of text, no text at all: tests/graph/language/yaml_test.cpp
     "the text holds more than ", "the text is larger than ", "it is a directory", "it is larger than ",
     "it is no regular file; give - for what comes on stdin",
     "what follows here is too long for one line, text, comment or nest of brackets: more than ", " MiB or ",
@@ -105,7 +105,7 @@ TEST_SUITE("tools/broken") {
     std::string reports;
     for (const auto& entry : fs::directory_iterator("tests/tools/broken")) reports += text_of(entry.path());
     std::size_t seen = 0;
-    for (const char* const folder : {"graph", "graph/expect", "graph/spec", "graph/values", "graph/yaml"})
+    for (const char* const folder : {"graph", "graph/expect", "graph/language", "graph/model", "graph/values"})
       for (const auto& entry : fs::directory_iterator(folder)) {
         // the tables hold what help and schema say
         const fs::path name = entry.path().filename();

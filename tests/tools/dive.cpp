@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/load_graph.h"
+#include "tools/run/load_graph.h"
 
 namespace jarol::test {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "graph/spec/load.h"
-#include "runtime/executor.h"
+#include "graph/language/load.h"
+#include "runtime/execute/executor.h"
 #include "tasks/values/alarm.h"
 #include "tasks/values/lauv.h"
 

@@ -9,9 +9,9 @@
 #include <numbers>
 #include <vector>
 
-#include "runtime/executor.h"
+#include "runtime/execute/executor.h"
 #include "tasks/values/lauv.h"
-#include "tools/load_graph.h"
+#include "tools/run/load_graph.h"
 
 namespace {
 using namespace jarol;

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "distributers/distributers.h"
-#include "tools/load_graph.h"
+#include "tools/run/load_graph.h"
 #include "vehicles/catalogue.h"
-#include "vehicles/helicopter.h"
+#include "vehicles/helicopter/helicopter.h"
 
 namespace jarol::tests {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/executor.h"
+#include "runtime/execute/executor.h"
 #include "tasks/values/javiator.h"
-#include "vehicles/helicopter_body.h"
+#include "vehicles/helicopter/body.h"
 
 namespace jarol::tests {
 

@@ -7,13 +7,13 @@
 #include <fstream>
 #include <thread>
 
-#include "distributers/javiator_vehicle.h"
+#include "distributers/javiator/vehicle.h"
 #include "distributers/links/linked.h"
 #include "distributers/links/tcp.h"
 #include "distributers/links/udp.h"
 #include "distributers/messages/javiator.h"
-#include "runtime/executor.h"
-#include "tools/load_graph.h"
+#include "runtime/execute/executor.h"
+#include "tools/run/load_graph.h"
 
 namespace {
 using namespace jarol;

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "distributers/links/link_spec.h"
-#include "graph/spec/tables.h"
-#include "tools/load_graph.h"
+#include "graph/language/tables.h"
+#include "tools/run/load_graph.h"
 
 namespace {
 using namespace jarol;

@@ -5,13 +5,13 @@
 #include <fstream>
 #include <sstream>
 
-#include "distributers/javiator_operator.h"
+#include "distributers/javiator/operator.h"
 #include "distributers/messages/javiator.h"
 #include "distributers/messages/packet.h"
-#include "runtime/executor.h"
+#include "runtime/execute/executor.h"
 #include "tests/distributers/messages/recorded.h"
 #include "tests/tools/csv_rows.h"
-#include "tools/load_graph.h"
+#include "tools/run/load_graph.h"
 
 namespace {
 using namespace jarol;

@@ -11,14 +11,14 @@
 #include <sstream>
 #include <thread>
 
-#include "distributers/javiator_operator.h"
+#include "distributers/javiator/operator.h"
 #include "distributers/links/linked.h"
 #include "distributers/links/tcp.h"
 #include "distributers/links/udp.h"
-#include "runtime/executor.h"
+#include "runtime/execute/executor.h"
 #include "tests/tools/process.h"
 #include "tests/tools/terminal.h"
-#include "tools/load_graph.h"
+#include "tools/run/load_graph.h"
 
 namespace {
 using namespace jarol;

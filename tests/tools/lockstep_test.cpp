@@ -6,9 +6,9 @@
 
 #include "distributers/links/tcp.h"
 #include "distributers/vehicle_file.h"
-#include "runtime/executor.h"
+#include "runtime/execute/executor.h"
 #include "tests/tools/run_command.h"
-#include "tools/load_graph.h"
+#include "tools/run/load_graph.h"
 #include "vehicles/catalogue.h"
 
 namespace {

@@ -9,10 +9,10 @@
 
 #include "tests/tools/default_signals.h"
 #include "tests/tools/run_command.h"
-#include "tools/load_graph.h"
-#include "tools/log_reader.h"
-#include "tools/log_writer.h"
-#include "tools/whole_file.h"
+#include "tools/files/log_reader.h"
+#include "tools/files/log_writer.h"
+#include "tools/files/whole_file.h"
+#include "tools/run/load_graph.h"
 
 namespace {
 namespace fs = std::filesystem;

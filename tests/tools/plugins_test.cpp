@@ -1,15 +1,15 @@
 // Tasks from shared libraries.
-#include "graph/plugins.h"
+#include "graph/plugins/plugins.h"
 
 #include <doctest/doctest.h>
 
 #include <filesystem>
 
 #include "graph/floating_point.h"
-#include "graph/plugin.h"
+#include "graph/plugins/plugin.h"
 #include "tests/tools/run_command.h"
-#include "tools/load_graph.h"
-#include "tools/log_format.h"
+#include "tools/files/log_format.h"
+#include "tools/run/load_graph.h"
 
 namespace {
 using namespace jarol;
@@ -27,7 +27,7 @@ std::string report_on(const std::string& name) {
   return report.rfind(start, 0) == 0 ? report.substr(start.size()) : report;
 }
 
-const std::string again = "; build it again as graph/plugin.h says";
+const std::string again = "; build it again as graph/plugins/plugin.h says";
 }  // namespace
 
 TEST_SUITE("tools/plugins") {
@@ -49,7 +49,8 @@ TEST_SUITE("tools/plugins") {
 
   TEST_CASE("a library that can't be used is refused with the reason") {
     CHECK(report_on("nowhere") == "there is no file '" + library("nowhere") + "'");
-    CHECK(report_on("none") == "is no shared library with tasks; name them with JAROL_PLUGIN, see graph/plugin.h");
+    CHECK(report_on("none") ==
+          "is no shared library with tasks; name them with JAROL_PLUGIN, see graph/plugins/plugin.h");
     CHECK(report_on("old") == "was built for form 3 of the interface, this is form 4" + again);
     CHECK(report_on("clash") == "brings a task type 'Counter', which there is already");
   }

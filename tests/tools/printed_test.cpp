@@ -7,7 +7,7 @@
 
 #include "graph/text/escape.h"
 #include "tests/tools/run_command.h"
-#include "tools/printable_stream.h"
+#include "tools/report/printable_stream.h"
 
 namespace {
 command::Result run_command(const std::string& arguments, const std::string& errors = "2>&1") {

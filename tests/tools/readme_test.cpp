@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "graph/yaml/yaml.h"
+#include "graph/language/yaml.h"
 
 namespace {
 std::string output_of(const std::string& arguments) {

@@ -14,8 +14,8 @@
 #include "tests/runtime/outside.h"
 #include "tests/runtime/trace_of.h"
 #include "tests/tools/run_command.h"
-#include "tools/log_reader.h"
-#include "tools/log_writer.h"
+#include "tools/files/log_reader.h"
+#include "tools/files/log_writer.h"
 
 namespace {
 using namespace jarol;

@@ -9,8 +9,8 @@
 #include "graph/values/bind.h"
 #include "tests/tools/csv_rows.h"
 #include "tests/tools/run_command.h"
-#include "tools/load_graph.h"
-#include "vehicles/submarine.h"
+#include "tools/run/load_graph.h"
+#include "vehicles/submarine/submarine.h"
 
 namespace {
 using namespace jarol;

@@ -1,5 +1,5 @@
 // Simbody's calls, and those of the libraries that it brings.
-#include "runtime/arithmetic.h"
+#include "runtime/machine/arithmetic.h"
 
 #include <dlfcn.h>
 #include <doctest/doctest.h>

@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 #include <array>
 
-#include "vehicles/helicopter_parameters.h"
+#include "vehicles/helicopter/parameters.h"
 
 namespace jarol::test {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "vehicles/helicopter.h"
-#include "vehicles/submarine.h"
+#include "vehicles/helicopter/helicopter.h"
+#include "vehicles/submarine/submarine.h"
 
 namespace {
 using namespace jarol;

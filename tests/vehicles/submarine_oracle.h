@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 #include <array>
 
-#include "vehicles/submarine_parameters.h"
+#include "vehicles/submarine/parameters.h"
 
 namespace jarol::test {
 

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/executor.h"
+#include "runtime/execute/executor.h"
 #include "tools/bench/graphs.h"
 #include "tools/bench/message.h"
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <memory>
 
-#include "runtime/copy.h"
+#include "runtime/plan/copy.h"
 #include "tools/bench/timing.h"
 
 namespace jarol::bench {

@@ -10,7 +10,7 @@
 #include "distributers/links/linked.h"
 #include "distributers/links/udp.h"
 #include "distributers/messages/javiator.h"
-#include "runtime/executor.h"
+#include "runtime/execute/executor.h"
 #include "tools/bench/graphs.h"
 #include "tools/bench/timing.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "graph/yaml/quantities.h"
+#include "graph/language/quantities.h"
 #include "tools/bench/checking.h"
 #include "tools/bench/clock.h"
 #include "tools/bench/deep.h"

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "graph/build.h"
-#include "graph/spec/load.h"
+#include "graph/language/load.h"
+#include "graph/model/build.h"
 #include "tasks/tasks.h"
 #include "tools/bench/message.h"
 

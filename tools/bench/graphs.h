@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "graph/graph.h"
+#include "graph/model/graph.h"
 
 namespace jarol::bench {
 

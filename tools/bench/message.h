@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "graph/task.h"
-#include "runtime/real_clock.h"
+#include "runtime/machine/real_clock.h"
 
 namespace jarol::bench {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-#include "vehicles/helicopter_coefficients.h"
+#include "vehicles/helicopter/coefficients.h"
 
 namespace jarol::bench {
 

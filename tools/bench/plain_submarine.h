@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-#include "vehicles/submarine_coefficients.h"
+#include "vehicles/submarine/coefficients.h"
 
 namespace jarol::bench {
 

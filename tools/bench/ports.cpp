@@ -3,8 +3,8 @@
 #include <atomic>
 #include <thread>
 
-#include "runtime/port.h"
-#include "runtime/push_port.h"
+#include "runtime/jarol/port.h"
+#include "runtime/jarol/push_port.h"
 #include "tools/bench/message.h"
 #include "tools/bench/timing.h"
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "runtime/executor.h"
+#include "runtime/execute/executor.h"
 #include "tools/bench/graphs.h"
 #include "tools/bench/timing.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <thread>
 
-#include "graph/yaml/quantities.h"
+#include "graph/language/quantities.h"
 #include "tools/bench/floors.h"
 #include "tools/bench/graphs.h"
 #include "tools/bench/timing.h"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "runtime/executor.h"
+#include "runtime/execute/executor.h"
 #include "tools/bench/figures.h"
 
 namespace jarol::bench {

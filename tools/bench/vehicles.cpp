@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "tools/bench/timing.h"
-#include "tools/load_graph.h"
+#include "tools/run/load_graph.h"
 #ifdef JAROL_VEHICLES
 #include "tools/bench/plain_helicopter.h"
 #include "tools/bench/plain_submarine.h"

@@ -6,11 +6,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "graph/yaml/problems.h"
+#include "graph/language/problems.h"
 #include "tools/bench/figures.h"
-#include "tools/command_line.h"
 #include "tools/commands/commands.h"
-#include "tools/json_line.h"
+#include "tools/report/command_line.h"
+#include "tools/report/json_line.h"
 
 namespace jarol::tools {
 namespace {

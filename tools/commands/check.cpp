@@ -7,19 +7,19 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "graph/spec/key.h"
-#include "graph/yaml/quantities.h"
-#include "tools/check_graph.h"
-#include "tools/command_line.h"
+#include "graph/language/key.h"
+#include "graph/language/quantities.h"
+#include "tools/check/check_graph.h"
+#include "tools/check/gantt.h"
+#include "tools/check/generate_graphs.h"
+#include "tools/check/measure_file.h"
 #include "tools/commands/commands.h"
-#include "tools/failure.h"
-#include "tools/gantt.h"
-#include "tools/generate_graphs.h"
-#include "tools/json_line.h"
-#include "tools/load_graph.h"
-#include "tools/measure_file.h"
-#include "tools/no_plugins.h"
-#include "tools/whole_file.h"
+#include "tools/files/whole_file.h"
+#include "tools/report/command_line.h"
+#include "tools/report/failure.h"
+#include "tools/report/json_line.h"
+#include "tools/run/load_graph.h"
+#include "tools/run/no_plugins.h"
 
 namespace jarol::tools {
 namespace {

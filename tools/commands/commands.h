@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tools/exit_code.h"
+#include "tools/report/exit_code.h"
 
 namespace jarol::tools {
 

@@ -5,13 +5,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "graph/yaml/quantities.h"
-#include "runtime/arithmetic.h"
-#include "runtime/machine.h"
-#include "tools/command_line.h"
+#include "graph/language/quantities.h"
+#include "runtime/machine/arithmetic.h"
+#include "runtime/machine/machine.h"
 #include "tools/commands/commands.h"
-#include "tools/guard.h"
-#include "tools/json_line.h"
+#include "tools/report/command_line.h"
+#include "tools/report/json_line.h"
+#include "tools/run/guard.h"
 
 namespace jarol::tools {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "graph/text/escape.h"
 
-#include "tools/command_line.h"
 #include "tools/commands/commands.h"
-#include "tools/json_line.h"
-#include "tools/load_graph.h"
-#include "tools/no_plugins.h"
-#include "tools/value_json.h"
+#include "tools/report/command_line.h"
+#include "tools/report/json_line.h"
+#include "tools/report/value_json.h"
+#include "tools/run/load_graph.h"
+#include "tools/run/no_plugins.h"
 
 namespace jarol::tools {
 namespace {

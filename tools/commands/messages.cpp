@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "distributers/messages/message_set.h"
-#include "graph/yaml/problems.h"
-#include "tools/command_line.h"
+#include "graph/language/problems.h"
 #include "tools/commands/commands.h"
-#include "tools/json_line.h"
-#include "tools/packet_lines.h"
+#include "tools/report/command_line.h"
+#include "tools/report/json_line.h"
+#include "tools/run/packet_lines.h"
 
 namespace jarol::tools {
 namespace {

@@ -1,9 +1,9 @@
 // jarol schema: the JSON Schema of the graph language.
 #include <iostream>
 
-#include "tools/command_line.h"
 #include "tools/commands/commands.h"
-#include "tools/graph_schema.h"
+#include "tools/report/command_line.h"
+#include "tools/report/graph_schema.h"
 
 namespace jarol::tools {
 

@@ -3,12 +3,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "graph/plugins.h"
+#include "graph/plugins/plugins.h"
 #include "graph/values/bind.h"
-#include "tools/command_line.h"
 #include "tools/commands/commands.h"
-#include "tools/json_line.h"
-#include "tools/load_graph.h"
+#include "tools/report/command_line.h"
+#include "tools/report/json_line.h"
+#include "tools/run/load_graph.h"
 
 namespace jarol::tools {
 namespace {

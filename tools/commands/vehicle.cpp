@@ -6,18 +6,18 @@
 
 #include "distributers/links/link_spec.h"
 #include "distributers/vehicle_file.h"
+#include "graph/language/override.h"
+#include "graph/language/quantities.h"
 #include "graph/registry.h"
-#include "graph/spec/override.h"
 #include "graph/values/bind.h"
 #include "graph/values/seed.h"
-#include "graph/yaml/quantities.h"
-#include "tools/command_line.h"
 #include "tools/commands/commands.h"
-#include "tools/describe_vehicle.h"
-#include "tools/load_graph.h"
-#include "tools/open_loop.h"
-#include "tools/serve_vehicle.h"
-#include "tools/whole_file.h"
+#include "tools/files/whole_file.h"
+#include "tools/report/command_line.h"
+#include "tools/report/describe_vehicle.h"
+#include "tools/run/load_graph.h"
+#include "tools/run/open_loop.h"
+#include "tools/run/serve_vehicle.h"
 
 namespace jarol::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "graph/yaml/problems.h"
+#include "graph/language/problems.h"
 
 namespace jarol::definition {
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "graph/yaml/yaml.h"
+#include "graph/language/yaml.h"
 #include "tools/messages/write.h"
 
 namespace {

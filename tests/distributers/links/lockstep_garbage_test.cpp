@@ -8,7 +8,7 @@
 #include <cstring>
 #include <thread>
 
-#include "distributers/javiator_vehicle.h"
+#include "distributers/javiator/vehicle.h"
 #include "distributers/links/lockstep.h"
 #include "distributers/links/tcp.h"
 #include "distributers/messages/javiator.h"

@@ -11,7 +11,7 @@
 #include <mutex>
 #include <thread>
 
-#include "distributers/javiator_vehicle.h"
+#include "distributers/javiator/vehicle.h"
 #include "distributers/links/lockstep.h"
 #include "distributers/links/tcp.h"
 #include "distributers/messages/javiator.h"

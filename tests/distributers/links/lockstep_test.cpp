@@ -6,7 +6,7 @@
 #include <cstring>
 #include <thread>
 
-#include "distributers/lauv_vehicle.h"
+#include "distributers/lauv/vehicle.h"
 #include "distributers/links/tcp.h"
 
 namespace {

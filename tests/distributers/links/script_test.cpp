@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "distributers/lauv_operator.h"
+#include "distributers/lauv/operator.h"
 
 namespace {
 using namespace jarol;

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "distributers/lauv_vehicle.h"
+#include "distributers/lauv/vehicle.h"
 #include "distributers/messages/imc.h"
 
 namespace {

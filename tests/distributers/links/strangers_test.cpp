@@ -8,7 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "distributers/javiator_operator.h"
+#include "distributers/javiator/operator.h"
 #include "distributers/links/linked.h"
 #include "distributers/links/tcp.h"
 #include "distributers/links/udp.h"

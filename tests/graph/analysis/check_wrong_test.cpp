@@ -3,7 +3,7 @@
 
 #include "graph/analysis/check.h"
 #include "graph/analysis/sensitivity.h"
-#include "graph/yaml/yaml.h"
+#include "graph/language/yaml.h"
 #include "tests/graph/graph_of.h"
 
 namespace {

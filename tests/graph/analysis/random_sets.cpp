@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "graph/stages.h"
+#include "graph/model/stages.h"
 #include "tests/graph/graph_of.h"
 
 namespace jarol::truth {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "graph/graph.h"
+#include "graph/model/graph.h"
 
 namespace jarol::truth {
 

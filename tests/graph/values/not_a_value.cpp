@@ -1,5 +1,5 @@
 // What does not compile as a value; NOT_A_VALUE says which, 0 is one that does.
-#include "graph/plugin.h"
+#include "graph/plugins/plugin.h"
 
 namespace {
 using jarol::describe, jarol::field;

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "graph/yaml/yaml.h"
+#include "graph/language/yaml.h"
 #include "tools/messages/write.h"
 
 using namespace jarol;

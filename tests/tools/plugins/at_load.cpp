@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "graph/plugin.h"
+#include "graph/plugins/plugin.h"
 
 namespace {
 struct Nothing {

@@ -1,5 +1,5 @@
 // A plugin whose task has the name of one that there is.
-#include "graph/plugin.h"
+#include "graph/plugins/plugin.h"
 
 struct Counter {
   static constexpr std::string_view summary = "not the one that you know";

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "graph/plugin.h"
+#include "graph/plugins/plugin.h"
 #include "tasks/values/javiator.h"
 #include "tasks/values/lauv.h"
 

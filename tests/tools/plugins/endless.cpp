@@ -1,5 +1,5 @@
 // A task that never ends.
-#include "graph/plugin.h"
+#include "graph/plugins/plugin.h"
 
 namespace {
 struct Endless {

@@ -1,7 +1,7 @@
 // Tasks that go wrong at a given activation.
 #include <stdexcept>
 
-#include "graph/plugin.h"
+#include "graph/plugins/plugin.h"
 
 namespace {
 using namespace jarol;

@@ -1,7 +1,7 @@
 // A task that calls the functions of <cmath>, as a user's does.
 #include <cmath>
 
-#include "graph/plugin.h"
+#include "graph/plugins/plugin.h"
 
 namespace {
 using namespace jarol;

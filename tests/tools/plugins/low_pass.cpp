@@ -1,4 +1,4 @@
-#include "graph/plugin.h"
+#include "graph/plugins/plugin.h"
 
 namespace {
 using jarol::describe, jarol::field, jarol::Tick;

@@ -1,5 +1,5 @@
 // Tasks with names that Jarol's own headers use, too, written as README shows it.
-#include "graph/plugin.h"
+#include "graph/plugins/plugin.h"
 
 namespace {
 using jarol::describe, jarol::field, jarol::Tick;

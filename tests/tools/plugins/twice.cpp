@@ -1,5 +1,5 @@
 // A plugin as a user would write it: two tasks, one of them on values of changing size.
-#include "graph/plugin.h"
+#include "graph/plugins/plugin.h"
 
 namespace {
 using namespace jarol;

@@ -1,0 +1,191 @@
+#include "distributers/javiator/operator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "distributers/messages/javiator.h"
+
+namespace jarol::distributers {
+namespace javiator = messages::javiator;
+namespace {
+
+// its numbers have 16 bits and no fractions
+std::int16_t to_wire(double value) {
+  return static_cast<std::int16_t>(std::clamp(std::trunc(value), -32768.0, 32767.0));
+}
+
+std::int16_t milli(double value) { return to_wire(1e3 * value); }
+
+// the low 16 bits, as it sends them
+std::int16_t wrapped(double value) { return static_cast<std::int16_t>(static_cast<std::int64_t>(value) & 0xffff); }
+
+// it knows no landing: as long as it may be in the air, it flies
+std::uint8_t state_of(tasks::FlightState state) {
+  using Shown = javiator::StateMode::State;
+  switch (state) {
+    case tasks::FlightState::halt: return Shown::SHUTDOWN;
+    case tasks::FlightState::ground: return Shown::GROUND;
+    case tasks::FlightState::starting:
+    case tasks::FlightState::flying:
+    case tasks::FlightState::landing: break;
+  }
+  return Shown::FLYING;
+}
+
+std::array<double, 3> euler_rates(const tasks::HelicopterReport& r) {
+  const double sin_roll = std::sin(r.roll), cos_roll = std::cos(r.roll);
+  const double turning = (r.q * sin_roll + r.r * cos_roll) / std::cos(r.pitch);
+  return {1e3 * (r.p + turning * std::sin(r.pitch)), 1e3 * (r.q * cos_roll - r.r * sin_roll), 1e3 * turning};
+}
+
+javiator::MotorOffsets effort(const std::array<double, 4>& signals) {
+  const auto [front, right, rear, left] = signals;
+  return {to_wire((left - right) / 2), to_wire((front - rear) / 2), to_wire((right + left - front - rear) / 4),
+          to_wire((front + right + rear + left) / 4)};
+}
+
+// in the order of describe_class
+enum Channel : std::size_t { command_channel, report_channel, gains_channel };
+
+// all of them are told as thousandths
+template <class Params>
+tasks::ToldGains gains_of(const Params& p) {
+  return {{1e-3 * p.kp, 1e-3 * p.ki, 1e-3 * p.kd, 1e-3 * p.kdd}, true};
+}
+
+std::uint32_t clock_of(Duration instant) { return static_cast<std::uint32_t>(instant.count() / 1000 % 1'000'000'000); }
+
+}  // namespace
+
+JaviatorOperator::JaviatorOperator(const JaviatorOperatorParameters& parameters)
+    : trim_file_(parameters.trim_file.view()), state_(state_of(tasks::FlightState::halt)) {
+  if (!trim_file_.empty()) kept_ = trim_ = read_trim(trim_file_);
+  command_.kept_trim_roll = kept_.roll;
+  command_.kept_trim_pitch = kept_.pitch;
+}
+
+DistributerClass JaviatorOperator::describe_class() {
+  return {"JaviatorOperator",
+          "the helicopter's operator, over the JAviator's protocol",
+          {{"command", Direction::in, &type_of<tasks::PilotCommand>(), "attitude, altitude, position and switches"},
+           {"report", Direction::out, &type_of<tasks::HelicopterReport>(), "motion, motor signals and state"},
+           {"gains", Direction::in, &type_of<tasks::OperatorGains>(), "of the JAviator's own laws"}},
+          false,
+          &type_of<JaviatorOperatorParameters>()};
+}
+
+const messages::MessageSet& JaviatorOperator::message_set() const { return javiator::message_set(); }
+
+bool JaviatorOperator::receive_gains(messages::MessageRef message) {
+  if (const auto* lean = message.as<javiator::RollPitchParams>()) {
+    gains_.lean = gains_of(*lean);
+  } else if (const auto* yaw = message.as<javiator::YawParams>()) {
+    gains_.yaw = gains_of(*yaw);
+  } else if (const auto* altitude = message.as<javiator::AltParams>()) {
+    gains_.altitude = gains_of(*altitude);
+  } else if (const auto* position = message.as<javiator::XYParams>()) {
+    gains_.position = gains_of(*position);
+  } else if (const auto* limit = message.as<javiator::IdleLimit>()) {
+    gains_.idle = {static_cast<double>(limit->idle), true};
+  } else {
+    return false;
+  }
+  return gains_fresh_ = true;
+}
+
+void JaviatorOperator::receive(messages::MessageRef message) {
+  if (receive_gains(message)) return;
+  if (const auto* c = message.as<javiator::CommandData>()) {
+    // the same two numbers say how it shall lean, or where it shall be
+    command_.roll = 1e-3 * c->roll;
+    command_.pitch = 1e-3 * c->pitch;
+    command_.y = command_.roll;
+    command_.x = command_.pitch;
+    command_.yaw = 1e-3 * c->yaw;
+    command_.altitude = 1e-3 * c->z;
+    command_.heard = true;
+  } else if (message.as<javiator::SwitchState>() != nullptr) {
+    if (!hello_due_) ++command_.state_switches;
+    hello_due_ = false;
+  } else if (message.as<javiator::SwitchMode>() != nullptr) {
+    ++command_.mode_switches;
+  } else if (message.as<javiator::ShutDown>() != nullptr) {
+    ++command_.shut_downs;
+  } else if (message.as<javiator::StoreTrim>() != nullptr) {
+    ++command_.trim_stores;
+  } else if (message.as<javiator::ClearTrim>() != nullptr) {
+    ++command_.trim_clears;
+  }
+}
+
+void JaviatorOperator::finish() {
+  if (!trim_file_.empty() && std::exchange(kept_, trim_) != trim_) write_trim(trim_file_, trim_);
+}
+
+void JaviatorOperator::reach(Duration instant, messages::Receiver&) { now_ = instant; }
+
+bool JaviatorOperator::take(std::size_t channel, void* value) {
+  if (channel == gains_channel) {
+    *static_cast<tasks::OperatorGains*>(value) = gains_;
+    return std::exchange(gains_fresh_, false);
+  }
+  *static_cast<tasks::PilotCommand*>(value) = command_;
+  command_.heard = false;
+  period_ = now_ - taken_;
+  taken_ = now_;
+  return true;
+}
+
+void JaviatorOperator::hand_over(std::size_t, const void* value, messages::Receiver& system) {
+  const auto& report = *static_cast<const tasks::HelicopterReport*>(value);
+  const std::array<double, 3> rates = euler_rates(report);
+  // what it calls acceleration is less than a third of it at 15 ms
+  const auto gain = [&](std::size_t axis) { return to_wire(19.79 * (rates[axis] - rates_[axis])); };
+  const auto& signals = report.signals;
+  const std::uint8_t state = state_of(report.state);
+  const javiator::GroundReport shown{
+      .sensors = {.roll = milli(report.roll),
+                  .pitch = milli(report.pitch),
+                  .yaw = milli(report.yaw),
+                  .droll = to_wire(rates[0]),
+                  .dpitch = to_wire(rates[1]),
+                  .dyaw = to_wire(rates[2]),
+                  .ddroll = gain(0),
+                  .ddpitch = gain(1),
+                  .ddyaw = gain(2),
+                  .x = milli(report.x),
+                  .y = milli(report.y),
+                  .z = milli(report.altitude),
+                  .dx = milli(report.v_x),
+                  .dy = milli(report.v_y),
+                  .dz = milli(report.climb),
+                  .ddx = milli(report.a_x),
+                  .ddy = milli(report.a_y),
+                  .ddz = milli(report.a_up),
+                  .maps = wrapped(1e3 * report.pressure),
+                  .temp = to_wire(100 * report.temperature),
+                  .batt = milli(report.battery)},
+      .signals = {to_wire(signals[0]), to_wire(signals[1]), to_wire(signals[2]), to_wire(signals[3]), ++reports_},
+      .offsets = effort(signals),
+      .state_mode = {state, command_.mode_switches % 2 == 1 ? javiator::StateMode::Mode::POSITION
+                                                            : javiator::StateMode::Mode::MANUAL}};
+  // logical time: what a period does, it does at its instants of input and output
+  const javiator::TraceData trace{.cmd_roll = milli(report.roll_goal),
+                                  .cmd_pitch = milli(report.pitch_goal),
+                                  .period_ms = to_wire(1e-6 * static_cast<double>(period_.count())),
+                                  .state = state_,
+                                  .t_loop_start = clock_of(taken_),
+                                  .t_sent_to_plant = clock_of(taken_),
+                                  .t_data_from_plant = clock_of(taken_),
+                                  .t_terminal_input = clock_of(taken_),
+                                  .t_control = clock_of(now_),
+                                  .t_report = clock_of(reported_)};
+  trim_ = {report.trim_roll, report.trim_pitch};
+  system.receive(messages::refer_to(shown));
+  system.receive(messages::refer_to(trace));
+  rates_ = rates;
+  state_ = state;
+  reported_ = now_;
+}
+
+}  // namespace jarol::distributers

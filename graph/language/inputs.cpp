@@ -1,0 +1,46 @@
+#include "graph/language/inputs.h"
+
+#include <map>
+#include <mutex>
+#include <utility>
+
+namespace jarol {
+namespace {
+
+using Identity = std::pair<dev_t, ino_t>;
+
+std::mutex mutex;
+
+std::map<Identity, std::string>& names() {
+  static std::map<Identity, std::string> all;
+  return all;
+}
+
+}  // namespace
+
+void note_input(const std::string& path, const struct stat& status) {
+  if (!S_ISREG(status.st_mode)) return;
+  const std::lock_guard lock(mutex);
+  names().emplace(Identity(status.st_dev, status.st_ino), path);
+}
+
+void note_input(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) note_input(path, status);
+}
+
+std::string input_at(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return "";
+  const std::lock_guard lock(mutex);
+  const Identity identity(status.st_dev, status.st_ino);
+  const auto found = names().find(identity);
+  if (found == names().end()) return "";
+  // one that was removed since may have left its number to another file
+  struct stat now {};
+  if (::stat(found->second.c_str(), &now) == 0 && Identity(now.st_dev, now.st_ino) == identity) return found->second;
+  names().erase(found);
+  return "";
+}
+
+}  // namespace jarol

@@ -1,0 +1,68 @@
+#include "graph/language/read_source.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "graph/language/inputs.h"
+#include "graph/language/yaml.h"
+
+namespace jarol {
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+  throw SpecError({{{}, "can't read '" + path + "': " + reason, {}}});
+}
+
+[[noreturn]] void fail_as_too_large(const std::string& path, std::size_t most) {
+  fail(path, "it is larger than " +
+                 (most >= (1U << 20) ? std::to_string(most >> 20) + " MiB" : std::to_string(most >> 10) + " KiB"));
+}
+
+struct File {
+  int number;
+  ~File() {
+    if (number > STDERR_FILENO) ::close(number);
+  }
+};
+
+std::string read(const File& file, const std::string& path, std::size_t most) {
+  struct stat status {};
+  if (::fstat(file.number, &status) != 0) fail(path, std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) fail(path, "it is a directory");
+  if (!S_ISREG(status.st_mode) && path != "-") fail(path, "it is no regular file; give - for what comes on stdin");
+  note_input(path, status);
+  if (S_ISREG(status.st_mode) && status.st_size > static_cast<off_t>(most)) fail_as_too_large(path, most);
+  std::string text;
+  std::array<char, 65536> piece;
+  for (;;) {
+    const ssize_t size = ::read(file.number, piece.data(), piece.size());
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0) fail(path, std::strerror(errno));
+    if (size == 0) return text;
+    text.append(piece.data(), static_cast<std::size_t>(size));
+    if (text.size() > most) fail_as_too_large(path, most);
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const Source> read_source(const std::string& path) { return read_source(path, most_source_bytes); }
+
+std::shared_ptr<const Source> read_source(const std::string& path, std::size_t most) {
+  if (path == "-") {
+    static std::shared_ptr<const Source> from_stdin;  // it can be read once
+    if (!from_stdin) from_stdin = std::make_shared<Source>(Source{path, read({STDIN_FILENO}, path, most)});
+    return from_stdin;
+  }
+  // a FIFO that nobody writes is not waited for
+  const File file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
+  if (file.number < 0) fail(path, std::strerror(errno));
+  return std::make_shared<Source>(Source{path, read(file, path, most)});
+}
+
+}  // namespace jarol

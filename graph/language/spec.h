@@ -1,0 +1,116 @@
+// What a graph file says, with the place of each word; nothing is resolved or checked against the tasks that exist.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/language/quantities.h"
+#include "graph/language/yaml.h"
+
+namespace jarol {
+
+/// Of any duration in a graph: more than a score of them can be added without overflow.
+inline constexpr Duration longest_duration = std::chrono::hours(24) * 365 * 10;
+
+/// A value and where it was written.
+template <class T>
+struct Located {
+  T value{};
+  Location where;
+};
+
+/// A value that may be left out; `bad`: it is there and can't be used, which was reported.
+template <class T>
+struct Maybe : std::optional<Located<T>> {
+  using std::optional<Located<T>>::operator=;
+  bool bad = false;
+};
+
+/// What follows a fault: specs/README.md, "Faults".
+enum class OnFault { stop, hold, skip };
+enum class Direction { in, out };
+enum class Isolation { strong, weak };
+
+/// One end of a connection: "task.field" or "communicator".
+struct EndSpec {
+  std::string name;
+  std::string field;  // empty: written without
+  Location where;
+};
+
+struct ConnectionSpec {
+  EndSpec from;
+  EndSpec to;
+  Location where;
+};
+
+struct TaskSpec {
+  std::string name;
+  Location where;
+  Maybe<std::string> type;
+  Maybe<Duration> period, offset, let, deadline, wcet;
+  Maybe<Duration> jitter, blocking;
+  Maybe<std::int64_t> priority, core, heap;
+  Maybe<OnFault> on_fault;
+  Maybe<Isolation> isolation;
+  Maybe<Yaml> parameters, init;
+};
+
+struct CommunicatorSpec {
+  std::string name;
+  Location where;
+  Maybe<std::string> channel, type;
+  Maybe<Direction> direction;
+  Maybe<Duration> period, offset, timeout;
+  Maybe<Yaml> init, safe;
+};
+
+struct DistributerSpec {
+  std::string name;
+  Location where;
+  Maybe<std::string> type;
+  Maybe<Yaml> link, parameters;
+};
+
+enum class Grammar { let };
+enum class Policy { table, fixed_priority, edf, fixed_priority_nonpreemptive, edf_nonpreemptive, global_edf };
+
+struct TimingSpec {
+  Maybe<Grammar> grammar;
+  Maybe<Duration> period;
+};
+
+enum class Phasing { given, any };
+
+struct PlatformSpec {
+  Maybe<std::int64_t> cores;
+  Maybe<Policy> policy;
+  Maybe<Phasing> phasing;
+  Maybe<Duration> dispatch, copy;
+};
+
+struct ChainSpec {
+  std::string name;
+  Location where;
+  Maybe<Yaml> path;
+  Maybe<Duration> reaction, age;
+  Maybe<double> crossover;
+};
+
+struct GraphSpec {
+  Maybe<std::string> name;
+  Location where;  // of the whole
+  TimingSpec timing;
+  std::vector<Located<std::string>> plugins;  // paths, relative to the graph's file
+  std::vector<DistributerSpec> distributers;
+  std::vector<CommunicatorSpec> communicators;
+  std::vector<TaskSpec> tasks;
+  std::vector<ConnectionSpec> connections;
+  PlatformSpec platform;
+  std::vector<ChainSpec> chains;
+  Maybe<Yaml> expect;
+  Maybe<double> fault_limit;
+};
+
+}  // namespace jarol

@@ -1,0 +1,111 @@
+#include "graph/language/tables.h"
+
+namespace jarol {
+
+const std::vector<Key<GraphSpec>>& graph_keys() {
+  static const std::vector<Key<GraphSpec>> keys{
+      key<&GraphSpec::name>("graph", Form::word, "name of the graph", true),
+      {"timing", Form::section, false, "period and timing grammar of the whole graph", {}, nullptr},
+      {"plugins", Form::section, false, "shared libraries with task types, relative to this file", {}, nullptr},
+      {"distributers", Form::section, false, "external systems, each with a link", {}, nullptr},
+      {"communicators", Form::section, false, "what comes in and goes out, pinned in time", {}, nullptr},
+      {"tasks", Form::section, false, "the compute tasks", {}, nullptr},
+      {"connections", Form::section, false, "one connection a line: 'from.output -> to.input'", {}, nullptr},
+      {"chains", Form::section, false, "paths whose reaction time and data age check tells", {}, nullptr},
+      {"platform", Form::section, false, "what check analyses and run executes", {}, nullptr},
+      key<&GraphSpec::expect>("expect", Form::any,
+                              "conditions on which run judges itself, as in 'depth of dune within 0.1 of 3'"),
+      key<&GraphSpec::fault_limit>("fault_limit", Form::share,
+                                   "share of a task's activations that faults may leave without outputs, default 10%"),
+      {"profiles", Form::section, false, "named sets of overrides, chosen by run --profile", {}, nullptr},
+  };
+  return keys;
+}
+
+const std::vector<Key<TimingSpec>>& timing_keys() {
+  static const std::vector<Key<TimingSpec>> keys{
+      key<&TimingSpec::grammar>("grammar", Form::choice, "the timing grammar, default let"),
+      key<&TimingSpec::period>("period", Form::positive_duration,
+                               "a multiple of every period, and the period of whatever states none"),
+  };
+  return keys;
+}
+
+const std::vector<Key<DistributerSpec>>& distributer_keys() {
+  static const std::vector<Key<DistributerSpec>> keys{
+      key<&DistributerSpec::type>("type", Form::word, "a registered distributer class, which defines the channels",
+                                  true),
+      key<&DistributerSpec::link>(
+          "link", Form::mapping,
+          "how the external system is reached: a type, and its keys; ids in hex or decimal, as in 0x00D1", true),
+      key<&DistributerSpec::parameters>("parameters", Form::mapping, "parameters of the distributer class"),
+  };
+  return keys;
+}
+
+const std::vector<Key<CommunicatorSpec>>& communicator_keys() {
+  static const std::vector<Key<CommunicatorSpec>> keys{
+      key<&CommunicatorSpec::channel>("channel", Form::word,
+                                      "'distributer.channel'; without one, state type and direction"),
+      key<&CommunicatorSpec::type>("type", Form::word, "type of the value, where there is no channel"),
+      key<&CommunicatorSpec::direction>("direction", Form::choice, "where there is no channel"),
+      key<&CommunicatorSpec::period>("period", Form::positive_duration, "default: the graph's period"),
+      key<&CommunicatorSpec::offset>("offset", Form::duration, "below the period, default 0ns"),
+      key<&CommunicatorSpec::init>("init", Form::any, "value of an 'in' until its channel brings one"),
+      key<&CommunicatorSpec::timeout>("timeout", Form::positive_duration,
+                                      "of an 'in': without a new value for longer, its distributer is silent"),
+      key<&CommunicatorSpec::safe>("safe", Form::any,
+                                   "of an 'out': what it hands over while its distributer is silent"),
+  };
+  return keys;
+}
+
+const std::vector<Key<TaskSpec>>& task_keys() {
+  static const std::vector<Key<TaskSpec>> keys{
+      key<&TaskSpec::type>("type", Form::word, "a registered task type, see jarol tasks", true),
+      key<&TaskSpec::period>("period", Form::positive_duration, "default: the graph's period"),
+      key<&TaskSpec::offset>("offset", Form::duration, "first release, below the period, default 0ns"),
+      key<&TaskSpec::let>("let", Form::positive_duration,
+                          "logical execution time, at most the period; without one a data-flow task"),
+      key<&TaskSpec::deadline>("deadline", Form::positive_duration, "smaller than the derived deadline"),
+      key<&TaskSpec::wcet>("wcet", Form::positive_duration, "worst-case execution time, for check"),
+      key<&TaskSpec::jitter>("jitter", Form::duration, "of the release, for check, default 0ns"),
+      key<&TaskSpec::blocking>("blocking", Form::duration,
+                               "longest time that others hold it up beyond the policy, for check, default 0ns"),
+      key<&TaskSpec::priority>("priority", Form::integer, "smaller is more urgent"),
+      key<&TaskSpec::core>("core", Form::integer, "the core that runs it, from 0"),
+      key<&TaskSpec::heap>("heap", Form::bytes, "size of the private heap, for values of changing size"),
+      key<&TaskSpec::on_fault>("on_fault", Form::choice, "what follows a fault, default stop"),
+      key<&TaskSpec::isolation>("isolation", Form::choice, "default strong"),
+      key<&TaskSpec::parameters>("parameters", Form::mapping, "parameters of the task type"),
+      key<&TaskSpec::init>("init", Form::mapping, "what each output reads as until first published"),
+  };
+  return keys;
+}
+
+const std::vector<Key<ChainSpec>>& chain_keys() {
+  static const std::vector<Key<ChainSpec>> keys{
+      key<&ChainSpec::path>("path", Form::any, "tasks and communicators in order, as in [from_dune, depth, to_dune]",
+                            true),
+      key<&ChainSpec::reaction>("reaction", Form::positive_duration, "limit of the maximum reaction time"),
+      key<&ChainSpec::age>("age", Form::positive_duration, "limit of the maximum data age"),
+      key<&ChainSpec::crossover>("crossover", Form::frequency,
+                                 "of the loop that it closes, as in 2Hz: check tells the phase lost there"),
+  };
+  return keys;
+}
+
+const std::vector<Key<PlatformSpec>>& platform_keys() {
+  static const std::vector<Key<PlatformSpec>> keys{
+      key<&PlatformSpec::cores>("cores", Form::integer, "number of cores, default 1").in_range(1, most_cores),
+      key<&PlatformSpec::policy>("policy", Form::choice, "scheduling policy, default table"),
+      key<&PlatformSpec::phasing>("phasing", Form::choice,
+                                  "do offsets hold as given, or is every shift possible; default given"),
+      key<&PlatformSpec::dispatch>("dispatch", Form::duration, "overhead of each activation, for check, default 0ns"),
+      key<&PlatformSpec::copy>("copy", Form::duration,
+                               "overhead of each byte that an activation hands on, for check, default 0ns"),
+  };
+  return keys;
+}
+
+}  // namespace jarol

@@ -1,0 +1,19 @@
+// The tables of the graph language, one per kind of mapping; specs/README.md says the same to people.
+#pragma once
+
+#include "graph/language/key.h"
+
+namespace jarol {
+
+/// Of a platform.
+inline constexpr std::int64_t most_cores = 1024;
+
+const std::vector<Key<GraphSpec>>& graph_keys();
+const std::vector<Key<TimingSpec>>& timing_keys();
+const std::vector<Key<DistributerSpec>>& distributer_keys();
+const std::vector<Key<CommunicatorSpec>>& communicator_keys();
+const std::vector<Key<TaskSpec>>& task_keys();
+const std::vector<Key<ChainSpec>>& chain_keys();
+const std::vector<Key<PlatformSpec>>& platform_keys();
+
+}  // namespace jarol

@@ -1,0 +1,319 @@
+#include "graph/model/build.h"
+
+#include <algorithm>
+#include <map>
+
+#include "graph/model/chains.h"
+#include "graph/model/connect.h"
+#include "graph/model/deadlines.h"
+#include "graph/model/heaps.h"
+#include "graph/model/safe_commands.h"
+#include "graph/values/bind.h"
+
+namespace jarol {
+namespace {
+
+template <class S>
+std::vector<S> by_name(std::vector<S> specs) {
+  std::stable_sort(specs.begin(), specs.end(), [](const S& a, const S& b) { return a.name < b.name; });
+  return specs;
+}
+
+template <class T>
+std::optional<T> value_of(const Maybe<T>& maybe) {
+  return maybe ? std::optional<T>(maybe->value) : std::nullopt;
+}
+
+class Builder {
+ public:
+  Builder(const GraphSpec& spec, const Registry& registry, Problems& problems)
+      : spec_(spec), registry_(registry), problems_(problems) {}
+
+  Graph build() {
+    graph_.name = spec_.name ? spec_.name->value : "";
+    graph_.where = spec_.where;
+    graph_.period = value_of(spec_.timing.period);
+    graph_.platform.cores = spec_.platform.cores ? spec_.platform.cores->value : 1;
+    graph_.platform.policy = spec_.platform.policy ? spec_.platform.policy->value : Policy::table;
+    graph_.platform.dispatch = value_of(spec_.platform.dispatch).value_or(Duration{});
+    graph_.platform.copy = value_of(spec_.platform.copy).value_or(Duration{});
+    if (spec_.platform.phasing) graph_.platform.phasing = spec_.platform.phasing->value;
+    graph_.fault_limit = value_of(spec_.fault_limit).value_or(graph_.fault_limit);
+    add_distributers();
+    add_communicators();
+    add_tasks();
+    check_names();
+    if (graph_.tasks.empty() && graph_.communicators.empty() && graph_.distributers.empty() && problems_.empty())
+      problems_.add(spec_.where, "the graph holds no task, communicator or distributer; add a task below 'tasks:'");
+    if (!connect(spec_, graph_, problems_)) complete_ = false;
+    add_chains(spec_, graph_, problems_);
+    if (complete_) {
+      graph_.order = data_flow_order(graph_, problems_);
+      set_deadlines(graph_, declared_deadlines_, problems_);
+      check_heaps(graph_, problems_);
+    }
+    return std::move(graph_);
+  }
+
+ private:
+  struct Timing {
+    Duration period{};
+    Duration offset{};
+  };
+
+  // Own period, else the graph's; offset below it.
+  template <class S>
+  Timing timing_of(const S& spec, const std::string& subject) {
+    Timing timing;
+    if (spec.period) {
+      timing.period = spec.period->value;
+      if (graph_.period && graph_.period->count() % timing.period.count() != 0)
+        problems_.add(spec.period->where, subject + " has period " + duration_text(timing.period) +
+                                              ", of which the graph's period " + duration_text(*graph_.period) +
+                                              " is no multiple; change one of them");
+    } else if (graph_.period && !spec.period.bad) {
+      timing.period = *graph_.period;
+    } else {
+      if (!spec.period.bad && !spec_.timing.period.bad)
+        problems_.add(spec.where,
+                      subject + " has no period, and the graph states none; add 'period:' here or below 'timing:'");
+      timing.period = Duration(1);
+      complete_ = false;
+      return timing;
+    }
+    if (spec.offset) {
+      timing.offset = spec.offset->value;
+      if (timing.offset >= timing.period)
+        problems_.add(spec.offset->where, subject + " has offset " + duration_text(timing.offset) +
+                                              " not below its period " + duration_text(timing.period));
+    }
+    return timing;
+  }
+
+  void add_distributers() {
+    for (const DistributerSpec& spec : by_name(spec_.distributers)) {
+      Distributer distributer{spec.name, spec.where, nullptr, spec.link ? spec.link->value : Yaml{}, {}};
+      if (spec.type) {
+        distributer.distributer_class = registry_.find_distributer(spec.type->value);
+        if (distributer.distributer_class == nullptr) {
+          const auto names = names_of(registry_.distributers());
+          problems_.add(spec.type->where, "distributer '" + spec.name + "' has unknown type '" + spec.type->value +
+                                              "'" + did_you_mean(spec.type->value, names) +
+                                              "; there are: " + list_of(names));
+        } else {
+          read_parameters(spec, distributer);
+        }
+      }
+      graph_.distributers.push_back(std::move(distributer));
+    }
+  }
+
+  void read_parameters(const DistributerSpec& spec, Distributer& distributer) {
+    const Type* type = distributer.distributer_class->parameters;
+    const std::string subject = "distributer '" + spec.name + "' (" + distributer.distributer_class->name + ")";
+    if (type != nullptr) distributer.parameters = Value(*type);
+    if (!spec.parameters) return;
+    if (type == nullptr) {
+      problems_.add(spec.parameters->where, subject + " has no parameters");
+      return;
+    }
+    bind_fields(spec.parameters->value, *type, distributer.parameters.data(), subject, "parameter", problems_);
+  }
+
+  void add_communicators() {
+    for (const CommunicatorSpec& spec : by_name(spec_.communicators)) {
+      const std::string subject = "communicator '" + spec.name + "'";
+      Communicator communicator;
+      communicator.name = spec.name;
+      communicator.where = spec.where;
+      const Timing timing = timing_of(spec, subject);
+      communicator.period = timing.period;
+      communicator.offset = timing.offset;
+      if (spec.channel) {
+        resolve_channel(spec, subject, communicator);
+      } else {
+        resolve_type(spec, subject, communicator);
+      }
+      if (communicator.type == nullptr) {
+        complete_ = false;
+      } else if (communicator.direction == Direction::in) {
+        communicator.init = Value(*communicator.type);
+        if (spec.init)
+          bind_value(spec.init->value, *communicator.type, "", communicator.init.data(), subject + " init", problems_);
+      } else if (spec.init) {
+        problems_.add(spec.init->where, subject + " is an 'out' and has an 'init'; that belongs to an 'in' only");
+      }
+      graph_.communicators.push_back(std::move(communicator));
+    }
+    check_channels();
+    add_safe_commands(spec_, graph_, problems_);
+  }
+
+  void resolve_channel(const CommunicatorSpec& spec, const std::string& subject, Communicator& communicator) {
+    for (const bool given : {spec.type.has_value(), spec.direction.has_value()})
+      if (given) {
+        problems_.add(spec.where,
+                      subject + " has a channel and so its type and direction; leave 'type' and 'direction' out");
+        break;
+      }
+    const std::string& text = spec.channel->value;
+    const std::size_t dot = text.find('.');
+    const std::string name = text.substr(0, dot);
+    const auto found = std::find_if(graph_.distributers.begin(), graph_.distributers.end(),
+                                    [&](const Distributer& d) { return d.name == name; });
+    if (dot == std::string::npos || found == graph_.distributers.end()) {
+      const auto names = names_of(graph_.distributers);
+      problems_.add(spec.channel->where, subject + " has channel '" + text + "', but there is no distributer '" + name +
+                                             "'" + did_you_mean(name, names) +
+                                             "; write distributer.channel, with one of: " + list_of(names));
+      return;
+    }
+    if (found->distributer_class == nullptr) return;  // reported there
+    const auto& channels = found->distributer_class->channels;
+    const std::string wanted = text.substr(dot + 1);
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      if (channels[i].name != wanted) continue;
+      communicator.distributer = static_cast<std::size_t>(found - graph_.distributers.begin());
+      communicator.channel = i;
+      communicator.type = channels[i].type;
+      communicator.direction = channels[i].direction;
+      return;
+    }
+    problems_.add(spec.channel->where,
+                  "distributer '" + name + "' (" + found->distributer_class->name + ") has no channel '" + wanted +
+                      "'" + did_you_mean(wanted, names_of(channels)) + "; it has: " + list_of(names_of(channels)));
+  }
+
+  void resolve_type(const CommunicatorSpec& spec, const std::string& subject, Communicator& communicator) {
+    if (!spec.type || !spec.direction) {
+      if (!spec.type.bad && !spec.direction.bad && !spec.channel.bad)
+        problems_.add(spec.where,
+                      subject + " has no channel; add 'channel: distributer.channel', or both 'type' and 'direction'");
+      return;
+    }
+    communicator.direction = spec.direction->value;
+    communicator.type = registry_.find_type(spec.type->value);
+    if (communicator.type == nullptr)
+      problems_.add(spec.type->where, subject + " has unknown type '" + spec.type->value + "'" +
+                                          did_you_mean(spec.type->value, registry_.type_names()) +
+                                          "; there are: " + list_of(registry_.type_names()));
+  }
+
+  // What two communicators handed to one channel at one instant would depend on their order alone; and of two that take
+  // from one, only the first would see what is new.
+  void check_channels() {
+    std::map<std::pair<std::size_t, std::size_t>, const Communicator*> users;
+    for (const Communicator& c : graph_.communicators) {
+      if (!c.distributer) continue;
+      const auto [at, first] = users.emplace(std::pair(*c.distributer, c.channel), &c);
+      if (first) continue;
+      const std::string other = "the same channel as '" + at->second->name + "'; ";
+      problems_.add(c.where,
+                    "communicator '" + c.name + "' " +
+                        (c.direction == Direction::out ? "hands over to " + other + "a channel has one writer"
+                                                       : "takes from " + other + "connect that one to all who read it"),
+                    {{at->second->where, "the other one"}});
+    }
+  }
+
+  void add_tasks() {
+    for (const TaskSpec& spec : by_name(spec_.tasks)) {
+      Task task;
+      task.name = spec.name;
+      task.where = spec.where;
+      std::string subject = "task '" + spec.name + "'";
+      const Timing timing = timing_of(spec, subject);
+      task.period = timing.period;
+      task.offset = timing.offset;
+      task.let = value_of(spec.let);
+      task.wcet = value_of(spec.wcet);
+      task.jitter = value_of(spec.jitter).value_or(Duration{});
+      task.blocking = value_of(spec.blocking).value_or(Duration{});
+      task.priority = value_of(spec.priority);
+      task.core = value_of(spec.core);
+      if (spec.on_fault) task.on_fault = spec.on_fault->value;
+      if (spec.isolation) task.isolation = spec.isolation->value;
+      if (task.let && !spec.period.bad && *task.let > task.period)
+        problems_.add(spec.let->where, subject + " has LET " + duration_text(*task.let) + " longer than its period " +
+                                           duration_text(task.period));
+      if (task.core && *task.core >= graph_.platform.cores)
+        problems_.add(spec.core->where, subject + " is on core " + std::to_string(*task.core) +
+                                            ", but the platform has " + std::to_string(graph_.platform.cores) +
+                                            " (counted from 0)");
+      resolve_task_class(spec, subject, task);
+      if (spec.heap) {
+        constexpr auto most = static_cast<std::int64_t>(largest_heap), least = static_cast<std::int64_t>(smallest_heap);
+        const bool too_small = spec.heap->value > 0 && spec.heap->value < least;
+        if (too_small)
+          problems_.add(spec.heap->where, subject + " has a heap of " + std::to_string(spec.heap->value) +
+                                              "B, which holds nothing; the smallest has " + std::to_string(least) +
+                                              "B, one that is needed and not stated 64KiB");
+        if (spec.heap->value > most)
+          problems_.add(spec.heap->where, subject + " has a heap of more than 1GiB, the largest there is");
+        task.heap = too_small ? default_heap : static_cast<std::size_t>(std::min(spec.heap->value, most));
+        if (heaps_ <= most && heaps_ + spec.heap->value > most && spec.heap->value <= most)
+          problems_.add(spec.heap->where, subject +
+                                              " has a heap with which those of all tasks are more than 1GiB "
+                                              "together, the most there is");
+        heaps_ += std::min(spec.heap->value, most);
+      } else if (task.task_class != nullptr && task.task_class->is_deep()) {
+        task.heap = default_heap;
+      }
+      declared_deadlines_.push_back(spec.deadline);
+      graph_.tasks.push_back(std::move(task));
+    }
+  }
+
+  void resolve_task_class(const TaskSpec& spec, std::string subject, Task& task) {
+    if (spec.type) {
+      task.task_class = registry_.find_task(spec.type->value);
+      if (task.task_class == nullptr) {
+        const auto names = names_of(registry_.tasks());
+        problems_.add(spec.type->where, subject + " has unknown type '" + spec.type->value + "'" +
+                                            did_you_mean(spec.type->value, names) + "; there are: " + list_of(names));
+      }
+    }
+    if (task.task_class == nullptr) {
+      complete_ = false;
+      return;
+    }
+    subject += " (" + task.task_class->name + ")";
+    task.parameters = Value(*task.task_class->parameters);
+    task.out = Value(*task.task_class->out);
+    if (spec.parameters)
+      bind_fields(spec.parameters->value, *task.task_class->parameters, task.parameters.data(), subject, "parameter",
+                  problems_);
+    if (spec.init) bind_fields(spec.init->value, *task.task_class->out, task.out.data(), subject, "output", problems_);
+  }
+
+  void check_names() {
+    for (const Communicator& c : graph_.communicators)
+      for (const Task& t : graph_.tasks)
+        if (t.name == c.name)
+          problems_.add(c.where, "communicator '" + c.name + "' has the name of a task; names are unique among both",
+                        {{t.where, "the task"}});
+  }
+
+  const GraphSpec& spec_;
+  const Registry& registry_;
+  Problems& problems_;
+  Graph graph_;
+  std::vector<Maybe<Duration>> declared_deadlines_;
+  std::int64_t heaps_ = 0;  // bytes of all that are stated
+  bool complete_ = true;    // order and deadlines make sense
+};
+
+}  // namespace
+
+std::string end_name(const Graph& graph, const End& end, bool output) {
+  if (end.kind == End::Kind::communicator) return graph.communicators[end.index].name;
+  const Task& task = graph.tasks[end.index];
+  const Type& fields = output ? *task.task_class->out : *task.task_class->in;
+  return task.name + "." + fields.fields[end.field].name;
+}
+
+Graph build_graph(const GraphSpec& spec, const Registry& registry, Problems& problems) {
+  return Builder(spec, registry, problems).build();
+}
+
+}  // namespace jarol

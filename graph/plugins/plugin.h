@@ -1,0 +1,38 @@
+// What a shared library with tasks of its own includes; its whole interface to Jarol:
+//
+//   #include "graph/plugins/plugin.h"
+//   struct Twice { static constexpr std::string_view summary = "doubles"; struct In { ... }; ... };
+//   JAROL_PLUGIN(Twice)
+//
+// Built with the compiler that built jarol: c++ -std=c++20 -O2 -ffp-contract=off -fPIC -shared -I <jarol's sources>
+// $(pkg-config --cflags eigen3) twice.cpp -o twice.so; named in a graph as `plugins: [twice.so]`.
+#pragma once
+
+// before the headers that such structs do not fit
+struct JarolUnpacked {
+  char first;
+  double second;
+};
+static_assert(sizeof(JarolUnpacked) == 2 * sizeof(double), "a plugin can't be built with -fpack-struct");
+
+// first, so that the compiler's lines around an error in a description are few
+#include "graph/values/describe.h"
+
+#include "graph/plugins/plugin_build.h"
+
+namespace jarol {
+
+template <class... T>
+void add_tasks_of_plugin(Registry& registry) {
+  (registry.add(task_class<T>()), ...);
+}
+
+}  // namespace jarol
+
+/// Names the tasks that the library brings, once in a library.
+#define JAROL_PLUGIN(...)                                                                                 \
+  extern "C" [[gnu::used]] const jarol::PluginBuild jarol_plugin_build = jarol::build_of_this_file();     \
+  extern "C" bool jarol_plugin_rounds_products(const volatile double& x, const volatile double& square) { \
+    return jarol::rounds_products(x, square);                                                             \
+  }                                                                                                       \
+  extern "C" void jarol_plugin_add(jarol::Registry& registry) { jarol::add_tasks_of_plugin<__VA_ARGS__>(registry); }

@@ -1,0 +1,94 @@
+#include "graph/plugins/plugins.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "graph/floating_point.h"
+#include "graph/language/inputs.h"
+#include "graph/plugins/plugin_build.h"
+#include "graph/plugins/plugin_trial.h"
+
+namespace jarol {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The note that JAROL_PLUGIN leaves in the file.
+std::optional<PluginBuild> read_build(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  PluginBuild build;
+  const std::size_t at = bytes.find(std::string_view(build.magic, sizeof build.magic));
+  if (at == std::string::npos || bytes.size() - at < sizeof build) return std::nullopt;
+  std::memcpy(&build, bytes.data() + at, sizeof build);
+  return build;
+}
+
+std::string find_wrong(const std::string& path) {
+  const std::optional<PluginBuild> build = read_build(path);
+  if (!build) return "is no shared library with tasks; name them with JAROL_PLUGIN, see graph/plugins/plugin.h";
+  static constexpr PluginBuild ours = build_of_this_file();
+  if (const std::string difference = find_difference(*build, ours); !difference.empty())
+    return "was built " + difference + "; build it again as graph/plugins/plugin.h says";
+  return try_plugin(path);
+}
+
+}  // namespace
+
+std::string open_plugin(const std::string& path, PluginLibrary& library) {
+  void* const loaded = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (loaded == nullptr) {
+    const char* const why = dlerror();
+    return std::string("is no shared library that can be used here: ") + (why != nullptr ? why : "unknown reason");
+  }
+  library.add = reinterpret_cast<void (*)(Registry&)>(dlsym(loaded, "jarol_plugin_add"));
+  const auto rounds_products = reinterpret_cast<bool (*)(const volatile double&, const volatile double&)>(
+      dlsym(loaded, "jarol_plugin_rounds_products"));
+  if (library.add == nullptr || rounds_products == nullptr)
+    return "is a shared library without tasks; name them with JAROL_PLUGIN, see graph/plugins/plugin.h";
+  const volatile double x = 1 + 0x1p-30, square = 1 + 0x1p-29;  // x * x, rounded
+  if (!rounds_products(x, square))
+    return "was built without -ffp-contract=off for a processor with FMA, so that it computes otherwise; build it "
+           "again as graph/plugins/plugin.h says";
+  return "";
+}
+
+std::string load_plugin(const std::string& path, Registry& registry) {
+  const std::string name = "'" + path + "' ";
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return "there is no file '" + path + "'";
+  note_input(path);
+  // without a slash dlopen would search elsewhere
+  const std::string place = path.find('/') == std::string::npos ? "./" + path : path;
+  std::string wrong = find_wrong(place);
+  if (!wrong.empty()) return name + wrong;
+  const DefaultFloatingPoint scope;
+  PluginLibrary library;
+  wrong = open_plugin(place, library);
+  if (!wrong.empty()) return name + wrong;
+  Registry added;
+  library.add(added);
+  for (const TaskClass& task : added.tasks())
+    if (registry.find_task(task.name) != nullptr)
+      return name + "brings a task type '" + task.name + "', which there is already";
+  for (const TaskClass& task : added.tasks()) registry.add(task);
+  return "";
+}
+
+std::string plugin_path(const GraphSpec& spec, const std::string& plugin) {
+  const fs::path folder = spec.where.source ? fs::path(spec.where.source->name).parent_path() : "";
+  return (folder / plugin).string();
+}
+
+void load_plugins(const GraphSpec& spec, Registry& registry, Problems& problems) {
+  for (const Located<std::string>& plugin : spec.plugins) {
+    const std::string wrong = load_plugin(plugin_path(spec, plugin.value), registry);
+    if (!wrong.empty()) problems.add(plugin.where, wrong);
+  }
+}
+
+}  // namespace jarol

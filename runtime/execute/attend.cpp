@@ -1,0 +1,123 @@
+#include "runtime/execute/attend.h"
+
+#include <pthread.h>
+#include <signal.h>
+
+#include <memory>
+#include <thread>
+
+#include "runtime/machine/signal_stack.h"
+
+namespace jarol {
+namespace {
+
+constexpr std::chrono::milliseconds look{10};
+
+// Outlives a thread that never ends.
+struct Worker {
+  std::atomic<std::uint32_t> ended{0};
+  std::exception_ptr failure;
+  std::thread thread;
+
+  bool ends_until(Futex::Time time) {
+    while (ended.load(std::memory_order_acquire) == 0)
+      if (!Futex::wait(ended, 0, time)) return ended.load(std::memory_order_acquire) != 0;
+    return true;
+  }
+  // at the first look, also where a signal interrupted it
+  bool has_ended() {
+    if (ended.load(std::memory_order_acquire) == 0) Futex::wait(ended, 0, Futex::now() + look);
+    return ended.load(std::memory_order_acquire) != 0;
+  }
+};
+
+// Those that end a program, or halt it, go to the thread that attends.
+void leave_signals_to_others() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP}) sigaddset(&set, signal);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+}
+
+// How long one activation has held up everything else. Time counts by looks: while the whole process is halted, or the
+// machine, nobody could have gone on.
+class HoldupWatch {
+ public:
+  std::optional<Ending> look_at(const AttendedRun& run) {
+    const Futex::Time now = Futex::now();
+    const auto passed = std::min<Futex::Time::duration>(now - looked_, 2 * look);
+    looked_ = now;
+    const std::optional<Holdup> holdup = run.holdup();
+    if (!holdup || holdup->late <= Duration{} || !(holdup->task == held_)) {
+      held_ = holdup ? holdup->task : HangingTask{};
+      stood_ = {};
+      return std::nullopt;
+    }
+    stood_ += passed;
+    const std::string who = to_text(holdup->task);
+    if (holdup->over && stood_ >= 2 * look) return Ending::over();
+    if (holdup->stops && stood_ >= 2 * look)
+      return Ending{Ending::Cause::fault, 0, who + " by its deadline, which ended the run"};
+    if (stood_ >= holdup_patience) return Ending{Ending::Cause::hung, 0, who + ", which ended the run"};
+    return std::nullopt;
+  }
+
+ private:
+  Futex::Time looked_ = Futex::now();
+  HangingTask held_;
+  Futex::Time::duration stood_{};
+};
+
+Ending ending_of(const AttendedRun& run, const Worker& worker) {
+  if (worker.failure) return Ending::lost();
+  return run.stopped_by_fault() ? Ending::fault() : Ending::over();
+}
+
+}  // namespace
+
+RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std::function<int()>& wish) {
+  const auto worker = std::make_shared<Worker>();
+  worker->thread = std::thread([&run, &prepare, worker] {
+    leave_signals_to_others();
+    const SignalStack stack;
+    try {
+      prepare();
+      run.cover();
+    } catch (...) { worker->failure = std::current_exception(); }
+    worker->ended.store(1, std::memory_order_release);
+    Futex::wake_all(worker->ended);
+  });
+  RunEnd end;
+  HoldupWatch watch;
+  for (std::optional<Ending> why; !why;) {
+    const bool ended = worker->has_ended();
+    if (ended)
+      why = ending_of(run, *worker);
+    else if (const int signal = wish(); signal != 0)
+      why = Ending::of_signal(signal);
+    else
+      why = watch.look_at(run);
+    if (why) end.ending = std::move(*why);
+  }
+  const Futex::Time until = Futex::now() + end_patience;
+  run.close(end.ending, until);
+  if (!worker->ends_until(Futex::now() + 2 * look)) {
+    // what runs on may not keep those who send from the processor
+    const sched_param ordinary{};
+    pthread_setschedparam(worker->thread.native_handle(), SCHED_OTHER, &ordinary);
+  }
+  if (!worker->ends_until(until)) {
+    end.hangs = true;
+    if (auto running = run.running()) end.hanging.push_back(std::move(*running));
+    worker->thread.detach();
+    return end;
+  }
+  worker->thread.join();
+  end.failure = worker->failure;
+  Finish finish = run.finish(until);
+  end.hangs = !finish.done;
+  end.hanging = std::move(finish.hanging);
+  return end;
+}
+
+}  // namespace jarol

@@ -1,0 +1,65 @@
+// A run on a thread of its own, while the caller looks after it: whatever ends it, what has a `safe` gets that before
+// anything is waited for, and what never ends is named.
+#pragma once
+
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "runtime/execute/ending.h"
+#include "runtime/machine/futex.h"
+
+namespace jarol {
+
+/// An activation on the thread that keeps the time: while it runs, nothing else does.
+struct Holdup {
+  HangingTask task;
+  Duration late{};     // beyond its deadline; not above zero: not late
+  bool stops = false;  // being late ends the run
+  bool over = false;   // all that was to be covered lies in the past
+};
+
+class AttendedRun {
+ public:
+  virtual ~AttendedRun() = default;
+
+  /// Covers the instants up to the end of the run, or to the fault that stops it. Throws what an external system that
+  /// is lost throws.
+  virtual void cover() = 0;
+  virtual bool stopped_by_fault() const = 0;
+
+  // by the thread that attends, while `cover` may be under way
+
+  /// `cover` returns when the instant under way is done, and nothing is handed over any more but every `safe` that
+  /// there is. A channel that is still in use at that time gets none.
+  virtual void close(const Ending& ending, Futex::Time patience) = 0;
+  virtual std::optional<Holdup> holdup() const { return std::nullopt; }
+  /// What `cover` runs now, if anything.
+  virtual std::optional<HangingTask> running() const = 0;
+
+  /// After `cover`: waits for threads; what they still run at that time.
+  virtual Finish finish(Futex::Time patience) = 0;
+};
+
+struct RunEnd {
+  Ending ending;
+  std::exception_ptr failure;  // what `cover` threw
+  bool hangs = false;          // threads still run, and the process can only end at once, without destructors
+  std::vector<HangingTask> hanging;
+
+  /// What hangs, if anything, runs a task.
+  bool links_are_free() const { return !hangs || !hanging.empty(); }
+};
+
+/// How long a run that ends waits for what is under way.
+inline constexpr std::chrono::milliseconds end_patience{800};
+/// How long an activation that need not be in time may hold up everything else, beyond its deadline.
+inline constexpr std::chrono::milliseconds holdup_patience{1000};
+
+/// `prepare` is called on the run's thread before it covers anything; `wish` gives the signal that asks the run to end,
+/// or 0.
+RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std::function<int()>& wish);
+
+}  // namespace jarol

@@ -1,0 +1,414 @@
+#include "runtime/execute/executor.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+#include "graph/floating_point.h"
+#include "runtime/execute/channels_in_use.h"
+#include "runtime/execute/expectations.h"
+#include "runtime/execute/finite.h"
+#include "runtime/execute/publish.h"
+#include "runtime/machine/running_task.h"
+
+namespace jarol {
+namespace {
+
+// Communicators are in order of name in the graph, so their index tells it; few are due at once.
+void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
+  if (actions.size() < 2) return;
+  std::sort(actions.begin(), actions.end(),
+            [](const auto* a, const auto* b) { return a->communicator < b->communicator; });
+}
+
+// False also where a closer look has to tell.
+inline bool are_let_outputs_finite(const Group& group) {
+  for (const LetValue& v : group.let_values)
+    if (!v.finite(v.value)) return false;
+  const Range<double>& doubles = group.let_doubles;
+  return doubles.first == doubles.last || are_surely_finite(doubles.first, doubles.last);
+}
+
+// More than there are processors never pay.
+std::size_t useful_workers(std::size_t wanted, Sharing sharing) {
+  if (sharing == Sharing::always) return wanted;
+  return std::min<std::size_t>(wanted, std::max(1U, std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options)
+    : graph_(graph), plan_(graph), channels_(std::move(channels)), options_(options), safe_commands_(graph) {
+  assert(channels_.size() == graph.distributers.size());
+  if (options.recorder != nullptr) options.recorder->expect(plan_.outputs);
+  if (options.log != nullptr) begin_log();
+  assert(!options.misses || (options.clock == nullptr && options.workers == 1));
+  if (options.clock != nullptr)
+    for (Recorder* recorder : {options.recorder, options.log})
+      if (recorder != nullptr) recorder->never_wait();
+  if (options.misses) missed_ = std::make_unique<MissedActivations>(graph.tasks.size(), *options.misses);
+  if (!options.threads.empty()) begin_threads();
+  if (options.workers > 1 || options.sharing == Sharing::measure) {
+    bad_items_.reserve(graph.tasks.size());
+    team_ = std::make_unique<StageTeam>(useful_workers(options.workers, options.sharing), options.sharing, plan_);
+  }
+  for (const std::size_t distributer : watched_vehicles(graph))
+    if (const Type* type = channels_[distributer]->true_type();
+        type != nullptr && options.record_truth && options.recorder != nullptr)
+      watched_.push_back({distributer, Value(*type)});
+  const std::size_t groups = plan_.groups.size();
+  cursors_.resize(groups);
+  in_stage_.resize(groups);
+  ticks_.resize(groups);
+  outs_.reserve(graph.communicators.size());
+  ins_.reserve(graph.communicators.size());
+  releases_.resize(groups);
+  last_.resize(graph.communicators.size());
+  report_.left_out.resize(graph.tasks.size());
+  for (const Group& group : plan_.groups) {
+    calendar_.add(group.first.count(), group.period.count());
+    for (const auto& actions : {group.outs, group.ins})
+      for (const CommunicatorAction& action : actions) last_[action.communicator] = action.value;
+  }
+}
+
+const void* Executor::last_value(std::size_t communicator) const { return last_[communicator]; }
+
+namespace {
+// The calling thread covers instants while this lives.
+struct RunningHere {
+  explicit RunningHere(std::atomic<const RunningTask*>& to) : running(to) { running.store(&running_task); }
+  ~RunningHere() { running.store(nullptr); }
+  std::atomic<const RunningTask*>& running;
+};
+}  // namespace
+
+void Executor::run_until(Duration end) {
+  try {
+    cover(end);
+  } catch (...) {
+    // an external system is lost; what was released before is part of the run
+    finish();
+    throw;
+  }
+  finish();
+}
+
+void Executor::cover(Duration end) {
+  if (report_.stopped && missed_ == nullptr) return;
+  const MemoryScope scope(no_heap());  // a task with a heap has a scope of its own
+  const RunningHere here(running_);
+  const DefaultFloatingPoint arithmetic;
+  const bool record = options_.recorder != nullptr;
+  if (options_.clock != nullptr || missed_ != nullptr) {
+    record ? walk<true, true, true>(end) : walk<true, false, true>(end);
+  } else if (options_.digest) {
+    record ? walk<true, true, false>(end) : walk<true, false, false>(end);
+  } else {
+    record ? walk<false, true, false>(end) : walk<false, false, false>(end);
+  }
+}
+
+template <bool Digest, bool Record, bool MayMiss>
+void Executor::walk(Duration end) {
+  while (calendar_.next() < end.count()) {
+    if (interrupted_.load(std::memory_order_relaxed)) return;
+    const std::int64_t instant = calendar_.next();
+    if (MayMiss && missed_ == nullptr) {
+      options_.clock->wait_until(instant, interrupted_);
+      if (interrupted_.load(std::memory_order_relaxed)) return;
+      if (threads_ != nullptr) settle(instant);
+      if (report_.stopped) return;
+    }
+    if (options_.log != nullptr && instant >= checkpoint_due_) log_checkpoint(instant);
+    now_.store(instant, std::memory_order_relaxed);
+    due_ = calendar_.take();
+    const bool done = step_instant<Digest, Record, MayMiss>(instant);
+    if (!done) return;
+    report_.instants += 1;
+    report_.simulated = Duration(instant);
+    report_.covered = Duration(instant + 1);
+    if (report_.stopped && missed_ == nullptr) return;
+  }
+  report_.simulated = end;
+  report_.covered = end;
+  now_.store(end.count(), std::memory_order_relaxed);
+}
+
+// False: the run was closed before anything of the instant took place.
+template <bool Digest, bool Record, bool MayMiss>
+bool Executor::step_instant(std::int64_t instant) {
+  const std::uint64_t instant_term = Digest ? digest::instant_term(instant) : 0;
+  if (!last_.empty()) gather_communicators();
+  ChannelsInUse channels_in_use(outs_.empty() && ins_.empty() ? nullptr : &use_);
+  if (channels_in_use.closed()) return false;
+  // step 0: external systems reach this instant with the inputs they held before it
+  if (!outs_.empty() || !ins_.empty()) {
+    const MemoryScope outside(nullptr);
+    for (const auto& channels : channels_) channels->reach(Duration(instant));
+    if constexpr (Record)
+      if (!watched_.empty()) record_true_values(instant);
+  }
+  // step 1: outputs of LET tasks that end now
+  for (const std::uint32_t g : due_) {
+    const Group& group = plan_.groups[g];
+    if (group.let_ends.first == group.let_ends.last) continue;
+    if (MayMiss && threads_ != nullptr) {
+      for (const LetEnd& let_end : group.let_ends) end_let(let_end, instant);
+    } else if (bad_outcomes_ == 0 && are_let_outputs_finite(group)) [[likely]] {
+      publish<Digest, Record>(group.let_publish, instant, instant_term);
+    } else {
+      publish_one_by_one<Digest, Record>(group, instant, instant_term);
+    }
+  }
+  // steps 2 and 3: communicators, by name
+  for (const CommunicatorAction* out : outs_) {
+    hand_over(*out, Duration(instant));
+    publish<Digest, Record>(out->publish, instant, instant_term);
+  }
+  for (const CommunicatorAction* in : ins_) {
+    take(*in, Duration(instant));
+    publish<Digest, Record>(in->publish, instant, instant_term);
+  }
+  channels_in_use.end();
+  // step 4: tasks released now
+  if (MayMiss && threads_ != nullptr) {
+    release_on_threads(instant);
+  } else if (team_ != nullptr && team_->may_share(plan_.groups, due_)) {
+    run_stages_shared<Digest, Record>(instant, instant_term);
+  } else if (due_.size() == 1) {
+    const Group& group = plan_.groups[due_[0]];
+    const Tick tick{Duration(instant), releases_[due_[0]]++, group.period};
+    for (const Segment& segment : group.segments) run_segment<Digest, Record, MayMiss>(segment, tick, instant_term);
+    report_.activations += group.activations;
+  } else {
+    run_stages<Digest, Record, MayMiss>(instant, instant_term);
+  }
+  return true;
+}
+
+// As a LET task among those that are under way has a fault, or may have one.
+template <bool Digest, bool Record>
+void Executor::publish_one_by_one(const Group& group, std::int64_t instant, std::uint64_t instant_term) {
+  for (const LetEnd& let_end : group.let_ends) {
+    Outcome& outcome = plan_.outcomes[let_end.task];
+    if (outcome == Outcome::good && has_late_fault(let_end, instant)) {
+      record_fault(let_end.task, instant);
+    } else if (outcome == Outcome::good) {
+      publish<Digest, Record>(let_end.publish, instant, instant_term);
+    } else {
+      if (outcome != Outcome::left_out) record_fault(let_end.task, instant);
+      outcome = Outcome::good;  // at most one activation waits for its end
+      --bad_outcomes_;
+    }
+  }
+}
+
+// The communicators due now, by name.
+void Executor::gather_communicators() {
+  outs_.clear();
+  ins_.clear();
+  for (const std::uint32_t g : due_) {
+    for (const CommunicatorAction& action : plan_.groups[g].outs) outs_.push_back(&action);
+    for (const CommunicatorAction& action : plan_.groups[g].ins) ins_.push_back(&action);
+  }
+  sort_by_name(outs_);
+  sort_by_name(ins_);
+}
+
+void Executor::record_true_values(std::int64_t instant) {
+  for (WatchedVehicle& vehicle : watched_) {
+    channels_[vehicle.distributer]->copy_true_values(vehicle.values.data());
+    const auto output = static_cast<std::uint32_t>(plan_.outputs.size() + vehicle.distributer);
+    record(*options_.recorder, output, *vehicle.values.type(), vehicle.values.data(), instant);
+  }
+}
+
+void Executor::start_groups(std::int64_t instant) {
+  for (std::size_t i = 0; i < due_.size(); ++i) {
+    const Group& group = plan_.groups[due_[i]];
+    cursors_[i] = group.segments.first;
+    ticks_[i] = {Duration(instant), releases_[due_[i]]++, group.period};
+    report_.activations += group.activations;
+  }
+}
+
+// Several groups: the segments of the lowest stage of all, then those of the next.
+template <bool Digest, bool Record, bool MayMiss>
+void Executor::run_stages(std::int64_t instant, std::uint64_t instant_term) {
+  start_groups(instant);
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  for (std::uint32_t stage = 0; stage != none;) {
+    std::uint32_t next = none;
+    for (std::size_t i = 0; i < due_.size(); ++i) {
+      const Segment* last = plan_.groups[due_[i]].segments.last;
+      if (cursors_[i] != last && cursors_[i]->stage == stage)
+        run_segment<Digest, Record, MayMiss>(*cursors_[i]++, ticks_[i], instant_term);
+      if (cursors_[i] != last) next = std::min(next, cursors_[i]->stage);
+    }
+    stage = next;
+  }
+}
+
+// The same by several workers, stage by stage.
+template <bool Digest, bool Record>
+void Executor::run_stages_shared(std::int64_t instant, std::uint64_t instant_term) {
+  start_groups(instant);
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  for (std::uint32_t stage = 0; stage != none;) {
+    std::uint32_t next = none;
+    std::ptrdiff_t levels = 0;
+    std::size_t segments = 0;
+    bool deep = false;
+    for (std::size_t i = 0; i < due_.size(); ++i) {
+      const Segment* last = plan_.groups[due_[i]].segments.last;
+      in_stage_[i] = cursors_[i] != last && cursors_[i]->stage == stage ? cursors_[i]++ : nullptr;
+      if (in_stage_[i] != nullptr) {
+        ++segments;
+        deep = deep || in_stage_[i]->publishes_deep;
+        levels = std::max(levels, in_stage_[i]->levels.last - in_stage_[i]->levels.first);
+      }
+      if (cursors_[i] != last) next = std::min(next, cursors_[i]->stage);
+    }
+    if (deep && segments > 1) {  // a reader's heap tells which of its producers came first
+      for (std::size_t i = 0; i < due_.size(); ++i)
+        if (in_stage_[i] != nullptr) run_segment<Digest, Record, false>(*in_stage_[i], ticks_[i], instant_term);
+    } else {
+      for (std::ptrdiff_t level = 0; level < levels; ++level) run_level_shared<Digest, Record>(level, instant_term);
+      tell_bad_outcomes();
+    }
+    stage = next;
+  }
+}
+
+// The tasks of one level of all segments of the stage: none feeds another.
+template <bool Digest, bool Record>
+void Executor::run_level_shared(std::ptrdiff_t level, std::uint64_t instant_term) {
+  team_->clear();
+  for (std::size_t i = 0; i < due_.size(); ++i) {
+    const Segment* const segment = in_stage_[i];
+    if (segment == nullptr || level >= segment->levels.last - segment->levels.first) continue;
+    for (const Activation& activation : segment->levels.first[level]) team_->add(activation, ticks_[i]);
+  }
+  report_.digest += team_->run(Digest, instant_term);
+  for (const StageTeam::Item& item : team_->items()) {
+    const std::int64_t instant = item.tick->now.count();
+    if (item.outcome != Outcome::good) {
+      bad_items_.push_back(item);
+    } else if (item.activation->publishes_deep) {
+      publish<Digest, Record>(item.activation->publish, instant, instant_term);
+    } else if constexpr (Record) {
+      record(*options_.recorder, item.activation->publish, instant);
+    }
+  }
+}
+
+// In the order in which one worker would have seen them, which is that of the plan.
+void Executor::tell_bad_outcomes() {
+  std::sort(bad_items_.begin(), bad_items_.end(),
+            [](const StageTeam::Item& a, const StageTeam::Item& b) { return a.activation < b.activation; });
+  for (const StageTeam::Item& item : bad_items_) on_bad_outcome(*item.activation, item.outcome, *item.tick);
+  bad_items_.clear();
+}
+
+template <bool Digest, bool Record, bool MayMiss>
+void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term) {
+  running_task.tick.store(&tick, std::memory_order_relaxed);
+  for (const Activation* next = segment.activations.first; next != segment.activations.last;) {
+    if (!MayMiss && next->body != nullptr) {
+      next = run_bodies(next, segment.activations.last, tick);
+      continue;
+    }
+    const Activation& activation = *next++;
+    running_task.next(activation.memory);
+    const Outcome outcome = MayMiss ? run_in_time(activation, tick) : activation.run(activation.memory, tick);
+    if (outcome == Outcome::good) [[likely]] {
+      if (!activation.has_let) publish<Digest, Record>(activation.publish, tick.now.count(), instant_term);
+    } else {
+      on_bad_outcome(activation, outcome, tick);
+    }
+  }
+  running_task.end();
+}
+
+// Those in a row that are checked at the ends of their LETs; returns the first that is not one. What one throws ends
+// its own activation alone.
+const Activation* Executor::run_bodies(const Activation* next, const Activation* last, const Tick& tick) {
+  while (next != last && next->body != nullptr) {
+    const Outcome outcome = contain(
+        [&] {
+          for (; next != last && next->body != nullptr; ++next) {
+            running_task.next(next->memory);
+            next->body(next->memory, tick);
+          }
+        },
+        [&]() -> FaultText& { return *next->memory.fault; });
+    if (outcome != Outcome::good) on_bad_outcome(*next++, outcome, tick);
+  }
+  return next;
+}
+
+template <bool Digest, bool Record>
+inline void Executor::publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term) {
+  report_.digest += make_visible<Digest>(what, instant_term);
+  if constexpr (Record) record(*options_.recorder, what, instant);
+}
+
+void Executor::hand_over(const CommunicatorAction& out, Duration instant) {
+  const Communicator& communicator = graph_.communicators[out.communicator];
+  const void* const safe = safe_commands_.in_place_of_input(out.communicator, instant);
+  copy_value(*communicator.type, out.value, safe != nullptr ? safe : out.input);
+  const MemoryScope outside(nullptr);
+  if (communicator.distributer) channels_[*communicator.distributer]->hand_over(communicator.channel, out.value);
+}
+
+void Executor::take(const CommunicatorAction& in, Duration instant) {
+  const Communicator& communicator = graph_.communicators[in.communicator];
+  if (!communicator.distributer) return;
+  const MemoryScope outside(nullptr);
+  if (!channels_[*communicator.distributer]->take(communicator.channel, in.taken)) return;
+  if (communicator.type->finite(in.taken)) {
+    copy_value(*communicator.type, in.value, in.taken);
+    safe_commands_.took(in.communicator, instant);
+    if (options_.log != nullptr)
+      record(*options_.log, log_outputs_[in.communicator], *communicator.type, in.value, instant.count());
+  } else {
+    ++refused_inputs_;
+  }
+}
+
+// On the real clock: an activation that ends after its deadline has a fault, and so have those whose releases fall into
+// the time that it took.
+Outcome Executor::run_in_time(const Activation& activation, const Tick& tick) {
+  if (missed_ != nullptr) return run_as_logged(activation, tick);
+  TaskTiming& timing = options_.clock->timing(activation.task);
+  if (timing.busy_until > tick.now.count()) {
+    ++timing.left_out;
+    return Outcome::overrun;
+  }
+  const std::int64_t begin = options_.clock->now();
+  const Outcome outcome = activation.run(activation.memory, tick);
+  if (outcome == Outcome::left_out) return outcome;
+  const std::int64_t end = options_.clock->now();
+  timing.busy_until = end;
+  timing.execution.add(end - begin);
+  timing.response.add(end - tick.now.count());
+  if (outcome != Outcome::good || end - tick.now.count() <= graph_.tasks[activation.task].deadline.count())
+    return outcome;
+  ++timing.late;
+  ended_after_ = Duration(end - tick.now.count());
+  return Outcome::late;
+}
+
+// What was late or left out has the same effect whether it runs or not.
+Outcome Executor::run_as_logged(const Activation& activation, const Tick& tick) {
+  const Miss* const miss = missed_->find(activation.task, tick.activation);
+  if (miss == nullptr) return activation.run(activation.memory, tick);
+  if (miss->left_out != 0) return Outcome::overrun;
+  ended_after_ = miss->ended_after == Miss::unknown ? std::nullopt : std::optional(Duration(miss->ended_after));
+  return Outcome::late;
+}
+
+}  // namespace jarol

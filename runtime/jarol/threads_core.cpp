@@ -1,0 +1,401 @@
+#include "runtime/jarol/threads_core.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "graph/floating_point.h"
+#include "runtime/execute/expectations.h"
+#include "runtime/execute/publish.h"
+#include "runtime/jarol/threads_order.h"
+#include "runtime/machine/real_clock.h"
+#include "runtime/machine/running_task.h"
+#include "runtime/machine/signal_stack.h"
+#include "runtime/plan/copy.h"
+
+namespace jarol {
+
+ThreadsCore::ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, Recorder* recorder)
+    : graph_(graph),
+      plan_(graph),
+      channels_(std::move(channels)),
+      period_(choose_period()),
+      recorder_(recorder),
+      safe_commands_(graph) {
+  for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::mutex>());
+  last_.resize(graph.communicators.size());
+  threads_report_.execution.resize(graph.tasks.size());
+  report_.left_out.resize(graph.tasks.size());
+  gather();
+  if (recorder_ == nullptr) return;
+  recorder_->expect(plan_.outputs);
+  recorder_->never_wait();
+  for (const std::size_t distributer : watched_vehicles(graph))
+    if (const Type* type = channels_[distributer]->true_type())
+      watched_.push_back(std::make_unique<Watched>(distributer, *type));
+}
+
+bool ThreadsCore::on_vehicle(std::size_t communicator) const {
+  const auto distributer = graph_.communicators[communicator].distributer;
+  return distributer && graph_.distributers[*distributer].distributer_class->is_vehicle;
+}
+
+Duration ThreadsCore::choose_period() const {
+  Duration vehicle = Duration::max(), any = Duration::max();
+  for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
+    const Duration period = graph_.communicators[i].period;
+    any = std::min(any, period);
+    if (on_vehicle(i)) vehicle = std::min(vehicle, period);
+  }
+  for (const Task& task : graph_.tasks) any = std::min(any, task.period);
+  if (any == Duration::max()) throw std::invalid_argument("a graph without tasks and communicators has nothing to run");
+  return vehicle != Duration::max() ? vehicle : any;
+}
+
+std::int64_t ThreadsCore::rounds_of(const std::string& what, Duration period) const {
+  if (period.count() % period_.count() != 0)
+    throw std::invalid_argument("threads count in periods of the vehicle's channels, " + duration_text(period_) + "; " +
+                                what + " has " + duration_text(period) + ", which is no multiple of it");
+  return period.count() / period_.count();
+}
+
+void ThreadsCore::gather() {
+  std::vector<const Activation*> activations(graph_.tasks.size());
+  std::vector<const Publish*> publishes(graph_.tasks.size());
+  for (const Group& group : plan_.groups) {
+    for (const Segment& segment : group.segments)
+      for (const Activation& activation : segment.activations) {
+        activations[activation.task] = &activation;
+        if (!activation.has_let) publishes[activation.task] = &activation.publish;
+      }
+    for (const LetEnd& end : group.let_ends) publishes[end.task] = &end.publish;
+    for (const auto& [actions, to] : {std::pair(group.ins, &ins_), std::pair(group.outs, &outs_)})
+      for (const CommunicatorAction& action : actions) {
+        const Communicator& c = graph_.communicators[action.communicator];
+        last_[action.communicator] = action.value;
+        if (c.type->is_deep())
+          throw std::invalid_argument("communicator '" + c.name +
+                                      "' carries a value of changing size, which threads can't hand over");
+        Carried carried;
+        carried.communicator = action.communicator;
+        carried.action = &action;
+        carried.core = carried.outside = Cadence(rounds_of("communicator '" + c.name + "'", c.period));
+        carried.terminal = c.distributer && !on_vehicle(action.communicator);
+        carried.port = std::make_unique<PushBytesPort>(1, c.type->size);
+        carried.room.resize(c.type->size);
+        to->push_back(std::move(carried));
+      }
+  }
+  const auto by_name = [](const Carried& a, const Carried& b) { return a.communicator < b.communicator; };
+  std::sort(ins_.begin(), ins_.end(), by_name);
+  std::sort(outs_.begin(), outs_.end(), by_name);
+  for (const std::size_t i : threads_order(graph_)) {
+    const Task& task = graph_.tasks[i];
+    const Cadence cadence(rounds_of("task '" + task.name + "'", task.period));
+    tasks_.push_back({activations[i], publishes[i], cadence, task.period, 0});
+  }
+}
+
+ThreadsCore::~ThreadsCore() { finish(); }
+
+void ThreadsCore::run_for(Duration end, const std::function<void()>& prepare) {
+  try {
+    cover(end, prepare);
+  } catch (...) {
+    finish();
+    throw;
+  }
+  finish();
+  throw_failure();
+}
+
+void ThreadsCore::throw_failure() {
+  const std::lock_guard lock(failure_mutex_);
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+template <class Work>
+void ThreadsCore::begin(Part& part, Signal& signal, const std::function<void()>& prepare, Work work) {
+  if (stopped()) return;
+  part.signal = &signal;
+  try {
+    part.thread = std::thread([this, &part, prepare, work] {
+      set_floating_point_control(default_floating_point_control());
+      try {
+        prepare();
+        work();
+      } catch (...) { fail(std::current_exception()); }
+      part.ended.store(1, std::memory_order_release);
+      Futex::wake_all(part.ended);
+    });
+  } catch (const std::system_error& error) {
+    fail(std::make_exception_ptr(std::runtime_error("there is no thread to be had: " + std::string(error.what()))));
+  }
+}
+
+void ThreadsCore::cover(Duration end, const std::function<void()>& prepare) {
+  begin(core_, core_signal_, prepare, [this] { run_core(); });
+  begin(actuator_, actuator_signal_, prepare, [this] { run_actuator(); });
+  begin(terminal_, terminal_signal_, prepare, [this] { run_terminal(); });
+  begin(sensor_, start_signal_, prepare, [this, end] {
+    if (start_signal_.await() == Awaiting::signalled) run_sensor(end);
+  });
+  // the clock starts when all wait to be signalled
+  for (const Signal* signal : {&core_signal_, &actuator_signal_, &terminal_signal_, &start_signal_})
+    while (!stopped() && signal->waiting() == 0) std::this_thread::yield();
+  try {
+    if (!stopped()) prepare();
+  } catch (...) { fail(std::current_exception()); }
+  if (!stopped()) {
+    trigger_.emplace(period_);
+    static_cast<void>(start_signal_.signal());
+  }
+  constexpr auto look = std::chrono::milliseconds(10);
+  while (!interrupted_.load(std::memory_order_relaxed) && !stopped()) std::this_thread::sleep_for(look);
+  throw_failure();
+}
+
+Finish ThreadsCore::finish(std::optional<Futex::Time> patience) {
+  // in the order of the flow: what was sensed is still computed, and what was computed handed over
+  if (trigger_) trigger_->stop();
+  for (Part* part : {&sensor_, &core_, &actuator_, &terminal_}) {
+    if (!part->thread.joinable()) continue;
+    part->signal->interrupt();
+    while (part->ended.load(std::memory_order_acquire) == 0) {
+      if (Futex::wait(part->ended, 0, patience)) continue;
+      Finish finish{.done = false};
+      if (auto hanging = running()) finish.hanging.push_back(std::move(*hanging));
+      return finish;
+    }
+    part->thread.join();
+  }
+  report_.non_finite_inputs = refused_inputs_;
+  for (const auto& channels : channels_) report_.non_finite_inputs += channels->non_finite_inputs();
+  report_.simulated = now();
+  // the instant at which a run is broken off was run
+  report_.covered = now() + Duration(reached_end_ || threads_report_.rounds == 0 ? 0 : 1);
+  return {};
+}
+
+namespace {
+// Tries again and again: the thread sanitizer does not know a mutex that is waited for until a time.
+bool lock_until(std::unique_lock<std::mutex>& lock, Futex::Time patience) {
+  while (!lock.try_lock()) {
+    if (std::chrono::steady_clock::now() >= patience) return false;
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+  return true;
+}
+}  // namespace
+
+// From here on the threads that carry values find nothing to do.
+void ThreadsCore::close(Futex::Time patience) {
+  interrupt();
+  if (closed_.exchange(true)) return;
+  const Duration time = now();
+  std::vector<std::unique_lock<std::mutex>> locks;
+  for (const auto& mutex : channel_mutexes_)
+    if (!lock_until(locks.emplace_back(*mutex, std::defer_lock), patience)) {
+      safe_commands_.fail_at_end(channels_, time, false, busy_link_text);
+      return;
+    }
+  safe_commands_.hand_over_at_end(channels_, time, false);
+}
+
+std::optional<HangingTask> ThreadsCore::running() const {
+  const Counted* const task = running_.task.load(std::memory_order_acquire);
+  if (task == nullptr) return std::nullopt;
+  return HangingTask{graph_.tasks[task->activation->task].name, running_.activation.load(std::memory_order_relaxed),
+                     Duration(running_.instant.load(std::memory_order_relaxed))};
+}
+
+// Nobody looks whether it comes in time, but it holds up the core.
+std::optional<Holdup> ThreadsCore::holdup() const {
+  const Counted* const task = running_.task.load(std::memory_order_acquire);
+  std::optional<HangingTask> hanging = running();
+  if (task == nullptr || !hanging) return std::nullopt;
+  const Duration late = now() - hanging->instant - task->period;
+  return Holdup{.task = std::move(*hanging), .late = late, .stops = false};
+}
+
+void ThreadsCore::fail(std::exception_ptr failure) {
+  const std::lock_guard lock(failure_mutex_);
+  if (!failure_) failure_ = std::move(failure);
+  stopped_.store(true, std::memory_order_release);
+}
+
+// A round's number goes by the clock, also where ticks found this thread at work.
+void ThreadsCore::run_sensor(Duration end) {
+  TimeTrigger& trigger = *trigger_;
+  const std::int64_t rounds = end / period_ + (end % period_ != Duration{} ? 1 : 0);
+  for (std::int64_t next = 0; !stopped() && trigger.await() == Awaiting::signalled;) {
+    const std::int64_t round = std::min(trigger.ticks() - 1, rounds);
+    threads_report_.unawaited_ticks += static_cast<std::uint64_t>(round - next);
+    next = round + 1;
+    if (round == rounds) {
+      now_.store(end.count(), std::memory_order_relaxed);
+      reached_end_ = true;
+      stopped_.store(true, std::memory_order_release);
+      return;
+    }
+    now_.store(round * period_.count(), std::memory_order_relaxed);
+    const std::int64_t tick = Duration(trigger.time_of(round).time_since_epoch()).count();
+    threads_report_.lateness.add(RealClock::monotonic() - tick);
+    tick_.store(tick, std::memory_order_relaxed);
+    sense(false, round);
+    rounds_begun_.store(next, std::memory_order_release);
+    if (core_signal_.signal() != Signalling::done) ++threads_report_.core_busy;
+  }
+}
+
+// Values from outside into the ports of one side.
+void ThreadsCore::sense(bool terminal, std::int64_t round) {
+  const Duration now(round * period_.count());
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    if (graph_.distributers[i].distributer_class->is_vehicle == terminal) continue;
+    const std::lock_guard lock(*channel_mutexes_[i]);
+    if (closed_.load(std::memory_order_relaxed)) return;
+    channels_[i]->reach(now);
+    for (const auto& vehicle : watched_) {
+      if (vehicle->distributer != i) continue;
+      channels_[i]->copy_true_values(vehicle->outside.data());
+      vehicle->port.write(vehicle->outside.data());
+    }
+    for (Carried& in : ins_) {
+      const Communicator& c = graph_.communicators[in.communicator];
+      if (c.distributer != i || !in.outside.due(round) || !channels_[i]->take(c.channel, in.room.data())) continue;
+      if (c.type->finite(in.room.data()))
+        in.port->write(in.room.data());
+      else
+        refused_inputs_.fetch_add(1, std::memory_order_relaxed);
+    }
+  }
+}
+
+void ThreadsCore::run_core() {
+  const SignalStack signal_stack;
+  const MemoryScope scope(no_heap());
+  for (std::int64_t done = 0; !report_.stopped;) {
+    const auto ready = [&] { return rounds_begun_.load(std::memory_order_acquire) > done; };
+    const bool over = core_signal_.await_unless(ready) == Awaiting::interrupted;
+    if (!ready()) {
+      if (over) return;
+      continue;
+    }
+    // rounds that were missed are not made up for
+    done = rounds_begun_.load(std::memory_order_acquire);
+    run_round(done - 1);
+    ++threads_report_.rounds;
+    rounds_done_.store(threads_report_.rounds, std::memory_order_seq_cst);
+    threads_report_.round.add(RealClock::monotonic() - tick_.load(std::memory_order_relaxed));
+    static_cast<void>(actuator_signal_.signal());
+    static_cast<void>(terminal_signal_.signal());
+  }
+}
+
+void ThreadsCore::run_round(std::int64_t round) {
+  const std::int64_t instant = round * period_.count();
+  const std::uint64_t instant_term = digest::instant_term(instant);
+  ++report_.instants;
+  if (!watched_.empty()) record_true_values(instant);
+  for (Carried& in : ins_) {
+    if (!in.core.due(round)) continue;
+    while (in.port->read(in.action->value)) safe_commands_.took(in.communicator, Duration(instant));
+    publish(in.action->publish, instant, instant_term);
+  }
+  for (Counted& task : tasks_)
+    if (task.cadence.due(round)) run_task(task, instant, instant_term);
+  for (Carried& out : outs_) {
+    if (!out.core.due(round)) continue;
+    const void* const safe = safe_commands_.in_place_of_input(out.communicator, Duration(instant));
+    copy_value(*graph_.communicators[out.communicator].type, out.action->value,
+               safe != nullptr ? safe : out.action->input);
+    publish(out.action->publish, instant, instant_term);
+    out.port->write(out.action->value);
+  }
+}
+
+void ThreadsCore::run_task(Counted& task, std::int64_t instant, std::uint64_t instant_term) {
+  const Tick tick{Duration(instant), task.activations++, task.period};
+  const std::int64_t begin = RealClock::monotonic();
+  running_.activation.store(tick.activation, std::memory_order_relaxed);
+  running_.instant.store(instant, std::memory_order_relaxed);
+  running_.task.store(&task, std::memory_order_release);
+  running_task.begin(task.activation->memory, tick);
+  const Outcome outcome = task.activation->run(task.activation->memory, tick);
+  running_task.end();
+  running_.task.store(nullptr, std::memory_order_relaxed);
+  if (outcome == Outcome::left_out) return;
+  threads_report_.execution[task.activation->task].add(RealClock::monotonic() - begin);
+  ++report_.activations;
+  if (outcome == Outcome::good)
+    publish(*task.publish, instant, instant_term);
+  else
+    on_fault(task, outcome, instant);
+}
+
+void ThreadsCore::publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term) {
+  report_.digest += make_visible<true>(what, instant_term);
+  if (recorder_ != nullptr) record(*recorder_, what, instant);
+}
+
+void ThreadsCore::record_true_values(std::int64_t instant) {
+  for (const auto& vehicle : watched_) {
+    const auto output = static_cast<std::uint32_t>(plan_.outputs.size() + vehicle->distributer);
+    if (vehicle->port.read(vehicle->core.data()))
+      record(*recorder_, output, *vehicle->core.type(), vehicle->core.data(), instant);
+  }
+}
+
+void ThreadsCore::on_fault(const Counted& task, Outcome outcome, std::int64_t instant) {
+  const Task& t = graph_.tasks[task.activation->task];
+  TaskStatus& status = plan_.status[task.activation->task];
+  if (outcome == Outcome::non_finite) keep_text(status, "an output is not finite");
+  ++report_.left_out[task.activation->task];
+  report_.add({t.name, task.activations - 1, Duration(instant), status.text});
+  if (t.on_fault == OnFault::stop) {
+    report_.stopped = true;
+    stopped_.store(true, std::memory_order_release);
+    return;
+  }
+  status.put_back(task.activation->memory.state);
+  status.skip_next = t.on_fault == OnFault::skip;
+}
+
+// Values of one side from the ports to the outside.
+void ThreadsCore::act(bool terminal) {
+  for (Carried& out : outs_) {
+    const Communicator& c = graph_.communicators[out.communicator];
+    if (!c.distributer || out.terminal != terminal || !out.port->read(out.room.data())) continue;
+    const std::lock_guard lock(*channel_mutexes_[*c.distributer]);
+    if (closed_.load(std::memory_order_relaxed)) return;
+    channels_[*c.distributer]->hand_over(c.channel, out.room.data());
+  }
+}
+
+void ThreadsCore::run_actuator() {
+  for (std::uint64_t seen = 0; await_core(actuator_signal_, seen);) act(false);
+}
+
+void ThreadsCore::run_terminal() {
+  for (std::uint64_t seen = 0; await_core(terminal_signal_, seen);) {
+    sense(true, std::max<std::int64_t>(0, rounds_begun_.load(std::memory_order_acquire) - 1));
+    act(true);
+  }
+}
+
+// Until the core has done another round; false at the end.
+bool ThreadsCore::await_core(Signal& signal, std::uint64_t& seen) const {
+  const auto ready = [&] { return rounds_done_.load(std::memory_order_seq_cst) != seen; };
+  for (bool over = false; !ready();) {
+    if (over) return false;
+    over = signal.await_unless(ready) == Awaiting::interrupted;
+  }
+  seen = rounds_done_.load(std::memory_order_acquire);
+  return true;
+}
+
+}  // namespace jarol

@@ -1,0 +1,103 @@
+#include "runtime/machine/real_clock.h"
+
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#include <cerrno>
+#include <cstring>
+#include <mutex>
+
+namespace jarol {
+namespace {
+
+constexpr std::int64_t second = 1'000'000'000;
+constexpr std::int64_t look_for_interrupt = second / 10;
+constexpr std::int64_t spin_before = 100'000;  // ns; more than a wake-up takes on a quiet machine
+
+void sleep_until(std::int64_t monotonic_ns) {
+  const timespec until{monotonic_ns / second, monotonic_ns % second};
+  // a signal ends it early; the caller looks at the clock again
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+}
+
+std::string refused(const std::string& what, int error, const std::string& remedy) {
+  return what + ": " + std::strerror(error) + "; " + remedy;
+}
+
+// What is allocated later is locked too, but not where a limit counts: there would be no thread and no memory to be had
+// beyond it.
+int lock_memory() {
+  static std::mutex limits;
+  const std::lock_guard lock(limits);
+  rlimit limit{};
+  getrlimit(RLIMIT_MEMLOCK, &limit);
+  if (limit.rlim_cur == RLIM_INFINITY) return mlockall(MCL_CURRENT | MCL_FUTURE);
+  // no limit counts for a process with CAP_IPC_LOCK, not even none at all; a user namespace may only seem to give it
+  const rlimit nothing{0, limit.rlim_max};
+  setrlimit(RLIMIT_MEMLOCK, &nothing);
+  const int unlimited = mlockall(MCL_CURRENT | MCL_FUTURE);
+  setrlimit(RLIMIT_MEMLOCK, &limit);
+  return unlimited == 0 ? 0 : mlockall(MCL_CURRENT);
+}
+
+}  // namespace
+
+RealTimeOptions RealTimeOptions::of_thread(std::size_t core, std::size_t urgency) const {
+  RealTimeOptions options = *this;
+  if (priority) options.priority = *priority - 1 - static_cast<int>(urgency);
+  if (core < core_cpus.size()) options.cpus = {core_cpus[core]};
+  return options;
+}
+
+std::vector<std::string> prepare_thread(const RealTimeOptions& options) {
+  std::vector<std::string> refusals;
+  prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
+  if (lock_memory() != 0)
+    refusals.push_back(
+        refused("memory can't be locked", errno, "a page fault may delay a task; allow it by 'ulimit -l unlimited'"));
+  if (!options.cpus.empty()) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    for (const int cpu : options.cpus) CPU_SET(static_cast<std::size_t>(cpu), &set);
+    if (sched_setaffinity(0, sizeof set, &set) != 0)
+      refusals.push_back(refused("the thread can't be bound to the CPUs of --cpus", errno,
+                                 "name CPUs that this machine has and lets the process use"));
+  }
+  if (options.priority) {
+    sched_param parameter{};
+    parameter.sched_priority = *options.priority;
+    if (sched_setscheduler(0, SCHED_FIFO, &parameter) != 0)
+      refusals.push_back(refused("SCHED_FIFO is refused", errno,
+                                 "no task goes before another or before other programs; allow it by 'ulimit -r 99' or "
+                                 "run as root"));
+  }
+  return refusals;
+}
+
+RealClock::RealClock(std::size_t tasks, RealTimeOptions options) : options_(std::move(options)), timings_(tasks) {}
+
+std::int64_t RealClock::monotonic() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * second + now.tv_nsec;
+}
+
+void RealClock::start() { start_ = monotonic(); }
+
+void RealClock::wait_until(std::int64_t instant, const std::atomic<bool>& interrupted) {
+  const std::int64_t due = start_ + instant;
+  const std::int64_t awake = options_.spin ? due - spin_before : due;
+  std::int64_t at = monotonic();
+  while (at < awake) {
+    if (interrupted.load(std::memory_order_relaxed)) return;
+    sleep_until(std::min(awake, at + look_for_interrupt));
+    at = monotonic();
+  }
+  while (at < due) at = monotonic();
+  lateness_.add(at - due);
+}
+
+}  // namespace jarol

@@ -1,0 +1,155 @@
+#include "runtime/record/recorder.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "graph/values/pack.h"
+
+namespace jarol {
+namespace {
+constexpr std::uint64_t ended = std::uint64_t{1} << 63;
+}
+
+Recorder::Recorder(std::vector<RecordSink*> sinks)
+    : sinks_(std::move(sinks)), memory_(std::make_unique<std::byte[]>(chunk_bytes * chunks)), now_(memory_.get()) {
+  thread_ = std::thread([this] { run(); });
+}
+
+Recorder::~Recorder() {
+  try {
+    close();
+  } catch (...) {
+    // whoever cares for a loss closes first
+  }
+}
+
+void Recorder::expect(const std::vector<Output>& outputs) {
+  outputs_ = outputs;
+  deep_values_.clear();
+  for (const Output& output : outputs) {
+    if (output.type->size > most_bytes)
+      throw std::length_error("output '" + output.name + "' has " + std::to_string(output.type->size) +
+                              " bytes; values of up to " + std::to_string(most_bytes) + " can be recorded");
+    deep_values_.push_back(output.type->is_deep() ? Value(*output.type) : Value());
+  }
+}
+
+void Recorder::append_deep(std::int64_t instant, std::uint32_t output, const void* value) {
+  const Type& type = *outputs_[output].type;
+  const std::size_t size = packed_size(type, value);
+  if (size > most_bytes) {
+    if (lost_.empty())
+      lost_ = "output '" + outputs_[output].name + "' had " + std::to_string(size) + " bytes at " +
+              std::to_string(instant) + "ns; values of up to " + std::to_string(most_bytes) + " can be recorded";
+    return;
+  }
+  const std::size_t padded = (size + 7U) & ~std::size_t{7};
+  if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk();
+  const RecordHeader header{instant, output, static_cast<std::uint32_t>(size)};
+  std::memcpy(now_ + used_, &header, sizeof header);
+  pack(type, value, now_ + used_ + sizeof header);
+  used_ += sizeof header + padded;
+}
+
+void Recorder::close() {
+  if (!thread_.joinable()) return;
+  if (used_ > 0 && !is_cut_off_) publish_chunk();
+  // the end is part of the awaited word: a flag of its own could be set between test and wait
+  written_.fetch_or(ended, std::memory_order_release);
+  written_.notify_one();
+  thread_.join();
+  if (failure_) std::rethrow_exception(failure_);
+  if (!lost_.empty()) throw std::length_error(lost_);
+}
+
+void Recorder::publish_chunk() {
+  const std::uint64_t index = written_.load(std::memory_order_relaxed);
+  bytes_[index % chunks] = used_;
+  written_.store(index + 1, std::memory_order_release);
+  written_.notify_one();
+  used_ = 0;
+}
+
+void Recorder::next_chunk() {
+  if (!waits_ && written_.load(std::memory_order_relaxed) + 1 - read_.load(std::memory_order_acquire) >= chunks)
+    cut_off();
+  if (is_cut_off_) {
+    used_ = 0;
+    return;
+  }
+  publish_chunk();
+  const std::uint64_t next = written_.load(std::memory_order_relaxed);
+  for (std::uint64_t read = read_.load(std::memory_order_acquire); next - read >= chunks;
+       read = read_.load(std::memory_order_acquire))
+    read_.wait(read, std::memory_order_acquire);
+  now_ = memory_.get() + (next % chunks) * chunk_bytes;
+}
+
+void Recorder::cut_off() {
+  RecordHeader first;
+  std::memcpy(&first, now_, sizeof first);
+  if (!is_cut_off_ && lost_.empty())
+    lost_ = "values could not be written as fast as they came; from " + std::to_string(first.instant) +
+            "ns on they are lost";
+  is_cut_off_ = true;
+}
+
+void Recorder::run() {
+  std::uint64_t read = 0;
+  while (true) {
+    const std::uint64_t written = written_.load(std::memory_order_acquire);
+    if ((written & ~ended) == read) {
+      if ((written & ended) != 0) break;
+      written_.wait(written, std::memory_order_acquire);
+      continue;
+    }
+    drain(memory_.get() + (read % chunks) * chunk_bytes, bytes_[read % chunks]);
+    read_.store(++read, std::memory_order_release);
+    read_.notify_one();
+  }
+  try {
+    if (!failure_) hand_on_held(newest_);
+    for (RecordSink* sink : sinks_) sink->finish();
+  } catch (...) {
+    if (!failure_) failure_ = std::current_exception();
+  }
+}
+
+void Recorder::drain(const std::byte* chunk, std::size_t bytes) {
+  if (failure_) return;  // go on emptying the ring, so that the run itself is not held up
+  try {
+    for (std::size_t at = 0; at < bytes;) {
+      RecordHeader header;
+      std::memcpy(&header, chunk + at, sizeof header);
+      const std::byte* packed = chunk + at + sizeof header;
+      disorder_ ? hold(header, packed) : hand_on(header, packed);
+      at += sizeof header + ((header.size + 7U) & ~std::size_t{7});
+    }
+    for (RecordSink* sink : sinks_) sink->pause();
+  } catch (...) { failure_ = std::current_exception(); }
+}
+
+void Recorder::hold(const RecordHeader& header, const std::byte* packed) {
+  held_.emplace(header.instant, Held{header, {packed, packed + header.size}});
+  newest_ = std::max(newest_, header.instant);
+  hand_on_held(newest_ - disorder_->count());
+}
+
+void Recorder::hand_on_held(std::int64_t until) {
+  for (auto first = held_.begin(); first != held_.end() && first->first <= until; first = held_.erase(first))
+    hand_on(first->second.header, first->second.packed.data());
+}
+
+void Recorder::hand_on(const RecordHeader& header, const std::byte* packed) {
+  const void* value = value_of(header, packed);
+  for (RecordSink* sink : sinks_) sink->take(Duration(header.instant), header.output, value);
+}
+
+const void* Recorder::value_of(const RecordHeader& header, const std::byte* packed) {
+  if (header.output >= deep_values_.size() || deep_values_[header.output].type() == nullptr) return packed;
+  Value& value = deep_values_[header.output];
+  unpack(*value.type(), packed, value.data());
+  return value.data();
+}
+
+}  // namespace jarol

@@ -1,0 +1,121 @@
+// Recording of every publication: the thread that runs tasks only appends to memory, another one hands it on.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "graph/values/value.h"
+#include "runtime/plan/output.h"
+
+namespace jarol {
+
+/// What stands before each recorded value.
+struct RecordHeader {
+  std::int64_t instant = 0;  // ns since the start
+  std::uint32_t output = 0;  // index into Plan::outputs
+  std::uint32_t size = 0;    // bytes of the value that follows, padded to 8
+};
+
+/// Takes recorded values in their order, on the recorder's thread.
+class RecordSink {
+ public:
+  virtual ~RecordSink() = default;
+  virtual void take(Duration instant, std::uint32_t output, const void* value) = 0;
+  /// There is nothing more to take for now.
+  virtual void pause() {}
+  /// After the last value. Throws if anything was lost.
+  virtual void finish() = 0;
+};
+
+class Recorder {
+ public:
+  /// The sinks outlive the recorder.
+  explicit Recorder(std::vector<RecordSink*> sinks);
+
+  /// What will be recorded, before the first of it. Throws std::length_error for flat values beyond most_bytes.
+  void expect(const std::vector<Output>& outputs);
+
+  /// Sinks get values in order of instants though they may be appended out of order, up to that long after a later one.
+  /// Before the first value.
+  void put_in_order(Duration longest) { disorder_ = longest; }
+
+  /// Values up to this size can be recorded.
+  static constexpr std::size_t most_bytes = (std::size_t{256} << 10) - sizeof(RecordHeader);
+
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Appends one value. Waits if the sinks are a whole ring behind.
+  void append(std::int64_t instant, std::uint32_t output, const void* value, std::uint32_t size) {
+    const std::size_t padded = (size + 7U) & ~std::size_t{7};
+    if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk();
+    const RecordHeader header{instant, output, size};
+    std::memcpy(now_ + used_, &header, sizeof header);
+    std::memcpy(now_ + used_ + sizeof header, value, size);
+    used_ += sizeof header + padded;
+  }
+
+  /// The same for a deep value; one beyond most_bytes is lost, which `close` tells.
+  void append_deep(std::int64_t instant, std::uint32_t output, const void* value);
+
+  /// What is appended while the sinks are a whole ring behind is lost, rather than waited for, and all that follows.
+  void never_wait() { waits_ = false; }
+  /// Hands on what was appended so far, if the sinks have all that was handed on before.
+  void hand_on() {
+    if (used_ > 0 && read_.load(std::memory_order_acquire) == written_.load(std::memory_order_relaxed)) next_chunk();
+  }
+  /// Something was not recorded, which `close` tells.
+  bool has_lost() const { return !lost_.empty(); }
+
+  /// Hands on all that was appended, ends the thread and lets the sinks finish; throws what a sink threw.
+  void close();
+
+ private:
+  static constexpr std::size_t chunk_bytes = most_bytes + sizeof(RecordHeader);
+  static constexpr std::size_t chunks = 8;
+
+  void next_chunk();
+  [[gnu::cold]] void cut_off();
+  void publish_chunk();
+  void run();
+  void drain(const std::byte* chunk, std::size_t bytes);
+  void hold(const RecordHeader& header, const std::byte* packed);
+  void hand_on_held(std::int64_t until);
+  void hand_on(const RecordHeader& header, const std::byte* packed);
+  const void* value_of(const RecordHeader& header, const std::byte* packed);
+
+  std::vector<RecordSink*> sinks_;
+  std::vector<Output> outputs_;
+  std::vector<Value> deep_values_;  // per output: what the sinks see, empty for flat ones
+  std::string lost_;                // the first value that was lost, and why
+  struct Held {
+    RecordHeader header;
+    std::vector<std::byte> packed;
+  };
+  std::optional<Duration> disorder_;        // none: all comes in order
+  std::multimap<std::int64_t, Held> held_;  // by instant, then as they came
+  std::int64_t newest_ = 0;                 // instant of a value held
+  std::unique_ptr<std::byte[]> memory_;
+  std::size_t bytes_[chunks] = {};  // filled part of each chunk
+  std::byte* now_ = nullptr;
+  std::size_t used_ = 0;
+  bool waits_ = true;
+  bool is_cut_off_ = false;                // nothing is handed on any more
+  std::atomic<std::uint64_t> written_{0};  // chunks handed on; the top bit says that no more will come
+  std::atomic<std::uint64_t> read_{0};     // chunks drained
+  std::exception_ptr failure_;             // of a sink; read after the thread has ended
+  std::thread thread_;
+};
+
+}  // namespace jarol

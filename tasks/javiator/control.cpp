@@ -1,0 +1,210 @@
+#include "tasks/javiator/control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jarol::tasks {
+namespace {
+
+constexpr double gravity = 9.81;
+
+double limited(double value, double limit) { return std::clamp(value, -limit, limit); }
+
+double seconds(Duration duration) { return 1e-9 * static_cast<double>(duration.count()); }
+
+// critically damped, s^2 + 2 w s + w^2, but for its bounds
+void approach(Approach& a, double goal, const ApproachLimits& p, double dt) {
+  const double speed = limited(0.5 * p.bandwidth * (goal - a.place), p.speed);
+  const double wanted = limited(2 * p.bandwidth * (speed - a.speed), p.acceleration);
+  a.demand += limited(wanted - a.demand, p.jerk * dt);
+  a.felt += (a.demand - a.felt) * dt / (p.lag + dt);
+  a.place += a.speed * dt + 0.5 * a.felt * dt * dt;
+  a.speed += a.felt * dt;
+}
+
+double hold(const PositionControl::Param& p, const Approach& a, double place, double speed, double drag, double& trim,
+            double dt) {
+  trim = limited(trim + p.ki * (a.place - place) * dt, 1);
+  return a.demand + p.kp * (a.place - place) + p.kd * (a.speed - speed) - drag + trim;
+}
+
+double turn(const TurnGains& g, TurnModel& model, double goal, double angle, double rate, double dt) {
+  const double w = g.bandwidth;
+  const double most = 0.8 * g.limit * g.effect;
+  const double acceleration = limited(w * w * (goal - model.angle) - 2 * w * model.rate, most);
+  model.angle += model.rate * dt + 0.5 * acceleration * dt * dt;
+  model.rate += acceleration * dt;
+  const double error = model.angle - angle;
+  model.trim = limited(model.trim + g.ki * error * dt, 0.2 * g.limit);
+  const double demand =
+      limited(acceleration / g.effect + g.kp * error + g.kd * (model.rate - rate) + model.trim, g.limit);
+  // a zero at 1/spin_time is cancelled
+  model.given += (demand - model.given) * dt / (g.spin_time + dt);
+  return model.given;
+}
+
+}  // namespace
+
+void PositionControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const FlightEstimate& e = in.estimate;
+  const FlightDirective& d = in.directive;
+  const double dt = seconds(tick.period);
+  const double c = std::cos(e.yaw), s = std::sin(e.yaw);
+  out.goal.yaw = d.yaw;
+  state.drag_x += (e.drag_x - state.drag_x) * dt / (p.drag_time + dt);
+  state.drag_y += (e.drag_y - state.drag_y) * dt / (p.drag_time + dt);
+  // to the right by rolling right, forward by nosing down
+  const auto lean = [&](double a_x, double a_y) {
+    out.goal.roll = limited(std::atan((c * a_y - s * a_x) / gravity), p.lean_limit);
+    out.goal.pitch = limited(-std::atan((c * a_x + s * a_y) / gravity), p.lean_limit);
+  };
+
+  // landing without a place it brakes by what it still knows of its speed
+  if (d.state == FlightState::landing && !d.hold_position) {
+    lean(-e.v_x - state.drag_x, -e.v_y - state.drag_y);
+    return;
+  }
+  // by hand; commands are meant from the take-off heading, not from the nose
+  if (!d.hold_position || d.state == FlightState::starting || d.state == FlightState::ground) {
+    state.holding = false;
+    out.goal.roll = limited(d.pitch * s + d.roll * c, p.lean_limit);
+    out.goal.pitch = limited(d.pitch * c - d.roll * s, p.lean_limit);
+    return;
+  }
+  if (!state.holding)
+    state = {.x = {e.x, e.v_x},
+             .y = {e.y, e.v_y},
+             .drag_x = e.drag_x,
+             .drag_y = e.drag_y,
+             .trim_x = state.trim_x,
+             .trim_y = state.trim_y};
+  state.holding = true;
+  approach(state.x, d.x, p.approach, dt);
+  approach(state.y, d.y, p.approach, dt);
+  const double a_x = hold(p, state.x, e.x, e.v_x, state.drag_x, state.trim_x, dt);
+  const double a_y = hold(p, state.y, e.y, e.v_y, state.drag_y, state.trim_y, dt);
+  lean(a_x, a_y);
+}
+
+void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const FlightEstimate& e = in.estimate;
+  const double dt = seconds(tick.period);
+  // blind, it keeps what held it level: the rotors damp what is left
+  if (!e.rates_known) {
+    out.turn = {state.roll.trim, state.pitch.trim, state.yaw.trim};
+    return;
+  }
+  out.turn.roll = turn(p.lean, state.roll, in.goal.roll, e.roll, e.p, dt);
+  out.turn.pitch = turn(p.lean, state.pitch, in.goal.pitch, e.pitch, e.q, dt);
+  out.turn.yaw = turn(p.yaw, state.yaw, in.goal.yaw, e.yaw, e.r, dt);
+}
+
+void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const FlightEstimate& e = in.estimate;
+  const FlightDirective& d = in.directive;
+  const double dt = seconds(tick.period);
+  double& thrust = out.lift.thrust;
+  if (d.state == FlightState::halt || d.state == FlightState::ground) {
+    state = {};
+    // rotors that still turn run down
+    thrust = d.state == FlightState::halt ? 0 : std::max(thrust - dt / 1.0, 0.0);
+    return;
+  }
+  if (d.state == FlightState::starting) {
+    thrust = std::min(thrust + p.idle * dt / p.spin_up, p.idle);
+    state.trim = thrust;
+    return;
+  }
+
+  constexpr double ground = 0.02;  // m
+  if (!state.lifted) {
+    // thrust grows slowly until the ground is left, and is learnt on the way
+    const bool wants_up = d.state == FlightState::flying && d.altitude > ground;
+    state.trim = std::clamp(state.trim + (wants_up ? p.lift_rate : -p.lift_rate) * dt, p.idle, 1.5);
+    state.lifted = wants_up && e.altitude > ground;
+    state.z = {e.altitude, std::max(e.climb, 0.0)};
+    state.expected = state.sunk = 0;
+    state.mean_trim = state.trim;
+    thrust = state.trim;
+    return;
+  }
+  // blind, near what carried it, with the sonar alone; the flow through the rotors damps
+  if (!e.rates_known) {
+    thrust = state.mean_trim - 0.03 + limited(p.blind_gain * (-p.blind_speed - e.climb), 0.06);
+    return;
+  }
+  if (d.state == FlightState::landing) {
+    const double speed = e.altitude > 0.5 && e.altitude_known ? p.descent : p.touch_speed;
+    state.z.demand = limited(3 * (-speed - state.z.speed), 2);
+    state.z.speed += state.z.demand * dt;
+    // never far below: on the ground it would wind down all at once
+    state.z.place = std::max(state.z.place + state.z.speed * dt, e.altitude - 0.15);
+  } else {
+    approach(state.z, d.altitude, p.approach, dt);
+    if (d.altitude <= ground && e.altitude < ground && std::abs(e.climb) < 0.05) state.lifted = false;
+  }
+  // sag of the battery, flow through the rotors, the ground: whatever thrust is lost or gained is felt at once
+  const double felt = e.lift / gravity;
+  state.trim = std::clamp(state.trim + p.lift_bandwidth * dt * (1 + state.expected - felt), 0.4, 1.7);
+  state.mean_trim += (state.trim - state.mean_trim) * dt / 1.0;
+  const double error = state.z.place - e.altitude;
+  state.sunk = limited(state.sunk + p.ki * error * dt, 1);
+  const double a = state.z.demand + p.kp * error + p.kd * (state.z.speed - e.climb) + state.sunk;
+  const double upright = std::max(std::cos(e.roll) * std::cos(e.pitch), 0.5);
+  thrust = std::clamp(state.trim + (1 + a / gravity) / upright - 1, 0.1, 2.0);
+  state.expected += (thrust - state.trim - state.expected) * dt / (p.lift_lag + dt);
+}
+
+void MotorMixer::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const FlightState doing = in.directive.state;
+  out.motors.unlocked = doing != FlightState::halt;
+  const bool steers = doing == FlightState::flying || doing == FlightState::landing;
+  const TurnDemand turn = steers ? in.turn : TurnDemand{};
+  const double lift = in.lift.thrust;
+  // front and rear turn clockwise: more of them turns the hull to the left
+  const std::array<double, 4> parts = {lift - turn.yaw + turn.pitch, lift + turn.yaw - turn.roll,
+                                       lift - turn.yaw - turn.pitch, lift + turn.yaw + turn.roll};
+  const double battery = in.estimate.battery;
+  const double made_up = battery > 0 ? std::clamp(p.voltage / battery, 0.8, 1.3) : 1.0;
+  const double dt = seconds(tick.period);
+  const double part = -std::expm1(-dt / p.lag), quick_part = -std::expm1(-dt / p.quick_lag);
+  for (std::size_t i = 0; i < 4; ++i) {
+    double& reached = state.reached[i];
+    double& signal = out.motors.signals[i];
+    const double due = made_up * p.hover * std::pow(std::max(parts[i], 0.0), 1 / p.exponent);
+    const double quick = reached + (due - reached) * quick_part / part;
+    signal = doing == FlightState::halt ? 0 : std::clamp(quick, 0.0, 16000.0);
+    reached += (signal - reached) * part;
+  }
+}
+
+void HelicopterReporter::run(const Tick&, const In& in, Out& out) {
+  const FlightEstimate& e = in.estimate;
+  out.report = {.roll = e.roll,
+                .pitch = e.pitch,
+                .yaw = e.yaw,
+                .altitude = e.altitude,
+                .x = e.x,
+                .y = e.y,
+                .battery = e.battery,
+                .state = in.directive.state,
+                .cause = in.directive.cause,
+                .p = e.p,
+                .q = e.q,
+                .r = e.r,
+                .v_x = e.v_x,
+                .v_y = e.v_y,
+                .climb = e.climb,
+                .a_x = e.a_x,
+                .a_y = e.a_y,
+                .a_up = e.a_up,
+                .roll_goal = in.goal.roll,
+                .pitch_goal = in.goal.pitch,
+                .signals = in.motors.signals,
+                .pressure = in.sensors.pressure,
+                .temperature = in.sensors.temperature,
+                .trim_roll = in.directive.trim_roll,
+                .trim_pitch = in.directive.trim_pitch};
+}
+
+}  // namespace jarol::tasks

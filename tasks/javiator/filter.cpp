@@ -1,0 +1,196 @@
+#include "tasks/javiator/filter.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+namespace jarol::tasks {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double gravity = 9.81;
+constexpr double pascal_per_metre = 12.0;
+
+// Counts silence and repeats; tells whether there is a new reading.
+bool hear(SensorTrust& trust, bool is_new, double reading, std::uint32_t most_repeats, double dt) {
+  trust.silent += dt;
+  if (!is_new) return false;
+  trust.repeats = reading == trust.last ? trust.repeats + 1 : 0;
+  trust.last = reading;
+  return most_repeats == 0 || trust.repeats < most_repeats;
+}
+
+// Takes a credible reading as a sign of life; tells whether to use it.
+bool believe(SensorTrust& trust, bool credible, double patience) {
+  if (credible && !trust.lost) trust.silent = 0;
+  trust.lost = trust.lost || trust.silent > patience;
+  return credible && !trust.lost;
+}
+
+// on the ground it may come back
+void forgive(SensorTrust& trust, bool heard) {
+  trust.lost = false;
+  if (heard) trust.silent = 0;
+}
+
+void predict(AxisObserver& axis, double acceleration, double dt) {
+  const double a = acceleration - axis.bias;
+  axis.place += axis.speed * dt + 0.5 * a * dt * dt;
+  axis.speed += a * dt;
+  axis.since += dt;
+}
+
+// gains of the critically damped filter of third order, with its poles at e^(-bandwidth T) (Brookner, "Tracking and
+// Kalman Filtering Made Easy", 1998, sec. 1.3)
+void correct(AxisObserver& axis, double measured, double bandwidth) {
+  const double residual = measured - axis.place;
+  const double T = axis.since;
+  const double pole = std::exp(-bandwidth * T);
+  axis.place += (1 - pole * pole * pole) * residual;
+  axis.speed += 1.5 * (1 - pole) * (1 - pole) * (1 + pole) * residual / T;
+  axis.bias -= std::pow(1 - pole, 3) * residual / (T * T);
+  axis.since = 0;
+}
+
+// Standing still: what is measured is averaged, as zero before the first flight and as the place after it.
+void settle(AxisObserver& axis, double& zero, SensorTrust& trust, bool heard, double measured, double acceleration,
+            bool has_flown) {
+  forgive(trust, heard);
+  axis = {.place = axis.place, .bias = axis.bias + 0.02 * (acceleration - axis.bias)};
+  if (!heard) return;
+  if (has_flown) {
+    axis.place += 0.1 * (measured - zero - axis.place);
+  } else {
+    zero += (zero == 0 ? 1 : 0.1) * (measured - zero);
+  }
+}
+
+// where it takes off is zero
+void take_off(AxisObserver& axis, double& zero) {
+  zero += axis.place;
+  axis.place = 0;
+}
+
+void observe(AxisObserver& axis, SensorTrust& trust, bool heard, double measured, double acceleration,
+             const JaviatorFilter::Param& p, double dt) {
+  predict(axis, acceleration, dt);
+  const bool credible = heard && std::abs(measured - axis.place) < p.range_jump;
+  if (believe(trust, credible, p.patience)) correct(axis, measured, p.bandwidth);
+}
+
+// Without a sonar the pressure has to do; with one, it tells whether the sonar can be believed.
+void weigh_pressure(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double pressure) {
+  const double residual = (state.zero_pressure - pressure) / pascal_per_metre - state.z.place;
+  state.disagreement += 0.05 * (residual - state.disagreement);
+  if (std::abs(state.disagreement) > p.disagreement) state.sonar.lost = true;
+  if (!state.sonar.lost) return;
+  state.z.place += 0.1 * residual;
+  state.z.speed += 0.1 * residual;
+}
+
+}  // namespace
+
+void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const JaviatorSensors& s = in.sensors;
+  FlightEstimate& e = out.estimate;
+  const double dt = 1e-9 * static_cast<double>(tick.period.count());
+  const bool fresh = s.answers != state.answers;
+  state.answers = s.answers;
+  const FlightState doing = in.directive.state;
+  const bool settled = doing == FlightState::halt || doing == FlightState::ground;
+
+  const bool imu = hear(state.imu, fresh && s.new_imu, s.roll + s.pitch + s.yaw + s.p + s.q + s.r, p.imu_repeats, dt);
+  if (settled) forgive(state.imu, imu);
+  const bool turns = believe(state.imu, imu, p.imu_patience);
+
+  if (state.stood && !settled) {
+    take_off(state.x, state.zero_x);
+    take_off(state.y, state.zero_y);
+    take_off(state.z, state.zero_z);
+    state.zero_yaw += state.yaw;
+    state.yaw = 0;
+    state.has_flown = true;
+  }
+  state.stood = settled;
+
+  // angles follow the rates, and what is measured unless it jumps
+  const double turning = turns ? (s.q * std::sin(s.roll) + s.r * std::cos(s.roll)) / std::cos(s.pitch) : 0;
+  state.roll += dt * (turns ? s.p + turning * std::sin(s.pitch) : 0);
+  state.pitch += dt * (turns ? s.q * std::cos(s.roll) - s.r * std::sin(s.roll) : 0);
+  state.yaw += dt * turning;
+  if (settled) {
+    state.roll = s.roll;
+    state.pitch = s.pitch;
+    if (!state.has_flown) state.zero_yaw = s.yaw;
+    state.yaw = std::remainder(s.yaw - state.zero_yaw, 2 * std::numbers::pi);
+    forgive(state.angles, true);
+  }
+  const bool smooth = std::abs(s.roll - state.roll) < p.angle_jump && std::abs(s.pitch - state.pitch) < p.angle_jump;
+  state.angles.silent += dt;
+  if (believe(state.angles, turns && smooth, p.imu_patience)) {
+    state.roll += p.angle_gain * (s.roll - state.roll);
+    state.pitch += p.angle_gain * (s.pitch - state.pitch);
+    state.yaw += p.angle_gain * std::remainder(s.yaw - state.zero_yaw - state.yaw, 2 * std::numbers::pi);
+  }
+
+  const Eigen::Matrix3d R =
+      (Eigen::AngleAxisd(state.yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(state.pitch, Vector3d::UnitY()) *
+       Eigen::AngleAxisd(state.roll, Vector3d::UnitX()))
+          .toRotationMatrix();
+  const Vector3d force_b = turns ? Vector3d(s.a_x, s.a_y, s.a_z) : R.transpose() * Vector3d(0, 0, -gravity);
+  const Vector3d a = R * force_b + Vector3d(0, 0, gravity);
+  const double x = (R * Vector3d(p.laser_x_x, p.laser_x_y, p.laser_x_z)).x() - s.laser_x;
+  const double y = (R * Vector3d(p.laser_y_x, p.laser_y_y, p.laser_y_z)).y() - s.laser_y;
+  const double z = (R * Vector3d(p.sonar_x, p.sonar_y, p.sonar_z + s.sonar)).z();
+  const double last_pressure = state.pressure.last;
+  const bool new_x = hear(state.laser_x, fresh && s.new_x, s.laser_x, p.repeats, dt);
+  const bool new_y = hear(state.laser_y, fresh && s.new_y, s.laser_y, p.repeats, dt);
+  const bool new_z = hear(state.sonar, fresh && s.new_sonar, s.sonar, p.repeats, dt);
+  const bool new_pressure = hear(state.pressure, fresh && s.new_bmu, s.pressure, p.repeats, dt);
+  if (settled) {
+    settle(state.x, state.zero_x, state.laser_x, new_x, x, a.x(), state.has_flown);
+    settle(state.y, state.zero_y, state.laser_y, new_y, y, a.y(), state.has_flown);
+    settle(state.z, state.zero_z, state.sonar, new_z, z, -a.z(), state.has_flown);
+    forgive(state.pressure, new_pressure);
+    if (new_pressure) state.zero_pressure += (state.zero_pressure == 0 ? 1 : 0.1) * (s.pressure - state.zero_pressure);
+    state.disagreement = 0;
+  } else {
+    observe(state.x, state.laser_x, new_x, x - state.zero_x, a.x(), p, dt);
+    observe(state.y, state.laser_y, new_y, y - state.zero_y, a.y(), p, dt);
+    observe(state.z, state.sonar, new_z, z - state.zero_z, -a.z(), p, dt);
+    // no climb is that fast: a pressure that jumps is wrong
+    if (new_pressure && std::abs(s.pressure - last_pressure) > p.pressure_jump) state.pressure.lost = true;
+    if (believe(state.pressure, new_pressure, p.patience)) weigh_pressure(state, p, s.pressure);
+  }
+
+  // an accelerometer in flight feels the rotors along their axis, and drag across it
+  const Vector3d drag = R * Vector3d(force_b.x(), force_b.y(), 0);
+  const Vector3d rates = turns ? Vector3d(s.p, s.q, s.r) : Vector3d::Zero();
+  e = {.roll = state.roll + p.age * rates.x() - in.directive.trim_roll,
+       .pitch = state.pitch + p.age * rates.y() - in.directive.trim_pitch,
+       .yaw = state.yaw + p.age * rates.z(),
+       .p = rates.x(),
+       .q = rates.y(),
+       .r = rates.z(),
+       .x = state.x.place,
+       .y = state.y.place,
+       .altitude = state.z.place,
+       .v_x = state.x.speed,
+       .v_y = state.y.speed,
+       .climb = state.z.speed,
+       .a_x = a.x() - state.x.bias,
+       .a_y = a.y() - state.y.bias,
+       .a_up = -a.z() - state.z.bias,
+       .lift = -force_b.z(),
+       .drag_x = drag.x(),
+       .drag_y = drag.y(),
+       .battery = e.battery == 0 ? s.battery : e.battery + dt * (s.battery - e.battery),
+       .rates_known = !state.imu.lost,
+       .attitude_known = !state.imu.lost && !state.angles.lost,
+       .altitude_known = !state.sonar.lost,
+       .position_known = !state.laser_x.lost && !state.laser_y.lost,
+       .pressure_known = !state.pressure.lost};
+}
+
+}  // namespace jarol::tasks

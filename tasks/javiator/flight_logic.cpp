@@ -1,0 +1,107 @@
+#include "tasks/javiator/flight_logic.h"
+
+#include <cmath>
+
+namespace jarol::tasks {
+namespace {
+
+using Cause = LandingCause;
+
+// Why it can't go on flying as it is told, if so.
+Cause find_cause(const FlightLogic::Param& p, const FlightEstimate& e, bool wants_position, double unheard) {
+  if (std::abs(e.roll) > p.roll_limit) return Cause::roll;
+  if (std::abs(e.pitch) > p.pitch_limit) return Cause::pitch;
+  if (std::abs(e.yaw) > p.yaw_limit) return Cause::yaw;
+  if (e.altitude > p.altitude_limit) return Cause::altitude;
+  if (unheard > p.patience) return Cause::operator_lost;
+  if (!e.attitude_known) return Cause::imu_lost;
+  if (!e.altitude_known) return Cause::sonar_lost;
+  if (!e.pressure_known) return Cause::bmu_lost;
+  if (e.battery < p.battery_limit) return Cause::battery_low;
+  if (wants_position && !e.position_known) return Cause::position_lost;
+  return Cause::none;
+}
+
+void enter(FlightState next, Cause cause, FlightLogic::State& state, FlightDirective& d) {
+  d.state = next;
+  d.cause = cause;
+  state.since = state.still = 0;
+}
+
+void begin_landing(Cause cause, const FlightEstimate& e, FlightLogic::State& state, FlightDirective& d) {
+  enter(FlightState::landing, cause, state, d);
+  // straight down from where it can stop
+  d.roll = d.pitch = 0;
+  d.x = e.x + 0.5 * e.v_x;
+  d.y = e.y + 0.5 * e.v_y;
+  d.yaw = e.yaw;
+  d.altitude = 0;
+}
+
+void follow(const PilotCommand& command, bool wants_position, FlightDirective& d) {
+  d.hold_position = wants_position;
+  d.roll = command.roll;
+  d.pitch = command.pitch;
+  d.yaw = command.yaw;
+  d.altitude = command.altitude;
+  d.x = command.x;
+  d.y = command.y;
+}
+
+// the operator's keys: unlock, take off, land
+void press_switch(const FlightEstimate& e, FlightLogic::State& state, FlightDirective& d) {
+  switch (d.state) {
+    case FlightState::halt: enter(FlightState::ground, Cause::none, state, d); break;
+    case FlightState::ground: enter(FlightState::starting, Cause::none, state, d); break;
+    case FlightState::starting: enter(FlightState::ground, Cause::none, state, d); break;
+    case FlightState::flying: begin_landing(Cause::none, e, state, d); break;
+    case FlightState::landing: break;
+  }
+}
+
+}  // namespace
+
+void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const FlightEstimate& e = in.estimate;
+  const PilotCommand& command = in.command;
+  FlightDirective& d = out.directive;
+  const double dt = 1e-9 * static_cast<double>(tick.period.count());
+  state.since += dt;
+  state.unheard = command.heard ? 0 : state.unheard + dt;
+  const bool wants_position = command.mode_switches % 2 == 1;
+
+  if (command.shut_downs != state.shut_downs) {
+    enter(FlightState::halt, Cause::none, state, d);
+  } else if (command.state_switches != state.state_switches) {
+    press_switch(e, state, d);
+  }
+  state.shut_downs = command.shut_downs;
+  state.state_switches = command.state_switches;
+  trim(command, e, state.trim, d);
+
+  if (d.state == FlightState::starting) {
+    const Cause cause = find_cause(p, e, wants_position, state.unheard);
+    if (cause != Cause::none) {
+      enter(FlightState::ground, cause, state, d);
+    } else if (state.since >= p.spin_up) {
+      enter(FlightState::flying, Cause::none, state, d);
+    }
+  }
+  if (d.state == FlightState::flying) {
+    const Cause cause = find_cause(p, e, wants_position, state.unheard);
+    if (cause != Cause::none) {
+      begin_landing(cause, e, state, d);
+    } else {
+      follow(command, wants_position, d);
+    }
+  }
+  if (d.state == FlightState::landing) {
+    d.hold_position = e.position_known;
+    // once it descends, only the ground can stop it or take its weight
+    const bool still = e.altitude_known && e.altitude < 0.5 && std::abs(e.climb) < p.still;
+    state.still = still || in.lift.thrust < p.light ? state.still + dt : 0;
+    if (state.since > 1 && state.still > p.touch_time) enter(FlightState::ground, d.cause, state, d);
+  }
+}
+
+}  // namespace jarol::tasks

@@ -1,0 +1,70 @@
+// What the helicopter does next: starting, flying, landing, and when it lands of its own accord.
+#pragma once
+
+#include <string_view>
+
+#include "graph/task.h"
+#include "tasks/javiator/trim.h"
+#include "tasks/values/gains.h"
+#include "tasks/values/javiator.h"
+
+namespace jarol::tasks {
+
+struct FlightLogic {
+  static constexpr std::string_view summary = "decides when the helicopter starts, flies and lands";
+  struct Param {
+    double spin_up = 1.5;
+    double roll_limit = 0.6;
+    double pitch_limit = 0.6;
+    double yaw_limit = 4;
+    double altitude_limit = 2.8;
+    double battery_limit = 13.4;
+    double patience = 0.525;
+    double still = 0.08;
+    double light = 0.6;
+    double touch_time = 0.3;
+    static constexpr auto fields() {
+      using P = Param;
+      return describe(field<&P::spin_up>("s", "for the rotors to reach idle"),
+                      field<&P::roll_limit>("rad", "beyond which it lands"),
+                      field<&P::pitch_limit>("rad", "beyond which it lands"),
+                      field<&P::yaw_limit>("rad", "from the take-off heading, beyond which it lands"),
+                      field<&P::altitude_limit>("m", "beyond which it lands"),
+                      field<&P::battery_limit>("V", "below which it lands"),
+                      field<&P::patience>("s", "without the operator, before it lands"),
+                      field<&P::still>("m/s", "rate of descent below which it may have touched down"),
+                      field<&P::light>("", "thrust below which the ground must carry"),
+                      field<&P::touch_time>("s", "for which it is still or light when it has touched down"));
+    }
+  };
+  struct In {
+    FlightEstimate estimate{};
+    PilotCommand command{};
+    LiftDemand lift{};
+    OperatorGains gains{};
+    static constexpr auto fields() {
+      return describe(field<&In::estimate>(), field<&In::command>(),
+                      field<&In::lift>("", "little of it while landing: the ground carries"),
+                      field<&In::gains>("", "of other laws: not looked at"));
+    }
+  };
+  struct State {
+    double since = 0, unheard = 0, still = 0;
+    std::uint32_t state_switches = 0, shut_downs = 0;
+    TrimKeys trim{};
+    static constexpr auto fields() {
+      using S = State;
+      return describe(field<&S::since>("s", "the state began"), field<&S::unheard>("s", "the operator was heard"),
+                      field<&S::still>("s", "it has not moved up or down"),
+                      field<&S::state_switches>("", "of the operator, up to now"),
+                      field<&S::shut_downs>("", "likewise"), field<&S::trim>("", "likewise"));
+    }
+  };
+  struct Out {
+    FlightDirective directive{};
+    static constexpr auto fields() { return describe(field<&Out::directive>()); }
+  };
+  static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
+};
+
+}  // namespace jarol::tasks

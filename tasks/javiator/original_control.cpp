@@ -1,0 +1,150 @@
+#include "tasks/javiator/original_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jarol::tasks {
+namespace {
+
+double seconds(Duration duration) { return 1e-9 * static_cast<double>(duration.count()); }
+
+double calc_pidd(const PiddGains& g, double goal, double place, double velocity, double acceleration, PiddState& state,
+                 double dt) {
+  const double error = goal - place;
+  state.integral = std::clamp(state.integral + error * dt, -16000.0, 16000.0);
+  const double goal_rate = (goal - state.goal) / dt;
+  state.goal = goal;
+  return g.kp * error + g.ki * state.integral + g.kd * (goal_rate - velocity) + g.kdd * acceleration;
+}
+
+// the terminal's commands are smoothed as they come, one a period
+void smooth(double& value, double command) { value += 0.2 * (command - value); }
+
+}  // namespace
+
+void OriginalLogic::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const PilotCommand& command = in.command;
+  FlightDirective& d = out.directive;
+  state.unheard = command.heard ? 0 : state.unheard + seconds(tick.period);
+  const bool switched = command.state_switches != state.state_switches;
+  const bool shut_down = command.shut_downs != state.shut_downs;
+  state.state_switches = command.state_switches;
+  state.shut_downs = command.shut_downs;
+
+  // whole periods, as it counts them
+  if (shut_down || state.unheard > p.patience + 0.5 * seconds(tick.period)) {
+    d = {.cause = shut_down ? LandingCause::none : LandingCause::operator_lost,
+         .trim_roll = d.trim_roll,
+         .trim_pitch = d.trim_pitch};
+  } else if (switched) {
+    d.cause = LandingCause::none;
+    if (d.state == FlightState::ground) {
+      d.state = FlightState::starting;
+      state.revs = 0;
+    } else {
+      d.state = FlightState::ground;
+    }
+  } else if (d.state == FlightState::starting && (state.revs += p.rev_step) >= in.gains.idle.value_or(p.idle)) {
+    d.state = FlightState::flying;
+  }
+  trim(command, in.estimate, state.trim, d);
+  if (!command.heard) return;
+  d.hold_position = command.mode_switches % 2 == 1;
+  smooth(d.roll, command.roll);
+  smooth(d.pitch, command.pitch);
+  smooth(d.yaw, command.yaw);
+  smooth(d.altitude, command.altitude);
+  smooth(d.x, command.x);
+  smooth(d.y, command.y);
+}
+
+void OriginalPosition::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const FlightEstimate& e = in.estimate;
+  const FlightDirective& d = in.directive;
+  const double dt = seconds(tick.period);
+  double roll = d.roll, pitch = d.pitch;
+  if (d.hold_position && d.state == FlightState::flying) {
+    const PiddGains& gains = in.gains.position.value_or(p.gains);
+    const double most = 1e3 * p.lean_limit;
+    // near its goal it corrects seldom
+    const auto hold = [&](double error, double speed, double acceleration, double& integral, std::uint32_t& waited,
+                          double& lean) {
+      const double periods = p.regularity / (std::abs(error) + 1);
+      if (static_cast<double>(++waited) < periods) return;
+      waited = 0;
+      integral = std::clamp(integral + error * dt, -160.0, 160.0);
+      const double demand = gains.kp * error + gains.ki * integral + gains.kd * speed + gains.kdd * acceleration;
+      lean = std::clamp(demand, -most, most);
+    };
+    hold(1e3 * (d.y - e.y), 1e3 * e.v_y, 1e3 * e.a_y, state.integral_y, state.waited_y, state.roll);
+    hold(1e3 * (d.x - e.x), 1e3 * e.v_x, 1e3 * e.a_x, state.integral_x, state.waited_x, state.pitch);
+    roll = 1e-3 * state.roll;
+    pitch = -1e-3 * state.pitch;
+  } else {
+    state = {};
+  }
+  // meant from the take-off heading, not from the nose
+  const double c = std::cos(e.yaw), s = std::sin(e.yaw);
+  out.goal = {.roll = roll * c + pitch * s, .pitch = pitch * c - roll * s, .yaw = d.yaw};
+}
+
+void OriginalAttitude::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const FlightEstimate& e = in.estimate;
+  const double dt = seconds(tick.period);
+  const double sin_roll = std::sin(e.roll), cos_roll = std::cos(e.roll), cos_pitch = std::cos(e.pitch);
+  // rates of Euler angles, mrad/s
+  const double turning = (e.q * sin_roll + e.r * cos_roll) / cos_pitch;
+  const double rate_p = 1e3 * (e.p + turning * std::sin(e.pitch));
+  const double rate_q = 1e3 * (e.q * cos_roll - e.r * sin_roll);
+  const double rate_r = 1e3 * turning;
+  // what it calls acceleration is less than a third of it at 15 ms
+  constexpr double per_period = 19.79;
+  const PiddGains& lean = in.gains.lean.value_or(p.lean);
+  const double roll =
+      calc_pidd(lean, 1e3 * in.goal.roll, 1e3 * e.roll, rate_p, per_period * (rate_p - state.p), state.roll, dt);
+  const double pitch =
+      calc_pidd(lean, 1e3 * in.goal.pitch, 1e3 * e.pitch, rate_q, per_period * (rate_q - state.q), state.pitch, dt);
+  const double yaw = calc_pidd(in.gains.yaw.value_or(p.yaw), 1e3 * in.goal.yaw, 1e3 * e.yaw, rate_r,
+                               per_period * (rate_r - state.r), state.yaw, dt);
+  state.p = rate_p;
+  state.q = rate_q;
+  state.r = rate_r;
+  out.turn = {roll / p.idle, pitch / p.idle, yaw / p.idle};
+}
+
+void OriginalAltitude::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const FlightEstimate& e = in.estimate;
+  if (in.directive.state != FlightState::flying) {
+    state = {.z = {.goal = 1e3 * in.directive.altitude}};
+    out.lift.thrust = 1;
+    return;
+  }
+  const double goal = 1e3 * in.directive.altitude;
+  const double demand = calc_pidd(in.gains.altitude.value_or(p.gains), goal, 1e3 * e.altitude, 1e3 * e.climb,
+                                  1e3 * e.a_up, state.z, seconds(tick.period));
+  // helps it to settle
+  if (goal < 10 && state.z.integral >= 0) state.z.integral -= 10;
+  const double idle = in.gains.idle.value_or(p.idle);
+  out.lift.thrust = (idle + demand / (std::cos(e.roll) * std::cos(e.pitch))) / p.idle;
+}
+
+void OriginalMixer::run(const Param& p, const Tick&, const In& in, Out& out) {
+  const FlightState doing = in.directive.state;
+  auto& signals = out.motors.signals;
+  out.motors.unlocked = doing != FlightState::halt;
+  if (doing == FlightState::halt) {
+    signals = {};
+  } else if (doing == FlightState::flying) {
+    // front and rear turn clockwise: more of them turns the hull to the left
+    const TurnDemand& t = in.turn;
+    const double lift = in.lift.thrust;
+    const std::array<double, 4> parts = {lift - t.yaw + t.pitch, lift + t.yaw - t.roll, lift - t.yaw - t.pitch,
+                                         lift + t.yaw + t.roll};
+    for (std::size_t i = 0; i < 4; ++i) signals[i] = std::clamp(p.idle * parts[i], 0.0, 16000.0);
+  } else {
+    const double step = doing == FlightState::starting ? p.rev_step : -p.rev_step;
+    for (double& signal : signals) signal = std::clamp(signal + step, 0.0, 16000.0);
+  }
+}
+
+}  // namespace jarol::tasks

@@ -1,0 +1,119 @@
+#include "tasks/javiator/original_filter.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace jarol::tasks {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double gravity = 9810;  // mm/s^2
+const Vector3d sonar_b(-95, -95, 55), laser_x_b(70, -75, -80), laser_y_b(-50, 77, -80);
+
+// one look-ahead of a period: the rate counts for two of them
+void filter_angle(double& angle, double measured, double rate, double dt) {
+  constexpr double R = 0.01;
+  const double Q = 10 * (2 * dt) * (2 * dt);
+  const double P = 0.5 * (Q + std::sqrt(Q * Q + 4 * Q * R));  // at rest
+  angle += 2 * dt * rate;
+  angle += P / (P + R) * (measured - angle);
+}
+
+void predict(AxisKalman& k, double acceleration, double dt) {
+  constexpr double variance = 10000;
+  k.acceleration += 0.2 * (acceleration - k.acceleration);
+  k.place += k.speed * dt + 0.5 * k.acceleration * dt * dt;
+  k.speed += k.acceleration * dt;
+  k.P00 += dt * (2 * k.P01 + dt * k.P11) + variance * dt * dt * dt * dt / 4;
+  k.P01 += dt * k.P11 + variance * dt * dt * dt / 2;
+  k.P11 += variance * dt * dt;
+  k.since += dt;
+}
+
+// the place is measured, and the speed as its difference quotient
+void correct(AxisKalman& k, double measured) {
+  constexpr double R_place = 0.01, R_speed = 100;
+  const double place_error = measured - k.place;
+  const double speed_error = (measured - k.last) / k.since - k.speed;
+  const double S00 = k.P00 + R_place, S01 = k.P01, S11 = k.P11 + R_speed;
+  const double det = S00 * S11 - S01 * S01;
+  const double K00 = (k.P00 * S11 - k.P01 * S01) / det, K01 = (k.P01 * S00 - k.P00 * S01) / det;
+  const double K10 = (k.P01 * S11 - k.P11 * S01) / det, K11 = (k.P11 * S00 - k.P01 * S01) / det;
+  k.place += K00 * place_error + K01 * speed_error;
+  k.speed += K10 * place_error + K11 * speed_error;
+  const double P00 = (1 - K00) * k.P00 - K01 * k.P01, P01 = (1 - K00) * k.P01 - K01 * k.P11;
+  const double P11 = (1 - K11) * k.P11 - K10 * k.P01;
+  k.P00 = P00;
+  k.P01 = P01;
+  k.P11 = P11;
+  k.last = measured;
+  k.since = 0;
+}
+
+void step(AxisKalman& k, double acceleration, bool is_new, double measured, bool settled, double& zero, double dt) {
+  if (settled) {
+    if (is_new) zero = measured;
+    k = {.acceleration = k.acceleration + 0.2 * (acceleration - k.acceleration)};
+    return;
+  }
+  predict(k, acceleration, dt);
+  if (is_new) correct(k, measured - zero);
+}
+
+}  // namespace
+
+void OriginalFilter::run(const Tick& tick, const In& in, State& state, Out& out) {
+  const JaviatorSensors& s = in.sensors;
+  FlightEstimate& e = out.estimate;
+  const double dt = 1e-9 * static_cast<double>(tick.period.count());
+  const bool fresh = s.answers != state.answers;
+  state.answers = s.answers;
+  const bool settled = in.directive.state == FlightState::halt || in.directive.state == FlightState::ground;
+
+  // where and as it stands before take-off is the origin, and its heading zero
+  if (settled) state.zero_yaw = state.unwrapped_yaw = s.yaw;
+  state.unwrapped_yaw += std::remainder(s.yaw - state.unwrapped_yaw, 2 * std::numbers::pi);
+  const double yaw = state.unwrapped_yaw - state.zero_yaw;
+
+  filter_angle(state.roll, s.roll, s.p + std::tan(s.pitch) * (s.q * std::sin(s.roll) + s.r * std::cos(s.roll)), dt);
+  filter_angle(state.pitch, s.pitch, s.q * std::cos(s.roll) - s.r * std::sin(s.roll), dt);
+  filter_angle(state.yaw, yaw, (s.q * std::sin(s.roll) + s.r * std::cos(s.roll)) / std::cos(s.pitch), dt);
+  if (settled) state.yaw = 0;
+
+  const Eigen::Matrix3d R = (Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(s.pitch, Vector3d::UnitY()) *
+                             Eigen::AngleAxisd(s.roll, Vector3d::UnitX()))
+                                .toRotationMatrix();
+  const Vector3d a = R * (1e3 * Vector3d(s.a_x, s.a_y, s.a_z)) + Vector3d(0, 0, gravity);
+  const double z = (R * (sonar_b + Vector3d(0, 0, 1e3 * s.sonar))).z();
+  step(state.x, a.x(), fresh && s.new_x, (R * laser_x_b).x() - 1e3 * s.laser_x, settled, state.zero_x, dt);
+  step(state.y, a.y(), fresh && s.new_y, (R * laser_y_b).y() - 1e3 * s.laser_y, settled, state.zero_y, dt);
+  step(state.z, -a.z(), fresh && s.new_sonar, z, settled, state.zero_z, dt);
+  state.z.place = std::max(state.z.place, 0.0);
+
+  e = {.roll = state.roll - in.directive.trim_roll,
+       .pitch = state.pitch - in.directive.trim_pitch,
+       .yaw = state.yaw,
+       .p = s.p,
+       .q = s.q,
+       .r = s.r,
+       .x = 1e-3 * state.x.place,
+       .y = 1e-3 * state.y.place,
+       .altitude = 1e-3 * state.z.place,
+       .v_x = 1e-3 * state.x.speed,
+       .v_y = 1e-3 * state.y.speed,
+       .climb = 1e-3 * state.z.speed,
+       .a_x = 1e-3 * state.x.acceleration,
+       .a_y = 1e-3 * state.y.acceleration,
+       .a_up = 1e-3 * state.z.acceleration,
+       .battery = s.battery,
+       .rates_known = true,
+       .attitude_known = true,
+       .altitude_known = true,
+       .position_known = true,
+       .pressure_known = true};
+}
+
+}  // namespace jarol::tasks

@@ -1,0 +1,158 @@
+#include "tasks/lauv/supervisor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jarol::tasks {
+namespace {
+
+using Param = LauvSupervisor::Param;
+using State = LauvSupervisor::State;
+
+constexpr double gravity = 9.81, water_density = 1000, air_pressure = 1013.25;  // hPa
+constexpr double watch_time = 2;                                                // s, over which rates add up
+constexpr double floor_time = 30;                                               // s, for the sea floor to rise or fall
+constexpr double surface_depth = 0.2;                                           // m, at which GPS has to work
+
+double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
+
+Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
+  const std::int64_t counts[] = {i.depth.count,    i.pressure.count,     i.attitude.count,          i.rates.count,
+                                 i.forces.count,   i.heading.count,      i.velocity.count,          i.rpm.count,
+                                 i.altitude.count, i.conductivity.count, i.water_temperature.count, i.leak.count,
+                                 i.voltage.count,  i.current.count};
+  constexpr Alarm alarms[] = {Alarm::depth_gauge, Alarm::ctd,   Alarm::attitude, Alarm::attitude,  Alarm::forces,
+                              Alarm::heading,     Alarm::speed, Alarm::speed,    Alarm::altimeter, Alarm::ctd,
+                              Alarm::ctd,         Alarm::leak,  Alarm::battery,  Alarm::battery};
+  Alarm found = Alarm::none;
+  for (std::size_t k = state.counts.size(); k-- > 0;) {
+    state.silences[k] = counts[k] > state.counts[k] ? 0 : state.silences[k] + dt;
+    state.counts[k] = counts[k];
+    if (state.silences[k] > p.sensor_timeout) found = alarms[k];
+  }
+  // GPS tells nothing under water
+  state.since_fix = i.place.count > state.fixes || i.depth.value > surface_depth ? 0 : state.since_fix + dt;
+  state.fixes = i.place.count;
+  return found == Alarm::none && state.since_fix > p.gps_timeout ? Alarm::gps : found;
+}
+
+// Speed of the propeller through quadratic and linear drag, at once and for ever.
+double calc_force(const Param& p, double rpm, double speed) {
+  const double n = rpm * std::numbers::pi / 30;
+  return std::clamp(p.thrust_coefficient * n * std::abs(n), -p.max_thrust, p.max_thrust) -
+         p.surge_drag * speed * (1 + std::abs(speed));
+}
+
+Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
+  const double theta = i.attitude.y, phi = i.attitude.x, c_theta = std::max(std::cos(theta), 0.1);
+  const double floor = i.altitude.value * c_theta * std::cos(phi) + i.depth.value;
+  if (!state.started) {
+    if (std::find(state.counts.begin(), state.counts.end(), 0) != state.counts.end()) return Alarm::none;
+    state.started = true;
+    state.theta = theta;
+    state.psi = i.attitude.z;
+    state.speed = i.velocity.x;
+    state.floor = floor;
+  }
+  const double part = std::min(dt / watch_time, 1.0);
+  state.theta += dt * (i.rates.y * std::cos(phi) - i.rates.z * std::sin(phi));
+  state.psi += dt * (i.rates.y * std::sin(phi) + i.rates.z * std::cos(phi)) / c_theta;
+  const double theta_error = theta - state.theta, psi_error = wrapped(i.attitude.z - state.psi);
+  state.theta += part * theta_error;
+  state.psi += part * psi_error;
+  state.speed += dt * calc_force(p, i.rpm.value, state.speed) / p.surge_mass;
+  const double floor_error = floor - state.floor;
+  state.floor += std::min(dt / floor_time, 1.0) * floor_error;
+
+  const double depth = (i.pressure.value - air_pressure) * 100 / (water_density * gravity);
+  const double force_error =
+      std::hypot(i.forces.x - gravity * std::sin(theta), i.forces.y + gravity * std::cos(theta) * std::sin(phi),
+                 i.forces.z + gravity * std::cos(theta) * std::cos(phi));
+  struct Difference {
+    double size, limit, time;
+    Alarm alarm;
+  };
+  const Difference differences[] = {
+      {theta_error, p.angle_error, p.error_time, Alarm::attitude},
+      {psi_error, p.angle_error, p.error_time, Alarm::attitude},
+      {force_error, p.force_error, p.error_time, Alarm::forces},
+      {wrapped(i.heading.value - i.attitude.z), p.heading_error, p.error_time, Alarm::heading},
+      // the gauge may be out of the water
+      {std::max(i.depth.value, 0.0) - std::max(depth, 0.0), p.depth_error, p.error_time, Alarm::depth_gauge},
+      {i.velocity.x - state.speed, p.speed_error, p.speed_error_time, Alarm::speed},
+      {floor_error, p.floor_error, p.error_time, Alarm::altimeter}};
+  Alarm found = Alarm::none;
+  for (std::size_t k = state.wrong_for.size(); k-- > 0;) {
+    const Difference& d = differences[k];
+    state.wrong_for[k] = std::abs(d.size) > d.limit ? state.wrong_for[k] + dt : 0;
+    if (state.wrong_for[k] > d.time) found = d.alarm;
+  }
+  return found;
+}
+
+Alarm find_exceeded(const Param& p, const LauvSupervisor::In& in) {
+  const Instruments& i = in.instruments;
+  if (in.contact.silence > p.operator_timeout) return Alarm::operator_lost;
+  if (i.leak.value > 0.5) return Alarm::leak;
+  if (i.depth.value > p.max_depth) return Alarm::depth_limit;
+  if (i.altitude.count > 0 && i.altitude.value < p.min_altitude) return Alarm::altitude_limit;
+  if (std::abs(i.attitude.y) > p.max_pitch) return Alarm::pitch_limit;
+  if (i.voltage.count > 0 && i.voltage.value < p.min_voltage) return Alarm::voltage_limit;
+  return Alarm::none;
+}
+
+// Without attitude and speed nothing can be steered; without GPS it is at the surface, and stays.
+bool steerable(Alarm alarm) {
+  switch (alarm) {
+    case Alarm::attitude:
+    case Alarm::forces:
+    case Alarm::speed:
+    case Alarm::pitch_limit:
+    case Alarm::voltage_limit:
+    case Alarm::gps: return false;
+    case Alarm::none:
+    case Alarm::operator_lost:
+    case Alarm::depth_limit:
+    case Alarm::altitude_limit:
+    case Alarm::leak:
+    case Alarm::depth_gauge:
+    case Alarm::heading:
+    case Alarm::altimeter:
+    case Alarm::ctd:
+    case Alarm::battery: return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const double dt = 1e-9 * static_cast<double>(tick.period.count());
+  const Alarm lost = find_lost(p, in.instruments, dt, state), liar = find_liar(p, in.instruments, dt, state);
+  const bool stopped = in.contact.stops != state.stops;
+  state.stops = in.contact.stops;
+  if (state.alarm == Alarm::none || stopped) {
+    const Alarm exceeded = find_exceeded(p, in);
+    const Alarm found = lost != Alarm::none ? lost : liar != Alarm::none ? liar : exceeded;
+    if (state.alarm == Alarm::none || found == Alarm::none) {
+      state.alarm = found;
+      state.fixes_at_alarm = in.instruments.place.count;
+      state.since_alarm = 0;
+      state.surfaced = false;
+    }
+    if (state.alarm == Alarm::none) {
+      out = {in.setpoint, {}};
+      return;
+    }
+  }
+  // a climb gone wrong is given up
+  if (!steerable(lost) || !steerable(liar)) state.surfaced = true;
+  state.since_alarm += dt;
+  if (in.instruments.place.count > state.fixes_at_alarm || state.since_alarm > p.climb_time) state.surfaced = true;
+  const bool climbs = steerable(state.alarm) && !state.surfaced;
+  // a depth out of reach: nose up as far as the depth control goes, whatever the gauge reads
+  out.setpoint = {climbs ? -1000.0 : 0.0, in.setpoint.heading, climbs ? p.climb_speed : 0.0};
+  out.condition.alarm = state.alarm;
+}
+
+}  // namespace jarol::tasks

@@ -1,0 +1,103 @@
+#include "distributers/javiator/vehicle.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "distributers/messages/javiator.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+namespace javiator = messages::javiator;
+using Flags = javiator::JaviatorData::Flags;
+
+// What went out, in its order.
+struct Sent : messages::Receiver {
+  void receive(messages::MessageRef message) override {
+    if (const auto* motors = message.as<javiator::MotorSignals>()) {
+      order += "m";
+      signals.push_back(*motors);
+    } else if (message.as<javiator::SwitchState>() != nullptr) {
+      order += "u";
+    } else if (message.as<javiator::ShutDown>() != nullptr) {
+      order += "s";
+    }
+  }
+  std::string order;
+  std::vector<javiator::MotorSignals> signals;
+};
+
+struct Vehicle {
+  JaviatorVehicle distributer{};
+  tasks::JaviatorSensors sensors{};
+
+  void hear(std::uint16_t flags) {
+    javiator::JaviatorData data;
+    data.flags = flags;
+    distributer.receive(messages::refer_to(data));
+  }
+  std::string take() {
+    if (!distributer.take(0, &sensors)) return "nothing";
+    return std::string(sensors.new_imu ? "i" : "") + (sensors.new_bmu ? "b" : "") + (sensors.new_sonar ? "s" : "") +
+           (sensors.new_x ? "x" : "") + (sensors.new_y ? "y" : "");
+  }
+  void command(Sent& sent, bool unlocked, std::array<double, 4> signals) {
+    const tasks::MotorCommand motors{.signals = signals, .unlocked = unlocked};
+    distributer.hand_over(1, &motors, sent);
+  }
+};
+}  // namespace
+
+TEST_SUITE("distributers/javiator_vehicle") {
+  TEST_CASE("what is new in one of two answers is new when both are taken together, and no longer after that") {
+    Vehicle v;
+    CHECK(v.take() == "nothing");
+    v.hear(Flags::IMU | Flags::SONAR);
+    v.hear(Flags::IMU | Flags::X_POS);
+    CHECK(v.take() == "isx");
+    CHECK(v.sensors.answers == 2);
+    CHECK(v.take() == "nothing");
+    v.hear(Flags::IMU);
+    CHECK(v.take() == "i");
+  }
+
+  TEST_CASE("each flag tells of its own sensor") {
+    Vehicle v;
+    for (const auto& [flag, name] : std::vector<std::pair<std::uint16_t, std::string>>{
+             {Flags::IMU, "i"}, {Flags::BMU, "b"}, {Flags::SONAR, "s"}, {Flags::X_POS, "x"}, {Flags::Y_POS, "y"}}) {
+      v.hear(flag);
+      CHECK(v.take() == name);
+    }
+  }
+
+  TEST_CASE("motors are unlocked once before the first signals, and shut down once before the signals that follow") {
+    Vehicle v;
+    Sent sent;
+    v.command(sent, false, {});
+    v.command(sent, true, {});
+    v.command(sent, true, {});
+    v.command(sent, false, {});
+    v.command(sent, false, {});
+    CHECK(sent.order == "mummsmm");
+  }
+
+  TEST_CASE("signals are whole numbers from 0 to 16000, each command has the next number") {
+    Vehicle v;
+    Sent sent;
+    v.command(sent, true, {-1, 0.999, 16000, 16001});
+    v.command(sent, true, {1, 2, 3, 4});
+    REQUIRE(sent.signals.size() == 2);
+    CHECK(sent.signals[0].front == 0);
+    CHECK(sent.signals[0].right == 0);
+    CHECK(sent.signals[0].rear == 16000);
+    CHECK(sent.signals[0].left == 16000);
+    CHECK(sent.signals[0].id == 1);
+    CHECK(sent.signals[1].front == 1);
+    CHECK(sent.signals[1].right == 2);
+    CHECK(sent.signals[1].rear == 3);
+    CHECK(sent.signals[1].left == 4);
+    CHECK(sent.signals[1].id == 2);
+  }
+}

@@ -1,0 +1,233 @@
+#include "graph/language/yaml.h"
+
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
+#include "graph/language/read_source.h"
+
+namespace {
+using namespace jarol;
+
+std::string report_on(const std::string& text) {
+  Problems problems;
+  try {
+    read_yaml(std::make_shared<Source>(Source{"t.yaml", text}), problems);
+    problems.throw_if_any();
+  } catch (const SpecError& error) { return error.what(); }
+  return "";
+}
+
+Yaml tree_of(const std::string& text) {
+  Problems problems;
+  Yaml yaml = read_yaml(std::make_shared<Source>(Source{"t.yaml", text}), problems);
+  problems.throw_if_any();
+  return yaml;
+}
+}  // namespace
+
+TEST_SUITE("graph/yaml") {
+  TEST_CASE("every value and key knows its line and column") {
+    const Yaml yaml = tree_of("a: 1\nb: {c: 'x', d: [2, 3]}\n");
+    const Yaml* b = yaml.find("b");
+    REQUIRE(b != nullptr);
+    CHECK(b->key_where.line == 2);
+    CHECK(b->where.column == 4);
+    const Yaml* c = b->find("c");
+    REQUIRE(c != nullptr);
+    CHECK(c->quoted);
+    CHECK(c->where.column == 8);
+    REQUIRE(b->find("d") != nullptr);
+    CHECK(b->find("d")->children.at(1).text == "3");
+  }
+
+  TEST_CASE("an alias stands for a copy of what it refers to") {
+    const Yaml yaml = tree_of("a: &x {k: 1}\nb: *x\n");
+    REQUIRE(yaml.find("b") != nullptr);
+    REQUIRE(yaml.find("b")->find("k") != nullptr);
+    CHECK(yaml.find("b")->find("k")->text == "1");
+  }
+
+  TEST_CASE("a key that appears twice is an error that shows both") {
+    CHECK(report_on("a: 1\nb: 2\na: 3\n") ==
+          "t.yaml:3:1: error: key 'a' appears twice in one mapping; keep one\n"
+          "  a: 3\n"
+          "  ^\n"
+          "t.yaml:1:1: note: first here\n"
+          "  a: 1\n"
+          "  ^");
+  }
+
+  TEST_CASE("a key that appears twice is an error however each of the two is quoted") {
+    for (const std::string first : {"a", "'a'", "\"a\""})
+      for (const std::string second : {"a", "'a'", "\"a\"", "\"\\x61\""})
+        CHECK(report_on(first + ": 1\n" + second + ": 3\n")
+                  .starts_with("t.yaml:2:1: error: key 'a' appears twice in one mapping; keep one\n"));
+  }
+
+  TEST_CASE("a merge key is an error") {
+    CHECK(report_on("a: &x {k: 1}\nb:\n  <<: *x\n") ==
+          "t.yaml:3:3: error: merge key '<<' is not supported; write the keys out, or use a profile\n"
+          "    <<: *x\n"
+          "    ^");
+  }
+
+  TEST_CASE("an alias to what contains it is an error") {
+    CHECK(report_on("a: &x\n  b: *x\n") ==
+          "t.yaml:2:6: error: an alias stands inside the very value it refers to; a value can't contain itself\n"
+          "    b: *x\n"
+          "       ^");
+  }
+
+  TEST_CASE("a tag is an error") {
+    CHECK(report_on("a: !foo 1\n") ==
+          "t.yaml:1:4: error: tag '!foo' is not supported; leave it out\n"
+          "  a: !foo 1\n"
+          "     ^");
+  }
+
+  TEST_CASE("a second document is an error") {
+    CHECK(report_on("a: 1\n---\nb: 2\n") ==
+          "t.yaml:3:1: error: a second document begins here; a file holds one\n"
+          "  b: 2\n"
+          "  ^");
+  }
+
+  TEST_CASE("a syntax error has its place") {
+    CHECK(report_on("a: [1, 2\nb: 3\n") ==
+          "t.yaml:2:2: error: not valid YAML: end of sequence flow not found\n"
+          "  b: 3\n"
+          "   ^");
+  }
+
+  TEST_CASE("absurd depth is an error, not a crash") {
+    const std::string text(200, '[');
+    CHECK(report_on(text + std::string(200, ']'))
+              .starts_with("t.yaml:1:65: error: values are nested deeper than 64 levels\n"));
+  }
+
+  TEST_CASE("aliases that multiply end in an error, not in a full memory") {
+    std::string text = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+    for (int i = 1; i < 10; ++i) {
+      const std::string last = "*a" + std::to_string(i - 1);
+      text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + last;
+      for (int j = 1; j < 10; ++j) text += ", " + last;
+      text += "]\n";
+    }
+    CHECK(report_on(text).starts_with("t.yaml:5:45: error: aliases stand for more than 100000 values\n"));
+  }
+
+  TEST_CASE("anchors that multiply do too") {
+    std::string text = "a: ";
+    for (int i = 0; i < 60; ++i) text += "&a" + std::to_string(i) + " [";
+    text += "0";
+    for (int i = 0; i < 1700; ++i) text += ",0";
+    CHECK(report_on(text + std::string(60, ']'))
+              .starts_with("t.yaml:1:14: error: anchors name more than 100000 values\n"));
+  }
+
+  TEST_CASE("a text of too many values is an error") {
+    std::string text = "a: [\n1";
+    for (int i = 0; i < 1'000'000; ++i) text += ",\n1";
+    CHECK(report_on(text + "]").starts_with("t.yaml:1000001:1: error: the text holds more than 1000000 values\n"));
+  }
+
+  TEST_CASE("a text of more than 16 MiB is not read at all") {
+    std::string text = "a: 1\n";
+    while (text.size() < most_source_bytes) text += "#" + std::string(15, '#') + "\n";
+    text.resize(most_source_bytes + 1);
+    CHECK(report_on(text) ==
+          "t.yaml:1:1: error: the text is larger than 16 MiB\n"
+          "  a: 1\n"
+          "  ^");
+  }
+
+  TEST_CASE("what is repeated for ten megabytes ends soon, and takes little memory") {
+    const std::string too_long =
+        "error: what follows here is too long for one line, text, comment or nest of brackets: more than 2 MiB or "
+        "250000 "
+        "marks; write it without outer brackets, on several lines\n";
+    for (const std::string token :
+         {"[",   "{",    "[\n", "\n",  "- ",  "? ",  ": ",     ",",       "\"",  "'",  "!a ",    "&a ",   "*a ",
+          "#",   "\t",   " ",   "a",   "a ",  "a\n", "a: b\n", "%\n",     "|\n", ">",  "---\n",  "...\n", "[]",
+          "[],", "\xff", "\r",  "{\"", "? [", "a: ", "[a,",    "[\"a\":", "- [", "\\", "\"a\" ", "\n "}) {
+      CAPTURE(token);
+      std::string text;
+      while (text.size() < 10'000'000) text += token;
+      const std::clock_t start = std::clock();  // of the processor: others may take their time from it
+      const std::string report = report_on(text);
+      CHECK(std::clock() - start < 3 * CLOCKS_PER_SEC);
+      CHECK(report != "");
+      if (token == "[" || token == "\n" || token == "a") CHECK(report.starts_with("t.yaml:1:1: " + too_long));
+    }
+    // a graph of ten thousand tasks in one line, as a program may write it
+    std::string json = "{\"graph\": \"g\", \"tasks\": {";
+    for (int i = 0; i < 10'000; ++i)
+      json +=
+          (i == 0 ? "\"t" : ", \"t") + std::to_string(i) + R"(": {"type": "Counter", "period": "10ms", "wcet": "1us"})";
+    CHECK(report_on(json + "}}") == "");
+  }
+
+  TEST_CASE("only regular files are read, and stdin where that is said, each up to its limit") {
+    const std::string folder = std::filesystem::temp_directory_path() / ("jarol_yaml_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder);
+    const std::string fifo = folder + "/fifo", file = folder + "/file";
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);  // nobody writes it, and nobody waits
+    CHECK_THROWS_WITH_AS(
+        read_source(fifo),
+        ("error: can't read '" + fifo + "': it is no regular file; give - for what comes on stdin").c_str(), SpecError);
+    CHECK_THROWS_WITH_AS(read_source("/dev/zero"),
+                         "error: can't read '/dev/zero': it is no regular file; give - for what comes on stdin",
+                         SpecError);
+    std::ofstream(file) << "graph: g\n";
+    CHECK(read_source(file)->text == "graph: g\n");
+    std::filesystem::resize_file(file, 1 << 10);
+    CHECK(read_source(file, 1 << 10)->text.size() == 1 << 10);
+    std::filesystem::resize_file(file, (1 << 10) + 1);
+    CHECK_THROWS_WITH_AS(read_source(file, 1 << 10),
+                         ("error: can't read '" + file + "': it is larger than 1 KiB").c_str(), SpecError);
+    std::filesystem::resize_file(file, std::uintmax_t{1} << 40);  // sparse
+    CHECK_THROWS_WITH_AS(read_source(file), ("error: can't read '" + file + "': it is larger than 16 MiB").c_str(),
+                         SpecError);
+    std::filesystem::remove_all(folder);
+  }
+
+  TEST_CASE("a file that can't be read says why") {
+    CHECK_THROWS_WITH_AS(read_source("no/such/file.yaml"),
+                         "error: can't read 'no/such/file.yaml': No such file or directory", SpecError);
+  }
+
+  TEST_CASE("a folder is no file") {
+    CHECK_THROWS_WITH_AS(read_source("specs"), "error: can't read 'specs': it is a directory", SpecError);
+  }
+
+  TEST_CASE("of a long line only what surrounds the place is shown, and nothing that could harm a terminal") {
+    const std::string before(300, 'x'), after(300, 'y');
+    CHECK(report_on("a: \"" + before + "\"\nb: 1\n\x1b[0m: 2\n").find('\x1b') == std::string::npos);
+    CHECK(report_on("{a" + before + ": 1, b: 2, b: 3, c" + after + ": 4}\n") ==
+          "t.yaml:1:314: error: key 'b' appears twice in one mapping; keep one\n"
+          "  ..." +
+              std::string(109, 'x') + ": 1, b: 2, b: 3, c" + std::string(33, 'y') +
+              "...\n"
+              "     " +
+              std::string(120, ' ') +
+              "^\n"
+              "t.yaml:1:308: note: first here\n"
+              "  ..." +
+              std::string(115, 'x') + ": 1, b: 2, b: 3, c" + std::string(27, 'y') +
+              "...\n"
+              "     " +
+              std::string(120, ' ') + "^");
+  }
+
+  TEST_CASE("a word close to a known one is suggested") {
+    const std::vector<std::string> known{"period", "offset", "let"};
+    CHECK(did_you_mean("peroid", known) == "; did you mean 'period'?");
+    CHECK(did_you_mean("lte", known) == "; did you mean 'let'?");
+    CHECK(did_you_mean("colour", known) == "");
+  }
+}

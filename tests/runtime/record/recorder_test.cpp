@@ -1,0 +1,106 @@
+#include "runtime/record/recorder.h"
+
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+
+namespace {
+using namespace jarol;
+
+struct Collect : RecordSink {
+  void take(Duration instant, std::uint32_t output, const void* value) override {
+    double number = 0;
+    std::memcpy(&number, value, sizeof number);
+    in_order &= instant.count() == count && output == static_cast<std::uint32_t>(count % 7) &&
+                number == static_cast<double>(count) / 3;
+    ++count;
+  }
+  void finish() override { finished = true; }
+  std::int64_t count = 0;
+  bool in_order = true;
+  bool finished = false;
+};
+
+struct Full : RecordSink {
+  void take(Duration, std::uint32_t, const void*) override { throw std::runtime_error("the disk is full"); }
+  void finish() override {}
+};
+
+void append(Recorder& recorder, std::int64_t count) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    const double number = static_cast<double>(i) / 3;
+    recorder.append(i, static_cast<std::uint32_t>(i % 7), &number, sizeof number);
+  }
+}
+}  // namespace
+
+TEST_SUITE("runtime/recorder") {
+  TEST_CASE("every value arrives once and in order, also when the ring wraps many times") {
+    Collect sink;
+    Recorder recorder({&sink});
+    append(recorder, 1'000'000);
+    recorder.close();
+    CHECK(sink.count == 1'000'000);
+    CHECK(sink.in_order);
+    CHECK(sink.finished);
+  }
+
+  TEST_CASE("one that never waits loses what comes while its sinks are a ring behind, and says from when on") {
+    // stands still at its first value until it is let go
+    struct Stuck : Collect {
+      void take(Duration instant, std::uint32_t output, const void* value) override {
+        free.wait(false);
+        Collect::take(instant, output, value);
+      }
+      std::atomic<bool> free{false};
+    };
+    constexpr std::int64_t in_a_chunk = (256 << 10) / 24;
+    Stuck sink;
+    Recorder recorder({&sink});
+    recorder.never_wait();
+    append(recorder, 1'000'000);
+    CHECK(recorder.has_lost());
+    sink.free = true;
+    sink.free.notify_all();
+    CHECK_THROWS_WITH_AS(recorder.close(),
+                         "values could not be written as fast as they came; from 76454ns on they are lost",
+                         std::length_error);
+    CHECK(sink.count == 7 * in_a_chunk);
+    CHECK(sink.in_order);
+  }
+
+  TEST_CASE("what is handed on arrives before there is a chunk of it") {
+    std::atomic<int> paused{0};
+    struct Counting : Collect {
+      explicit Counting(std::atomic<int>& number) : pauses(number) {}
+      void pause() override {
+        ++pauses;
+        pauses.notify_all();
+      }
+      std::atomic<int>& pauses;
+    } sink(paused);
+    Recorder recorder({&sink});
+    recorder.hand_on();  // there is nothing
+    append(recorder, 10);
+    recorder.hand_on();
+    paused.wait(0);
+    CHECK(sink.count == 10);
+    recorder.close();
+    CHECK(sink.count == 10);
+  }
+
+  TEST_CASE("a recorder without values closes too") {
+    Collect sink;
+    Recorder recorder({&sink});
+    recorder.close();
+    CHECK(sink.count == 0);
+    CHECK(sink.finished);
+  }
+
+  TEST_CASE("what a sink throws comes out of close, and the run is not held up") {
+    Full sink;
+    Recorder recorder({&sink});
+    append(recorder, 1'000'000);
+    CHECK_THROWS_WITH_AS(recorder.close(), "the disk is full", std::runtime_error);
+  }
+}

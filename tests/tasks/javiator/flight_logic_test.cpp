@@ -1,0 +1,199 @@
+#include "tasks/javiator/flight_logic.h"
+
+#include <doctest/doctest.h>
+
+namespace {
+using namespace jarol;
+using namespace jarol::tasks;
+using namespace std::chrono_literals;
+
+struct Logic {
+  FlightLogic::State state{};
+  FlightLogic::Out out{};
+  FlightLogic::In in{.estimate = {.battery = 15,
+                                  .rates_known = true,
+                                  .attitude_known = true,
+                                  .altitude_known = true,
+                                  .position_known = true,
+                                  .pressure_known = true},
+                     .lift = {1}};
+
+  FlightState run(int periods) {
+    for (int i = 0; i < periods; ++i) FlightLogic::run({}, {.period = 15ms}, in, state, out);
+    return out.directive.state;
+  }
+  FlightState press() {
+    ++in.command.state_switches;
+    return run(1);
+  }
+  void fly() {
+    press();
+    press();
+    run(101);
+    in.estimate.altitude = 1;
+    in.command.altitude = 1;
+    CHECK(run(1) == FlightState::flying);
+  }
+};
+}  // namespace
+
+TEST_SUITE("tasks/flight_logic") {
+  TEST_CASE("the operator's key unlocks, starts, and lands; starting takes 1.5 s") {
+    Logic logic;
+    CHECK(logic.run(1) == FlightState::halt);
+    CHECK(logic.press() == FlightState::ground);
+    CHECK(logic.press() == FlightState::starting);
+    CHECK(logic.run(98) == FlightState::starting);
+    CHECK(logic.run(3) == FlightState::flying);
+    CHECK(logic.press() == FlightState::landing);
+    CHECK(logic.out.directive.cause == LandingCause::none);
+  }
+
+  TEST_CASE("it lands where it can stop, with the heading that it has") {
+    Logic logic;
+    logic.fly();
+    logic.in.estimate.x = 3;
+    logic.in.estimate.v_x = 2;
+    logic.in.estimate.yaw = 0.4;
+    logic.press();
+    CHECK(logic.out.directive.x == 4);
+    CHECK(logic.out.directive.yaw == 0.4);
+    CHECK(logic.out.directive.altitude == 0);
+  }
+
+  TEST_CASE("landing ends on the ground: low and still, or lighter than the rotors could carry") {
+    Logic logic;
+    logic.fly();
+    logic.press();
+    CHECK(logic.run(100) == FlightState::landing);  // still, but not low
+    logic.in.estimate.altitude = 0.01;
+    CHECK(logic.run(25) == FlightState::ground);
+
+    Logic blind;
+    blind.fly();
+    blind.press();
+    blind.in.estimate.altitude_known = false;
+    CHECK(blind.run(100) == FlightState::landing);
+    blind.in.lift.thrust = 0.4;
+    CHECK(blind.run(25) == FlightState::ground);
+  }
+
+  TEST_CASE("each reason to land is told, and wins over what the operator wants") {
+    const auto cause_of = [](auto change) {
+      Logic logic;
+      logic.fly();
+      change(logic.in);
+      CHECK(logic.run(1) == FlightState::landing);
+      logic.in.command.altitude = 2;
+      logic.run(1);
+      CHECK(logic.out.directive.altitude == 0);
+      return logic.out.directive.cause;
+    };
+    using In = FlightLogic::In;
+    CHECK(cause_of([](In& in) { in.estimate.roll = -0.61; }) == LandingCause::roll);
+    CHECK(cause_of([](In& in) { in.estimate.pitch = 0.61; }) == LandingCause::pitch);
+    CHECK(cause_of([](In& in) { in.estimate.yaw = 4.1; }) == LandingCause::yaw);
+    CHECK(cause_of([](In& in) { in.estimate.altitude = 2.9; }) == LandingCause::altitude);
+    CHECK(cause_of([](In& in) { in.estimate.attitude_known = false; }) == LandingCause::imu_lost);
+    CHECK(cause_of([](In& in) { in.estimate.altitude_known = false; }) == LandingCause::sonar_lost);
+    CHECK(cause_of([](In& in) { in.estimate.pressure_known = false; }) == LandingCause::bmu_lost);
+    CHECK(cause_of([](In& in) { in.estimate.battery = 13.3; }) == LandingCause::battery_low);
+  }
+
+  TEST_CASE("a lost place matters only to who holds a place") {
+    Logic logic;
+    logic.fly();
+    logic.in.estimate.position_known = false;
+    CHECK(logic.run(10) == FlightState::flying);
+    logic.in.command.mode_switches = 1;
+    CHECK(logic.run(1) == FlightState::landing);
+    CHECK(logic.out.directive.cause == LandingCause::position_lost);
+  }
+
+  TEST_CASE("a silent operator is waited for 525 ms") {
+    Logic logic;
+    logic.fly();
+    logic.in.command.heard = false;
+    CHECK(logic.run(34) == FlightState::flying);
+    CHECK(logic.run(2) == FlightState::landing);
+    CHECK(logic.out.directive.cause == LandingCause::operator_lost);
+  }
+
+  TEST_CASE("a shut-down halts at once; a failure while starting goes back to the ground") {
+    Logic logic;
+    logic.fly();
+    logic.in.command.shut_downs = 1;
+    CHECK(logic.run(1) == FlightState::halt);
+
+    Logic starting;
+    starting.press();
+    starting.press();
+    starting.in.estimate.altitude_known = false;
+    CHECK(starting.run(1) == FlightState::ground);
+    CHECK(starting.out.directive.cause == LandingCause::sonar_lost);
+  }
+
+  TEST_CASE("each limit makes it land when it is exceeded, to either side, and not before") {
+    struct Case {
+      double FlightEstimate::*value;
+      double inside, outside;
+      LandingCause cause;
+    };
+    const Case cases[] = {{&FlightEstimate::roll, 0.6, 0.601, LandingCause::roll},
+                          {&FlightEstimate::roll, -0.6, -0.601, LandingCause::roll},
+                          {&FlightEstimate::pitch, 0.6, 0.601, LandingCause::pitch},
+                          {&FlightEstimate::pitch, -0.6, -0.601, LandingCause::pitch},
+                          {&FlightEstimate::yaw, 4, 4.001, LandingCause::yaw},
+                          {&FlightEstimate::yaw, -4, -4.001, LandingCause::yaw},
+                          {&FlightEstimate::altitude, 2.8, 2.801, LandingCause::altitude},
+                          {&FlightEstimate::battery, 13.4, 13.399, LandingCause::battery_low}};
+    for (const Case& c : cases) {
+      CAPTURE(c.outside);
+      Logic logic;
+      logic.fly();
+      logic.in.estimate.*c.value = c.inside;
+      CHECK(logic.run(10) == FlightState::flying);
+      logic.in.estimate.*c.value = c.outside;
+      CHECK(logic.run(1) == FlightState::landing);
+      CHECK(logic.out.directive.cause == c.cause);
+    }
+  }
+
+  TEST_CASE("it has landed after a second, below half a metre and 8 cm/s, or with less than 0.6 of its weight") {
+    struct Case {
+      double altitude, climb, thrust;
+      bool landed;
+    };
+    for (const Case& c : {Case{0.499, 0, 1, true}, Case{0.501, 0, 1, false}, Case{0.4, 0.079, 1, true},
+                          Case{0.4, 0.081, 1, false}, Case{0.4, -0.079, 1, true}, Case{0.4, -0.081, 1, false},
+                          Case{1, -1, 0.599, true}, Case{1, -1, 0.601, false}}) {
+      CAPTURE(c.altitude);
+      CAPTURE(c.climb);
+      CAPTURE(c.thrust);
+      Logic logic;
+      logic.fly();
+      logic.press();
+      logic.in.estimate.altitude = c.altitude;
+      logic.in.estimate.climb = c.climb;
+      logic.in.lift.thrust = c.thrust;
+      CHECK(logic.run(65) == FlightState::landing);  // 0.99 s
+      CHECK((logic.run(2) == FlightState::ground) == c.landed);
+      CHECK((logic.run(1000) == FlightState::ground) == c.landed);
+    }
+  }
+
+  TEST_CASE("it has landed when it is still for 0.3 s on end") {
+    Logic logic;
+    logic.fly();
+    logic.press();
+    logic.run(100);
+    logic.in.estimate.altitude = 0.1;
+    CHECK(logic.run(19) == FlightState::landing);
+    logic.in.estimate.climb = -0.1;
+    CHECK(logic.run(1) == FlightState::landing);
+    logic.in.estimate.climb = 0;
+    // the sum of twenty periods may lie a rounding above 0.3
+    CHECK(logic.run(19) == FlightState::landing);
+    CHECK(logic.run(2) == FlightState::ground);
+  }
+}

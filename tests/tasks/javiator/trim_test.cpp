@@ -1,0 +1,26 @@
+#include "tasks/javiator/trim.h"
+
+#include <doctest/doctest.h>
+
+using namespace jarol::tasks;
+
+TEST_SUITE("tasks/trim") {
+  TEST_CASE("it begins with the trim of the flight before; stores add what is estimated, a clear forgets all") {
+    TrimKeys pressed;
+    FlightDirective d;
+    PilotCommand command{.kept_trim_roll = 0.02, .kept_trim_pitch = -0.01};
+    trim(command, {.roll = 0.5}, pressed, d);
+    CHECK(d.trim_roll == 0.02);
+    CHECK(d.trim_pitch == -0.01);
+    ++command.trim_stores;
+    trim(command, {.roll = 0.25, .pitch = 0.125}, pressed, d);
+    CHECK(d.trim_roll == doctest::Approx(0.27));
+    CHECK(d.trim_pitch == doctest::Approx(0.115));
+    trim(command, {.roll = 0.25, .pitch = 0.125}, pressed, d);
+    CHECK(d.trim_roll == doctest::Approx(0.27));
+    ++command.trim_clears;
+    trim(command, {.roll = 0.25}, pressed, d);
+    CHECK(d.trim_roll == 0);
+    CHECK(d.trim_pitch == 0);
+  }
+}

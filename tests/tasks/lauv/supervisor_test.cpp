@@ -1,0 +1,141 @@
+#include "tasks/lauv/supervisor.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/tasks/calm_submarine.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::tasks;
+using tests::calm_submarine;
+
+const Tick every_50_ms{.period = std::chrono::milliseconds(50)};
+const Setpoint wanted{3, 1.5, 1.2};
+
+// After some seconds in which `change` spoils the instruments from the first second on.
+template <class Change>
+LauvSupervisor::Out after(double seconds, Change change) {
+  LauvSupervisor::State state;
+  LauvSupervisor::Out out;
+  for (int k = 0; k < static_cast<int>(20 * seconds); ++k) {
+    LauvSupervisor::In in = calm_submarine(k + 1);
+    if (k >= 20) change(in);
+    LauvSupervisor::run({}, every_50_ms, in, state, out);
+  }
+  return out;
+}
+}  // namespace
+
+TEST_SUITE("tasks/lauv_supervisor") {
+  TEST_CASE("while all is well the setpoint passes") {
+    const auto out = after(30, [](LauvSupervisor::In&) {});
+    CHECK(out.condition.alarm == Alarm::none);
+    CHECK(out.setpoint.depth == 3);
+    CHECK(out.setpoint.heading == 1.5);
+    CHECK(out.setpoint.speed == 1.2);
+  }
+
+  TEST_CASE("an instrument that tells no more is lost after the time-out, not before") {
+    const auto silent = [](LauvSupervisor::In& in) { in.instruments.depth.count = 20; };
+    CHECK(after(3.3, silent).condition.alarm == Alarm::none);
+    const auto out = after(4, silent);
+    CHECK(out.condition.alarm == Alarm::depth_gauge);
+    CHECK(out.setpoint.depth == -1000);
+    CHECK(out.setpoint.speed == 1);
+  }
+
+  TEST_CASE("without attitude the propeller stops") {
+    const auto out = after(4, [](LauvSupervisor::In& in) { in.instruments.attitude.count = 20; });
+    CHECK(out.condition.alarm == Alarm::attitude);
+    CHECK(out.setpoint.speed == 0);
+  }
+
+  TEST_CASE("a gauge that differs from the pressure alarms once it lasts") {
+    const auto wrong = [](LauvSupervisor::In& in) { in.instruments.depth.value = 5.4; };
+    CHECK(after(1.9, wrong).condition.alarm == Alarm::none);
+    CHECK(after(2.3, wrong).condition.alarm == Alarm::depth_gauge);
+    CHECK(after(30, [](LauvSupervisor::In& in) { in.instruments.depth.value = 5.2; }).condition.alarm == Alarm::none);
+  }
+
+  TEST_CASE("limits alarm at once") {
+    CHECK(after(1.1, [](LauvSupervisor::In& in) { in.contact.silence = 6; }).condition.alarm == Alarm::operator_lost);
+    CHECK(after(1.1, [](LauvSupervisor::In& in) { in.instruments.leak.value = 1; }).condition.alarm == Alarm::leak);
+    CHECK(after(1.1, [](LauvSupervisor::In& in) { in.instruments.depth.value = 13; }).condition.alarm ==
+          Alarm::depth_limit);
+    CHECK(after(1.1, [](LauvSupervisor::In& in) { in.instruments.altitude.value = 1; }).condition.alarm ==
+          Alarm::altitude_limit);
+    CHECK(after(1.1, [](LauvSupervisor::In& in) { in.instruments.attitude.y = 1; }).condition.alarm ==
+          Alarm::pitch_limit);
+    CHECK(after(1.1, [](LauvSupervisor::In& in) { in.instruments.voltage.value = 19; }).condition.alarm ==
+          Alarm::voltage_limit);
+  }
+
+  TEST_CASE("the first alarm stays, whatever comes after, and it is not taken back") {
+    LauvSupervisor::State state;
+    LauvSupervisor::Out out;
+    LauvSupervisor::In in = calm_submarine(1);
+    in.instruments.leak.value = 1;
+    LauvSupervisor::run({}, every_50_ms, in, state, out);
+    in = calm_submarine(2);
+    in.contact.silence = 100;
+    LauvSupervisor::run({}, every_50_ms, in, state, out);
+    CHECK(out.condition.alarm == Alarm::leak);
+    LauvSupervisor::run({}, every_50_ms, calm_submarine(3), state, out);
+    CHECK(out.condition.alarm == Alarm::leak);
+  }
+
+  TEST_CASE("a stop of the operator has an alarm forgotten whose cause is gone, and no other") {
+    LauvSupervisor::State state;
+    LauvSupervisor::Out out;
+    std::int64_t k = 0;
+    const auto run = [&](double leak, std::uint32_t stops) {
+      LauvSupervisor::In in = calm_submarine(++k);
+      in.instruments.leak.value = leak;
+      in.contact.stops = stops;
+      LauvSupervisor::run({}, every_50_ms, in, state, out);
+      return out.condition.alarm;
+    };
+    CHECK(run(1, 0) == Alarm::leak);
+    CHECK(run(1, 1) == Alarm::leak);  // water still there: it goes on coming up
+    CHECK(state.since_alarm == doctest::Approx(0.1));
+    CHECK(run(0, 1) == Alarm::leak);  // one stop counts once
+    CHECK(out.setpoint.speed == 1);
+    CHECK(run(0, 2) == Alarm::none);
+    CHECK(out.setpoint.depth == wanted.depth);
+    CHECK(out.setpoint.speed == wanted.speed);
+    CHECK(run(0, 2) == Alarm::none);
+    // and the next alarm begins as the first did
+    CHECK(run(1, 2) == Alarm::leak);
+    CHECK(out.setpoint.speed == 1);
+    CHECK(state.since_alarm == doctest::Approx(0.05));
+  }
+
+  TEST_CASE("GPS ends the climb, and so does a climb that takes too long or goes blind") {
+    const auto climb = [](double seconds, auto change) {
+      return after(seconds, [&](LauvSupervisor::In& in) {
+        in.instruments.leak.value = 1;
+        change(in);
+      });
+    };
+    CHECK(climb(10, [](LauvSupervisor::In&) {}).setpoint.speed == 1);
+    CHECK(climb(70, [](LauvSupervisor::In&) {}).setpoint.speed == 0);
+    CHECK(climb(10, [](LauvSupervisor::In& in) {
+            in.instruments.place.count = in.instruments.depth.count > 100 ? 1 : 0;
+          }).setpoint.speed == 0);
+    CHECK(climb(10, [](LauvSupervisor::In& in) { in.instruments.rates.count = 20; }).setpoint.speed == 0);
+  }
+
+  TEST_CASE("GPS has to tell at the surface only") {
+    const auto afloat = [](LauvSupervisor::In& in) {
+      in.instruments.depth.value = 0.07;
+      in.instruments.pressure.value = 1013.25 + 7;
+      in.instruments.altitude.value = 49.93;
+    };
+    const auto found = after(6, [&](LauvSupervisor::In& in) {
+      afloat(in);
+      in.instruments.place.count = in.instruments.depth.count / 20;
+    });
+    CHECK(found.condition.alarm == Alarm::none);
+    CHECK(after(6, [&](LauvSupervisor::In& in) { afloat(in); }).condition.alarm == Alarm::gps);
+  }
+}

@@ -1,0 +1,241 @@
+#include "tools/check/measure.h"
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "graph/language/quantities.h"
+#include "tests/graph/graph_of.h"
+#include "tests/tools/run_command.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+
+using command::TemporaryFolder;
+
+std::string content(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// One task each: without a WCET, with one that is too short, with one that is long, one that is not released soon, and
+// one with less than a disturbance takes.
+// one with less than a disturbance takes.
+const std::string file_text = R"(graph: t
+tasks:
+  fresh: {type: Counter, period: 100ms}
+  long:  {type: Counter, period: 100ms, wcet: 40ms}
+  short: {type: Work, period: 100ms, wcet: 1ns}
+  late:  {type: Counter, period: 10s, offset: 5s, wcet: 1ms}
+  tight: {type: Counter, period: 100ms, wcet: 90us}
+)";
+
+std::string rewritten(const std::string& text, const std::vector<std::optional<Duration>>& wcets) {
+  Problems problems;
+  const auto source = std::make_shared<Source>(Source{"t.yaml", text});
+  const GraphSpec spec = load_spec(source, {}, problems);
+  problems.throw_if_any();
+  return tools::with_wcets(text, spec, tests::graph_of(text), wcets);
+}
+}  // namespace
+
+TEST_SUITE("tools/measure") {
+  TEST_CASE("a margin comes on top, rounded up to three digits") {
+    CHECK(tools::with_margin(1000ns, 0.2) == 1200ns);
+    CHECK(tools::with_margin(12'345ns, 0) == 12'400ns);
+    CHECK(tools::with_margin(999ns, 0) == 999ns);
+    CHECK(tools::with_margin(0ns, 0.2) == 1ns);
+  }
+
+  TEST_CASE("WCETs are written into a file, and its comments and layout stay") {
+    CHECK(rewritten(R"(graph: t  # a comment
+timing: {period: 10ms}
+tasks:
+  b: {type: Relay, let: 5ms, wcet: 1ms}   # keep me
+  a: { type: Counter }
+
+  c:
+    # above
+    type: Counter   # behind
+    period: 5ms
+  d:
+    wcet: '3ms'
+    type: Counter
+connections: [a.out -> b.in]
+)",
+                    {1us, 2us, 3500ns, 4us}) == R"(graph: t  # a comment
+timing: {period: 10ms}
+tasks:
+  b: {type: Relay, let: 5ms, wcet: 2us}   # keep me
+  a: { type: Counter, wcet: 1us }
+
+  c:
+    # above
+    type: Counter
+    wcet: 3.5us   # behind
+    period: 5ms
+  d:
+    wcet: 4us
+    type: Counter
+connections: [a.out -> b.in]
+)");
+  }
+
+  TEST_CASE("tasks that share one place of the file are not edited") {
+    CHECK_THROWS_WITH_AS(rewritten("graph: t\ntasks:\n  a: &one {type: Counter, period: 1ms}\n  b: *one\n", {1us, 1us}),
+                         "two tasks share one place of the file through an alias; write their 'wcet' yourself",
+                         std::invalid_argument);
+  }
+
+  TEST_CASE("a task without a new WCET keeps its line") {
+    const std::string text = "graph: t\ntasks:\n  a: {type: Counter, period: 1ms}\n  b: {type: Counter, period: 1ms}\n";
+    CHECK(rewritten(text, {std::nullopt, std::nullopt}) == text);
+    CHECK(rewritten(text, {std::nullopt, 1us}) ==
+          "graph: t\ntasks:\n  a: {type: Counter, period: 1ms}\n  b: {type: Counter, wcet: 1us, period: 1ms}\n");
+  }
+
+  TEST_CASE("check --write writes what lacks or is too short, keeps what is longer, and says so") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", file_text);
+    const auto told = command::jarol("check --write --for 1s --margin 50 " + file, "2>&1 >/dev/null").output;
+    const auto row = [&](const std::string& task) {
+      const std::size_t begin = told.find("  " + task + " ");
+      return told.substr(begin, told.find('\n', begin) - begin);
+    };
+    CHECK(told.starts_with(file + ": measured over 1s of logical time on this machine, in processor time\n"
+                                  "  task   activations     99.9 %       most       wcet    written\n"));
+    CHECK(row("late") ==
+          "  late             0          -          -        1ms          -  never released in that time");
+    CHECK(row("long").ends_with("       40ms       kept"));
+    CHECK(row("short").find("        1ns  ") != std::string::npos);
+    CHECK(row("short").ends_with("  LONGER THAN ITS WCET"));
+    CHECK(told.ends_with("  written into " + file +
+                         ": 99.9 % and the longest disturbance of any task, with 50 % on top\n"
+                         "  a 'wcet' that is no shorter than that was kept; --lower lowers it\n"));
+    const Graph graph = tests::graph_of(content(file));
+    const auto wcet = [&](const std::string& name) {
+      for (const Task& task : graph.tasks)
+        if (task.name == name) return task.wcet;
+      return std::optional<Duration>{};
+    };
+    CHECK(wcet("late") == 1ms);
+    CHECK(wcet("long") == 40ms);
+    CHECK(wcet("short") > 1ns);
+    CHECK(wcet("short") < 40ms);
+    REQUIRE(wcet("fresh").has_value());
+    CHECK(row("fresh").ends_with("  " + duration_text(*wcet("fresh"))));
+  }
+
+  TEST_CASE("--lower leaves room for a disturbance of 100 us, and lowers nothing that has no more") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", file_text);
+    const auto wcet = [&](const std::string& name) {
+      const Graph graph = tests::graph_of(content(file));
+      for (const Task& task : graph.tasks)
+        if (task.name == name) return *task.wcet;
+      return Duration{};
+    };
+    const std::string told = command::jarol("check --write --lower --for 1s " + file, "2>&1 >/dev/null").output;
+    CHECK(told.find("\n  a 'wcet' was kept that leaves no more than the margin over a disturbance of 100us\n") !=
+          std::string::npos);
+    CHECK(wcet("long") >= 120us);  // 100 us and 20 %
+    CHECK(wcet("long") < 40ms);
+    CHECK(wcet("tight") >= 90us);  // more only if it was measured
+    // so that nobody who measures again finds it broken
+    const auto again = command::jarol("check --measure --for 1s " + file, "2>&1 >/dev/null").output;
+    CHECK(again.substr(again.find("  long "), 80).find("LONGER") == std::string::npos);
+  }
+
+  TEST_CASE("the verdict after check --write is that of the file as it was written") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", file_text);
+    const std::string measured = "check --json --write --for 1s --set tasks.long.wcet=200ms " + file;
+    const auto verdict = command::jarol(measured, "2>/dev/null");
+    CHECK(verdict.exit_code == 0);
+    CHECK(verdict.output == command::jarol("check --json " + file).output);
+    CHECK(nlohmann::json::parse(verdict.output)["tasks"][2]["wcet_ns"] == 40'000'000);
+    CHECK(command::jarol(measured, "2>&1 >/dev/null")
+              .output.ends_with("  measured with --set or --profile; what follows is said of the file as it stands, "
+                                "without them\n"));
+  }
+
+  TEST_CASE("a file that needs nothing is not touched, nor one that can't be edited") {
+    const TemporaryFolder folder;
+    const std::string text = "graph: t\ntasks: {a: {type: Counter, period: 100ms, wcet: 90ms}}\n";
+    const std::string file = folder.write("t.yaml", text);
+    const auto before = std::filesystem::last_write_time(file);
+    CHECK(command::jarol("check --write --for 1s " + file).output.find("  nothing is written into " + file + "\n") !=
+          std::string::npos);
+    CHECK(content(file) == text);
+    CHECK(std::filesystem::last_write_time(file) == before);
+    const std::string shared = "graph: t\ntasks:\n  a: &one {type: Counter, period: 1ms}\n  b: *one\n";
+    folder.write("t.yaml", shared);
+    const auto refused = command::jarol("check --write --for 1s " + file);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output.starts_with(file + ": measured over 1s of logical time"));
+    CHECK(refused.output.ends_with(
+        "\nerror: two tasks share one place of the file through an alias; write their 'wcet' yourself\n" + file +
+        ": 1 error\n"));
+    CHECK(content(file) == shared);
+  }
+
+  TEST_CASE("a file that can't be measured or written hides neither the others nor what was measured") {
+    const TemporaryFolder folder;
+    const std::string shared =
+        folder.write("s.yaml", "graph: t\ntasks:\n  a: &one {type: Counter, period: 1ms}\n  b: *one\n");
+    const std::string good = folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 100ms}}\n");
+    const auto told = command::jarol("check --write --for 1s " + shared + " specs/missing.yaml " + good);
+    CHECK(told.exit_code == 2);
+    CHECK(told.output.find("\n  b            1000 ") < told.output.find("\nerror: two tasks share one place"));
+    CHECK(told.output.find("\nerror: can't read 'specs/missing.yaml': No such file or directory\n") !=
+          std::string::npos);
+    CHECK(told.output.find("\n" + good + ": SCHEDULABLE on one core") != std::string::npos);
+    CHECK(command::jarol("check --measure --for 1 " + good + " " + shared).output ==
+          "error: --for: '1' has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n");
+  }
+
+  TEST_CASE("what is changed in a file while it is measured is not lost") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 1ms}}\n");
+    // again where the machine did not let anybody change it meanwhile
+    command::Result refused;
+    for (int attempt = 0; attempt < 10 && refused.exit_code != 2; ++attempt) {
+      folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 1ms}}\n");
+      refused = command::jarol(
+          "check --write --for 500s " + file,
+          "2>&1 & id=$!; while kill -0 $id 2>&-; do echo '# more' >> " + file + "; sleep 0.01; done; wait $id");
+    }
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output.starts_with(file + ": measured over 500s of logical time on this machine, in processor time\n"
+                                            "  task  activations     99.9 %       most       wcet\n"
+                                            "  a "));
+    CHECK(refused.output.ends_with("error: '" + file +
+                                   "' was changed while it was measured; nothing is written, measure again\n" + file +
+                                   ": 1 error\n"));
+    CHECK(content(file).starts_with("graph: t\ntasks: {a: {type: Counter, period: 1ms}}\n# more\n"));
+  }
+
+  TEST_CASE("tasks that hear from a link to what goes on by itself are not measured") {
+    const auto refused = command::jarol("check --measure specs/exolauv.yaml --profile dune");
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output ==
+          "error: distributer 'dune' has a link to what goes on by itself, from which nothing comes while tasks are "
+          "measured; choose a link in process, as simulation or script\nspecs/exolauv.yaml: 1 error\n");
+  }
+
+  TEST_CASE("every activation of every task is measured") {
+    tools::Loaded loaded = tools::load_graph("specs/counting.yaml", {});
+    const auto measured = tools::measure_tasks(loaded, 1s);
+    REQUIRE(measured.size() == 5);
+    const std::vector<std::size_t> activations{50, 100, 20, 50, 50};
+    Duration sum{};
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      CHECK(measured[i].activations == activations[i]);
+      CHECK(measured[i].most >= measured[i].most_of_999);
+      sum += measured[i].most_of_999;
+    }
+    CHECK(sum > 0ns);  // a task of next to nothing may take no more than reading the clock does
+  }
+}

@@ -1,0 +1,171 @@
+// What a run's report tells of a vehicle's own decisions.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tasks/values/lauv.h"
+#include "tests/tools/run_command.h"
+#include "tools/report/told_changes.h"
+
+namespace {
+using namespace jarol;
+using tasks::Alarm;
+
+// An operator's side, with an `out` communicator for its reports and one for a bare alarm.
+Graph operator_graph(DistributerClass& its) {
+  its.channels.push_back({"report", Direction::out, &type_of<tasks::VehicleReport>(), ""});
+  its.channels.push_back({"alarm", Direction::out, &type_of<Alarm>(), ""});
+  Graph graph;
+  graph.distributers.resize(1);
+  graph.distributers[0].distributer_class = &its;
+  for (std::size_t i = 0; i < 2; ++i) {
+    graph.communicators.emplace_back();
+    graph.communicators[i].name = i == 0 ? "to_neptus" : "to_siren";
+    graph.communicators[i].direction = Direction::out;
+    graph.communicators[i].type = its.channels[i].type;
+    graph.communicators[i].distributer = 0;
+    graph.communicators[i].channel = i;
+  }
+  return graph;
+}
+
+struct Kept : Channels {
+  explicit Kept(std::vector<Alarm>& to) : handed_over(to) {}
+  void reach(Duration) override {}
+  bool take(std::size_t, void*) override { return false; }
+  void hand_over(std::size_t channel, const void* value) override {
+    handed_over.push_back(channel == 0 ? static_cast<const tasks::VehicleReport*>(value)->alarm
+                                       : *static_cast<const Alarm*>(value));
+  }
+  std::vector<Alarm>& handed_over;
+};
+
+// What is told of a run that hands over one alarm a second, on both channels.
+struct Told {
+  explicit Told(const std::vector<Alarm>& alarms) {
+    std::vector<std::unique_ptr<Channels>> channels;
+    channels.push_back(std::make_unique<Kept>(handed_over));
+    channels = changes.listen(std::move(channels));
+    for (std::size_t i = 0; i < alarms.size(); ++i) {
+      channels[0]->reach(std::chrono::seconds(i));
+      const tasks::VehicleReport report{.alarm = alarms[i]};
+      channels[0]->hand_over(0, &report);
+      channels[0]->hand_over(1, &alarms[i]);
+    }
+  }
+  DistributerClass its;
+  Graph graph = operator_graph(its);
+  tools::ToldChanges changes{graph};
+  std::vector<Alarm> handed_over;
+};
+
+#ifdef JAROL_VEHICLES
+
+std::vector<std::string> told_in(const std::string& report) {
+  std::vector<std::string> lines;
+  const std::string begin = "  told        ";
+  for (std::size_t at = 0; (at = report.find(begin, at)) != std::string::npos;) {
+    at += begin.size();
+    lines.push_back(report.substr(at, report.find('\n', at) - at));
+  }
+  return lines;
+}
+
+const std::string sonar = " --set distributers.robostix.link.parameters.failures.sonar.";
+const std::string leak = " --set 'distributers.dune.link.parameters={leak_at: 500ms}'";
+#endif
+}  // namespace
+
+TEST_SUITE("tools/told_changes") {
+  TEST_CASE("all is handed on, and what has a meaning is told when it comes, changes and goes") {
+    const std::vector<Alarm> alarms{Alarm::none, Alarm::none, Alarm::gps, Alarm::gps, Alarm::speed, Alarm::none};
+    const Told told(alarms);
+    CHECK(told.handed_over.size() == 2 * alarms.size());
+    CHECK(told.handed_over[4] == Alarm::gps);
+    CHECK(
+        told.changes.to_text() ==
+        "  told        to_neptus at 2 s: alarm gps: it stays at the surface, as GPS is silent\n"
+        "  told        to_siren at 2 s: gps: it stays at the surface, as GPS is silent\n"
+        "  told        to_neptus at 4 s: alarm speed: it comes up, as the speed log or the propeller's speed is silent "
+        "or wrong\n"
+        "  told        to_siren at 4 s: speed: it comes up, as the speed log or the propeller's speed is silent or "
+        "wrong\n"
+        "  told        to_neptus at 5 s: alarm none\n"
+        "  told        to_siren at 5 s: none\n");
+    CHECK(told.changes.to_json()[1].dump() ==
+          R"({"communicator":"to_siren","instant_ns":2000000000,"values":{"value":"gps"},)"
+          R"("meanings":["it stays at the surface, as GPS is silent"]})");
+  }
+
+  TEST_CASE("what holds from the first value on is told, and no change without a meaning") {
+    CHECK(
+        Told({Alarm::leak, Alarm::leak}).changes.to_text() ==
+        "  told        to_neptus at 0 s: alarm leak: it comes up, as there is water in the hull, or the leak detector "
+        "is silent\n"
+        "  told        to_siren at 0 s: leak: it comes up, as there is water in the hull, or the leak detector is "
+        "silent\n");
+    CHECK(Told({Alarm::none, Alarm::none}).changes.to_text() == "");
+  }
+
+  TEST_CASE("of very many changes the first are told, and how many more there were") {
+    std::vector<Alarm> alarms;
+    for (int i = 0; i < 150; ++i) alarms.push_back(i % 2 == 0 ? Alarm::heading : Alarm::none);
+    const std::string text = Told(alarms).changes.to_text();
+    CHECK(std::count(text.begin(), text.end(), '\n') == 2 * (100 + 1));
+    CHECK(
+        text.ends_with("  told        to_neptus: and 50 changes more\n  told        to_siren: and 50 changes more\n"));
+    CHECK(Told(alarms).changes.to_json().size() == 200);
+  }
+
+#ifdef JAROL_VEHICLES
+  TEST_CASE("of a flight or a dive without an event nothing is told") {
+    CHECK(told_in(command::jarol("run specs/javiator.yaml").output).empty());
+    CHECK(told_in(command::jarol("run specs/exolauv.yaml").output).empty());
+    CHECK(nlohmann::json::parse(command::jarol("run specs/exolauv.yaml --for 2s --json").output)["told"] ==
+          nlohmann::json::array());
+  }
+
+  TEST_CASE("a landing that nobody wanted is told with its instant and its cause, and how it ended") {
+    const std::string run = "run specs/javiator.yaml" + sonar + "kind=lost" + sonar + "at=12s";
+    CHECK(told_in(command::jarol(run).output) ==
+          std::vector<std::string>{
+              "to_terminal at 12.28 s: state landing, cause sonar_lost: the sonar tells nothing credible",
+              "to_terminal at 18.34 s: state ground",
+              // its operator has it start once more
+              "to_terminal at 28.03 s: state starting, cause none",
+              "to_terminal at 28.045 s: state ground, cause sonar_lost: the sonar tells nothing credible"});
+    CHECK(nlohmann::json::parse(command::jarol(run + " --json", "2>/dev/null").output)["told"][0] ==
+          nlohmann::json{{"communicator", "to_terminal"},
+                         {"instant_ns", 12'280'000'000},
+                         {"values", {{"state", "landing"}, {"cause", "sonar_lost"}}},
+                         {"meanings", {"the sonar tells nothing credible"}}});
+  }
+
+  TEST_CASE("water in the hull is told, on any clock and by threads too") {
+    const std::string line = "alarm leak: it comes up, as there is water in the hull, or the leak detector is silent";
+    const std::string run = "run specs/exolauv.yaml" + leak + " --for ";
+    CHECK(told_in(command::jarol(run + "1200ms").output) == std::vector<std::string>{"to_neptus at 1.02 s: " + line});
+    for (const std::string concurrency : {"exotasks", "threads"}) {
+      // longer where the machine was late
+      std::vector<std::string> told;
+      for (int ms = 1200; told.empty() && ms < 60'000; ms *= 2)
+        told =
+            told_in(command::jarol(run + std::to_string(ms) + "ms --clock real --concurrency " + concurrency).output);
+      REQUIRE(told.size() == 1);
+      CHECK(told[0].ends_with(" s: " + line));
+    }
+  }
+
+  TEST_CASE("an alarm that is over is told, too") {
+    const auto told = told_in(command::jarol("run specs/exolauv.yaml --for 110s --set "
+                                             "distributers.neptus.link.file=../tests/data/lauv-recovered.csv")
+                                  .output);
+    CHECK(told ==
+          std::vector<std::string>{"to_neptus at 36.02 s: alarm operator_lost: it comes up, as the operator is silent",
+                                   "to_neptus at 70.02 s: alarm none"});
+  }
+#endif
+}

@@ -1,0 +1,181 @@
+#include "vehicles/helicopter/sensors.h"
+#include "vehicles/helicopter/helicopter.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+using namespace jarol;
+using namespace jarol::vehicles;
+using messages::javiator::JaviatorData;
+
+HelicopterSensors::Scene level(double north, double east, double down) {
+  HelicopterSensors::Scene scene;
+  scene.motion.p_n = {north, east, down};
+  scene.specific_force = {0, 0, -9.81};
+  scene.voltage = 15;
+  return scene;
+}
+
+std::string text(const std::array<std::uint8_t, 8>& digits) { return {digits.begin(), digits.end()}; }
+
+constexpr std::int64_t ms = 1'000'000;
+
+// Answers after a second of sampling each 5 ms.
+JaviatorData after_a_second(const HelicopterParameters& parameters, const HelicopterSensors::Scene& scene) {
+  HelicopterSensors sensors(parameters, 1);
+  for (int i = 0; i <= 200; ++i) sensors.sample(5 * i * ms, scene);
+  sensors.sample_imu(1000 * ms, scene);
+  return sensors.answer(3);
+}
+
+// How often each bit of `state` is set in that many seconds of answers every 15 ms.
+std::array<int, 5> count_news(const HelicopterParameters& parameters, int seconds) {
+  HelicopterSensors sensors(parameters, 1);
+  std::array<int, 5> counts{};
+  for (int i = 0; i < 200 * seconds; ++i) {
+    sensors.sample(5 * i * ms, level(0, 0, 0));
+    if (i % 3 != 0) continue;
+    sensors.sample_imu(5 * i * ms, level(0, 0, 0));
+    const JaviatorData data = sensors.answer(0);
+    for (std::size_t bit = 0; bit < 5; ++bit) counts[bit] += (data.flags >> bit) & 1;
+  }
+  return counts;
+}
+}  // namespace
+
+TEST_SUITE("vehicles/helicopter_sensors") {
+  TEST_CASE("at rest it tells what the recorded vehicle told") {
+    HelicopterParameters parameters;
+    parameters.sensors.sonars = 1;
+    parameters.sensors.sonar_x = parameters.sensors.sonar_y = -0.095;
+    const JaviatorData data = after_a_second(parameters, level(0, 0, -0.2));
+    CHECK(data.maps == 14782186);
+    CHECK(data.temp == 1311);
+    CHECK(data.batt == 853);
+    CHECK(data.sonar == 49);
+    CHECK(data.flags == 31);
+    CHECK(data.id == 3);
+    CHECK(text(data.x_pos) == std::string("0008070\0", 8));
+    CHECK(text(data.y_pos) == std::string("0008077\0", 8));
+    CHECK(data.ddz == -4681);
+  }
+
+  TEST_CASE("angles, rates and forces come in the wire's units, body axes") {
+    HelicopterSensors::Scene scene = level(0, 0, -2);
+    const double roll = 0.1;
+    scene.motion.R_nb = {{{1, 0, 0}, {0, std::cos(roll), -std::sin(roll)}, {0, std::sin(roll), std::cos(roll)}}};
+    scene.motion.omega_b = {0.5, -0.25, 1};
+    scene.specific_force = {1, 0, -9.81};
+    const JaviatorData data = after_a_second({}, scene);
+    CHECK(data.roll == 1043);   // 0.1 * 65536 / (2 pi)
+    CHECK(data.droll == 1928);  // 0.5 * 32768 / 8.5
+    CHECK(data.dpitch == -964);
+    CHECK(data.dyaw == 3855);
+    CHECK(data.ddx == 477);  // 4681 / 9.81
+  }
+
+  TEST_CASE("sonar 22 Hz, lasers 25 Hz, pressure 27.5 Hz, the IMU in each answer") {
+    const std::array<int, 5> counts = count_news({}, 10);
+    CHECK(counts[0] == 667);
+    CHECK(counts[1] == 275);
+    CHECK(counts[2] == 220);
+    CHECK(counts[3] == 250);
+    CHECK(counts[4] == 250);
+  }
+
+  TEST_CASE(
+      "the sonar measures along the body's axis: from 1.9 m at 60 degrees of roll it sees the ground at 3.8 m, out of "
+      "reach") {
+    HelicopterSensors::Scene scene = level(0, 0, -1.9 - 0.055 * 0.5);
+    const double roll = std::acos(0.5);
+    scene.motion.R_nb = {{{1, 0, 0}, {0, std::cos(roll), -std::sin(roll)}, {0, std::sin(roll), std::cos(roll)}}};
+    CHECK(after_a_second({}, scene).sonar == 1023);
+    scene.motion.p_n[2] = -1 - 0.055 * 0.5;
+    CHECK(after_a_second({}, scene).sonar == 682);  // 2 m of 3 m
+  }
+
+  TEST_CASE("of four sonars the mean of the middle two counts, so that one may be wrong") {
+    HelicopterParameters parameters;
+    parameters.noise.sonar_outliers = 0.1;
+    HelicopterSensors four(parameters, 5);
+    parameters.sensors.sonars = 1;
+    HelicopterSensors one(parameters, 5);
+    int wrong_of_four = 0, wrong_of_one = 0;
+    for (int i = 0; i < 20000; ++i) {
+      four.sample(50 * i * ms, level(0, 0, -1.055));
+      one.sample(50 * i * ms, level(0, 0, -1.055));
+      wrong_of_four += std::abs(four.answer(0).sonar - 341) > 3 ? 1 : 0;
+      wrong_of_one += std::abs(one.answer(0).sonar - 341) > 3 ? 1 : 0;
+    }
+    CHECK(wrong_of_one == doctest::Approx(2000).epsilon(0.1));
+    CHECK(wrong_of_four < 800);  // two have to be wrong at once, 5 % of the time, and on the same side
+  }
+
+  TEST_CASE("noise has the deviation it is given, and is another with another seed") {
+    HelicopterParameters parameters;
+    parameters.noise.rate = 0.01;
+    parameters.noise.laser = 0.01;
+    double sum = 0, squares = 0, laser_squares = 0;
+    HelicopterSensors one(parameters, 1), two(parameters, 2);
+    int different = 0;
+    constexpr int n = 20000;
+    for (int i = 0; i < n; ++i) {
+      one.sample(50 * i * ms, level(0, 0, 0));
+      two.sample(50 * i * ms, level(0, 0, 0));
+      one.sample_imu(50 * i * ms, level(0, 0, 0));
+      two.sample_imu(50 * i * ms, level(0, 0, 0));
+      const JaviatorData a = one.answer(0), b = two.answer(0);
+      const double p = a.droll * 8.5 / 32768;
+      sum += p;
+      squares += p * p;
+      const double laser = 1e-3 * (std::stoi(text(a.x_pos)) - 8070);
+      laser_squares += laser * laser;
+      different += a.droll != b.droll ? 1 : 0;
+    }
+    CHECK(std::abs(sum / n) < 3e-4);
+    CHECK(std::sqrt(squares / n) == doctest::Approx(0.01).epsilon(0.02));
+    CHECK(std::sqrt(laser_squares / n) == doctest::Approx(0.01).epsilon(0.02));
+    CHECK(different > n / 2);
+  }
+
+  TEST_CASE("from its time on a lost sensor says nothing, a stuck one the same, a biased one too much") {
+    HelicopterParameters parameters;
+    const auto readings = [&](FailureKind kind) {
+      parameters.failures.sonar = {kind, 2, 0.3};
+      HelicopterSensors sensors(parameters, 1);
+      std::vector<std::pair<bool, int>> all;
+      for (int second = 0; second < 4; ++second) {
+        sensors.sample(second * 1000 * ms, level(0, 0, -1 - 0.1 * second));
+        const JaviatorData data = sensors.answer(0);
+        all.emplace_back((data.flags & JaviatorData::Flags::SONAR) != 0, data.sonar);
+      }
+      return all;
+    };
+    using Readings = std::vector<std::pair<bool, int>>;
+    CHECK(readings(FailureKind::none) == Readings{{true, 322}, {true, 356}, {true, 390}, {true, 424}});
+    CHECK(readings(FailureKind::lost) == Readings{{true, 322}, {true, 356}, {false, 356}, {false, 356}});
+    CHECK(readings(FailureKind::stuck) == Readings{{true, 322}, {true, 356}, {true, 356}, {true, 356}});
+    CHECK(readings(FailureKind::biased) == Readings{{true, 322}, {true, 356}, {true, 493}, {true, 527}});
+  }
+
+  TEST_CASE("a helicopter that is driven tells what its sensors measure, in SI units") {
+    vehicles::Helicopter helicopter(vehicles::HelicopterParameters{});
+    const auto& sensors = static_cast<const vehicles::HelicopterOutputs*>(helicopter.outputs())->sensors;
+    CHECK(std::isnan(sensors.sonar));  // nobody has asked yet
+    const vehicles::HelicopterInputs still{};
+    for (int i = 0; i < 40; ++i) {
+      helicopter.command(&still);
+      helicopter.step();
+    }
+    CHECK(sensors.ddz == doctest::Approx(-9.81).epsilon(0.02));
+    CHECK(sensors.pressure == doctest::Approx(101325).epsilon(0.001));
+    CHECK(sensors.temperature == doctest::Approx(25).epsilon(0.01));
+    CHECK(sensors.voltage == doctest::Approx(helicopter.voltage()).epsilon(0.01));
+    CHECK(sensors.x_laser == doctest::Approx(8).epsilon(0.05));
+    CHECK(std::abs(sensors.roll) < 0.02);
+  }
+}

@@ -1,0 +1,80 @@
+// Power and actuators of the submarine by hand computations, one step at a time.
+#include "vehicles/submarine/actuation.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "vehicles/submarine/power.h"
+
+namespace {
+using namespace jarol::vehicles;
+}  // namespace
+
+TEST_SUITE("vehicles/submarine_actuation") {
+  TEST_CASE("fins turn by 333.3 degrees a second up to 45, and over a step the water sees them halfway") {
+    SubmarineActuation actuation({});
+    actuation.command_servo(1, 2);
+    SubmarineInput seen = actuation.step();
+    CHECK(actuation.servos()[1] == doctest::Approx(3.333 * degree));
+    CHECK(seen.fins[1] == doctest::Approx(3.333 / 2 * degree));
+    CHECK(seen.fins[0] == 0);
+    for (int i = 2; i <= 13; ++i) seen = actuation.step();
+    CHECK(actuation.servos()[1] == doctest::Approx(13 * 3.333 * degree));
+    CHECK(seen.fins[1] == doctest::Approx(12.5 * 3.333 * degree));
+    seen = actuation.step();
+    CHECK(actuation.servos()[1] == doctest::Approx(45 * degree));
+    CHECK(seen.fins[1] == doctest::Approx((13 * 3.333 + 45) / 2 * degree));
+  }
+
+  TEST_CASE("DUNE's simulator sees fins and propeller where they come to at the end of a step") {
+    SubmarineParameters parameters;
+    parameters.vsim_compatible = true;
+    SubmarineActuation actuation(parameters);
+    actuation.command_servo(3, -2);
+    CHECK(actuation.step().fins[3] == doctest::Approx(-3.333 * degree));
+  }
+
+  TEST_CASE("the propeller follows with a lag of 50 ms, and over a step the water sees it halfway") {
+    SubmarineActuation actuation({});
+    actuation.command_thruster(0.5);
+    const double once = 0.5 * 261.8 * (1 - std::exp(-0.2)), twice = 0.5 * 261.8 * (1 - std::exp(-0.4));
+    CHECK(actuation.step().propeller == doctest::Approx(once / 2));
+    CHECK(actuation.propeller() == doctest::Approx(once));
+    CHECK(actuation.step().propeller == doctest::Approx((once + twice) / 2));
+    actuation.command_thruster(-3);
+    for (int i = 0; i < 200; ++i) {
+      actuation.command_thruster(-3);
+      actuation.step();
+    }
+    CHECK(actuation.propeller() == doctest::Approx(-261.8));
+  }
+
+  TEST_CASE("the propeller draws by the cube of its speed, either way, beside what everything else draws") {
+    Power power({});
+    power.draw(0, 0.01);
+    CHECK(power.current() == 1);
+    power.draw(0.5, 0.01);
+    CHECK(power.current() == doctest::Approx(1 + 6 * 0.125));
+    power.draw(-1, 0.01);
+    CHECK(power.current() == doctest::Approx(7));
+  }
+
+  TEST_CASE("the battery's voltage falls with the charge used, and by its resistance, down to nothing") {
+    Power power({});
+    power.draw(1, 3600);  // 7 A h of 20
+    CHECK(power.voltage() == doctest::Approx(25.2 - 7.2 * 7 / 20 - 0.1 * 7));
+    power.draw(0, 1800);
+    CHECK(power.voltage() == doctest::Approx(25.2 - 7.2 * 7.5 / 20 - 0.1));
+    power.draw(1, 1e7);
+    CHECK(power.voltage() == 0);
+  }
+
+  TEST_CASE("the hull warms by 3 K for each ampere, after ten minutes to two thirds") {
+    Power power({});
+    power.draw(1, 600);
+    CHECK(power.warmth() == doctest::Approx(21 * (1 - std::exp(-1))));
+    power.draw(0, 1e9);
+    CHECK(power.warmth() == doctest::Approx(3));
+  }
+}

@@ -1,0 +1,49 @@
+#include "tools/check/check_words.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "graph/language/key.h"
+
+namespace jarol::tools {
+
+bool holds(const ReportedChain& c) { return analysis::broken_limits(c.chain, c.latency).empty(); }
+
+bool chains_hold(const CheckReport& report) { return std::all_of(report.chains.begin(), report.chains.end(), holds); }
+
+std::string assumption(const Platform& platform) {
+  std::string how;
+  switch (platform.policy) {
+    case Policy::table: how = "tasks run one after the other as released, never interrupted"; break;
+    case Policy::fixed_priority:
+      how = "the most urgent task runs, interrupting others, as under 'run --clock real'";
+      break;
+    case Policy::edf:
+      how = "the task with the earliest deadline runs, interrupting others; 'run' does not execute this";
+      break;
+    case Policy::fixed_priority_nonpreemptive:
+      how = "the most urgent task starts, and runs to its end; 'run' does not execute this";
+      break;
+    case Policy::edf_nonpreemptive:
+      how = "the task with the earliest deadline starts, and runs to its end; 'run' does not execute this";
+      break;
+    case Policy::global_edf: how = "the earliest deadlines run, on any core; 'run' does not execute this"; break;
+  }
+  std::string overhead = ", without overhead";
+  if (platform.dispatch > Duration{} || platform.copy > Duration{})
+    overhead = ", with " + duration_text(platform.dispatch) + " for each activation and " +
+               duration_text(platform.copy) + " for each byte handed on";
+  return how + overhead + (platform.phasing == Phasing::any ? "; whatever the offsets" : "");
+}
+
+std::string word_of(analysis::Standing standing) {
+  switch (standing) {
+    case analysis::Standing::none: return "none";
+    case analysis::Standing::proof: return "proof";
+    case analysis::Standing::safe: return "safe";
+    case analysis::Standing::by_run: return "by a run";
+  }
+  return "";
+}
+
+}  // namespace jarol::tools

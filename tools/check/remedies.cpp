@@ -1,0 +1,252 @@
+#include "tools/check/remedies.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "graph/language/key.h"
+#include "graph/language/tables.h"
+#include "graph/model/build.h"
+#include "tools/check/check_report.h"
+#include "tools/run/load_graph.h"
+
+namespace jarol::tools {
+namespace {
+
+using analysis::Verdict;
+
+constexpr std::size_t max_remedies = 5, max_executable = 4;
+
+std::string quoted(const std::string& key, const std::string& value) { return "'" + key + ": " + value + "'"; }
+
+std::string policy_name(Policy policy) { return Words<Policy>::list()[static_cast<std::size_t>(policy)]; }
+
+// Looks for changes that hold, by loading and checking the graph with each.
+class Search {
+ public:
+  Search(const std::shared_ptr<const Source>& source, const Overrides& overrides, const Registry& registry,
+         const CheckReport& report, analysis::Effort& effort)
+      : source_(source), overrides_(overrides), registry_(registry), report_(report), effort_(effort) {}
+
+  std::vector<Remedy> run() {
+    try_all({&Search::offsets, &Search::deadlines, &Search::priorities, &Search::executable_policies, &Search::unpinned,
+             &Search::cores, &Search::lets, &Search::periods});
+    if (found_.empty()) try_pairs();
+    if (found_.size() > max_executable) found_.resize(max_executable);
+    wcets();
+    for (const Policy policy : {Policy::edf, Policy::global_edf})
+      if (found_.size() < max_remedies) add(policy_remedy(policy));
+    if (found_.size() > max_remedies) found_.resize(max_remedies);
+    return std::move(found_);
+  }
+
+ private:
+  using Kind = void (Search::*)();
+
+  const Graph& graph() const { return *report_.graph; }
+
+  // Does the graph hold with these changes, chains included? Changes that make it invalid don't.
+  bool holds(const std::vector<std::string>& set) {
+    // loading takes its time, too
+    if (!effort_.spend(1000 * graph().tasks.size())) return false;
+    Overrides changed = overrides_;
+    changed.set.insert(changed.set.end(), set.begin(), set.end());
+    Problems problems;
+    const GraphSpec spec = load_spec(source_, changed, problems);
+    const Graph graph = build_graph(spec, registry_, problems);
+    if (!problems.empty()) return false;
+    if (analysis::verdict_of(analysis::system_of(graph), effort_) != Verdict::schedulable) return false;
+    const bool chains_hold = std::all_of(graph.chains.begin(), graph.chains.end(), [&](const Chain& chain) {
+      return analysis::broken_limits(chain, analysis::latency_of(graph, chain.path)).empty();
+    });
+    return chains_hold && loads(changed);
+  }
+
+  // Vehicles and links may have a word in it.
+  bool loads(const Overrides& changed) const {
+    try {
+      load_graph(source_, changed);
+      return true;
+    } catch (const SpecError&) { return false; }
+  }
+
+  // What it is tried with while pairs are looked for.
+  std::vector<std::string> with(std::vector<std::string> set) const {
+    set.insert(set.begin(), beside_.set.begin(), beside_.set.end());
+    return set;
+  }
+
+  bool add(const Remedy& remedy) {
+    if (remedy.set.empty() || !holds(with(remedy.set))) return false;
+    found_.push_back({beside_.text.empty() ? remedy.text : beside_.text + " and " + remedy.text, with(remedy.set)});
+    return true;
+  }
+
+  void try_all(std::initializer_list<Kind> kinds) {
+    for (const Kind kind : kinds)
+      if (found_.size() < max_executable) (this->*kind)();
+  }
+
+  // One change and one more: another policy or a core more beside each of the others.
+  void try_pairs() {
+    for (const Remedy& first :
+         {cores_remedy(), priorities_remedy(), policy_remedy(Policy::fixed_priority), policy_remedy(Policy::table)}) {
+      if (first.set.empty() || !found_.empty()) continue;
+      beside_ = first;
+      try_all(
+          {&Search::priorities, &Search::executable_policies, &Search::deadlines, &Search::offsets, &Search::cores});
+    }
+    beside_ = {};
+  }
+
+  // Tasks that a shift may help, longest first: their work is what others wait for.
+  std::vector<const Task*> longest_tasks() const {
+    std::vector<const Task*> tasks;
+    for (const Task& task : graph().tasks) tasks.push_back(&task);
+    std::stable_sort(tasks.begin(), tasks.end(), [](const Task* a, const Task* b) { return *a->wcet > *b->wcet; });
+    if (tasks.size() > 6) tasks.resize(6);
+    return tasks;
+  }
+
+  void offsets() {
+    if (graph().platform.phasing != Phasing::given) return;
+    for (const Task* task : longest_tasks())
+      for (int eighth = 1; eighth < 8; ++eighth) {
+        const Duration offset = task->period * eighth / 8;
+        if (offset == task->offset || offset <= Duration{}) continue;
+        if (add({quoted("offset", duration_text(offset)) + " of '" + task->name + "'",
+                 {"tasks." + task->name + ".offset=" + duration_text(offset)}}))
+          return;
+      }
+  }
+
+  // Deadlines that were declared earlier than needed.
+  void deadlines() {
+    Problems problems;
+    const GraphSpec spec = load_spec(source_, overrides_, problems);
+    for (const TaskSpec& task : spec.tasks)
+      if (task.deadline && add({"no 'deadline' of '" + task.name + "'", {"tasks." + task.name + ".deadline=null"}}))
+        return;
+  }
+
+  Remedy priorities_remedy() const {
+    Remedy remedy{"priorities by deadline, without 'priority'", {}};
+    if (graph().platform.policy == Policy::fixed_priority)
+      for (const Task& task : graph().tasks)
+        if (task.priority) remedy.set.push_back("tasks." + task.name + ".priority=null");
+    return remedy;
+  }
+  void priorities() { add(priorities_remedy()); }
+
+  Remedy policy_remedy(Policy policy) const {
+    if (policy == graph().platform.policy) return {};
+    const bool executed = policy == Policy::table || policy == Policy::fixed_priority;
+    return {quoted("policy", policy_name(policy)) + (executed ? "" : ", which 'run' does not execute"),
+            {"platform.policy=" + policy_name(policy)}};
+  }
+  void executable_policies() {
+    for (const Policy policy : {Policy::table, Policy::fixed_priority}) add(policy_remedy(policy));
+  }
+
+  // Tasks that stand on a core by `core:`.
+  void unpinned() {
+    if (graph().platform.cores < 2) return;
+    Remedy all{"no 'core', so that check assigns them", {}};
+    for (const Task& task : graph().tasks)
+      if (task.core) all.set.push_back("tasks." + task.name + ".core=null");
+    for (const Task* task : longest_tasks())
+      for (std::int64_t core = 0; task->core && core < graph().platform.cores; ++core)
+        if (core != *task->core && add({quoted("core", std::to_string(core)) + " of '" + task->name + "'",
+                                        {"tasks." + task->name + ".core=" + std::to_string(core)}}))
+          return;
+    add(all);
+  }
+
+  Remedy cores_remedy() const {
+    const auto least = static_cast<std::int64_t>(std::ceil(report_.result.utilisation - 1e-9));
+    const std::int64_t cores = std::max<std::int64_t>(graph().platform.cores + 1, least);
+    if (cores > most_cores) return {};
+    return {quoted("cores", std::to_string(cores)), {"platform.cores=" + std::to_string(cores)}};
+  }
+  void cores() { add(cores_remedy()); }
+
+  bool is_in_broken_chain(const Task& task) const {
+    const auto index = static_cast<std::size_t>(&task - graph().tasks.data());
+    return std::any_of(report_.chains.begin(), report_.chains.end(), [&](const ReportedChain& c) {
+      return !analysis::broken_limits(c.chain, c.latency).empty() &&
+             std::any_of(c.chain.path.begin(), c.chain.path.end(),
+                         [&](const End& end) { return end.kind == End::Kind::task && end.index == index; });
+    });
+  }
+
+  // A later end of a LET leaves more time, an earlier one shortens the chains that go through it.
+  void lets() {
+    const bool late = report_.result.verdict != Verdict::schedulable;
+    for (const Task& task : graph().tasks) {
+      if (!task.let || (!late && !is_in_broken_chain(task))) continue;
+      for (int eighth = 1; eighth <= 8; ++eighth) {
+        const Duration let = late ? *task.let + (task.period - *task.let) * eighth / 8 : *task.let * (8 - eighth) / 8;
+        if (let <= Duration{} || let == *task.let) continue;
+        if (add({quoted("let", duration_text(let)) + " of '" + task.name + "'",
+                 {"tasks." + task.name + ".let=" + duration_text(let)}}))
+          return;
+      }
+    }
+  }
+
+  // Of a chain that is too slow: a task of it twice as often, or all of it.
+  void periods() {
+    for (const Task& task : graph().tasks) {
+      if (!is_in_broken_chain(task) || task.period.count() % 2 != 0) continue;
+      const std::string period = duration_text(task.period / 2);
+      if (add({quoted("period", period) + " of '" + task.name + "'", {"tasks." + task.name + ".period=" + period}}))
+        return;
+    }
+    for (const ReportedChain& c : report_.chains) {
+      if (analysis::broken_limits(c.chain, c.latency).empty()) continue;
+      Remedy all{"half the periods of all of chain '" + c.chain.name + "'", {}};
+      for (const End& end : c.chain.path) all.set.push_back(half_of(end));
+      if (add(all)) return;
+    }
+  }
+
+  std::string half_of(const End& end) const {
+    if (end.kind == End::Kind::task)
+      return "tasks." + graph().tasks[end.index].name + ".period=" + duration_text(graph().tasks[end.index].period / 2);
+    const Communicator& communicator = graph().communicators[end.index];
+    return "communicators." + communicator.name + ".period=" + duration_text(communicator.period / 2);
+  }
+
+  void wcets() {
+    if (report_.result.verdict == Verdict::schedulable) return;
+    std::size_t count = 0;
+    for (const analysis::WcetCut& cut : analysis::wcet_cuts(analysis::system_of(graph()), effort_)) {
+      if (found_.size() >= max_remedies || ++count > 2) return;
+      const Task& task = graph().tasks[cut.task];
+      const std::string wcet = duration_text(Duration(cut.wcet));
+      add({"a 'wcet' of " + wcet + " for '" + task.name + "', which has " + duration_text(*task.wcet),
+           {"tasks." + task.name + ".wcet=" + wcet}});
+    }
+  }
+
+  const std::shared_ptr<const Source>& source_;
+  const Overrides& overrides_;
+  const Registry& registry_;
+  const CheckReport& report_;
+  analysis::Effort& effort_;
+  Remedy beside_;
+  std::vector<Remedy> found_;
+};
+
+}  // namespace
+
+std::vector<Remedy> find_remedies(const std::shared_ptr<const Source>& source, const Overrides& overrides,
+                                  const Registry& registry, const CheckReport& report, analysis::Effort& effort) {
+  const bool stated =
+      std::all_of(report.graph->tasks.begin(), report.graph->tasks.end(), [](const Task& t) { return t.wcet; });
+  if (!stated || report.graph->tasks.empty()) return {};
+  if (report.result.verdict == Verdict::schedulable && chains_hold(report)) return {};
+  return Search(source, overrides, registry, report, effort).run();
+}
+
+}  // namespace jarol::tools

@@ -1,0 +1,27 @@
+// What would turn a "no" of `jarol check` into a "yes": changes of the graph, each checked again.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "graph/analysis/load.h"
+#include "graph/language/load.h"
+#include "graph/registry.h"
+
+namespace jarol::tools {
+
+struct CheckReport;
+
+struct Remedy {
+  std::string text;              // "'offset: 2ms' of 'fast'"
+  std::vector<std::string> set;  // the same as `--set` takes it
+};
+
+/// The best few. First what `run` executes with no other code: an offset, a LET or a deadline, priorities by deadline,
+/// another policy, more cores, two of these together; then shorter WCETs and policies that are analysed only. Each
+/// keeps the limits of all chains, too. Fewer where it would take more effort.
+std::vector<Remedy> find_remedies(const std::shared_ptr<const Source>& source, const Overrides& overrides,
+                                  const Registry& registry, const CheckReport& report, analysis::Effort& effort);
+
+}  // namespace jarol::tools

@@ -1,0 +1,40 @@
+// The trace as CSV: a row per instant, a column per published number.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "graph/values/bind.h"
+#include "runtime/plan/plan.h"
+#include "runtime/record/recorder.h"
+#include "tools/files/whole_file.h"
+
+namespace jarol::tools {
+
+/// Columns: `time` (s, exact), then `task.output`, `task.output.field`, `communicator` or `communicator.field` in
+/// bytewise order. An empty cell: not published at that instant. The file appears when it is whole.
+class TraceCsv : public RecordSink {
+ public:
+  /// Throws std::runtime_error if the file can't be made.
+  TraceCsv(std::string path, const std::vector<Output>& outputs);
+
+  void take(Duration instant, std::uint32_t output, const void* value) override;
+  void finish() override;
+
+ private:
+  void write_row();
+
+  struct Target {
+    Leaf leaf;
+    std::size_t column = 0;
+  };
+
+  WholeFile file_;
+  std::vector<std::vector<Target>> targets_;  // per output
+  std::vector<std::string> cells_;
+  Duration instant_{};
+  bool pending_ = false;
+  std::string row_;
+};
+
+}  // namespace jarol::tools

@@ -1,0 +1,150 @@
+#include "tools/files/whole_file.h"
+
+#include <fcntl.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "graph/language/inputs.h"
+#include "tools/files/partial_files.h"
+#include "tools/files/sync.h"
+
+namespace jarol::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& path, int reason) {
+  throw std::runtime_error("can't write '" + path + "': " + std::strerror(reason));
+}
+
+// stdout or stderr, if the path leads to where they go, as /dev/stdout does.
+int own_stream(const struct stat& file) {
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat own {};
+    const bool writable = (::fcntl(stream, F_GETFL) & O_ACCMODE) != O_RDONLY;
+    if (writable && ::fstat(stream, &own) == 0 && own.st_dev == file.st_dev && own.st_ino == file.st_ino) return stream;
+  }
+  return -1;
+}
+
+bool are_same(const std::string& a, const std::string& b) {
+  std::error_code none;
+  // a device or a FIFO takes what several write
+  if (fs::is_other(fs::status(a, none))) return false;
+  return fs::equivalent(a, b, none) ||
+         fs::weakly_canonical(target_of(a), none) == fs::weakly_canonical(target_of(b), none);
+}
+
+}  // namespace
+
+fs::path target_of(const std::string& path) {
+  constexpr int most_links = 40;  // as the kernel has it
+  fs::path target = path;
+  std::error_code none;
+  for (int i = 0; i < most_links && fs::is_symlink(target, none); ++i)
+    target = target.parent_path() / fs::read_symlink(target, none);
+  return target;
+}
+
+WholeFile::WholeFile(std::string path, Replaces replaces)
+    : path_(std::move(path)), target_(target_of(path_)), replaces_(replaces) {
+  if (replaces != Replaces::all) require_no_input(path_);
+  struct stat there {};
+  const bool exists = ::stat(path_.c_str(), &there) == 0;
+  const int stream = exists ? own_stream(there) : -1;
+  if (exists && replaces == Replaces::nothing) fail(path_, EEXIST);
+  if (stream >= 0) {
+    file_ = ::fdopen(::dup(stream), "wb");  // goes on where that is
+  } else if (exists && !S_ISREG(there.st_mode)) {
+    file_ = std::fopen(path_.c_str(), "wb");
+  } else {
+    lock_ = OutputLock(target_);
+    open_partial();
+  }
+  if (file_ == nullptr) fail(path_, errno);
+  if (exists && !partial_.empty()) {
+    // an owner other than this one can be kept by root only
+    [[maybe_unused]] const int refused = ::fchown(::fileno(file_), there.st_uid, there.st_gid);
+    ::fchmod(::fileno(file_), there.st_mode & 07777);
+  }
+}
+
+// Under a name that nobody can have foreseen.
+void WholeFile::open_partial() {
+  std::uint64_t number = 0;
+  if (::getrandom(&number, sizeof number, 0) != sizeof number) fail(path_, errno);
+  partial_ = target_.string() + "." + std::to_string(number) + ".part";
+  add_partial_file(partial_);
+  const int descriptor = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor >= 0) file_ = ::fdopen(descriptor, "wb");
+  if (file_ != nullptr) return;
+  const int reason = errno;
+  drop_partial_file(partial_);
+  fail(path_, reason);
+}
+
+WholeFile::~WholeFile() {
+  if (file_ == nullptr) return;
+  std::fclose(file_);
+  if (partial_.empty()) return;
+  std::remove(partial_.c_str());
+  drop_partial_file(partial_);
+}
+
+void WholeFile::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail(path_, errno);
+}
+
+bool WholeFile::put_in_place() const {
+  if (replaces_ != Replaces::nothing) return std::rename(partial_.c_str(), target_.c_str()) == 0;
+  return ::link(partial_.c_str(), target_.c_str()) == 0 && std::remove(partial_.c_str()) == 0;
+}
+
+void WholeFile::commit() {
+  // what is in the buffer goes out here at the latest, so that a full disk shows
+  bool written = sync(file_);
+  int reason = errno;
+  if (std::fclose(std::exchange(file_, nullptr)) != 0 && written) {
+    written = false;
+    reason = errno;
+  }
+  if (!partial_.empty()) {
+    if (written && !put_in_place()) {
+      written = false;
+      reason = errno;
+    }
+    if (!written) std::remove(partial_.c_str());
+    drop_partial_file(partial_);
+    sync_folder_of(target_);
+  }
+  if (!written) fail(path_, reason);
+}
+
+void require_no_input(const std::string& path) {
+  const std::string input = input_at(path);
+  if (!input.empty())
+    throw std::invalid_argument("can't write '" + path + "': it is '" + input +
+                                "', which was read; choose another file");
+}
+
+void require_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (outputs[i].path.empty()) continue;
+    for (const NamedFile& input : inputs)
+      if (!input.path.empty() && are_same(outputs[i].path, input.path))
+        throw std::invalid_argument(outputs[i].option + " '" + outputs[i].path + "' would replace what " +
+                                    input.option + " names; choose another file");
+    for (std::size_t k = 0; k < i; ++k)
+      if (!outputs[k].path.empty() && are_same(outputs[i].path, outputs[k].path))
+        throw std::invalid_argument(outputs[k].option + " and " + outputs[i].option + " both name '" + outputs[i].path +
+                                    "'; choose another file for one of them");
+  }
+}
+
+}  // namespace jarol::tools

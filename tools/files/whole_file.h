@@ -1,0 +1,58 @@
+// A file that appears whole or not at all: it is written under another name until it is committed. What is no regular
+// file, as a device or a FIFO, is written in place.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/files/output_lock.h"
+
+namespace jarol::tools {
+
+/// What may stand where a file is written: nothing; a file, but for those that the process has read; any.
+enum class Replaces { nothing, outputs, all };
+
+class WholeFile {
+ public:
+  /// Links are followed, and what they lead to is replaced; it keeps its permissions.
+  /// Throws std::runtime_error, "can't write 'path': reason", if the file can't be made; so do the others.
+  explicit WholeFile(std::string path, Replaces replaces = Replaces::outputs);
+  /// What was not committed is gone, also if a signal ends the program.
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  void write(std::string_view text);
+  void commit();
+
+ private:
+  void open_partial();
+  bool put_in_place() const;
+
+  std::string path_;              // as the user calls it
+  std::filesystem::path target_;  // where links lead
+  OutputLock lock_;
+  std::string partial_;  // what it is called until then; empty: written in place
+  Replaces replaces_;
+  std::FILE* file_ = nullptr;
+};
+
+/// Where a link leads, also where nothing stands there yet.
+std::filesystem::path target_of(const std::string& path);
+
+/// Throws std::invalid_argument, "can't write 'path': ...", where that is a file that the process has read.
+void require_no_input(const std::string& path);
+
+/// A file of a command: the option that names it, as "--trace" or "FILE", and its path; none where that is empty.
+struct NamedFile {
+  std::string option;
+  std::string path;
+};
+
+/// Throws std::invalid_argument where an output would replace an input or another output.
+void require_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
+
+}  // namespace jarol::tools

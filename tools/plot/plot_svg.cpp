@@ -1,0 +1,292 @@
+#include "tools/plot/plot_svg.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "graph/text/escape.h"
+#include "tools/files/whole_file.h"
+#include "tools/plot/plot_axis.h"
+#include "tools/plot/svg_text.h"
+
+namespace jarol::tools {
+namespace {
+
+// all in px
+constexpr double width = 960;
+constexpr double left = 64;
+constexpr double right = width - 20;
+constexpr double first_panel = 52;
+constexpr double heading_line = 26;  // above each panel
+constexpr double panel_height = 124;
+constexpr double panel_gap = 14;
+constexpr double time_labels = 48;
+
+// colours of Okabe and Ito, told apart with any kind of colour vision
+constexpr std::string_view reached_stroke = R"(stroke="#0072B2" stroke-width="2")";
+constexpr std::string_view commanded_stroke = R"(stroke="#D55E00" stroke-width="1.6" stroke-dasharray="6 4")";
+
+constexpr std::string_view title_font = R"(font-size="14" font-weight="bold" fill="#1F2933")";
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+std::string_view last_name(std::string_view path) { return path.substr(path.rfind('.') + 1); }
+
+bool is_any_of(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// What a panel's value is called: by its leaf, or by the title if the output is a plain number.
+std::string name_of(const Panel& panel) {
+  std::string name(panel.leaf.path.empty() ? panel.title : last_name(panel.leaf.path));
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return name;
+}
+
+bool is_angle(std::string_view unit) { return unit == "rad" || unit.starts_with("rad/") || unit.starts_with("rad "); }
+
+}  // namespace
+
+// Writes shapes and texts.
+class PlotSvg::Pen {
+ public:
+  std::string svg;
+
+  void text(double x, double y, std::string_view attributes, std::string_view words) {
+    svg += "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\"";
+    if (!attributes.empty()) svg.append(" ").append(attributes);
+    svg.append(">").append(xml_text(words)).append("</text>\n");
+  }
+
+  // horizontal
+  void line(double x1, double x2, double y, std::string_view stroke) {
+    svg.append("<path ").append(stroke).append(" d=\"M" + px(x1) + "," + px(y) + "H" + px(x2) + "\"/>\n");
+  }
+
+  void curve(const PlotCurve& curve, const std::vector<PlotCurve::Point>& points, const Axis& x, const Axis& y,
+             std::string_view stroke) {
+    path_.clear();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const PlotCurve::Point& b = points[i];
+      const double x_b = x.place(static_cast<double>(b.instant) * 1e-9);
+      const double y_b = y.place(b.value);
+      if (i == 0) {
+        start(x_b, y_b);
+        continue;
+      }
+      const PlotCurve::Point& a = points[i - 1];
+      if (curve.held) go_on(x_b, y.place(a.value));
+      if (a.turn == b.turn) {
+        go_on(x_b, y_b);
+        continue;
+      }
+      if (curve.heading && !curve.held) {
+        // leave at one edge of the circle and come back at the other
+        const double edge = b.turn > a.turn ? 180.0 : -180.0;
+        const double way = b.value - a.value + 2 * edge;
+        const double part = way == 0 ? 0.0 : std::clamp((edge - a.value) / way, 0.0, 1.0);
+        const double x_a = x.place(static_cast<double>(a.instant) * 1e-9);
+        const double x_edge = x_a + part * (x_b - x_a);
+        go_on(x_edge, y.place(edge));
+        start(x_edge, y.place(-edge));
+        go_on(x_b, y_b);
+      } else {
+        start(x_b, y_b);
+      }
+    }
+    if (curve.held) go_on(right, y.place(points.back().value));
+    end_stroke();
+    svg.append("<path fill=\"none\" ").append(stroke).append(" d=\"" + path_ + "\"/>\n");
+  }
+
+ private:
+  void start(double x, double y) {
+    end_stroke();
+    path_ += "M" + px(x) + "," + px(y);
+    x_ = px(x);
+    y_ = px(y);
+    moved_ = false;
+  }
+
+  // runs along an axis are merged: steps and settled values cost few bytes
+  void go_on(double x, double y) {
+    const std::string to_x = px(x);
+    const std::string to_y = px(y);
+    if (to_x == x_ && to_y == y_) return;
+    if (to_y != y_ && level_) end_level();
+    if (to_y == y_) {
+      level_ = true;
+    } else if (to_x == x_) {
+      path_ += "V" + to_y;
+    } else {
+      path_ += "L" + to_x + "," + to_y;
+    }
+    x_ = to_x;
+    y_ = to_y;
+    moved_ = true;
+  }
+
+  void end_level() {
+    path_ += "H" + x_;
+    level_ = false;
+  }
+
+  // a stroke without length is a dot, thanks to its round ends
+  void end_stroke() {
+    if (level_) end_level();
+    if (!moved_ && !path_.empty()) path_ += "h0";
+    moved_ = true;
+  }
+
+  std::string path_;
+  std::string x_;  // where the pen is
+  std::string y_;
+  bool level_ = false;  // a horizontal run is still to be written
+  bool moved_ = true;
+};
+
+PlotSvg::PlotSvg(std::string path, std::string title, std::vector<Panel> panels)
+    : path_(std::move(path)), title_(std::move(title)) {
+  for (Panel& panel : panels) {
+    Drawing drawing;
+    drawing.panel = std::move(panel);
+    const Panel& its = drawing.panel;
+    std::string unit = its.unit.empty() ? its.leaf.unit : its.unit;
+    if (unit.empty() && its.leaf.type->kind == Kind::duration) unit = "s";
+    drawing.unit = is_angle(unit) ? "deg" + unit.substr(3) : unit;
+    drawing.downwards = name_of(its) == "depth" || (name_of(its) == "z" && unit == "m");
+    drawing.curves.push_back(add_curve(its.output, its.leaf, drawing, false));
+    if (its.commanded) drawing.curves.push_back(add_curve(its.commanded->first, its.commanded->second, drawing, true));
+    drawings_.push_back(std::move(drawing));
+  }
+}
+
+std::size_t PlotSvg::add_curve(std::uint32_t output, const Leaf& leaf, const Drawing& drawing, bool held) {
+  PlotCurve curve;
+  curve.leaf = leaf;
+  if (is_angle(leaf.unit.empty() ? drawing.panel.unit : leaf.unit)) curve.factor = degrees;
+  if (leaf.type->kind == Kind::duration) curve.factor = 1e-9;
+  curve.angle = drawing.unit == "deg";
+  curve.heading = curve.angle && is_any_of(name_of(drawing.panel), {"heading", "psi", "yaw", "course"});
+  curve.held = held || leaf.type->kind == Kind::boolean || leaf.type->kind == Kind::enumeration;
+  curves_.push_back(std::move(curve));
+  if (curves_of_.size() <= output) curves_of_.resize(output + std::size_t{1});
+  curves_of_[output].push_back(curves_.size() - 1);
+  return curves_.size() - 1;
+}
+
+void PlotSvg::take(Duration instant, std::uint32_t output, const void* value) {
+  end_ = std::max(end_, instant.count());
+  if (output >= curves_of_.size()) return;
+  for (const std::size_t i : curves_of_[output]) { curves_[i].add(instant.count(), value); }
+}
+
+void PlotSvg::draw(const Drawing& drawing, double top, Pen& pen) const {
+  const double bottom = top + panel_height;
+  const bool angle = curves_[drawing.curves[0]].angle;
+  bool whole_numbers = true;
+  bool crosses = false;
+  double least = PlotCurve::most_value;
+  double most = -PlotCurve::most_value;
+  std::vector<std::vector<PlotCurve::Point>> lines;
+  for (const std::size_t i : drawing.curves) {
+    const PlotCurve& curve = curves_[i];
+    lines.push_back(curve.points(end_));
+    for (const PlotCurve::Point& p : lines.back()) {
+      least = std::min(least, p.value);
+      most = std::max(most, p.value);
+      crosses = crosses || (curve.heading && p.turn != 0);
+    }
+    whole_numbers = whole_numbers && curve.leaf.type->kind != Kind::floating && curve.factor == 1;
+  }
+  const bool no_data = least > most;
+
+  Axis y;
+  y.from = drawing.downwards ? top : bottom;
+  y.to = drawing.downwards ? bottom : top;
+  if (!no_data) {
+    // some air around the curves; not below a zero that they do not cross, nor beyond the circle
+    const double greatest = std::max(std::abs(least), std::abs(most));
+    const double range = most - least;
+    const bool flat = range <= 1e-9 * greatest || range < 1e-290;
+    const double air = !flat ? 0.06 * range : greatest > 1e-290 ? 0.1 * greatest : 1.0;
+    y.least = least >= 0 && least < air && !flat ? 0 : least - air;
+    y.most = most <= 0 && most > -air && !flat ? 0 : most + air;
+    if (angle && least >= -180 && most <= 180) {
+      y.least = crosses ? -180 : std::max(y.least, -180.0);
+      y.most = crosses ? 180 : std::min(y.most, 180.0);
+    }
+  }
+  y.ticks = find_ticks(y.most - y.least, 5, angle);
+  if (whole_numbers && y.ticks.exponent < 0) y.ticks = {1, 0};
+  const Axis x = time_axis(end_, left, right);
+
+  pen.svg += "<path stroke=\"#E4E7EB\" d=\"";
+  x.for_each_tick([&](double at, const std::string&) { pen.svg += "M" + px(at) + "," + px(top) + "V" + px(bottom); });
+  if (!no_data)
+    y.for_each_tick([&](double at, const std::string&) { pen.svg += "M" + px(left) + "," + px(at) + "H" + px(right); });
+  pen.svg += "\"/>\n<rect x=\"" + px(left) + "\" y=\"" + px(top) + "\" width=\"" + px(right - left) + "\" height=\"" +
+             px(panel_height) + "\" stroke=\"#9AA5B1\" fill=\"none\"/>\n";
+
+  pen.svg += "<text x=\"" + px(left) + "\" y=\"" + px(top - 9) + "\"><tspan " + std::string(title_font) + ">" +
+             xml_text(drawing.panel.title) + "</tspan>";
+  if (!drawing.unit.empty()) pen.svg += " [" + xml_text(drawing.unit) + "]";
+  pen.svg += "</text>\n";
+  if (no_data) {
+    pen.text((left + right) / 2, top + panel_height / 2 + 5, "font-size=\"14\" text-anchor=\"middle\"", "no data");
+    return;
+  }
+  pen.svg += "<g text-anchor=\"end\">\n";
+  y.for_each_tick([&](double at, const std::string& label) { pen.text(left - 8, at + 4, "", label); });
+  pen.svg += "</g>\n";
+  constexpr std::array strokes{reached_stroke, commanded_stroke};
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (!lines[i].empty()) pen.curve(curves_[drawing.curves[i]], lines[i], x, y, strokes[i]);
+
+  if (!drawing.panel.commanded) return;
+  pen.line(right - 216, right - 190, top - 13, commanded_stroke);
+  pen.text(right - 184, top - 9, "", "commanded");
+  pen.line(right - 84, right - 58, top - 13, reached_stroke);
+  pen.text(right - 52, top - 9, "", "reached");
+}
+
+std::string PlotSvg::text() const {
+  constexpr double pitch = heading_line + panel_height + panel_gap;
+  const double bottom = first_panel + pitch * static_cast<double>(drawings_.size()) - panel_gap;
+  const double height = drawings_.empty() ? first_panel + 40 : bottom + time_labels;
+  Pen pen;
+  pen.svg =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"" +
+      px(width) + "\" height=\"" + px(height) + "\" viewBox=\"0 0 " + px(width) + " " + px(height) +
+      "\" font-family=\"Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif\" font-size=\"12\" "
+      "fill=\"#52606D\">\n<title>" +
+      xml_text(title_) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\n";
+  pen.text(left, 32, "font-size=\"18\" font-weight=\"bold\" fill=\"#1F2933\"", title_);
+  if (drawings_.empty()) {
+    pen.text(left, first_panel + 16, "", "no data");
+    return pen.svg + "</svg>\n";
+  }
+  for (std::size_t i = 0; i < drawings_.size(); ++i) {
+    pen.svg += "<g stroke-linejoin=\"round\" stroke-linecap=\"round\">\n";
+    draw(drawings_[i], first_panel + heading_line + pitch * static_cast<double>(i), pen);
+    pen.svg += "</g>\n";
+  }
+  pen.svg += "<g text-anchor=\"middle\">\n";
+  time_axis(end_, left, right).for_each_tick([&](double at, const std::string& label) {
+    pen.text(at, bottom + 18, "", label);
+  });
+  pen.text((left + right) / 2, bottom + 37, "", "time [s]");
+  pen.svg += "</g>\n";
+  return pen.svg + "</svg>\n";
+}
+
+void PlotSvg::finish() {
+  WholeFile file(path_);
+  file.write(text());
+  file.commit();
+}
+
+}  // namespace jarol::tools

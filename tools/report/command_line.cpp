@@ -1,0 +1,228 @@
+#include "tools/report/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "graph/language/problems.h"
+#include "tools/report/failure.h"
+
+namespace jarol::tools {
+namespace {
+
+// CLI11 reads 010 as eight, takes -1 as the largest number there is, and what is too large as something else.
+template <class T>
+std::string wrong_integer(const std::string& text) {
+  T value{};
+  const auto end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  const std::size_t first = text.starts_with('-') ? 1 : 0;
+  const bool zero_in_front = text.size() > first + 1 && text[first] == '0';
+  if (result.ec == std::errc() && result.ptr == end && !zero_in_front) return "";
+  return "'" + text + "' is no whole number from " + std::to_string(std::numeric_limits<T>::min()) + " to " +
+         std::to_string(std::numeric_limits<T>::max()) + "; write it in decimal, without zeros in front";
+}
+
+// A range of CLI11 lets NaN pass.
+std::string wrong_number(const std::string& text) {
+  double value = 0;
+  const auto end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec == std::errc() && result.ptr == end && std::isfinite(value)) return "";
+  return "'" + text + "' is no finite number in decimal; write it as in 20 or 0.5";
+}
+
+// As of a variable of the shell that is not set: it would be taken as if the option were not there.
+std::string wrong_text(const std::string& text) {
+  return text.empty() ? "'' says nothing; leave the option out, or give it something" : "";
+}
+
+// A word that is written as an option.
+struct OptionWord {
+  std::string name;
+  const CLI::Option* option = nullptr;  // none of the command
+  std::optional<std::string> joined;    // its value, in the same word
+};
+
+std::vector<OptionWord> options_among(const CLI::App& command, const std::vector<std::string>& words) {
+  const auto options = command.get_options();
+  const auto find = [&](const std::string& name) -> const CLI::Option* {
+    const auto found =
+        std::find_if(options.begin(), options.end(), [&](const CLI::Option* o) { return o->check_name(name); });
+    return found == options.end() ? nullptr : *found;
+  };
+  std::vector<OptionWord> found;
+  for (auto word = words.begin(); word != words.end(); ++word) {
+    if (*word == "--") break;  // what follows are arguments
+    if (word->size() < 2 || (*word)[0] != '-' || word->find_first_of("0123456789.") == 1) continue;
+    const std::size_t equals = word->find('=');
+    OptionWord& at = found.emplace_back();
+    at.name = word->substr(0, equals);
+    at.option = find(at.name);
+    if (equals != std::string::npos) at.joined = word->substr(equals + 1);
+    if (at.option == nullptr && !word->starts_with("--")) {  // as in -oFOLDER
+      at.option = find(word->substr(0, 2));
+      if (at.option != nullptr) at.joined = word->substr(2);
+    }
+    // what follows is its value, whatever it looks like
+    const bool takes_next = at.option != nullptr && at.option->get_items_expected_min() > 0 && !at.joined;
+    if (takes_next && std::next(word) != words.end()) ++word;
+  }
+  return found;
+}
+
+// CLI11 takes --json=false for no flag, and --json=3 for one.
+std::string flag_with_value(const CLI::App& command, const std::vector<std::string>& words) {
+  for (const OptionWord& word : options_among(command, words))
+    if (word.option != nullptr && word.option->get_items_expected_max() == 0 && word.joined)
+      return word.name + " takes no value, and has '" + *word.joined + "'; write " + word.name +
+             " alone, or leave it out";
+  return "";
+}
+
+std::string unknown_option(const CLI::App& command, const std::vector<std::string>& words) {
+  for (const OptionWord& word : options_among(command, words)) {
+    if (word.option != nullptr) continue;
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command.get_options())
+      if (!option->get_positional()) known.push_back(option->get_name());
+    return command.get_name() + " has no option '" + word.name + "'" +
+           (word.name.starts_with("--") ? did_you_mean(word.name, known) : "") + "; it has: " + list_of(known);
+  }
+  return "";
+}
+
+}  // namespace
+
+Option* Option::required() {
+  option_.required();
+  return this;
+}
+
+Option* Option::one_value() {
+  option_.allow_extra_args(false);
+  return this;
+}
+
+Option* Option::in_range(int least, int most) {
+  option_.check(CLI::Range(least, most));
+  return this;
+}
+
+Option* Option::in_range(double least, double most) {
+  option_.check(CLI::Range(least, most));
+  return this;
+}
+
+Option* Option::one_of(const std::vector<std::string>& words) {
+  option_.check(CLI::IsMember(words));
+  return this;
+}
+
+Option* Option::excludes(const Option* other) {
+  option_.excludes(&other->option_);
+  return this;
+}
+
+template <class T>
+Option* Command::add_option(const std::string& name, T& value, const std::string& text) {
+  CLI::Option& option = *app_.add_option(name, value, text);
+  if constexpr (std::is_integral_v<T>) option.check(wrong_integer<T>);
+  if constexpr (std::is_floating_point_v<T>) option.check(wrong_number);
+  if constexpr (!std::is_arithmetic_v<T>) option.check(wrong_text);
+  return &options_.emplace_back(option);
+}
+template Option* Command::add_option(const std::string&, std::string&, const std::string&);
+template Option* Command::add_option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option* Command::add_option(const std::string&, int&, const std::string&);
+template Option* Command::add_option(const std::string&, std::uint64_t&, const std::string&);
+template Option* Command::add_option(const std::string&, double&, const std::string&);
+
+Option* Command::add_option(const std::string& name, const std::function<void(const std::string&)>& take,
+                            const std::string& text) {
+  CLI::Option& option = *app_.add_option_function<std::string>(name, take, text);
+  option.check(wrong_text);
+  return &options_.emplace_back(option);
+}
+
+Option* Command::add_flag(const std::string& name, bool& value, const std::string& text) {
+  return &options_.emplace_back(*app_.add_flag(name, value, text));
+}
+
+Option* Command::add_flag(const std::string& name, const std::function<void()>& take, const std::string& text) {
+  return &options_.emplace_back(*app_.add_flag_callback(name, take, text));
+}
+
+bool Command::given(const std::string& name) const { return app_.count(name) > 0; }
+
+void Command::refuse(const std::vector<std::string>& names, const std::string& why) const {
+  for (const std::string& name : names)
+    if (given(name)) throw std::invalid_argument(name + " " + why);
+}
+
+void Command::footer(const std::string& text) { app_.footer(text); }
+
+void Command::callback(const std::function<void()>& action) { app_.callback(action); }
+
+CommandLine::CommandLine(const std::string& name, const std::string& text, const std::string& version)
+    : app_(std::make_unique<CLI::App>(text, name)) {
+  app_->require_subcommand(1);
+  app_->set_version_flag("--version", version);
+}
+
+CommandLine::~CommandLine() = default;
+
+Command* CommandLine::add_subcommand(const std::string& name, const std::string& text) {
+  return &commands_.emplace_back(*app_->add_subcommand(name, text));
+}
+
+std::vector<std::string> CommandLine::names() const {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app_->get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+// The command, and the words behind its name.
+struct CommandLine::Words {
+  const CLI::App* command = nullptr;  // the whole, if none is named
+  std::vector<std::string> own;
+};
+
+CommandLine::Words CommandLine::split(int argc, char** argv) const {
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  for (const CLI::App* one : app_->get_subcommands({}))
+    if (!words.empty() && one->get_name() == words.front()) return {one, {words.begin() + 1, words.end()}};
+  return {app_.get(), words};
+}
+
+bool CommandLine::asks_for_json(int argc, char** argv) const {
+  const Words words = split(argc, argv);
+  const std::vector<OptionWord> options = options_among(*words.command, words.own);
+  return std::any_of(options.begin(), options.end(), [](const OptionWord& word) {
+    return word.option != nullptr && word.option->check_name("--json") && !word.joined;
+  });
+}
+
+void CommandLine::parse(int argc, char** argv) {
+  const Words words = split(argc, argv);
+  if (const std::string wrong = flag_with_value(*words.command, words.own); !wrong.empty()) throw UsageError(wrong);
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {  // a help, or the version
+      app_->exit(error);
+      return;
+    }
+    // the value of a mistyped option looks like an argument, which CLI11 tells instead
+    if (words.command != app_.get())
+      if (const std::string wrong = unknown_option(*words.command, words.own); !wrong.empty()) throw UsageError(wrong);
+    throw UsageError(error.what(), "Run with --help for more information.\n");
+  }
+}
+
+}  // namespace jarol::tools

@@ -1,0 +1,49 @@
+// What an operator commanded beside what the vehicle reports: fields of one name that come in and go out through one
+// distributer.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/model/graph.h"
+#include "graph/values/bind.h"
+#include "runtime/channels.h"
+
+namespace jarol::tools {
+
+/// A field that is reported to an operator, and the command of the same name where there is one.
+struct Reported {
+  std::string title;
+  std::size_t communicator = 0;  // an `out`
+  Leaf leaf;
+  struct Command {
+    std::size_t communicator = 0;  // an `in`
+    Leaf leaf;
+  };
+  std::optional<Command> command;
+};
+
+/// The fields of every `out` communicator that answers at least one command.
+std::vector<Reported> find_reported(const Graph& graph);
+
+/// Where the vehicle of a distributer truly is.
+struct TrueState {
+  std::string distributer;
+  Value values;
+};
+
+/// Of each vehicle that is simulated on these channels, one per distributer of the graph.
+std::vector<TrueState> find_true_states(const Graph& graph, const std::vector<Channels*>& channels);
+
+/// A table of what was commanded, reported as reached and truly reached last; `last_value` gives the newest value of a
+/// communicator.
+std::string reached_text(const Graph& graph, const std::function<const void*(std::size_t)>& last_value,
+                         const std::vector<TrueState>& true_states);
+
+/// All true values by the names of distributers.
+nlohmann::ordered_json to_json(const std::vector<TrueState>& true_states);
+
+}  // namespace jarol::tools

@@ -1,0 +1,158 @@
+#include "tools/report/told_changes.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "graph/language/quantities.h"
+
+namespace jarol::tools {
+namespace {
+
+struct Word {
+  std::string name, meaning;
+};
+
+// Of a number that is no enumerator the number.
+Word word_of(const Type& type, std::int64_t number) {
+  for (std::size_t i = 0; i < type.enumerators.size(); ++i)
+    if (type.enumerators[i].second == number) return {type.enumerators[i].first, type.meanings[i]};
+  return {std::to_string(number), ""};
+}
+
+bool has_meaning(const Type& type) {
+  return std::any_of(type.meanings.begin(), type.meanings.end(), [](const auto& meaning) { return !meaning.empty(); });
+}
+
+bool means_something(const Type& type, std::int64_t number) {
+  for (std::size_t i = 0; i < type.enumerators.size(); ++i)
+    if (type.enumerators[i].second == number) return !type.meanings[i].empty();
+  return false;
+}
+
+}  // namespace
+
+void ToldChanges::Watch::note(Duration instant, std::size_t watch, const void* value) {
+  const Numbers before = now;
+  const bool first = !std::exchange(begun, true);
+  bool meant = false;
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const Type& type = *leaves[i].type;
+    now[i] = read_integer(type, static_cast<const std::byte*>(value) + leaves[i].offset);
+    meant |= means_something(type, now[i]) || (!first && means_something(type, before[i]));
+  }
+  if (!meant || (!first && now == before)) return;
+  if (kept.size() < most_kept) kept.push_back({instant, watch, before, now});
+  ++count;
+}
+
+// Passes everything on.
+class ToldChanges::Listening : public Channels {
+ public:
+  // `watch` per channel of the distributer: an index into the watches, or none.
+  Listening(std::unique_ptr<Channels> to, std::vector<Watch>& watches, std::vector<std::optional<std::size_t>> watch)
+      : to_(std::move(to)), watches_(watches), watch_(std::move(watch)) {}
+
+  void begin() override { to_->begin(); }
+  void finish() override { to_->finish(); }
+  bool needs_real_clock() const override { return to_->needs_real_clock(); }
+  bool outlives_run() const override { return to_->outlives_run(); }
+  void flush() override { to_->flush(); }
+  std::optional<LinkReport> link_report() const override { return to_->link_report(); }
+  std::uint64_t non_finite_inputs() const override { return to_->non_finite_inputs(); }
+  std::optional<Duration> end() const override { return to_->end(); }
+  const Type* true_type() const override { return to_->true_type(); }
+  void copy_true_values(void* to) const override { to_->copy_true_values(to); }
+  std::string mishap() const override { return to_->mishap(); }
+  bool take(std::size_t channel, void* value) override { return to_->take(channel, value); }
+  void reach(Duration instant) override {
+    now_ = instant;
+    to_->reach(instant);
+  }
+  void hand_over(std::size_t channel, const void* value) override {
+    if (const auto watch = watch_[channel]) watches_[*watch].note(now_, *watch, value);
+    to_->hand_over(channel, value);
+  }
+
+ private:
+  std::unique_ptr<Channels> to_;
+  std::vector<Watch>& watches_;
+  std::vector<std::optional<std::size_t>> watch_;
+  Duration now_{};
+};
+
+std::vector<std::unique_ptr<Channels>> ToldChanges::listen(std::vector<std::unique_ptr<Channels>> channels) {
+  std::vector<std::vector<std::optional<std::size_t>>> watch_of(channels.size());
+  for (std::size_t d = 0; d < channels.size(); ++d)
+    watch_of[d].resize(graph_.distributers[d].distributer_class->channels.size());
+  for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
+    const Communicator& c = graph_.communicators[i];
+    if (c.direction != Direction::out || !c.distributer) continue;
+    Watch watch;
+    watch.communicator = i;
+    for (const Leaf& leaf : leaves_of(*c.type))
+      if (leaf.type->kind == Kind::enumeration && watch.leaves.size() < most_leaves) watch.leaves.push_back(leaf);
+    if (std::none_of(watch.leaves.begin(), watch.leaves.end(), [](const Leaf& l) { return has_meaning(*l.type); }))
+      continue;
+    watch.kept.reserve(most_kept);
+    watch_of[*c.distributer][c.channel] = watches_.size();
+    watches_.push_back(std::move(watch));
+  }
+  std::vector<std::unique_ptr<Channels>> listening;
+  for (std::size_t d = 0; d < channels.size(); ++d)
+    listening.push_back(std::make_unique<Listening>(std::move(channels[d]), watches_, std::move(watch_of[d])));
+  return listening;
+}
+
+std::vector<ToldChanges::Change> ToldChanges::in_order() const {
+  std::vector<Change> all;
+  for (const Watch& watch : watches_) all.insert(all.end(), watch.kept.begin(), watch.kept.end());
+  std::stable_sort(all.begin(), all.end(), [](const Change& a, const Change& b) { return a.instant < b.instant; });
+  return all;
+}
+
+std::string ToldChanges::to_text() const {
+  std::string text;
+  std::vector<bool> begun(watches_.size(), false);
+  for (const Change& change : in_order()) {
+    const Watch& watch = watches_[change.watch];
+    std::string words, meanings;
+    for (std::size_t i = 0; i < watch.leaves.size(); ++i) {
+      const Leaf& leaf = watch.leaves[i];
+      // all of them where it begins, then what changes
+      if (begun[change.watch] && change.before[i] == change.after[i]) continue;
+      const Word word = word_of(*leaf.type, change.after[i]);
+      words += (words.empty() ? "" : ", ") + leaf.path + (leaf.path.empty() ? "" : " ") + word.name;
+      if (!word.meaning.empty()) meanings += (meanings.empty() ? ": " : ", ") + word.meaning;
+    }
+    begun[change.watch] = true;
+    text += "  told        " + graph_.communicators[watch.communicator].name + " at " + seconds_text(change.instant) +
+            " s: " + words + meanings + "\n";
+  }
+  for (const Watch& watch : watches_)
+    if (watch.count > watch.kept.size())
+      text += "  told        " + graph_.communicators[watch.communicator].name + ": and " +
+              std::to_string(watch.count - watch.kept.size()) + " changes more\n";
+  return text;
+}
+
+nlohmann::ordered_json ToldChanges::to_json() const {
+  auto json = nlohmann::ordered_json::array();
+  for (const Change& change : in_order()) {
+    const Watch& watch = watches_[change.watch];
+    auto values = nlohmann::ordered_json::object(), meanings = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < watch.leaves.size(); ++i) {
+      const Word word = word_of(*watch.leaves[i].type, change.after[i]);
+      values[watch.leaves[i].path.empty() ? "value" : watch.leaves[i].path] = word.name;
+      if (!word.meaning.empty()) meanings.push_back(word.meaning);
+    }
+    json.push_back({{"communicator", graph_.communicators[watch.communicator].name},
+                    {"instant_ns", change.instant.count()},
+                    {"values", std::move(values)},
+                    {"meanings", std::move(meanings)}});
+  }
+  return json;
+}
+
+}  // namespace jarol::tools

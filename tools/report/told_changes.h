@@ -1,0 +1,59 @@
+// What a vehicle's own decisions told the outside during a run, in words: that it lands, comes up, and why.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "graph/model/graph.h"
+#include "graph/values/bind.h"
+#include "runtime/channels.h"
+
+namespace jarol::tools {
+
+/// Notes when an enumeration of a value that goes out takes an enumerator that has a meaning, and what the enumerations
+/// of that value become until it is left again. It makes no allocation while a graph runs.
+class ToldChanges {
+ public:
+  static constexpr std::size_t most_kept = 100;
+
+  /// The graph outlives it.
+  explicit ToldChanges(const Graph& graph) : graph_(graph) {}
+
+  /// The same channels, and what is handed over to them is noted. This outlives them.
+  std::vector<std::unique_ptr<Channels>> listen(std::vector<std::unique_ptr<Channels>> channels);
+
+  /// After the run: a line per change, and an array of them.
+  std::string to_text() const;
+  nlohmann::ordered_json to_json() const;
+
+ private:
+  static constexpr std::size_t most_leaves = 8;
+  using Numbers = std::array<std::int64_t, most_leaves>;
+
+  struct Change {
+    Duration instant{};
+    std::size_t watch = 0;
+    Numbers before{}, after{};
+  };
+  // An `out` communicator whose value has such an enumeration.
+  struct Watch {
+    std::size_t communicator = 0;
+    std::vector<Leaf> leaves;  // its enumerations
+    bool begun = false;
+    Numbers now{};          // once it has begun
+    std::size_t count = 0;  // of changes; the first are kept
+    std::vector<Change> kept;
+    void note(Duration instant, std::size_t watch, const void* value);
+  };
+  class Listening;
+
+  std::vector<Change> in_order() const;
+
+  const Graph& graph_;
+  std::vector<Watch> watches_;
+};
+
+}  // namespace jarol::tools

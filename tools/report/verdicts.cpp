@@ -1,0 +1,119 @@
+#include "tools/report/verdicts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "graph/text/escape.h"
+
+namespace jarol::tools {
+namespace {
+
+const char* word_of(Verdict::Outcome outcome) {
+  switch (outcome) {
+    case Verdict::Outcome::holds: return "holds";
+    case Verdict::Outcome::fails: return "fails";
+    case Verdict::Outcome::not_judged: return "not_judged";
+  }
+  return "";
+}
+
+}  // namespace
+
+bool RunVerdict::is_negative() const {
+  return !mishaps.empty() || !left_out.empty() ||
+         std::any_of(expectations.begin(), expectations.end(),
+                     [](const Verdict& v) { return v.outcome == Verdict::Outcome::fails; });
+}
+
+std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<Channels*>& channels) {
+  std::vector<RunVerdict::VehicleMishap> found;
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    if (const std::string mishap = channels[i]->mishap(); !mishap.empty())
+      found.push_back({graph.distributers[i].name, mishap});
+  return found;
+}
+
+std::string why_cut_short(Duration reached, Duration until, Duration mission) {
+  const std::string ended = "the run ended at " + seconds_text(reached) + " s";
+  if (reached < until && until != Duration::max())
+    return ended + ", and was to go on until " + seconds_text(until) + " s";
+  if (reached < mission) return ended + ", its mission ends at " + seconds_text(mission) + " s";
+  return "";
+}
+
+Duration end_of_mission(const std::vector<Channels*>& channels) {
+  Duration end{};
+  for (const Channels* each : channels) end = std::max(end, each->end().value_or(Duration{}));
+  return end;
+}
+
+std::vector<std::string> find_left_out(const Graph& graph, const Report& report) {
+  std::vector<std::string> lines;
+  if (report.stopped) return lines;  // the fault that ended the run says it all
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    const Task& task = graph.tasks[i];
+    const std::int64_t after_first = (report.covered - task.offset).count() - 1;
+    if (report.left_out[i] == 0 || after_first < 0) continue;
+    const std::int64_t due = after_first / task.period.count() + 1;
+    const double share = static_cast<double>(report.left_out[i]) / static_cast<double>(due);
+    if (share <= graph.fault_limit) continue;
+    lines.push_back(
+        fmt::format("task '{}' gave nothing in {} of {} activations, {:.1f} %, above the fault limit of {:g} %",
+                    task.name, report.left_out[i], due, 100 * share, 100 * graph.fault_limit));
+  }
+  return lines;
+}
+
+std::string to_text(const RunVerdict& verdict) {
+  std::string text;
+  for (std::size_t i = 0; i < verdict.expectations.size();) {
+    const Verdict& v = verdict.expectations[i];
+    // those that have one reason are one line
+    std::size_t next = i + 1;
+    if (v.outcome == Verdict::Outcome::not_judged)
+      while (next < verdict.expectations.size() && verdict.expectations[next].outcome == v.outcome &&
+             verdict.expectations[next].why == v.why)
+        ++next;
+    text +=
+        "  expected    " + (next - i > 1 ? std::to_string(next - i) + " conditions" : printable(v.condition)) + ": ";
+    if (v.outcome == Verdict::Outcome::not_judged) text += "not judged: " + v.why;
+    if (v.outcome == Verdict::Outcome::fails) text += "FAILS: " + v.why;
+    if (v.outcome == Verdict::Outcome::holds) text += "holds" + (v.reached_text.empty() ? "" : ", " + v.reached_text);
+    text += "\n";
+    i = next;
+  }
+  return text;
+}
+
+nlohmann::ordered_json to_json(const RunVerdict& verdict) {
+  auto expectations = nlohmann::ordered_json::array(), mishaps = nlohmann::ordered_json::array();
+  for (const Verdict& v : verdict.expectations) {
+    nlohmann::ordered_json json{{"condition", v.condition}, {"verdict", word_of(v.outcome)}};
+    if (v.reached) json["reached"] = *v.reached;
+    if (v.reached) json["unit"] = v.unit;
+    if (v.instant) json["instant_ns"] = v.instant->count();
+    if (!v.why.empty()) json["why"] = v.why;
+    expectations.push_back(std::move(json));
+  }
+  for (const auto& mishap : verdict.mishaps)
+    mishaps.push_back({{"distributer", mishap.distributer}, {"text", mishap.text}});
+  return {{"negative", verdict.is_negative()},
+          {"expectations", std::move(expectations)},
+          {"mishaps", std::move(mishaps)},
+          {"left_out", verdict.left_out}};
+}
+
+std::string failures_text(const RunVerdict& verdict) {
+  std::string text;
+  for (const auto& mishap : verdict.mishaps)
+    text += "error: the vehicle of '" + mishap.distributer + "' has " + mishap.text + "\n";
+  for (const std::string& line : verdict.left_out) text += "error: " + line + "\n";
+  for (const Verdict& v : verdict.expectations)
+    if (v.outcome == Verdict::Outcome::fails)
+      text += "error: expected '" + printable(v.condition) + "', but it " + v.why + "\n";
+  return text;
+}
+
+}  // namespace jarol::tools

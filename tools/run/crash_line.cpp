@@ -1,0 +1,186 @@
+#include "tools/run/crash_line.h"
+
+#include <signal.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+#include "distributers/guardian/guardian.h"
+#include "runtime/machine/running_task.h"
+#include "runtime/plan/plan.h"
+#include "tools/files/partial_files.h"
+#include "tools/report/exit_code.h"
+
+namespace jarol::tools {
+namespace {
+
+struct Kind {
+  int signal;
+  std::string_view name;
+  bool tells_address;
+};
+constexpr std::array kinds{Kind{SIGSEGV, "segmentation fault", true},
+                           Kind{SIGBUS, "bus error", true},
+                           Kind{SIGILL, "illegal instruction", false},
+                           Kind{SIGFPE, "arithmetic exception", false},
+                           Kind{SIGABRT, "abort", false},
+                           Kind{SIGTRAP, "trap", false},
+                           Kind{SIGSYS, "forbidden system call", false}};
+
+std::atomic<const Graph*> graph{nullptr};
+std::atomic<const distributers::Guardian*> guardian{nullptr};
+std::atomic<bool> crashed{false};
+std::array<struct sigaction, kinds.size()> before;
+
+// All that follows may run in a signal handler: it allocates nothing and locks nothing.
+class Line {
+ public:
+  Line& operator<<(std::string_view text) {
+    const std::size_t size = std::min(text.size(), text_.size() - size_);
+    std::memcpy(text_.data() + size_, text.data(), size);
+    size_ += size;
+    return *this;
+  }
+  Line& operator<<(std::int64_t number) {
+    if (number < 0) *this << "-";
+    const auto bits = static_cast<std::uint64_t>(number);
+    return number_in(number < 0 ? 0 - bits : bits, 10);
+  }
+  Line& hexadecimal(std::uint64_t number) { return (*this << "0x").number_in(number, 16); }
+  // as seconds_text writes it
+  Line& seconds(Duration time) {
+    constexpr std::int64_t second = 1'000'000'000;
+    *this << time.count() / second;
+    std::array<char, 10> digits{'.'};
+    std::size_t length = digits.size();
+    for (std::int64_t i = 9, rest = time.count() % second; i > 0; --i, rest /= 10)
+      digits[static_cast<std::size_t>(i)] = static_cast<char>('0' + rest % 10);
+    while (length > 0 && (digits[length - 1] == '0' || digits[length - 1] == '.')) --length;
+    return *this << std::string_view(digits.data(), length);
+  }
+  void write() {
+    *this << "; the process ends\n";
+    text_[size_ - 1] = '\n';  // where there was no room for all of it
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text_.data(), size_);
+  }
+
+ private:
+  Line& number_in(std::uint64_t number, std::uint64_t base) {
+    std::array<char, 20> digits;
+    std::size_t first = digits.size();
+    do digits[--first] = "0123456789abcdef"[number % base];
+    while ((number /= base) != 0);
+    return *this << std::string_view(digits.data() + first, digits.size() - first);
+  }
+
+  std::array<char, 1024> text_;
+  std::size_t size_ = 0;
+};
+
+void name_task(Line& line) {
+  const TaskMemory* const memory = running_task.memory.load(std::memory_order_relaxed);
+  const Graph* const of = graph.load();
+  if (memory == nullptr || of == nullptr) {
+    line << "crash: no task ran in this thread: ";
+    return;
+  }
+  const Tick& tick = *running_task.tick.load(std::memory_order_relaxed);
+  line << "crash: task '" << of->tasks[static_cast<const TaskStatus*>(memory->fault)->task].name << "' activation "
+       << tick.activation << " at ";
+  line.seconds(tick.now) << " s: ";
+}
+
+// A thread that crashes while another one says so waits for the end.
+void wait_if_second() {
+  while (crashed.exchange(true)) ::pause();
+}
+
+// What follows the line: the guardian acts at once, also while a core is dumped.
+void leave() {
+  if (const auto* const awake = guardian.load()) awake->wake();
+  remove_partial_files();
+}
+
+// The stack pointer stands beyond the stack, or will with the next call.
+bool is_stack_used_up(void* context) {
+  constexpr std::uintptr_t close_to_end = 16 << 10;
+  std::uintptr_t at = 0;
+#if defined(__x86_64__)
+  at = static_cast<std::uintptr_t>(static_cast<ucontext_t*>(context)->uc_mcontext.gregs[REG_RSP]);
+#elif defined(__aarch64__)
+  at = static_cast<std::uintptr_t>(static_cast<ucontext_t*>(context)->uc_mcontext.sp);
+#else
+  static_cast<void>(context);
+#endif
+  return at != 0 && running_task.stack_end != 0 && at < running_task.stack_end + close_to_end;
+}
+
+extern "C" void on_crash(int signal, siginfo_t* info, void* context) {
+  wait_if_second();
+  const Kind& kind = *std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.signal == signal; });
+  Line line;
+  if (info->si_code == SI_USER && info->si_pid != ::getpid()) {
+    line << "crash: " << kind.name << ", sent by process " << info->si_pid;
+  } else {
+    name_task(line);
+    if (signal == SIGSEGV && is_stack_used_up(context))
+      line << "stack overflow";
+    else
+      line << kind.name;
+    if (kind.tells_address && info->si_code > 0) {
+      line << " at address ";
+      line.hexadecimal(reinterpret_cast<std::uintptr_t>(info->si_addr));
+    }
+  }
+  line.write();
+  leave();
+  // it comes again as soon as this returns, and then ends the process
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
+// In the thread that called it, before anything else is torn down.
+void on_exit_called(std::string_view function, int code) {
+  if (graph.load() == nullptr || running_task.memory.load(std::memory_order_relaxed) == nullptr) return;
+  wait_if_second();
+  Line line;
+  name_task(line);
+  line << "called " << function << "(" << code << ")";
+  line.write();
+  leave();
+  ::_exit(exit_unfinished);
+}
+
+// Once: handlers of exit can't be taken away.
+void watch_exit() {
+  [[maybe_unused]] static const int watched = ::on_exit([](int code, void*) { on_exit_called("exit", code); }, nullptr);
+}
+
+}  // namespace
+
+CrashLine::CrashLine(const Graph& of, const distributers::Guardian* awake) {
+  graph.store(&of);
+  guardian.store(awake);
+  watch_exit();
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    struct sigaction action {};
+    action.sa_sigaction = on_crash;
+    action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+    sigfillset(&action.sa_mask);
+    ::sigaction(kinds[i].signal, &action, &before[i]);
+  }
+}
+
+CrashLine::~CrashLine() {
+  for (std::size_t i = 0; i < kinds.size(); ++i) ::sigaction(kinds[i].signal, &before[i], nullptr);
+  guardian.store(nullptr);
+  graph.store(nullptr);
+}
+
+}  // namespace jarol::tools

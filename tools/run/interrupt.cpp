@@ -1,0 +1,79 @@
+#include "tools/run/interrupt.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <ctime>
+#include <string_view>
+#include <utility>
+
+#include "tools/files/partial_files.h"
+
+namespace jarol::tools {
+namespace {
+
+std::atomic<bool> flag{false};
+std::atomic<int> number{0};
+std::atomic<bool> alive{false};
+std::atomic<std::int64_t> first_at{0};  // ns; 0: none has come
+std::function<void()> call;
+
+constexpr std::int64_t second_from = 500'000'000;  // ns: what comes sooner is the same wish, told twice
+
+std::int64_t now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
+extern "C" void interrupt(int signal) {
+  // another thread may take the second signal before this one has done more
+  std::int64_t first = 0;
+  if (first_at.compare_exchange_strong(first, now())) {
+    number.store(signal);
+    flag.store(true);
+    if (alive.load()) call();
+    return;
+  }
+  if (now() - first < second_from) return;
+  // whoever asks again does not want to wait for the end, nor, the third time, for this line
+  std::signal(signal, SIG_DFL);
+  remove_partial_files();
+  constexpr std::string_view line = "interrupted again: ended at once, without a report\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
+  std::raise(signal);
+}
+
+}  // namespace
+
+Interruptible::Interruptible(std::function<void()> at_once, HaltKey halt_key)
+    : count_(signals.size() - (halt_key == HaltKey::halts ? 1 : 0)) {
+  call = std::move(at_once);
+  flag.store(false);
+  number.store(0);
+  first_at.store(0);
+  alive.store(true);
+  for (std::size_t i = 0; i < count_; ++i) {
+    before_[i] = std::signal(signals[i], interrupt);
+    // what was started under nohup goes on when its terminal is gone, and a shell may keep Ctrl-Z for itself
+    if ((signals[i] == SIGHUP || signals[i] == SIGTSTP) && before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);
+  }
+}
+
+Interruptible::~Interruptible() {
+  alive.store(false);
+  // after an interruption a second signal still must not cut off the report
+  if (flag.load()) return;
+  for (std::size_t i = 0; i < count_; ++i) std::signal(signals[i], before_[i]);
+}
+
+const std::atomic<bool>& Interruptible::interrupted() { return flag; }
+
+int Interruptible::signal() { return number.load(); }
+
+void let_writing_fail() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+}  // namespace jarol::tools

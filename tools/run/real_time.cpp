@@ -1,0 +1,251 @@
+#include "tools/run/real_time.h"
+
+#include <fmt/format.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "graph/analysis/chains.h"
+#include "graph/analysis/check.h"
+#include "graph/language/key.h"
+#include "graph/language/quantities.h"
+#include "runtime/machine/machine.h"
+#include "tools/report/command_line.h"
+#include "tools/report/failure.h"
+#include "tools/report/value_json.h"
+
+namespace jarol::tools {
+namespace {
+
+// One CPU or a range of them, as in 2 or 0-3.
+void add_cpus(const std::string& part, const std::string& list, std::vector<int>& cpus) {
+  const auto number = [&](const std::string& digits) {
+    if (digits.empty() || digits.size() > 4 || digits.find_first_not_of("0123456789") != std::string::npos)
+      throw std::invalid_argument("--cpus: '" + list + "' is not a list of CPUs as in 0,2-3");
+    return std::stoi(digits);
+  };
+  const std::size_t dash = part.find('-');
+  const int first = number(part.substr(0, dash));
+  const int last = dash == std::string::npos ? first : number(part.substr(dash + 1));
+  const int count = static_cast<int>(std::thread::hardware_concurrency());
+  if (last < first) throw std::invalid_argument("--cpus: '" + part + "' ends before it begins");
+  if (last >= count)
+    throw std::invalid_argument("--cpus: there is no CPU " + std::to_string(last) + "; this machine has 0 to " +
+                                std::to_string(count - 1));
+  for (int cpu = first; cpu <= last; ++cpu) {
+    if (std::find(cpus.begin(), cpus.end(), cpu) != cpus.end())
+      throw std::invalid_argument("--cpus: '" + list + "' names CPU " + std::to_string(cpu) + " twice");
+    cpus.push_back(cpu);
+  }
+}
+
+// The safe value as a graph has it: {signals: [0, 0, 0, 0], unlocked: false}.
+std::string value_text(const Communicator& out) {
+  std::string text;
+  for (const char c : to_json(*out.type, out.safe->data()).dump())
+    if (c != '"') text += c == ':' || c == ',' ? std::string(1, c) + " " : std::string(1, c);
+  return text;
+}
+
+}  // namespace
+
+void take_priority(std::optional<int> priority) {
+  if (!priority) return;
+  sched_param parameter{};
+  parameter.sched_priority = *priority;
+  // where it is refused, it is so for the thread that keeps the time, which says it
+  sched_setscheduler(0, SCHED_FIFO, &parameter);
+}
+
+void add_real_time_options(Command& command, RealTimeArguments& arguments) {
+  command
+      .add_option(
+          "--rt-priority", arguments.priority,
+          "Real clock: SCHED_FIFO priority of the thread that keeps the time, and of tasks where these have no thread "
+          "of their "
+          "own, else those are below it; default: the ordinary scheduler, but with the policy fixed_priority the "
+          "least that leaves one for each thread")
+      ->in_range(1, 99);
+  command.add_option("--cpus", arguments.cpus,
+                     "Real clock: CPUs on which tasks may run, as in 0,2-3, one for each core; default: any");
+  command.add_flag("--spin", arguments.spin, "Real clock: wait for the instant without sleeping, at the cost of a CPU");
+  command.add_flag("--force", arguments.force, "Real clock: run also what check has a negative verdict on");
+  command.add_flag("--no-guardian", arguments.no_guardian,
+                   "Real clock: no process beside this one that hands over 'safe' after a crash or kill -9");
+}
+
+RealTimeOptions options_of(const RealTimeArguments& arguments) {
+  RealTimeOptions options;
+  if (arguments.priority > 0) options.priority = arguments.priority;
+  options.spin = arguments.spin;
+  for (std::size_t at = 0; !arguments.cpus.empty() && at != std::string::npos;) {
+    const std::size_t comma = arguments.cpus.find(',', at);
+    add_cpus(arguments.cpus.substr(at, comma == std::string::npos ? comma : comma - at), arguments.cpus, options.cpus);
+    at = comma == std::string::npos ? comma : comma + 1;
+  }
+  return options;
+}
+
+std::vector<analysis::TaskThread> threads_for(const std::string& file, const Graph& graph, RealTimeOptions& options) {
+  if (graph.platform.policy == Policy::table && graph.platform.cores == 1) return {};
+  std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
+  std::size_t cores = 0, levels = 0;
+  for (const analysis::TaskThread& thread : threads) {
+    cores = std::max(cores, thread.core + 1);
+    levels = std::max(levels, thread.urgency + 1);
+  }
+  const int needed = static_cast<int>(levels) + 1;  // and one above, for the thread that keeps the time
+  const int most = sched_get_priority_max(SCHED_FIFO);
+  if (needed > most)
+    throw std::invalid_argument("'" + file + "' takes " + std::to_string(needed) + " priorities and SCHED_FIFO has " +
+                                std::to_string(most) + "; use more cores, or choose --set platform.policy=table");
+  if (options.priority && *options.priority < needed)
+    throw std::invalid_argument("--rt-priority " + std::to_string(*options.priority) + ": the tasks of '" + file +
+                                "' take " + std::to_string(levels) + " priorities below it; choose " +
+                                std::to_string(needed) + " or more");
+  if (!options.priority && graph.platform.policy == Policy::fixed_priority) options.priority = needed;
+  const std::vector<int> usable = options.cpus.empty() ? find_machine_facts().usable : options.cpus;
+  if (usable.size() < cores)
+    throw std::invalid_argument("'" + file + "' has tasks on " + std::to_string(cores) + " cores; " +
+                                (options.cpus.empty() ? "this machine lets it use " : "--cpus names ") +
+                                std::to_string(usable.size()) + (usable.size() == 1 ? " CPU" : " CPUs"));
+  options.core_cpus.assign(usable.begin(), usable.begin() + static_cast<std::ptrdiff_t>(cores));
+  return threads;
+}
+
+void require_executable(const std::string& file, const Graph& graph, const RealTimeArguments& arguments) {
+  if (graph.platform.policy != Policy::table && graph.platform.policy != Policy::fixed_priority)
+    throw std::invalid_argument("'" + file + "' has the policy '" +
+                                Words<Policy>::list()[static_cast<std::size_t>(graph.platform.policy)] +
+                                "'; the real clock executes 'table' and 'fixed_priority'; choose one by --set "
+                                "platform.policy=table");
+  const analysis::Result result = analysis::check(graph);
+  std::vector<std::string> against;
+  if (result.verdict == analysis::Verdict::not_schedulable) against.push_back("is not schedulable: " + result.reason);
+  for (const Chain& chain : graph.chains) {
+    const auto broken = analysis::broken_limits(chain, analysis::latency_of(graph, chain.path));
+    if (!broken.empty()) against.push_back("breaks a limit of chain '" + chain.name + "': " + list_of(broken));
+  }
+  std::string all;
+  for (const std::string& each : against) all += (all.empty() ? "" : ", and ") + each;
+  if (!all.empty() && !arguments.force)
+    throw NegativeVerdict("'" + file + "' " + all + "; 'jarol check' says more, --force runs it all the same");
+  if (!all.empty()) std::cerr << "note: run by force: '" << file << "' " << all << "\n";
+  if (result.verdict == analysis::Verdict::unknown)
+    std::cerr << "note: whether this graph can be scheduled is not known: " << result.reason << "\n";
+}
+
+std::string to_text(const Graph& graph, const RealClock& clock) {
+  const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
+  const Histogram& late = clock.lateness();
+  std::string text = fmt::format("  lateness    {:.1f} us median, {:.1f} us 99 %, {:.1f} us worst\n",
+                                 us(late.percentile(0.5)), us(late.percentile(0.99)), us(late.most()));
+  std::size_t width = 4;
+  for (const Task& task : graph.tasks) width = std::max(width, task.name.size());
+  text += fmt::format("  {:<{}}  {:>11}  {:>10}  {:>10}  {:>11}  {:>6}  {:>8}\n", "task", width, "activations",
+                      "99 % us", "worst us", "response us", "late", "left out");
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    const TaskTiming& t = clock.timing(i);
+    text += fmt::format("  {:<{}}  {:>11}  {:>10.1f}  {:>10.1f}  {:>11.1f}  {:>6}  {:>8}\n", graph.tasks[i].name, width,
+                        t.execution.count(), us(t.execution.percentile(0.99)), us(t.execution.most()),
+                        us(t.response.most()), t.late, t.left_out);
+  }
+  return text;
+}
+
+nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock) {
+  const Histogram& late = clock.lateness();
+  auto tasks = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    const TaskTiming& t = clock.timing(i);
+    tasks[graph.tasks[i].name] = {{"activations", t.execution.count()},
+                                  {"execution_99_ns", t.execution.percentile(0.99)},
+                                  {"execution_most_ns", t.execution.most()},
+                                  {"response_99_ns", t.response.percentile(0.99)},
+                                  {"response_most_ns", t.response.most()},
+                                  {"late", t.late},
+                                  {"left_out", t.left_out}};
+  }
+  return {{"lateness_50_ns", late.percentile(0.5)},
+          {"lateness_99_ns", late.percentile(0.99)},
+          {"lateness_most_ns", late.most()},
+          {"tasks", tasks}};
+}
+
+std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands, const Ending& ending) {
+  std::string text;
+  for (const SafeCommandReport& safe : safe_commands) {
+    const std::string& name = graph.communicators[safe.communicator].name;
+    if (!safe.heard && safe.at_start > 0)
+      text += fmt::format("  safe        {}: all {} commands, for nothing ever came\n", name, safe.at_start);
+    if (safe.commands > 0)
+      text += fmt::format("  safe        {}: {} times for silence, {} commands, the first at {} s, the last at {} s\n",
+                          name, safe.times, safe.commands, seconds_text(safe.first), seconds_text(safe.last));
+    if (!safe.at_end) continue;
+    const std::string when = seconds_text(safe.at_end->time) + " s, as " + ending.reason;
+    if (safe.at_end->failure.empty())
+      text +=
+          "  safe        " + name + ": " + value_text(graph.communicators[safe.communicator]) + " at " + when + "\n";
+    else
+      text += "  safe        " + name + ": NOT HANDED OVER at " + when + ": " + safe.at_end->failure + "\n";
+  }
+  return text;
+}
+
+nlohmann::ordered_json to_json(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands) {
+  auto json = nlohmann::ordered_json::object();
+  for (const SafeCommandReport& safe : safe_commands) {
+    const Communicator& out = graph.communicators[safe.communicator];
+    json[out.name] = {{"heard", safe.heard},
+                      {"at_start", safe.at_start},
+                      {"times", safe.times},
+                      {"commands", safe.commands},
+                      {"first_ns", safe.first.count()},
+                      {"last_ns", safe.last.count()},
+                      {"at_end", safe.at_end.has_value() && safe.at_end->failure.empty()}};
+    if (!safe.at_end) continue;
+    json[out.name]["at_end_ns"] = safe.at_end->time.count();
+    json[out.name]["at_end_value"] = to_json(*out.type, out.safe->data());
+    if (!safe.at_end->failure.empty()) json[out.name]["at_end_failure"] = safe.at_end->failure;
+  }
+  return json;
+}
+
+std::string to_text(const LinkReport& link) {
+  std::string counts;
+  for (const auto& [name, count] : link.counts)
+    if (count > 0) counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  std::string text =
+      "  link        " + link.link + ": " + (counts.empty() ? "nothing came and nothing went" : counts) + "\n";
+  for (const LinkReport::Takeover& takeover : link.takeovers)
+    text += fmt::format("              taken over by {} at {} s, after {} had been silent\n", takeover.to,
+                        seconds_text(takeover.at), takeover.from);
+  for (const LinkReport::Stranger& stranger : link.strangers)
+    text += fmt::format("              stranger {}, {} times\n", stranger.address, stranger.times);
+  if (link.more_strangers > 0) text += fmt::format("              more strangers, {} times\n", link.more_strangers);
+  if (link.heard > 0) return text;
+  return text + "              NO PACKET " + (link.dropped > 0 ? "THAT COUNTS " : "") + "HAS COME over " + link.link +
+         "\n";
+}
+
+nlohmann::ordered_json to_json(const LinkReport& link) {
+  auto counts = nlohmann::ordered_json::object();
+  for (const auto& [name, count] : link.counts) counts[name] = count;
+  auto strangers = nlohmann::ordered_json::array(), takeovers = nlohmann::ordered_json::array();
+  for (const LinkReport::Stranger& stranger : link.strangers)
+    strangers.push_back({{"address", stranger.address}, {"times", stranger.times}});
+  for (const LinkReport::Takeover& takeover : link.takeovers)
+    takeovers.push_back({{"from", takeover.from}, {"to", takeover.to}, {"at_ns", takeover.at.count()}});
+  return {{"link", link.link},
+          {"heard", link.heard > 0},
+          {"counts", counts},
+          {"strangers", strangers},
+          {"more_strangers", link.more_strangers},
+          {"takeovers", takeovers}};
+}
+
+}  // namespace jarol::tools

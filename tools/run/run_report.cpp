@@ -1,0 +1,94 @@
+#include "tools/run/run_report.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "runtime/machine/arithmetic.h"
+#include "tools/report/told_faults.h"
+#include "tools/report/value_json.h"
+#include "tools/report/verdicts.h"
+#include "tools/run/real_time.h"
+
+namespace jarol::tools {
+namespace {
+
+bool has_weak_isolation(const Graph& graph) {
+  return std::any_of(graph.tasks.begin(), graph.tasks.end(),
+                     [](const Task& task) { return task.isolation == Isolation::weak; });
+}
+
+}  // namespace
+
+double real_time_factor(const RunOutcome& outcome) {
+  return static_cast<double>(outcome.simulated.count()) * 1e-9 / outcome.seconds;
+}
+
+std::string to_text(const RunOutcome& outcome) {
+  const Graph& graph = outcome.graph;
+  const Executor& executor = outcome.executor;
+  const Report& report = executor.report();
+  std::string text = reached_text(
+      graph, [&](std::size_t communicator) { return executor.last_value(communicator); }, outcome.true_states);
+  text += fmt::format("  activations {}, instants {}\n  digest      0x{:016x}\n", report.activations, report.instants,
+                      report.digest);
+  for (const Task& task : graph.tasks)
+    if (task.isolation == Isolation::weak)
+      text += "              nothing is claimed of the digest: task '" + task.name + "' is weakly isolated\n";
+  for (const std::string& warning : warnings(find_arithmetic())) text += "  note        " + warning + "\n";
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i)
+    if (const PrivateHeap* heap = executor.plan().heaps[i].get())
+      text += fmt::format("  heap        {}: at most {} of {} bytes in use\n", graph.tasks[i].name, heap->most_used(),
+                          heap->size());
+  text += outcome.told.to_text();
+  if (outcome.clock != nullptr) text += to_text(graph, *outcome.clock);
+  for (const LinkReport& link : outcome.links) text += to_text(link);
+  text += to_text(graph, executor.safe_commands(), outcome.end.ending);
+  if (outcome.guard != nullptr) text += outcome.guard->to_text();
+  if (report.non_finite_inputs > 0)
+    text += fmt::format("  {} values from outside were not finite and not taken\n", report.non_finite_inputs);
+  if (const StageTeam* team = executor.team())
+    text += fmt::format("  workers     {}, {} of {} levels of tasks shared\n", outcome.workers, team->shared(),
+                        team->shared() + team->alone());
+  text += to_text(outcome.verdict);
+  return text;
+}
+
+nlohmann::ordered_json to_json(const RunOutcome& outcome) {
+  const Graph& graph = outcome.graph;
+  const Executor& executor = outcome.executor;
+  const Report& report = executor.report();
+  auto heaps = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i)
+    if (const PrivateHeap* heap = executor.plan().heaps[i].get())
+      heaps[graph.tasks[i].name] = {{"size", heap->size()}, {"most_used", heap->most_used()}};
+  nlohmann::ordered_json json{
+      {"schema", "jarol.run/1"},
+      {"graph", graph.name},
+      {"clock", outcome.clock != nullptr ? "real" : "virtual"},
+      {"digest", fmt::format("0x{:016x}", report.digest)},
+      {"digest_claimed", !has_weak_isolation(graph)},
+      {"digest_notes", warnings(find_arithmetic())},
+      {"simulated_ns", outcome.simulated.count()},
+      {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
+      {"real_time_factor", real_time_factor(outcome)},
+      {"activations", report.activations},
+      {"instants", report.instants},
+      {"faults", faults_to_json(report)},
+      {"fault_count", report.fault_count},
+      {"fault_summary", fault_summary_to_json(report)},
+      {"non_finite_inputs", report.non_finite_inputs},
+      {"ending", to_json(outcome.end)},
+      {"safe_commands", to_json(graph, executor.safe_commands())},
+      {"told", outcome.told.to_json()},
+      {"heaps", heaps},
+      {"outputs", outputs_to_json(graph, [&](std::size_t communicator) { return executor.last_value(communicator); })}};
+  if (outcome.clock != nullptr) json["real_time"] = to_json(graph, *outcome.clock);
+  if (outcome.guard != nullptr) json["guardian"] = outcome.guard->to_json();
+  json["true_values"] = to_json(outcome.true_states);
+  json["judgement"] = to_json(outcome.verdict);
+  for (const LinkReport& link : outcome.links) json["links"].push_back(to_json(link));
+  return json;
+}
+
+}  // namespace jarol::tools

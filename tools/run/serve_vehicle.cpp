@@ -1,0 +1,134 @@
+#include "tools/run/serve_vehicle.h"
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "distributers/links/tcp.h"
+#include "graph/language/quantities.h"
+#include "tools/report/exit_code.h"
+#include "tools/report/json_line.h"
+#include "tools/report/vehicle_diary.h"
+#include "tools/run/interrupt.h"
+#include "tools/run/real_time.h"
+
+namespace jarol::tools {
+namespace {
+
+struct ToVehicle : messages::Receiver {
+  explicit ToVehicle(vehicles::Vehicle& to) : vehicle(to) {}
+  void receive(messages::MessageRef message) override {
+    heard = true;
+    vehicle.accept(message);
+  }
+  vehicles::Vehicle& vehicle;
+  bool heard = false;  // since it was made false
+};
+
+struct ToPeer : messages::Receiver {
+  explicit ToPeer(distributers::Link& to) : link(to) {}
+  void receive(messages::MessageRef message) override { link.send(message); }
+  distributers::Link& link;
+};
+
+// Passes on messages of one form only.
+struct Only : messages::Receiver {
+  Only(const messages::MessageForm& one, messages::Receiver& receiver) : form(one), to(receiver) {}
+  void receive(messages::MessageRef message) override {
+    if (message.form == &form) to.receive(message);
+  }
+  const messages::MessageForm& form;
+  messages::Receiver& to;
+};
+
+struct All : messages::Receiver {
+  explicit All(messages::Receiver& receiver) : to(receiver) {}
+  void receive(messages::MessageRef message) override { to.receive(message); }
+  messages::Receiver& to;
+};
+
+std::unique_ptr<messages::Receiver> make_telemetry(const vehicles::Vehicle& vehicle,
+                                                   const vehicles::VehicleClass& vehicle_class, messages::Receiver& to,
+                                                   Told told) {
+  if (told == Told::true_state) return std::make_unique<Only>(*vehicle_class.true_state, to);
+  if (vehicle_class.make_telemetry != nullptr) return vehicle_class.make_telemetry(vehicle, to);
+  return std::make_unique<All>(to);
+}
+
+}  // namespace
+
+int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
+                  std::chrono::nanoseconds end, const Telling& telling, const RealTimeOptions& real_time) {
+  ToVehicle to_vehicle(vehicle);
+  ToPeer to_link(link);
+  const auto telemetry = make_telemetry(vehicle, vehicle_class, to_link, telling.told);
+  messages::Receiver& to_peer = *telemetry;
+  VehicleDiary diary(vehicle, vehicle_class);
+  RealClock clock(0, real_time);
+  for (const std::string& refusal : clock.prepare_thread()) std::cerr << "note: " << refusal << "\n";
+  const Interruptible interruptible;
+  const std::atomic<bool>& interrupted = Interruptible::interrupted();
+  link.connect();
+  std::cerr << vehicle_class.name << ": " << link.transport().text() << ", until Ctrl-C\n";
+  int exit_code = exit_good;
+  clock.start();
+  const std::int64_t grid = vehicle.grid().count();
+  std::int64_t instant = 0;
+  vehicle.sense(to_peer);
+  link.flush();
+  try {
+    for (; instant < end.count() && !interrupted.load(std::memory_order_relaxed); instant += grid) {
+      clock.wait_until(instant + grid, interrupted);
+      // commands hold from the instant after they have come
+      vehicle.step();
+      to_vehicle.heard = false;
+      link.receive(to_vehicle);
+      diary.note(Duration(instant + grid), to_vehicle.heard);
+      vehicle.sense(to_peer);
+      link.flush();
+    }
+  } catch (const vehicles::NoState& error) {
+    std::cerr << "error: " << error.what() << "\n";
+    exit_code = exit_unfinished;
+  }
+  link.disconnect();
+  const std::optional<vehicles::Mishap> mishap = vehicle.mishap();
+  if (telling.json) {
+    nlohmann::ordered_json json{{"schema", "jarol.vehicle/1"}};
+    json.update(diary.to_json());
+    json["link"] = to_json(link.report());
+    json["mishap"] = mishap ? nlohmann::ordered_json(mishap->text) : nlohmann::ordered_json();
+    std::cout << json_line(json);
+  } else {
+    std::cout << vehicle_class.name << ": " << seconds_text(Duration(instant)) << " s in real time\n"
+              << diary.to_text() << to_text(link.report());
+  }
+  if (mishap)
+    std::cerr << "error: the " << vehicle_class.name << " has " << mishap->text << ", at "
+              << seconds_text(mishap->instant) << " s\n";
+  return exit_of({exit_code, exit_of_signal(Interruptible::signal()), mishap ? exit_negative : exit_good});
+}
+
+int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,
+                              const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
+                              distributers::LockstepOptions options) {
+  options.note = [](const std::string& text) { std::cerr << "note: " << text << "\n"; };
+  const distributers::Descriptor socket = distributers::listen_at(listen);
+  distributers::Interrupter interrupter;
+  const Interruptible interruptible([&] { interrupter.interrupt(); });
+  std::cerr << vehicle_class.name << ": in lockstep at " << listen.text() << ", until Ctrl-C\n";
+  using Woken = distributers::Interrupter::Woken;
+  while (interrupter.wait(socket.get(), std::chrono::milliseconds(-1)) != Woken::interrupted) {
+    distributers::Descriptor runner = distributers::accept_from(socket);
+    if (!runner) continue;
+    const std::string who = "the runner at " + peer_of(runner).text();
+    try {
+      serve_lockstep(distributers::FrameStream(std::move(runner), who, options.patience), *vehicle_class.message_set,
+                     make, interrupter, options, socket);
+    } catch (const distributers::FrameEnd&) {
+      // the run is over
+    } catch (const distributers::FrameError& error) { std::cerr << "note: " << error.what() << "\n"; }
+  }
+  return exit_of_signal(Interruptible::signal());
+}
+
+}  // namespace jarol::tools

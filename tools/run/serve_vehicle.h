@@ -1,0 +1,33 @@
+// A simulated vehicle as a process of its own, in real time: messages over a link steer it, its sensors answer.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "distributers/interfaces/vehicle.h"
+#include "distributers/links/address.h"
+#include "distributers/links/link.h"
+#include "distributers/links/lockstep.h"
+#include "runtime/machine/real_clock.h"
+
+namespace jarol::tools {
+
+/// What a peer is told: all, or the true state only, where its class has such a message.
+enum class Told { all, true_state };
+
+struct Telling {
+  Told told = Told::all;
+  bool json = false;  // at the end, instead of text
+};
+
+/// Runs until `end` or Ctrl-C and tells what it did and what was carried; the exit code.
+int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
+                  std::chrono::nanoseconds end, const Telling& telling = {}, const RealTimeOptions& real_time = {});
+
+/// On the logical clocks of those who connect, one after the other, each with a vehicle of its own from the start;
+/// until Ctrl-C. Throws std::runtime_error if it can't listen there.
+int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,
+                              const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
+                              distributers::LockstepOptions options = {});
+
+}  // namespace jarol::tools

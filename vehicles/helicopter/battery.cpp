@@ -1,0 +1,20 @@
+#include "vehicles/helicopter/battery.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jarol::vehicles {
+
+double Battery::calc_current(const std::array<double, 4>& thrusts) const {
+  double sum = 0.0;
+  for (const double part : thrusts) sum += std::pow(part, parameters_.current_exponent);
+  return parameters_.electronics + 0.25 * parameters_.full_current * sum;
+}
+
+double Battery::calc_voltage(double current) const {
+  const double used = used_ / (3600.0 * parameters_.capacity);
+  return std::max(parameters_.full - (parameters_.full - parameters_.empty) * used - parameters_.resistance * current,
+                  0.0);
+}
+
+}  // namespace jarol::vehicles

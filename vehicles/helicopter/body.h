@@ -1,0 +1,72 @@
+// The helicopter as a rigid body in air and on its feet: four rotors, their aerodynamics and angular momentum, the
+// ground. Body axes b are forward, right, down with the centre of gravity as origin; the ground is z = 0 of NED. Plain
+// C++17.
+#pragma once
+
+#include <array>
+
+#include "vehicles/helicopter/feet.h"
+
+namespace jarol::vehicles {
+
+/// What the plant moves and the loads depend on.
+struct HelicopterMotion {
+  fossen::Vector3 p_n{};  // centre of gravity, NED
+  std::array<fossen::Vector3, 3> R_nb{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+  fossen::Vector3 v_b{};
+  fossen::Vector3 omega_b{};
+};
+
+/// Rotors in the order front, right, rear, left.
+struct HelicopterBody {
+  double mass = 1.0;
+  double gravity = 9.81;
+  fossen::Vector3 inertia{1.0, 1.0, 1.0};  // principal moments about the centre of gravity
+
+  struct Rotor {
+    fossen::Vector3 hub_b{};
+    double spin = 1.0;  // 1 clockwise seen from above, which is positive about z, or -1
+  };
+  std::array<Rotor, 4> rotors{};
+  double full_thrust = 1.0;
+  double thrust_exponent = 1.0;
+  double lag = 0.05;
+  double torque_per_thrust = 0.0;
+  double rotor_inertia = 0.0;
+  double full_speed = 0.0;
+  double rotor_drag = 0.0;
+  double rotor_inflow = 0.0;
+  double rotor_radius = 0.25;
+  double ground_effect = 0.0;
+  double drag = 0.0;  // 1/2 rho times the drag area
+
+  Feet feet{};
+};
+
+/// Constant over a step but for the rotors' settings, which move from their state at its begin towards those commanded.
+struct HelicopterInput {
+  std::array<double, 4> from{};  // setting: 0 to 1 at the reference voltage
+  std::array<double, 4> to{};
+  double begin = 0.0;  // s
+  fossen::Vector3 wind_n{};
+  std::array<FootAnchor, 4> anchors{};
+};
+
+/// The part of a change of setting that is still to come after a time: first-order lag, solved exactly.
+double calc_remaining(const HelicopterBody& body, double seconds);
+
+/// Force and moment about the centre of gravity in body axes, weight left out.
+fossen::Vector6 calc_loads(const HelicopterBody& body, const HelicopterMotion& motion, const HelicopterInput& input,
+                           double time);
+
+/// Thrust of one rotor at a setting, far from the ground and in air at rest.
+double calc_thrust(const HelicopterBody& body, double setting);
+
+/// In NED axes.
+fossen::Vector3 to_ned(const std::array<fossen::Vector3, 3>& R_nb, const fossen::Vector3& b);
+/// Of a foot that stands there in the body.
+FootMotion foot_motion(const HelicopterMotion& motion, const fossen::Vector3& r_b);
+/// In body axes.
+fossen::Vector3 from_ned(const std::array<fossen::Vector3, 3>& R_nb, const fossen::Vector3& n);
+
+}  // namespace jarol::vehicles

@@ -1,0 +1,78 @@
+#include "vehicles/helicopter/coefficients.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace jarol::vehicles {
+namespace {
+
+void need(bool good, const std::string& what) {
+  if (!good) throw std::runtime_error(what);
+}
+
+}  // namespace
+
+HelicopterBody make_body(const HelicopterParameters& parameters) {
+  const FrameParameters& frame = parameters.frame;
+  const RotorParameters& rotors = parameters.rotors;
+  const FeetParameters& feet = parameters.feet;
+  need(frame.mass > 0.0, "its mass has to be above zero");
+  need(frame.I_x > 0.0 && frame.I_y > 0.0 && frame.I_z > 0.0, "its moments of inertia have to be above zero");
+  need(frame.I_x + frame.I_y >= frame.I_z && frame.I_y + frame.I_z >= frame.I_x && frame.I_z + frame.I_x >= frame.I_y,
+       "none of its moments of inertia can exceed the sum of the other two");
+  need(rotors.radius > 0.0 && rotors.full_thrust > 0.0 && rotors.thrust_exponent > 0.0 && rotors.lag > 0.0 &&
+           rotors.reference_voltage > 0.0,
+       "its rotors' radius, full thrust, exponent, lag and reference voltage have to be above zero");
+  need(rotors.inertia >= 0.0 && rotors.full_speed >= 0.0 && rotors.drag >= 0.0 && rotors.inflow >= 0.0,
+       "its rotors' inertia, full speed, drag and inflow can't be below zero");
+  need(rotors.ground_effect >= 0.0, "its ground effect can't be below zero");
+  need(feet.height > 0.0 && feet.stiffness > 0.0 && feet.dissipation >= 0.0 && feet.friction >= 0.0,
+       "its feet need height and stiffness above zero, dissipation and friction not below zero");
+
+  need(parameters.sensors.sonars == 1 || parameters.sensors.sonars == 4, "it has one sonar or four");
+  need(parameters.battery.capacity > 0.0 && parameters.air.gust_time > 0.0,
+       "its battery's capacity and the time of gusts have to be above zero");
+
+  HelicopterBody body;
+  body.mass = frame.mass;
+  body.gravity = parameters.air.gravity;
+  body.inertia = {frame.I_x, frame.I_y, frame.I_z};
+  const double a = rotors.arm, h = -rotors.height;
+  body.rotors = {{{{a, 0.0, h}, 1.0}, {{0.0, a, h}, -1.0}, {{-a, 0.0, h}, 1.0}, {{0.0, -a, h}, -1.0}}};
+  body.full_thrust = rotors.full_thrust;
+  body.thrust_exponent = rotors.thrust_exponent;
+  body.lag = rotors.lag;
+  body.torque_per_thrust = rotors.torque_per_thrust;
+  body.rotor_inertia = rotors.inertia;
+  body.full_speed = rotors.full_speed;
+  body.rotor_drag = rotors.drag;
+  body.rotor_inflow = rotors.inflow;
+  body.rotor_radius = rotors.radius;
+  body.ground_effect = rotors.ground_effect;
+  body.drag = 0.5 * parameters.air.density * frame.drag_area;
+
+  const double r = feet.radius, down = feet.height;
+  body.feet.r_b = {{{r, 0.0, down}, {0.0, r, down}, {-r, 0.0, down}, {0.0, -r, down}}};
+  body.feet.stiffness = feet.stiffness;
+  body.feet.dissipation = feet.dissipation;
+  body.feet.friction = feet.friction;
+  body.feet.grip_stiffness = feet.stiffness;
+  // half of what is critical for the whole mass on four feet
+  body.feet.grip_damping = 0.5 * std::sqrt(feet.stiffness * frame.mass);
+  return body;
+}
+
+HelicopterMotion make_start(const HelicopterParameters& parameters) {
+  const LiftOffParameters& start = parameters.start;
+  need(start.altitude >= 0.0, "its start can't be below the ground");
+  need(start.signal >= 0.0 && start.signal <= 16000.0, "its motor signal at the start has to be from 0 to 16000");
+  const double sunk = parameters.frame.mass * parameters.air.gravity / (4.0 * parameters.feet.stiffness);
+  HelicopterMotion motion;
+  motion.p_n = {start.north, start.east, sunk - parameters.feet.height - start.altitude};
+  const double c = std::cos(start.heading), s = std::sin(start.heading);
+  motion.R_nb = {{{c, -s, 0.0}, {s, c, 0.0}, {0.0, 0.0, 1.0}}};
+  return motion;
+}
+
+}  // namespace jarol::vehicles

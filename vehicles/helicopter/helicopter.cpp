@@ -1,0 +1,152 @@
+#include "vehicles/helicopter/helicopter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "distributers/messages/javiator_units.h"
+#include "graph/values/seed.h"
+#include "vehicles/helicopter/coefficients.h"
+#include "vehicles/helicopter/plant.h"
+
+namespace jarol::vehicles {
+namespace {
+
+constexpr double most_signal = 16000.0;
+
+double setting_of(const HelicopterParameters& p, double signal, double voltage) {
+  return signal / most_signal * voltage / p.rotors.reference_voltage;
+}
+
+std::unique_ptr<HelicopterPlant> make_plant(const HelicopterParameters& p, const HelicopterMotion& start) {
+  const double setting = setting_of(p, p.start.signal, p.rotors.reference_voltage);
+  return std::make_unique<HelicopterPlant>(make_body(p), start,
+                                           std::array<double, 4>{setting, setting, setting, setting});
+}
+
+HelicopterReadings readings_of(const messages::javiator::JaviatorData& data) {
+  namespace javiator = messages::javiator;
+  HelicopterReadings r;
+  r.roll = javiator::radians_per_count * data.roll;
+  r.pitch = javiator::radians_per_count * data.pitch;
+  r.yaw = javiator::radians_per_count * data.yaw;
+  r.droll = javiator::radians_per_second_per_count * data.droll;
+  r.dpitch = javiator::radians_per_second_per_count * data.dpitch;
+  r.dyaw = javiator::radians_per_second_per_count * data.dyaw;
+  r.ddx = javiator::newtons_per_kilogram_per_count * data.ddx;
+  r.ddy = javiator::newtons_per_kilogram_per_count * data.ddy;
+  r.ddz = javiator::newtons_per_kilogram_per_count * data.ddz;
+  r.sonar = javiator::sonar_metres_per_count * data.sonar;
+  r.x_laser = javiator::metres_of(data.x_pos);
+  r.y_laser = javiator::metres_of(data.y_pos);
+  r.pressure = javiator::pascals_per_count * data.maps;
+  r.temperature = javiator::celsius_of(data.temp);
+  r.voltage = javiator::volts_per_count * data.batt;
+  return r;
+}
+
+}  // namespace
+
+Helicopter::Helicopter(const HelicopterParameters& parameters, std::uint64_t seed)
+    : parameters_(parameters),
+      plant_(make_plant(parameters, make_start(parameters))),
+      battery_(parameters.battery),
+      wind_(parameters.air, spread_seed(seed, "wind")),
+      sensors_(parameters, seed),
+      voltage_(battery_.calc_voltage(0.0)),
+      judge_(parameters, plant_->motion()) {
+  sensors_.sample(0, scene());
+  sensors_.sample_imu(0, scene());
+  tell_outputs(0.0);
+}
+
+Helicopter::~Helicopter() = default;
+
+std::chrono::nanoseconds Helicopter::grid() const {
+  return std::chrono::nanoseconds(HelicopterPlant::step_nanoseconds);
+}
+
+const HelicopterMotion& Helicopter::motion() const { return plant_->motion(); }
+
+HelicopterSensors::Scene Helicopter::scene() const { return {plant_->motion(), plant_->specific_force(), voltage_}; }
+
+void Helicopter::step() {
+  constexpr double seconds = 1e-9 * HelicopterPlant::step_nanoseconds;
+  wind_.step(seconds);
+  HelicopterCommand command;
+  command.wind_n = wind_.now();
+  for (std::size_t i = 0; i < 4; ++i) command.settings[i] = setting_of(parameters_, robostix_.signals()[i], voltage_);
+  plant_->step(command);
+  nanoseconds_ += HelicopterPlant::step_nanoseconds;
+  judge_.look(std::chrono::nanoseconds(nanoseconds_), plant_->motion(), plant_->settings());
+
+  // a rotor's thrust as a part of its full thrust
+  std::array<double, 4> thrusts = plant_->settings();
+  for (double& part : thrusts) part = std::pow(part, parameters_.rotors.thrust_exponent);
+  const double current = battery_.calc_current(thrusts);
+  battery_.draw(current, seconds);
+  voltage_ = battery_.calc_voltage(current);
+  tell_outputs(current);
+
+  sensors_.sample(nanoseconds_, scene());
+  robostix_.step();
+  if (!robostix_.answers()) return;
+  answer_ = sensors_.answer(robostix_.id());
+  outputs_.sensors = readings_of(answer_);
+  sensors_.sample_imu(nanoseconds_, scene());
+}
+
+void Helicopter::tell_outputs(double current) {
+  const std::array<double, 4>& reached = plant_->settings();
+  outputs_.rotors = {most_signal * reached[0], most_signal * reached[1], most_signal * reached[2],
+                     most_signal * reached[3]};
+  outputs_.battery = {voltage_, current};
+}
+
+VehicleState Helicopter::state() const {
+  const HelicopterMotion m = plant_->motion();
+  const auto& R = m.R_nb;
+  return {m.p_n[0],
+          m.p_n[1],
+          m.p_n[2],
+          std::atan2(R[2][1], R[2][2]),
+          -std::asin(std::clamp(R[2][0], -1.0, 1.0)),
+          std::atan2(R[1][0], R[0][0]),
+          m.v_b[0],
+          m.v_b[1],
+          m.v_b[2],
+          m.omega_b[0],
+          m.omega_b[1],
+          m.omega_b[2]};
+}
+
+void Helicopter::place(const VehicleState& s) {
+  const double cphi = std::cos(s.phi), sphi = std::sin(s.phi);
+  const double cth = std::cos(s.theta), sth = std::sin(s.theta);
+  const double cpsi = std::cos(s.psi), spsi = std::sin(s.psi);
+  HelicopterMotion motion;
+  motion.p_n = {s.x, s.y, s.z};
+  motion.R_nb = {{{cpsi * cth, cpsi * sth * sphi - spsi * cphi, cpsi * sth * cphi + spsi * sphi},
+                  {spsi * cth, spsi * sth * sphi + cpsi * cphi, spsi * sth * cphi - cpsi * sphi},
+                  {-sth, cth * sphi, cth * cphi}}};
+  motion.v_b = {s.u, s.v, s.w};
+  motion.omega_b = {s.p, s.q, s.r};
+  plant_ = make_plant(parameters_, motion);
+  judge_ = HelicopterJudge(parameters_, motion);
+  sensors_.sample(0, scene());
+  sensors_.sample_imu(0, scene());
+}
+
+void Helicopter::command(const void* inputs) {
+  namespace javiator = messages::javiator;
+  const auto& in = *static_cast<const HelicopterInputs*>(inputs);
+  const auto signal = [](double value) { return static_cast<std::int16_t>(std::lround(value)); };
+  robostix_.accept(messages::refer_to(javiator::SwitchState{}));
+  robostix_.accept(messages::refer_to(
+      javiator::MotorSignals{signal(in.front), signal(in.right), signal(in.rear), signal(in.left), 0}));
+}
+
+void Helicopter::sense(messages::Receiver& receiver) const {
+  if (robostix_.answers()) receiver.receive(messages::refer_to(answer_));
+}
+
+}  // namespace jarol::vehicles

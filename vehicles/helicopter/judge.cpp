@@ -1,0 +1,82 @@
+#include "vehicles/helicopter/judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "vehicles/helicopter/coefficients.h"
+
+namespace jarol::vehicles {
+namespace {
+
+constexpr double most_signal = 16000.0;
+constexpr double airborne = 0.02;  // m, of the lowest foot above the ground
+
+double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+
+}  // namespace
+
+HelicopterJudge::HelicopterJudge(const HelicopterParameters& parameters, const HelicopterMotion& start)
+    : body_(make_body(parameters)), limits_(parameters.limits), start_(start), last_(start) {
+  tell_truth(start);
+  has_flown_ = truth_.height > airborne;
+}
+
+void HelicopterJudge::tell_truth(const HelicopterMotion& m) {
+  const auto& R = m.R_nb;
+  const fossen::Vector3 v_n = to_ned(R, m.v_b);
+  const auto yaw_of = [](const HelicopterMotion& of) { return std::atan2(of.R_nb[1][0], of.R_nb[0][0]); };
+  truth_.roll = std::atan2(R[2][1], R[2][2]);
+  truth_.pitch = -std::asin(std::clamp(R[2][0], -1.0, 1.0));
+  truth_.yaw = std::remainder(yaw_of(m) - yaw_of(start_), 2.0 * std::numbers::pi);
+  truth_.x = m.p_n[0] - start_.p_n[0];
+  truth_.y = m.p_n[1] - start_.p_n[1];
+  truth_.altitude = start_.p_n[2] - m.p_n[2];
+  truth_.climb = -v_n[2];
+  truth_.speed = std::hypot(v_n[0], v_n[1]);
+  truth_.tilt = std::acos(std::clamp(R[2][2], -1.0, 1.0));
+  double lowest = -1e9;
+  for (const fossen::Vector3& r_b : body_.feet.r_b) lowest = std::max(lowest, foot_motion(m, r_b).p_n[2]);
+  truth_.height = -lowest;
+}
+
+void HelicopterJudge::look(std::chrono::nanoseconds instant, const HelicopterMotion& motion,
+                           const std::array<double, 4>& settings) {
+  tell_truth(motion);
+  if (!mishap_) find_mishap(instant, motion);
+  has_flown_ = has_flown_ || truth_.height > airborne;
+  const double mean = (settings[0] + settings[1] + settings[2] + settings[3]) / 4;
+  if (!has_flown_ && most_signal * mean >= limits_.take_off_signal)
+    driven_ += std::chrono::duration<double>(instant - last_instant_).count();
+  last_instant_ = instant;
+  last_ = motion;
+}
+
+void HelicopterJudge::find_mishap(std::chrono::nanoseconds instant, const HelicopterMotion& motion) {
+  for (const fossen::Vector3& r_b : body_.feet.r_b) {
+    const FootMotion before = foot_motion(last_, r_b), after = foot_motion(motion, r_b);
+    if (before.p_n[2] > 0 || after.p_n[2] <= 0) continue;
+    // the ground has slowed it down since it touched
+    const double speed = std::max(before.v_n[2], after.v_n[2]);
+    if (speed > limits_.touch_speed)
+      mishap_ = {instant,
+                 fmt::format("crashed: a foot met the ground at {:.1f} m/s, above {} m/s", speed, limits_.touch_speed)};
+  }
+  for (const HelicopterBody::Rotor& rotor : body_.rotors)
+    if (!mishap_ && motion.p_n[2] + to_ned(motion.R_nb, rotor.hub_b)[2] > 0)
+      mishap_ = {instant, "crashed: a rotor met the ground"};
+  if (!mishap_ && truth_.tilt > limits_.tilt)
+    mishap_ = {instant, fmt::format("capsized: tilted by {:.0f} deg, beyond {:.0f} deg", degrees(truth_.tilt),
+                                    degrees(limits_.tilt))};
+}
+
+std::optional<Mishap> HelicopterJudge::mishap() const {
+  if (mishap_) return mishap_;
+  if (has_flown_ || driven_ < limits_.take_off_time) return std::nullopt;
+  return Mishap{last_instant_, fmt::format("never taken off: its rotors were at {} or more of 16000 for {:.1f} s",
+                                           limits_.take_off_signal, driven_)};
+}
+
+}  // namespace jarol::vehicles

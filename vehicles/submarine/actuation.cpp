@@ -1,0 +1,62 @@
+#include "vehicles/submarine/actuation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "vehicles/submarine/motion.h"
+
+namespace jarol::vehicles {
+namespace {
+constexpr double step_seconds = SubmarineMotion::step_seconds;
+}
+
+SubmarineActuation::SubmarineActuation(const SubmarineParameters& parameters)
+    : servo_parameters_(parameters.servos),
+      thruster_(parameters.thruster),
+      at_end_of_step_(parameters.vsim_compatible),
+      timeout_(parameters.command_timeout / std::chrono::milliseconds(10)) {
+  if (parameters.command_timeout < Duration{}) throw std::runtime_error("submarine: command_timeout is below zero");
+  if (!(thruster_.time_constant >= 0.0)) throw std::runtime_error("submarine: thruster.time_constant is below zero");
+  if (!(servo_parameters_.limit >= 0.0)) throw std::runtime_error("submarine: servos.limit is below zero");
+  if (!(servo_parameters_.slew > 0.0)) throw std::runtime_error("submarine: servos.slew must be above zero");
+  if (!(thruster_.max_thrust >= 0.0)) throw std::runtime_error("submarine: thruster.max_thrust is below zero");
+}
+
+void SubmarineActuation::command_thruster(double actuation) {
+  if (!std::isfinite(actuation)) return;
+  thruster_command_ = std::clamp(actuation, -1.0, 1.0);
+  thruster_silence_ = 0;
+}
+
+void SubmarineActuation::command_servo(std::size_t servo, double angle) {
+  if (servo >= servo_commands_.size() || !std::isfinite(angle)) return;
+  servo_commands_[servo] = std::clamp(angle, -servo_parameters_.limit, servo_parameters_.limit);
+  servo_silence_[servo] = 0;
+}
+
+SubmarineInput SubmarineActuation::step() {
+  // whoever commands no longer is lost: propeller off, fins neutral
+  const auto lost = [this](std::int64_t& silence) { return timeout_ > 0 && silence++ >= timeout_; };
+  if (lost(thruster_silence_)) thruster_command_ = 0.0;
+  for (std::size_t i = 0; i < servos_.size(); ++i)
+    if (lost(servo_silence_[i])) servo_commands_[i] = 0.0;
+
+  // the plant sees what the actuators are on average over the step, or what they come to
+  SubmarineInput input;
+  const double reach = servo_parameters_.slew * step_seconds;
+  for (std::size_t i = 0; i < servos_.size(); ++i) {
+    const double before = servos_[i];
+    servos_[i] += std::clamp(servo_commands_[i] - before, -reach, reach);
+    input.fins[i] = at_end_of_step_ ? servos_[i] : 0.5 * (before + servos_[i]);
+  }
+
+  // first-order lag, solved exactly
+  const double command = thruster_command_ * thruster_.full_speed, before = propeller_;
+  const double kept = thruster_.time_constant > 0.0 ? std::exp(-step_seconds / thruster_.time_constant) : 0.0;
+  propeller_ = command + (before - command) * kept;
+  input.propeller = kept == 0.0 ? propeller_ : 0.5 * (before + propeller_);
+  return input;
+}
+
+}  // namespace jarol::vehicles

@@ -1,0 +1,55 @@
+#include "vehicles/submarine/judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace jarol::vehicles {
+namespace {
+
+// How far the lower end of the hull is below its middle: two spheres in its ends.
+double calc_reach(const HullParameters& hull, double pitch) {
+  return (hull.length - hull.diameter) / 2 * std::abs(std::sin(pitch)) + hull.diameter / 2;
+}
+
+}  // namespace
+
+SubmarineJudge::SubmarineJudge(const SubmarineParameters& parameters, const VehicleState& start)
+    : parameters_(parameters) {
+  tell_truth(start);
+}
+
+void SubmarineJudge::tell_truth(const VehicleState& s) {
+  const double c_theta = std::cos(s.theta);
+  truth_ = {.depth = s.z,
+            .heading = s.psi,
+            .speed = s.u,
+            .roll = s.phi,
+            .pitch = s.theta,
+            .x = s.x,
+            .y = s.y,
+            .altitude = parameters_.sea.floor - s.z - calc_reach(parameters_.hull, s.theta),
+            .sinking = -std::sin(s.theta) * s.u + c_theta * (std::sin(s.phi) * s.v + std::cos(s.phi) * s.w),
+            .turn_rate = s.r};
+}
+
+void SubmarineJudge::look(std::chrono::nanoseconds instant, const VehicleState& state) {
+  tell_truth(state);
+  if (mishap_) return;
+  const DiveLimitParameters& limits = parameters_.limits;
+  const double tilt = std::acos(std::clamp(std::cos(state.phi) * std::cos(state.theta), -1.0, 1.0));
+  const auto degrees = [](double radians) { return radians * 180.0 / std::numbers::pi; };
+  // there is no sea floor where it moves as DUNE's simulator has it
+  if (truth_.altitude <= 0 && !parameters_.vsim_compatible) {
+    mishap_ = {instant, fmt::format("sunk: it touched the sea floor, {} m deep", parameters_.sea.floor)};
+  } else if (truth_.depth > limits.depth) {
+    mishap_ = {instant, fmt::format("sunk: {:.1f} m deep, beyond {} m", truth_.depth, limits.depth)};
+  } else if (tilt > limits.tilt) {
+    mishap_ = {instant,
+               fmt::format("capsized: tilted by {:.0f} deg, beyond {:.0f} deg", degrees(tilt), degrees(limits.tilt))};
+  }
+}
+
+}  // namespace jarol::vehicles

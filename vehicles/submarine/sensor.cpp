@@ -1,0 +1,63 @@
+#include "vehicles/submarine/sensor.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "graph/values/seed.h"
+
+namespace jarol::vehicles {
+namespace {
+
+constexpr Duration grid = std::chrono::milliseconds(10);
+constexpr Duration longest_delay = std::chrono::minutes(1);  // what was measured meanwhile is kept
+
+std::int64_t steps_of(Duration duration, const std::string& what) {
+  if (duration < Duration{} || duration % grid != Duration{})
+    throw std::runtime_error("submarine: " + what + " must be a multiple of the vehicle's steps of 10ms");
+  return duration / grid;
+}
+
+}  // namespace
+
+Sensor::Sensor(const Errors& errors, Duration period, Duration delay, const std::string& name, std::uint64_t seed,
+               std::size_t width)
+    : errors_(errors),
+      period_(steps_of(period, "sensors." + name + ".period")),
+      delay_(steps_of(delay, "sensors." + name + ".delay")),
+      width_(width),
+      noise_(spread_seed(seed, name)) {
+  if (period_ == 0) throw std::runtime_error("submarine: sensors." + name + ".period must be above zero");
+  if (delay > longest_delay) throw std::runtime_error("submarine: sensors." + name + ".delay is longer than a minute");
+  if (!(errors.noise >= 0.0)) throw std::runtime_error("submarine: sensors." + name + ".noise is below zero");
+  if (!(errors.resolution >= 0.0)) throw std::runtime_error("submarine: sensors." + name + ".resolution is below zero");
+  pending_.resize(static_cast<std::size_t>(delay_ / period_) + 1);
+  values_.fill(std::numeric_limits<double>::quiet_NaN());
+}
+
+void Sensor::measure(const Values& truth, double bias) {
+  Values values{};
+  for (std::size_t i = 0; i < width_; ++i) {
+    values[i] = truth[i] + errors_.bias + bias;
+    if (errors_.noise > 0.0) values[i] += errors_.noise * noise_.normal();
+    if (errors_.resolution > 0.0) values[i] = errors_.resolution * std::round(values[i] / errors_.resolution);
+  }
+  measured_ = values;
+}
+
+void Sensor::step(std::int64_t step, const std::optional<Values>& truth) {
+  if (step % period_ == 0 && truth) {
+    const FailureKind failure = errors_.failure.now(1e-9 * static_cast<double>((step * grid).count()));
+    if (failure == FailureKind::none || failure == FailureKind::biased)
+      measure(*truth, failure == FailureKind::biased ? errors_.failure.by : 0.0);
+    if (failure != FailureKind::lost && measured_)
+      pending_[(first_ + count_++) % pending_.size()] = {step + delay_, *measured_};
+  }
+  told_ = count_ > 0 && pending_[first_].step <= step;
+  if (!told_) return;
+  values_ = pending_[first_].values;
+  first_ = (first_ + 1) % pending_.size();
+  --count_;
+}
+
+}  // namespace jarol::vehicles

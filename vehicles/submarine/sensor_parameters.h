@@ -1,0 +1,132 @@
+// Parameters of the submarine's sensors. By default each measures exactly, at its rate.
+#pragma once
+
+#include <string_view>
+
+#include "graph/values/type_of.h"
+#include "vehicles/sensors/sensor_failure.h"
+
+namespace jarol::vehicles {
+
+/// How a sensor of one kind measures: reading = truth + bias + noise, to the nearest multiple of the resolution.
+template <class Kind>
+struct SensorOf {
+  double noise = 0.0;
+  double bias = 0.0;
+  double resolution = 0.0;
+  Duration period = std::chrono::milliseconds(Kind::milliseconds);
+  Duration delay{};
+  SensorFailure failure{};
+
+  static constexpr auto fields() {
+    using S = SensorOf;
+    return describe(field<&S::noise>(Kind::unit, "standard deviation of each reading"),
+                    field<&S::bias>(Kind::unit, "added to each reading"),
+                    field<&S::resolution>(Kind::unit, "readings are multiples of this; 0 for any"),
+                    field<&S::period>("", "between readings"), field<&S::delay>("", "from measuring to telling"),
+                    field<&S::failure>("", "when and how it fails"));
+  }
+};
+
+// kinds: unit, and time between readings as on the vehicle
+struct DepthSensor {
+  static constexpr std::string_view unit = "m";
+  static constexpr int milliseconds = 100;
+};
+struct PressureSensor {
+  static constexpr std::string_view unit = "hPa";
+  static constexpr int milliseconds = 100;
+};
+struct ConductivitySensor {
+  static constexpr std::string_view unit = "S/m";
+  static constexpr int milliseconds = 160;
+};
+struct TemperatureSensor {
+  static constexpr std::string_view unit = "degC";
+  static constexpr int milliseconds = 160;
+};
+struct AttitudeSensor {
+  static constexpr std::string_view unit = "rad";
+  static constexpr int milliseconds = 10;
+};
+struct RateSensor {
+  static constexpr std::string_view unit = "rad/s";
+  static constexpr int milliseconds = 10;
+};
+struct ForceSensor {
+  static constexpr std::string_view unit = "m/s^2";
+  static constexpr int milliseconds = 10;
+};
+struct CompassSensor {
+  static constexpr std::string_view unit = "rad";
+  static constexpr int milliseconds = 100;
+};
+struct SpeedSensor {
+  static constexpr std::string_view unit = "m/s";
+  static constexpr int milliseconds = 100;
+};
+struct RpmSensor {
+  static constexpr std::string_view unit = "rpm";
+  static constexpr int milliseconds = 50;
+};
+struct PositionSensor {
+  static constexpr std::string_view unit = "m";
+  static constexpr int milliseconds = 1000;
+};
+struct AltitudeSensor {
+  static constexpr std::string_view unit = "m";
+  static constexpr int milliseconds = 100;
+};
+struct LeakSensor {
+  static constexpr std::string_view unit = "";
+  static constexpr int milliseconds = 1000;
+};
+struct SlowTemperatureSensor {
+  static constexpr std::string_view unit = "degC";
+  static constexpr int milliseconds = 1000;
+};
+struct VoltageSensor {
+  static constexpr std::string_view unit = "V";
+  static constexpr int milliseconds = 1000;
+};
+struct CurrentSensor {
+  static constexpr std::string_view unit = "A";
+  static constexpr int milliseconds = 1000;
+};
+
+struct SubmarineSensorParameters {
+  SensorOf<DepthSensor> depth{};
+  SensorOf<PressureSensor> pressure{};
+  SensorOf<ConductivitySensor> conductivity{};
+  SensorOf<TemperatureSensor> water_temperature{};
+  SensorOf<AttitudeSensor> imu_attitude{};
+  SensorOf<RateSensor> imu_rates{};
+  SensorOf<ForceSensor> imu_forces{};
+  SensorOf<CompassSensor> compass{};
+  SensorOf<SpeedSensor> speed_log{};
+  SensorOf<RpmSensor> rpm{};
+  SensorOf<PositionSensor> gps{};
+  SensorOf<AltitudeSensor> altitude{};
+  SensorOf<LeakSensor> leak{};
+  SensorOf<SlowTemperatureSensor> hull_temperature{};
+  SensorOf<VoltageSensor> voltage{};
+  SensorOf<CurrentSensor> current{};
+
+  static constexpr auto fields() {
+    using S = SubmarineSensorParameters;
+    return describe(field<&S::depth>("", "depth, from a gauge of its own"),
+                    field<&S::pressure>("", "pressure, of the CTD"), field<&S::conductivity>("", "of the CTD"),
+                    field<&S::water_temperature>("", "of the CTD"),
+                    field<&S::imu_attitude>("", "roll, pitch and yaw of the IMU (3DM-GX1)"),
+                    field<&S::imu_rates>("", "body rates of the IMU"),
+                    field<&S::imu_forces>("", "specific forces of the IMU, along the body's axes"),
+                    field<&S::compass>("", "heading"),
+                    field<&S::speed_log>("", "velocity through the water, along the body's axes"),
+                    field<&S::rpm>("", "speed of the propeller"), field<&S::gps>("", "place, at the surface only"),
+                    field<&S::altitude>("", "over the sea floor, down the body's axis, no more than 100 m"),
+                    field<&S::leak>("", "1 for water in the hull"), field<&S::hull_temperature>("", "inside the hull"),
+                    field<&S::voltage>("", "of the battery"), field<&S::current>("", "from the battery"));
+  }
+};
+
+}  // namespace jarol::vehicles

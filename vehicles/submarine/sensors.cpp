@@ -1,0 +1,216 @@
+#include "vehicles/submarine/sensors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "distributers/messages/imc.h"
+#include "vehicles/sea/sea_water.h"
+
+namespace jarol::vehicles {
+namespace {
+
+namespace imc = messages::imc;
+
+constexpr double step_seconds = SubmarineMotion::step_seconds;
+constexpr double air_pressure = 1013.25;                                                  // hPa
+constexpr double longest_range = 100.0, shortest_range = 0.1;                             // m, of the altimeter
+constexpr double equatorial_radius = 6378137.0, eccentricity_squared = 6.69437999014e-3;  // WGS-84
+
+double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+
+template <class Message>
+void tell_value(messages::Receiver& receiver, const Sensor& sensor) {
+  if (!sensor.told()) return;
+  Message message;
+  message.value = static_cast<decltype(message.value)>(sensor.value());
+  receiver.receive(messages::refer_to(message));
+}
+
+template <class Message>
+void tell_vector(messages::Receiver& receiver, const Sensor& sensor, Message message) {
+  if (!sensor.told()) return;
+  message.x = sensor.values()[0];
+  message.y = sensor.values()[1];
+  message.z = sensor.values()[2];
+  receiver.receive(messages::refer_to(message));
+}
+
+}  // namespace
+
+SubmarineSensors::SubmarineSensors(const SubmarineSensorParameters& p, const SeaParameters& sea, double floating_depth,
+                                   std::uint64_t seed)
+    : sea_(sea),
+      antenna_depth_(floating_depth + 0.1),
+      conductivity_(calc_conductivity(sea.temperature, sea.salinity)),
+      depth_(p.depth, "depth", seed),
+      pressure_(p.pressure, "pressure", seed),
+      conductivity_cell_(p.conductivity, "conductivity", seed),
+      water_temperature_(p.water_temperature, "water_temperature", seed),
+      attitude_(p.imu_attitude, "imu_attitude", seed, 3),
+      rates_(p.imu_rates, "imu_rates", seed, 3),
+      forces_(p.imu_forces, "imu_forces", seed, 3),
+      compass_(p.compass, "compass", seed),
+      speed_(p.speed_log, "speed_log", seed, 3),
+      rpm_(p.rpm, "rpm", seed),
+      gps_(p.gps, "gps", seed, 2),
+      altitude_(p.altitude, "altitude", seed),
+      leak_(p.leak, "leak", seed),
+      hull_temperature_(p.hull_temperature, "hull_temperature", seed),
+      voltage_(p.voltage, "voltage", seed),
+      current_(p.current, "current", seed) {}
+
+void SubmarineSensors::step(std::int64_t step, const SubmarineScene& scene) {
+  using Values = Sensor::Values;
+  const fossen::Vector6 &eta = scene.at.eta, &nu = scene.at.nu, &nu_dot = scene.at.nu_dot;
+  const double c_theta = std::cos(eta[4]);
+  const fossen::Vector3 down_b = {-std::sin(eta[4]), c_theta * std::sin(eta[3]), c_theta * std::cos(eta[3])};
+  seconds_ = static_cast<double>(step) * step_seconds;
+
+  // both gauges feel pressure
+  const double head = std::max(eta[2] + scene.head, 0.0);
+  depth_.step(step, Values{scene.depth > 0.0 ? head : scene.depth});
+  pressure_.step(step, Values{air_pressure + 0.01 * sea_.density * sea_.gravity * (scene.depth > 0.0 ? head : 0.0)});
+  conductivity_cell_.step(step, Values{conductivity_});
+  water_temperature_.step(step, Values{sea_.temperature});
+
+  // what an accelerometer at the origin feels: acceleration less gravity
+  const fossen::Vector3 turning = fossen::cross({nu[3], nu[4], nu[5]}, {nu[0], nu[1], nu[2]});
+  Values force{}, through_water{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    force[i] = nu_dot[i] + turning[i] - sea_.gravity * down_b[i];
+    through_water[i] = nu[i] - scene.water_b[i];
+  }
+  attitude_.step(step, Values{eta[3], eta[4], eta[5]});
+  rates_.step(step, Values{nu[3], nu[4], nu[5]});
+  forces_.step(step, force);
+  compass_.step(step, Values{eta[5]});
+  speed_.step(step, through_water);
+  rpm_.step(step, Values{scene.rpm});
+
+  const bool surfaced = scene.depth < antenna_depth_;
+  gps_.step(step, surfaced ? std::optional(Values{scene.north, scene.east}) : std::nullopt);
+  const double range = (sea_.floor - eta[2]) / std::max(down_b[2], 1e-3);
+  const bool echo = range > shortest_range && range < longest_range;
+  altitude_.step(step, echo ? std::optional(Values{range}) : std::nullopt);
+
+  leak_.step(step, Values{scene.leak ? 1.0 : 0.0});
+  hull_temperature_.step(step, Values{sea_.temperature + scene.hull_warmth});
+  voltage_.step(step, Values{scene.voltage});
+  current_.step(step, Values{scene.current});
+  note();
+}
+
+void SubmarineSensors::note() {
+  SubmarineReadings& r = readings_;
+  r.depth = depth_.value();
+  r.pressure = pressure_.value();
+  r.conductivity = conductivity_cell_.value();
+  r.water_temperature = water_temperature_.value();
+  r.salinity = calc_salinity(r.conductivity, r.water_temperature);
+  r.sound_speed = calc_sound_speed(r.water_temperature, r.salinity,
+                                   (r.pressure - air_pressure) / (0.01 * sea_.density * sea_.gravity));
+  r.phi = attitude_.values()[0];
+  r.theta = attitude_.values()[1];
+  r.psi = wrapped(attitude_.values()[2]);
+  r.p = rates_.values()[0];
+  r.q = rates_.values()[1];
+  r.r = rates_.values()[2];
+  r.f_x = forces_.values()[0];
+  r.f_y = forces_.values()[1];
+  r.f_z = forces_.values()[2];
+  r.heading = wrapped(compass_.value());
+  r.u = speed_.values()[0];
+  r.v = speed_.values()[1];
+  r.w = speed_.values()[2];
+  r.rpm = rpm_.value();
+  r.gps_north = gps_.values()[0];
+  r.gps_east = gps_.values()[1];
+  r.altitude = altitude_.value();
+  r.leak = leak_.value();
+  r.hull_temperature = hull_temperature_.value();
+  r.voltage = voltage_.value();
+  r.current = current_.value();
+}
+
+void SubmarineSensors::tell(messages::Receiver& receiver) const {
+  tell_motion(receiver);
+  tell_water(receiver);
+  tell_hull(receiver);
+  tell_place(receiver);
+}
+
+void SubmarineSensors::tell_motion(messages::Receiver& receiver) const {
+  // the IMU tells true north, the compass the magnetic one; here they are the same. What a device does not measure is
+  // no number
+  if (attitude_.told() || compass_.told()) {
+    constexpr double unknown = SubmarineReadings::unknown;
+    imc::EulerAngles angles;
+    angles.time = seconds_;
+    angles.phi = attitude_.told() ? readings_.phi : unknown;
+    angles.theta = attitude_.told() ? readings_.theta : unknown;
+    angles.psi = attitude_.told() ? readings_.psi : unknown;
+    angles.psi_magnetic = compass_.told() ? readings_.heading : unknown;
+    receiver.receive(messages::refer_to(angles));
+  }
+  imc::AngularVelocity rates;
+  rates.time = seconds_;
+  tell_vector(receiver, rates_, rates);
+  imc::Acceleration force;
+  force.time = seconds_;
+  tell_vector(receiver, forces_, force);
+  imc::WaterVelocity velocity;
+  velocity.validity = 7;
+  tell_vector(receiver, speed_, velocity);
+  if (rpm_.told()) {
+    imc::Rpm rpm;
+    rpm.value = static_cast<std::int16_t>(std::lround(std::clamp(rpm_.value(), -32768.0, 32767.0)));
+    receiver.receive(messages::refer_to(rpm));
+  }
+}
+
+void SubmarineSensors::tell_water(messages::Receiver& receiver) const {
+  tell_value<imc::Depth>(receiver, depth_);
+  tell_value<imc::Pressure>(receiver, pressure_);
+  tell_value<imc::Conductivity>(receiver, conductivity_cell_);
+  tell_value<imc::Temperature>(receiver, water_temperature_);
+  if (!conductivity_cell_.told()) return;
+  imc::Salinity salinity;
+  salinity.value = static_cast<float>(readings_.salinity);
+  receiver.receive(messages::refer_to(salinity));
+  imc::SoundSpeed speed;
+  speed.value = static_cast<float>(readings_.sound_speed);
+  receiver.receive(messages::refer_to(speed));
+}
+
+void SubmarineSensors::tell_hull(messages::Receiver& receiver) const {
+  if (leak_.told()) {
+    imc::EntityState state;
+    state.state = leak_.value() > 0.5 ? imc::EntityState::State::FAILURE : imc::EntityState::State::NORMAL;
+    receiver.receive(messages::refer_to(state));
+  }
+  tell_value<imc::Voltage>(receiver, voltage_);
+  tell_value<imc::Current>(receiver, current_);
+}
+
+void SubmarineSensors::tell_place(messages::Receiver& receiver) const {
+  if (gps_.told()) {
+    // radii of curvature of the ellipsoid at the origin
+    const double s = std::sin(sea_.latitude), w = 1.0 - eccentricity_squared * s * s;
+    const double east_radius = equatorial_radius / std::sqrt(w);
+    imc::GpsFix fix;
+    fix.validity = imc::GpsFix::Validity::VALID_POS;
+    fix.type = imc::GpsFix::Type::SIM;
+    fix.lat = sea_.latitude + gps_.values()[0] / (east_radius * (1.0 - eccentricity_squared) / w);
+    fix.lon = sea_.longitude + gps_.values()[1] / (east_radius * std::cos(sea_.latitude));
+    receiver.receive(messages::refer_to(fix));
+  }
+  if (altitude_.told()) {
+    imc::Distance distance;
+    distance.validity = imc::Distance::Validity::VALID;
+    distance.value = static_cast<float>(altitude_.value());
+    receiver.receive(messages::refer_to(distance));
+  }
+}
+
+}  // namespace jarol::vehicles

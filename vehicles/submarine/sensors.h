@@ -1,0 +1,55 @@
+// The submarine's instruments: what each measures, and the messages in which it tells.
+#pragma once
+
+#include "distributers/messages/message.h"
+#include "vehicles/sea/sea_parameters.h"
+#include "vehicles/submarine/io.h"
+#include "vehicles/submarine/motion.h"
+#include "vehicles/submarine/sensor.h"
+
+namespace jarol::vehicles {
+
+/// What there is to measure.
+struct SubmarineScene {
+  PlantState at;
+  double north = 0.0, east = 0.0;  // over ground
+  double depth = 0.0;              // below the surface as it is there
+  double head = 0.0;               // of the waves' pressure
+  fossen::Vector3 water_b{};       // velocity of the water
+  double rpm = 0.0;
+  bool leak = false;
+  double hull_warmth = 0.0;  // K above the water
+  double voltage = 0.0, current = 0.0;
+};
+
+class SubmarineSensors {
+ public:
+  /// The antenna reaches out of the water where the hull floats. Throws std::runtime_error for what no sensor can be.
+  SubmarineSensors(const SubmarineSensorParameters& parameters, const SeaParameters& sea, double floating_depth,
+                   std::uint64_t seed);
+
+  /// At a step of the vehicle, each once.
+  void step(std::int64_t step, const SubmarineScene& scene);
+
+  const SubmarineReadings& readings() const { return readings_; }
+
+  /// Sends the readings that came at this step.
+  void tell(messages::Receiver& receiver) const;
+
+ private:
+  void note();
+  void tell_motion(messages::Receiver& receiver) const;
+  void tell_water(messages::Receiver& receiver) const;
+  void tell_hull(messages::Receiver& receiver) const;
+  void tell_place(messages::Receiver& receiver) const;
+
+  SeaParameters sea_;
+  double antenna_depth_ = 0.0;
+  double conductivity_ = 0.0;
+  double seconds_ = 0.0;
+  Sensor depth_, pressure_, conductivity_cell_, water_temperature_, attitude_, rates_, forces_, compass_, speed_, rpm_,
+      gps_, altitude_, leak_, hull_temperature_, voltage_, current_;
+  SubmarineReadings readings_;
+};
+
+}  // namespace jarol::vehicles

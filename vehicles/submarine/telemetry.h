@@ -1,0 +1,44 @@
+// What DUNE tells a console about a simulated submarine, and how often.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "distributers/interfaces/vehicle.h"
+#include "distributers/messages/imc.h"
+
+namespace jarol::vehicles {
+
+/// Passes on what the submarine tells, at the rates of DUNE's simulator. With each SimulatedState, one every 10 ms, it
+/// adds four ServoPosition; and, from the true state, 20 EstimatedState, 5 GroundVelocity, an EstimatedStreamVelocity
+/// and a Heartbeat a second. Readings of instruments that DUNE reads at other rates go out at those, the newest each
+/// time, until their sensor is overdue. Voltage and Current, which DUNE's simulator has not, come as the battery tells
+/// them.
+class SubmarineTelemetry : public messages::Receiver {
+ public:
+  SubmarineTelemetry(const Vehicle& vehicle, messages::Receiver& to);
+
+  void receive(messages::MessageRef message) override;
+
+ private:
+  struct Reading {
+    const messages::MessageForm* form = nullptr;
+    std::int64_t rate = 0;  // 1/s, of DUNE
+    messages::Message newest{};
+    std::int64_t at = 0, interval = 0;  // in states: when it came, and the one before that
+  };
+
+  bool keep(messages::MessageRef message);
+  void tell_readings();
+  void tell_servos();
+  void tell_estimate(const messages::imc::SimulatedState& truth);
+  void tell_water(const messages::imc::SimulatedState& truth);
+  bool is_due(std::int64_t rate) const;
+
+  const Vehicle& vehicle_;
+  messages::Receiver& to_;
+  std::int64_t states_ = 0;  // so far
+  std::array<Reading, 8> readings_;
+};
+
+}  // namespace jarol::vehicles
