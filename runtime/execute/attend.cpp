@@ -108,7 +108,7 @@ RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std:
   }
   if (!worker->ends_until(until)) {
     end.hangs = true;
-    if (auto running = run.running()) end.hanging.push_back(std::move(*running));
+    end.hanging = run.running();
     worker->thread.detach();
     return end;
   }

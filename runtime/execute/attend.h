@@ -36,8 +36,8 @@ class AttendedRun {
   /// there is. A channel that is still in use at that time gets none.
   virtual void close(const Ending& ending, Futex::Time patience) = 0;
   virtual std::optional<Holdup> holdup() const { return std::nullopt; }
-  /// What `cover` runs now, if anything.
-  virtual std::optional<HangingTask> running() const = 0;
+  /// What `cover` runs now, on whatever threads.
+  virtual std::vector<HangingTask> running() const = 0;
 
   /// After `cover`: waits for threads; what they still run at that time.
   virtual Finish finish(Futex::Time patience) = 0;

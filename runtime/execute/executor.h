@@ -79,8 +79,8 @@ class Executor {
   /// Waits for threads that run tasks; what they still run at that time. Once done the report is
   /// complete.
   Finish finish(std::optional<Futex::Time> patience = {});
-  /// What the thread that covers instants runs now, if anything.
-  std::optional<HangingTask> running() const;
+  /// What the thread that covers instants runs now, and what workers beside it do.
+  std::vector<HangingTask> running() const;
   /// The same where it is the thread that keeps the time, in a run to that instant.
   std::optional<Holdup> holdup(Duration end) const;
 
@@ -122,7 +122,8 @@ class Executor {
   void publish_one_by_one(const Group& group, std::int64_t instant, std::uint64_t instant_term);
   bool has_late_fault(const LetEnd& let_end, std::int64_t instant);
   const Activation* run_bodies(const Activation* next, const Activation* last, const Tick& tick);
-  const Task* task_that_runs() const;
+  const Task* task_of(const RunningTask* running) const;
+  HangingTask hanging(const Task& task) const;
   void tell_bad_outcomes();
   void start_groups(std::int64_t instant);
   void gather_communicators();

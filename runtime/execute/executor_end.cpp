@@ -35,28 +35,35 @@ Finish Executor::finish(std::optional<Futex::Time> patience) {
   return {};
 }
 
-const Task* Executor::task_that_runs() const {
-  const RunningTask* const running = running_.load(std::memory_order_acquire);
+const Task* Executor::task_of(const RunningTask* running) const {
   const TaskMemory* const memory = running != nullptr ? running->memory.load(std::memory_order_relaxed) : nullptr;
   if (memory == nullptr) return nullptr;
   return &graph_.tasks[static_cast<std::size_t>(static_cast<const TaskStatus*>(memory->fault) - plan_.status.data())];
 }
 
-std::optional<HangingTask> Executor::running() const {
-  const Task* const task = task_that_runs();
-  if (task == nullptr) return std::nullopt;
-  return HangingTask{task->name, (now() - task->offset) / task->period, now()};
+HangingTask Executor::hanging(const Task& task) const {
+  return {task.name, (now() - task.offset) / task.period, now()};
+}
+
+std::vector<HangingTask> Executor::running() const {
+  std::vector<HangingTask> all;
+  const auto add = [&](const std::atomic<const RunningTask*>& thread) {
+    if (const Task* const task = task_of(thread.load(std::memory_order_acquire))) all.push_back(hanging(*task));
+  };
+  add(running_);
+  if (team_)
+    for (const auto& thread : team_->others()) add(thread);
+  return all;
 }
 
 std::optional<Holdup> Executor::holdup(Duration end) const {
   if (options_.clock == nullptr || threads_ != nullptr) return std::nullopt;
-  const Task* const task = task_that_runs();
+  const Task* const task = task_of(running_.load(std::memory_order_acquire));
   if (task == nullptr) return std::nullopt;
-  const Duration instant = now(), time(options_.clock->now());
-  return Holdup{.task = {task->name, (instant - task->offset) / task->period, instant},
-                .late = time - instant - task->deadline,
-                .stops = task->on_fault == OnFault::stop,
-                .over = time >= end};
+  const Duration time(options_.clock->now());
+  HangingTask held = hanging(*task);
+  const Duration late = time - held.instant - task->deadline;
+  return Holdup{.task = std::move(held), .late = late, .stops = task->on_fault == OnFault::stop, .over = time >= end};
 }
 
 }  // namespace jarol

@@ -41,6 +41,9 @@ class StageTeam {
   /// With Sharing::measure: how long the activations of a task took, without what preempted them.
   const Histogram& took(std::size_t task) const { return took_[task]; }
 
+  /// What the workers beside the caller run; a null while one begins.
+  std::span<const std::atomic<const RunningTask*>> others() const { return workers_.others(); }
+
   /// How often a level was shared, and how often one worker did it.
   std::uint64_t shared() const { return shared_; }
   std::uint64_t alone() const { return alone_; }

@@ -31,9 +31,10 @@ std::uint64_t await_change(const std::atomic<std::uint64_t>& word, std::uint64_t
 
 }  // namespace
 
-Workers::Workers(std::size_t count, std::size_t parts) : claims_(parts) {
+Workers::Workers(std::size_t count, std::size_t parts) : claims_(parts), others_(count - 1) {
   // each begins at a place of its own, so that neighbouring parts go to one
-  for (std::size_t i = 1; i < count; ++i) threads_.emplace_back([this, i, count, parts] { work(i * parts / count); });
+  for (std::size_t i = 1; i < count; ++i)
+    threads_.emplace_back([this, i, count, parts] { work(i * parts / count, others_[i - 1]); });
 }
 
 Workers::~Workers() {
@@ -53,7 +54,8 @@ void Workers::run(Job job, void* context) {
   for (std::uint64_t done = done_.load(std::memory_order_acquire); done != all;) done = await_change(done_, done);
 }
 
-void Workers::work(std::size_t first) {
+void Workers::work(std::size_t first, std::atomic<const RunningTask*>& running) {
+  running.store(&running_task, std::memory_order_release);
   const SignalStack signal_stack;
   set_floating_point_control(default_floating_point_control());
   const MemoryScope scope(no_heap());

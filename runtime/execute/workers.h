@@ -6,8 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <thread>
 #include <vector>
+
+#include "runtime/machine/running_task.h"
 
 namespace jarol {
 
@@ -24,6 +27,9 @@ class Workers {
   std::size_t count() const { return threads_.size() + 1; }
   std::size_t parts() const { return claims_.size(); }
 
+  /// What the threads beside the caller's run, for whoever asks; a null while one begins.
+  std::span<const std::atomic<const RunningTask*>> others() const { return others_; }
+
   /// Calls job(context, part) once for each part 0 .. parts() - 1, on whatever workers, and returns when all are done.
   /// What the parts wrote is visible to the caller then. The job does not throw.
   void run(Job job, void* context);
@@ -33,7 +39,7 @@ class Workers {
     std::atomic<std::uint64_t> round{0};  // the newest one in which somebody took the part
   };
 
-  void work(std::size_t first);
+  void work(std::size_t first, std::atomic<const RunningTask*>& running);
   void take_parts(std::size_t first, std::uint64_t round);
 
   std::vector<Claim> claims_;
@@ -41,6 +47,7 @@ class Workers {
   void* context_ = nullptr;
   alignas(64) std::atomic<std::uint64_t> round_{0};  // raised when job and context are set; the top bit ends
   alignas(64) std::atomic<std::uint64_t> done_{0};   // parts done in all rounds
+  std::vector<std::atomic<const RunningTask*>> others_;
   std::vector<std::thread> threads_;
 };
 

@@ -18,7 +18,7 @@ class ExecutorRun : public AttendedRun {
   bool stopped_by_fault() const override { return executor_.report().stopped; }
   void close(const Ending&, Futex::Time patience) override { executor_.close(patience); }
   std::optional<Holdup> holdup() const override { return executor_.holdup(end_); }
-  std::optional<HangingTask> running() const override { return executor_.running(); }
+  std::vector<HangingTask> running() const override { return executor_.running(); }
   Finish finish(Futex::Time patience) override { return executor_.finish(patience); }
 
  private:

@@ -125,7 +125,10 @@ class ThreadsRun : public AttendedRun {
   bool stopped_by_fault() const override { return core_.report().stopped; }
   void close(const Ending&, Futex::Time patience) override { core_.close(patience); }
   std::optional<Holdup> holdup() const override { return core_.holdup(); }
-  std::optional<HangingTask> running() const override { return core_.running(); }
+  std::vector<HangingTask> running() const override {
+    std::optional<HangingTask> task = core_.running();
+    return task ? std::vector{std::move(*task)} : std::vector<HangingTask>();
+  }
   Finish finish(Futex::Time patience) override { return core_.finish(patience); }
 
  private:

@@ -3,9 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <stdexcept>
+#include <thread>
 
 #include "tests/runtime/random_model.h"
 #include "tests/runtime/trace_of.h"
@@ -134,12 +137,23 @@ struct Fails {
   static void run(const Tick&, const In&) { throw std::runtime_error("always"); }
 };
 
+// Do not end before this is so.
+std::atomic<bool> may_end{false};
+
+struct Waits {
+  static constexpr std::string_view summary = "for tests";
+  static void run(const Tick& tick) {
+    while (tick.activation == 3 && !may_end) std::this_thread::yield();
+  }
+};
+
 Graph graph_with(const std::string& text) {
   static const Registry registry = [] {
     Registry made = tests::generic_tasks();
     made.add(task_class<Lengths>());
     made.add(task_class<Both>());
     made.add(task_class<Fails>());
+    made.add(task_class<Waits>());
     return made;
   }();
   return jarol::tests::graph_of(registry, text);
@@ -209,6 +223,24 @@ connections: [w.out -> x.in, l.out -> y.in]
       CHECK(to_text(executor.report().faults[0]) == "task 'x' activation 0 at 0 s: threw: always");
       CHECK(to_text(executor.report().faults[1]) == "task 'y' activation 0 at 0 s: threw: always");
     }
+  }
+
+  TEST_CASE("what does not end is known by name, whichever worker runs it") {
+    const Graph graph = graph_with(
+        "{graph: t, tasks: {a: {type: Waits, period: 10ms}, b: {type: Waits, period: 10ms}, "
+        "c: {type: Counter, period: 10ms}}}");
+    Executor executor(graph, {}, {.workers = 3, .sharing = Sharing::always});
+    CHECK(executor.running().empty());
+    may_end = false;
+    std::thread runs([&] { executor.run_until(100ms); });
+    std::vector<HangingTask> running;
+    for (int i = 0; i < 30'000 && running.size() < 2; ++i, std::this_thread::sleep_for(1ms))
+      if (executor.now() == 30ms) running = executor.running();
+    may_end = true;
+    runs.join();
+    std::sort(running.begin(), running.end(), [](const auto& x, const auto& y) { return x.task < y.task; });
+    CHECK(running == std::vector{HangingTask{"a", 3, 30ms}, HangingTask{"b", 3, 30ms}});
+    CHECK(executor.running().empty());
   }
 
   TEST_CASE("faults, deep values and records are the same for any number of workers") {

@@ -8,7 +8,11 @@ using namespace jarol;
 
 struct Param {
   int at = 10;
-  static constexpr auto fields() { return describe(field<&Param::at>("", "activation that goes wrong")); }
+  int loops = 0;
+  static constexpr auto fields() {
+    return describe(field<&Param::at>("", "activation that goes wrong"),
+                    field<&Param::loops>("", "how much each activation works"));
+  }
 };
 
 struct Throws {
@@ -23,6 +27,7 @@ struct Hangs {
   static constexpr std::string_view summary = "never ends";
   using Param = ::Param;
   static void run(const Param& p, const Tick& tick) {
+    for (volatile int i = 0; i < p.loops;) i = i + 1;
     for (volatile bool goes_on = tick.activation == p.at; goes_on;) {}
   }
 };

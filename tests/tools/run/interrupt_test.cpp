@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -77,6 +78,32 @@ TEST_SUITE("tools/interrupt") {
     CHECK(!std::filesystem::exists(trace));
     for (const auto& entry : std::filesystem::directory_iterator(folder / ""))
       CHECK(entry.path().extension() != ".part");
+  }
+
+  TEST_CASE("so does one whose tasks never end on the threads of several workers, and names each") {
+    const command::DefaultSignals taken;
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(JAROL_PLUGIN_FOLDER "/ends.so", folder / "ends.so",
+                               std::filesystem::copy_options::overwrite_existing);
+    const std::string hangs = ": {type: Hangs, period: 10ms, parameters: {at: 100, loops: 100000}}";
+    const std::string graph =
+        folder.write("g.yaml", "{graph: g, plugins: [ends.so], tasks: {a" + hangs + ", b" + hangs + "}}\n");
+    const std::string report = folder / "report.txt";
+    std::string took = "1000", text;  // ms
+    // again where the machine was so busy that it took long, or was asked to end too early
+    for (int attempt = 0; attempt < 20 && (std::stoi(took) >= 1000 || text.find("not ended") == text.npos); ++attempt) {
+      took = jarol("run " + graph + " --for 1h --workers 2 > " + report,
+                   "2>&1 & id=$!; " + until_taken + "sleep 0.3; begin=$(date +%s%N); kill -INT $id; wait $id; " +
+                       "code=$?; echo $((($(date +%s%N) - begin) / 1000000)); echo \"exit code $code\" >> " + report)
+                 .output;
+      text = content(report);
+    }
+    CHECK(std::stoi(took) < 1000);
+    CAPTURE(text);
+    CHECK(text.find("error: task 'a' activation 100 at 1 s has not ended\n") != std::string::npos);
+    if (std::thread::hardware_concurrency() > 1)  // else there is one worker
+      CHECK(text.find("error: task 'b' activation 100 at 1 s has not ended\n") != std::string::npos);
+    CHECK(text.ends_with("error: threads have not ended; the program ends without them\nexit code 3\n"));
   }
 
   TEST_CASE("under nohup a run goes on when its terminal is gone") {
