@@ -81,7 +81,7 @@ constexpr double least = 5e-324, greatest = 1.7976931348623157e308;
 void check(const std::string& name, const Worst& worst, double limit) {
   INFO(name << " at " << worst.x << ", " << worst.y << ": " << worst.error << " ulp");
   if (std::getenv("JAROL_FULL") || std::getenv("VERBOSE"))
-    MESSAGE(name << ' ' << worst.error << " ulp at " << worst.x << ", " << worst.y);
+    MESSAGE(name << " " << worst.error << " ulp at " << worst.x << ", " << worst.y);
   CHECK(worst.error <= limit);
 }
 
