@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <iostream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "distributers/guardian/guardian_process.h"
 #include "graph/language/problems.h"
@@ -10,6 +13,7 @@
 #include "tools/report/command_line.h"
 #include "tools/report/failure.h"
 #include "tools/report/printable_stream.h"
+#include "tools/report/version.h"
 
 namespace {
 using namespace jarol;
@@ -20,14 +24,32 @@ void keep_standard_streams() {
     if (::fcntl(stream, F_GETFD) == -1 && ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY) == -1) return;
 }
 
+// "jarol help" and "jarol help run" ask for what "jarol --help" and "jarol run --help" do.
+std::vector<char*> asked_of(int argc, char** argv) {
+  static std::string help = "--help";
+  if (std::string_view(argv[1]) != "help") return {argv, argv + argc};
+  if (argc == 2) return {argv[0], help.data()};
+  return {argv[0], argv[2], help.data()};
+}
+
+// A mistyped command gets a suggestion.
+void expect_command(const std::string& word, std::vector<std::string> names) {
+  names.push_back("help");
+  std::sort(names.begin(), names.end());
+  if (!word.starts_with('-') && std::find(names.begin(), names.end(), word) == names.end())
+    throw tools::UsageError("there is no command '" + word + "'" + did_you_mean(word, names) +
+                            "; there are: " + list_of(names));
+}
+
 int run_command(int argc, char** argv) {
   tools::CommandLine line(
       "jarol",
       "Jarol runs control programs that are graphs of isolated tasks: checked for schedulability, the same to the bit "
       "every time.\n\n  jarol check specs/exolauv.yaml     can it be scheduled, and if not, why\n"
       "  jarol run specs/exolauv.yaml       run it on the virtual clock\n"
-      "  jarol tasks                        what a graph can be made of\n",
-      JAROL_VERSION);
+      "  jarol tasks                        what a graph can be made of\n"
+      "  jarol help run                     all about a command\n",
+      tools::version_text());
   int exit_code = tools::exit_good;
   tools::add_bench(line, exit_code);
   tools::add_check(line, exit_code);
@@ -40,12 +62,13 @@ int run_command(int argc, char** argv) {
   tools::add_tasks(line, exit_code);
   tools::add_vehicle(line, exit_code);
   try {
-    // a mistyped command gets a suggestion
-    const std::vector<std::string> names = line.names();
-    if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end())
-      throw tools::UsageError("there is no command '" + std::string(argv[1]) + "'" + did_you_mean(argv[1], names) +
-                              "; there are: " + list_of(names));
-    line.parse(argc, argv);
+    if (argc == 1) {
+      std::cout << line.help();
+      return tools::exit_input;
+    }
+    std::vector<char*> words = asked_of(argc, argv);
+    if (words.size() > 1) expect_command(words[1], line.names());
+    line.parse(static_cast<int>(words.size()), words.data());
     return exit_code;
   } catch (...) { return tools::report(tools::failure_of(std::current_exception()), line.asks_for_json(argc, argv)); }
 }

@@ -56,8 +56,8 @@ std::vector<std::string> prepare_thread(const RealTimeOptions& options) {
   std::vector<std::string> refusals;
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
   if (lock_memory() != 0)
-    refusals.push_back(
-        refused("memory can't be locked", errno, "a page fault may delay a task; allow it by 'ulimit -l unlimited'"));
+    refusals.push_back(refused("memory can't be locked", errno,
+                               "a page fault may delay a task; " + std::string(permit_locked_memory)));
   if (!options.cpus.empty()) {
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -71,8 +71,7 @@ std::vector<std::string> prepare_thread(const RealTimeOptions& options) {
     parameter.sched_priority = *options.priority;
     if (sched_setscheduler(0, SCHED_FIFO, &parameter) != 0)
       refusals.push_back(refused("SCHED_FIFO is refused", errno,
-                                 "no task goes before another or before other programs; allow it by 'ulimit -r 99' or "
-                                 "run as root"));
+                                 "no task goes before another or before other programs; " + std::string(permit_fifo)));
   }
   return refusals;
 }

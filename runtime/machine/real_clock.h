@@ -4,6 +4,7 @@
 #include <atomic>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/machine/histogram.h"
@@ -20,6 +21,13 @@ struct RealTimeOptions {
   /// less urgent the lower.
   RealTimeOptions of_thread(std::size_t core, std::size_t urgency) const;
 };
+
+/// How an ordinary user is permitted what the system refuses by default.
+inline constexpr std::string_view permit_fifo =
+    "allow it by the line '@realtime - rtprio 99' in /etc/security/limits.conf and 'adduser USER realtime' after "
+    "'addgroup realtime', then log in anew; or run as root";
+inline constexpr std::string_view permit_locked_memory =
+    "allow it by the line '@realtime - memlock unlimited' in /etc/security/limits.conf, as for SCHED_FIFO";
 
 /// Gives the calling thread its priority, CPUs, timer slack of 1 ns and locked memory; a plain sentence for each that
 /// this machine does not permit. Threads that it makes from then on take all of that after it. Under a limit to locked

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 
 #include "tests/tools/run_command.h"
@@ -161,12 +162,11 @@ connections: [i -> sum.in]
   }
 
   TEST_CASE("usage errors and unreadable files exit with 2 and a sentence") {
-    CHECK(jarol("").exit_code == 2);
     const Result command = jarol("chek x");
     CHECK(command.exit_code == 2);
     CHECK(command.output ==
-          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, doctor, graph, messages, "
-          "replay, run, schema, tasks, vehicle\n");
+          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, doctor, graph, help, "
+          "messages, replay, run, schema, tasks, vehicle\n");
     const Result missing = jarol("run no/such.yaml");
     CHECK(missing.exit_code == 2);
     CHECK(missing.output == "error: can't read 'no/such.yaml': No such file or directory\n1 error\n");
@@ -181,12 +181,34 @@ connections: [i -> sum.in]
           "error: can't write '/no/such/x.csv': No such file or directory\n");
   }
 
-  TEST_CASE("every command helps") {
-    for (const std::string command : {"", "bench", "check", "graph", "run", "schema", "tasks"}) {
+  TEST_CASE("every command helps, by --help and after the word help") {
+    for (const std::string command :
+         {"", "bench", "check", "doctor", "graph", "messages", "replay", "run", "schema", "tasks", "vehicle"}) {
+      CAPTURE(command);
       const Result help = jarol(command + " --help");
       CHECK(help.exit_code == 0);
       CHECK(help.output.find("Usage") != std::string::npos);
+      CHECK(jarol("help " + command).output == help.output);
+      CHECK(jarol("help " + command).exit_code == 0);
     }
+    CHECK(jarol("help chek").output ==
+          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, doctor, graph, help, "
+          "messages, replay, run, schema, tasks, vehicle\n");
+  }
+
+  TEST_CASE("without a word it shows its help, and that nothing was done") {
+    CHECK(jarol("").output == jarol("--help").output);
+    CHECK(jarol("").exit_code == 2);
+  }
+
+  TEST_CASE("the version says of which commit, by which compiler and with which libraries") {
+    const std::string version = jarol("-V").output;
+    CHECK(version == jarol("--version").output);
+    const std::regex form(
+        "jarol \\d+\\.\\d+\\.\\d+(, commit [0-9a-f]{7,}\\+?)?\n"
+        "(g\\+\\+|clang) .*, Eigen [\\d.]+, yaml-cpp [\\d.]+, fmt [\\d.]+, CLI11 [\\d.]+, JSON [\\d.]+(, Simbody "
+        "[\\d.]+)?\n");
+    CHECK_MESSAGE(std::regex_match(version, form), version);
   }
 
   TEST_CASE("tasks tells all about one") {

@@ -8,6 +8,7 @@
 #include "graph/language/quantities.h"
 #include "runtime/machine/arithmetic.h"
 #include "runtime/machine/machine.h"
+#include "runtime/machine/real_clock.h"
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
@@ -85,9 +86,9 @@ void print_text(const MachineFacts& m, const Arithmetic& a, const std::string& g
   line("affinity",
        or_refused(m.affinity_refused, "threads can be bound to CPUs", "threads run where the kernel puts them"));
   line("SCHED_FIFO", or_refused(m.fifo_refused, fmt::format("permitted up to priority {}", m.fifo_priority),
-                                "other programs may delay tasks; allow it by 'ulimit -r 99' or run as root"));
-  line("memory",
-       or_refused(m.lock_refused, "can be locked", "a page fault may delay a task; allow it by 'ulimit -l unlimited'"));
+                                "other programs may delay tasks; " + std::string(permit_fifo)));
+  line("memory", or_refused(m.lock_refused, "can be locked",
+                            "a page fault may delay a task; " + std::string(permit_locked_memory)));
   line("guardian", or_refused(guardian, "can be started: it hands over 'safe' after a crash",
                               "after a crash the last commands stay in force"));
   line("timer slack",

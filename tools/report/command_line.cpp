@@ -172,7 +172,7 @@ void Command::callback(const std::function<void()>& action) { app_.callback(acti
 CommandLine::CommandLine(const std::string& name, const std::string& text, const std::string& version)
     : app_(std::make_unique<CLI::App>(text, name)) {
   app_->require_subcommand(1);
-  app_->set_version_flag("--version", version);
+  app_->set_version_flag("-V,--version", version);
 }
 
 CommandLine::~CommandLine() = default;
@@ -186,6 +186,8 @@ std::vector<std::string> CommandLine::names() const {
   for (const CLI::App* command : app_->get_subcommands({})) names.push_back(command->get_name());
   return names;
 }
+
+std::string CommandLine::help() const { return app_->help(); }
 
 // The command, and the words behind its name.
 struct CommandLine::Words {

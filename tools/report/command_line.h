@@ -65,6 +65,8 @@ class CommandLine {
   ~CommandLine();
   Command* add_subcommand(const std::string& name, const std::string& text);
   std::vector<std::string> names() const;
+  /// What --help prints.
+  std::string help() const;
   /// Does what the words say, or prints the help asked for. Throws UsageError if they are not understood.
   void parse(int argc, char** argv);
   /// Is --json among the words, as an option of the command? Also where others of them are not understood.
