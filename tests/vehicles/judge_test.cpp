@@ -1,6 +1,7 @@
 // What becomes of a vehicle that no mission wants, at the edge of each limit.
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -129,5 +130,52 @@ TEST_SUITE("vehicles/judge") {
     CHECK(submarine.truth().heading == 1);
     CHECK(submarine.truth().sinking == doctest::Approx(-1.2 * std::sin(0.1)));
     CHECK(submarine.truth().altitude == doctest::Approx(50 - 3 - 0.075 - 0.465 * std::sin(0.1)));
+  }
+
+  TEST_CASE("true values of a vehicle that leans and slips are what rotations make of them") {
+    using Eigen::AngleAxisd, Eigen::Vector3d;
+    const double phi = 0.5, theta = -0.3, psi = 2;
+    const Eigen::Matrix3d R_nb =
+        (AngleAxisd(psi, Vector3d::UnitZ()) * AngleAxisd(theta, Vector3d::UnitY()) * AngleAxisd(phi, Vector3d::UnitX()))
+            .toRotationMatrix();
+    const Vector3d v_b(1.2, -0.4, 0.3), v_n = R_nb * v_b;
+    const double tilt = std::acos(R_nb(2, 2));
+    SubmarineJudge submarine({}, {});
+    submarine.look(nanoseconds(1), {.x = 4,
+                                    .y = -5,
+                                    .z = 3,
+                                    .phi = phi,
+                                    .theta = theta,
+                                    .psi = psi,
+                                    .u = v_b.x(),
+                                    .v = v_b.y(),
+                                    .w = v_b.z(),
+                                    .r = 0.1});
+    const SubmarineTruth& s = submarine.truth();
+    CHECK(s.sinking == doctest::Approx(v_n.z()));
+    CHECK(s.speed == 1.2);
+    CHECK(s.roll == phi);
+    CHECK(s.pitch == theta);
+    CHECK(s.turn_rate == 0.1);
+    CHECK(s.x == 4);
+    CHECK(s.y == -5);
+
+    HelicopterMotion motion;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        motion.R_nb[i][j] = R_nb(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    motion.p_n = {1, 2, -3};
+    motion.v_b = {v_b.x(), v_b.y(), v_b.z()};
+    HelicopterJudge helicopter({}, tilted(0, -1));
+    helicopter.look(nanoseconds(1), motion, {});
+    const HelicopterTruth& h = helicopter.truth();
+    CHECK(h.roll == doctest::Approx(phi));
+    CHECK(h.pitch == doctest::Approx(theta));
+    CHECK(h.yaw == doctest::Approx(psi));
+    CHECK(h.climb == doctest::Approx(-v_n.z()));
+    CHECK(h.speed == doctest::Approx(std::hypot(v_n.x(), v_n.y())));
+    CHECK(h.tilt == doctest::Approx(tilt));
+    CHECK(h.y == 2);
+    CHECK(h.altitude == doctest::Approx(2));
   }
 }

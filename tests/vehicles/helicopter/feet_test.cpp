@@ -61,6 +61,14 @@ TEST_SUITE("vehicles/feet") {
     CHECK(lifted.y == 0.04);
   }
 
+  TEST_CASE("the helicopter's feet grip with half of the damping that is critical for it") {
+    const HelicopterParameters parameters;
+    const Feet feet = make_body(parameters).feet;
+    CHECK(feet.grip_stiffness == 2500);
+    // four springs and dampers: zeta = c / (2 sqrt(k m))
+    CHECK(4 * feet.grip_damping / (2 * std::sqrt(4 * feet.grip_stiffness * 1.5)) == doctest::Approx(0.5));
+  }
+
   TEST_CASE("dropped from 5 cm it moves as the same fall does in steps a thousand times smaller") {
     HelicopterParameters parameters;
     parameters.frame.drag_area = 0;
