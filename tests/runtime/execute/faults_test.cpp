@@ -115,6 +115,7 @@ TEST_SUITE("runtime/faults") {
     CHECK(lines_of(r, "f.out") == "0ns f.out=1; 10ms f.out=2; 30ms f.out=3; 40ms f.out=4");
     CHECK(lines_of(r, "r.out") == "0ns r.out=1; 10ms r.out=2; 20ms r.out=2; 30ms r.out=3; 40ms r.out=4");
     CHECK(r.report.activations == 10);
+    CHECK(r.report.left_out == std::vector<std::uint64_t>{1, 0});
   }
 
   TEST_CASE("hold with a LET equal to the period") {
@@ -129,6 +130,7 @@ TEST_SUITE("runtime/faults") {
     CHECK(r.report.fault_count == 1);
     CHECK(lines_of(r, "f.out") == "0ns f.out=1; 10ms f.out=2; 40ms f.out=3; 50ms f.out=4");
     CHECK(r.report.activations == 11);  // six of r, five of f
+    CHECK(r.report.left_out == std::vector<std::uint64_t>{2, 0});
   }
 
   TEST_CASE("skip with a LET") {
@@ -150,6 +152,7 @@ TEST_SUITE("runtime/faults") {
       std::string faulty;
       for (const Fault& fault : r.report.faults) faulty += std::to_string(fault.activation) + " ";
       CHECK(faulty == "2 4 ");
+      CHECK(r.report.left_out == std::vector<std::uint64_t>{4, 0});
       CHECK(lines_of(r, "f.out") == (let.empty() ? "0ns f.out=1; 10ms f.out=2; 60ms f.out=3; 70ms f.out=4; 80ms f.out=5"
                                                  : "10ms f.out=1; 20ms f.out=2; 70ms f.out=3; 80ms f.out=4"));
     }
