@@ -10,6 +10,7 @@ namespace jarol::distributers {
 namespace {
 
 constexpr std::uint64_t version = 1;
+constexpr std::size_t longest_mishap = 200;
 
 // Both ends are this program, which runs on little-endian machines only.
 std::vector<std::byte> numbers(std::initializer_list<std::uint64_t> all, const std::string& text = "") {
@@ -82,14 +83,25 @@ class RemoteVehicle : public vehicles::Stepped {
     stream_.flush();
     for (const auto deadline = stream_.begin_wait();;) {
       const FrameStream::Frame frame = stream_.read(deadline);
-      if (frame.kind == FrameKind::sensed) return;
+      if (frame.kind == FrameKind::sensed) return hear_of_mishap(frame);
       if (frame.kind == FrameKind::no_state) throw vehicles::NoState(text_after(frame, 0));
       if (frame.kind != FrameKind::message) throw_unfit(stream_);
       receiver.receive(taker_.message(frame));
     }
   }
 
+  std::optional<vehicles::Mishap> mishap() const override { return mishap_; }
+
  private:
+  // The newest counts: one that has not taken off yet may do so later.
+  void hear_of_mishap(const FrameStream::Frame& frame) const {
+    mishap_.reset();
+    if (frame.bytes.empty()) return;
+    const auto instant = static_cast<std::int64_t>(number(frame, 0));
+    mishap_ = {std::chrono::nanoseconds(instant), text_after(frame, 1).substr(0, longest_mishap)};
+  }
+
+  mutable std::optional<vehicles::Mishap> mishap_;
   mutable FrameStream stream_;
   Duration grid_;
   Putter putter_;
@@ -129,6 +141,7 @@ void LockstepChannels::begin() {
 }
 
 void LockstepChannels::finish() {
+  if (simulation_) mishap_ = simulation_->mishap();
   vehicle_ = nullptr;
   simulation_.reset();
 }
@@ -141,6 +154,11 @@ namespace {
 
 // no runner has as much to say between two looks at the sensors
 constexpr int max_frames = 65536;
+
+std::vector<std::byte> bytes_of(const std::optional<vehicles::Mishap>& mishap) {
+  if (!mishap) return {};
+  return numbers({static_cast<std::uint64_t>(mishap->instant.count())}, mishap->text);
+}
 
 // Another has come while the vehicle is with a runner.
 void turn_away(const Descriptor& door, const FrameStream& runner, const LockstepOptions& options) {
@@ -170,7 +188,15 @@ void serve_lockstep(FrameStream stream, const messages::MessageSet& set,
   stream.flush();
   Putter putter(set, stream);
   Taker taker(set);
-  std::unique_ptr<vehicles::Vehicle> vehicle;
+  struct Served {
+    const LockstepOptions& options;
+    std::unique_ptr<vehicles::Vehicle> vehicle{};
+    ~Served() {
+      const auto mishap = vehicle ? vehicle->mishap() : std::nullopt;
+      if (mishap) options.mishap(*mishap);
+    }
+  } served{options};
+  std::unique_ptr<vehicles::Vehicle>& vehicle = served.vehicle;
   std::optional<std::string> no_state;
   auto heard = Clock::now();
   const auto is_silent = [&] { return Clock::now() - heard >= stream.patience(); };
@@ -203,7 +229,7 @@ void serve_lockstep(FrameStream stream, const messages::MessageSet& set,
       if (no_state)
         stream.put(FrameKind::no_state, std::as_bytes(std::span(*no_state)));
       else
-        vehicle->sense(putter), stream.put(FrameKind::sensed);
+        vehicle->sense(putter), stream.put(FrameKind::sensed, bytes_of(vehicle->mishap()));
       stream.flush();
     } else {
       throw_unfit(stream);

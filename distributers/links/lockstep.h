@@ -20,6 +20,8 @@ struct LockstepOptions {
   std::chrono::milliseconds patience = FrameStream::usual_patience;
   /// What people should know that is no error.
   std::function<void(const std::string&)> note = [](const std::string&) {};
+  /// At the end with a runner: what has become of its vehicle that no mission wants.
+  std::function<void(const vehicles::Mishap&)> mishap = [](const vehicles::Mishap&) {};
 };
 
 class RemoteVehicle;
@@ -37,6 +39,7 @@ class LockstepChannels : public Channels {
   void flush() override;
 
   std::uint64_t non_finite_inputs() const override { return simulation_ ? simulation_->non_finite_inputs() : 0; }
+  std::string mishap() const override { return simulation_ ? simulation_->mishap() : mishap_; }
   void reach(Duration instant) override { simulation_->reach(instant); }
   bool take(std::size_t channel, void* value) override { return simulation_->take(channel, value); }
   void hand_over(std::size_t channel, const void* value) override { simulation_->hand_over(channel, value); }
@@ -49,6 +52,7 @@ class LockstepChannels : public Channels {
   LockstepOptions options_;
   RemoteVehicle* vehicle_ = nullptr;  // the simulation's, while it runs
   std::unique_ptr<SimulationChannels> simulation_;
+  std::string mishap_;  // of the vehicle, when it is left
 };
 
 /// The other end: what a vehicle's process does with one runner, until that one has gone or it is interrupted. `make`

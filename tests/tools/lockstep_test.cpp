@@ -1,12 +1,14 @@
 #include "distributers/links/lockstep.h"
 
 #include <doctest/doctest.h>
+#include <sys/socket.h>
 
 #include <thread>
 
 #include "distributers/links/tcp.h"
 #include "distributers/vehicle_file.h"
 #include "runtime/execute/executor.h"
+#include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
 #include "tools/run/load_graph.h"
 #include "vehicles/catalogue.h"
@@ -127,6 +129,39 @@ TEST_SUITE("tools/lockstep") {
     const auto refused = measure("={type: lockstep, peer: " + port + "}");
     CHECK(refused.exit_code == 2);
     CHECK(refused.output.starts_with("error: there is no vehicle at 127.0.0.1:" + port + ": Connection refused; "));
+  }
+
+  TEST_CASE("what becomes of a vehicle in another process fails the run as it does in this one, and both report it") {
+    const std::string port = tests::free_port(SOCK_STREAM);
+    tests::Process vehicle("vehicle helicopter --parameters specs/vehicles/helicopter.yaml --link lockstep --listen " +
+                           port);
+    REQUIRE(vehicle.says("in lockstep at"));
+    const auto fly = [](const std::string& options) {
+      return command::jarol("run specs/javiator.yaml --set expect=null " + options, "2>&1 >/dev/null");
+    };
+    const std::string turned = "--set tasks.attitude.parameters.lean.effect=-66 ",
+                      there = "--set 'distributers.robostix.link={type: lockstep, peer: " + port + "}'";
+    const auto here = fly(turned), other = fly(turned + there);
+    const std::string crash = "has crashed: a rotor met the ground, at ";
+    CHECK(here.output.starts_with("error: the vehicle of 'robostix' " + crash));
+    CHECK(here.exit_code == 1);
+    CHECK(other.output == here.output);
+    CHECK(other.exit_code == 1);
+    // each has a vehicle of its own
+    const auto good = fly(there);
+    CHECK(good.output == "");
+    CHECK(good.exit_code == 0);
+    CHECK(fly(turned + there + " --for 2s").exit_code == 0);  // it crashes later
+    const auto real = fly(turned + there + " --clock real --force --for 4s");
+    CHECK(real.output.find("error: the vehicle of 'robostix' has crashed: ") != std::string::npos);
+    CHECK(real.exit_code == 1);
+    vehicle.interrupt();
+    CHECK(vehicle.end() == 130);  // a signal's code is before that of a mishap
+    const std::string lines = vehicle.errors();
+    std::size_t reports = 0;
+    for (std::size_t at = 0; (at = lines.find(" has crashed: ", at)) != std::string::npos; ++at) ++reports;
+    CHECK(reports == 2);
+    CHECK(lines.find("\nerror: the helicopter of the runner at 127.0.0.1:") != std::string::npos);
   }
 
   TEST_CASE("periods that do not fall on the vehicle's steps are refused") {

@@ -40,6 +40,19 @@ void check_refused(const std::string& script, const std::string& options, const 
 }  // namespace
 
 TEST_SUITE("tools/vehicle") {
+  TEST_CASE("a vehicle that capsizes ends with 1, driven by a script as by a peer") {
+    const TemporaryFolder folder;
+    const auto script = folder.write("script.csv", "time,thruster\n0,0\n0.1,0\n");
+    const std::string over = "vehicle submarine --set hull.z_g=-0.01 --initial phi=100deg ",
+                      line = "error: the submarine has capsized: tilted by 100 deg, beyond 90 deg, at 0.01 s\n";
+    const auto driven = jarol(over + "--script " + script + " --csv " + folder / "out.csv");
+    CHECK(driven.output == line);
+    CHECK(driven.exit_code == 1);
+    const auto served = jarol(over + "--link udp --listen 0 --for 50ms", "2>&1 >/dev/null");
+    CHECK(served.output.ends_with(line));
+    CHECK(served.exit_code == 1);
+  }
+
   TEST_CASE("it writes time, state and outputs from the row at time 0 to the last row of the script") {
     const TemporaryFolder folder;
     const auto script = folder.write(

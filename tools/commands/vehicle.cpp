@@ -169,7 +169,7 @@ int drive(const Options& options, const vehicles::VehicleClass& vehicle_class, c
     std::cerr << "error: " << error.what() << "\n";
     return exit_unfinished;
   }
-  return exit_good;
+  return report_mishap(*vehicle, vehicle_class.name) ? exit_negative : exit_good;
 }
 
 // The options of a link as the mapping that a graph would have.

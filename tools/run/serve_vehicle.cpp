@@ -54,7 +54,17 @@ std::unique_ptr<messages::Receiver> make_telemetry(const vehicles::Vehicle& vehi
   return std::make_unique<All>(to);
 }
 
+void report(const vehicles::Mishap& mishap, const std::string& name) {
+  std::cerr << "error: the " << name << " has " << mishap.text << ", at " << seconds_text(mishap.instant) << " s\n";
+}
+
 }  // namespace
+
+bool report_mishap(const vehicles::Vehicle& vehicle, const std::string& name) {
+  const std::optional<vehicles::Mishap> mishap = vehicle.mishap();
+  if (mishap) report(*mishap, name);
+  return mishap.has_value();
+}
 
 int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
                   std::chrono::nanoseconds end, const Telling& telling, const RealTimeOptions& real_time) {
@@ -102,9 +112,7 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
     std::cout << vehicle_class.name << ": " << seconds_text(Duration(instant)) << " s in real time\n"
               << diary.to_text() << to_text(link.report());
   }
-  if (mishap)
-    std::cerr << "error: the " << vehicle_class.name << " has " << mishap->text << ", at "
-              << seconds_text(mishap->instant) << " s\n";
+  if (mishap) report(*mishap, vehicle_class.name);
   return exit_of({exit_code, exit_of_signal(Interruptible::signal()), mishap ? exit_negative : exit_good});
 }
 
@@ -117,10 +125,15 @@ int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const
   const Interruptible interruptible([&] { interrupter.interrupt(); });
   std::cerr << vehicle_class.name << ": in lockstep at " << listen.text() << ", until Ctrl-C\n";
   using Woken = distributers::Interrupter::Woken;
+  bool has_mishap = false;
   while (interrupter.wait(socket.get(), std::chrono::milliseconds(-1)) != Woken::interrupted) {
     distributers::Descriptor runner = distributers::accept_from(socket);
     if (!runner) continue;
     const std::string who = "the runner at " + peer_of(runner).text();
+    options.mishap = [&](const vehicles::Mishap& mishap) {
+      report(mishap, vehicle_class.name + " of " + who);
+      has_mishap = true;
+    };
     try {
       serve_lockstep(distributers::FrameStream(std::move(runner), who, options.patience), *vehicle_class.message_set,
                      make, interrupter, options, socket);
@@ -128,7 +141,7 @@ int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const
       // the run is over
     } catch (const distributers::FrameError& error) { std::cerr << "note: " << error.what() << "\n"; }
   }
-  return exit_of_signal(Interruptible::signal());
+  return exit_of({exit_of_signal(Interruptible::signal()), has_mishap ? exit_negative : exit_good});
 }
 
 }  // namespace jarol::tools

@@ -20,6 +20,9 @@ struct Telling {
   bool json = false;  // at the end, instead of text
 };
 
+/// A line on stderr if something has become of the vehicle that no mission wants; false: nothing has.
+bool report_mishap(const vehicles::Vehicle& vehicle, const std::string& name);
+
 /// Runs until `end` or Ctrl-C and tells what it did and what was carried; the exit code.
 int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
                   std::chrono::nanoseconds end, const Telling& telling = {}, const RealTimeOptions& real_time = {});
