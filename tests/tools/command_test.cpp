@@ -155,6 +155,7 @@ connections: [i -> sum.in]
                            "'out' is inf\nerror: task 'sum' gave nothing in 99 of 100 activations, 99.0 %, above the "
                            "fault limit of 10 %\n") != std::string::npos);
     CHECK(jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold --set fault_limit=99%").exit_code == 0);
+    CHECK(jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold --set fault_limit=98.9%").exit_code == 1);
     const auto summary = nlohmann::json::parse(
         jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold --json", "2>/dev/null").output)["fault_summary"];
     CHECK(summary == nlohmann::json::parse(R"([{"task": "sum", "cause": "output 'out' is inf", "count": 99,

@@ -139,6 +139,8 @@ TEST_SUITE("tools/printed") {
       CHECK(problems[1]["notes"][0] ==
             nlohmann::json{{"file", bad}, {"line", 2}, {"column", 9}, {"text", "first here"}});
     }
+    const std::string odd = folder.write("no\xff.yaml", "graph: [\n");
+    CHECK(std::string(problems_of("graph --json '" + odd + "'")[0]["file"]).ends_with("/no\ufffd.yaml"));
     const auto text_of = [&](const std::string& arguments, int exit_code = 2) {
       const auto problems = problems_of(arguments, exit_code);
       CHECK(problems.size() == 1);
