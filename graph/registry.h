@@ -38,6 +38,10 @@ class Registry {
   /// A type that some input, output or channel has, or null.
   const Type* find_type(std::string_view name) const;
 
+  /// Some classes are not there, and that was reported: a name that is not found may be one of theirs.
+  void mark_incomplete() { complete_ = false; }
+  bool is_complete() const { return complete_; }
+
   /// In bytewise order of name.
   const std::vector<TaskClass>& tasks() const { return tasks_; }
   const std::vector<DistributerClass>& distributers() const { return distributers_; }
@@ -49,6 +53,7 @@ class Registry {
   std::vector<TaskClass> tasks_;
   std::vector<DistributerClass> distributers_;
   std::vector<const Type*> types_;  // in bytewise order of name
+  bool complete_ = true;
 };
 
 /// The names of a list of classes.

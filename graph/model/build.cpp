@@ -193,7 +193,7 @@ class Builder {
     }
     communicator.direction = spec.direction->value;
     communicator.type = registry_.find_type(spec.type->value);
-    if (communicator.type == nullptr)
+    if (communicator.type == nullptr && registry_.is_complete())
       problems_.add(spec.type->where, subject + " has unknown type '" + spec.type->value + "'" +
                                           did_you_mean(spec.type->value, registry_.type_names()) +
                                           "; there are: " + list_of(registry_.type_names()));
@@ -267,7 +267,7 @@ class Builder {
   void resolve_task_class(const TaskSpec& spec, std::string subject, Task& task) {
     if (spec.type) {
       task.task_class = registry_.find_task(spec.type->value);
-      if (task.task_class == nullptr) {
+      if (task.task_class == nullptr && registry_.is_complete()) {
         const auto names = names_of(registry_.tasks());
         problems_.add(spec.type->where, subject + " has unknown type '" + spec.type->value + "'" +
                                             did_you_mean(spec.type->value, names) + "; there are: " + list_of(names));

@@ -87,7 +87,9 @@ std::string plugin_path(const GraphSpec& spec, const std::string& plugin) {
 void load_plugins(const GraphSpec& spec, Registry& registry, Problems& problems) {
   for (const Located<std::string>& plugin : spec.plugins) {
     const std::string wrong = load_plugin(plugin_path(spec, plugin.value), registry);
-    if (!wrong.empty()) problems.add(plugin.where, wrong);
+    if (wrong.empty()) continue;
+    problems.add(plugin.where, wrong);
+    registry.mark_incomplete();
   }
 }
 

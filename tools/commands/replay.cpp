@@ -160,6 +160,7 @@ int replay(const Options& options) {
   require_apart({{"LOG", options.log}, {"FILE", file}},
                 {{"--trace", options.files.trace}, {"--plot", options.files.plot}});
   const std::vector<Miss> misses = log.begin(graph);
+  const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
   ToldChanges told(graph);
   Executor executor(graph, told.listen(replayed_channels(graph, log)),

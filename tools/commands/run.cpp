@@ -118,9 +118,11 @@ void require_effect(const Command& command, const Options& options) {
   const std::vector<std::string> of_real_clock{"--rt-priority", "--cpus", "--spin", "--force", "--no-guardian"};
   if (options.clock != "real")
     command.refuse(of_real_clock, "belongs to the real clock; add --clock real, or leave it out");
+  if (options.log == "-") throw std::invalid_argument("--log: '-' is no file; replay reads a log by its name");
   if (options.concurrency != "threads") return;
   if (options.clock != "real") throw std::invalid_argument("--concurrency threads needs --clock real");
-  command.refuse({"--trace", "--plot", "--log", "--workers", "--spin"}, "belongs to --concurrency exotasks");
+  command.refuse({"--trace", "--trace-fill", "--plot", "--signals", "--log", "--workers", "--spin"},
+                 "belongs to --concurrency exotasks");
   command.refuse({"--force"}, "belongs to --concurrency exotasks; whether threads come in time is not checked before");
 }
 
@@ -132,6 +134,7 @@ int run(const Options& options) {
   const Duration end = end_of_run(options, loaded);
   require_clock(options, loaded);
   if (options.concurrency == "threads") return run_on_threads(loaded, end, options.real_time, options.json);
+  const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
   std::unique_ptr<LogWriter> log;
   if (!options.log.empty())

@@ -24,7 +24,8 @@ std::string cell_text(const Type& type, const void* value) {
 
 }  // namespace
 
-TraceCsv::TraceCsv(std::string path, const std::vector<Output>& outputs) : file_(std::move(path)) {
+TraceCsv::TraceCsv(std::string path, const std::vector<Output>& outputs, bool filled)
+    : file_(std::move(path)), filled_(filled) {
   struct Column {
     std::string name;
     std::size_t output;
@@ -67,7 +68,7 @@ void TraceCsv::write_row() {
   for (std::string& cell : cells_) {
     row_ += ',';
     row_ += cell;
-    cell.clear();
+    if (!filled_) cell.clear();
   }
   row_ += '\n';
   file_.write(row_);

@@ -3,8 +3,14 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/text/escape.h"
+#include "runtime/execute/faults.h"
 
 namespace jarol::tools {
+namespace {
+
+bool is_of_time(const Fault& fault) { return fault.cause == overrun_text || fault.cause.starts_with("late: "); }
+
+}  // namespace
 
 std::string told_faults(const Report& report) {
   std::string text;
@@ -21,6 +27,11 @@ std::string told_faults(const Report& report) {
   }
   if (const std::uint64_t others = report.fault_summary.others(); others > 0)
     text += "fault: and " + std::to_string(others) + " of other causes\n";
+  if (report.stopped && !report.faults.empty() && is_of_time(report.faults.back()))
+    text +=
+        "note: 'on_fault: stop', the default, ended the run there; with 'hold' what is late keeps its last outputs and "
+        "the run goes on, as with --set tasks." +
+        printable(report.faults.back().task) + ".on_fault=hold\n";
   return text;
 }
 

@@ -1,7 +1,14 @@
 #include "tools/run/run_files.h"
 
-#include <algorithm>
+#include <fnmatch.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+
+#include "graph/language/problems.h"
 #include "tools/files/trace_csv.h"
 #include "tools/files/whole_file.h"
 #include "tools/plot/plot_svg.h"
@@ -10,6 +17,55 @@
 
 namespace jarol::tools {
 namespace {
+
+constexpr char of_stdout[] = "/dev/stdout";
+
+std::string path_of(const std::string& name) { return name == "-" ? of_stdout : name; }
+
+Panel panel_of(const Output& output, std::uint32_t index, const Leaf& leaf) {
+  return {leaf.path.empty() ? output.name : output.name + "." + leaf.path, leaf.unit, index, leaf, std::nullopt};
+}
+
+// The fields whose names fit one of the patterns, in order of name.
+std::vector<Panel> panels_named(const std::string& patterns, const Plan& plan) {
+  constexpr std::size_t most = 40;
+  std::vector<Panel> panels;
+  std::istringstream words(patterns);
+  std::vector<std::string> names;
+  for (std::string word; std::getline(words, word, ',');) {
+    names.clear();
+    if (word.empty())
+      throw std::invalid_argument("--signals: '" + patterns + "' has an empty name; write them as in depth.*,fins.*");
+    bool fits = false;
+    for (std::uint32_t i = 0; i < plan.outputs.size(); ++i)
+      for (const Leaf& leaf : leaves_of(*plan.outputs[i].type)) {
+        if (leaf.type->is_deep()) continue;
+        Panel panel = panel_of(plan.outputs[i], i, leaf);
+        names.push_back(panel.title);
+        if (fnmatch(word.c_str(), panel.title.c_str(), 0) != 0) continue;
+        fits = true;
+        const bool twice =
+            std::any_of(panels.begin(), panels.end(), [&](const Panel& p) { return p.title == panel.title; });
+        if (!twice) panels.push_back(std::move(panel));
+      }
+    if (!fits)
+      throw std::invalid_argument("--signals: nothing that is published has the name '" + word + "'" +
+                                  did_you_mean(word, names) + "; there are: " + list_of(names));
+  }
+  if (panels.size() > most)
+    throw std::invalid_argument("--signals: '" + patterns + "' names " + std::to_string(panels.size()) +
+                                " fields, more than the " + std::to_string(most) +
+                                " that a picture has room for; name fewer");
+  return panels;
+}
+
+// A name that promises another kind of picture.
+void require_svg(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension();
+  if (!extension.empty() && extension != ".svg")
+    throw std::invalid_argument("--plot: '" + path + "' would hold an SVG picture; name it " +
+                                std::filesystem::path(path).replace_extension(".svg").string());
+}
 
 std::vector<Panel> panels_of(const Graph& graph, const Plan& plan) {
   const auto output_of = [&](std::size_t communicator) {
@@ -24,38 +80,59 @@ std::vector<Panel> panels_of(const Graph& graph, const Plan& plan) {
     if (r.command) panel.commanded = std::pair(output_of(r.command->communicator), r.command->leaf);
     panels.push_back(std::move(panel));
   }
-  // no operator: the first outputs, as many as fit
   constexpr std::size_t most = 8;
-  for (std::uint32_t i = 0; panels.empty() && i < plan.outputs.size(); ++i)
-    for (const Leaf& leaf : leaves_of(*plan.outputs[i].type))
-      if (!leaf.type->is_deep())
-        panels.push_back({leaf.path.empty() ? plan.outputs[i].name : plan.outputs[i].name + "." + leaf.path, leaf.unit,
-                          i, leaf, std::nullopt});
   if (panels.size() > most) panels.resize(most);
+  if (!panels.empty()) return panels;
+  std::cerr << "note: no 'out' communicator of an operator reports what one of its 'in' communicators commands, so the "
+               "picture shows what is published first; name fields by --signals\n";
+  for (std::uint32_t i = 0; i < plan.outputs.size(); ++i)
+    for (const Leaf& leaf : leaves_of(*plan.outputs[i].type))
+      if (!leaf.type->is_deep() && panels.size() < most) panels.push_back(panel_of(plan.outputs[i], i, leaf));
   return panels;
 }
 
 }  // namespace
 
 void add_run_file_options(Command& command, RunFileArguments& arguments) {
-  command.add_option("--trace", arguments.trace, "Write every published value to this CSV file");
-  command.add_option("--plot", arguments.plot, "Draw what was commanded and reached into this SVG file");
+  command.add_option("--trace", arguments.trace, "Write every published value to this CSV file; -: to stdout");
+  command.add_flag("--trace-fill", arguments.fill,
+                   "Repeat in each row of the trace what was published last, in place of empty cells");
+  command.add_option("--plot", arguments.plot, "Draw what was commanded and reached into this SVG file; -: to stdout");
+  command.add_option("--signals", arguments.signals,
+                     "Draw these published fields instead: names with * for any part, as in depth.*,fins.*");
 }
 
 std::string to_text(const RunFileArguments& arguments) {
-  return (arguments.trace.empty() ? "" : "  trace       " + arguments.trace + "\n") +
-         (arguments.plot.empty() ? "" : "  picture     " + arguments.plot + "\n");
+  const auto line = [](const std::string& title, const std::string& path) {
+    return path.empty() ? "" : title + (path == "-" ? "stdout" : path) + "\n";
+  };
+  return line("  trace       ", arguments.trace) + line("  picture     ", arguments.plot);
+}
+
+ReportsAside::ReportsAside(const RunFileArguments& arguments) {
+  if (arguments.trace == "-" || arguments.plot == "-") stdout_ = std::cout.rdbuf(std::cerr.rdbuf());
+}
+
+ReportsAside::~ReportsAside() {
+  if (stdout_ != nullptr) std::cout.rdbuf(stdout_);
 }
 
 // The plan gives trace and plot their outputs before there is an executor.
 RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments) {
+  if (!arguments.signals.empty() && arguments.plot.empty())
+    throw std::invalid_argument("--signals says what --plot draws; add --plot FILE, or leave it out");
+  if (arguments.fill && arguments.trace.empty())
+    throw std::invalid_argument("--trace-fill is about --trace; add --trace FILE, or leave it out");
   if (arguments.trace.empty() && arguments.plot.empty() && graph.expectations.empty()) return;
-  for (const std::string& path : {arguments.trace, arguments.plot})
+  const std::string trace = path_of(arguments.trace), plot = path_of(arguments.plot);
+  for (const std::string& path : {trace, plot})
     if (!path.empty()) require_no_input(path);
+  require_svg(plot);
   const Plan plan(graph);
-  if (!arguments.trace.empty()) sinks_.push_back(std::make_unique<TraceCsv>(arguments.trace, plan.outputs));
-  if (!arguments.plot.empty())
-    sinks_.push_back(std::make_unique<PlotSvg>(arguments.plot, graph.name, panels_of(graph, plan)));
+  if (!trace.empty()) sinks_.push_back(std::make_unique<TraceCsv>(trace, plan.outputs, arguments.fill));
+  if (!plot.empty())
+    sinks_.push_back(std::make_unique<PlotSvg>(
+        plot, graph.name, arguments.signals.empty() ? panels_of(graph, plan) : panels_named(arguments.signals, plan)));
   std::vector<RecordSink*> sinks;
   if (!graph.expectations.empty()) sinks.push_back(&expectations_.emplace(graph, plan.outputs));
   for (const auto& sink : sinks_) sinks.push_back(sink.get());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <streambuf>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,10 @@ namespace jarol::tools {
 class Command;
 
 struct RunFileArguments {
-  std::string trace;
-  std::string plot;
+  std::string trace;  // "-": stdout
+  bool fill = false;  // the trace
+  std::string plot;   // the same
+  std::string signals;
 };
 
 void add_run_file_options(Command& command, RunFileArguments& arguments);
@@ -23,9 +26,21 @@ void add_run_file_options(Command& command, RunFileArguments& arguments);
 /// Lines of a report that name what was written.
 std::string to_text(const RunFileArguments& arguments);
 
+/// Where a file goes to stdout, what is said goes to stderr while this lives.
+class ReportsAside {
+ public:
+  explicit ReportsAside(const RunFileArguments& arguments);
+  ~ReportsAside();
+  ReportsAside(const ReportsAside&) = delete;
+  ReportsAside& operator=(const ReportsAside&) = delete;
+
+ private:
+  std::streambuf* stdout_ = nullptr;
+};
+
 class RunFiles {
  public:
-  /// Throws std::runtime_error if one can't be made.
+  /// Throws std::runtime_error if one can't be made, std::invalid_argument if it can't hold what is asked for.
   RunFiles(const Graph& graph, const RunFileArguments& arguments);
   ~RunFiles();
   RunFiles(const RunFiles&) = delete;

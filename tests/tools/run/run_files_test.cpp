@@ -1,0 +1,94 @@
+// Which fields a picture shows, and what goes to stdout.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "tests/tools/run_command.h"
+
+namespace {
+using command::jarol;
+using command::TemporaryFolder;
+using Titles = std::vector<std::string>;
+
+// Of the panels of a picture, from above.
+Titles titles_of(const std::string& svg) {
+  Titles titles;
+  const std::regex title("<tspan[^>]*>([^<]*)</tspan>");
+  for (std::sregex_iterator at(svg.begin(), svg.end(), title), end; at != end; ++at) titles.push_back((*at)[1]);
+  return titles;
+}
+
+std::string content(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+const std::string counting = "run specs/counting.yaml --for 100ms ";
+}  // namespace
+
+TEST_SUITE("tools/run_files") {
+  TEST_CASE("a picture shows the fields that --signals names, in its order, each once") {
+    const TemporaryFolder folder;
+    const std::string picture = folder / "p.svg";
+    CHECK(jarol(counting + "--plot " + picture + " --signals 'total,*.out,count.out'").exit_code == 0);
+    CHECK(titles_of(content(picture)) == Titles{"total", "add.out", "count.out", "loop.out", "slow.out", "sum.out"});
+  }
+
+  TEST_CASE("names that nothing has are refused with those that there are") {
+    CHECK(jarol(counting + "--plot /dev/null --signals 'total,cuont.out'").output ==
+          "error: --signals: nothing that is published has the name 'cuont.out'; did you mean 'count.out'?; there are: "
+          "add.out, count.out, loop.out, slow.out, sum.out, total\n");
+    CHECK(jarol(counting + "--plot /dev/null --signals 'total,,add.out'").output ==
+          "error: --signals: 'total,,add.out' has an empty name; write them as in depth.*,fins.*\n");
+    CHECK(jarol(counting + "--signals total").output ==
+          "error: --signals says what --plot draws; add --plot FILE, or leave it out\n");
+  }
+
+  TEST_CASE("without commands to show, a picture of what is published first says so") {
+    const TemporaryFolder folder;
+    const std::string picture = folder / "p.svg";
+    CHECK(jarol(counting + "--plot " + picture, "2>&1 >/dev/null").output ==
+          "note: no 'out' communicator of an operator reports what one of its 'in' communicators commands, so the "
+          "picture shows what is published first; name fields by --signals\n");
+    CHECK(titles_of(content(picture)) == Titles{"add.out", "count.out", "loop.out", "slow.out", "sum.out", "total"});
+  }
+
+  TEST_CASE("a filled trace repeats what was published last, from when it first was") {
+    const TemporaryFolder folder;
+    const std::string trace = folder / "t.csv", filled = folder / "f.csv";
+    CHECK(jarol("run specs/counting.yaml --for 20ms --trace " + trace).exit_code == 0);
+    CHECK(jarol("run specs/counting.yaml --for 20ms --trace-fill --trace " + filled).exit_code == 0);
+    CHECK(content(trace) ==
+          "time,add.out,count.out,loop.out,slow.out,sum.out,total\n0,,0,,,,0\n0.01,0,1,,,0,\n0.015,,,,0,,\n");
+    CHECK(content(filled) ==
+          "time,add.out,count.out,loop.out,slow.out,sum.out,total\n0,,0,,,,0\n0.01,0,1,,,0,0\n0.015,0,1,,0,0,0\n");
+    CHECK(jarol(counting + "--trace-fill").output ==
+          "error: --trace-fill is about --trace; add --trace FILE, or leave it out\n");
+  }
+
+  TEST_CASE("SVG is not written under the name of another kind of picture") {
+    for (const std::string name : {"p.png", "p.pdf", "p.SVG"}) {
+      CHECK(jarol(counting + "--plot " + name).output ==
+            "error: --plot: '" + name + "' would hold an SVG picture; name it p.svg\n");
+      CHECK(!std::filesystem::exists(name));
+    }
+  }
+
+  TEST_CASE("- is stdout, which holds nothing else then") {
+    const std::string trace = jarol(counting + "--trace -", "2>/dev/null").output;
+    CHECK(trace.starts_with("time,add.out,count.out,loop.out,slow.out,sum.out,total\n0,,0,,,,0\n"));
+    CHECK(trace.find("digest") == std::string::npos);
+    const std::string report = jarol(counting + "--trace -", "2>&1 >/dev/null").output;
+    CHECK(report.find("\n  trace       stdout\n") != std::string::npos);
+    CHECK(jarol(counting + "--plot - --signals total", "2>/dev/null").output.starts_with("<?xml "));
+    CHECK(!std::filesystem::exists("-"));
+    CHECK(jarol(counting + "--trace - --plot -").output ==
+          "error: --trace and --plot both name '-'; choose another file for one of them\n");
+    CHECK(jarol(counting + "--log -").output == "error: --log: '-' is no file; replay reads a log by its name\n");
+  }
+}
