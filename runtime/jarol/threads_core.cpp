@@ -328,7 +328,10 @@ void ThreadsCore::run_task(Counted& task, std::int64_t instant, std::uint64_t in
   const Outcome outcome = task.activation->run(task.activation->memory, tick);
   running_task.end();
   running_.task.store(nullptr, std::memory_order_relaxed);
-  if (outcome == Outcome::left_out) return;
+  if (outcome == Outcome::left_out) {
+    ++report_.left_out[task.activation->task];
+    return;
+  }
   threads_report_.execution[task.activation->task].add(RealClock::monotonic() - begin);
   ++report_.activations;
   if (outcome == Outcome::good)

@@ -162,6 +162,37 @@ connections: [i -> sum.in]
       "first_instant_ns": 10000000, "last_instant_ns": 990000000}])"));
   }
 
+  TEST_CASE("a single fault is no share of a short run, two are, and so is all that there was") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("g.yaml", R"(graph: g
+timing: {period: 10ms}
+communicators:
+  i: {type: double, direction: in, init: 5e307}
+tasks:
+  sum: {type: Accumulate, on_fault: hold}
+connections: [i -> sum.in]
+)");
+    // the third sum is the last that is finite
+    const auto end_of = [&](const std::string& options) { return jarol("run " + file + " " + options).exit_code; };
+    CHECK(end_of("--for 30ms") == 0);
+    CHECK(end_of("--for 40ms") == 0);  // 1 of 4
+    CHECK(end_of("--for 40ms --set fault_limit=0%") == 1);
+    CHECK(end_of("--for 50ms") == 1);  // 2 of 5
+    CHECK(end_of("--for 50ms --set fault_limit=40%") == 0);
+    CHECK(end_of("--for 50ms --set fault_limit=39%") == 1);
+    const std::string skip = "--set tasks.sum.on_fault=skip ";
+    CHECK(end_of(skip + "--for 50ms") == 0);  // a fault and the release that it skips
+    CHECK(end_of(skip + "--for 60ms") == 1);
+    const std::string always =
+        "--set tasks.sum.type=Sum --set 'connections=[i -> sum.a, i -> sum.b]' "
+        "--set communicators.i.init=1e308 ";
+    CHECK(end_of(always + "--for 10ms") == 1);  // 1 of 1
+    CHECK(end_of(always + skip + "--for 20ms") == 1);
+    // on threads, too, where a machine that is busy leaves rounds out
+    for (const auto& [options, exit_code] : {std::pair<std::string, int>{"--for 40ms", 0}, {skip + "--for 2s", 1}})
+      CHECK(end_of(options + " --clock real --concurrency threads") == exit_code);
+  }
+
   TEST_CASE("usage errors and unreadable files exit with 2 and a sentence") {
     const Result command = jarol("chek x");
     CHECK(command.exit_code == 2);
