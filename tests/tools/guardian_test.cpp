@@ -36,6 +36,7 @@ struct Way {
 };
 const std::vector<Way> ways{{"kill", -SIGKILL, ""},
                             {"exit", 3, "called exit(0); the process ends\n"},
+                            {"underscore_exit", 3, "called _exit(0); the process ends\n"},
                             {"abort", -SIGABRT, "abort; the process ends\n"},
                             {"segmentation", -SIGSEGV, "segmentation fault at address 0x0; the process ends\n"},
                             {"overflow", -SIGSEGV, "stack overflow at address 0x"}};

@@ -109,6 +109,27 @@ TEST_SUITE("tools/output_files") {
   }
 #endif
 
+  TEST_CASE("what a killed run left half written the next one removes that writes the same file, and nothing else") {
+    const TemporaryFolder folder;
+    const std::string trace = folder / "t.csv";
+    const auto ended = command::jarol("schema > /dev/null; " JAROL_COMMAND
+                                      " run specs/counting.yaml --clock real --for 1h"
+                                      " --trace " +
+                                      trace + " & id=$!; until ls " + trace +
+                                      ".*.part >/dev/null 2>&1; do sleep 0.01; done; kill -KILL $id; wait $id");
+    CHECK(ended.exit_code == 128 + 9);
+    CHECK(partials_in(folder) == 1);
+    CHECK(!fs::exists(trace));
+    const std::vector<std::string> others{folder.write("t.csv.part", "other"), folder.write("t.csv.1x.part", "other"),
+                                          folder.write("s.csv.12.part", "other"), folder.write("t.csv.12.parts", "x")};
+    fs::create_symlink("t.csv.part", folder / "t.csv.12.part");
+    CHECK(command::jarol("run specs/counting.yaml --for 1s --trace " + trace).exit_code == 0);
+    CHECK(fs::exists(trace));
+    for (const std::string& other : others) CHECK(fs::exists(other));
+    CHECK(fs::is_symlink(folder / "t.csv.12.part"));
+    CHECK(partials_in(folder) == 4);
+  }
+
   TEST_CASE("a device or a FIFO is written in place") {
     const TemporaryFolder folder;
     // a node of one's own is for root

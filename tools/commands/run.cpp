@@ -152,7 +152,7 @@ int run(const Options& options) {
     clock.emplace(graph.tasks.size(), real_time);
     guard.emplace(loaded, !options.real_time.no_guardian, real_time.priority);
   }
-  const CrashLine crash_line(graph, guard ? guard->process() : nullptr);
+  const CrashLine crash_line(graph, guard ? guard->process() : nullptr, options.log);
   ToldChanges told(graph);
   loaded.channels = told.listen(std::move(loaded.channels));
   std::vector<Channels*> channels = pointers_to(loaded.channels);

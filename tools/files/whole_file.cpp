@@ -41,6 +41,28 @@ bool are_same(const std::string& a, const std::string& b) {
          fs::weakly_canonical(target_of(a), none) == fs::weakly_canonical(target_of(b), none);
 }
 
+std::string partial_name(const fs::path& target, const std::string& number) {
+  return target.filename().string() + "." + number + ".part";
+}
+
+// Partial files of that target, of runs that were killed before they could take them along; nobody writes them while
+// this process has the target's lock.
+void remove_what_killed_ones_left(const fs::path& target) {
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const std::string begin = target.filename().string() + ".";
+  std::error_code none;
+  for (fs::directory_iterator entry(folder, none), end; entry != end; entry.increment(none)) {
+    const std::string name = entry->path().filename();
+    if (!name.starts_with(begin)) continue;
+    const std::string number = name.substr(begin.size(), name.find('.', begin.size()) - begin.size());
+    const bool has_number = !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+    struct stat found {};
+    if (has_number && name == partial_name(target, number) && ::lstat(entry->path().c_str(), &found) == 0 &&
+        S_ISREG(found.st_mode) && found.st_uid == ::geteuid())
+      ::unlink(entry->path().c_str());
+  }
+}
+
 }  // namespace
 
 fs::path target_of(const std::string& path) {
@@ -65,6 +87,7 @@ WholeFile::WholeFile(std::string path, Replaces replaces)
     file_ = std::fopen(path_.c_str(), "wb");
   } else {
     lock_ = OutputLock(target_);
+    remove_what_killed_ones_left(target_);
     open_partial();
   }
   if (file_ == nullptr) fail(path_, errno);
@@ -79,7 +102,7 @@ WholeFile::WholeFile(std::string path, Replaces replaces)
 void WholeFile::open_partial() {
   std::uint64_t number = 0;
   if (::getrandom(&number, sizeof number, 0) != sizeof number) fail(path_, errno);
-  partial_ = target_.string() + "." + std::to_string(number) + ".part";
+  partial_ = (target_.parent_path() / partial_name(target_, std::to_string(number))).string();
   add_partial_file(partial_);
   const int descriptor = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor >= 0) file_ = ::fdopen(descriptor, "wb");

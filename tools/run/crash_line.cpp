@@ -1,6 +1,7 @@
 #include "tools/run/crash_line.h"
 
 #include <signal.h>
+#include <sys/syscall.h>
 #include <ucontext.h>
 #include <unistd.h>
 
@@ -9,9 +10,12 @@
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "distributers/guardian/guardian.h"
+#include "graph/text/escape.h"
 #include "runtime/machine/running_task.h"
 #include "runtime/plan/plan.h"
 #include "tools/files/partial_files.h"
@@ -36,6 +40,8 @@ constexpr std::array kinds{Kind{SIGSEGV, "segmentation fault", true},
 std::atomic<const Graph*> graph{nullptr};
 std::atomic<const distributers::Guardian*> guardian{nullptr};
 std::atomic<bool> crashed{false};
+std::string about_log;  // a line, or nothing
+pid_t own_process = 0;  // not that of a child which a task has made
 std::array<struct sigaction, kinds.size()> before;
 
 // All that follows may run in a signal handler: it allocates nothing and locks nothing.
@@ -103,6 +109,7 @@ void wait_if_second() {
 
 // What follows the line: the guardian acts at once, also while a core is dumped.
 void leave() {
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, about_log.data(), about_log.size());
   if (const auto* const awake = guardian.load()) awake->wake();
   remove_partial_files();
 }
@@ -145,26 +152,38 @@ extern "C" void on_crash(int signal, siginfo_t* info, void* context) {
   ::raise(signal);
 }
 
+[[noreturn]] void end_process(int code) {
+  for (;;) ::syscall(SYS_exit_group, code);
+}
+
 // In the thread that called it, before anything else is torn down.
-void on_exit_called(std::string_view function, int code) {
+void on_exit_called(std::string_view call, std::optional<int> code = {}) {
   if (graph.load() == nullptr || running_task.memory.load(std::memory_order_relaxed) == nullptr) return;
+  if (::getpid() != own_process) return;
   wait_if_second();
   Line line;
   name_task(line);
-  line << "called " << function << "(" << code << ")";
+  line << "called " << call;
+  if (code) line << "(" << *code << ")";
   line.write();
   leave();
-  ::_exit(exit_unfinished);
+  end_process(exit_unfinished);
 }
 
 // Once: handlers of exit can't be taken away.
 void watch_exit() {
   [[maybe_unused]] static const int watched = ::on_exit([](int code, void*) { on_exit_called("exit", code); }, nullptr);
+  [[maybe_unused]] static const int quick = ::at_quick_exit([] { on_exit_called("quick_exit"); });
 }
 
 }  // namespace
 
-CrashLine::CrashLine(const Graph& of, const distributers::Guardian* awake) {
+CrashLine::CrashLine(const Graph& of, const distributers::Guardian* awake, const std::string& log) {
+  about_log.clear();
+  if (!log.empty())
+    about_log = "note: the log '" + printable(log) + "' is good up to its last checkpoint: jarol replay " +
+                printable(log) + "\n";
+  own_process = ::getpid();
   graph.store(&of);
   guardian.store(awake);
   watch_exit();
@@ -184,3 +203,13 @@ CrashLine::~CrashLine() {
 }
 
 }  // namespace jarol::tools
+
+// In the place of the C library's, for what is called from a task: nothing of the program would learn of it. Libraries
+// that a program loads find its own first.
+extern "C" {
+void _exit(int code) {
+  if (!jarol::tools::crashed.load()) jarol::tools::on_exit_called("_exit", code);
+  jarol::tools::end_process(code);
+}
+void _Exit(int code) noexcept { _exit(code); }
+}

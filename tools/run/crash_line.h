@@ -1,5 +1,8 @@
-// What is said when a task ends the whole process: by exit, abort, a segmentation fault, an overflow of its stack.
+// What is said when a task ends the whole process: by exit, quick_exit, _exit, abort, a segmentation fault, an overflow
+// of its stack.
 #pragma once
+
+#include <string>
 
 #include "graph/model/graph.h"
 #include "runtime/machine/signal_stack.h"
@@ -10,12 +13,13 @@ class Guardian;
 
 namespace jarol::tools {
 
-/// While it lives, a crash writes one line to stderr, with the task, its activation and the cause, and wakes the
-/// guardian; then the process ends, by the signal that it was, or with 3 after exit. There is one at a time; all that
-/// it is given outlives it. No cost until then: who runs is known from `running_task`.
+/// While it lives, a crash writes one line to stderr, with the task, its activation and the cause, another with what to
+/// do with the log, if there is one, and wakes the guardian; then the process ends, by the signal that it was, or with
+/// 3 after exit. There is one at a time; all that it is given outlives it. No cost until then: who runs is known from
+/// `running_task`.
 class CrashLine {
  public:
-  explicit CrashLine(const Graph& graph, const distributers::Guardian* guardian = nullptr);
+  explicit CrashLine(const Graph& graph, const distributers::Guardian* guardian = nullptr, const std::string& log = "");
   ~CrashLine();
   CrashLine(const CrashLine&) = delete;
   CrashLine& operator=(const CrashLine&) = delete;

@@ -1,4 +1,6 @@
 // Tasks that steer a vehicle, until they end the whole process: each in a way of its own.
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
@@ -10,17 +12,30 @@
 namespace {
 using namespace jarol;
 
-enum class Way : std::uint8_t { none, exit, abort, segmentation, overflow, terminate, divide, bytes };
+enum class Way : std::uint8_t {
+  none,
+  exit,
+  quick_exit,
+  underscore_exit,
+  abort,
+  segmentation,
+  overflow,
+  terminate,
+  divide,
+  bytes
+};
 
 constexpr auto enumerators(Way) {
-  return std::array<Enumerator<Way>, 8>{{{"none", Way::none},
-                                         {"exit", Way::exit},
-                                         {"abort", Way::abort},
-                                         {"segmentation", Way::segmentation},
-                                         {"overflow", Way::overflow},
-                                         {"terminate", Way::terminate},
-                                         {"divide", Way::divide},
-                                         {"bytes", Way::bytes}}};
+  return std::array<Enumerator<Way>, 10>{{{"none", Way::none},
+                                          {"exit", Way::exit},
+                                          {"quick_exit", Way::quick_exit},
+                                          {"underscore_exit", Way::underscore_exit},
+                                          {"abort", Way::abort},
+                                          {"segmentation", Way::segmentation},
+                                          {"overflow", Way::overflow},
+                                          {"terminate", Way::terminate},
+                                          {"divide", Way::divide},
+                                          {"bytes", Way::bytes}}};
 }
 
 volatile int zero = 0;
@@ -44,6 +59,8 @@ __attribute__((no_sanitize("undefined"))) __attribute__((no_sanitize("address"))
   switch (way) {
     case Way::none: return;
     case Way::exit: std::exit(0);
+    case Way::quick_exit: std::quick_exit(0);
+    case Way::underscore_exit: ::_exit(0);
     case Way::abort: std::abort();
     case Way::segmentation: *nowhere = 1; return;
     case Way::overflow: {

@@ -45,12 +45,14 @@ TEST_SUITE("tools/crash_line") {
       std::string name, cause;
       int exit_code;
     };
-    for (const Way& way :
-         {Way{"exit", "called exit(0); the process ends\n", 3}, Way{"abort", "abort; the process ends\n", -SIGABRT},
-          Way{"segmentation", "segmentation fault at address 0x0; the process ends\n", -SIGSEGV},
-          Way{"overflow", "stack overflow at address 0x", -SIGSEGV},
-          Way{"terminate", "abort; the process ends\n", -SIGABRT},
-          Way{"divide", "arithmetic exception; the process ends\n", -SIGFPE}}) {
+    for (const Way& way : {Way{"exit", "called exit(0); the process ends\n", 3},
+                           Way{"quick_exit", "called quick_exit; the process ends\n", 3},
+                           Way{"underscore_exit", "called _exit(0); the process ends\n", 3},
+                           Way{"abort", "abort; the process ends\n", -SIGABRT},
+                           Way{"segmentation", "segmentation fault at address 0x0; the process ends\n", -SIGSEGV},
+                           Way{"overflow", "stack overflow at address 0x", -SIGSEGV},
+                           Way{"terminate", "abort; the process ends\n", -SIGABRT},
+                           Way{"divide", "arithmetic exception; the process ends\n", -SIGFPE}}) {
       const std::string &name = way.name, &cause = way.cause;
       const int exit_code = way.exit_code;
       const std::string file = crashing(folder, name);
@@ -101,6 +103,9 @@ TEST_SUITE("tools/crash_line") {
       CAPTURE(run.way);
       run.process->end();
       CHECK(names_task(*run.process, "real", ""));
+      CHECK(run.process->errors().find("note: the log '" + run.log +
+                                       "' is good up to its last checkpoint: jarol replay " + run.log + "\n") !=
+            std::string::npos);
       const auto replay = command::jarol("replay --json " + run.log + " " + file, "2>/dev/null");
       CHECK(replay.exit_code == 3);
       const auto json = nlohmann::json::parse(replay.output);
