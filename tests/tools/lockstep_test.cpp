@@ -164,6 +164,27 @@ TEST_SUITE("tools/lockstep") {
     CHECK(lines.find("\nerror: the helicopter of the runner at 127.0.0.1:") != std::string::npos);
   }
 
+  TEST_CASE("a vehicle whose reports nobody reads any more serves on") {
+    const command::TemporaryFolder folder;
+    const std::string port = tests::free_port(SOCK_STREAM), id = folder / "id";
+    REQUIRE(std::system(("(" JAROL_COMMAND " vehicle helicopter --parameters specs/vehicles/helicopter.yaml --set "
+                                           "frame.mass=6 --link lockstep --listen " +
+                         port + " 2>&1 & echo $! > " + id + "; wait) | true &")
+                            .c_str()) == 0);
+    // each leaves something to report: it is too heavy to take off
+    for (int runs = 0, tries = 0; runs < 3 && tries < 200; ++tries) {
+      const auto run = command::jarol(
+          "run specs/javiator.yaml --set expect=null --set 'distributers.robostix.link={type: lockstep, peer: " + port +
+          "}'");
+      if (run.exit_code == 2) std::this_thread::sleep_for(100ms);  // not yet there
+      if (run.exit_code == 2 && runs == 0) continue;
+      ++runs;
+      CHECK(run.exit_code == 1);
+      CHECK(run.output.find("error: the vehicle of 'robostix' has never taken off: ") != std::string::npos);
+    }
+    CHECK(std::system(("kill -TERM $(cat " + id + ")").c_str()) == 0);
+  }
+
   TEST_CASE("periods that do not fall on the vehicle's steps are refused") {
     Process helicopter("specs/vehicles/helicopter.yaml", 1);
     tools::Loaded loaded = tools::load_graph(

@@ -168,6 +168,7 @@ int replay(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   ReplayRun attended(executor, log);
   const CrashLine crash_line(graph);
+  let_writing_fail();
   const Interruptible interruptible;
   std::optional<Progress> progress;
   progress.emplace(!options.json && isatty(STDERR_FILENO) != 0, log.covered(), [&] { return executor.now(); });

@@ -75,6 +75,7 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
   VehicleDiary diary(vehicle, vehicle_class);
   RealClock clock(0, real_time);
   for (const std::string& refusal : clock.prepare_thread()) std::cerr << "note: " << refusal << "\n";
+  let_writing_fail();
   const Interruptible interruptible;
   const std::atomic<bool>& interrupted = Interruptible::interrupted();
   link.connect();
@@ -122,6 +123,7 @@ int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const
   options.note = [](const std::string& text) { std::cerr << "note: " << text << "\n"; };
   const distributers::Descriptor socket = distributers::listen_at(listen);
   distributers::Interrupter interrupter;
+  let_writing_fail();
   const Interruptible interruptible([&] { interrupter.interrupt(); });
   std::cerr << vehicle_class.name << ": in lockstep at " << listen.text() << ", until Ctrl-C\n";
   using Woken = distributers::Interrupter::Woken;

@@ -122,6 +122,10 @@ TEST_SUITE("tools/interrupt") {
     const std::string report = folder / "report.txt", trace = folder / "t.csv";
     jarol("run specs/counting.yaml --clock real --for 1s --trace /dev/stdout", "2> " + report + " | true");
     CHECK(content(report).find("error: can't write '/dev/stdout': Broken pipe\n") != std::string::npos);
+    const std::string log = folder / "c.log", picture = folder / "p.svg";
+    jarol("run specs/counting.yaml --for 100s --log " + log);
+    jarol("replay " + log + " --trace /dev/stdout --plot " + picture, "2> " + report + " | true");
+    CHECK(content(report).find("error: can't write '/dev/stdout': Broken pipe\n") != std::string::npos);
     // it comes to its end all the same: one that a signal ended has no report
     const auto limited =
         jarol("schema > /dev/null; ulimit -f 1; " JAROL_COMMAND " run specs/counting.yaml --for 100s --trace " + trace);
