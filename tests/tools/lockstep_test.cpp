@@ -168,7 +168,7 @@ TEST_SUITE("tools/lockstep") {
     const command::TemporaryFolder folder;
     const std::string port = tests::free_port(SOCK_STREAM), id = folder / "id";
     REQUIRE(std::system(("(" JAROL_COMMAND " vehicle helicopter --parameters specs/vehicles/helicopter.yaml --set "
-                                           "frame.mass=6 --link lockstep --listen " +
+                         "frame.mass=6 --link lockstep --listen " +
                          port + " 2>&1 & echo $! > " + id + "; wait) | true &")
                             .c_str()) == 0);
     // each leaves something to report: it is too heavy to take off
