@@ -41,7 +41,8 @@ Simulation simulate(std::span<const Load> loads, Order order, bool preemptive, s
   for (std::size_t i = 0; i < loads.size(); ++i) arrivals.push({loads[i].offset, i, 0});
   std::int64_t now = 0;
   const auto arrive = [&](std::int64_t time) {
-    while (!arrivals.empty() && arrivals.top().time <= time && arrivals.top().time < until) {
+    while (!arrivals.empty() && arrivals.top().time <= time && arrivals.top().time < until &&
+           result.activations <= most_activations) {
       const Arrival a = arrivals.top();
       arrivals.pop();
       const Load& l = loads[a.task];

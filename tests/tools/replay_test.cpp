@@ -340,4 +340,18 @@ connections: [count.out -> sum.in]
     CHECK(failed > 5);
     CHECK(failed < 30);
   }
+
+  TEST_CASE("what a run was expected to do is judged where its log can't be written, too") {
+    const TemporaryFolder folder;
+    const std::string run = "schema > /dev/null; ulimit -f 1; " JAROL_COMMAND
+                            " run specs/counting.yaml --for 30s --set 'expect=[count.out < 3]'";
+    const auto logged = command::jarol(run + " --log " + (folder / "l.log"));
+    CHECK(logged.exit_code == 3);
+    CHECK(logged.output.find("count.out < 3") != std::string::npos);
+    // what was not seen to its end can't hold, and says why
+    const auto traced = command::jarol(run + " --set 'expect=[count.out < 1e9]' --trace " + (folder / "t.csv"));
+    CHECK(traced.exit_code == 3);
+    CHECK(traced.output.find("not judged: can't write '" + (folder / "t.csv") + "': File too large\n") !=
+          std::string::npos);
+  }
 }

@@ -19,6 +19,24 @@ std::string word_of(Verdict verdict) {
   return "";
 }
 
+// Null where nothing was measured.
+Json measured_json(const CheckReport& r) {
+  if (!r.measured) return nullptr;
+  auto tasks = Json::array();
+  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
+    const Task& task = r.graph->tasks[i];
+    const MeasuredTask& measured = r.measured->tasks[i];
+    tasks.push_back({{"name", task.name},
+                     {"activations", measured.activations},
+                     {"most_of_999_ns", measured.most_of_999.count()},
+                     {"most_ns", measured.most.count()},
+                     {"longer_than_wcet", task.wcet && measured.most > *task.wcet}});
+  }
+  return {{"over_ns", r.measured->over.count()},
+          {"wcets_hold", longer_than_stated(r) == nullptr},
+          {"tasks", std::move(tasks)}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const CheckReport& r) {
@@ -90,6 +108,7 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
           {"alpha", r.sensitivity && r.sensitivity->alpha ? Json(*r.sensitivity->alpha) : Json(nullptr)},
           {"tasks", std::move(tasks)},
           {"chains", std::move(chains)},
+          {"measured", measured_json(r)},
           {"suggestions", std::move(suggestions)},
           {"suggested_sets", std::move(sets)},
           {"utilisation", r.result.utilisation}};

@@ -70,8 +70,9 @@ std::string headline(const CheckReport& r) {
   // the plainest reason of all
   if (compare_utilisation(analysis::system_of(*r.graph).loads, r.graph->platform.cores) ==
       std::strong_ordering::greater)
-    text += fmt::format(" utilisation {:.2f}% of {}: there is more to do than time;", 100 * r.result.utilisation,
-                        r.graph->platform.cores == 1 ? "one core" : fmt::format("{} cores", r.graph->platform.cores));
+    text += fmt::format(" utilisation {:.2f}% of {}: there is more to do than time{}", 100 * r.result.utilisation,
+                        r.graph->platform.cores == 1 ? "one core" : fmt::format("{} cores", r.graph->platform.cores),
+                        r.result.late || !worst_response(r).empty() ? ";" : "");
   if (r.result.late) {
     const analysis::Late& l = *r.result.late;
     // under a global policy it is no single core's
@@ -84,6 +85,15 @@ std::string headline(const CheckReport& r) {
   if (!r.result.late) text += worst_response(r);
   return text + "\n  " + word_of(r.result.standing) + ": " + r.result.reason + " on " +
          platform_text(r.graph->platform) + "\n";
+}
+
+// The verdict is of stated times; where a measurement breaks one of them, that comes first.
+std::string measured_headline(const CheckReport& r) {
+  const Task* const task = longer_than_stated(r);
+  if (task == nullptr) return "";
+  const Duration most = r.measured->tasks[static_cast<std::size_t>(task - r.graph->tasks.data())].most;
+  return fmt::format("{}: A WCET DOES NOT HOLD HERE: task '{}' took {}, its 'wcet' is {}; with the times as stated:\n",
+                     printable(r.file), task->name, duration_text(most), duration_text(*task->wcet));
 }
 
 // Who ran how long while the late activation waited and ran.
@@ -234,7 +244,8 @@ std::string sensitivity_lines(const CheckReport& r) {
 }  // namespace
 
 std::string to_text(const CheckReport& r) {
-  std::string text = headline(r) + demand_text(r) + gantt_text(*r.graph, r.result) + task_table(r) + core_lines(r);
+  std::string text = measured_headline(r) + headline(r) + demand_text(r) + gantt_text(*r.graph, r.result) +
+                     task_table(r) + core_lines(r);
   text += fmt::format(
       "  utilisation {:.2f}%; a task's response is its longest time from release to end when each takes "
       "its wcet;\n",

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "graph/analysis/chains.h"
 #include "graph/analysis/check.h"
 #include "graph/analysis/sensitivity.h"
+#include "tools/check/measure.h"
 #include "tools/check/remedies.h"
 
 namespace jarol::tools {
@@ -26,7 +28,12 @@ struct CheckReport {
   std::vector<Remedy> remedies;
   std::vector<ReportedChain> chains;
   bool more_paths = false;  // than those of --chains
+  std::optional<Measurement> measured;
 };
+
+/// A task that took longer than its `wcet` when it was measured: the verdict is of other times than those of this
+/// machine. Null: none did.
+const Task* longer_than_stated(const CheckReport& report);
 
 /// Does every chain keep its limits?
 bool chains_hold(const CheckReport& report);

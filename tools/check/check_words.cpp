@@ -9,6 +9,15 @@ namespace jarol::tools {
 
 bool holds(const ReportedChain& c) { return analysis::broken_limits(c.chain, c.latency).empty(); }
 
+const Task* longer_than_stated(const CheckReport& r) {
+  if (!r.measured) return nullptr;
+  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
+    const Task& task = r.graph->tasks[i];
+    if (task.wcet && r.measured->tasks[i].most > *task.wcet) return &task;
+  }
+  return nullptr;
+}
+
 bool chains_hold(const CheckReport& report) { return std::all_of(report.chains.begin(), report.chains.end(), holds); }
 
 std::string assumption(const Platform& platform) {

@@ -6,6 +6,7 @@
 
 #include "runtime/execute/executor.h"
 #include "runtime/machine/thread_time.h"
+#include "tools/report/told_faults.h"
 #include "tools/run/crash_line.h"
 
 namespace jarol::tools {
@@ -28,27 +29,42 @@ struct Edit {
 std::size_t scalar_length(const std::string& text, std::size_t at) {
   std::size_t end = at;
   while (end < text.size() && text.find_first_of(",}]\n#", end) != end) ++end;
-  while (end > at && text[end - 1] == ' ') --end;
+  while (end > at && (text[end - 1] == ' ' || text[end - 1] == '\r')) --end;
   return end - at;
 }
+
+bool is_quote(char c) { return c == '"' || c == '\''; }
 
 Edit edit_of(const std::string& text, const TaskSpec& task, Duration wcet) {
   if (task.wcet) {
     const std::size_t at = offset_of(text, task.wcet->where);
-    return {at, scalar_length(text, at), duration_text(wcet)};
+    if (text[at] == '>' || text[at] == '|')
+      throw std::invalid_argument("the 'wcet' of task '" + task.name +
+                                  "' is a block of lines; write it on the line of its key");
+    const std::string quote = is_quote(text[at]) ? text.substr(at, 1) : "";
+    return {at, scalar_length(text, at), quote + duration_text(wcet) + quote};
   }
   const std::size_t type = offset_of(text, task.type->where);
   const std::size_t end = type + scalar_length(text, type);
   const std::size_t line = text.rfind('\n', type) + 1;
   const std::size_t key = text.rfind("type", type);
+  const bool quoted = key > 0 && is_quote(text[key - 1]);
+  const std::string quote = quoted ? text.substr(key - 1, 1) : "";
+  const std::string entry = quote + "wcet" + quote + ": " + quote + duration_text(wcet) + quote;
   // in braces on one line, or a line of its own
-  if (text.substr(line, key - line).find('{') != std::string::npos) return {end, 0, ", wcet: " + duration_text(wcet)};
-  return {end, 0, "\n" + std::string(key - line, ' ') + "wcet: " + duration_text(wcet)};
+  const std::string before = text.substr(line, key - line - quote.size());
+  if (before.find('{') != std::string::npos) return {end, 0, ", " + entry};
+  // JSON over several lines goes on with a comma
+  if (quoted && text.find_first_not_of(" \t\r\n", end) != std::string::npos &&
+      text.find_first_of(",}", end) == text.find_first_not_of(" \t\r\n", end))
+    return {end, 0, ", " + entry};
+  const std::string new_line = text[end] == '\r' ? "\r\n" : "\n";
+  return {end, 0, new_line + std::string(before.size(), ' ') + entry};
 }
 
 }  // namespace
 
-std::vector<MeasuredTask> measure_tasks(Loaded& loaded, Duration end) {
+Measurement measure_tasks(Loaded& loaded, Duration end) {
   if (thread_time_between_readings() == 0)
     throw std::runtime_error(
         "this machine's clock of a thread's own time is too coarse to measure tasks; state their 'wcet' yourself");
@@ -61,10 +77,10 @@ std::vector<MeasuredTask> measure_tasks(Loaded& loaded, Duration end) {
   if (executor.report().stopped)
     throw std::invalid_argument("nothing was measured, as a fault stopped the run: " +
                                 to_text(executor.report().faults.front()));
-  std::vector<MeasuredTask> measured;
+  Measurement measured{end, {}, told_faults(executor.report())};
   for (std::size_t i = 0; i < loaded.graph->tasks.size(); ++i) {
     const Histogram& took = executor.team()->took(i);
-    measured.push_back({took.count(), Duration(took.most()), Duration(took.percentile(0.999))});
+    measured.tasks.push_back({took.count(), Duration(took.most()), Duration(took.percentile(0.999))});
   }
   return measured;
 }

@@ -15,10 +15,17 @@ struct MeasuredTask {
   Duration most_of_999{};  // at most so long in 99.9 % of the activations, rounded up by a sixteenth at most
 };
 
+/// How long the tasks of a graph took, in its order.
+struct Measurement {
+  Duration over{};  // logical time
+  std::vector<MeasuredTask> tasks;
+  std::string faults;  // lines that sum up the faulty activations among them
+};
+
 /// Runs the graph on the virtual clock up to `end`; per task the processor time of the thread that runs it, so that
 /// what preempts it does not count. Its channels are used up. Throws std::runtime_error if a vehicle in lockstep can't
 /// be reached or is lost, or if the machine can't measure so, std::invalid_argument if a fault stops the run.
-std::vector<MeasuredTask> measure_tasks(Loaded& loaded, Duration end);
+Measurement measure_tasks(Loaded& loaded, Duration end);
 
 /// What is written for a measured maximum: with the margin on top, rounded up to three digits.
 Duration with_margin(Duration most, double margin);

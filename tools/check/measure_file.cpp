@@ -110,13 +110,14 @@ void write_wcets(const std::string& file, const std::shared_ptr<const Source>& s
 
 }  // namespace
 
-void measure_file(const std::string& file, const Overrides& overrides, const MeasureOptions& options) {
+Measurement measure_file(const std::string& file, const Overrides& overrides, const MeasureOptions& options) {
   Loaded loaded = load_graph(file, overrides);
   require_in_process(loaded);
   const Duration end = measured_time(options, loaded);
   const auto source = options.write ? read_source(file) : nullptr;
   const Loaded in_file = options.write ? load_graph(source, without_changes(overrides)) : Loaded{};
-  const std::vector<MeasuredTask> measured = measure_tasks(loaded, end);
+  Measurement measurement = measure_tasks(loaded, end);
+  const std::vector<MeasuredTask>& measured = measurement.tasks;
   std::vector<Row> rows;
   for (std::size_t i = 0; i < measured.size(); ++i)
     rows.push_back({loaded.graph->tasks[i].name, measured[i], loaded.graph->tasks[i].wcet, std::nullopt});
@@ -126,7 +127,8 @@ void measure_file(const std::string& file, const Overrides& overrides, const Mea
   const auto tell = [&](bool written) {
     std::cerr << file << ": measured over " << duration_text(end)
               << " of logical time on this machine, in processor time\n"
-              << table(rows, written);
+              << table(rows, written) << measurement.faults;
+    if (!measurement.faults.empty()) std::cerr << "  the times of faulty activations are among those above\n";
   };
   try {
     if (writes) write_wcets(file, source, without_changes(overrides), *in_file.graph, rows);
@@ -136,7 +138,7 @@ void measure_file(const std::string& file, const Overrides& overrides, const Mea
     throw;
   }
   tell(options.write);
-  if (!options.write) return;
+  if (!options.write) return measurement;
   std::cerr << (writes ? fmt::format(
                              "  written into {}: 99.9 % and the longest disturbance of any task, with {:g} % on top\n",
                              file, options.margin)
@@ -149,6 +151,7 @@ void measure_file(const std::string& file, const Overrides& overrides, const Mea
                       : "  a 'wcet' that is no shorter than that was kept; --lower lowers it\n");
   if (!overrides.set.empty() || !overrides.profile.empty())
     std::cerr << "  measured with --set or --profile; what follows is said of the file as it stands, without them\n";
+  return measurement;
 }
 
 }  // namespace jarol::tools

@@ -43,7 +43,8 @@ struct Options {
 
 int exit_code_of(const CheckReport& report) {
   switch (report.result.verdict) {
-    case Verdict::schedulable: return chains_hold(report) ? exit_good : exit_negative;
+    case Verdict::schedulable:
+      return chains_hold(report) && longer_than_stated(report) == nullptr ? exit_good : exit_negative;
     case Verdict::not_schedulable: return exit_negative;
     case Verdict::unknown: return chains_hold(report) ? exit_unfinished : exit_negative;
   }
@@ -77,6 +78,8 @@ void require_effect(const Command& command, const Options& options) {
   if (!options.measuring.write && !options.measuring.measure)
     command.refuse({"--for"},
                    "says how long to measure, and a verdict holds for ever; add --measure or --write, or leave it out");
+  if (options.measuring.write && std::find(options.files.begin(), options.files.end(), "-") != options.files.end())
+    throw std::invalid_argument("--write: '-' is stdin, which can't be written; name the graph's file");
   if (options.files.size() > 1) command.refuse({"--svg"}, "names one picture for several files; check them one by one");
 }
 
@@ -101,7 +104,9 @@ void tell_what_lacks(const CheckReport& report, const Options& options) {
 }
 
 int check_file(const std::string& file, const Options& options) {
-  if (options.measuring.measure || options.measuring.write) measure_file(file, options.overrides, options.measuring);
+  std::optional<Measurement> measured;
+  if (options.measuring.measure || options.measuring.write)
+    measured = measure_file(file, options.overrides, options.measuring);
   // what is written is judged as it was written
   const Overrides overrides = options.measuring.write ? without_changes(options.overrides) : options.overrides;
   const Loaded loaded = load_graph(file, overrides);
@@ -109,6 +114,8 @@ int check_file(const std::string& file, const Options& options) {
   analysis::Effort effort;
   if (!options.sensitivity) effort.left = 30'000'000;
   report.remedies = find_remedies(read_source(file), overrides, *loaded.registry, report, effort);
+  // what was written holds by now
+  if (!options.measuring.write) report.measured = std::move(measured);
   tell_what_lacks(report, options);
   if (!options.svg.empty() && report.result.late) {
     WholeFile picture(options.svg);

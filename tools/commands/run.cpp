@@ -198,7 +198,7 @@ int run(const Options& options) {
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   const Report& report = executor.report();
   // the report is there whatever can't be written
-  std::string unwritten;
+  std::string unwritten, unseen;  // and why not all that was published has been seen
   const auto finish_writing = [&](const std::function<void()>& close) {
     try {
       close();
@@ -209,11 +209,13 @@ int run(const Options& options) {
     if (files.recorder() != nullptr) unwritten = "trace and picture are not written, as the run has not ended";
   } else {
     finish_writing([&] { files.close(); });
+    unseen = unwritten;
     if (log) finish_writing([&] { log->close(report); });
   }
   RunVerdict verdict;
-  if (unwritten.empty() && !run_end.hangs)
-    verdict.expectations = files.judge(report.covered, why_cut_short(report.simulated, end, end_of_mission(channels)));
+  if (!run_end.hangs)
+    verdict.expectations = files.judge(
+        report.covered, unseen.empty() ? why_cut_short(report.simulated, end, end_of_mission(channels)) : unseen);
   if (!run_end.hangs) verdict.mishaps = find_mishaps(graph, channels);
   verdict.left_out = find_left_out(graph, report);
   print(options,

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "graph/analysis/check.h"
+#include "graph/analysis/simulate.h"
 
 namespace {
 using namespace jarol::analysis;
@@ -91,5 +92,16 @@ TEST_SUITE("graph/analysis/simulate_global") {
     const GlobalSimulation run = simulate_global(system.loads, system.cores, 3);
     CHECK(!run.repeats);
     CHECK(!run.late);
+  }
+
+  TEST_CASE("what arrives while one activation runs for long is bounded, too") {
+    constexpr std::int64_t hour = 3'600'000'000'000, most = 1'000;
+    const std::vector<Load> loads{{999 * hour, 1000 * hour, 1000 * hour, 0, 0, 0, 0},
+                                  {10'000, 1'000'000, 1'000'000, 0, 0, 0, 0}};
+    for (const Order order : {Order::by_priority, Order::by_deadline}) {
+      const Simulation walked = simulate(loads, order, false, 2000 * hour, most);
+      CHECK(!walked.whole);
+      CHECK(walked.activations == most + 1);
+    }
   }
 }

@@ -22,7 +22,6 @@ std::string content(const std::string& path) {
 
 // One task each: without a WCET, with one that is too short, with one that is long, one that is not released soon, and
 // one with less than a disturbance takes.
-// one with less than a disturbance takes.
 const std::string file_text = R"(graph: t
 tasks:
   fresh: {type: Counter, period: 100ms}
@@ -77,10 +76,29 @@ tasks:
     wcet: 3.5us   # behind
     period: 5ms
   d:
-    wcet: 4us
+    wcet: '4us'
     type: Counter
 connections: [a.out -> b.in]
 )");
+  }
+
+  TEST_CASE("JSON stays JSON, lines end as the others do, and a block of lines is refused") {
+    CHECK(rewritten(R"({"graph": "t", "tasks": {"a": {"type": "Counter", "period": "1ms"},
+"b": {"type": "Counter",
+"period": "1ms"}, "c": {
+  "type": "Counter"
+,"period": "1ms", "wcet": "1ns"}}})",
+                    {462ns, 2us, 3us}) ==
+          R"({"graph": "t", "tasks": {"a": {"type": "Counter", "wcet": "462ns", "period": "1ms"},
+"b": {"type": "Counter", "wcet": "2us",
+"period": "1ms"}, "c": {
+  "type": "Counter"
+,"period": "1ms", "wcet": "3us"}}})");
+    CHECK(rewritten("graph: t\r\ntasks:\r\n  a:\r\n    type: Counter\r\n    period: 1ms\r\n", {1us}) ==
+          "graph: t\r\ntasks:\r\n  a:\r\n    type: Counter\r\n    wcet: 1us\r\n    period: 1ms\r\n");
+    CHECK_THROWS_WITH_AS(
+        rewritten("graph: t\ntasks:\n  a:\n    type: Counter\n    period: 1ms\n    wcet: >-\n      1ns\n", {1us}),
+        "the 'wcet' of task 'a' is a block of lines; write it on the line of its key", std::invalid_argument);
   }
 
   TEST_CASE("tasks that share one place of the file are not edited") {
@@ -146,6 +164,48 @@ connections: [a.out -> b.in]
     // so that nobody who measures again finds it broken
     const auto again = command::jarol("check --measure --for 1s " + file, "2>&1 >/dev/null").output;
     CHECK(again.substr(again.find("  long "), 80).find("LONGER") == std::string::npos);
+  }
+
+  TEST_CASE("a task that takes longer than its WCET is said before the verdict, which is negative then") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", file_text);
+    const std::string stated = "check " + file + " --set tasks.fresh.wcet=10ms";
+    CHECK(command::jarol(stated).exit_code == 0);
+    const auto measured = command::jarol(stated + " --measure --for 1s", "2>/dev/null");
+    CHECK(measured.exit_code == 1);
+    CHECK(measured.output.starts_with(file + ": A WCET DOES NOT HOLD HERE: task 'short' took "));
+    CHECK(measured.output.find(", its 'wcet' is 1ns; with the times as stated:\n" + file + ": SCHEDULABLE ") !=
+          std::string::npos);
+    const auto json =
+        nlohmann::json::parse(command::jarol(stated + " --measure --for 1s --json", "2>/dev/null").output);
+    CHECK(json["measured"]["over_ns"] == 1'000'000'000);
+    CHECK(json["measured"]["wcets_hold"] == false);
+    CHECK(json["measured"]["tasks"][3]["name"] == "short");
+    CHECK(json["measured"]["tasks"][3]["longer_than_wcet"] == true);
+    CHECK(json["measured"]["tasks"][2]["longer_than_wcet"] == false);
+    // with times that hold here
+    const std::string good = stated + " --set tasks.short.wcet=20ms --set tasks.tight.wcet=20ms --measure --for 1s";
+    CHECK(command::jarol(good).exit_code == 0);
+    CHECK(nlohmann::json::parse(command::jarol(good + " --json", "2>/dev/null").output)["measured"]["wcets_hold"] ==
+          true);
+  }
+
+  TEST_CASE("faults of activations that were measured are said beside their times") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+tasks: {loop: {type: Accumulate, period: 10ms, on_fault: hold, wcet: 40ms}}
+connections: [big -> loop.in]
+communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
+)");
+    const std::string told = command::jarol("check --measure --for 100ms " + file, "2>&1 >/dev/null").output;
+    CHECK(told.find("\nfault: task 'loop' 9 times, from activation 1 at 0.01 s") != std::string::npos);
+    CHECK(told.ends_with("\n  the times of faulty activations are among those above\n"));
+  }
+
+  TEST_CASE("what comes on stdin is measured, and not written") {
+    CHECK(command::jarol("check - --write < specs/counting.yaml").output ==
+          "error: --write: '-' is stdin, which can't be written; name the graph's file\n");
+    CHECK(!std::filesystem::exists("-"));
   }
 
   TEST_CASE("the verdict after check --write is that of the file as it was written") {
@@ -227,7 +287,7 @@ connections: [a.out -> b.in]
 
   TEST_CASE("every activation of every task is measured") {
     tools::Loaded loaded = tools::load_graph("specs/counting.yaml", {});
-    const auto measured = tools::measure_tasks(loaded, 1s);
+    const auto measured = tools::measure_tasks(loaded, 1s).tasks;
     REQUIRE(measured.size() == 5);
     const std::vector<std::size_t> activations{50, 100, 20, 50, 50};
     Duration sum{};
