@@ -189,8 +189,9 @@ connections: [i -> sum.in]
     CHECK(end_of(always + "--for 10ms") == 1);  // 1 of 1
     CHECK(end_of(always + skip + "--for 20ms") == 1);
     // on threads, too, where a machine that is busy leaves rounds out
-    for (const auto& [options, exit_code] : {std::pair<std::string, int>{"--for 40ms", 0}, {skip + "--for 2s", 1}})
-      CHECK(end_of(options + " --clock real --concurrency threads") == exit_code);
+    const std::string on_threads = " --clock real --concurrency threads";
+    CHECK(end_of("--for 40ms" + on_threads) == 0);
+    CHECK(end_of(skip + "--for 2s" + on_threads) == 1);
   }
 
   TEST_CASE("usage errors and unreadable files exit with 2 and a sentence") {
