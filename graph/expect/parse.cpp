@@ -28,8 +28,10 @@ constexpr const char* reduction_names = "final, min, max, mean, rms, rise_time, 
 
 class Parser {
  public:
-  Parser(const Yaml& yaml, const Graph& graph, const std::vector<TrueValues>& vehicles, Problems& problems)
-      : yaml_(yaml), graph_(graph), vehicles_(vehicles), problems_(problems), tokens_(tokens_of(yaml.text)) {
+  /// Without vehicles no true value is known.
+  Parser(const Yaml& yaml, const std::string& key, const Graph& graph, const std::vector<TrueValues>* vehicles,
+         Problems& problems)
+      : yaml_(yaml), key_(key), graph_(graph), vehicles_(vehicles), problems_(problems), tokens_(tokens_of(yaml.text)) {
     condition_.text = yaml.text;
     condition_.where = yaml.where;
   }
@@ -55,6 +57,22 @@ class Parser {
     return std::move(condition_);
   }
 
+  Condition state() {
+    const Token& begin = now();
+    for (const std::string_view word : {"always", "never", "once"})
+      if (is(word)) fail(begin, "it is asked at each instant; leave '" + std::string(word) + "' out");
+    if (is_at_reduction())
+      fail(begin, "'" + std::string(begin.text) + "' is one number of a whole run; this is asked at each instant");
+    condition_.kind = Condition::Kind::once;
+    metric_.value = read_value();
+    metric_.unit = metric_.value.unit;
+    read_comparison();
+    if (is("after") || is("before") || is("between"))
+      fail(now(), "a window of time does not belong here; it is asked at each instant");
+    end();
+    return std::move(condition_);
+  }
+
  private:
   const Token& now() const { return tokens_[at_]; }
   bool is(std::string_view text) const { return now().kind != Token::Kind::end && now().text == text; }
@@ -67,7 +85,7 @@ class Parser {
   [[noreturn]] void fail(const Token& token, const std::string& text) {
     Location where = yaml_.where;
     where.column += static_cast<int>(token.column) + (yaml_.quoted ? 1 : 0);
-    problems_.add(where, "'expect': " + text);
+    problems_.add(where, key_ + ": " + text);
     throw Stop{};
   }
 
@@ -201,6 +219,17 @@ class Parser {
 
   void read_is() {
     condition_.comparison.kind = accept("not") ? Comparison::Kind::is_not : Comparison::Kind::is;
+    condition_.comparison.limit = read_word();
+    while (is("or")) {
+      if (condition_.comparison.kind == Comparison::Kind::is_not)
+        fail(now(), "'is not' takes one word; write a condition for each");
+      ++at_;
+      condition_.comparison.others.push_back(read_word());
+    }
+  }
+
+  // The number of an enumerator, a truth value or an integer.
+  double read_word() {
     const Token token = now();
     const Type* type = metric_.value.type;
     if (type == nullptr && !is_lenient_)
@@ -208,12 +237,12 @@ class Parser {
     if (token.kind != Token::Kind::word && token.kind != Token::Kind::number)
       fail(token, "a word is needed here" + but());
     ++at_;
-    if (is_lenient_) return;
+    if (is_lenient_) return 0;
     jarol::Value value(*type);
     const std::string wrong = parse_scalar(*type, std::string(token.text), "", value.data());
     if (!wrong.empty())
       fail(token, "'" + std::string(token.text) + "' " + wrong_word(*type, std::string(token.text), wrong));
-    condition_.comparison.limit = expect::read_number({"", "", 0, type}, value.data());
+    return expect::read_number(*type, value.data());
   }
 
   static std::string wrong_word(const Type& type, const std::string& word, const std::string& wrong) {
@@ -312,8 +341,9 @@ class Parser {
     if (accept("of")) {
       const Token distributer = now();
       if (distributer.kind != Token::Kind::word) fail(distributer, "the name of a distributer is needed here" + but());
+      if (vehicles_ == nullptr) fail(token, "a true value is not known to who steers; name what is published");
       ++at_;
-      found = find_true(graph_, vehicles_, std::string(token.text), std::string(distributer.text));
+      found = find_true(graph_, *vehicles_, std::string(token.text), std::string(distributer.text));
     } else {
       found = find_published(graph_, std::string(token.text));
     }
@@ -338,8 +368,9 @@ class Parser {
   }
 
   const Yaml& yaml_;
+  const std::string& key_;
   const Graph& graph_;
-  const std::vector<TrueValues>& vehicles_;
+  const std::vector<TrueValues>* vehicles_;
   Problems& problems_;
   std::vector<Token> tokens_;
   std::size_t at_ = 0;
@@ -350,28 +381,38 @@ class Parser {
   bool is_lenient_ = false;  // something can't be judged: units are not known
 };
 
-bool is_text(const Yaml& yaml, Problems& problems) {
+const std::string expect_key = "'expect'";
+
+bool is_text(const Yaml& yaml, const std::string& need, Problems& problems) {
   if (yaml.kind == Yaml::Kind::scalar) return true;
-  problems.add(yaml.where,
-               "'expect' needs conditions, as in 'depth of dune within 0.1 of 3', not " + std::string(kind_name(yaml)));
+  problems.add(yaml.where, need + ", not " + std::string(kind_name(yaml)));
   return false;
 }
+
+const char* const expect_need = "'expect' needs conditions, as in 'depth of dune within 0.1 of 3'";
 
 }  // namespace
 
 std::optional<Condition> parse_condition(const Yaml& text, const Graph& graph, const std::vector<TrueValues>& vehicles,
                                          Problems& problems) {
-  if (!is_text(text, problems)) return std::nullopt;
+  if (!is_text(text, expect_need, problems)) return std::nullopt;
   try {
-    return Parser(text, graph, vehicles, problems).condition();
+    return Parser(text, expect_key, graph, &vehicles, problems).condition();
   } catch (const Stop&) { return std::nullopt; }
 }
 
 std::optional<Condition> parse_metric(const Yaml& text, const Graph& graph, const std::vector<TrueValues>& vehicles,
                                       Problems& problems) {
-  if (!is_text(text, problems)) return std::nullopt;
+  if (!is_text(text, expect_need, problems)) return std::nullopt;
   try {
-    return Parser(text, graph, vehicles, problems).metric();
+    return Parser(text, expect_key, graph, &vehicles, problems).metric();
+  } catch (const Stop&) { return std::nullopt; }
+}
+
+std::optional<Condition> parse_state(const Yaml& text, const std::string& key, const Graph& graph, Problems& problems) {
+  if (!is_text(text, key + " needs a condition, as in 'state is ground'", problems)) return std::nullopt;
+  try {
+    return Parser(text, key, graph, nullptr, problems).state();
   } catch (const Stop&) { return std::nullopt; }
 }
 

@@ -15,6 +15,9 @@ std::optional<Condition> parse_condition(const Yaml& text, const Graph& graph, c
 std::optional<Condition> parse_metric(const Yaml& text, const Graph& graph, const std::vector<TrueValues>& vehicles,
                                       Problems& problems);
 
+/// A condition on what is published that holds at an instant or does not: VALUE COMPARISON. `key` begins messages.
+std::optional<Condition> parse_state(const Yaml& text, const std::string& key, const Graph& graph, Problems& problems);
+
 /// The key `expect` of a graph: a list of conditions.
 std::vector<Condition> read_expectations(const Maybe<Yaml>& list, const Graph& graph,
                                          const std::vector<TrueValues>& vehicles, Problems& problems);

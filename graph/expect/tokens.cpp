@@ -40,8 +40,8 @@ std::size_t end_of_number(std::string_view text, std::size_t at) {
 }  // namespace
 
 bool is_keyword(std::string_view word) {
-  constexpr std::array keywords{"of",  "within", "is",    "not",    "after", "before",
-                                "and", "to",     "never", "always", "once",  "between"};
+  constexpr std::array keywords{"of", "within", "is",     "not",  "after",   "before", "and",
+                                "to", "never",  "always", "once", "between", "or"};
   return std::find(keywords.begin(), keywords.end(), word) != keywords.end();
 }
 

@@ -145,6 +145,8 @@ GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides
   read_section(graph, "timing", timing_keys(), spec.timing, problems);
   read_plugins(graph, overrides.no_plugins, spec.plugins, problems);
   read_section(graph, "platform", platform_keys(), spec.platform, problems);
+  if (const Yaml* at_end = graph.find("at_end"); at_end != nullptr && at_end->kind != Yaml::Kind::null)
+    read_keys(*at_end, at_end_keys(), spec.at_end.emplace(), "'at_end'", problems);
   read_entries(graph, "distributers", "distributer", distributer_keys(), spec.distributers, problems);
   read_entries(graph, "communicators", "communicator", communicator_keys(), spec.communicators, problems);
   read_entries(graph, "chains", "chain", chain_keys(), spec.chains, problems);

@@ -98,6 +98,11 @@ struct ChainSpec {
   Maybe<double> crossover;
 };
 
+struct AtEndSpec {
+  Maybe<Yaml> command, until;
+  Maybe<Duration> longest;
+};
+
 struct GraphSpec {
   Maybe<std::string> name;
   Location where;  // of the whole
@@ -110,6 +115,7 @@ struct GraphSpec {
   PlatformSpec platform;
   std::vector<ChainSpec> chains;
   Maybe<Yaml> expect;
+  std::optional<AtEndSpec> at_end;
   Maybe<double> fault_limit;
 };
 

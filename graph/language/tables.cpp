@@ -17,6 +17,7 @@ const std::vector<Key<GraphSpec>>& graph_keys() {
                               "conditions on which run judges itself, as in 'depth of dune within 0.1 of 3'"),
       key<&GraphSpec::fault_limit>("fault_limit", Form::share,
                                    "share of a task's activations that faults may leave without outputs, default 10%"),
+      {"at_end", Form::section, false, "how the vehicle comes to rest when a run on the real clock ends", {}, nullptr},
       {"profiles", Form::section, false, "named sets of overrides, chosen by run --profile", {}, nullptr},
   };
   return keys;
@@ -104,6 +105,17 @@ const std::vector<Key<PlatformSpec>>& platform_keys() {
       key<&PlatformSpec::dispatch>("dispatch", Form::duration, "overhead of each activation, for check, default 0ns"),
       key<&PlatformSpec::copy>("copy", Form::duration,
                                "overhead of each byte that an activation hands on, for check, default 0ns"),
+  };
+  return keys;
+}
+
+const std::vector<Key<AtEndSpec>>& at_end_keys() {
+  static const std::vector<Key<AtEndSpec>> keys{
+      key<&AtEndSpec::command>("command", Form::mapping,
+                               "what the operator's communicators read as from then on, as in {pilot: {land: true}}",
+                               true),
+      key<&AtEndSpec::until>("until", Form::any, "the condition that holds at rest, as in 'state is ground'", true),
+      key<&AtEndSpec::longest>("longest", Form::positive_duration, "the longest time that it may take", true),
   };
   return keys;
 }

@@ -15,5 +15,6 @@ const std::vector<Key<CommunicatorSpec>>& communicator_keys();
 const std::vector<Key<TaskSpec>>& task_keys();
 const std::vector<Key<ChainSpec>>& chain_keys();
 const std::vector<Key<PlatformSpec>>& platform_keys();
+const std::vector<Key<AtEndSpec>>& at_end_keys();
 
 }  // namespace jarol

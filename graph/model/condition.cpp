@@ -1,5 +1,6 @@
 #include "graph/model/condition.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -30,17 +31,22 @@ bool holds(const Comparison& comparison, double number) {
     case Comparison::Kind::greater: return number > comparison.limit;
     case Comparison::Kind::at_least: return number >= comparison.limit;
     case Comparison::Kind::within: return std::abs(number - comparison.of) <= comparison.limit;
-    case Comparison::Kind::is: return number == comparison.limit;
+    case Comparison::Kind::is:
+      return number == comparison.limit ||
+             std::find(comparison.others.begin(), comparison.others.end(), number) != comparison.others.end();
     case Comparison::Kind::is_not: return number < comparison.limit || number > comparison.limit;
   }
   return false;
 }
 
 double read_number(const Leaf& leaf, const void* value) {
-  const auto* bytes = static_cast<const std::byte*>(value) + leaf.offset;
-  if (leaf.type->kind == Kind::floating) return read_floating(*leaf.type, bytes);
-  const std::int64_t integer = read_integer(*leaf.type, bytes);
-  if (leaf.type->kind == Kind::duration) return static_cast<double>(integer) * 1e-9;
+  return read_number(*leaf.type, static_cast<const std::byte*>(value) + leaf.offset);
+}
+
+double read_number(const Type& type, const void* field) {
+  if (type.kind == Kind::floating) return read_floating(type, field);
+  const std::int64_t integer = read_integer(type, field);
+  if (type.kind == Kind::duration) return static_cast<double>(integer) * 1e-9;
   return static_cast<double>(integer);
 }
 

@@ -55,8 +55,9 @@ struct Metric {
 
 struct Comparison {
   enum class Kind { less, at_most, greater, at_least, within, is, is_not } kind = Kind::less;
-  double limit = 0;  // within: how far to either side
-  double of = 0;     // within
+  double limit = 0;              // within: how far to either side
+  double of = 0;                 // within
+  std::vector<double> others{};  // is: what it may be instead
 };
 
 struct Condition {
@@ -77,5 +78,7 @@ bool holds(const Comparison& comparison, double number);
 
 /// The number of a field, an enumerator's or truth value's integer, a duration's seconds.
 double read_number(const Leaf& leaf, const void* value);
+/// The same of the field itself.
+double read_number(const Type& type, const void* field);
 
 }  // namespace jarol::expect

@@ -81,6 +81,20 @@ struct Chain {
   std::optional<double> crossover;  // rad/s
 };
 
+/// What a communicator reads as while a run ends; of other fields what comes.
+struct EndCommand {
+  std::size_t communicator = 0;  // an `in` of an operator
+  Value value;
+  std::vector<Leaf> stated{};  // the fields of the value that count
+};
+
+/// How the vehicle comes to rest when a run ends.
+struct AtEnd {
+  std::vector<EndCommand> commands;
+  expect::Condition until;  // at rest; of what is published alone
+  Duration longest{};
+};
+
 struct Graph {
   std::string name;
   Location where;
@@ -93,7 +107,8 @@ struct Graph {
   Platform platform;
   std::vector<Chain> chains;                    // in bytewise order of name
   std::vector<expect::Condition> expectations;  // in the order of the file; `read_expectations` fills it
-  double fault_limit = 0.1;                     // share of a task's activations that faults may leave without outputs
+  std::optional<AtEnd> at_end;
+  double fault_limit = 0.1;  // share of a task's activations that faults may leave without outputs
 };
 
 /// "task.output", or the communicator's name: what publications are called in trace and digest.

@@ -68,14 +68,44 @@ class HoldupWatch {
   Futex::Time::duration stood_{};
 };
 
-Ending ending_of(const AttendedRun& run, const Worker& worker) {
+// The way of a vehicle to rest, once the run has ended in good order.
+class RestWatch {
+ public:
+  RestWatch(AttendedRun& run, const std::function<void(const Ending&)>& on_rest) : run_(run), on_rest_(on_rest) {}
+
+  /// As the signal asks; false: there is no such way.
+  bool begin(const Ending& why) {
+    const std::optional<Duration> longest = run_.longest_rest();
+    if (!longest || before_) return before_.has_value();
+    before_ = why;
+    until_ = Futex::now() + *longest + holdup_patience;
+    run_.ask_for_rest();
+    on_rest_(why);
+    return true;
+  }
+  /// At a look: by itself, at the end of what was to be covered.
+  void look() {
+    if (!before_ && run_.resting()) begin(Ending::over());
+  }
+  bool is_too_long() const { return before_ && Futex::now() >= until_; }
+  const std::optional<Ending>& before() const { return before_; }
+
+ private:
+  AttendedRun& run_;
+  const std::function<void(const Ending&)>& on_rest_;
+  std::optional<Ending> before_;
+  Futex::Time until_{};  // by then it is done, or something holds it up
+};
+
+Ending ending_of(const AttendedRun& run, const Worker& worker, const std::optional<Ending>& before_rest) {
   if (worker.failure) return Ending::lost();
-  return run.stopped_by_fault() ? Ending::fault() : Ending::over();
+  return run.stopped_by_fault() ? Ending::fault() : before_rest.value_or(Ending::over());
 }
 
 }  // namespace
 
-RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std::function<int()>& wish) {
+RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std::function<Wish()>& wish,
+              const std::function<void(const Ending&)>& on_rest) {
   const auto worker = std::make_shared<Worker>();
   worker->thread = std::thread([&run, &prepare, worker] {
     leave_signals_to_others();
@@ -89,16 +119,25 @@ RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std:
   });
   RunEnd end;
   HoldupWatch watch;
+  RestWatch rest(run, on_rest);
   for (std::optional<Ending> why; !why;) {
     const bool ended = worker->has_ended();
+    const Wish wished = wish();
+    if (!ended) rest.look();
     if (ended)
-      why = ending_of(run, *worker);
-    else if (const int signal = wish(); signal != 0)
-      why = Ending::of_signal(signal);
+      why = ending_of(run, *worker, rest.before());
+    else if (rest.before() && wished.at_once)
+      why = Ending{Ending::Cause::signal, wished.signal, "a second signal came"};
+    else if (wished.signal != 0 && !rest.begin(Ending::of_signal(wished.signal)))
+      why = Ending::of_signal(wished.signal);
+    else if (rest.is_too_long())
+      why = rest.before();
     else
       why = watch.look_at(run);
+    if (why && why->cause == Ending::Cause::over && rest.before()) why = rest.before();
     if (why) end.ending = std::move(*why);
   }
+  end.before_rest = rest.before();
   const Futex::Time until = Futex::now() + end_patience;
   run.close(end.ending, until);
   if (!worker->ends_until(Futex::now() + 2 * look)) {

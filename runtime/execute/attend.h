@@ -30,6 +30,12 @@ class AttendedRun {
   virtual void cover() = 0;
   virtual bool stopped_by_fault() const = 0;
 
+  /// How long the vehicle may take to come to rest when the run ends in good order; none: it is not brought to rest.
+  virtual std::optional<Duration> longest_rest() const { return std::nullopt; }
+  /// `cover` goes on with that from its next instant, as it does of itself at the end, and returns when it is done.
+  virtual void ask_for_rest() {}
+  virtual bool resting() const { return false; }
+
   // by the thread that attends, while `cover` may be under way
 
   /// `cover` returns when the instant under way is done, and nothing is handed over any more but every `safe` that
@@ -45,8 +51,9 @@ class AttendedRun {
 
 struct RunEnd {
   Ending ending;
-  std::exception_ptr failure;  // what `cover` threw
-  bool hangs = false;          // threads still run, and the process can only end at once, without destructors
+  std::optional<Ending> before_rest{};  // what the vehicle was brought to rest for, if it was
+  std::exception_ptr failure;           // what `cover` threw
+  bool hangs = false;                   // threads still run, and the process can only end at once, without destructors
   std::vector<HangingTask> hanging;
 
   /// What hangs, if anything, runs a task.
@@ -58,8 +65,16 @@ inline constexpr std::chrono::milliseconds end_patience{800};
 /// How long an activation that need not be in time may hold up everything else, beyond its deadline.
 inline constexpr std::chrono::milliseconds holdup_patience{1000};
 
-/// `prepare` is called on the run's thread before it covers anything; `wish` gives the signal that asks the run to end,
-/// or 0.
-RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std::function<int()>& wish);
+/// What asks a run to end: a signal, or 0; and whether it is not to wait for rest.
+struct Wish {
+  int signal = 0;
+  bool at_once = false;
+};
+
+/// `prepare` is called on the run's thread before it covers anything; `on_rest` when it is seen to
+/// bring its vehicle to rest.
+RunEnd attend(
+    AttendedRun& run, const std::function<void()>& prepare, const std::function<Wish()>& wish,
+    const std::function<void(const Ending&)>& on_rest = [](const Ending&) {});
 
 }  // namespace jarol

@@ -58,6 +58,7 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
     if (const Type* type = channels_[distributer]->true_type();
         type != nullptr && options.record_truth && options.recorder != nullptr)
       watched_.push_back({distributer, Value(*type)});
+  if (options.clock != nullptr && graph.at_end) rest_ = std::make_unique<Rest>(graph, plan_, channels_);
   const std::size_t groups = plan_.groups.size();
   cursors_.resize(groups);
   in_stage_.resize(groups);
@@ -98,6 +99,7 @@ void Executor::run_until(Duration end) {
 
 void Executor::cover(Duration end) {
   if (report_.stopped && missed_ == nullptr) return;
+  cover_end_.store(end.count(), std::memory_order_relaxed);
   const MemoryScope scope(no_heap());  // a task with a heap has a scope of its own
   const RunningHere here(running_);
   const DefaultFloatingPoint arithmetic;
@@ -114,11 +116,11 @@ void Executor::cover(Duration end) {
 template <bool Digest, bool Record, bool MayMiss>
 void Executor::walk(Duration end) {
   while (calendar_.next() < end.count()) {
-    if (interrupted_.load(std::memory_order_relaxed)) return;
+    if (must_return()) return;
     const std::int64_t instant = calendar_.next();
     if (MayMiss && missed_ == nullptr) {
       options_.clock->wait_until(instant, interrupted_);
-      if (interrupted_.load(std::memory_order_relaxed)) return;
+      if (must_return()) return;
       if (threads_ != nullptr) settle(instant);
       if (report_.stopped) return;
     }
@@ -131,6 +133,10 @@ void Executor::walk(Duration end) {
     report_.simulated = Duration(instant);
     report_.covered = Duration(instant + 1);
     if (report_.stopped && missed_ == nullptr) return;
+    if (MayMiss && resting() && rest_->is_reached()) {
+      rest_reached_ = true;
+      return;
+    }
   }
   report_.simulated = end;
   report_.covered = end;
@@ -368,15 +374,18 @@ void Executor::take(const CommunicatorAction& in, Duration instant) {
   const Communicator& communicator = graph_.communicators[in.communicator];
   if (!communicator.distributer) return;
   const MemoryScope outside(nullptr);
-  if (!channels_[*communicator.distributer]->take(communicator.channel, in.taken)) return;
-  if (communicator.type->finite(in.taken)) {
-    copy_value(*communicator.type, in.value, in.taken);
-    safe_commands_.took(in.communicator, instant);
-    if (options_.log != nullptr)
-      record(*options_.log, log_outputs_[in.communicator], *communicator.type, in.value, instant.count());
-  } else {
+  const bool over = resting() && rest_->is_mission(*communicator.distributer);
+  bool fresh = !over && channels_[*communicator.distributer]->take(communicator.channel, in.taken);
+  if (fresh && !communicator.type->finite(in.taken)) {
     ++refused_inputs_;
+    fresh = false;
   }
+  if (fresh) copy_value(*communicator.type, in.value, in.taken);
+  const bool commanded = resting() && rest_->command(in.communicator, in.value);
+  if (!fresh && !commanded) return;
+  safe_commands_.took(in.communicator, instant);
+  if (options_.log != nullptr)
+    record(*options_.log, log_outputs_[in.communicator], *communicator.type, in.value, instant.count());
 }
 
 // On the real clock: an activation that ends after its deadline has a fault, and so have those whose releases fall into

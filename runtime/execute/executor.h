@@ -11,6 +11,7 @@
 #include "runtime/execute/attend.h"
 #include "runtime/execute/calendar.h"
 #include "runtime/execute/fault_summary.h"
+#include "runtime/execute/rest.h"
 #include "runtime/execute/safe_commands.h"
 #include "runtime/execute/stage_team.h"
 #include "runtime/execute/task_threads.h"
@@ -72,6 +73,17 @@ class Executor {
   /// The same without waiting for threads that run tasks, which `finish` does.
   void cover(Duration end);
 
+  /// On the real clock, of a graph with `at_end`: `cover` returns before its next instant. Any thread.
+  void ask_for_rest() { rest_asked_.store(true, std::memory_order_relaxed); }
+  /// After `cover`: from the next instant on, which is returned, `at_end` commands. None: the graph states nothing, a
+  /// fault has stopped the run, or it was interrupted.
+  std::optional<Duration> begin_rest();
+  /// After `begin_rest`: covers the instants until the vehicle is at rest, or for the longest time that this may take.
+  void cover_rest();
+  bool resting() const { return resting_.load(std::memory_order_relaxed); }
+  /// Once the run has ended.
+  std::optional<RestReport> rest() const;
+
   /// No more is handed over, but now, once, all that is safe: on the real clock to every external system, else to those
   /// that outlive the run. Whatever thread calls, while another one may cover instants; what that one has begun to hand
   /// over is waited for until then.
@@ -81,8 +93,8 @@ class Executor {
   Finish finish(std::optional<Futex::Time> patience = {});
   /// What the thread that covers instants runs now, and what workers beside it do.
   std::vector<HangingTask> running() const;
-  /// The same where it is the thread that keeps the time, in a run to that instant.
-  std::optional<Holdup> holdup(Duration end) const;
+  /// The same where it is the thread that keeps the time.
+  std::optional<Holdup> holdup() const;
 
   /// The logical instant reached, for progress; may be read by another thread.
   Duration now() const { return Duration(now_.load(std::memory_order_relaxed)); }
@@ -124,6 +136,9 @@ class Executor {
   const Activation* run_bodies(const Activation* next, const Activation* last, const Tick& tick);
   const Task* task_of(const RunningTask* running) const;
   HangingTask hanging(const Task& task) const;
+  bool must_return() const {
+    return interrupted_.load(std::memory_order_relaxed) || (rest_asked_.load(std::memory_order_relaxed) && !resting());
+  }
   void tell_bad_outcomes();
   void start_groups(std::int64_t instant);
   void gather_communicators();
@@ -137,6 +152,7 @@ class Executor {
   void begin_log();
   void log_late(std::uint32_t task, std::int64_t activation, std::optional<Duration> ended_after, std::int64_t instant);
   void log_miss(const Miss& miss, std::int64_t instant);
+  void log_rest();
   [[gnu::cold]] void log_checkpoint(std::int64_t instant);
   void record_true_values(std::int64_t instant);
 
@@ -168,18 +184,23 @@ class Executor {
   Report report_;
   std::atomic<std::int64_t> now_{0};
   std::atomic<bool> interrupted_{false};
+  std::atomic<std::int64_t> cover_end_{0};
+  std::atomic<bool> rest_asked_{false}, resting_{false};
+  std::unique_ptr<Rest> rest_;  // null: the virtual clock, or the graph states none
+  Duration rest_begun_{};
+  bool rest_reached_ = false;
   // of the channels, by an instant that covers them or by whoever closed the run
   enum class Use : std::uint32_t { free, covering, closed };
   class ChannelsInUse;
   std::atomic<Use> use_{Use::free};
   std::atomic<const RunningTask*> running_{nullptr};  // of the thread that covers instants, meanwhile
   std::vector<std::uint32_t> log_outputs_;            // per communicator: that of the log
-  std::uint32_t log_misses_ = 0;                      // the log's output for them; that for checkpoints is the next
-  std::int64_t checkpoint_due_ = 0;                   // if there is a log
-  std::unique_ptr<MissedActivations> missed_;         // null: this is no replay
-  std::optional<Duration> ended_after_;               // of the activation that was found late last, from its release
-  std::unique_ptr<TaskThreads> threads_;              // null: tasks run on the caller's
-  std::vector<const Activation*> under_way_;          // data-flow tasks on threads that were not yet seen to end
+  std::uint32_t log_misses_ = 0;               // the log's output for them; those for checkpoints and RestBegin follow
+  std::int64_t checkpoint_due_ = 0;            // if there is a log
+  std::unique_ptr<MissedActivations> missed_;  // null: this is no replay
+  std::optional<Duration> ended_after_;        // of the activation that was found late last, from its release
+  std::unique_ptr<TaskThreads> threads_;       // null: tasks run on the caller's
+  std::vector<const Activation*> under_way_;   // data-flow tasks on threads that were not yet seen to end
   struct WatchedVehicle {
     std::size_t distributer;
     Value values;

@@ -5,6 +5,21 @@
 
 namespace jarol {
 
+std::optional<Duration> Executor::begin_rest() {
+  if (rest_ == nullptr || report_.stopped || interrupted_.load()) return std::nullopt;
+  rest_begun_ = Duration(calendar_.next());
+  log_rest();
+  resting_.store(true);
+  return rest_begun_;
+}
+
+void Executor::cover_rest() { cover(rest_begun_ + rest_->longest()); }
+
+std::optional<RestReport> Executor::rest() const {
+  if (!resting()) return std::nullopt;
+  return RestReport{rest_begun_, std::max(rest_begun_, report_.simulated), rest_reached_};
+}
+
 void Executor::close(Futex::Time patience) {
   interrupt();
   Use use = Use::free;
@@ -56,14 +71,15 @@ std::vector<HangingTask> Executor::running() const {
   return all;
 }
 
-std::optional<Holdup> Executor::holdup(Duration end) const {
+std::optional<Holdup> Executor::holdup() const {
   if (options_.clock == nullptr || threads_ != nullptr) return std::nullopt;
   const Task* const task = task_of(running_.load(std::memory_order_acquire));
   if (task == nullptr) return std::nullopt;
   const Duration time(options_.clock->now());
   HangingTask held = hanging(*task);
   const Duration late = time - held.instant - task->deadline;
-  return Holdup{.task = std::move(held), .late = late, .stops = task->on_fault == OnFault::stop, .over = time >= end};
+  const bool over = time.count() >= cover_end_.load(std::memory_order_relaxed) && (rest_ == nullptr || resting());
+  return Holdup{.task = std::move(held), .late = late, .stops = task->on_fault == OnFault::stop, .over = over};
 }
 
 }  // namespace jarol

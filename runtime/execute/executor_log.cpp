@@ -23,6 +23,12 @@ void Executor::log_miss(const Miss& miss, std::int64_t instant) {
   options_.log->append(instant, log_misses_, &miss, sizeof miss);
 }
 
+void Executor::log_rest() {
+  if (options_.log == nullptr) return;
+  const RestBegin rest{rest_begun_.count()};
+  options_.log->append(rest.begun, log_misses_ + 2, &rest, sizeof rest);
+}
+
 // At its beginning, when all that was due before the instant is known, but for data-flow tasks on threads that have not
 // ended: whether one of them is late shows later.
 void Executor::log_checkpoint(std::int64_t instant) {

@@ -2,6 +2,8 @@
 // vehicles truly are.
 #pragma once
 
+#include <atomic>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -60,6 +62,8 @@ class Expectations : public RecordSink {
   /// `outputs`: those of the graph's plan. The graph outlives it.
   Expectations(const Graph& graph, const std::vector<Output>& outputs);
 
+  /// What is published from that instant on is not judged. Any thread, before it is published.
+  void judge_before(Duration instant) { before_.store(instant.count(), std::memory_order_relaxed); }
   void take(Duration instant, std::uint32_t output, const void* value) override;
   void finish() override { settle(); }
 
@@ -77,6 +81,7 @@ class Expectations : public RecordSink {
   std::vector<ConditionWatch> watches_;
   std::vector<std::vector<Target>> targets_;  // per output
   Duration instant_{};
+  std::atomic<std::int64_t> before_{std::numeric_limits<std::int64_t>::max()};
 };
 
 /// The distributers whose true values a condition of the graph names.

@@ -30,6 +30,7 @@ ThreadsCore::ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channel
   threads_report_.execution.resize(graph.tasks.size());
   report_.left_out.resize(graph.tasks.size());
   gather();
+  if (graph.at_end) rest_ = std::make_unique<Rest>(graph, plan_, channels_);
   if (recorder_ == nullptr) return;
   recorder_->expect(plan_.outputs);
   recorder_->never_wait();
@@ -227,16 +228,36 @@ void ThreadsCore::fail(std::exception_ptr failure) {
   stopped_.store(true, std::memory_order_release);
 }
 
+std::optional<RestReport> ThreadsCore::rest() const {
+  if (!resting()) return std::nullopt;
+  const Duration begun = rest_from_.load() * period_;
+  return RestReport{begun, std::max(begun, now()), rest_reached_.load() >= 0};
+}
+
+// What is reached, if the run ends before that round. After the last round of `end` the vehicle comes to rest, for so
+// many rounds more at most.
+std::optional<Duration> ThreadsCore::end_at(std::int64_t round, std::int64_t& last, Duration end) {
+  if (const std::int64_t reached = rest_reached_.load(std::memory_order_acquire); reached >= 0)
+    return reached * period_;
+  if (rest_ != nullptr && !resting() && (round >= last || rest_asked_.load(std::memory_order_relaxed))) {
+    on_rest_(round * period_);
+    rest_from_.store(round, std::memory_order_release);
+    last = round + (rest_->longest() + period_ - Duration(1)) / period_;
+  }
+  if (round < last) return std::nullopt;
+  return resting() ? round * period_ : end;
+}
+
 // A round's number goes by the clock, also where ticks found this thread at work.
 void ThreadsCore::run_sensor(Duration end) {
   TimeTrigger& trigger = *trigger_;
-  const std::int64_t rounds = end / period_ + (end % period_ != Duration{} ? 1 : 0);
+  std::int64_t rounds = end / period_ + (end % period_ != Duration{} ? 1 : 0);
   for (std::int64_t next = 0; !stopped() && trigger.await() == Awaiting::signalled;) {
     const std::int64_t round = std::min(trigger.ticks() - 1, rounds);
     threads_report_.unawaited_ticks += static_cast<std::uint64_t>(round - next);
     next = round + 1;
-    if (round == rounds) {
-      now_.store(end.count(), std::memory_order_relaxed);
+    if (const std::optional<Duration> reached = end_at(round, rounds, end)) {
+      now_.store(reached->count(), std::memory_order_relaxed);
       reached_end_ = true;
       stopped_.store(true, std::memory_order_release);
       return;
@@ -301,9 +322,15 @@ void ThreadsCore::run_round(std::int64_t round) {
   const std::uint64_t instant_term = digest::instant_term(instant);
   ++report_.instants;
   if (!watched_.empty()) record_true_values(instant);
+  const std::int64_t rest_from = rest_from_.load(std::memory_order_acquire);
+  const bool rests = rest_from >= 0 && round >= rest_from;
   for (Carried& in : ins_) {
     if (!in.core.due(round)) continue;
-    while (in.port->read(in.action->value)) safe_commands_.took(in.communicator, Duration(instant));
+    const std::optional<std::size_t>& distributer = graph_.communicators[in.communicator].distributer;
+    const bool over = rests && distributer && rest_->is_mission(*distributer);
+    while (!over && in.port->read(in.action->value)) safe_commands_.took(in.communicator, Duration(instant));
+    if (rests && rest_->command(in.communicator, in.action->value))
+      safe_commands_.took(in.communicator, Duration(instant));
     publish(in.action->publish, instant, instant_term);
   }
   for (Counted& task : tasks_)
@@ -316,6 +343,8 @@ void ThreadsCore::run_round(std::int64_t round) {
     publish(out.action->publish, instant, instant_term);
     out.port->write(out.action->value);
   }
+  if (rests && rest_reached_.load(std::memory_order_relaxed) < 0 && rest_->is_reached())
+    rest_reached_.store(round, std::memory_order_release);
 }
 
 void ThreadsCore::run_task(Counted& task, std::int64_t instant, std::uint64_t instant_term) {

@@ -17,6 +17,7 @@
 #include "runtime/channels.h"
 #include "runtime/execute/attend.h"
 #include "runtime/execute/executor.h"
+#include "runtime/execute/rest.h"
 #include "runtime/execute/safe_commands.h"
 #include "runtime/jarol/push_port.h"
 #include "runtime/jarol/signal.h"
@@ -59,6 +60,12 @@ class ThreadsCore {
   Finish finish(std::optional<Futex::Time> patience = {});
   std::optional<HangingTask> running() const;
   std::optional<Holdup> holdup() const;
+
+  // as of Executor; the rest begins by itself at the end, and `on_rest` is called before with the instant
+  void ask_for_rest() { rest_asked_.store(true, std::memory_order_relaxed); }
+  void on_rest(std::function<void(Duration)> call) { on_rest_ = std::move(call); }
+  bool resting() const { return rest_from_.load(std::memory_order_relaxed) >= 0; }
+  std::optional<RestReport> rest() const;
 
   void interrupt() { interrupted_.store(true, std::memory_order_relaxed); }
 
@@ -130,6 +137,7 @@ class ThreadsCore {
   void begin(Part& part, Signal& signal, const std::function<void()>& prepare, Work work);
 
   void run_sensor(Duration end);
+  std::optional<Duration> end_at(std::int64_t round, std::int64_t& last, Duration end);
   void run_core();
   void run_actuator();
   void run_terminal();
@@ -165,6 +173,10 @@ class ThreadsCore {
   std::atomic<bool> stopped_{false};  // at the end, by a fault or a failure
   std::atomic<bool> closed_{false};
   bool reached_end_ = false;  // of the sensor thread
+  std::unique_ptr<Rest> rest_;  // of the core thread; null: the graph states none
+  std::function<void(Duration)> on_rest_ = [](Duration) {};
+  std::atomic<bool> rest_asked_{false};
+  std::atomic<std::int64_t> rest_from_{-1}, rest_reached_{-1};  // rounds; below zero: not yet
   // what the core thread runs; for others who ask why it does not end
   struct Running {
     std::atomic<const Counted*> task{nullptr};

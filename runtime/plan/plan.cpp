@@ -127,6 +127,38 @@ class PlanBuilder {
     }
     for (const Connection& c : graph_.connections) copy_value(*c.type, target_of(c), source_of(c));
     make_deep_inputs();
+    make_taps();
+  }
+
+  const std::vector<expect::Signal>& tapped() const {
+    static const std::vector<expect::Signal> none;
+    return graph_.at_end ? graph_.at_end->until.signals : none;
+  }
+
+  Copy tap_of(std::size_t i) const {
+    const expect::Signal& signal = tapped()[i];
+    const End& end = *signal.published;
+    const std::byte* from =
+        end.kind == End::Kind::communicator
+            ? at(layout_->communicators[end.index].value)
+            : at(layout_->tasks[end.index].out) + graph_.tasks[end.index].task_class->out->fields[end.field].offset;
+    return {from + signal.leaf.offset, plan_.taps[i], signal.leaf.type->size};
+  }
+
+  void make_taps() {
+    plan_.tap_memory_.resize(tapped().size());
+    for (std::size_t i = 0; i < tapped().size(); ++i) {
+      plan_.taps.push_back(reinterpret_cast<std::byte*>(&plan_.tap_memory_[i]));
+      const Copy tap = tap_of(i);
+      std::memcpy(tap.to, tap.from, tap.size);
+    }
+  }
+
+  // What is published there is looked at, as by a reader.
+  void add_taps(End::Kind kind, std::size_t index) {
+    for (std::size_t i = 0; i < tapped().size(); ++i)
+      if (tapped()[i].published->kind == kind && tapped()[i].published->index == index)
+        plan_.copies_.push_back(tap_of(i));
   }
 
   void fill_task(std::size_t i) {
@@ -202,7 +234,7 @@ class PlanBuilder {
     for (std::uint32_t i = 0; i < plan_.outputs.size(); ++i) output_index_[plan_.outputs[i].name] = i;
     // ranges point into these: they never grow beyond what is reserved here
     std::size_t publications = plan_.outputs.size();
-    plan_.copies_.reserve(graph_.connections.size());
+    plan_.copies_.reserve(graph_.connections.size() + tapped().size());
     plan_.deep_copies_.reserve(graph_.connections.size());
     plan_.publications_.reserve(publications);
     plan_.activations_.reserve(graph_.tasks.size());
@@ -222,6 +254,7 @@ class PlanBuilder {
   Publish publish_task(std::size_t i) {
     const std::size_t first_copy = plan_.copies_.size(), first_publication = plan_.publications_.size();
     for (const Connection* c : from_task_[i]) add_copy(*c);
+    add_taps(End::Kind::task, i);
     const auto& fields = graph_.tasks[i].task_class->out->fields;
     for (std::size_t f = 0; f < fields.size(); ++f)
       plan_.publications_.push_back(publication(end_name(graph_, {End::Kind::task, i, f}, true), *fields[f].type,
@@ -233,6 +266,7 @@ class PlanBuilder {
     const Communicator& c = graph_.communicators[i];
     const std::size_t first_copy = plan_.copies_.size(), first_publication = plan_.publications_.size();
     for (const Connection* s : from_communicator_[i]) add_copy(*s);
+    add_taps(End::Kind::communicator, i);
     plan_.publications_.push_back(publication(c.name, *c.type, at(layout_->communicators[i].value)));
     return {static_cast<std::uint32_t>(i),
             at(layout_->communicators[i].value),

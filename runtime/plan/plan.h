@@ -150,6 +150,7 @@ struct Plan {
   std::vector<TaskStatus> status;                   // per task
   std::vector<Outcome> outcomes;                    // per task: how the activation ended whose LET is under way
   std::vector<std::unique_ptr<PrivateHeap>> heaps;  // per task, null where it has none
+  std::vector<std::byte*> taps;                     // per signal of at_end's condition: the field as last published
 
  private:
   friend class PlanBuilder;
@@ -164,6 +165,7 @@ struct Plan {
   std::unique_ptr<std::byte, Release> arena_;
   std::pmr::unsynchronized_pool_resource communicator_memory_;  // of deep values; no more than they need
   std::vector<std::unique_ptr<std::byte, Destroy>> owned_;
+  std::vector<std::uint64_t> tap_memory_;
   std::vector<DeepCopy> deep_copies_;
   std::vector<DeepInput> deep_inputs_;
   std::vector<Copy> copies_;

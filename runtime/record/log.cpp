@@ -37,6 +37,7 @@ std::vector<Output> log_outputs(const Graph& graph) {
     outputs.push_back({graph.communicators[i].name, graph.communicators[i].type});
   outputs.push_back({"misses", &type_of<Miss>()});
   outputs.push_back({"checkpoints", &type_of<Checkpoint>()});
+  outputs.push_back({"rest", &type_of<RestBegin>()});
   return outputs;
 }
 

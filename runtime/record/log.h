@@ -40,10 +40,18 @@ struct Checkpoint {
   }
 };
 
+/// Once at most: the vehicle is brought to rest, as at_end states.
+struct RestBegin {
+  std::int64_t begun = 0;  // ns; from this instant on
+
+  static constexpr auto fields() { return describe(field<&RestBegin::begun>()); }
+};
+
 /// The communicators whose values come from outside, in the order of the graph.
 std::vector<std::size_t> logged_inputs(const Graph& graph);
 
-/// What the Recorder of a log records: what each of `logged_inputs` took, then a Miss, then a Checkpoint.
+/// What the Recorder of a log records: what each of `logged_inputs` took, then a Miss, then a Checkpoint, then a
+/// RestBegin.
 std::vector<Output> log_outputs(const Graph& graph);
 
 /// The misses of a run, asked for in the order in which each task's activations come.

@@ -1,5 +1,5 @@
 // The four applications, JAviator and LAUV as exotasks and on threads, with the vehicle in process and as another
-// process: their whole missions in real time, all at once.
+// process: their whole missions, and nothing after them, in real time, all at once.
 #include <doctest/doctest.h>
 #include <sys/socket.h>
 
@@ -22,7 +22,7 @@ struct Outcome {
 };
 
 Outcome outcome(const std::string& arguments) {
-  Process run("run " + arguments + " --clock real --json --set fault_limit=100%");
+  Process run("run " + arguments + " --clock real --json --set fault_limit=100% --set at_end=null");
   Outcome o{run.end(), run.errors(), {}};
   if (o.exit_code == 0) o.run = run.json();
   return o;

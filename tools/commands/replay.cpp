@@ -18,6 +18,7 @@
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
 #include "tools/report/progress.h"
+#include "tools/report/rest_report.h"
 #include "tools/report/run_end.h"
 #include "tools/report/told_faults.h"
 #include "tools/run/crash_line.h"
@@ -162,6 +163,7 @@ int replay(const Options& options) {
   const std::vector<Miss> misses = log.begin(graph);
   const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
+  if (log.rest_begun()) files.judge_before(*log.rest_begun());
   ToldChanges told(graph);
   Executor executor(graph, told.listen(replayed_channels(graph, log)),
                     {.digest = true, .recorder = files.recorder(), .misses = misses});
@@ -173,7 +175,7 @@ int replay(const Options& options) {
   std::optional<Progress> progress;
   progress.emplace(!options.json && isatty(STDERR_FILENO) != 0, log.covered(), [&] { return executor.now(); });
   const RunEnd run_end = attend(
-      attended, [] {}, Interruptible::signal);
+      attended, [] {}, Interruptible::wish);
   progress.reset();
   if (run_end.failure) std::rethrow_exception(run_end.failure);
   Comparison& comparison = attended.comparison;
@@ -191,8 +193,9 @@ int replay(const Options& options) {
   RunVerdict verdict;
   const Duration reached = comparison.interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated);
   if (unwritten.empty())
-    verdict.expectations =
-        files.judge(report.covered, why_cut_short(reached, log.header().until, log.header().mission));
+    verdict.expectations = files.judge(judged_until(log.rest_begun(), log.header().until, report.covered),
+                                       why_cut_short(judged_until(log.rest_begun(), log.header().until, reached),
+                                                     log.header().until, log.header().mission));
   verdict.left_out = find_left_out(graph, report);
   const RunOutcome outcome{.graph = graph,
                            .executor = executor,

@@ -17,6 +17,7 @@
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
 #include "tools/report/progress.h"
+#include "tools/report/rest_report.h"
 #include "tools/report/run_end.h"
 #include "tools/report/told_changes.h"
 #include "tools/report/told_faults.h"
@@ -168,7 +169,9 @@ int run(const Options& options) {
       clock || std::any_of(channels.begin(), channels.end(), [](const Channels* c) { return c->outlives_run(); });
   const bool shown = !options.json && isatty(STDERR_FILENO) != 0 && end != Duration::max();
   let_writing_fail();
-  const Interruptible interruptible([] {}, steers ? HaltKey::ends : HaltKey::halts);
+  const std::optional<Duration> rest = clock ? longest_rest(graph) : std::nullopt;
+  const Interruptible interruptible([] {}, steers ? HaltKey::ends : HaltKey::halts,
+                                    rest ? SecondSignal::hastens : SecondSignal::ends);
   std::optional<Progress> progress;
   // made before the priority that threads of links take after this one
   progress.emplace(shown, end, [&] { return executor.now(); });
@@ -178,7 +181,7 @@ int run(const Options& options) {
   if (log) log->open();
   take_priority_above(priority);
   auto start = std::chrono::steady_clock::now();
-  ExecutorRun attended(executor, end);
+  ExecutorRun attended(executor, end, rest, [&](Duration begun) { files.judge_before(begun); });
   const RunEnd run_end = attend(
       attended,
       [&] {
@@ -186,7 +189,7 @@ int run(const Options& options) {
         if (guard) guard->arm();
         start = std::chrono::steady_clock::now();
       },
-      Interruptible::signal);
+      Interruptible::wish, [&](const Ending& why) { std::cerr << rest_begins_text(graph, why); });
   progress.reset();
   // a link that is in use can't be finished, and what it has to be handed is left to the guardian
   if (run_end.links_are_free()) {
@@ -213,9 +216,15 @@ int run(const Options& options) {
     if (log) finish_writing([&] { log->close(report); });
   }
   RunVerdict verdict;
+  const std::optional<RestReport> rested = executor.rest();
+  const std::optional<Duration> rest_begun = rested ? std::optional(rested->begun) : std::nullopt;
   if (!run_end.hangs)
-    verdict.expectations = files.judge(
-        report.covered, unseen.empty() ? why_cut_short(report.simulated, end, end_of_mission(channels)) : unseen);
+    verdict.expectations =
+        files.judge(judged_until(rest_begun, end, report.covered),
+                    !unseen.empty() ? unseen
+                                    : why_cut_short(judged_until(rest_begun, end, report.simulated), end,
+                                                    end_of_mission(channels)));
+  verdict.not_at_rest = not_at_rest_text(graph, rested, run_end);
   if (!run_end.hangs) verdict.mishaps = find_mishaps(graph, channels);
   verdict.left_out = find_left_out(graph, report);
   print(options,
@@ -250,7 +259,8 @@ void add_run(CommandLine& line, int& exit_code) {
       "on the real clock.\n"
       "Exit code: 0 good, 1 not what 'expect' says, a vehicle that has crashed, capsized or sunk, too much left out "
       "by\n"
-      "faults, or refused by the real clock, 2 bad input, 3 stopped by a fault, a lost vehicle, a task that does not "
+      "faults, not come to rest as 'at_end' says, or refused by the real clock, 2 bad input, 3 stopped by a fault, a "
+      "lost vehicle, a task that does not "
       "end\n"
       "or a full disk, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
   command->add_option("FILE", options->file, "The graph, a YAML file")->required();

@@ -40,7 +40,7 @@ struct LogHeader {
 
 /// Before the bytes of a record, in the byte order of the machine, which is that of all that Jarol runs on.
 struct LogRecord {
-  enum Kind : std::uint32_t { header = 0xfffffff0, miss, checkpoint, end };  // beyond all inputs
+  enum Kind : std::uint32_t { header = 0xfffffff0, miss, checkpoint, end, rest };  // beyond all inputs
 
   std::int64_t instant = 0;  // ns from the start
   std::uint32_t output = 0;  // index of an input, or a Kind

@@ -33,6 +33,11 @@ std::string wrong_with(const Checkpoint& checkpoint, const std::vector<Checkpoin
   return !before.empty() && checkpoint.settled < before.back().settled ? "a checkpoint before the one before it" : "";
 }
 
+std::string wrong_with(const RestBegin& rest, bool has_begun) {
+  if (!is_time(rest.begun)) return "a way to rest from no time of a run on";
+  return has_begun ? "a second way to rest" : "";
+}
+
 std::string wrong_with(const LogEnd& end, const std::vector<Checkpoint>& before) {
   if (!is_time(end.covered) || !is_time(end.simulated)) return "an end at no time of a run";
   return !before.empty() && end.covered < before.back().settled ? "an end before its last checkpoint" : "";
@@ -81,6 +86,7 @@ void LogReader::keep() {
   switch (record_.output) {
     case LogRecord::end: end_ = take(LogEnd{}, checkpoints_); return;
     case LogRecord::miss: misses_.push_back(take(Miss{}, header_.tasks.size())); break;
+    case LogRecord::rest: rest_begun_ = Duration(take(RestBegin{}, rest_begun_.has_value()).begun); break;
     case LogRecord::checkpoint: checkpoints_.push_back(take(Checkpoint{}, checkpoints_)); break;
     default:
       if (record_.output >= header_.inputs.size()) fail_in_record("what is of no known kind");

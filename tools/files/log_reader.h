@@ -22,6 +22,8 @@ class LogReader : public TakenValues {
 
   /// None: the run was killed, or could not write on, and how it ended is not known.
   const std::optional<LogEnd>& end() const { return end_; }
+  /// From then on the vehicle was brought to rest; none: it was not, or that is not known.
+  std::optional<Duration> rest_begun() const { return rest_begun_; }
   /// The log is good up to that byte.
   std::int64_t good_until() const { return good_until_; }
   /// The instants before it can be replayed.
@@ -52,6 +54,7 @@ class LogReader : public TakenValues {
   std::streamoff good_until_ = 0;
   LogHeader header_;
   std::optional<LogEnd> end_;
+  std::optional<Duration> rest_begun_;
   std::uint64_t values_ = 0;
   std::int64_t last_value_ = 0;  // ns; its instant
   std::vector<Miss> misses_;     // by the header's tasks

@@ -60,8 +60,12 @@ void LogWriter::close(const Report& report) {
 }
 
 void LogWriter::take(Duration instant, std::uint32_t output, const void* value) {
-  if (output + 2 == outputs_.size()) return append(instant, LogRecord::miss, value, sizeof(Miss));
-  if (output + 1 == outputs_.size()) return append(instant, LogRecord::checkpoint, value, sizeof(Checkpoint));
+  switch (outputs_.size() - output) {
+    case 3: return append(instant, LogRecord::miss, value, sizeof(Miss));
+    case 2: return append(instant, LogRecord::checkpoint, value, sizeof(Checkpoint));
+    case 1: return append(instant, LogRecord::rest, value, sizeof(RestBegin));
+    default: break;
+  }
   const Type& type = *outputs_[output].type;
   packed_.resize(packed_size(type, value));
   pack(type, value, reinterpret_cast<std::byte*>(packed_.data()));

@@ -72,6 +72,7 @@ std::string graph_schema() {
                    {{"type", "array"}, {"items", {{"type", "string"}, {"pattern", arrow_pattern}}}});
   describe_section(schema, "chains", entries_schema(mapping_schema(chain_keys())));
   describe_section(schema, "platform", mapping_schema(platform_keys()));
+  describe_section(schema, "at_end", mapping_schema(at_end_keys()));
   describe_section(schema, "expect", {{"type", "array"}, {"items", {{"type", "string"}}}});
   describe_section(schema, "profiles", {{"type", "object"}, {"additionalProperties", {{"type", "object"}}}});
   Json whole{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "A graph of Jarol"}};

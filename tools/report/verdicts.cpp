@@ -28,7 +28,7 @@ bool is_single(const Task& task, std::uint64_t left_out, std::int64_t due) {
 }  // namespace
 
 bool RunVerdict::is_negative() const {
-  return !mishaps.empty() || !left_out.empty() ||
+  return !mishaps.empty() || !left_out.empty() || !not_at_rest.empty() ||
          std::any_of(expectations.begin(), expectations.end(),
                      [](const Verdict& v) { return v.outcome == Verdict::Outcome::fails; });
 }
@@ -109,6 +109,8 @@ nlohmann::ordered_json to_json(const RunVerdict& verdict) {
   return {{"negative", verdict.is_negative()},
           {"expectations", std::move(expectations)},
           {"mishaps", std::move(mishaps)},
+          {"not_at_rest",
+           verdict.not_at_rest.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(verdict.not_at_rest)},
           {"left_out", verdict.left_out}};
 }
 
@@ -116,6 +118,7 @@ std::string failures_text(const RunVerdict& verdict) {
   std::string text;
   for (const auto& mishap : verdict.mishaps)
     text += "error: the vehicle of '" + mishap.distributer + "' has " + mishap.text + "\n";
+  if (!verdict.not_at_rest.empty()) text += "error: " + verdict.not_at_rest + "\n";
   for (const std::string& line : verdict.left_out) text += "error: " + line + "\n";
   for (const Verdict& v : verdict.expectations)
     if (v.outcome == Verdict::Outcome::fails)

@@ -20,6 +20,7 @@ struct RunVerdict {
     std::string text;
   };
   std::vector<VehicleMishap> mishaps;
+  std::string not_at_rest{};          // why its vehicle did not come to rest at its end; empty: it did, or was not to
   std::vector<std::string> left_out;  // per task with more faults than the graph allows: a line
 
   bool is_negative() const;

@@ -15,7 +15,8 @@ namespace {
 std::atomic<bool> flag{false};
 std::atomic<int> number{0};
 std::atomic<bool> alive{false};
-std::atomic<std::int64_t> first_at{0};  // ns; 0: none has come
+std::atomic<bool> may_hasten{false}, hastened{false};
+std::atomic<std::int64_t> counted_at{0};  // ns, of the newest that counts; 0: none has come
 std::function<void()> call;
 
 constexpr std::int64_t second_from = 500'000'000;  // ns: what comes sooner is the same wish, told twice
@@ -28,14 +29,19 @@ std::int64_t now() {
 
 extern "C" void interrupt(int signal) {
   // another thread may take the second signal before this one has done more
-  std::int64_t first = 0;
-  if (first_at.compare_exchange_strong(first, now())) {
+  std::int64_t before = 0;
+  if (counted_at.compare_exchange_strong(before, now())) {
     number.store(signal);
     flag.store(true);
     if (alive.load()) call();
     return;
   }
-  if (now() - first < second_from) return;
+  if (now() - before < second_from) return;
+  if (may_hasten.exchange(false)) {
+    counted_at.store(now());
+    hastened.store(true);
+    return;
+  }
   // whoever asks again does not want to wait for the end, nor, the third time, for this line
   std::signal(signal, SIG_DFL);
   remove_partial_files();
@@ -46,12 +52,14 @@ extern "C" void interrupt(int signal) {
 
 }  // namespace
 
-Interruptible::Interruptible(std::function<void()> at_once, HaltKey halt_key)
+Interruptible::Interruptible(std::function<void()> at_once, HaltKey halt_key, SecondSignal second_signal)
     : count_(signals.size() - (halt_key == HaltKey::halts ? 1 : 0)) {
   call = std::move(at_once);
   flag.store(false);
   number.store(0);
-  first_at.store(0);
+  may_hasten.store(second_signal == SecondSignal::hastens);
+  hastened.store(false);
+  counted_at.store(0);
   alive.store(true);
   for (std::size_t i = 0; i < count_; ++i) {
     before_[i] = std::signal(signals[i], interrupt);
@@ -70,6 +78,8 @@ Interruptible::~Interruptible() {
 const std::atomic<bool>& Interruptible::interrupted() { return flag; }
 
 int Interruptible::signal() { return number.load(); }
+
+Wish Interruptible::wish() { return {number.load(), hastened.load()}; }
 
 void let_writing_fail() {
   std::signal(SIGPIPE, SIG_IGN);

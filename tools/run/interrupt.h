@@ -6,20 +6,27 @@
 #include <csignal>
 #include <functional>
 
+#include "runtime/execute/attend.h"
+
 namespace jarol::tools {
 
 /// What Ctrl-Z does, SIGTSTP: halt the process as ever, or end the run as the other signals do, where something steers
 /// that must not be left alone.
 enum class HaltKey { halts, ends };
 
+/// What a second signal does: end the program, or ask for haste where the first one begins what takes its time; then a
+/// third one ends the program.
+enum class SecondSignal { ends, hastens };
+
 /// While it lives, the first of SIGINT, SIGTERM and SIGHUP sets a flag, and calls what has to be called at once; there
 /// is one at a time. From then on to the end of the program another one ends it on the spot, but only half a second
-/// after the first: Ctrl-C pressed twice, or a terminal that sends two signals, does not lose the report.
+/// after the one before: Ctrl-C pressed twice, or a terminal that sends two signals, does not lose the report.
 class Interruptible {
  public:
   /// `at_once` is called by the signal handler: it may do no more than set atomic variables.
   explicit Interruptible(
-      std::function<void()> at_once = [] {}, HaltKey halt_key = HaltKey::halts);
+      std::function<void()> at_once = [] {}, HaltKey halt_key = HaltKey::halts,
+      SecondSignal second_signal = SecondSignal::ends);
   ~Interruptible();
   Interruptible(const Interruptible&) = delete;
   Interruptible& operator=(const Interruptible&) = delete;
@@ -27,6 +34,7 @@ class Interruptible {
   static const std::atomic<bool>& interrupted();
   /// The first signal, or 0.
   static int signal();
+  static Wish wish();
 
  private:
   static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP, SIGTSTP};

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "distributers/distributers.h"
+#include "graph/expect/at_end.h"
 #include "graph/expect/parse.h"
 #include "graph/model/build.h"
 #include "graph/plugins/plugins.h"
@@ -55,6 +56,7 @@ Loaded load(const GraphSpec& spec, Problems& problems) {
   announce_plugins(spec);
   load_plugins(spec, *loaded.registry, problems);
   loaded.graph = std::make_unique<Graph>(build_graph(spec, *loaded.registry, problems));
+  expect::add_at_end(spec, *loaded.graph, problems);
   return loaded;
 }
 

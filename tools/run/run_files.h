@@ -52,6 +52,10 @@ class RunFiles {
   /// Writes all that is left. Throws std::runtime_error if something could not be written.
   void close();
 
+  /// What is published from that instant on is not judged.
+  void judge_before(Duration instant) {
+    if (expectations_) expectations_->judge_before(instant);
+  }
   /// After `close`, of a run that covered the instants before `end`. `cut_short`: why it ended before what it was meant
   /// to do; else empty.
   std::vector<Verdict> judge(Duration end, const std::string& cut_short) const;

@@ -11,6 +11,7 @@
 #include "tools/report/commanded.h"
 #include "tools/report/exit_code.h"
 #include "tools/report/json_line.h"
+#include "tools/report/rest_report.h"
 #include "tools/report/run_end.h"
 #include "tools/report/told_changes.h"
 #include "tools/report/told_faults.h"
@@ -58,7 +59,7 @@ void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
     std::cout << "  sensors     " << threads.unawaited_ticks << " ticks found their thread at work\n";
   std::cout << told.to_text();
   for (const LinkReport& link : links) std::cout << to_text(link);
-  std::cout << to_text(graph, core.safe_commands(), end.ending) << guard.to_text();
+  std::cout << to_text(graph, core.rest(), end) << to_text(graph, core.safe_commands(), end.ending) << guard.to_text();
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
   std::cout << to_text(verdict);
@@ -89,6 +90,7 @@ void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
                               {"fault_summary", fault_summary_to_json(report)},
                               {"non_finite_inputs", report.non_finite_inputs},
                               {"ending", to_json(end)},
+                              {"rest", to_json(graph, core.rest(), end)},
                               {"safe_commands", to_json(graph, core.safe_commands())},
                               {"told", told.to_json()}};
   json["outputs"] = outputs_to_json(graph, [&](std::size_t communicator) { return core.last_value(communicator); });
@@ -112,8 +114,8 @@ void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
 
 class ThreadsRun : public AttendedRun {
  public:
-  ThreadsRun(ThreadsCore& core, Duration end, const RealTimeOptions& options)
-      : core_(core), end_(end), options_(options) {}
+  ThreadsRun(ThreadsCore& core, Duration end, std::optional<Duration> longest_rest, const RealTimeOptions& options)
+      : core_(core), end_(end), longest_rest_(longest_rest), options_(options) {}
   void cover() override {
     // what one thread is refused, all are
     core_.cover(end_, [this, caller = std::this_thread::get_id()] {
@@ -123,6 +125,9 @@ class ThreadsRun : public AttendedRun {
     });
   }
   bool stopped_by_fault() const override { return core_.report().stopped; }
+  std::optional<Duration> longest_rest() const override { return longest_rest_; }
+  void ask_for_rest() override { core_.ask_for_rest(); }
+  bool resting() const override { return core_.resting(); }
   void close(const Ending&, Futex::Time patience) override { core_.close(patience); }
   std::optional<Holdup> holdup() const override { return core_.holdup(); }
   std::vector<HangingTask> running() const override {
@@ -134,6 +139,7 @@ class ThreadsRun : public AttendedRun {
  private:
   ThreadsCore& core_;
   Duration end_;
+  std::optional<Duration> longest_rest_;
   const RealTimeOptions& options_;
 };
 
@@ -148,29 +154,36 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
   const std::vector<Channels*> channels = pointers_to(loaded.channels);
   RunFiles files(*loaded.graph, {});
   ThreadsCore core(*loaded.graph, std::move(loaded.channels), files.recorder());
+  core.on_rest([&](Duration begun) { files.judge_before(begun); });
   let_writing_fail();
-  const Interruptible interruptible([] {}, HaltKey::ends);
+  const std::optional<Duration> rest = longest_rest(*loaded.graph);
+  const Interruptible interruptible([] {}, HaltKey::ends, rest ? SecondSignal::hastens : SecondSignal::ends);
   take_priority(options.priority);
   Linked linked(channels);
   take_priority_above(options.priority);
-  ThreadsRun attended(core, end, options);
+  ThreadsRun attended(core, end, rest, options);
   const RunEnd run_end = attend(
-      attended, [&] { guard.arm(); }, Interruptible::signal);
+      attended, [&] { guard.arm(); }, Interruptible::wish,
+      [&](const Ending& why) { std::cerr << rest_begins_text(*loaded.graph, why); });
   if (run_end.links_are_free()) {
     linked.finish();
     guard.close();
   }
   halt_if_asked(run_end);
   RunVerdict verdict;
+  const std::optional<RestReport> rested = core.rest();
+  const std::optional<Duration> rest_begun = rested ? std::optional(rested->begun) : std::nullopt;
   std::string unwatched;
   if (!run_end.hangs) {
     try {
       files.close();
-      verdict.expectations =
-          files.judge(core.report().covered, why_cut_short(core.report().simulated, end, end_of_mission(channels)));
+      verdict.expectations = files.judge(
+          judged_until(rest_begun, end, core.report().covered),
+          why_cut_short(judged_until(rest_begun, end, core.report().simulated), end, end_of_mission(channels)));
     } catch (const std::exception& error) { unwatched = error.what(); }
     verdict.mishaps = find_mishaps(*loaded.graph, channels);
   }
+  verdict.not_at_rest = not_at_rest_text(*loaded.graph, rested, run_end);
   verdict.left_out = find_left_out(*loaded.graph, core.report());
   const std::vector<TrueState> true_states =
       run_end.hangs ? std::vector<TrueState>{} : find_true_states(*loaded.graph, channels);

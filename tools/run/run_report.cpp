@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/machine/arithmetic.h"
+#include "tools/report/rest_report.h"
 #include "tools/report/told_faults.h"
 #include "tools/report/value_json.h"
 #include "tools/report/verdicts.h"
@@ -43,6 +44,7 @@ std::string to_text(const RunOutcome& outcome) {
   text += outcome.told.to_text();
   if (outcome.clock != nullptr) text += to_text(graph, *outcome.clock);
   for (const LinkReport& link : outcome.links) text += to_text(link);
+  text += to_text(graph, executor.rest(), outcome.end);
   text += to_text(graph, executor.safe_commands(), outcome.end.ending);
   if (outcome.guard != nullptr) text += outcome.guard->to_text();
   if (report.non_finite_inputs > 0)
@@ -79,6 +81,7 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
       {"fault_summary", fault_summary_to_json(report)},
       {"non_finite_inputs", report.non_finite_inputs},
       {"ending", to_json(outcome.end)},
+      {"rest", to_json(graph, executor.rest(), outcome.end)},
       {"safe_commands", to_json(graph, executor.safe_commands())},
       {"told", outcome.told.to_json()},
       {"heaps", heaps},

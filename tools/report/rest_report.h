@@ -1,0 +1,30 @@
+// How a vehicle came to rest at the end of a run, in its report.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "graph/model/graph.h"
+#include "runtime/execute/attend.h"
+#include "runtime/rest.h"
+
+namespace jarol::tools {
+
+/// How long the vehicle may take, on the real clock; none: the graph does not state how it comes to rest.
+std::optional<Duration> longest_rest(const Graph& graph);
+
+/// A line for stderr as that begins.
+std::string rest_begins_text(const Graph& graph, const Ending& why);
+
+/// A line of the report, or nothing.
+std::string to_text(const Graph& graph, const std::optional<RestReport>& rest, const RunEnd& end);
+nlohmann::ordered_json to_json(const Graph& graph, const std::optional<RestReport>& rest, const RunEnd& end);
+
+/// Why it did not come to rest, as a sentence; empty: it did, or was not to.
+std::string not_at_rest_text(const Graph& graph, const std::optional<RestReport>& rest, const RunEnd& end);
+
+/// Where the part of a run ends that its expectations are of.
+Duration judged_until(const std::optional<Duration>& rest_begun, Duration until, Duration reached);
+
+}  // namespace jarol::tools
