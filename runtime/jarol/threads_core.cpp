@@ -258,7 +258,7 @@ void ThreadsCore::run_sensor(Duration end) {
     next = round + 1;
     if (const std::optional<Duration> reached = end_at(round, rounds, end)) {
       now_.store(reached->count(), std::memory_order_relaxed);
-      reached_end_ = true;
+      reached_end_ = rest_reached_.load(std::memory_order_relaxed) < 0;
       stopped_.store(true, std::memory_order_release);
       return;
     }

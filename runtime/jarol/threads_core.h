@@ -172,7 +172,7 @@ class ThreadsCore {
   std::atomic<bool> interrupted_{false};
   std::atomic<bool> stopped_{false};  // at the end, by a fault or a failure
   std::atomic<bool> closed_{false};
-  bool reached_end_ = false;  // of the sensor thread
+  bool reached_end_ = false;    // of the sensor thread
   std::unique_ptr<Rest> rest_;  // of the core thread; null: the graph states none
   std::function<void(Duration)> on_rest_ = [](Duration) {};
   std::atomic<bool> rest_asked_{false};

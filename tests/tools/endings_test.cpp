@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 using command::TemporaryFolder;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-constexpr double steers = 0.5, safe = 0.25;  // thrusts
+constexpr double steers = 0.5, safe = 0.25, comes_to_rest = 0.125;  // thrusts
 constexpr auto in_time = 100ms;
 
 // How a run is ended. A row more is an element more of `endings`.
@@ -31,6 +31,7 @@ struct Ending {
   int exit_code = 0;
   std::string reason;  // in its report
   bool loses = false;  // a vehicle of its own in lockstep, which vanishes
+  bool rests = false;  // where the graph states how, its vehicle comes to rest first
 };
 
 void wait_for_end(Process& run) {
@@ -47,11 +48,11 @@ auto send(int signal) {
 
 const std::vector<Ending>& endings() {
   static const std::vector<Ending> all{
-      {"SIGINT", "", "--for 1h", 100ms, send(SIGINT), {}, 130, "SIGINT ended the run"},
-      {"SIGTERM", "", "--for 1h", 100ms, send(SIGTERM), {}, 143, "SIGTERM ended the run"},
-      {"SIGHUP", "", "--for 1h", 100ms, send(SIGHUP), {}, 129, "SIGHUP ended the run"},
-      {"SIGTSTP", "", "--for 1h", 100ms, send(SIGTSTP), {}, 148, "SIGTSTP ended the run"},
-      {"--for", "", "--for 300ms", 0ms, nullptr, 300ms, 0, "the run was over"},
+      {"SIGINT", "", "--for 1h", 100ms, send(SIGINT), {}, 130, "SIGINT ended the run", false, true},
+      {"SIGTERM", "", "--for 1h", 100ms, send(SIGTERM), {}, 143, "SIGTERM ended the run", false, true},
+      {"SIGHUP", "", "--for 1h", 100ms, send(SIGHUP), {}, 129, "SIGHUP ended the run", false, true},
+      {"SIGTSTP", "", "--for 1h", 100ms, send(SIGTSTP), {}, 148, "SIGTSTP ended the run", false, true},
+      {"--for", "", "--for 300ms", 0ms, nullptr, 300ms, 0, "the run was over", false, true},
       {"a fault", "{type: Throws, parameters: {at: 15}}", "--for 1h", 0ms, nullptr, 300ms, 3, "a fault ended the run"},
       {"a task that never ends", "{type: Hangs, parameters: {at: 15}}", "--for 1h", 0ms, nullptr, 320ms, 3, ""},
       {"one that never ends where faults are held",
@@ -92,13 +93,20 @@ std::vector<Way> ways() {
   return all;
 }
 
-std::string graph_of(const Ending& ending, const Way& way, const ActuatorPeer& peer, const ActuatorPeer* lost) {
+// How the vehicle comes to rest, where the graph states it.
+const std::string comes_to_rest_first =
+    "at_end: {command: {thrust: {thruster: 0.125}}, until: to_dune.thruster < 0.2, longest: 10s}\n";
+
+std::string graph_of(const Ending& ending, const Way& way, const ActuatorPeer& peer, const ActuatorPeer* lost,
+                     const std::string& at_end, const std::string& mission) {
   const std::string platform = way.policy == "threads" ? "{cores: 1, policy: table}" : way.policy;
   std::string text = "graph: ends\ntiming: {period: 20ms}\nplugins: [ends.so]\nplatform: " + platform +
                      "\ndistributers:\n  dune: {type: LauvVehicle, link: " + peer.link() + "}\n" +
                      (lost != nullptr ? "  other: {type: LauvVehicle, link: " + lost->link() + "}\n" : "") +
+                     "  operator: {type: LauvOperator, link: {type: script, file: " + mission +
+                     "}}\n"
                      "communicators:\n"
-                     "  idle: {type: Actuation, direction: in, init: {thruster: 0.5}}\n"
+                     "  thrust: {channel: operator.actuation, init: {thruster: 0.5}}\n"
                      "  from_dune: {channel: dune.motion, timeout: 1min}\n"
                      "  to_dune: {channel: dune.actuation, safe: {thruster: 0.25}}\n" +
                      (lost != nullptr ? "  from_other: {channel: other.motion}\n" : "") +
@@ -108,20 +116,21 @@ std::string graph_of(const Ending& ending, const Way& way, const ActuatorPeer& p
                      (ending.task.empty() ? "" : "  ends: " + ending.task + "\n") +
                      "connections:\n"
                      "  - from_dune -> forward.motion\n"
-                     "  - idle -> forward.actuation\n"
+                     "  - thrust -> forward.actuation\n"
                      "  - forward.actuation -> to_dune\n";
-  if (lost != nullptr) text += "  - from_other -> second.motion\n  - idle -> second.actuation\n";
-  return text;
+  if (lost != nullptr) text += "  - from_other -> second.motion\n  - thrust -> second.actuation\n";
+  return text + at_end;
 }
 
 // One run; how long after its end the peer had what is safe. None: it ended before it had steered.
-std::optional<double> end_one(const Ending& ending, const Way& way) {
+std::optional<double> end_one(const Ending& ending, const Way& way, const std::string& at_end) {
   const TemporaryFolder folder;
   std::filesystem::copy_file(JAROL_PLUGIN_FOLDER "/ends.so", folder / "ends.so",
                              std::filesystem::copy_options::overwrite_existing);
   const auto peer = make_actuator_peer(way.link);
   const auto lost = ending.loses ? make_actuator_peer("lockstep") : nullptr;
-  const std::string graph = folder.write("g.yaml", graph_of(ending, way, *peer, lost.get()));
+  const std::string mission = folder.write("m.csv", "time,actuation.thruster\n0,0.5\n7200,0.5\n");
+  const std::string graph = folder.write("g.yaml", graph_of(ending, way, *peer, lost.get(), at_end, mission));
   Process run("run " + graph + " --json --clock " + way.clock + " " + ending.options +
               (way.policy == "threads" ? " --concurrency threads" : ""));
   while (run.runs() && !peer->has(steers)) std::this_thread::sleep_for(1ms);
@@ -147,20 +156,26 @@ std::optional<double> end_one(const Ending& ending, const Way& way) {
   // at the start the run may have taken its peer for silent
   const auto steered =
       std::find_if(thrusts.rbegin(), thrusts.rend(), [](const Thrust& t) { return t.value == steers; });
-  const auto last = steered.base();
+  auto last = steered.base();
+  const bool rests = !at_end.empty() && ending.rests && way.clock == "real";
+  const auto on_its_way = last;
+  while (rests && last != thrusts.end() && last->value == comes_to_rest) ++last;
+  CHECK((last != on_its_way) == rests);
   REQUIRE(last != thrusts.end());
   CHECK(last->value == safe);
   // and no other command follows
   CHECK(last + 1 == thrusts.end());
   const auto json = run.json();
   if (!ending.reason.empty()) CHECK(json["ending"]["reason"] == ending.reason);
+  CHECK(json["rest"].is_null() == !rests);
+  if (rests) CHECK(json["rest"]["reached"] == true);
   CHECK(json["safe_commands"]["to_dune"]["at_end"] == true);
   CHECK(json["safe_commands"]["to_dune"]["at_end_value"]["thruster"] == safe);
   if (!ending.act) ended = thrusts.front().at + ending.at;
   return std::chrono::duration_cast<Milliseconds>(last->at - ended).count();
 }
 
-void check_one(const Ending& ending, const Way& way) {
+void check_one(const Ending& ending, const Way& way, const std::string& at_end) {
   CAPTURE(ending.name);
   CAPTURE(way.link);
   CAPTURE(way.clock);
@@ -168,7 +183,7 @@ void check_one(const Ending& ending, const Way& way) {
   double least = 1e9;
   // a machine that is busy with other things may be late
   for (int attempt = 0; attempt < 10 && least > Milliseconds(in_time).count(); ++attempt)
-    least = std::min(least, end_one(ending, way).value_or(least));
+    least = std::min(least, end_one(ending, way, at_end).value_or(least));
   CHECK(least <= Milliseconds(in_time).count());
 }
 
@@ -179,24 +194,36 @@ bool exists(const Ending& ending, const Way& way) {
   if (way.policy == "threads" && ending.name == "a task that never ends") return false;
   return true;
 }
+
+// Each ending on each link, and in each way on one, or all of them.
+template <class Wanted>
+void check_all(const std::string& at_end, const Wanted& wanted) {
+  const bool all = std::getenv("JAROL_FULL") != nullptr;
+  int count = 0;
+  for (const Way& way : ways())
+    for (const Ending& ending : endings()) {
+      const bool plain = way.policy == "{cores: 1, policy: table}";
+      if (!exists(ending, way) || !wanted(ending) || (!all && !plain && way.link != "udp")) continue;
+      const auto begin = PeerClock::now();
+      check_one(ending, way, at_end);
+      ++count;
+      if (std::getenv("JAROL_TIMES") != nullptr)
+        MESSAGE(way.link << " " << way.policy << " " << ending.name << " "
+                         << std::chrono::duration_cast<Milliseconds>(PeerClock::now() - begin).count() << " ms");
+    }
+  MESSAGE(count << " endings");
+}
 }  // namespace
 
 TEST_SUITE("tools/endings") {
   TEST_CASE("what is safe goes out at each ending, on each link, in each way of running, and nothing after it") {
-    const bool all = std::getenv("JAROL_FULL") != nullptr;
-    int count = 0;
-    for (const Way& way : ways())
-      for (const Ending& ending : endings()) {
-        // else each ending on each link, and in each way on one
-        const bool plain = way.policy == "{cores: 1, policy: table}";
-        if (!exists(ending, way) || (!all && !plain && way.link != "udp")) continue;
-        const auto begin = PeerClock::now();
-        check_one(ending, way);
-        ++count;
-        if (std::getenv("JAROL_TIMES") != nullptr)
-          MESSAGE(way.link << " " << way.policy << " " << ending.name << " "
-                           << std::chrono::duration_cast<Milliseconds>(PeerClock::now() - begin).count() << " ms");
-      }
-    MESSAGE(count << " endings");
+    check_all("", [](const Ending&) { return true; });
+  }
+
+  TEST_CASE(
+      "where a graph states how its vehicle comes to rest, it is told that before, unless nothing can be trusted") {
+    // what hangs and may be late is waited for
+    check_all(comes_to_rest_first,
+              [](const Ending& ending) { return ending.task.find("on_fault: hold") == std::string::npos; });
   }
 }

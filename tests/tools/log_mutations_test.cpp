@@ -252,6 +252,13 @@ TEST_SUITE("tools/log_mutations") {
     CHECK(report(LogRecord::miss, [](Record& r) { r.bytes += "x"; }) == "25 bytes where there are 24");
     CHECK(report(LogRecord::checkpoint, word(2, 2)) == "a checkpoint that is neither exact nor not");
     CHECK(report(LogRecord::checkpoint, word(0, ~std::uint64_t{0})) == "a checkpoint at no time of a run");
+    const auto rest = [](std::int64_t begun) {
+      return [=](Record& r) {
+        r.head.output = LogRecord::rest;
+        r.bytes.assign(reinterpret_cast<const char*>(&begun), sizeof begun);
+      };
+    };
+    CHECK(report(LogRecord::miss, rest(-1)) == "a way to rest from no time of a run on");
     CHECK(report(LogRecord::end, word(0, 1)) == "an end before its last checkpoint");
     CHECK(report(LogRecord::end, word(1, 0x7fffffffffffffff)) == "an end at no time of a run");
   }

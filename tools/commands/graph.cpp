@@ -8,6 +8,7 @@
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
+#include "tools/report/rest_report.h"
 #include "tools/report/value_json.h"
 #include "tools/run/load_graph.h"
 #include "tools/run/no_plugins.h"
@@ -29,6 +30,12 @@ std::string timing_text(Duration period, Duration offset) {
 std::string task_text(const Task& task) {
   return timing_text(task.period, task.offset) + (task.let ? ", LET " + duration_text(*task.let) : "") + ", deadline " +
          duration_text(task.deadline);
+}
+
+nlohmann::ordered_json at_end_json(const Graph& graph) {
+  return {{"command", command_to_json(graph)},
+          {"until", graph.at_end->until.text},
+          {"longest_ns", graph.at_end->longest.count()}};
 }
 
 void print_text(const Graph& graph) {
@@ -55,6 +62,9 @@ void print_text(const Graph& graph) {
   for (const Connection& c : graph.connections)
     std::cout << "  " << end_name(graph, c.from, true) << " -> " << end_name(graph, c.to, false) << " (" << c.type->name
               << ")\n";
+  if (graph.at_end)
+    std::cout << "\nat the end\n  " << command_text(graph) << " until " << printable(graph.at_end->until.text)
+              << ", at most " << duration_text(graph.at_end->longest) << "\n";
 }
 
 nlohmann::ordered_json communicator_json(const Graph& graph, const Communicator& c) {
@@ -90,11 +100,13 @@ void print_json(const Graph& graph) {
   for (const Connection& c : graph.connections)
     connections.push_back(
         {{"from", end_name(graph, c.from, true)}, {"to", end_name(graph, c.to, false)}, {"type", c.type->name}});
-  std::cout << json_line({{"schema", "jarol.graph/1"},
-                          {"graph", graph.name},
-                          {"communicators", std::move(communicators)},
-                          {"tasks", std::move(tasks)},
-                          {"connections", std::move(connections)}});
+  nlohmann::ordered_json json{{"schema", "jarol.graph/1"},
+                              {"graph", graph.name},
+                              {"communicators", std::move(communicators)},
+                              {"tasks", std::move(tasks)},
+                              {"connections", std::move(connections)}};
+  if (graph.at_end) json["at_end"] = at_end_json(graph);
+  std::cout << json_line(json);
 }
 
 std::string dot_name(const Graph& graph, const End& end) {

@@ -1,16 +1,25 @@
-#include "tools/rest_report.h"
+#include "tools/report/rest_report.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "graph/text/escape.h"
 #include "graph/language/quantities.h"
+#include "graph/text/escape.h"
 #include "tools/report/value_json.h"
 
 namespace jarol::tools {
 namespace {
 
-// As the graph has it: "from_terminal {heard: false}".
+Ending asked(const RunEnd& end) { return end.before_rest.value_or(Ending::over()); }
+
+bool is_cut_short(const RunEnd& end) { return end.ending.reason != asked(end).reason; }
+
+}  // namespace
+
+std::optional<Duration> longest_rest(const Graph& graph) {
+  return graph.at_end ? std::optional(graph.at_end->longest) : std::nullopt;
+}
+
 std::string command_text(const Graph& graph) {
   std::string text;
   for (const EndCommand& command : graph.at_end->commands) {
@@ -25,14 +34,15 @@ std::string command_text(const Graph& graph) {
   return text;
 }
 
-Ending asked(const RunEnd& end) { return end.before_rest.value_or(Ending::over()); }
-
-bool is_cut_short(const RunEnd& end) { return end.ending.reason != asked(end).reason; }
-
-}  // namespace
-
-std::optional<Duration> longest_rest(const Graph& graph) {
-  return graph.at_end ? std::optional(graph.at_end->longest) : std::nullopt;
+nlohmann::ordered_json command_to_json(const Graph& graph) {
+  auto command = nlohmann::ordered_json::object();
+  for (const EndCommand& each : graph.at_end->commands)
+    for (const Leaf& leaf : each.stated) {
+      const std::string& name = graph.communicators[each.communicator].name;
+      auto value = to_json(*leaf.type, static_cast<const std::byte*>(each.value.data()) + leaf.offset);
+      (leaf.path.empty() ? command[name] : command[name][leaf.path]) = std::move(value);
+    }
+  return command;
 }
 
 std::string rest_begins_text(const Graph& graph, const Ending& why) {
@@ -52,15 +62,8 @@ std::string to_text(const Graph& graph, const std::optional<RestReport>& rest, c
 
 nlohmann::ordered_json to_json(const Graph& graph, const std::optional<RestReport>& rest, const RunEnd& end) {
   if (!rest && !end.before_rest) return {};
-  auto command = nlohmann::ordered_json::object();
-  for (const EndCommand& each : graph.at_end->commands)
-    for (const Leaf& leaf : each.stated) {
-      const std::string& name = graph.communicators[each.communicator].name;
-      auto value = to_json(*leaf.type, static_cast<const std::byte*>(each.value.data()) + leaf.offset);
-      (leaf.path.empty() ? command[name] : command[name][leaf.path]) = std::move(value);
-    }
   nlohmann::ordered_json json{{"reason", asked(end).reason},
-                              {"command", std::move(command)},
+                              {"command", command_to_json(graph)},
                               {"until", graph.at_end->until.text},
                               {"longest_ns", graph.at_end->longest.count()},
                               {"reached", rest && rest->reached}};

@@ -7,12 +7,16 @@
 
 #include "graph/model/graph.h"
 #include "runtime/execute/attend.h"
-#include "runtime/rest.h"
+#include "runtime/execute/rest.h"
 
 namespace jarol::tools {
 
 /// How long the vehicle may take, on the real clock; none: the graph does not state how it comes to rest.
 std::optional<Duration> longest_rest(const Graph& graph);
+
+/// What is commanded, of a graph that states it: "from_terminal {heard: false}", and by communicator.
+std::string command_text(const Graph& graph);
+nlohmann::ordered_json command_to_json(const Graph& graph);
 
 /// A line for stderr as that begins.
 std::string rest_begins_text(const Graph& graph, const Ending& why);

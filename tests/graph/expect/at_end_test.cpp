@@ -70,9 +70,7 @@ Graph graph_with(const std::string& at_end) {
 }  // namespace
 
 TEST_SUITE("graph/expect/at_end") {
-  TEST_CASE("a graph without it has none") {
-    CHECK(!graph_with("null").at_end.has_value());
-  }
+  TEST_CASE("a graph without it has none") { CHECK(!graph_with("null").at_end.has_value()); }
 
   TEST_CASE("it has the value that is commanded, the condition and the longest time") {
     const Graph graph = graph_with("{command: {number: -2}, until: r.out < 3, longest: 20s}");

@@ -96,7 +96,7 @@ communicators:
   sensor: {channel: plant.sensor, timeout: 1h}
   motor: {channel: plant.motor, safe: -1}
 tasks: {climb: {type: Climb, on_fault: hold, priority: 1)" +
-                                                let + R"(}, r: {type: Relay, priority: 2, on_fault: hold}}
+                           let + R"(}, r: {type: Relay, priority: 2, on_fault: hold}}
 connections: [wish -> climb.command, climb.height -> motor, sensor -> r.in]
 at_end: )" + at_end + "\n";
   Problems problems;
