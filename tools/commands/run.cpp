@@ -219,11 +219,10 @@ int run(const Options& options) {
   const std::optional<RestReport> rested = executor.rest();
   const std::optional<Duration> rest_begun = rested ? std::optional(rested->begun) : std::nullopt;
   if (!run_end.hangs)
-    verdict.expectations =
-        files.judge(judged_until(rest_begun, end, report.covered),
-                    !unseen.empty() ? unseen
-                                    : why_cut_short(judged_until(rest_begun, end, report.simulated), end,
-                                                    end_of_mission(channels)));
+    verdict.expectations = files.judge(judged_until(rest_begun, end, report.covered),
+                                       !unseen.empty() ? unseen
+                                                       : why_cut_short(judged_until(rest_begun, end, report.simulated),
+                                                                       end, end_of_mission(channels)));
   verdict.not_at_rest = not_at_rest_text(graph, rested, run_end);
   if (!run_end.hangs) verdict.mishaps = find_mishaps(graph, channels);
   verdict.left_out = find_left_out(graph, report);

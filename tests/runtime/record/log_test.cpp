@@ -23,8 +23,10 @@ class KeptLog : public RecordSink, public TakenValues {
 
   void take(Duration instant, std::uint32_t output, const void* value) override {
     if (output + 1 == outputs_.size()) {
-      checkpoints.push_back(*static_cast<const Checkpoint*>(value));
+      FAIL("no vehicle is brought to rest here");
     } else if (output + 2 == outputs_.size()) {
+      checkpoints.push_back(*static_cast<const Checkpoint*>(value));
+    } else if (output + 3 == outputs_.size()) {
       misses.push_back(*static_cast<const Miss*>(value));
     } else {
       Value copy(*outputs_[output].type);
