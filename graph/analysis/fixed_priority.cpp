@@ -80,9 +80,10 @@ std::optional<std::int64_t> nonpreemptive_response(const Load& load, const Inter
   auto length = least_fixed_point(std::max<std::int64_t>(1, blocking), repeats, effort, busy.size(),
                                   [&](std::int64_t w) { return blocking + busy.demand(w, false); });
   if (!length && repeats < far) length = repeats;
-  if (!length || (*length + load.jitter) / load.period > most_activations) return std::nullopt;
+  if (!length || *length / load.period > most_activations) return std::nullopt;
   std::int64_t response = 0, start = blocking;
-  for (std::int64_t q = 0; q * load.period < *length + load.jitter; ++q) {
+  // those that arrive later end at `length` at the latest, so that they respond within their jitter, as the first can't
+  for (std::int64_t q = 0; q * load.period < *length; ++q) {
     const Wide own = static_cast<Wide>(blocking) + static_cast<Wide>(q) * load.wcet;
     const auto found =
         least_fixed_point(std::max(start, static_cast<std::int64_t>(own)), far, effort, more_urgent.size(),
