@@ -55,8 +55,9 @@ const std::vector<Key<CommunicatorSpec>>& communicator_keys() {
       key<&CommunicatorSpec::init>("init", Form::any, "value of an 'in' until its channel brings one"),
       key<&CommunicatorSpec::timeout>("timeout", Form::positive_duration,
                                       "of an 'in': without a new value for longer, its distributer is silent"),
-      key<&CommunicatorSpec::safe>("safe", Form::any,
-                                   "of an 'out': what it hands over while its distributer is silent"),
+      key<&CommunicatorSpec::safe>(
+          "safe", Form::any,
+          "of an 'out': what it hands over while its distributer is silent, and at the end of a run"),
   };
   return keys;
 }
