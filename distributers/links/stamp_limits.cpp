@@ -33,7 +33,7 @@ StampLimits::Finding StampLimits::look(messages::MessageRef header, Clock::time_
   std::uint64_t id = 0;
   std::memcpy(&stamp, fields + time_->offset, sizeof stamp);
   if (source_ != nullptr) std::memcpy(&id, fields + source_->offset, size_of(source_->wire));
-  if (!std::isfinite(stamp)) return Finding::no_time;
+  if (!(stamp >= earliest && stamp < latest)) return Finding::no_time;
   Source& source = find(id);
   const auto seconds = [](auto duration) { return std::chrono::duration<double>(duration).count(); };
   const double lead = stamp - seconds(now.time_since_epoch());

@@ -19,6 +19,9 @@ class StampLimits {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds max_ahead{10}, max_behind{600};
+  /// s since 1970, as IMC counts: what a clock can show that was never set, and the year 2200. What is outside is no
+  /// time, and no clock of a sender begins with it.
+  static constexpr double earliest = 0, latest = 7'258'118'400;
 
   StampLimits(const messages::MessageSet& set, std::chrono::nanoseconds silence);
 

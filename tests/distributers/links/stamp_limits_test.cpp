@@ -42,7 +42,7 @@ TEST_SUITE("distributers/links/stamp_limits") {
       CHECK(b.look(1, its + 20.98 - 599.9) == Finding::good);
       CHECK(b.look(1, its + 20.98 - 600.1) == Finding::behind);
       CHECK(b.look(2, its + 21.98) == Finding::good);
-      CHECK(b.look(2, its - 1e6, 2) == Finding::good);  // another system, with a clock of its own
+      CHECK(b.look(2, its + 1e6, 2) == Finding::good);  // another system, with a clock of its own
       CHECK(b.look(2, its + 22) == Finding::good);
     }
   }
@@ -54,6 +54,18 @@ TEST_SUITE("distributers/links/stamp_limits") {
       CHECK(b.look(0, 1000) == Finding::good);
       CHECK(b.look(0, no) == Finding::no_time);
     }
+  }
+
+  TEST_CASE("a stamp before 1970 or after 2199 is no time of a clock, and no first one keeps away those that follow") {
+    for (const double no : {1e308, -1e308, 1e12, 7'258'118'400.0, -0.001}) {
+      CAPTURE(no);
+      Bench b;
+      CHECK(b.look(0, no) == Finding::no_time);
+      CHECK(b.look(0.1, 1000.1) == Finding::good);
+      CHECK(b.look(0.2, no) == Finding::no_time);
+      CHECK(b.look(0.3, 1000.3) == Finding::good);
+    }
+    for (const double first : {0.0, 7'258'118'399.0}) CHECK(Bench().look(0, first) == Finding::good);
   }
 
   TEST_CASE("a first stamp that is old gives way to one nearer to the time here") {
