@@ -1,11 +1,14 @@
 #include "distributers/links/serial.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <termios.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
+#include <thread>
 
 namespace jarol::distributers {
 namespace {
@@ -32,15 +35,33 @@ SerialTransport::SerialTransport(std::string device, int baud) : device_(std::mo
   speed_of(baud);
 }
 
-// A line that is not there at the begin is a mistake; one that goes later may come again.
+// A line that is not there at the begin is a mistake, as is one that another process uses; one that goes later may come
+// again. The guardian of a program that crashed has the line for a moment longer.
 void SerialTransport::open() {
-  if (!get_stream()) throw std::runtime_error("can't open " + text() + ": " + std::strerror(errno));
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::milliseconds(500);
+  while (!(line_ = get_stream())) {
+    const int reason = errno;
+    const bool in_use = reason == EWOULDBLOCK;
+    if (!in_use || Clock::now() > end)
+      throw std::runtime_error("can't open " + text() + ": " +
+                               (in_use ? "it is in use by another process" : std::strerror(reason)));
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
+void SerialTransport::close() {
+  StreamTransport::close();
+  line_.close();
+}
+
+// One process at a time has the lock. It goes with the last descriptor of this opening, which may be the guardian's;
+// nothing is changed of a line before it is had.
 Descriptor SerialTransport::get_stream() {
+  if (line_) return std::move(line_);
   Descriptor line(::open(device_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   termios settings{};
-  if (!line || tcgetattr(line.get(), &settings) != 0) return {};
+  if (!line || tcgetattr(line.get(), &settings) != 0 || flock(line.get(), LOCK_EX | LOCK_NB) != 0) return {};
   cfmakeraw(&settings);
   settings.c_cflag |= CLOCAL | CREAD;
   settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);

@@ -1,4 +1,4 @@
-// A serial line, 8 bits, no parity, 1 stop bit, no flow control.
+// A serial line, 8 bits, no parity, 1 stop bit, no flow control, for one process at a time.
 #pragma once
 
 #include "distributers/links/stream.h"
@@ -11,6 +11,7 @@ class SerialTransport : public StreamTransport {
   SerialTransport(std::string device, int baud);
   std::string text() const override { return "serial " + device_ + " at " + std::to_string(baud_) + " baud"; }
   void open() override;
+  void close() override;
 
  protected:
   Descriptor get_stream() override;
@@ -18,6 +19,7 @@ class SerialTransport : public StreamTransport {
  private:
   std::string device_;
   int baud_;
+  Descriptor line_;  // opened, and not yet given to who receives
 };
 
 }  // namespace jarol::distributers

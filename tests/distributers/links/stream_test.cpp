@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/resource.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -222,6 +223,41 @@ TEST_SUITE("distributers/links/stream") {
       CHECK(wait_for([&] { return count_of(*link, "unsent: no peer") == times; }));
       if (times < 3) other_end = plug_in();
     }
+  }
+
+  TEST_CASE("a line is one process's, until the last who holds it is gone") {
+    const Descriptor other_end(posix_openpt(O_RDWR | O_NOCTTY));
+    REQUIRE(grantpt(other_end.get()) == 0);
+    REQUIRE(unlockpt(other_end.get()) == 0);
+    const std::string name = ptsname(other_end.get());
+    // as the guardian does
+    struct Twin : Holder {
+      void hold(int fd, const Address&) override { held = Descriptor(dup(fd)); }
+      void let_go() override {}
+      Descriptor held;
+    } twin;
+    auto transport = std::make_unique<SerialTransport>(name, 115200);
+    transport->holder = &twin;
+    auto first = make(std::move(transport));
+    REQUIRE(wait_for([&] { return count_of(*first, "peers") == 1; }));
+    const std::string refusal = "can't open serial " + name + " at 9600 baud: it is in use by another process";
+    CHECK_THROWS_WITH_AS(make(std::make_unique<SerialTransport>(name, 9600)), refusal.c_str(), std::runtime_error);
+    termios settings{};
+    const Descriptor look(::open(name.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK));
+    REQUIRE(tcgetattr(look.get(), &settings) == 0);
+    CHECK(cfgetospeed(&settings) == B115200);  // nor did the refused one change it
+    first.reset();
+    CHECK_THROWS_WITH_AS(make(std::make_unique<SerialTransport>(name, 9600)), refusal.c_str(), std::runtime_error);
+    std::thread last([&] {
+      std::this_thread::sleep_for(50ms);
+      twin.held.close();
+    });
+    const auto next = make(std::make_unique<SerialTransport>(name, 9600));
+    last.join();
+    CHECK(wait_for([&] { return count_of(*next, "peers") == 1; }));
+    next->disconnect();
+    next->connect();  // a link may be begun again
+    CHECK(wait_for([&] { return count_of(*next, "peers") == 2; }));
   }
 
   TEST_CASE("a line that takes nothing holds up the end for one send, not for each that is pending") {
