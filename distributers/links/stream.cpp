@@ -18,7 +18,8 @@ constexpr milliseconds first_pause{20};
 constexpr milliseconds longest_pause{1000};
 constexpr milliseconds send_limit{200};  // how long a send waits for room; the next one does not wait if it was in vain
 constexpr std::size_t max_waiting = 8;
-constexpr std::size_t max_begin = 1 << 17;  // bytes of a stream to look at before it is taken
+constexpr std::size_t piece_size = 1 << 16;  // bytes that are read at once
+constexpr std::size_t pieces_of_begin = 2;   // of a stream, to look at before it is taken or gives way
 
 bool can_write(int fd, milliseconds time) {
   pollfd polled{fd, POLLOUT, 0};
@@ -81,43 +82,63 @@ void StreamTransport::receive(const Interrupter& interrupter, ByteSink& sink) {
 
 StreamTransport::End StreamTransport::receive_stream(const Interrupter& interrupter, ByteSink& sink,
                                                      const Address& peer) {
-  std::array<std::byte, 65536> room;
   const auto begin = Clock::now();
+  const bool has_rivals = announces_peer() >= 0;
   bool valid = false;
-  const auto end = [&] { return valid || Clock::now() - begin > longest_pause ? End::good : End::bad; };
   for (;;) {
     ownership_.look(Clock::now());
-    if (announces_peer() >= 0 && is_displaced(sink, valid)) {
-      if (!valid) turn_away(peer);
-      return end();
+    const bool displaced = has_rivals && is_displaced(sink, valid);
+    if (!displaced) {
+      switch (interrupter.wait(stream_.get(), has_rivals ? Ownership::look_interval : milliseconds(-1))) {
+        case Interrupter::Woken::interrupted: return End::interrupted;
+        case Interrupter::Woken::timed_out: continue;
+        case Interrupter::Woken::ready: break;
+      }
     }
-    switch (interrupter.wait(stream_.get(), announces_peer() >= 0 ? Ownership::look_interval : milliseconds(-1))) {
-      case Interrupter::Woken::interrupted: return End::interrupted;
-      case Interrupter::Woken::timed_out: continue;
-      case Interrupter::Woken::ready: break;
-    }
-    const auto length = ::read(stream_.get(), room.data(), room.size());
-    if (length < 0 && (errno == EAGAIN || errno == EINTR)) continue;
-    const bool has_valid = length > 0 && sink.take(std::span(room).first(static_cast<std::size_t>(length)));
-    if (length > 0)
-      if (const auto answer = sink.answer(); !answer.empty()) send(answer);
-    if (length <= 0 || sink.is_broken()) {
+    // also of one that is to give way: what it has sent until now came before the other was looked at
+    Piece piece = take_piece(sink);
+    for (std::size_t i = 1; displaced && piece == Piece::other && i < pieces_of_begin; ++i) piece = take_piece(sink);
+    if (piece == Piece::end) {
       if (valid) ownership_.gone();
       replace({});
-      return end();
+      return valid || Clock::now() - begin > longest_pause ? End::good : End::bad;
     }
-    if (!has_valid) continue;
-    valid = true;
-    if (announces_peer() >= 0) ownership_.heard(peer, Clock::now());
+    if (piece == Piece::valid) {
+      valid = true;
+      if (has_rivals) ownership_.heard(peer, Clock::now());
+    } else if (displaced) {
+      if (!valid) turn_away(peer);
+      return End::good;  // the other need not wait
+    }
   }
 }
 
-// The oldest make room for those who come; no more at a time than a flood of them may take.
-void StreamTransport::collect_waiting() {
+StreamTransport::Piece StreamTransport::take_piece(ByteSink& sink) {
+  std::array<std::byte, piece_size> room;
+  const auto length = ::read(stream_.get(), room.data(), room.size());
+  if (length < 0 && (errno == EAGAIN || errno == EINTR)) return Piece::none;
+  if (length <= 0) return Piece::end;
+  const bool has_valid = sink.take(std::span(room).first(static_cast<std::size_t>(length)));
+  if (const auto answer = sink.answer(); !answer.empty()) send(answer);
+  if (sink.is_broken()) return Piece::end;
+  return has_valid ? Piece::valid : Piece::other;
+}
+
+bool StreamTransport::speaks_validly(const Waiting& waiting, const ByteSink& sink) {
+  std::vector<std::byte> room(pieces_of_begin * piece_size);
+  const auto length = ::recv(waiting.stream.get(), room.data(), room.size(), MSG_PEEK | MSG_DONTWAIT);
+  return length > 0 && sink.is_valid_begin(std::span(room).first(static_cast<std::size_t>(length)));
+}
+
+// The oldest make room for those who come, unless they have spoken validly; no more at a time than a flood of them may
+// take.
+void StreamTransport::collect_waiting(const ByteSink& sink) {
   for (int i = 0; i < 64; ++i) {
+    const bool full = waiting_.size() == max_waiting;
+    if (full && speaks_validly(waiting_.front(), sink)) break;
     Descriptor stream = get_stream();
     if (!stream) break;
-    if (waiting_.size() == max_waiting) {
+    if (full) {
       turn_away(waiting_.front().peer);
       waiting_.erase(waiting_.begin());
     }
@@ -129,19 +150,16 @@ void StreamTransport::collect_waiting() {
 
 // One that has spoken validly keeps its place until it is silent; others are turned away. Until then, and after that,
 // the place is that of the first other who speaks validly: it may have been started anew without the end of its stream.
-bool StreamTransport::is_displaced(ByteSink& sink, bool valid) {
-  collect_waiting();
+bool StreamTransport::is_displaced(const ByteSink& sink, bool valid) {
+  collect_waiting(sink);
   if (waiting_.empty()) return false;
   if (valid && !ownership_.is_silent()) {
     for (const Waiting& waiting : waiting_) turn_away(waiting.peer);
     waiting_.clear();
     return false;
   }
-  std::vector<std::byte> room(max_begin);
-  auto next = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
-    const auto length = ::recv(waiting.stream.get(), room.data(), room.size(), MSG_PEEK | MSG_DONTWAIT);
-    return length > 0 && sink.is_valid_begin(std::span(room).first(static_cast<std::size_t>(length)));
-  });
+  auto next = std::find_if(waiting_.begin(), waiting_.end(),
+                           [&](const Waiting& waiting) { return speaks_validly(waiting, sink); });
   if (next == waiting_.end() && valid && stuck_) next = waiting_.begin();
   if (next == waiting_.end()) return false;
   std::rotate(waiting_.begin(), next, next + 1);

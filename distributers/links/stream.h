@@ -29,6 +29,7 @@ class StreamTransport : public Transport {
 
  private:
   enum class End { good, bad, interrupted };
+  enum class Piece { none, other, valid, end };
   struct Waiting {
     Descriptor stream;
     Address peer;
@@ -38,8 +39,11 @@ class StreamTransport : public Transport {
   void turn_away(const Address& peer);
   // Until the stream ends or another peer takes its place.
   End receive_stream(const Interrupter& interrupter, ByteSink& sink, const Address& peer);
-  void collect_waiting();
-  bool is_displaced(ByteSink& sink, bool valid);
+  // What has arrived.
+  Piece take_piece(ByteSink& sink);
+  static bool speaks_validly(const Waiting& waiting, const ByteSink& sink);
+  void collect_waiting(const ByteSink& sink);
+  bool is_displaced(const ByteSink& sink, bool valid);
 
   std::mutex stream_mutex_;
   Descriptor stream_;

@@ -3,6 +3,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <random>
@@ -101,6 +103,16 @@ class Speaker {
 
  private:
   Descriptor socket_;
+};
+
+// Its thread looks at nobody until it may.
+struct LateServer : TcpServer {
+  using TcpServer::TcpServer;
+  void receive(const Interrupter& interrupter, ByteSink& sink) override {
+    while (!may_look && interrupter.wait(-1, 1ms) != Interrupter::Woken::interrupted) {}
+    TcpServer::receive(interrupter, sink);
+  }
+  std::atomic<bool> may_look{false};
 };
 
 SecretKey key_of(int seed) {
@@ -319,6 +331,51 @@ TEST_SUITE("distributers/links/strangers") {
     CHECK(std::count(got.ids.begin(), got.ids.end(), 60000) == 0);
     CHECK(open.count("dropped: stranger") == 20);
     CHECK(open.link->report().takeovers.empty());
+  }
+
+  TEST_CASE("of those who connect and speak before the link looks at any the first is heard, and keeps the link") {
+    // whoever comes after it, however many
+    for (const int others : {1, 7, 15}) {
+      CAPTURE(others);
+      auto transport = std::make_unique<LateServer>(any, 1h);
+      LateServer& server = *transport;
+      Link link(std::move(transport), javiator::message_set(), {});
+      link.connect();
+      const Address address = any.with_port(server.port());
+      const Speaker first(address, SOCK_STREAM);
+      first.say(1);
+      std::vector<Speaker> late;
+      for (int i = 0; i < others; ++i) late.emplace_back(address, SOCK_STREAM).say(60000);
+      server.may_look = true;
+      CHECK(wait_for([&] {
+        return std::all_of(late.begin(), late.end(), [](const Speaker& other) { return other.is_ended(); });
+      }));
+      first.say(2);
+      REQUIRE(wait_for([&] { return count_of(link, "packets in") == 2; }));
+      Ids got;
+      link.receive(got);
+      CHECK(got.ids == std::vector<int>{1, 2});
+      CHECK(count_of(link, "peers") == 1);
+      CHECK(count_of(link, "dropped: stranger") == static_cast<std::uint64_t>(others));
+    }
+  }
+
+  TEST_CASE("one that speaks validly is heard, however many have connected before and after it and say nothing") {
+    auto transport = std::make_unique<LateServer>(any, 1h);
+    LateServer& server = *transport;
+    Link link(std::move(transport), javiator::message_set(), {});
+    link.connect();
+    const Address address = any.with_port(server.port());
+    std::vector<Speaker> mute;
+    for (int i = 0; i < 5; ++i) mute.emplace_back(address, SOCK_STREAM);
+    const Speaker real(address, SOCK_STREAM);
+    real.say(1);
+    for (int i = 0; i < 10; ++i) mute.emplace_back(address, SOCK_STREAM);
+    server.may_look = true;
+    REQUIRE(wait_for([&] { return count_of(link, "packets in") == 1; }));
+    CHECK(wait_for(
+        [&] { return std::all_of(mute.begin(), mute.end(), [](const Speaker& other) { return other.is_ended(); }); }));
+    CHECK_FALSE(real.is_ended());
   }
 
   TEST_CASE("over TCP a peer that has spoken and fallen silent gives way to one that speaks validly") {
