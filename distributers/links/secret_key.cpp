@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "distributers/links/descriptor.h"
+#include "graph/language/inputs.h"
 
 namespace jarol::distributers {
 namespace {
@@ -34,6 +35,7 @@ SecretKey read_key(const std::string& path) {
   if ((found.st_mode & 077) != 0)
     refuse(fmt::format("has the mode {:04o}, so that others than its owner may use it; chmod 600 {}",
                        found.st_mode & 07777, path));
+  note_input(path, found);
   std::array<unsigned char, max_bytes + 1> bytes{};
   std::size_t size = 0;
   while (size < bytes.size()) {

@@ -201,6 +201,20 @@ TEST_SUITE("tools/output_files") {
       fs::remove(hard);
       fs::remove(soft);
     }
+    // a key of a link is read, too
+    const std::string key = folder.write("c.key", std::string(32, 'k')), spec = folder.write("k.yaml", R"(graph: g
+distributers: {v: {type: JaviatorVehicle, link: {type: udp, peer: 9}}}
+tasks: {a: {type: Counter, period: 10ms}}
+)");
+    fs::permissions(key, fs::perms(0600));
+    for (const std::string option : {"--trace", "--plot", "--log"}) {
+      const auto refused = command::jarol(
+          "run " + spec + " --clock real --for 50ms --set distributers.v.link.key=" + key + " " + option + " " + key);
+      CHECK(refused.exit_code == 2);
+      CHECK(refused.output.ends_with("error: can't write '" + key + "': it is '" + key +
+                                     "', which was read; choose another file\n"));
+      CHECK(content(key) == std::string(32, 'k'));
+    }
     // a plugin is read too, and a log by its replay
     const std::string so = folder / "t.so",
                       with = folder.write("w.yaml",
