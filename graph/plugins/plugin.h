@@ -29,10 +29,13 @@ void add_tasks_of_plugin(Registry& registry) {
 
 }  // namespace jarol
 
+/// Visible also in a library that is built with -fvisibility=hidden.
+#define JAROL_VISIBLE extern "C" [[gnu::used, gnu::visibility("default")]]
+
 /// Names the tasks that the library brings, once in a library.
-#define JAROL_PLUGIN(...)                                                                                 \
-  extern "C" [[gnu::used]] const jarol::PluginBuild jarol_plugin_build = jarol::build_of_this_file();     \
-  extern "C" bool jarol_plugin_rounds_products(const volatile double& x, const volatile double& square) { \
-    return jarol::rounds_products(x, square);                                                             \
-  }                                                                                                       \
-  extern "C" void jarol_plugin_add(jarol::Registry& registry) { jarol::add_tasks_of_plugin<__VA_ARGS__>(registry); }
+#define JAROL_PLUGIN(...)                                                                                    \
+  JAROL_VISIBLE const jarol::PluginBuild jarol_plugin_build = jarol::build_of_this_file();                   \
+  JAROL_VISIBLE bool jarol_plugin_rounds_products(const volatile double& x, const volatile double& square) { \
+    return jarol::rounds_products(x, square);                                                                \
+  }                                                                                                          \
+  JAROL_VISIBLE void jarol_plugin_add(jarol::Registry& registry) { jarol::add_tasks_of_plugin<__VA_ARGS__>(registry); }

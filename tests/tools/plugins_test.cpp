@@ -47,6 +47,24 @@ TEST_SUITE("tools/plugins") {
     CHECK(registry.find_task("Sequence")->is_deep());
   }
 
+  TEST_CASE("a plugin built with -fvisibility=hidden brings its tasks, and they run") {
+    CHECK(report_on("hidden") == "");
+    const command::TemporaryFolder folder;
+    const auto run = [&](const std::string& name) {
+      const std::string graph =
+          folder.write(name + ".yaml", "graph: g\nplugins: [" + std::filesystem::absolute(library(name)).string() +
+                                           R"(]
+tasks: {a: {type: Counter, period: 10ms}, b: {type: Twice, period: 10ms}}
+connections: [a.out -> b.in]
+)");
+      const auto done = command::jarol("run " + graph + " --for 1s --trace -", "2>/dev/null");
+      CHECK(done.exit_code == 0);
+      return done.output;
+    };
+    CHECK(run("hidden") == run("twice"));
+    CHECK(run("hidden").find("0.99,99,198\n") != std::string::npos);
+  }
+
   TEST_CASE("a library that can't be used is refused with the reason") {
     CHECK(report_on("nowhere") == "there is no file '" + library("nowhere") + "'");
     CHECK(report_on("none") ==
