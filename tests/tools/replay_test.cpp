@@ -143,6 +143,23 @@ TEST_SUITE("tools/replay") {
     CHECK(covered == 2s);
   }
 
+  TEST_CASE("a log with anything after its end is refused, with where it ends") {
+    const TemporaryFolder folder;
+    write_log(folder / "log", 1500ms);
+    const std::string whole = content(folder / "log"), length = std::to_string(whole.size());
+    for (const std::string& more : {std::string("x"), std::string(1, '\0'), whole}) {
+      const std::string path = folder.write("longer", whole + more);
+      const std::string wrong = "'" + path + "' goes on for " + std::to_string(more.size()) +
+                                (more.size() == 1 ? " byte" : " bytes") +
+                                " after its end; what was logged is: head -c " + length + " " + path;
+      CHECK(wrong_with(path) == wrong);
+      const auto replay = command::jarol("replay " + path);
+      CHECK(replay.exit_code == 2);
+      CHECK(replay.output == "error: " + wrong + "\n");
+    }
+    CHECK(wrong_with(folder / "log") == "");
+  }
+
   TEST_CASE("what is no log is told") {
     const TemporaryFolder folder;
     const auto no_log = [&](const std::string& text) { return wrong_with(folder.write("x", text)); };

@@ -234,13 +234,14 @@ int replay(const Options& options) {
 
 void add_replay(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
-  Command* command =
-      line.add_subcommand("replay",
-                          "Run again what jarol run --log has logged: on the virtual clock, without vehicles or links, "
-                          "with what came from\n"
-                          "outside and what was late then. It is the same to the bit, or says that it is not.\n"
-                          "Exit code: 0 the same, 1 diverged, 2 bad input, 3 a log that breaks off,\n"
-                          "129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
+  Command* command = line.add_subcommand(
+      "replay",
+      "Run again what jarol run --log has logged: on the virtual clock, without vehicles or links, "
+      "with what came from\n"
+      "outside and what was late then. It is the same to the bit, or says that it is not.\n"
+      "Exit code: 0 the same, 1 diverged, or the same and not what 'expect' says or too much left out by faults,\n"
+      "2 bad input, as a log with anything after its end, 3 a log that breaks off,\n"
+      "129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
   command->add_option("LOG", options->log, "The log of a run")->required();
   command->add_option("FILE", options->file,
                       "The graph, if it is elsewhere now or names plugins; default: that of the run");

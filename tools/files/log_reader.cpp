@@ -72,6 +72,17 @@ LogReader::LogReader(std::string path) : path_(std::move(path)) {
     if (!next()) break;
     keep();
   }
+  if (end_) require_nothing_more();
+}
+
+// What follows its end may be another log, or what else somebody has added: it is not what the run was.
+void LogReader::require_nothing_more() {
+  const std::int64_t end = file_.tellg();
+  file_.seekg(0, std::ios::end);
+  const std::int64_t more = file_.tellg() - std::streamoff(end);
+  if (more == 0) return;
+  fail("goes on for " + std::to_string(more) + (more == 1 ? " byte" : " bytes") +
+       " after its end; what was logged is: head -c " + std::to_string(end) + " " + path_);
 }
 
 // Of a record that is whole: what no run writes was made, and is refused.

@@ -41,6 +41,7 @@ class LogReader : public TakenValues {
  private:
   bool next();
   void keep();
+  void require_nothing_more();
   void next_value();
   void require_not_before(Duration instant) const;
   [[noreturn]] void fail(const std::string& what) const;
