@@ -31,7 +31,7 @@ struct CheckReport {
   std::optional<Measurement> measured;
 };
 
-/// A task that took longer than its `wcet` when it was measured: the verdict is of other times than those of this
+/// The task that exceeded its `wcet` by most when it was measured: the verdict is of other times than those of this
 /// machine. Null: none did.
 const Task* longer_than_stated(const CheckReport& report);
 

@@ -11,11 +11,16 @@ bool holds(const ReportedChain& c) { return analysis::broken_limits(c.chain, c.l
 
 const Task* longer_than_stated(const CheckReport& r) {
   if (!r.measured) return nullptr;
+  const Task* worst = nullptr;
+  Duration most_over{};
   for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
     const Task& task = r.graph->tasks[i];
-    if (task.wcet && r.measured->tasks[i].most > *task.wcet) return &task;
+    const Duration over = task.wcet ? r.measured->tasks[i].most - *task.wcet : Duration{};
+    if (over <= most_over) continue;
+    most_over = over;
+    worst = &task;
   }
-  return nullptr;
+  return worst;
 }
 
 bool chains_hold(const CheckReport& report) { return std::all_of(report.chains.begin(), report.chains.end(), holds); }

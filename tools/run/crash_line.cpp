@@ -1,5 +1,6 @@
 #include "tools/run/crash_line.h"
 
+#include <poll.h>
 #include <signal.h>
 #include <sys/syscall.h>
 #include <ucontext.h>
@@ -45,6 +46,14 @@ pid_t own_process = 0;  // not that of a child which a task has made
 std::array<struct sigaction, kinds.size()> before;
 
 // All that follows may run in a signal handler: it allocates nothing and locks nothing.
+
+// Nobody may read: a paused terminal, or a pipe that is full, holds nothing up.
+void say(std::string_view text) {
+  pollfd out{STDERR_FILENO, POLLOUT, 0};
+  if (::poll(&out, 1, 0) == 1) [[maybe_unused]]
+    const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
 class Line {
  public:
   Line& operator<<(std::string_view text) {
@@ -73,7 +82,7 @@ class Line {
   void write() {
     *this << "; the process ends\n";
     text_[size_ - 1] = '\n';  // where there was no room for all of it
-    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text_.data(), size_);
+    say({text_.data(), size_});
   }
 
  private:
@@ -107,11 +116,12 @@ void wait_if_second() {
   while (crashed.exchange(true)) ::pause();
 }
 
-// What follows the line: the guardian acts at once, also while a core is dumped.
-void leave() {
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, about_log.data(), about_log.size());
+// First the guardian acts, while the line is written and a core is dumped.
+void leave(Line& line) {
   if (const auto* const awake = guardian.load()) awake->wake();
   remove_partial_files();
+  line.write();
+  say(about_log);
 }
 
 // The stack pointer stands beyond the stack, or will with the next call.
@@ -145,8 +155,7 @@ extern "C" void on_crash(int signal, siginfo_t* info, void* context) {
       line.hexadecimal(reinterpret_cast<std::uintptr_t>(info->si_addr));
     }
   }
-  line.write();
-  leave();
+  leave(line);
   // it comes again as soon as this returns, and then ends the process
   ::signal(signal, SIG_DFL);
   ::raise(signal);
@@ -165,9 +174,13 @@ void on_exit_called(std::string_view call, std::optional<int> code = {}) {
   name_task(line);
   line << "called " << call;
   if (code) line << "(" << *code << ")";
-  line.write();
-  leave();
+  leave(line);
   end_process(exit_unfinished);
+}
+
+// A thread that ends the process while another one reports its crash waits for that end.
+void wait_for_crash() {
+  while (crashed.load() && ::getpid() == own_process) ::pause();
 }
 
 // Once: handlers of exit can't be taken away.
@@ -208,7 +221,8 @@ CrashLine::~CrashLine() {
 // that a program loads find its own first.
 extern "C" {
 void _exit(int code) {
-  if (!jarol::tools::crashed.load()) jarol::tools::on_exit_called("_exit", code);
+  jarol::tools::on_exit_called("_exit", code);
+  jarol::tools::wait_for_crash();
   jarol::tools::end_process(code);
 }
 void _Exit(int code) noexcept { _exit(code); }

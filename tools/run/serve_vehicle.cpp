@@ -127,15 +127,11 @@ int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const
   const Interruptible interruptible([&] { interrupter.interrupt(); });
   std::cerr << vehicle_class.name << ": in lockstep at " << listen.text() << ", until Ctrl-C\n";
   using Woken = distributers::Interrupter::Woken;
-  bool has_mishap = false;
   while (interrupter.wait(socket.get(), std::chrono::milliseconds(-1)) != Woken::interrupted) {
     distributers::Descriptor runner = distributers::accept_from(socket);
     if (!runner) continue;
     const std::string who = "the runner at " + peer_of(runner).text();
-    options.mishap = [&](const vehicles::Mishap& mishap) {
-      report(mishap, vehicle_class.name + " of " + who);
-      has_mishap = true;
-    };
+    options.mishap = [&](const vehicles::Mishap& mishap) { report(mishap, vehicle_class.name + " of " + who); };
     try {
       serve_lockstep(distributers::FrameStream(std::move(runner), who, options.patience), *vehicle_class.message_set,
                      make, interrupter, options, socket);
@@ -143,7 +139,7 @@ int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const
       // the run is over
     } catch (const distributers::FrameError& error) { std::cerr << "note: " << error.what() << "\n"; }
   }
-  return exit_of({exit_of_signal(Interruptible::signal()), has_mishap ? exit_negative : exit_good});
+  return exit_of_signal(Interruptible::signal());
 }
 
 }  // namespace jarol::tools
