@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <limits>
 
 #include "runtime/jarol/threads_core.h"
@@ -77,6 +78,48 @@ TEST_SUITE("runtime/safe_commands") {
     CHECK(handed == std::vector<double>{1, 2, 2, -1, -1, 3, 3, -1});
     // the trace has what was handed over
     CHECK(lines_of(run, "o") == "5ms o=1; 15ms o=2; 25ms o=2; 35ms o=-1; 45ms o=-1; 55ms o=3; 65ms o=3; 75ms o=-1");
+  }
+
+  TEST_CASE("of two sensors that are awaited each one that is silent brings the safe value") {
+    // the first brings a value until its end, the second until another
+    struct Sensors : Channels {
+      Sensors(std::array<Duration, 2> until, std::vector<double>& to) : ends(until), handed(to) {}
+      void reach(Duration instant) override { now = instant; }
+      bool take(std::size_t channel, void* value) override {
+        *static_cast<double*>(value) = 1;
+        return now <= ends[channel];
+      }
+      void hand_over(std::size_t, const void* value) override { handed.push_back(*static_cast<const double*>(value)); }
+      std::array<Duration, 2> ends;
+      std::vector<double>& handed;
+      Duration now{};
+    };
+    Registry registry;
+    tasks::add_tasks(registry);
+    const Type* number = &type_of<double>();
+    registry.add(DistributerClass{"Plant",
+                                  "for tests",
+                                  {{"first", Direction::in, number, ""},
+                                   {"second", Direction::in, number, ""},
+                                   {"actuator", Direction::out, number, ""}},
+                                  true});
+    const Graph graph = tests::graph_of(registry, R"(graph: t
+timing: {period: 10ms}
+distributers: {p: {type: Plant, link: {type: test}}}
+communicators:
+  i: {channel: p.first, timeout: 20ms}
+  k: {channel: p.second, timeout: 20ms}
+  o: {channel: p.actuator, offset: 5ms, safe: -1}
+tasks: {s: {type: Sum}}
+connections: [i -> s.a, k -> s.b, s.out -> o]
+)");
+    for (const auto until : {std::array<Duration, 2>{10ms, 1s}, std::array<Duration, 2>{1s, 10ms}}) {
+      std::vector<double> handed;
+      std::vector<std::unique_ptr<Channels>> channels;
+      channels.push_back(std::make_unique<Sensors>(until, handed));
+      run_graph(graph, 50ms, std::move(channels));
+      CHECK(handed == std::vector<double>{2, 2, 2, -1, -1});
+    }
   }
 
   TEST_CASE("a sensor that never told anything is silent from the start; a value that is not finite does not end it") {
