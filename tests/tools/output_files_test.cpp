@@ -1,7 +1,10 @@
 // Where the command's outputs go: what stands at a path, and what it means when nothing can be written.
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <set>
@@ -108,6 +111,19 @@ TEST_SUITE("tools/output_files") {
     }
   }
 #endif
+
+  TEST_CASE("what another process still writes is not taken away, also where its output can't be known as locked") {
+    const TemporaryFolder folder;
+    const std::string live = folder.write("t.csv.77.part", "half"),
+                      run = "run specs/counting.yaml --for 1s --trace " + (folder / "t.csv");
+    const int writer = ::open(live.c_str(), O_WRONLY);
+    REQUIRE(::flock(writer, LOCK_EX | LOCK_NB) == 0);
+    CHECK(command::jarol(run).exit_code == 0);
+    CHECK(content(live) == "half");
+    ::close(writer);
+    CHECK(command::jarol(run).exit_code == 0);
+    CHECK(!fs::exists(live));
+  }
 
   TEST_CASE("what a killed run left half written the next one removes that writes the same file, and nothing else") {
     const TemporaryFolder folder;

@@ -1,6 +1,7 @@
 #include "tools/files/whole_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -41,12 +42,23 @@ bool are_same(const std::string& a, const std::string& b) {
          fs::weakly_canonical(target_of(a), none) == fs::weakly_canonical(target_of(b), none);
 }
 
+// Who writes one holds its lock, wherever that process runs.
+void remove_if_left(const char* partial) {
+  const int descriptor = ::open(partial, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return;
+  struct stat found {};
+  if (::fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) && found.st_uid == ::geteuid() &&
+      ::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+    ::unlink(partial);
+  ::close(descriptor);
+}
+
 std::string partial_name(const fs::path& target, const std::string& number) {
   return target.filename().string() + "." + number + ".part";
 }
 
-// Partial files of that target, of runs that were killed before they could take them along; nobody writes them while
-// this process has the target's lock.
+// Partial files of that target, of runs that were killed before they could take them along. This process has the
+// target's lock, which those in other namespaces do not see.
 void remove_what_killed_ones_left(const fs::path& target) {
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   const std::string begin = target.filename().string() + ".";
@@ -56,10 +68,7 @@ void remove_what_killed_ones_left(const fs::path& target) {
     if (!name.starts_with(begin)) continue;
     const std::string number = name.substr(begin.size(), name.find('.', begin.size()) - begin.size());
     const bool has_number = !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
-    struct stat found {};
-    if (has_number && name == partial_name(target, number) && ::lstat(entry->path().c_str(), &found) == 0 &&
-        S_ISREG(found.st_mode) && found.st_uid == ::geteuid())
-      ::unlink(entry->path().c_str());
+    if (has_number && name == partial_name(target, number)) remove_if_left(entry->path().c_str());
   }
 }
 
@@ -105,7 +114,10 @@ void WholeFile::open_partial() {
   partial_ = (target_.parent_path() / partial_name(target_, std::to_string(number))).string();
   add_partial_file(partial_);
   const int descriptor = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (descriptor >= 0) file_ = ::fdopen(descriptor, "wb");
+  if (descriptor >= 0) {
+    ::flock(descriptor, LOCK_EX | LOCK_NB);
+    file_ = ::fdopen(descriptor, "wb");
+  }
   if (file_ != nullptr) return;
   const int reason = errno;
   drop_partial_file(partial_);
