@@ -143,7 +143,7 @@ connections: [a.out -> b.in]
     const command::TemporaryFolder folder;
     const std::string so = std::filesystem::absolute(library("twice")).string();
     const std::string graph = folder.write("g.yaml", "graph: g\nplugins: [" + so + R"(]
-tasks: {a: {type: Counter, period: 10ms, wcet: 1us}, b: {type: Twice, period: 10ms, wcet: 1us}}
+tasks: {a: {type: Counter, period: 10ms, wcet: 2ms}, b: {type: Twice, period: 10ms, wcet: 2ms}}
 connections: [a.out -> b.in]
 )");
     const std::string note = "note: loads plugin '" + so + "'\n", log = folder / "log";
