@@ -105,7 +105,7 @@ Ending ending_of(const AttendedRun& run, const Worker& worker, const std::option
 }  // namespace
 
 RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std::function<Wish()>& wish,
-              const std::function<void(const Ending&)>& on_rest) {
+              const std::function<void(const Ending&)>& on_rest, const std::function<void()>& on_end) {
   const auto worker = std::make_shared<Worker>();
   worker->thread = std::thread([&run, &prepare, worker] {
     leave_signals_to_others();
@@ -137,6 +137,7 @@ RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std:
     if (why && why->cause == Ending::Cause::over && rest.before()) why = rest.before();
     if (why) end.ending = std::move(*why);
   }
+  on_end();
   end.before_rest = rest.before();
   const Futex::Time until = Futex::now() + end_patience;
   run.close(end.ending, until);

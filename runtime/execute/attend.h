@@ -72,9 +72,10 @@ struct Wish {
 };
 
 /// `prepare` is called on the run's thread before it covers anything; `on_rest` when it is seen to
-/// bring its vehicle to rest.
+/// bring its vehicle to rest; `on_end` when it ends, and no wish is asked for any more.
 RunEnd attend(
     AttendedRun& run, const std::function<void()>& prepare, const std::function<Wish()>& wish,
-    const std::function<void(const Ending&)>& on_rest = [](const Ending&) {});
+    const std::function<void(const Ending&)>& on_rest = [](const Ending&) {},
+    const std::function<void()>& on_end = [] {});
 
 }  // namespace jarol

@@ -27,6 +27,7 @@
 #include "tools/run/linked.h"
 #include "tools/run/load_graph.h"
 #include "tools/run/no_plugins.h"
+#include "tools/run/prompt_line.h"
 #include "tools/run/real_time.h"
 #include "tools/run/run_files.h"
 #include "tools/run/run_on_threads.h"
@@ -189,7 +190,8 @@ int run(const Options& options) {
         if (guard) guard->arm();
         start = std::chrono::steady_clock::now();
       },
-      Interruptible::wish, [&](const Ending& why) { std::cerr << rest_begins_text(graph, why); });
+      Interruptible::wish, [&](const Ending& why) { write_promptly(printable_lines(rest_begins_text(graph, why))); },
+      Interruptible::forbid_haste);
   progress.reset();
   // a link that is in use can't be finished, and what it has to be handed is left to the guardian
   if (run_end.links_are_free()) {

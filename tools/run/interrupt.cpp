@@ -1,13 +1,11 @@
 #include "tools/run/interrupt.h"
 
-#include <unistd.h>
-
 #include <csignal>
 #include <ctime>
-#include <string_view>
 #include <utility>
 
 #include "tools/files/partial_files.h"
+#include "tools/run/prompt_line.h"
 
 namespace jarol::tools {
 namespace {
@@ -45,8 +43,7 @@ extern "C" void interrupt(int signal) {
   // whoever asks again does not want to wait for the end, nor, the third time, for this line
   std::signal(signal, SIG_DFL);
   remove_partial_files();
-  constexpr std::string_view line = "interrupted again: ended at once, without a report\n";
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
+  write_promptly("interrupted again: ended at once, without a report\n");
   std::raise(signal);
 }
 
@@ -80,6 +77,8 @@ const std::atomic<bool>& Interruptible::interrupted() { return flag; }
 int Interruptible::signal() { return number.load(); }
 
 Wish Interruptible::wish() { return {number.load(), hastened.load()}; }
+
+void Interruptible::forbid_haste() { may_hasten.store(false); }
 
 void let_writing_fail() {
   std::signal(SIGPIPE, SIG_IGN);

@@ -35,6 +35,8 @@ class Interruptible {
   /// The first signal, or 0.
   static int signal();
   static Wish wish();
+  /// From now on there is nothing left to hasten: a second signal ends the program.
+  static void forbid_haste();
 
  private:
   static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP, SIGTSTP};

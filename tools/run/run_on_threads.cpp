@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "graph/text/escape.h"
 #include "runtime/jarol/threads_core.h"
 #include "tools/report/commanded.h"
 #include "tools/report/exit_code.h"
@@ -21,6 +22,7 @@
 #include "tools/run/guard.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/linked.h"
+#include "tools/run/prompt_line.h"
 #include "tools/run/real_time.h"
 #include "tools/run/run_files.h"
 
@@ -164,7 +166,8 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
   ThreadsRun attended(core, end, rest, options);
   const RunEnd run_end = attend(
       attended, [&] { guard.arm(); }, Interruptible::wish,
-      [&](const Ending& why) { std::cerr << rest_begins_text(*loaded.graph, why); });
+      [&](const Ending& why) { write_promptly(printable_lines(rest_begins_text(*loaded.graph, why))); },
+      Interruptible::forbid_haste);
   if (run_end.links_are_free()) {
     linked.finish();
     guard.close();
