@@ -74,6 +74,17 @@ class Lab {
     return terminal;
   }
 
+  // Ten periods without a terminal, and until the link knows that it is gone: another one is a stranger before.
+  void miss(Terminal::Over over) {
+    const std::string lost = over == Terminal::Over::udp ? "closed ports" : "ends of stream";
+    const auto end = std::chrono::steady_clock::now() + 20s;
+    for (int i = 0; i < 10 || count_of(lost) == 0; ++i) {
+      REQUIRE(std::chrono::steady_clock::now() < end);
+      pass();
+      if (i >= 10) std::this_thread::sleep_for(1ms);
+    }
+  }
+
   // One period, without an answer of anyone.
   void pass() {
     now_ += period;
@@ -142,15 +153,16 @@ class Lab {
     wait_for("packets in", expected_);
   }
 
+  std::uint64_t count_of(const std::string& name) const {
+    const LinkReport report = *link_->link_report();
+    for (const auto& [counted, so_far] : report.counts)
+      if (counted == name) return so_far;
+    return 0;
+  }
+
   void wait_for(const std::string& name, std::uint64_t least) {
     const auto end = std::chrono::steady_clock::now() + 20s;
-    const auto count = [&] {
-      const LinkReport report = *link_->link_report();
-      for (const auto& [counted, so_far] : report.counts)
-        if (counted == name) return so_far;
-      return std::uint64_t{0};
-    };
-    while (count() < least) {
+    while (count_of(name) < least) {
       REQUIRE(std::chrono::steady_clock::now() < end);
       std::this_thread::sleep_for(20us);
     }
@@ -275,7 +287,7 @@ TEST_SUITE("tools/javiator_terminal") {
       lab.fly(*terminal, 0.1);
       REQUIRE(take_off(lab, *terminal, 3).z > 450);
       terminal.reset();
-      for (int i = 0; i < 10; ++i) lab.pass();
+      lab.miss(over);
       terminal.emplace(lab.connect());
       terminal->needles.altitude = 500;
       const Terminal::Report again = lab.fly(*terminal, 2);
