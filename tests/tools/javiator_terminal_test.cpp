@@ -83,6 +83,7 @@ class Lab {
       pass();
       if (i >= 10) std::this_thread::sleep_for(1ms);
     }
+    std::this_thread::sleep_for(100ms);  // the next one is to see no half of a report and its trace
   }
 
   // One period, without an answer of anyone.
