@@ -33,7 +33,7 @@ std::vector<std::string> commandable(const Graph& graph) {
 std::string wrong_with(const Graph& graph, const Communicator& c) {
   if (c.direction == Direction::out) return "is an 'out'";
   if (!c.distributer) return "has no channel";
-  if (graph.distributers[*c.distributer].distributer_class->is_vehicle) return "is what a vehicle tells";
+  if (graph.distributers[*c.distributer].distributer_class->is_vehicle) return "is what a vehicle reports";
   return c.type->is_deep() ? "carries a value of changing size" : "";
 }
 

@@ -21,7 +21,7 @@ struct MeasureOptions {
 /// that is asked for, writes into the file, which is left as it is if it would not load afterwards: per task what 99.9
 /// % of its activations stayed below, and the longest disturbance that any task met, with the margin on top. A `wcet`
 /// that is stated and longer stays; where it may be lowered, for a disturbance of at least 100 us. Throws SpecError, or
-/// std::invalid_argument for what can't be measured or edited; what was measured is told by then. Returns what was
+/// std::invalid_argument for what can't be measured or edited; what was measured is shown by then. Returns what was
 /// measured.
 Measurement measure_file(const std::string& file, const Overrides& overrides, const MeasureOptions& options);
 
