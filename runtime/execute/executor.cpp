@@ -40,7 +40,11 @@ std::size_t useful_workers(std::size_t wanted, Sharing sharing) {
 }  // namespace
 
 Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options)
-    : graph_(graph), plan_(graph), channels_(std::move(channels)), options_(options), safe_commands_(graph) {
+    : graph_(graph),
+      plan_(graph, options.clock != nullptr),
+      channels_(std::move(channels)),
+      options_(options),
+      safe_commands_(graph) {
   assert(channels_.size() == graph.distributers.size());
   if (options.recorder != nullptr) options.recorder->expect(plan_.outputs);
   if (options.log != nullptr) begin_log();
@@ -133,7 +137,7 @@ void Executor::walk(Duration end) {
     report_.simulated = Duration(instant);
     report_.covered = Duration(instant + 1);
     if (report_.stopped && missed_ == nullptr) return;
-    if (MayMiss && resting() && rest_->is_reached()) {
+    if (MayMiss && resting() && rest_->is_reached(safe_commands_, Duration(instant))) {
       rest_reached_ = true;
       return;
     }

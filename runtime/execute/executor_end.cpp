@@ -8,6 +8,7 @@ namespace jarol {
 std::optional<Duration> Executor::begin_rest() {
   if (rest_ == nullptr || report_.stopped || interrupted_.load()) return std::nullopt;
   rest_begun_ = Duration(calendar_.next());
+  rest_->begin();
   log_rest();
   resting_.store(true);
   return rest_begun_;
@@ -17,7 +18,7 @@ void Executor::cover_rest() { cover(rest_begun_ + rest_->longest()); }
 
 std::optional<RestReport> Executor::rest() const {
   if (!resting()) return std::nullopt;
-  return RestReport{rest_begun_, std::max(rest_begun_, report_.simulated), rest_reached_};
+  return RestReport{rest_begun_, std::max(rest_begun_, report_.simulated), rest_reached_, rest_->was_heard()};
 }
 
 void Executor::close(Futex::Time patience) {

@@ -1,16 +1,28 @@
 #include "runtime/execute/rest.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace jarol {
 
-Rest::Rest(const Graph& graph, const Plan& plan, const std::vector<std::unique_ptr<Channels>>& channels)
+Rest::Rest(const Graph& graph, Plan& plan, const std::vector<std::unique_ptr<Channels>>& channels)
     : at_end_(*graph.at_end),
       plan_(plan),
       commands_(graph.communicators.size()),
       signals_(graph.at_end->until.signals.size()) {
   for (std::size_t i = 0; i < channels.size(); ++i)
     missions_.push_back(!graph.distributers[i].distributer_class->is_vehicle && channels[i]->end().has_value());
+  std::vector<Ins> all(channels.size());
+  for (std::size_t i = 0; i < graph.communicators.size(); ++i) {
+    const Communicator& c = graph.communicators[i];
+    if (c.direction != Direction::in || !c.distributer ||
+        !graph.distributers[*c.distributer].distributer_class->is_vehicle)
+      continue;
+    Ins& ins = all[*c.distributer];
+    (c.timeout ? ins.with_timeout : ins.others).push_back(i);
+  }
+  for (Ins& ins : all)
+    if (!ins.with_timeout.empty() || !ins.others.empty()) vehicles_.push_back(std::move(ins));
   for (const EndCommand& command : at_end_.commands) commands_[command.communicator] = &command;
 }
 
@@ -23,7 +35,24 @@ bool Rest::command(std::size_t communicator, void* value) const {
   return true;
 }
 
-bool Rest::is_reached() {
+void Rest::begin() {
+  if (begun_) return;
+  begun_ = true;
+  std::fill(plan_.tap_news.begin(), plan_.tap_news.end(), std::byte{});
+}
+
+bool Rest::hears_vehicles(const SafeCommands& inputs, Duration instant) const {
+  const auto hears = [&](std::size_t in) { return inputs.hears(in, instant); };
+  return std::all_of(vehicles_.begin(), vehicles_.end(), [&](const Ins& ins) {
+    return ins.with_timeout.empty() ? std::any_of(ins.others.begin(), ins.others.end(), hears)
+                                    : std::all_of(ins.with_timeout.begin(), ins.with_timeout.end(), hears);
+  });
+}
+
+bool Rest::is_reached(const SafeCommands& inputs, Duration instant) {
+  heard_ = hears_vehicles(inputs, instant);
+  const auto& news = plan_.tap_news;
+  if (!heard_ || std::find(news.begin(), news.end(), std::byte{}) != news.end()) return false;
   const expect::Condition& until = at_end_.until;
   for (std::size_t i = 0; i < signals_.size(); ++i)
     signals_[i] = expect::read_number(*until.signals[i].leaf.type, plan_.taps[i]);

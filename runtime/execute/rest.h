@@ -8,6 +8,7 @@
 
 #include "graph/model/graph.h"
 #include "runtime/channels.h"
+#include "runtime/execute/safe_commands.h"
 #include "runtime/plan/plan.h"
 
 namespace jarol {
@@ -16,25 +17,38 @@ struct RestReport {
   Duration begun{};      // the first instant at which the command was in force
   Duration ended{};      // the instant reached after that
   bool reached = false;  // the vehicle was at rest then
+  bool heard = true;     // by what it reports, not by what it did long ago or never
 };
 
 /// Used by the thread that publishes, while it does not.
 class Rest {
  public:
   /// Of a graph that states it. All outlive this.
-  Rest(const Graph& graph, const Plan& plan, const std::vector<std::unique_ptr<Channels>>& channels);
+  Rest(const Graph& graph, Plan& plan, const std::vector<std::unique_ptr<Channels>>& channels);
 
   Duration longest() const { return at_end_.longest; }
   /// Nothing more is taken from that distributer: it plays a mission, which is over.
   bool is_mission(std::size_t distributer) const { return missions_[distributer]; }
   /// Puts what is commanded into the communicator's value; false: nothing of it is.
   bool command(std::size_t communicator, void* value) const;
-  /// By what was published last.
-  bool is_reached();
+  /// Before the first instant at which it commands, or again later, which changes nothing.
+  void begin();
+  /// By what was published since it began, while all vehicles are heard.
+  bool is_reached(const SafeCommands& inputs, Duration instant);
+  /// When that was asked last.
+  bool was_heard() const { return heard_; }
 
  private:
+  bool hears_vehicles(const SafeCommands& inputs, Duration instant) const;
+
   const AtEnd& at_end_;
-  const Plan& plan_;
+  Plan& plan_;
+  bool begun_ = false, heard_ = true;
+  // per vehicle that reports anything: all of the first are to be heard, or any of them if none has a time-out
+  struct Ins {
+    std::vector<std::size_t> with_timeout, others;
+  };
+  std::vector<Ins> vehicles_;
   std::vector<bool> missions_;               // per distributer
   std::vector<const EndCommand*> commands_;  // per communicator, null where nothing is commanded
   std::vector<double> signals_;

@@ -41,6 +41,13 @@ class SafeCommands {
   /// An `in` communicator has a new value.
   void took(std::size_t in, Duration instant) { newest_[in] = instant; }
 
+  /// It has taken something, and not too long ago if it has a time-out.
+  bool hears(std::size_t in, Duration instant) const {
+    if (newest_[in] == never) return false;
+    const std::optional<Duration>& timeout = graph_.communicators[in].timeout;
+    return !timeout || instant - newest_[in] <= *timeout;
+  }
+
   /// What an `out` communicator has to hand over now in place of its input, or null. A channel that never brought
   /// anything is silent from the start; else one whose newest value is older than its time-out.
   const void* in_place_of_input(std::size_t out, Duration instant);

@@ -20,7 +20,7 @@ namespace jarol {
 
 ThreadsCore::ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, Recorder* recorder)
     : graph_(graph),
-      plan_(graph),
+      plan_(graph, true),
       channels_(std::move(channels)),
       period_(choose_period()),
       recorder_(recorder),
@@ -231,7 +231,7 @@ void ThreadsCore::fail(std::exception_ptr failure) {
 std::optional<RestReport> ThreadsCore::rest() const {
   if (!resting()) return std::nullopt;
   const Duration begun = rest_from_.load() * period_;
-  return RestReport{begun, std::max(begun, now()), rest_reached_.load() >= 0};
+  return RestReport{begun, std::max(begun, now()), rest_reached_.load() >= 0, rest_->was_heard()};
 }
 
 // What is reached, if the run ends before that round. After the last round of `end` the vehicle comes to rest, for so
@@ -324,6 +324,7 @@ void ThreadsCore::run_round(std::int64_t round) {
   if (!watched_.empty()) record_true_values(instant);
   const std::int64_t rest_from = rest_from_.load(std::memory_order_acquire);
   const bool rests = rest_from >= 0 && round >= rest_from;
+  if (rests) rest_->begin();
   for (Carried& in : ins_) {
     if (!in.core.due(round)) continue;
     const std::optional<std::size_t>& distributer = graph_.communicators[in.communicator].distributer;
@@ -343,7 +344,8 @@ void ThreadsCore::run_round(std::int64_t round) {
     publish(out.action->publish, instant, instant_term);
     out.port->write(out.action->value);
   }
-  if (rests && rest_reached_.load(std::memory_order_relaxed) < 0 && rest_->is_reached())
+  if (rests && rest_reached_.load(std::memory_order_relaxed) < 0 &&
+      rest_->is_reached(safe_commands_, Duration(instant)))
     rest_reached_.store(round, std::memory_order_release);
 }
 

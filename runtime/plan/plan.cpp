@@ -51,7 +51,7 @@ ShortRange<T> short_range(const std::vector<T>& all, std::size_t first) {
 
 class PlanBuilder {
  public:
-  PlanBuilder(const Graph& graph, Plan& plan) : graph_(graph), plan_(plan) {}
+  PlanBuilder(const Graph& graph, Plan& plan, bool for_rest) : graph_(graph), plan_(plan), for_rest_(for_rest) {}
 
   void build() {
     sort_connections();
@@ -132,8 +132,10 @@ class PlanBuilder {
 
   const std::vector<expect::Signal>& tapped() const {
     static const std::vector<expect::Signal> none;
-    return graph_.at_end ? graph_.at_end->until.signals : none;
+    return for_rest_ && graph_.at_end ? graph_.at_end->until.signals : none;
   }
+
+  static constexpr std::byte published_{1};
 
   Copy tap_of(std::size_t i) const {
     const expect::Signal& signal = tapped()[i];
@@ -147,6 +149,7 @@ class PlanBuilder {
 
   void make_taps() {
     plan_.tap_memory_.resize(tapped().size());
+    plan_.tap_news.resize(tapped().size());
     for (std::size_t i = 0; i < tapped().size(); ++i) {
       plan_.taps.push_back(reinterpret_cast<std::byte*>(&plan_.tap_memory_[i]));
       const Copy tap = tap_of(i);
@@ -158,7 +161,7 @@ class PlanBuilder {
   void add_taps(End::Kind kind, std::size_t index) {
     for (std::size_t i = 0; i < tapped().size(); ++i)
       if (tapped()[i].published->kind == kind && tapped()[i].published->index == index)
-        plan_.copies_.push_back(tap_of(i));
+        plan_.copies_.insert(plan_.copies_.end(), {tap_of(i), {&published_, &plan_.tap_news[i], 1}});
   }
 
   void fill_task(std::size_t i) {
@@ -234,7 +237,7 @@ class PlanBuilder {
     for (std::uint32_t i = 0; i < plan_.outputs.size(); ++i) output_index_[plan_.outputs[i].name] = i;
     // ranges point into these: they never grow beyond what is reserved here
     std::size_t publications = plan_.outputs.size();
-    plan_.copies_.reserve(graph_.connections.size() + tapped().size());
+    plan_.copies_.reserve(graph_.connections.size() + 2 * tapped().size());
     plan_.deep_copies_.reserve(graph_.connections.size());
     plan_.publications_.reserve(publications);
     plan_.activations_.reserve(graph_.tasks.size());
@@ -375,6 +378,7 @@ class PlanBuilder {
 
   const Graph& graph_;
   Plan& plan_;
+  bool for_rest_;
   std::vector<std::vector<const Connection*>> from_task_, from_communicator_;
   Stages stages_;
   GroupDeadlines group_deadlines_;
@@ -394,7 +398,7 @@ void TaskStatus::put_back(void* state) {
   if (heap != nullptr) heap->put_back(kept + size);
 }
 
-Plan::Plan(const Graph& graph) { PlanBuilder(graph, *this).build(); }
+Plan::Plan(const Graph& graph, bool for_rest) { PlanBuilder(graph, *this, for_rest).build(); }
 
 void Plan::Release::operator()(std::byte* memory) const { ::operator delete (memory, std::align_val_t{Layout::line}); }
 

@@ -141,7 +141,8 @@ struct Group {
 };
 
 struct Plan {
-  explicit Plan(const Graph& graph);
+  /// `for_rest`: with the taps of a graph that states how its vehicle comes to rest.
+  explicit Plan(const Graph& graph, bool for_rest = false);
   Plan(const Plan&) = delete;
   Plan& operator=(const Plan&) = delete;
 
@@ -151,6 +152,7 @@ struct Plan {
   std::vector<Outcome> outcomes;                    // per task: how the activation ended whose LET is under way
   std::vector<std::unique_ptr<PrivateHeap>> heaps;  // per task, null where it has none
   std::vector<std::byte*> taps;                     // per signal of at_end's condition: the field as last published
+  std::vector<std::byte> tap_news;                  // per signal: 1, where that was since somebody put it to 0
 
  private:
   friend class PlanBuilder;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -31,7 +32,11 @@ inline Result jarol(const std::string& arguments, const std::string& errors = "2
 
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_(std::filesystem::temp_directory_path() / ("jarol_test_" + std::to_string(getpid()))) {
+  // of its own, also while others of this process live
+  TemporaryFolder() {
+    static std::atomic<int> made{0};
+    path_ = std::filesystem::temp_directory_path() /
+            ("jarol_test_" + std::to_string(getpid()) + "_" + std::to_string(++made));
     std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }

@@ -70,6 +70,7 @@ nlohmann::ordered_json to_json(const Graph& graph, const std::optional<RestRepor
   if (rest) {
     json["begun_ns"] = rest->begun.count();
     json["took_ns"] = (rest->ended - rest->begun).count();
+    json["heard"] = rest->heard;
   }
   if ((!rest || !rest->reached) && is_cut_short(end)) json["cut_short_by"] = end.ending.reason;
   return json;
@@ -77,12 +78,15 @@ nlohmann::ordered_json to_json(const Graph& graph, const std::optional<RestRepor
 
 std::string not_at_rest_text(const Graph& graph, const std::optional<RestReport>& rest, const RunEnd& end) {
   if ((!rest && !end.before_rest) || (rest && rest->reached)) return "";
+  if (rest && !rest->heard)
+    return "whether the vehicle came to rest is not known: it was silent when " +
+           (is_cut_short(end) ? end.ending.reason : duration_text(graph.at_end->longest) + " were over");
   return "the vehicle did not come to rest: '" + printable(graph.at_end->until.text) + "' was not so " +
          (is_cut_short(end) ? "when " + end.ending.reason : "within " + duration_text(graph.at_end->longest));
 }
 
 Duration judged_until(const std::optional<Duration>& rest_begun, Duration until, Duration reached) {
-  return rest_begun ? std::min(*rest_begun, until) : reached;
+  return rest_begun ? std::min({*rest_begun, until, reached}) : reached;
 }
 
 }  // namespace jarol::tools

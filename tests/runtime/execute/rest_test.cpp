@@ -58,16 +58,21 @@ class Pilot : public Channels {
   std::optional<Duration> end_;
 };
 
+// Reports from one instant on until another.
 class Plant : public Channels {
  public:
-  void reach(Duration) override {}
+  explicit Plant(Duration from = {}, Duration until = Duration::max()) : from_(from), until_(until) {}
+  void reach(Duration instant) override { now_ = instant; }
   bool take(std::size_t, void* value) override {
     *static_cast<double*>(value) = 0;
-    return true;
+    return from_ <= now_ && now_ < until_;
   }
   void hand_over(std::size_t, const void* value) override { handed.push_back(*static_cast<const double*>(value)); }
 
   std::vector<double> handed;
+
+ private:
+  Duration from_, until_, now_{};
 };
 
 const Registry& registry() {
@@ -86,15 +91,19 @@ const Registry& registry() {
 
 constexpr const char* lands = "{command: {wish: {height: 0}}, until: climb.height < 0.5, longest: 10s}";
 
-Graph graph_with(const std::string& at_end, const std::string& let = "", const std::string& platform = "{cores: 1}") {
-  const std::string text = R"(graph: t
-timing: {period: 10ms}
+Graph graph_with(const std::string& at_end, const std::string& let = "", const std::string& platform = "{cores: 1}",
+                 const std::string& timeout = ", timeout: 1h", const std::string& period = "10ms") {
+  const std::string text = "graph: t\ntiming: {period: " + period + R"(}
 platform: )" + platform + R"(
 distributers: {pilot: {type: Pilot, link: {type: test}}, plant: {type: Plant, link: {type: test}}}
 communicators:
   wish: {channel: pilot.command}
-  sensor: {channel: plant.sensor, timeout: 1h}
-  motor: {channel: plant.motor, safe: -1}
+  sensor: {channel: plant.sensor)" +
+                           timeout +
+                           R"(}
+  motor: {channel: plant.motor)" +
+                           (timeout.empty() ? "" : ", safe: -1") +
+                           R"(}
 tasks: {climb: {type: Climb, on_fault: hold, priority: 1)" +
                            let + R"(}, r: {type: Relay, priority: 2, on_fault: hold}}
 connections: [wish -> climb.command, climb.height -> motor, sensor -> r.in]
@@ -108,9 +117,9 @@ at_end: )" + at_end + "\n";
 }
 
 struct World {
-  explicit World(std::optional<Duration> mission = {}) {
+  explicit World(std::optional<Duration> mission = {}, Plant reports = Plant()) {
     auto pilot_ = std::make_unique<Pilot>(mission);
-    auto plant_ = std::make_unique<Plant>();
+    auto plant_ = std::make_unique<Plant>(reports);
     pilot = pilot_.get();
     plant = plant_.get();
     channels.push_back(std::move(pilot_));
@@ -253,6 +262,51 @@ TEST_SUITE("runtime/execute/rest") {
         CHECK(static_cast<const Command*>(core.last_value(2))->height == 0);
         CHECK(plant.handed.back() == -1);
       }
+  }
+
+  TEST_CASE("a vehicle that is not heard, or that nothing was published of since, is not known to be at rest") {
+    struct Case {
+      const char* timeout;
+      Duration from, until;
+      bool heard;
+    };
+    // begun at 50 ms, when the height of 0 at which it began was so long since; 60 ms at most
+    for (const Case& each :
+         {Case{", timeout: 1h", 1h, 2h, false}, Case{"", 1h, 2h, false}, Case{", timeout: 30ms", 0ms, 20ms, false},
+          Case{"", 0ms, 20ms, true}, Case{", timeout: 30ms", 0ms, 2h, true}}) {
+      CAPTURE(each.timeout);
+      CAPTURE(each.until.count());
+      const Graph graph = graph_with("{command: {wish: {height: 0}}, until: climb.height < 9, longest: 60ms}", "",
+                                     "{cores: 1}", each.timeout);
+      World world({}, Plant(each.from, each.until));
+      RealClock clock(graph.tasks.size());
+      Executor executor(graph, std::move(world.channels), {.clock = &clock});
+      clock.start();
+      executor.cover(50ms);
+      executor.begin_rest();
+      executor.cover_rest();
+      const RestReport rest = *executor.rest();
+      CHECK(rest.reached == each.heard);
+      CHECK(rest.heard == each.heard);
+      if (!each.heard) CHECK(rest.ended == 110ms);
+      World other({}, Plant(each.from, each.until));
+      ThreadsCore core(graph, std::move(other.channels));
+      core.run_for(50ms);
+      CHECK(core.rest()->reached == each.heard);
+      CHECK(core.rest()->heard == each.heard);
+    }
+    // published before, and not again before the end of its LET
+    const Graph slow = graph_with("{command: {wish: {height: 0}}, until: climb.height < 9, longest: 30ms}",
+                                  ", let: 90ms", "{cores: 1}", ", timeout: 1h", "100ms");
+    World world;
+    RealClock clock(slow.tasks.size());
+    Executor executor(slow, std::move(world.channels), {.clock = &clock});
+    clock.start();
+    executor.cover(100ms);
+    executor.begin_rest();
+    executor.cover_rest();
+    CHECK(!executor.rest()->reached);
+    CHECK(executor.rest()->heard);
   }
 
   TEST_CASE("threads give it up after the longest time") {
