@@ -48,16 +48,13 @@ Edit edit_of(const std::string& text, const TaskSpec& task, Duration wcet) {
   const std::size_t end = type + scalar_length(text, type);
   const std::size_t line = text.rfind('\n', type) + 1;
   const std::size_t key = text.rfind("type", type);
-  const bool quoted = key > 0 && is_quote(text[key - 1]);
-  const std::string quote = quoted ? text.substr(key - 1, 1) : "";
+  const std::string quote = key > 0 && is_quote(text[key - 1]) ? text.substr(key - 1, 1) : "";
   const std::string entry = quote + "wcet" + quote + ": " + quote + duration_text(wcet) + quote;
-  // in braces on one line, or a line of its own
+  // in braces, which may go over several lines, or a line of its own
   const std::string before = text.substr(line, key - line - quote.size());
-  if (before.find('{') != std::string::npos) return {end, 0, ", " + entry};
-  // JSON over several lines goes on with a comma
-  if (quoted && text.find_first_not_of(" \t\r\n", end) != std::string::npos &&
-      text.find_first_of(",}", end) == text.find_first_not_of(" \t\r\n", end))
-    return {end, 0, ", " + entry};
+  const std::size_t next = text.find_first_not_of(" \t\r\n", end);
+  const bool goes_on = next != std::string::npos && (text[next] == ',' || text[next] == '}');
+  if (goes_on || before.find('{') != std::string::npos) return {end, 0, ", " + entry};
   const std::string new_line = text[end] == '\r' ? "\r\n" : "\n";
   return {end, 0, new_line + std::string(before.size(), ' ') + entry};
 }

@@ -258,12 +258,12 @@ void add_run(CommandLine& line, int& exit_code) {
       "run",
       "Run a graph: on the virtual clock, as fast as possible and the same to the bit every time, or\n"
       "on the real clock.\n"
-      "Exit code: 0 good, 1 not what 'expect' says, a vehicle that has crashed, capsized or sunk, too much left out "
-      "by\n"
-      "faults, not come to rest as 'at_end' says, or refused by the real clock, 2 bad input, 3 stopped by a fault, a "
-      "lost vehicle, a task that does not "
-      "end\n"
-      "or a full disk, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
+      "Exit code: 0 good, 1 not what 'expect' says, a vehicle that has crashed, capsized or sunk, or has not come to "
+      "rest\n"
+      "as 'at_end' says, too much left out by faults, or refused by the real clock, 2 bad input, 3 stopped by a "
+      "fault,\n"
+      "a lost vehicle, a task that does not end or a full disk, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), "
+      "SIGTERM");
   command->add_option("FILE", options->file, "The graph, a YAML file")->required();
   command->add_option("--for", options->duration,
                       "How long, in logical time, as in 10s; default: until the mission ends");

@@ -1,6 +1,5 @@
 #include "tools/run/crash_line.h"
 
-#include <poll.h>
 #include <signal.h>
 #include <sys/syscall.h>
 #include <ucontext.h>
@@ -21,6 +20,7 @@
 #include "runtime/plan/plan.h"
 #include "tools/files/partial_files.h"
 #include "tools/report/exit_code.h"
+#include "tools/run/prompt_line.h"
 
 namespace jarol::tools {
 namespace {
@@ -46,14 +46,6 @@ pid_t own_process = 0;  // not that of a child which a task has made
 std::array<struct sigaction, kinds.size()> before;
 
 // All that follows may run in a signal handler: it allocates nothing and locks nothing.
-
-// Nobody may read: a paused terminal, or a pipe that is full, holds nothing up.
-void say(std::string_view text) {
-  pollfd out{STDERR_FILENO, POLLOUT, 0};
-  if (::poll(&out, 1, 0) == 1) [[maybe_unused]]
-    const auto written = ::write(STDERR_FILENO, text.data(), text.size());
-}
-
 class Line {
  public:
   Line& operator<<(std::string_view text) {
@@ -82,7 +74,7 @@ class Line {
   void write() {
     *this << "; the process ends\n";
     text_[size_ - 1] = '\n';  // where there was no room for all of it
-    say({text_.data(), size_});
+    write_promptly({text_.data(), size_});
   }
 
  private:
@@ -121,7 +113,7 @@ void leave(Line& line) {
   if (const auto* const awake = guardian.load()) awake->wake();
   remove_partial_files();
   line.write();
-  say(about_log);
+  write_promptly(about_log);
 }
 
 // The stack pointer stands beyond the stack, or will with the next call.

@@ -26,31 +26,37 @@ Panel panel_of(const Output& output, std::uint32_t index, const Leaf& leaf) {
   return {leaf.path.empty() ? output.name : output.name + "." + leaf.path, leaf.unit, index, leaf, std::nullopt};
 }
 
-// The fields whose names fit one of the patterns, in order of name.
+// A panel for each number that is published, in order of name.
+std::vector<Panel> all_panels(const Plan& plan) {
+  std::vector<Panel> panels;
+  for (std::uint32_t i = 0; i < plan.outputs.size(); ++i)
+    for (const Leaf& leaf : leaves_of(*plan.outputs[i].type))
+      if (!leaf.type->is_deep()) panels.push_back(panel_of(plan.outputs[i], i, leaf));
+  return panels;
+}
+
+// Those whose names fit one of the patterns, each once.
 std::vector<Panel> panels_named(const std::string& patterns, const Plan& plan) {
   constexpr std::size_t most = 40;
+  const std::vector<Panel> all = all_panels(plan);
+  std::vector<bool> taken(all.size());
   std::vector<Panel> panels;
   std::istringstream words(patterns);
-  std::vector<std::string> names;
   for (std::string word; std::getline(words, word, ',');) {
-    names.clear();
     if (word.empty())
       throw std::invalid_argument("--signals: '" + patterns + "' has an empty name; write them as in depth.*,fins.*");
     bool fits = false;
-    for (std::uint32_t i = 0; i < plan.outputs.size(); ++i)
-      for (const Leaf& leaf : leaves_of(*plan.outputs[i].type)) {
-        if (leaf.type->is_deep()) continue;
-        Panel panel = panel_of(plan.outputs[i], i, leaf);
-        names.push_back(panel.title);
-        if (fnmatch(word.c_str(), panel.title.c_str(), 0) != 0) continue;
-        fits = true;
-        const bool twice =
-            std::any_of(panels.begin(), panels.end(), [&](const Panel& p) { return p.title == panel.title; });
-        if (!twice) panels.push_back(std::move(panel));
-      }
-    if (!fits)
-      throw std::invalid_argument("--signals: nothing that is published has the name '" + word + "'" +
-                                  did_you_mean(word, names) + "; there are: " + list_of(names));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (fnmatch(word.c_str(), all[i].title.c_str(), 0) != 0) continue;
+      fits = true;
+      if (!taken[i]) panels.push_back(all[i]);
+      taken[i] = true;
+    }
+    if (fits) continue;
+    std::vector<std::string> names;
+    for (const Panel& panel : all) names.push_back(panel.title);
+    throw std::invalid_argument("--signals: nothing that is published has the name '" + word + "'" +
+                                did_you_mean(word, names) + "; there are: " + list_of(names));
   }
   if (panels.size() > most)
     throw std::invalid_argument("--signals: '" + patterns + "' names " + std::to_string(panels.size()) +
@@ -80,14 +86,14 @@ std::vector<Panel> panels_of(const Graph& graph, const Plan& plan) {
     if (r.command) panel.commanded = std::pair(output_of(r.command->communicator), r.command->leaf);
     panels.push_back(std::move(panel));
   }
+  if (panels.empty()) {
+    std::cerr
+        << "note: no 'out' communicator of an operator reports what one of its 'in' communicators commands, so the "
+           "picture shows what is published first; name fields by --signals\n";
+    panels = all_panels(plan);
+  }
   constexpr std::size_t most = 8;
   if (panels.size() > most) panels.resize(most);
-  if (!panels.empty()) return panels;
-  std::cerr << "note: no 'out' communicator of an operator reports what one of its 'in' communicators commands, so the "
-               "picture shows what is published first; name fields by --signals\n";
-  for (std::uint32_t i = 0; i < plan.outputs.size(); ++i)
-    for (const Leaf& leaf : leaves_of(*plan.outputs[i].type))
-      if (!leaf.type->is_deep() && panels.size() < most) panels.push_back(panel_of(plan.outputs[i], i, leaf));
   return panels;
 }
 

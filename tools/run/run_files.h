@@ -15,10 +15,9 @@ namespace jarol::tools {
 class Command;
 
 struct RunFileArguments {
-  std::string trace;  // "-": stdout
-  bool fill = false;  // the trace
-  std::string plot;   // the same
-  std::string signals;
+  std::string trace, plot;  // "-": stdout
+  bool fill = false;        // the trace
+  std::string signals;      // of the plot
 };
 
 void add_run_file_options(Command& command, RunFileArguments& arguments);

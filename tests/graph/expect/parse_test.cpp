@@ -3,6 +3,7 @@
 #include "graph/expect/parse.h"
 #include "graph/values/seed.h"
 #include "tests/graph/graph_of.h"
+#include "tests/graph/plant_registry.h"
 
 namespace {
 using namespace jarol;
@@ -15,16 +16,6 @@ struct Truth {
   double heading = 0;
   static constexpr auto fields() { return describe(field<&Truth::depth>("m"), field<&Truth::heading>("rad")); }
 };
-
-const Registry& registry() {
-  static const Registry made = [] {
-    Registry all;
-    tasks::add_tasks(all);
-    all.add(DistributerClass{"Plant", "for tests", {{"sensor", Direction::in, &type_of<double>(), ""}}, true});
-    return all;
-  }();
-  return made;
-}
 
 const char* const text = R"(
 graph: t
@@ -44,7 +35,8 @@ connections:
 const Graph& graph() {
   static const Graph made = [] {
     Problems ignored;  // inputs that are open
-    return build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, ignored), registry(), ignored);
+    return build_graph(load_spec(std::make_shared<Source>(Source{"t.yaml", text}), {}, ignored),
+                       tests::plant_registry(), ignored);
   }();
   return made;
 }

@@ -4,6 +4,7 @@
 #include "runtime/execute/executor.h"
 #include "runtime/execute/expectations.h"
 #include "tests/graph/graph_of.h"
+#include "tests/graph/plant_registry.h"
 
 namespace {
 using namespace jarol;
@@ -32,16 +33,6 @@ class Going : public Channels {
   Duration now_{};
 };
 
-const Registry& registry() {
-  static const Registry made = [] {
-    Registry all;
-    tasks::add_tasks(all);
-    all.add(DistributerClass{"Plant", "for tests", {{"sensor", Direction::in, &type_of<double>(), ""}}, true});
-    return all;
-  }();
-  return made;
-}
-
 // A counter that shows 0 to 9, each for 10 ms, its sum after 5 ms, and the vehicle.
 const char* const text = R"(
 graph: t
@@ -66,7 +57,7 @@ std::vector<Verdict> judge(const std::vector<std::string>& conditions, Duration 
   for (const std::string& condition : conditions) all += "  - " + condition + "\n";
   Problems problems;
   const GraphSpec spec = load_spec(std::make_shared<Source>(Source{"t.yaml", all}), {}, problems);
-  Graph graph = build_graph(spec, registry(), problems);
+  Graph graph = build_graph(spec, tests::plant_registry(), problems);
   graph.expectations =
       expect::read_expectations(spec.expect, graph, {{expect::TrueValues::Where::here, &type_of<Truth>()}}, problems);
   problems.throw_if_any();

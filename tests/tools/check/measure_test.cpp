@@ -94,6 +94,8 @@ connections: [a.out -> b.in]
 "period": "1ms"}, "c": {
   "type": "Counter"
 ,"period": "1ms", "wcet": "3us"}}})");
+    CHECK(rewritten("graph: t\ntasks:\n  a: {\n    type: Counter,\n    period: 1ms}\n", {1us}) ==
+          "graph: t\ntasks:\n  a: {\n    type: Counter, wcet: 1us,\n    period: 1ms}\n");
     CHECK(rewritten("graph: t\r\ntasks:\r\n  a:\r\n    type: Counter\r\n    period: 1ms\r\n", {1us}) ==
           "graph: t\r\ntasks:\r\n  a:\r\n    type: Counter\r\n    wcet: 1us\r\n    period: 1ms\r\n");
     CHECK_THROWS_WITH_AS(
