@@ -164,6 +164,7 @@ TEST_SUITE("tools/at_end") {
     CHECK(o.vehicle["state"]["y"] > 0.3);
     CHECK(o.replay["verdict"] == "same");
     CHECK(o.replay["digest"] == o.run["digest"]);
+    CHECK(o.replay["log"]["rest_begun_ns"] == o.run["rest"]["begun_ns"]);
   }
 
   TEST_CASE("it lands at the end of --for, and by threads") {

@@ -109,6 +109,8 @@ std::string text_of(const Comparison& comparison, const Report& report, const Lo
   if (comparison.interrupted) return "";
   const std::string run = "the run on the " + log.header().clock + " clock";
   std::string text;
+  if (log.rest_begun())
+    text += "  at end      from " + seconds_text(*log.rest_begun()) + " s on the run brought its vehicle to rest\n";
   if (comparison.standing == Standing::same) text += "  same        as " + run + "\n";
   if (comparison.standing == Standing::diverged) {
     text += "  DIVERGED    from " + run;
@@ -144,6 +146,7 @@ nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comp
       {"values", log.values()},
       {"misses", misses},
       {"digest", or_null(log.end().has_value(), fmt::format("0x{:016x}", log.end() ? log.end()->digest : 0))}};
+  if (log.rest_begun()) json["log"]["rest_begun_ns"] = log.rest_begun()->count();
   json["interrupted"] = comparison.interrupted;
   json["verdict"] = comparison.standing == Standing::same       ? "same"
                     : comparison.standing == Standing::diverged ? "diverged"

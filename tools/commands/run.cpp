@@ -228,6 +228,7 @@ int run(const Options& options) {
   verdict.not_at_rest = not_at_rest_text(graph, rested, run_end);
   if (!run_end.hangs) verdict.mishaps = find_mishaps(graph, channels);
   verdict.left_out = find_left_out(graph, report);
+  verdict.unheard = find_unheard(graph, channels);
   print(options,
         {.graph = graph,
          .executor = executor,
@@ -244,8 +245,8 @@ int run(const Options& options) {
         unwritten.empty());
   std::cerr << errors_of(run_end, executor.now()) << failures_text(verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
-  const int exit_code = exit_of({exit_code_of(run_end), verdict.is_negative() ? exit_negative : exit_good,
-                                 unwritten.empty() ? exit_good : exit_unfinished});
+  const int exit_code =
+      exit_of({exit_code_of(run_end), verdict.exit_code(), unwritten.empty() ? exit_good : exit_unfinished});
   if (run_end.hangs) end_at_once(exit_code);
   return exit_code;
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/text/escape.h"
+#include "tools/report/exit_code.h"
 
 namespace jarol::tools {
 namespace {
@@ -33,11 +34,28 @@ bool RunVerdict::is_negative() const {
                      [](const Verdict& v) { return v.outcome == Verdict::Outcome::fails; });
 }
 
+int RunVerdict::exit_code() const {
+  return exit_of({unheard.empty() ? exit_good : exit_unfinished, is_negative() ? exit_negative : exit_good});
+}
+
 std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<Channels*>& channels) {
   std::vector<RunVerdict::VehicleMishap> found;
   for (std::size_t i = 0; i < channels.size(); ++i)
     if (const std::string mishap = channels[i]->mishap(); !mishap.empty())
       found.push_back({graph.distributers[i].name, mishap});
+  return found;
+}
+
+std::vector<std::string> find_unheard(const Graph& graph, const std::vector<Channels*>& channels) {
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const auto takes = [i](const Communicator& c) { return c.distributer == i && c.direction == Direction::in; };
+    if (!graph.distributers[i].distributer_class->is_vehicle ||
+        std::none_of(graph.communicators.begin(), graph.communicators.end(), takes))
+      continue;
+    const std::optional<LinkReport> link = channels[i]->link_report();
+    if (link && link->heard == 0) found.push_back(graph.distributers[i].name);
+  }
   return found;
 }
 
@@ -111,13 +129,16 @@ nlohmann::ordered_json to_json(const RunVerdict& verdict) {
           {"mishaps", std::move(mishaps)},
           {"not_at_rest",
            verdict.not_at_rest.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(verdict.not_at_rest)},
-          {"left_out", verdict.left_out}};
+          {"left_out", verdict.left_out},
+          {"unheard", verdict.unheard}};
 }
 
 std::string failures_text(const RunVerdict& verdict) {
   std::string text;
   for (const auto& mishap : verdict.mishaps)
     text += "error: the vehicle of '" + mishap.distributer + "' has " + mishap.text + "\n";
+  for (const std::string& name : verdict.unheard)
+    text += "error: nothing came from the vehicle of '" + name + "' in the whole run; is it there?\n";
   if (!verdict.not_at_rest.empty()) text += "error: " + verdict.not_at_rest + "\n";
   for (const std::string& line : verdict.left_out) text += "error: " + line + "\n";
   for (const Verdict& v : verdict.expectations)

@@ -20,14 +20,20 @@ struct RunVerdict {
     std::string text;
   };
   std::vector<VehicleMishap> mishaps;
-  std::string not_at_rest{};          // why its vehicle did not come to rest at its end; empty: it did, or was not to
-  std::vector<std::string> left_out;  // per task with more faults than the graph allows: a line
+  std::string not_at_rest{};           // why its vehicle did not come to rest at its end; empty: it did, or was not to
+  std::vector<std::string> left_out;   // per task with more faults than the graph allows: a line
+  std::vector<std::string> unheard{};  // distributers on links whose vehicle sent nothing that counts, in the whole run
 
   bool is_negative() const;
+  /// Good, negative, or unfinished, where there is nothing to judge by: the vehicle was lost from the start.
+  int exit_code() const;
 };
 
 /// What became of the vehicles that are simulated on these channels, one per distributer of the graph.
 std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<Channels*>& channels);
+
+/// The distributers of vehicles from which nothing came over their links, though the graph takes something from them.
+std::vector<std::string> find_unheard(const Graph& graph, const std::vector<Channels*>& channels);
 
 /// A line for each task that faults left without outputs more often than the graph allows.
 std::vector<std::string> find_left_out(const Graph& graph, const Report& report);
@@ -43,7 +49,7 @@ Duration end_of_mission(const std::vector<Channels*>& channels);
 std::string to_text(const RunVerdict& verdict);
 nlohmann::ordered_json to_json(const RunVerdict& verdict);
 
-/// A line for each reason why it is negative.
+/// A line for each reason why it is not good.
 std::string failures_text(const RunVerdict& verdict);
 
 }  // namespace jarol::tools

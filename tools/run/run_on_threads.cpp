@@ -188,14 +188,15 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
   }
   verdict.not_at_rest = not_at_rest_text(*loaded.graph, rested, run_end);
   verdict.left_out = find_left_out(*loaded.graph, core.report());
+  verdict.unheard = find_unheard(*loaded.graph, channels);
   const std::vector<TrueState> true_states =
       run_end.hangs ? std::vector<TrueState>{} : find_true_states(*loaded.graph, channels);
   json ? print_json(*loaded.graph, core, told, linked.reports(), guard, run_end, verdict, true_states)
        : print_text(*loaded.graph, core, told, linked.reports(), guard, run_end, verdict, true_states);
   std::cerr << errors_of(run_end, core.now()) << failures_text(verdict);
   if (!unwatched.empty()) std::cerr << "error: " << unwatched << "\n";
-  const int exit_code = exit_of({exit_code_of(run_end), verdict.is_negative() ? exit_negative : exit_good,
-                                 unwatched.empty() ? exit_good : exit_unfinished});
+  const int exit_code =
+      exit_of({exit_code_of(run_end), verdict.exit_code(), unwatched.empty() ? exit_good : exit_unfinished});
   if (run_end.hangs) end_at_once(exit_code);
   return exit_code;
 }

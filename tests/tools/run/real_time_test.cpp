@@ -177,17 +177,22 @@ TEST_SUITE("tools/real_time") {
     CHECK(command::jarol("run " + one + " --for 40ms --set chains.c.reaction=80ms").exit_code == 0);
   }
 
-  TEST_CASE("of a peer that never answers it is said that no packet has come") {
+  TEST_CASE("a vehicle that never answers was not there: the run is not brought to an end, and says so") {
     const std::string udp =
         "--set 'distributers.dune.link={type: udp, peer: \"127.0.0.1:9\"}' --for 200ms --clock real";
     for (const std::string concurrency : {"exotasks", "threads"}) {
       const std::string run = "run specs/exolauv_bare.yaml " + udp + " --concurrency " + concurrency;
-      const std::string text = command::jarol(run).output;
+      const auto [exit_code, text] = command::jarol(run);
+      CHECK(exit_code == 3);
+      CHECK(text.find("error: nothing came from the vehicle of 'dune' in the whole run; is it there?\n") !=
+            std::string::npos);
       const std::size_t link = text.find("  link        udp 127.0.0.1:0 with 127.0.0.1:9: ");
       REQUIRE(link != std::string::npos);
       CHECK(text.substr(text.find('\n', link) + 1)
                 .starts_with("              NO PACKET HAS COME over udp 127.0.0.1:0 with 127.0.0.1:9\n"));
-      CHECK(nlohmann::json::parse(command::jarol(run + " --json", "2>/dev/null").output)["links"][0]["heard"] == false);
+      const auto json = nlohmann::json::parse(command::jarol(run + " --json", "2>/dev/null").output);
+      CHECK(json["links"][0]["heard"] == false);
+      CHECK(json["judgement"]["unheard"] == nlohmann::json::array({"dune"}));
     }
     // nor has what is dropped
     jarol::LinkReport link{
@@ -199,6 +204,16 @@ TEST_SUITE("tools/real_time") {
     CHECK(jarol::tools::to_text(link).ends_with("\n              NO PACKET HAS COME over udp 127.0.0.1:7002\n"));
     link.heard = 1;
     CHECK(jarol::tools::to_text(link) == "  link        udp 127.0.0.1:7002: 3 packets out, 2 dropped: stranger\n");
+  }
+
+  TEST_CASE("an operator that never speaks may not be there") {
+    const auto [exit_code, json] = command::jarol(
+        "run specs/javiator.yaml --set 'distributers.terminal.link={type: udp, peer: 9}' --set at_end=null "
+        "--set expect=null --set fault_limit=100% --clock real --for 100ms --json",
+        "2>/dev/null");
+    CHECK(exit_code == 0);
+    CHECK(nlohmann::json::parse(json)["links"][0]["heard"] == false);
+    CHECK(nlohmann::json::parse(json)["judgement"]["unheard"].empty());
   }
 
   TEST_CASE("strangers and takeovers of a link are in its report, as text and as JSON") {
