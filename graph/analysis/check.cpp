@@ -8,19 +8,8 @@
 namespace jarol::analysis {
 namespace {
 
-// On one core global EDF is EDF.
-bool is_edf_by_another_name(const System& system) { return system.policy == Policy::global_edf && system.cores == 1; }
-
-System with_edf(System system) {
-  system.policy = Policy::edf;
-  return system;
-}
-
 Result check_system(const System& system, bool whole, Effort& effort) {
-  if (is_edf_by_another_name(system)) return check_partitioned(with_edf(system), whole, effort);
-  if (system.policy == Policy::table) return check_on_table(system, whole, effort);
-  if (system.policy == Policy::global_edf) return check_globally(system, whole, effort);
-  return check_partitioned(system, whole, effort);
+  return entry_of(system.policy).check(system, whole, effort);
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "graph/analysis/global_edf.h"
-#include "graph/analysis/policies.h"
 #include "graph/analysis/simulate_global.h"
+#include "graph/analysis/systems.h"
 
 namespace jarol::analysis {
 namespace {
@@ -83,9 +83,16 @@ void walk(const System& system, const Loads& loads, Result& result, Effort& effo
   }
 }
 
+// On one core global EDF is EDF.
+System with_edf(System system) {
+  system.policy = Policy::edf;
+  return system;
+}
+
 }  // namespace
 
 Result check_globally(const System& system, bool whole, Effort& effort) {
+  if (system.cores == 1) return check_partitioned(with_edf(system), whole, effort);
   const Loads loads = with_blocking(system.loads);
   Result result;
   result.response = bounds_of(system, loads);

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "graph/analysis/partition.h"
-#include "graph/analysis/policies.h"
+#include "graph/analysis/systems.h"
 #include "graph/analysis/time_table.h"
 
 namespace jarol::analysis {

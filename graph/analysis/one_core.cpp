@@ -5,6 +5,7 @@
 #include "graph/analysis/explore.h"
 #include "graph/analysis/extremes.h"
 #include "graph/analysis/fixed_priority.h"
+#include "graph/analysis/policies.h"
 #include "graph/analysis/readiness.h"
 
 namespace jarol::analysis {
@@ -14,8 +15,8 @@ constexpr std::int64_t most_time = std::int64_t{1} << 60;
 constexpr std::uint64_t most_activations = 1'000'000;
 constexpr std::uint64_t steps_of_activation = 10;  // that the simulation takes
 
-bool by_deadline(Policy policy) { return policy == Policy::edf || policy == Policy::edf_nonpreemptive; }
-bool is_preemptive(Policy policy) { return policy == Policy::edf || policy == Policy::fixed_priority; }
+bool by_deadline(Policy policy) { return entry_of(policy).urgency == Urgency::deadline; }
+bool is_preemptive(Policy policy) { return entry_of(policy).interrupts; }
 Order order_of(Policy policy) { return by_deadline(policy) ? Order::by_deadline : Order::by_priority; }
 
 CoreResult undecided(std::string reason, std::vector<std::optional<std::int64_t>> responses = {}) {

@@ -1,6 +1,7 @@
 // A check's report for programs.
 #include <nlohmann/json.hpp>
 
+#include "graph/analysis/policies.h"
 #include "graph/language/key.h"
 #include "tools/check/check_words.h"
 
@@ -94,7 +95,7 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
           {"file", r.file},
           {"graph", r.graph->name},
           {"cores", platform.cores},
-          {"policy", Words<Policy>::list()[static_cast<std::size_t>(platform.policy)]},
+          {"policy", analysis::entry_of(platform.policy).name()},
           {"assumptions",
            {{"text", assumption(platform)},
             {"phasing", Words<Phasing>::list()[static_cast<std::size_t>(platform.phasing)]},

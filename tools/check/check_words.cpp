@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "graph/language/key.h"
+#include "graph/analysis/policies.h"
 
 namespace jarol::tools {
 
@@ -26,23 +26,8 @@ const Task* longer_than_stated(const CheckReport& r) {
 bool chains_hold(const CheckReport& report) { return std::all_of(report.chains.begin(), report.chains.end(), holds); }
 
 std::string assumption(const Platform& platform) {
-  std::string how;
-  switch (platform.policy) {
-    case Policy::table: how = "tasks run one after the other as released, never interrupted"; break;
-    case Policy::fixed_priority:
-      how = "the most urgent task runs, interrupting others, as under 'run --clock real'";
-      break;
-    case Policy::edf:
-      how = "the task with the earliest deadline runs, interrupting others; 'run' does not execute this";
-      break;
-    case Policy::fixed_priority_nonpreemptive:
-      how = "the most urgent task starts, and runs to its end; 'run' does not execute this";
-      break;
-    case Policy::edf_nonpreemptive:
-      how = "the task with the earliest deadline starts, and runs to its end; 'run' does not execute this";
-      break;
-    case Policy::global_edf: how = "the earliest deadlines run, on any core; 'run' does not execute this"; break;
-  }
+  const analysis::PolicyEntry& policy = analysis::entry_of(platform.policy);
+  const std::string how = std::string(policy.how) + (policy.executed ? "" : "; 'run' does not execute this");
   std::string overhead = ", without overhead";
   if (platform.dispatch > Duration{} || platform.copy > Duration{})
     overhead = ", with " + duration_text(platform.dispatch) + " for each activation and " +

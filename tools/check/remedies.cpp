@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
-#include "graph/language/key.h"
+#include "graph/analysis/policies.h"
 #include "graph/language/tables.h"
 #include "graph/model/build.h"
 #include "tools/check/check_report.h"
@@ -19,8 +20,6 @@ constexpr std::size_t max_remedies = 5, max_executable = 4;
 
 std::string quoted(const std::string& key, const std::string& value) { return "'" + key + ": " + value + "'"; }
 
-std::string policy_name(Policy policy) { return Words<Policy>::list()[static_cast<std::size_t>(policy)]; }
-
 // Looks for changes that hold, by loading and checking the graph with each.
 class Search {
  public:
@@ -34,8 +33,8 @@ class Search {
     if (found_.empty()) try_pairs();
     if (found_.size() > max_executable) found_.resize(max_executable);
     wcets();
-    for (const Policy policy : {Policy::edf, Policy::global_edf})
-      if (found_.size() < max_remedies) add(policy_remedy(policy));
+    for (const analysis::PolicyEntry& policy : analysis::policies())
+      if (!policy.executed && policy.interrupts && found_.size() < max_remedies) add(policy_remedy(policy));
     if (found_.size() > max_remedies) found_.resize(max_remedies);
     return std::move(found_);
   }
@@ -89,8 +88,10 @@ class Search {
 
   // One change and one more: another policy or a core more beside each of the others.
   void try_pairs() {
-    for (const Remedy& first :
-         {cores_remedy(), priorities_remedy(), policy_remedy(Policy::fixed_priority), policy_remedy(Policy::table)}) {
+    std::vector<Remedy> others{cores_remedy(), priorities_remedy()};
+    for (const analysis::PolicyEntry& policy : std::views::reverse(analysis::policies()))
+      if (policy.executed) others.push_back(policy_remedy(policy));
+    for (const Remedy& first : others) {
       if (first.set.empty() || !found_.empty()) continue;
       beside_ = first;
       try_all(
@@ -131,21 +132,21 @@ class Search {
 
   Remedy priorities_remedy() const {
     Remedy remedy{"priorities by deadline, without 'priority'", {}};
-    if (graph().platform.policy == Policy::fixed_priority)
+    if (analysis::entry_of(graph().platform.policy).urgency == analysis::Urgency::priority)
       for (const Task& task : graph().tasks)
         if (task.priority) remedy.set.push_back("tasks." + task.name + ".priority=null");
     return remedy;
   }
   void priorities() { add(priorities_remedy()); }
 
-  Remedy policy_remedy(Policy policy) const {
-    if (policy == graph().platform.policy) return {};
-    const bool executed = policy == Policy::table || policy == Policy::fixed_priority;
-    return {quoted("policy", policy_name(policy)) + (executed ? "" : ", which 'run' does not execute"),
-            {"platform.policy=" + policy_name(policy)}};
+  Remedy policy_remedy(const analysis::PolicyEntry& policy) const {
+    if (policy.policy == graph().platform.policy) return {};
+    return {quoted("policy", policy.name()) + (policy.executed ? "" : ", which 'run' does not execute"),
+            {"platform.policy=" + policy.name()}};
   }
   void executable_policies() {
-    for (const Policy policy : {Policy::table, Policy::fixed_priority}) add(policy_remedy(policy));
+    for (const analysis::PolicyEntry& policy : analysis::policies())
+      if (policy.executed) add(policy_remedy(policy));
   }
 
   // Tasks that stand on a core by `core:`.

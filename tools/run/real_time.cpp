@@ -11,7 +11,7 @@
 
 #include "graph/analysis/chains.h"
 #include "graph/analysis/check.h"
-#include "graph/language/key.h"
+#include "graph/analysis/policies.h"
 #include "graph/language/quantities.h"
 #include "runtime/machine/machine.h"
 #include "tools/report/command_line.h"
@@ -90,8 +90,19 @@ RealTimeOptions options_of(const RealTimeArguments& arguments) {
   return options;
 }
 
+namespace {
+// "'table' and 'fixed_priority'"
+std::string executed_policies() {
+  std::string names;
+  for (const analysis::PolicyEntry& policy : analysis::policies())
+    if (policy.executed) names += (names.empty() ? "'" : " and '") + policy.name() + "'";
+  return names;
+}
+}  // namespace
+
 std::vector<analysis::TaskThread> threads_for(const std::string& file, const Graph& graph, RealTimeOptions& options) {
-  if (graph.platform.policy == Policy::table && graph.platform.cores == 1) return {};
+  const bool by_priority = analysis::entry_of(graph.platform.policy).urgency == analysis::Urgency::priority;
+  if (!by_priority && graph.platform.cores == 1) return {};
   std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
   std::size_t cores = 0, levels = 0;
   for (const analysis::TaskThread& thread : threads) {
@@ -107,7 +118,7 @@ std::vector<analysis::TaskThread> threads_for(const std::string& file, const Gra
     throw std::invalid_argument("--rt-priority " + std::to_string(*options.priority) + ": the tasks of '" + file +
                                 "' take " + std::to_string(levels) + " priorities below it; choose " +
                                 std::to_string(needed) + " or more");
-  if (!options.priority && graph.platform.policy == Policy::fixed_priority) options.priority = needed;
+  if (!options.priority && by_priority) options.priority = needed;
   const std::vector<int> usable = options.cpus.empty() ? find_machine_facts().usable : options.cpus;
   if (usable.size() < cores)
     throw std::invalid_argument("'" + file + "' has tasks on " + std::to_string(cores) + " cores; " +
@@ -118,11 +129,9 @@ std::vector<analysis::TaskThread> threads_for(const std::string& file, const Gra
 }
 
 void require_executable(const std::string& file, const Graph& graph, const RealTimeArguments& arguments) {
-  if (graph.platform.policy != Policy::table && graph.platform.policy != Policy::fixed_priority)
-    throw std::invalid_argument("'" + file + "' has the policy '" +
-                                Words<Policy>::list()[static_cast<std::size_t>(graph.platform.policy)] +
-                                "'; the real clock executes 'table' and 'fixed_priority'; choose one by --set "
-                                "platform.policy=table");
+  if (const analysis::PolicyEntry& policy = analysis::entry_of(graph.platform.policy); !policy.executed)
+    throw std::invalid_argument("'" + file + "' has the policy '" + policy.name() + "'; the real clock executes " +
+                                executed_policies() + "; choose one by --set platform.policy=table");
   const analysis::Result result = analysis::check(graph);
   std::vector<std::string> against;
   if (result.verdict == analysis::Verdict::not_schedulable) against.push_back("is not schedulable: " + result.reason);
