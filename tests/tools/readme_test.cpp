@@ -18,7 +18,8 @@ std::string output_of(const std::string& arguments) {
   return output;
 }
 
-std::string readme() { return jarol::read_source("README.md")->text; }
+std::string page(const std::string& path) { return jarol::read_source(path)->text; }
+std::string readme() { return page("README.md"); }
 
 // What stands between the two, where they come first.
 std::string between(const std::string& text, const std::string& begin, const std::string& end) {
@@ -34,27 +35,37 @@ TEST_SUITE("tools/readme") {
     CHECK(readme().find(verdict) != std::string::npos);
   }
 
-  TEST_CASE("the README shows the change that makes the demo unschedulable, and what check says to it") {
+  TEST_CASE(
+      "what check says of the change that makes the demo unschedulable stands there, and in the README its parts") {
     const std::string verdict = output_of("check specs/exolauv.yaml --set tasks.speed.wcet=60ms");
     CHECK(verdict.size() > 300);
-    CHECK(readme().find(verdict) != std::string::npos);
+    CHECK(page("graph/analysis/README.md").find(verdict) != std::string::npos);
+    const std::string shown = between(readme(), "tasks.speed.wcet=60ms\n```\n\n```\n", "```");
+    const std::size_t gap = shown.find("  ...\n");
+    REQUIRE(gap != std::string::npos);
+    CHECK(verdict.starts_with(shown.substr(0, gap)));
+    CHECK(verdict.find(shown.substr(gap + 6)) != std::string::npos);
   }
 
-  TEST_CASE("the README shows a message and a packet as the command tells them") {
+  TEST_CASE("the picture of the README is what run --plot draws") {
+    CHECK(output_of("run specs/exolauv.yaml --plot - 2>/dev/null") == page("specs/exolauv.svg"));
+  }
+
+  TEST_CASE("a message and a packet are shown as the command prints them") {
     for (const char* arguments : {"messages imc DesiredZ", "messages javiator --decode"}) {
       const bool decode = std::string(arguments).ends_with("--decode");
       const std::string output = output_of(std::string(arguments) + (decode ? " <<END\nffff0f021f400070\nEND" : ""));
       CHECK(output.size() > 100);
-      CHECK(readme().find(std::string(arguments) + "\n" + output) != std::string::npos);
+      CHECK(page("specs/messages/README.md").find(std::string(arguments) + "\n" + output) != std::string::npos);
     }
   }
 
-  TEST_CASE("the README shows what is told of a landing that nobody wanted") {
+  TEST_CASE("flying.md shows what is reported of a landing that nobody wanted") {
     const std::string sonar = " --set distributers.robostix.link.parameters.failures.sonar.";
     const std::string run = output_of("run specs/javiator.yaml" + sonar + "kind=lost" + sonar + "at=12s");
     const std::size_t begin = run.find("  told ");
     REQUIRE(begin != std::string::npos);
-    CHECK(readme().find(run.substr(begin)) != std::string::npos);
+    CHECK(page("specs/flying.md").find(run.substr(begin)) != std::string::npos);
   }
 
   TEST_CASE("the README shows what the demo reaches as it is") {
@@ -66,13 +77,13 @@ TEST_SUITE("tools/readme") {
     }
   }
 
-  TEST_CASE("the README shows where the helicopter lands whose sonar is lost") {
+  TEST_CASE("flying.md shows where the helicopter lands whose sonar is lost") {
     const std::string sonar = "--set distributers.robostix.link.parameters.failures.sonar.";
-    CHECK(readme().find(sonar + "kind=lost \\\n  " + sonar + "at=12s") != std::string::npos);
+    CHECK(page("specs/flying.md").find(sonar + "kind=lost \\\n  " + sonar + "at=12s") != std::string::npos);
     const std::string run = output_of("run specs/javiator.yaml " + sonar + "kind=lost " + sonar + "at=12s");
     const std::string reached = between(run, "deg\n  altitude", "  activations");
     CHECK(reached.size() > 80);
-    CHECK(readme().find(reached) != std::string::npos);
+    CHECK(page("specs/flying.md").find(reached) != std::string::npos);
   }
 
   TEST_CASE("the README shows a task of one's own, and what a graph with it does") {
