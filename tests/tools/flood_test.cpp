@@ -7,13 +7,15 @@
 #include <fstream>
 #include <thread>
 
+#include "distributers/distributers.h"
 #include "distributers/javiator/vehicle.h"
 #include "distributers/links/linked.h"
 #include "distributers/links/tcp.h"
 #include "distributers/links/udp.h"
 #include "distributers/messages/javiator.h"
+#include "distributers/session/load.h"
 #include "runtime/execute/executor.h"
-#include "tools/run/load_graph.h"
+#include "tasks/tasks.h"
 
 namespace {
 using namespace jarol;
@@ -68,8 +70,12 @@ std::uint64_t count_of(const LinkReport& report, const std::string& name) {
 // The helicopter's graph on the real clock; its vehicle is whatever comes over the link.
 template <class MakeFlood>
 void flood(std::unique_ptr<Transport> transport, const MakeFlood& make_flood, bool loses_nothing) {
-  tools::Loaded loaded = tools::load_graph(
-      "specs/javiator.yaml", {.profile = "", .set = {"distributers.robostix.link={type: udp, listen: 0}"}});
+  const std::vector<vehicles::VehicleClass> no_vehicles;
+  Registry registry;
+  tasks::add_tasks(registry);
+  add_distributers(registry);
+  Loaded loaded = load_graph(read_source("specs/javiator.yaml"), {registry, no_vehicles},
+                             {.profile = "", .set = {"distributers.robostix.link={type: udp, listen: 0}"}}, 0);
   const Graph& graph = *loaded.graph;
   auto adapter = std::make_unique<JaviatorVehicle>();
   const auto& set = adapter->message_set();

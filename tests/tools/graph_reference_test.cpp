@@ -7,6 +7,7 @@
 
 #include "distributers/links/link_spec.h"
 #include "graph/language/tables.h"
+#include "tools/library/built_in.h"
 #include "tools/run/load_graph.h"
 
 namespace {
@@ -141,7 +142,7 @@ TEST_SUITE("tools/graph_reference") {
   }
 
   TEST_CASE("the reference has each distributer with its channels and parameters") {
-    for (const DistributerClass& distributer : tools::registry().distributers()) {
+    for (const DistributerClass& distributer : built_in_registry().distributers()) {
       CAPTURE(distributer.name);
       const Row* row = find_row("distributers", distributer.name);
       REQUIRE(row != nullptr);

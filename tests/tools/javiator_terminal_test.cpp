@@ -170,7 +170,7 @@ class Lab {
   }
 
   Terminal::Over over_;
-  tools::Loaded loaded_;
+  Loaded loaded_;
   std::function<int()> port_of_;
   LinkedChannels* link_ = nullptr;
   std::unique_ptr<Executor> executor_;

@@ -59,7 +59,7 @@ class Process {
 
 std::uint64_t digest_of(const std::string& graph, const std::vector<std::string>& set, std::uint64_t seed,
                         Duration end) {
-  tools::Loaded loaded = tools::load_graph(graph, {.profile = "", .set = set}, seed);
+  Loaded loaded = tools::load_graph(graph, {.profile = "", .set = set}, seed);
   for (const auto& channels : loaded.channels) channels->begin();
   Executor executor(*loaded.graph, std::move(loaded.channels));
   executor.run_until(end);
@@ -84,8 +84,8 @@ TEST_SUITE("tools/lockstep") {
 
   TEST_CASE("a vehicle that is lost ends the run, and is told") {
     auto process = std::make_unique<Process>("specs/vehicles/submarine.yaml", 1);
-    tools::Loaded loaded = tools::load_graph("specs/exolauv.yaml",
-                                             {.profile = "", .set = {"distributers.dune.link" + process->link()}}, 0);
+    Loaded loaded = tools::load_graph("specs/exolauv.yaml",
+                                      {.profile = "", .set = {"distributers.dune.link" + process->link()}}, 0);
     for (const auto& channels : loaded.channels) channels->begin();
     Executor executor(*loaded.graph, std::move(loaded.channels));
     executor.run_until(3s);
@@ -100,7 +100,7 @@ TEST_SUITE("tools/lockstep") {
   TEST_CASE("a vehicle that does not fit is refused, and so is no vehicle at all") {
     Process helicopter("specs/vehicles/helicopter.yaml", 1);
     const auto begin = [](const std::string& link) {
-      tools::Loaded loaded =
+      Loaded loaded =
           tools::load_graph("specs/exolauv.yaml", {.profile = "", .set = {"distributers.dune.link" + link}}, 0);
       for (const auto& channels : loaded.channels) channels->begin();
     };
@@ -187,7 +187,7 @@ TEST_SUITE("tools/lockstep") {
 
   TEST_CASE("periods that do not fall on the vehicle's steps are refused") {
     Process helicopter("specs/vehicles/helicopter.yaml", 1);
-    tools::Loaded loaded = tools::load_graph(
+    Loaded loaded = tools::load_graph(
         "specs/javiator.yaml",
         {.profile = "",
          .set = {"distributers.robostix.link" + helicopter.link(), "communicators.from_robostix.offset=1ms"}},

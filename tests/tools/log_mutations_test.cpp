@@ -9,16 +9,16 @@
 #include "graph/values/pack.h"
 #include "graph/values/seed.h"
 #include "graph/values/type_of.h"
+#include "runtime/execute/log_end.h"
+#include "runtime/record/log_reader.h"
+#include "runtime/record/log_writer.h"
 #include "tests/runtime/outside.h"
 #include "tests/runtime/trace_of.h"
 #include "tests/tools/run_command.h"
-#include "tools/files/log_reader.h"
-#include "tools/files/log_writer.h"
 
 namespace {
 using namespace jarol;
 using namespace std::chrono_literals;
-using tools::LogRecord;
 
 const Graph& the_graph() {
   static const Registry registry = [] {
@@ -42,13 +42,13 @@ connections: [i -> r.in, r.out -> o, w -> m.in, m.out -> mean]
 }
 
 void write_log(const std::string& path) {
-  tools::LogWriter log(path, {.graph = "t", .file = "/t.yaml", .file_sum = "", .overrides = {}, .clock = "virtual"},
-                       the_graph());
+  LogWriter log(path, {.graph = "t", .file = "/t.yaml", .file_sum = "", .overrides = {}, .clock = "virtual"},
+                the_graph());
   const std::vector<Miss> misses{{.activation = 12, .ended_after = 1'200'000, .task = 1, .left_out = 0}};
   log.open();
   Executor executor(the_graph(), tests::outside(), {.log = log.recorder(), .misses = misses});
   executor.run_until(1500ms);
-  log.close(executor.report());
+  log.close(log_end_of(executor.report()));
 }
 
 struct Record {
@@ -161,12 +161,12 @@ void mutate(Log& log, std::uint64_t seed) {
 // What is said of it, or nothing: it was replayed.
 std::string report_on(const std::string& path) {
   try {
-    tools::LogReader log(path);
+    LogReader log(path);
     const std::vector<Miss> misses = log.begin(the_graph());
     Executor executor(the_graph(), replayed_channels(the_graph(), log), {.misses = misses});
     executor.run_until(std::min<Duration>(log.covered(), 1500ms));
     log.require_all_taken();
-  } catch (const tools::LogError& error) { return error.what(); }
+  } catch (const LogError& error) { return error.what(); }
   return "";
 }
 

@@ -10,11 +10,11 @@
 #include <set>
 #include <string>
 
+#include "runtime/files/whole_file.h"
+#include "runtime/record/log_reader.h"
+#include "runtime/record/log_writer.h"
 #include "tests/tools/default_signals.h"
 #include "tests/tools/run_command.h"
-#include "tools/files/log_reader.h"
-#include "tools/files/log_writer.h"
-#include "tools/files/whole_file.h"
 #include "tools/run/load_graph.h"
 
 namespace {
@@ -33,7 +33,7 @@ int partials_in(const TemporaryFolder& folder) {
 }
 
 void write(const std::string& path, const std::string& text) {
-  jarol::tools::WholeFile file(path);
+  jarol::WholeFile file(path);
   file.write(text);
   file.commit();
 }
@@ -61,7 +61,7 @@ TEST_SUITE("tools/output_files") {
   TEST_CASE("what is not committed leaves the file as it was") {
     const TemporaryFolder folder;
     const std::string path = folder.write("file", "old");
-    { jarol::tools::WholeFile(path).write("new"); }
+    { jarol::WholeFile(path).write("new"); }
     CHECK(content(path) == "old");
     CHECK(partials_in(folder) == 0);
   }
@@ -70,7 +70,7 @@ TEST_SUITE("tools/output_files") {
     const TemporaryFolder folder;
     std::set<std::string> names;
     for (int i = 0; i < 20; ++i) {
-      const jarol::tools::WholeFile file(folder / "file");
+      const jarol::WholeFile file(folder / "file");
       for (const auto& entry : fs::directory_iterator(folder / "")) names.insert(entry.path().filename());
       CHECK(partials_in(folder) == 1);
     }
@@ -78,13 +78,13 @@ TEST_SUITE("tools/output_files") {
     // as long as one writes, no other does, by whatever path; and then it does
     fs::create_directory_symlink(folder / "", folder / "again");
     {
-      const jarol::tools::WholeFile first(folder / "file");
+      const jarol::WholeFile first(folder / "file");
       const std::string other = folder / "again/file";
       CHECK_THROWS_WITH_AS(
-          jarol::tools::WholeFile{other},
+          jarol::WholeFile{other},
           ("can't write '" + other + "': another run writes it; choose another file, or wait until that ends").c_str(),
           std::runtime_error);
-      const jarol::tools::WholeFile beside(folder / "file2");
+      const jarol::WholeFile beside(folder / "file2");
     }
     write(folder / "file", "new");
     CHECK(content(folder / "file") == "new");
@@ -250,16 +250,16 @@ tasks: {a: {type: Counter, period: 10ms}}
     const TemporaryFolder folder;
     const std::string log = folder / "run.log", fifo = folder / "fifo";
     const auto header =
-        jarol::tools::LogHeader{.graph = "counting", .file = "", .file_sum = "", .overrides = {}, .clock = "virtual"};
+        jarol::LogHeader{.graph = "counting", .file = "", .file_sum = "", .overrides = {}, .clock = "virtual"};
     const auto loaded = jarol::tools::load_graph("specs/counting.yaml", {});
-    jarol::tools::LogWriter first(log, header, *loaded.graph);
+    jarol::LogWriter first(log, header, *loaded.graph);
     first.open();
     const auto second = command::jarol("run specs/counting.yaml --for 1s --log " + log);
     CHECK(second.exit_code == 2);
     CHECK(second.output ==
           "error: can't write '" + log + "': another run writes it; choose another file, or wait until that ends\n");
     first.close({});
-    CHECK(jarol::tools::LogReader(log).end());
+    CHECK(jarol::LogReader(log).end());
   }
 
   TEST_CASE("check --generate overwrites nothing, and says so before it writes anything") {
@@ -275,10 +275,10 @@ tasks: {a: {type: Counter, period: 10ms}}
                                 "--seed, or remove it\n");
     CHECK(!fs::exists(graphs + "/waters_3.yaml"));
     CHECK(content(third) == "mine");
-    CHECK_THROWS_WITH_AS((jarol::tools::WholeFile{third, jarol::tools::Replaces::nothing}),
+    CHECK_THROWS_WITH_AS((jarol::WholeFile{third, jarol::Replaces::nothing}),
                          ("can't write '" + third + "': File exists").c_str(), std::runtime_error);
     // also where it has come to be there meanwhile
-    jarol::tools::WholeFile late(graphs + "/late", jarol::tools::Replaces::nothing);
+    jarol::WholeFile late(graphs + "/late", jarol::Replaces::nothing);
     std::ofstream(graphs + "/late") << "mine";
     CHECK_THROWS_AS(late.commit(), std::runtime_error);
     CHECK(content(graphs + "/late") == "mine");

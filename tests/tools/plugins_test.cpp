@@ -7,9 +7,9 @@
 
 #include "graph/floating_point.h"
 #include "graph/plugins/plugin.h"
+#include "runtime/record/log_format.h"
 #include "tests/tools/run_command.h"
-#include "tools/files/log_format.h"
-#include "tools/run/load_graph.h"
+#include "tools/library/built_in.h"
 
 namespace {
 using namespace jarol;
@@ -18,7 +18,7 @@ std::string library(const std::string& name) { return std::string(JAROL_PLUGIN_F
 
 // What is said of a library after its name; then nothing of it was added, and nothing changed here.
 std::string report_on(const std::string& name) {
-  Registry registry = tools::registry();
+  Registry registry = built_in_registry();
   const std::size_t before = registry.tasks().size();
   std::string report = load_plugin(library(name), registry);
   if (!report.empty()) CHECK(registry.tasks().size() == before);
@@ -32,7 +32,7 @@ const std::string again = "; build it again as graph/plugins/plugin.h says";
 
 TEST_SUITE("tools/plugins") {
   TEST_CASE("a plugin brings its tasks, and they behave as all others") {
-    Registry registry = tools::registry();
+    Registry registry = built_in_registry();
     CHECK(load_plugin(library("twice"), registry) == "");
     REQUIRE(registry.find_task("Twice") != nullptr);
     CHECK(registry.find_task("Twice")->summary == "doubles its input");
@@ -40,7 +40,7 @@ TEST_SUITE("tools/plugins") {
   }
 
   TEST_CASE("a plugin's tasks may have names that the headers use, too") {
-    Registry registry = tools::registry();
+    Registry registry = built_in_registry();
     CHECK(load_plugin(library("names"), registry) == "");
     CHECK(registry.find_task("Source")->summary == "counts");
     CHECK(registry.find_task("Problem")->summary == "does nothing");
@@ -196,14 +196,14 @@ connections: [a.out -> b.in]
 
     // whoever writes a log with plugins of its own, and mends its sums
     for (const std::string path : {"plugins", "plugins.x"}) {
-      const tools::LogHeader header{.graph = "g",
-                                    .file = graph,
-                                    .file_sum = "",
-                                    .overrides = {"", {"tasks.a.init.out=1", path + "=[" + so + "]"}},
-                                    .clock = "virtual"};
-      const std::string line = tools::to_line(header);
-      tools::LogRecord record{0, tools::LogRecord::header, 0, 0};
-      record.sum = tools::LogRecord::sum_of(record, line);
+      const LogHeader header{.graph = "g",
+                             .file = graph,
+                             .file_sum = "",
+                             .overrides = {"", {"tasks.a.init.out=1", path + "=[" + so + "]"}},
+                             .clock = "virtual"};
+      const std::string line = to_line(header);
+      LogRecord record{0, LogRecord::header, 0, 0};
+      record.sum = LogRecord::sum_of(record, line);
       const std::string made =
           folder.write("made", line + std::string(reinterpret_cast<const char*>(&record), sizeof record));
       for (const std::string& words : {made, made + " " + graph}) {

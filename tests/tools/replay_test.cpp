@@ -11,11 +11,12 @@
 #ifdef JAROL_VEHICLES
 #include "tests/tools/process.h"
 #endif
+#include "runtime/execute/log_end.h"
+#include "runtime/record/log_reader.h"
+#include "runtime/record/log_writer.h"
 #include "tests/runtime/outside.h"
 #include "tests/runtime/trace_of.h"
 #include "tests/tools/run_command.h"
-#include "tools/files/log_reader.h"
-#include "tools/files/log_writer.h"
 
 namespace {
 using namespace jarol;
@@ -63,17 +64,16 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 // A log of 30 ms with `r` late at 12 ms, and the report of the run.
 Report write_log(const std::string& path, Duration end = 30ms) {
   const Graph graph = graph_of(graph_text);
-  tools::LogWriter log(path, {.graph = "t", .file = "/t.yaml", .file_sum = "", .overrides = {}, .clock = "virtual"},
-                       graph);
+  LogWriter log(path, {.graph = "t", .file = "/t.yaml", .file_sum = "", .overrides = {}, .clock = "virtual"}, graph);
   const std::vector<Miss> misses{{.activation = 12, .ended_after = 1'200'000, .task = 1, .left_out = 0}};
   log.open();
   Executor executor(graph, tests::outside(), {.log = log.recorder(), .misses = misses});
   executor.run_until(end);
-  log.close(executor.report());
+  log.close(log_end_of(executor.report()));
   return executor.report();
 }
 
-Report replay(tools::LogReader& log, const Graph& graph) {
+Report replay(LogReader& log, const Graph& graph) {
   const std::vector<Miss> misses = log.begin(graph);
   Executor executor(graph, replayed_channels(graph, log), {.misses = misses});
   executor.run_until(log.covered());
@@ -84,9 +84,9 @@ Report replay(tools::LogReader& log, const Graph& graph) {
 // What is wrong with a log, or with the graph that it is replayed with.
 std::string wrong_with(const std::string& path, const std::string& text = graph_text) {
   try {
-    tools::LogReader log(path);
+    LogReader log(path);
     replay(log, graph_of(text));
-  } catch (const tools::LogError& error) { return error.what(); }
+  } catch (const LogError& error) { return error.what(); }
   return "";
 }
 }  // namespace
@@ -95,7 +95,7 @@ TEST_SUITE("tools/replay") {
   TEST_CASE("values of any type come back from a log, each at its instant, as often as they are asked for") {
     const TemporaryFolder folder;
     const Report should = write_log(folder / "log");
-    tools::LogReader log(folder / "log");
+    LogReader log(folder / "log");
     CHECK(log.covered() == 30ms);
     CHECK(log.values() > 0);
     REQUIRE(log.end());
@@ -110,7 +110,7 @@ TEST_SUITE("tools/replay") {
     const TemporaryFolder folder;
     const Report should = write_log(folder / "log");
     REQUIRE(should.fault_count == 1);
-    tools::LogReader log(folder / "log");
+    LogReader log(folder / "log");
     CHECK(log.end()->faults == 1);
     const Report again = replay(log, graph_of(replaced(graph_text, "tasks: {", "tasks: {aa: {type: Work}, ")));
     CHECK(again.digest == should.digest);
@@ -125,12 +125,12 @@ TEST_SUITE("tools/replay") {
     const std::string whole = content(folder / "log");
     const std::size_t header = whole.find('\n') + 1;
     Duration covered{};
-    for (std::size_t length = header + sizeof(tools::LogRecord); length < whole.size(); length += 997) {
+    for (std::size_t length = header + sizeof(LogRecord); length < whole.size(); length += 997) {
       std::string damaged = whole;
       damaged[length] = static_cast<char>(damaged[length] ^ 0x10);
       for (const std::string& text : {damaged, whole.substr(0, length)}) {
         folder.write("part", text);
-        tools::LogReader log(folder / "part");
+        LogReader log(folder / "part");
         REQUIRE_FALSE(log.end());
         REQUIRE(log.good_until() <= static_cast<std::int64_t>(length));
         REQUIRE(log.covered() >= covered);
@@ -282,7 +282,7 @@ connections: [count.out -> sum.in]
     const auto replay = command::jarol("replay " + folder / "part");
     CHECK(replay.exit_code == 3);
     CHECK(replay.output.find("  log         breaks off at byte " +
-                             std::to_string(whole.size() - sizeof(tools::LogRecord) - sizeof(tools::LogEnd)) +
+                             std::to_string(whole.size() - sizeof(LogRecord) - sizeof(LogEnd)) +
                              ", before 2 s it is whole; how the run ended is not known\n") != std::string::npos);
   }
 
@@ -293,9 +293,7 @@ connections: [count.out -> sum.in]
     {
       tests::Process run("run specs/exolauv.yaml --clock real --force --for 60s --log " + log);
       const auto patience = std::chrono::steady_clock::now() + 30s;
-      const auto covered = [&] {
-        return fs::exists(log) && fs::file_size(log) > 2000 ? tools::LogReader(log).covered() : 0s;
-      };
+      const auto covered = [&] { return fs::exists(log) && fs::file_size(log) > 2000 ? LogReader(log).covered() : 0s; };
       while (covered() < 1s && std::chrono::steady_clock::now() < patience) std::this_thread::sleep_for(50ms);
       run.kill();
     }

@@ -9,7 +9,7 @@
 #include "graph/values/bind.h"
 #include "tests/tools/csv_rows.h"
 #include "tests/tools/run_command.h"
-#include "tools/run/load_graph.h"
+#include "tools/library/built_in.h"
 #include "vehicles/submarine/submarine.h"
 
 namespace {
@@ -44,7 +44,7 @@ void check_follows(const std::string& recording, const std::string& initial) {
 
 SubmarineParameters parameters_of(const std::string& path) {
   Problems problems;
-  const auto file = distributers::read_vehicle_file(read_source(path), tools::known_vehicles(), problems);
+  const auto file = distributers::read_vehicle_file(read_source(path), built_in_vehicles(), problems);
   problems.throw_if_any();
   return *static_cast<const SubmarineParameters*>(file->parameters.data());
 }

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "graph/language/quantities.h"
+#include "runtime/files/whole_file.h"
 #include "tools/check/measure.h"
-#include "tools/files/whole_file.h"
 
 namespace jarol::tools {
 namespace {

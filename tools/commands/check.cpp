@@ -9,15 +9,16 @@
 
 #include "graph/language/key.h"
 #include "graph/language/quantities.h"
+#include "runtime/files/whole_file.h"
 #include "tools/check/check_graph.h"
 #include "tools/check/gantt.h"
 #include "tools/check/generate_graphs.h"
 #include "tools/check/measure_file.h"
 #include "tools/commands/commands.h"
-#include "tools/files/whole_file.h"
 #include "tools/report/command_line.h"
 #include "tools/report/failure.h"
 #include "tools/report/json_line.h"
+#include "tools/run/apart.h"
 #include "tools/run/load_graph.h"
 #include "tools/run/no_plugins.h"
 

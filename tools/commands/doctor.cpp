@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "distributers/session/guard.h"
 #include "graph/language/quantities.h"
 #include "runtime/machine/arithmetic.h"
 #include "runtime/machine/machine.h"
@@ -12,7 +13,6 @@
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
-#include "tools/run/guard.h"
 
 namespace jarol::tools {
 namespace {

@@ -9,11 +9,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "distributers/session/guard.h"
+#include "distributers/session/linked.h"
 #include "graph/text/escape.h"
 #include "runtime/execute/executor.h"
+#include "runtime/execute/log_end.h"
+#include "runtime/record/log_writer.h"
 #include "tools/commands/commands.h"
-#include "tools/files/log_writer.h"
-#include "tools/files/whole_file.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
 #include "tools/report/progress.h"
@@ -21,10 +23,9 @@
 #include "tools/report/run_end.h"
 #include "tools/report/told_changes.h"
 #include "tools/report/told_faults.h"
+#include "tools/run/apart.h"
 #include "tools/run/crash_line.h"
-#include "tools/run/guard.h"
 #include "tools/run/interrupt.h"
-#include "tools/run/linked.h"
 #include "tools/run/load_graph.h"
 #include "tools/run/no_plugins.h"
 #include "tools/run/prompt_line.h"
@@ -152,7 +153,7 @@ int run(const Options& options) {
     RealTimeOptions real_time = options_of(options.real_time);
     threads = threads_for(options.file, graph, real_time);
     clock.emplace(graph.tasks.size(), real_time);
-    guard.emplace(loaded, !options.real_time.no_guardian, real_time.priority);
+    guard.emplace(loaded, options.real_time.no_guardian ? "--no-guardian" : "", real_time.priority, print_note);
   }
   const CrashLine crash_line(graph, guard ? guard->process() : nullptr, options.log);
   ToldChanges told(graph);
@@ -178,7 +179,7 @@ int run(const Options& options) {
   progress.emplace(shown, end, [&] { return executor.now(); });
   const std::optional<int> priority = clock ? clock->options().priority : std::nullopt;
   if (clock) take_priority(priority);
-  Linked linked(channels);
+  Linked linked(channels, print_note);
   if (log) log->open();
   take_priority_above(priority);
   auto start = std::chrono::steady_clock::now();
@@ -215,7 +216,7 @@ int run(const Options& options) {
   } else {
     finish_writing([&] { files.close(); });
     unseen = unwritten;
-    if (log) finish_writing([&] { log->close(report); });
+    if (log) finish_writing([&] { log->close(log_end_of(report)); });
   }
   RunVerdict verdict;
   const std::optional<RestReport> rested = executor.rest();
@@ -246,7 +247,7 @@ int run(const Options& options) {
   std::cerr << errors_of(run_end, executor.now()) << failures_text(verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
   const int exit_code =
-      exit_of({exit_code_of(run_end), verdict.exit_code(), unwritten.empty() ? exit_good : exit_unfinished});
+      exit_of({exit_code_of(run_end), exit_code_of(verdict), unwritten.empty() ? exit_good : exit_unfinished});
   if (run_end.hangs) end_at_once(exit_code);
   return exit_code;
 }

@@ -6,9 +6,9 @@
 #include "graph/plugins/plugins.h"
 #include "graph/values/bind.h"
 #include "tools/commands/commands.h"
+#include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
-#include "tools/run/load_graph.h"
 
 namespace jarol::tools {
 namespace {
@@ -130,7 +130,7 @@ void print_all(const Registry& known) {
 }
 
 int list_tasks(const Options& options) {
-  Registry known = registry();
+  Registry known = built_in_registry();
   for (const std::string& plugin : options.plugins) {
     const std::string wrong = load_plugin(plugin, known);
     if (!wrong.empty()) throw std::invalid_argument(wrong);

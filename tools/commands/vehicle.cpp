@@ -12,10 +12,10 @@
 #include "graph/values/bind.h"
 #include "graph/values/seed.h"
 #include "tools/commands/commands.h"
-#include "tools/files/whole_file.h"
+#include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/describe_vehicle.h"
-#include "tools/run/load_graph.h"
+#include "tools/run/apart.h"
 #include "tools/run/open_loop.h"
 #include "tools/run/serve_vehicle.h"
 
@@ -57,7 +57,7 @@ Value read_parameters(const Options& options, const vehicles::VehicleClass& vehi
   Value parameters(*vehicle.parameters);
   if (!options.parameters.empty()) {
     const auto source = read_source(options.parameters);
-    if (auto file = distributers::read_vehicle_file(source, known_vehicles(), problems)) {
+    if (auto file = distributers::read_vehicle_file(source, built_in_vehicles(), problems)) {
       if (file->vehicle->name == vehicle.name)
         parameters = std::move(file->parameters);
       else
@@ -262,7 +262,7 @@ void require_effect(const Command& command, const Options& options) {
 }
 
 int vehicle(const Options& options) {
-  const auto& known = known_vehicles();
+  const auto& known = built_in_vehicles();
   const auto found = std::find_if(known.begin(), known.end(), [&](const auto& v) { return v.name == options.name; });
   if (found == known.end()) {
     const std::vector<std::string> names = names_of(known);

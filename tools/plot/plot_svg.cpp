@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "graph/text/escape.h"
-#include "tools/files/whole_file.h"
+#include "runtime/files/whole_file.h"
 #include "tools/plot/plot_axis.h"
 #include "tools/plot/svg_text.h"
 

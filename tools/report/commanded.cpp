@@ -37,17 +37,6 @@ std::vector<Reported> find_reported(const Graph& graph) {
   return all;
 }
 
-std::vector<TrueState> find_true_states(const Graph& graph, const std::vector<Channels*>& channels) {
-  std::vector<TrueState> found;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    const Type* type = channels[i]->true_type();
-    if (type == nullptr) continue;
-    found.push_back({graph.distributers[i].name, Value(*type)});
-    channels[i]->copy_true_values(found.back().values.data());
-  }
-  return found;
-}
-
 std::string reached_text(const Graph& graph, const std::function<const void*(std::size_t)>& last_value,
                          const std::vector<TrueState>& true_states) {
   const auto number = [&](const Leaf& leaf, const void* value) {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "distributers/session/true_state.h"
 #include "graph/model/graph.h"
 #include "graph/values/bind.h"
-#include "runtime/channels.h"
 
 namespace jarol::tools {
 
@@ -28,15 +28,6 @@ struct Reported {
 
 /// The fields of every `out` communicator that answers at least one command.
 std::vector<Reported> find_reported(const Graph& graph);
-
-/// Where the vehicle of a distributer truly is.
-struct TrueState {
-  std::string distributer;
-  Value values;
-};
-
-/// Of each vehicle that is simulated on these channels, one per distributer of the graph.
-std::vector<TrueState> find_true_states(const Graph& graph, const std::vector<Channels*>& channels);
 
 /// A table of what was commanded, reported as reached and truly reached last; `last_value` gives the newest value of a
 /// communicator.

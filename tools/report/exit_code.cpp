@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "tools/files/partial_files.h"
+#include "runtime/files/partial_files.h"
 
 namespace jarol::tools {
 namespace {

@@ -1,8 +1,5 @@
 #include "tools/report/verdicts.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "graph/text/escape.h"
@@ -20,75 +17,11 @@ const char* word_of(Verdict::Outcome outcome) {
   return "";
 }
 
-// A share of few activations says nothing: one fault, with the release that it skips, is not held against a task that
-// gave something, unless the graph allows none.
-bool is_single(const Task& task, std::uint64_t left_out, std::int64_t due) {
-  return left_out <= (task.on_fault == OnFault::skip ? 2U : 1U) && left_out < static_cast<std::uint64_t>(due);
-}
-
 }  // namespace
 
-bool RunVerdict::is_negative() const {
-  return !mishaps.empty() || !left_out.empty() || !not_at_rest.empty() ||
-         std::any_of(expectations.begin(), expectations.end(),
-                     [](const Verdict& v) { return v.outcome == Verdict::Outcome::fails; });
-}
-
-int RunVerdict::exit_code() const {
-  return exit_of({unheard.empty() ? exit_good : exit_unfinished, is_negative() ? exit_negative : exit_good});
-}
-
-std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<Channels*>& channels) {
-  std::vector<RunVerdict::VehicleMishap> found;
-  for (std::size_t i = 0; i < channels.size(); ++i)
-    if (const std::string mishap = channels[i]->mishap(); !mishap.empty())
-      found.push_back({graph.distributers[i].name, mishap});
-  return found;
-}
-
-std::vector<std::string> find_unheard(const Graph& graph, const std::vector<Channels*>& channels) {
-  std::vector<std::string> found;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    const auto takes = [i](const Communicator& c) { return c.distributer == i && c.direction == Direction::in; };
-    if (!graph.distributers[i].distributer_class->is_vehicle ||
-        std::none_of(graph.communicators.begin(), graph.communicators.end(), takes))
-      continue;
-    const std::optional<LinkReport> link = channels[i]->link_report();
-    if (link && link->heard == 0) found.push_back(graph.distributers[i].name);
-  }
-  return found;
-}
-
-std::string why_cut_short(Duration reached, Duration until, Duration mission) {
-  const std::string ended = "the run ended at " + seconds_text(reached) + " s";
-  if (reached < until && until != Duration::max())
-    return ended + ", and was to go on until " + seconds_text(until) + " s";
-  if (reached < mission) return ended + ", its mission ends at " + seconds_text(mission) + " s";
-  return "";
-}
-
-Duration end_of_mission(const std::vector<Channels*>& channels) {
-  Duration end{};
-  for (const Channels* each : channels) end = std::max(end, each->end().value_or(Duration{}));
-  return end;
-}
-
-std::vector<std::string> find_left_out(const Graph& graph, const Report& report) {
-  std::vector<std::string> lines;
-  if (report.stopped) return lines;  // the fault that ended the run says it all
-  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
-    const Task& task = graph.tasks[i];
-    const std::int64_t after_first = (report.covered - task.offset).count() - 1;
-    if (report.left_out[i] == 0 || after_first < 0) continue;
-    const std::int64_t due = after_first / task.period.count() + 1;
-    const double share = static_cast<double>(report.left_out[i]) / static_cast<double>(due);
-    if (share <= graph.fault_limit) continue;
-    if (graph.fault_limit > 0 && is_single(task, report.left_out[i], due)) continue;
-    lines.push_back(
-        fmt::format("task '{}' gave nothing in {} of {} activations, {:.1f} %, above the fault limit of {:g} %",
-                    task.name, report.left_out[i], due, 100 * share, 100 * graph.fault_limit));
-  }
-  return lines;
+int exit_code_of(const RunVerdict& verdict) {
+  return exit_of(
+      {verdict.unheard.empty() ? exit_good : exit_unfinished, verdict.is_negative() ? exit_negative : exit_good});
 }
 
 std::string to_text(const RunVerdict& verdict) {

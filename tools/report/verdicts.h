@@ -1,49 +1,15 @@
-// Whether a run did what it was meant to do: what the graph expects of it, what became of its vehicles, and how much of
-// it was left out.
+// The verdict on a run, in its report.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
-#include "graph/model/graph.h"
-#include "runtime/channels.h"
-#include "runtime/execute/executor.h"
-#include "runtime/execute/expectations.h"
+#include "distributers/session/verdict.h"
 
 namespace jarol::tools {
 
-struct RunVerdict {
-  std::vector<Verdict> expectations;
-  struct VehicleMishap {
-    std::string distributer;
-    std::string text;
-  };
-  std::vector<VehicleMishap> mishaps;
-  std::string not_at_rest{};           // why its vehicle did not come to rest at its end; empty: it did, or was not to
-  std::vector<std::string> left_out;   // per task with more faults than the graph allows: a line
-  std::vector<std::string> unheard{};  // distributers on links whose vehicle sent nothing that counts, in the whole run
-
-  bool is_negative() const;
-  /// Good, negative, or unfinished, where there is nothing to judge by: the vehicle was lost from the start.
-  int exit_code() const;
-};
-
-/// What became of the vehicles that are simulated on these channels, one per distributer of the graph.
-std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<Channels*>& channels);
-
-/// The distributers of vehicles from which nothing came over their links, though the graph takes something from them.
-std::vector<std::string> find_unheard(const Graph& graph, const std::vector<Channels*>& channels);
-
-/// A line for each task that faults left without outputs more often than the graph allows.
-std::vector<std::string> find_left_out(const Graph& graph, const Report& report);
-
-/// Why what is expected by the end may still have been to come, in a run that was to go on `until` and whose mission
-/// ends at `mission`; else empty.
-std::string why_cut_short(Duration reached, Duration until, Duration mission);
-
-/// Of all scripts on these channels; zero: there is none.
-Duration end_of_mission(const std::vector<Channels*>& channels);
+/// Good, negative, or unfinished, where there is nothing to judge by: the vehicle was lost from the start.
+int exit_code_of(const RunVerdict& verdict);
 
 /// A line for each condition.
 std::string to_text(const RunVerdict& verdict);

@@ -16,9 +16,9 @@
 
 #include "distributers/guardian/guardian.h"
 #include "graph/text/escape.h"
+#include "runtime/files/partial_files.h"
 #include "runtime/machine/running_task.h"
 #include "runtime/plan/plan.h"
-#include "tools/files/partial_files.h"
 #include "tools/report/exit_code.h"
 #include "tools/run/prompt_line.h"
 

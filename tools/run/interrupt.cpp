@@ -4,7 +4,7 @@
 #include <ctime>
 #include <utility>
 
-#include "tools/files/partial_files.h"
+#include "runtime/files/partial_files.h"
 #include "tools/run/prompt_line.h"
 
 namespace jarol::tools {

@@ -10,7 +10,7 @@
 #include "graph/language/quantities.h"
 #include "graph/text/escape.h"
 #include "graph/values/bind.h"
-#include "tools/files/whole_file.h"
+#include "runtime/files/whole_file.h"
 #include "tools/report/progress.h"
 
 namespace jarol::tools {

@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "graph/language/problems.h"
-#include "tools/files/trace_csv.h"
-#include "tools/files/whole_file.h"
+#include "runtime/files/whole_file.h"
+#include "runtime/record/trace_csv.h"
 #include "tools/plot/plot_svg.h"
 #include "tools/report/command_line.h"
 #include "tools/report/commanded.h"

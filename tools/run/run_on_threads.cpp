@@ -7,10 +7,13 @@
 #include <stdexcept>
 #include <thread>
 
+#include "distributers/session/guard.h"
+#include "distributers/session/linked.h"
 #include "graph/text/escape.h"
 #include "runtime/jarol/threads_core.h"
 #include "tools/report/commanded.h"
 #include "tools/report/exit_code.h"
+#include "tools/report/guard_report.h"
 #include "tools/report/json_line.h"
 #include "tools/report/rest_report.h"
 #include "tools/report/run_end.h"
@@ -19,9 +22,7 @@
 #include "tools/report/value_json.h"
 #include "tools/report/verdicts.h"
 #include "tools/run/crash_line.h"
-#include "tools/run/guard.h"
 #include "tools/run/interrupt.h"
-#include "tools/run/linked.h"
 #include "tools/run/prompt_line.h"
 #include "tools/run/real_time.h"
 #include "tools/run/run_files.h"
@@ -61,7 +62,7 @@ void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
     std::cout << "  sensors     " << threads.unawaited_ticks << " ticks found their thread at work\n";
   std::cout << told.to_text();
   for (const LinkReport& link : links) std::cout << to_text(link);
-  std::cout << to_text(graph, core.rest(), end) << to_text(graph, core.safe_commands(), end.ending) << guard.to_text();
+  std::cout << to_text(graph, core.rest(), end) << to_text(graph, core.safe_commands(), end.ending) << to_text(guard);
   if (report.non_finite_inputs > 0)
     std::cout << "  " << report.non_finite_inputs << " values from outside were not finite and not taken\n";
   std::cout << to_text(verdict);
@@ -107,7 +108,7 @@ void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
                        {"lateness_99_ns", threads.lateness.percentile(0.99)},
                        {"lateness_most_ns", threads.lateness.most()},
                        {"tasks", tasks}};
-  json["guardian"] = guard.to_json();
+  json["guardian"] = to_json(guard);
   for (const LinkReport& link : links) json["links"].push_back(to_json(link));
   json["true_values"] = to_json(true_states);
   json["judgement"] = to_json(verdict);
@@ -149,7 +150,7 @@ class ThreadsRun : public AttendedRun {
 
 int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& arguments, bool json) {
   const RealTimeOptions options = options_of(arguments);
-  Guard guard(loaded, !arguments.no_guardian, options.priority);
+  Guard guard(loaded, arguments.no_guardian ? "--no-guardian" : "", options.priority, print_note);
   const CrashLine crash_line(*loaded.graph, guard.process());
   ToldChanges told(*loaded.graph);
   loaded.channels = told.listen(std::move(loaded.channels));
@@ -161,7 +162,7 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
   const std::optional<Duration> rest = longest_rest(*loaded.graph);
   const Interruptible interruptible([] {}, HaltKey::ends, rest ? SecondSignal::hastens : SecondSignal::ends);
   take_priority(options.priority);
-  Linked linked(channels);
+  Linked linked(channels, print_note);
   take_priority_above(options.priority);
   ThreadsRun attended(core, end, rest, options);
   const RunEnd run_end = attend(
@@ -196,7 +197,7 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
   std::cerr << errors_of(run_end, core.now()) << failures_text(verdict);
   if (!unwatched.empty()) std::cerr << "error: " << unwatched << "\n";
   const int exit_code =
-      exit_of({exit_code_of(run_end), verdict.exit_code(), unwatched.empty() ? exit_good : exit_unfinished});
+      exit_of({exit_code_of(run_end), exit_code_of(verdict), unwatched.empty() ? exit_good : exit_unfinished});
   if (run_end.hangs) end_at_once(exit_code);
   return exit_code;
 }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/machine/arithmetic.h"
+#include "tools/report/guard_report.h"
 #include "tools/report/rest_report.h"
 #include "tools/report/told_faults.h"
 #include "tools/report/value_json.h"
@@ -46,7 +47,7 @@ std::string to_text(const RunOutcome& outcome) {
   for (const LinkReport& link : outcome.links) text += to_text(link);
   text += to_text(graph, executor.rest(), outcome.end);
   text += to_text(graph, executor.safe_commands(), outcome.end.ending);
-  if (outcome.guard != nullptr) text += outcome.guard->to_text();
+  if (outcome.guard != nullptr) text += to_text(*outcome.guard);
   if (report.non_finite_inputs > 0)
     text += fmt::format("  {} values from outside were not finite and not taken\n", report.non_finite_inputs);
   if (const StageTeam* team = executor.team())
@@ -87,7 +88,7 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
       {"heaps", heaps},
       {"outputs", outputs_to_json(graph, [&](std::size_t communicator) { return executor.last_value(communicator); })}};
   if (outcome.clock != nullptr) json["real_time"] = to_json(graph, *outcome.clock);
-  if (outcome.guard != nullptr) json["guardian"] = outcome.guard->to_json();
+  if (outcome.guard != nullptr) json["guardian"] = to_json(*outcome.guard);
   json["true_values"] = to_json(outcome.true_states);
   json["judgement"] = to_json(outcome.verdict);
   for (const LinkReport& link : outcome.links) json["links"].push_back(to_json(link));

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "distributers/session/guard.h"
 #include "runtime/execute/executor.h"
 #include "tools/report/commanded.h"
 #include "tools/report/run_end.h"
 #include "tools/report/told_changes.h"
 #include "tools/report/verdicts.h"
-#include "tools/run/guard.h"
 
 namespace jarol::tools {
 

@@ -10,7 +10,7 @@
 #include "graph/model/build.h"
 #include "tools/check/gantt.h"
 #include "tools/check/generate_graphs.h"
-#include "tools/run/load_graph.h"
+#include "tools/library/built_in.h"
 
 namespace {
 using namespace jarol;
@@ -20,7 +20,7 @@ using analysis::Verdict;
 // With what its file says, but no vehicle, link or plugin.
 Graph graph_of(const std::shared_ptr<const Source>& source, const Overrides& overrides) {
   Problems problems;
-  Graph graph = build_graph(load_spec(source, overrides, problems), registry(), problems);
+  Graph graph = build_graph(load_spec(source, overrides, problems), built_in_registry(), problems);
   problems.throw_if_any();
   return graph;
 }

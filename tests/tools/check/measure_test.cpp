@@ -288,7 +288,7 @@ communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
   }
 
   TEST_CASE("every activation of every task is measured") {
-    tools::Loaded loaded = tools::load_graph("specs/counting.yaml", {});
+    Loaded loaded = tools::load_graph("specs/counting.yaml", {});
     const auto measured = tools::measure_tasks(loaded, 1s).tasks;
     REQUIRE(measured.size() == 5);
     const std::vector<std::size_t> activations{50, 100, 20, 50, 50};

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "runtime/execute/executor.h"
-#include "tools/files/log_format.h"
-#include "tools/files/output_lock.h"
+#include "runtime/files/output_lock.h"
+#include "runtime/record/log.h"
+#include "runtime/record/log_format.h"
+#include "runtime/record/recorder.h"
 
-namespace jarol::tools {
+namespace jarol {
 
 class LogWriter : private RecordSink {
  public:
@@ -28,7 +29,7 @@ class LogWriter : private RecordSink {
   void open();
 
   /// After the run. Throws std::runtime_error if anything could not be written.
-  void close(const Report& report);
+  void close(const LogEnd& end);
 
  private:
   void take(Duration instant, std::uint32_t output, const void* value) override;
@@ -46,4 +47,4 @@ class LogWriter : private RecordSink {
   std::unique_ptr<Recorder> recorder_;
 };
 
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -1,10 +1,10 @@
-#include "tools/files/log_format.h"
+#include "runtime/record/log_format.h"
 
 #include <fmt/format.h>
 #include <bit>
 #include <nlohmann/json.hpp>
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
@@ -68,4 +68,4 @@ LogHeader parse_header(const std::string& line) {
   } catch (const nlohmann::json::exception&) { throw LogError("is no log"); }
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -1,4 +1,4 @@
-#include "tools/files/log_reader.h"
+#include "runtime/record/log_reader.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -10,7 +10,7 @@
 #include "graph/language/inputs.h"
 #include "graph/values/pack.h"
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 constexpr std::size_t longest_header = std::size_t{8} << 20;
@@ -191,4 +191,4 @@ void LogReader::fail_in_record(const std::string& what) const {
 
 void LogReader::fail(const std::string& what) const { throw LogError("'" + path_ + "' " + what); }
 
-}  // namespace jarol::tools
+}  // namespace jarol

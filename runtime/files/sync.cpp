@@ -1,11 +1,11 @@
-#include "tools/files/sync.h"
+#include "runtime/files/sync.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
 
-namespace jarol::tools {
+namespace jarol {
 
 bool sync(std::FILE* file) {
   if (std::fflush(file) != 0) return false;
@@ -21,4 +21,4 @@ void sync_folder_of(const std::filesystem::path& path) {
   ::close(descriptor);
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol

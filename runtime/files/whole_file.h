@@ -6,11 +6,10 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "tools/files/output_lock.h"
+#include "runtime/files/output_lock.h"
 
-namespace jarol::tools {
+namespace jarol {
 
 /// What may stand where a file is written: nothing; a file, but for those that the process has read; any.
 enum class Replaces { nothing, outputs, all };
@@ -46,13 +45,4 @@ std::filesystem::path target_of(const std::string& path);
 /// Throws std::invalid_argument, "can't write 'path': ...", where that is a file that the process has read.
 void require_no_input(const std::string& path);
 
-/// A file of a command: the option that names it, as "--trace" or "FILE", and its path; none where that is empty.
-struct NamedFile {
-  std::string option;
-  std::string path;
-};
-
-/// Throws std::invalid_argument where an output would replace an input or another output.
-void require_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
-
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -1,4 +1,4 @@
-#include "tools/files/whole_file.h"
+#include "runtime/files/whole_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -12,10 +12,10 @@
 #include <utility>
 
 #include "graph/language/inputs.h"
-#include "tools/files/partial_files.h"
-#include "tools/files/sync.h"
+#include "runtime/files/partial_files.h"
+#include "runtime/files/sync.h"
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,14 +32,6 @@ int own_stream(const struct stat& file) {
     if (writable && ::fstat(stream, &own) == 0 && own.st_dev == file.st_dev && own.st_ino == file.st_ino) return stream;
   }
   return -1;
-}
-
-bool are_same(const std::string& a, const std::string& b) {
-  std::error_code none;
-  // a device or a FIFO takes what several write
-  if (fs::is_other(fs::status(a, none))) return false;
-  return fs::equivalent(a, b, none) ||
-         fs::weakly_canonical(target_of(a), none) == fs::weakly_canonical(target_of(b), none);
 }
 
 // Who writes one holds its lock, wherever that process runs.
@@ -168,18 +160,4 @@ void require_no_input(const std::string& path) {
                                 "', which was read; choose another file");
 }
 
-void require_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    if (outputs[i].path.empty()) continue;
-    for (const NamedFile& input : inputs)
-      if (!input.path.empty() && are_same(outputs[i].path, input.path))
-        throw std::invalid_argument(outputs[i].option + " '" + outputs[i].path + "' would replace what " +
-                                    input.option + " names; choose another file");
-    for (std::size_t k = 0; k < i; ++k)
-      if (!outputs[k].path.empty() && are_same(outputs[i].path, outputs[k].path))
-        throw std::invalid_argument(outputs[k].option + " and " + outputs[i].option + " both name '" + outputs[i].path +
-                                    "'; choose another file for one of them");
-  }
-}
-
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -1,13 +1,11 @@
-#include "tools/run/guard.h"
+#include "distributers/session/guard.h"
 
-#include <iostream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "distributers/distributers.h"
 #include "distributers/links/linked.h"
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 struct Guarded {
@@ -30,10 +28,10 @@ std::vector<Guarded> find_guarded(const Loaded& loaded, std::vector<std::string>
 
 }  // namespace
 
-Guard::Guard(const Loaded& loaded, bool wanted, std::optional<int> priority) {
+Guard::Guard(const Loaded& loaded, const std::string& unwanted, std::optional<int> priority, const NoteSink& note)
+    : missing_(unwanted) {
   const std::vector<Guarded> guarded = find_guarded(loaded, safe_);
-  if (!wanted) missing_ = "--no-guardian";
-  if (guarded.empty() || !wanted) return;
+  if (guarded.empty() || !unwanted.empty()) return;
   try {
     auto guardian = std::make_unique<distributers::Guardian>();
     std::vector<distributers::Holder*> holders;
@@ -48,7 +46,7 @@ Guard::Guard(const Loaded& loaded, bool wanted, std::optional<int> priority) {
     guardian_ = std::move(guardian);
   } catch (const std::runtime_error& error) {
     missing_ = error.what();
-    std::cerr << "note: there is no guardian, and a crash leaves the last commands in force: " << missing_ << "\n";
+    note("there is no guardian, and a crash leaves the last commands in force: " + missing_);
   }
 }
 
@@ -60,20 +58,6 @@ void Guard::close() {
   if (guardian_ && !guardian_->close()) missing_ = "it was gone before the run ended";
 }
 
-std::string Guard::to_text() const {
-  if (safe_.empty()) return "";
-  std::string names;
-  for (const std::string& name : safe_) names += (names.empty() ? "" : ", ") + name;
-  return "  guardian    " + (missing_.empty() ? "was ready with safe of " + names : "none: " + missing_) + "\n";
-}
-
-nlohmann::ordered_json Guard::to_json() const {
-  if (safe_.empty()) return nullptr;
-  nlohmann::ordered_json json{{"ready", missing_.empty()}, {"safe", safe_}};
-  if (!missing_.empty()) json["missing"] = missing_;
-  return json;
-}
-
 std::string guardian_refused() {
   try {
     distributers::Guardian guardian;
@@ -82,4 +66,4 @@ std::string guardian_refused() {
   } catch (const std::runtime_error& error) { return error.what(); }
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol

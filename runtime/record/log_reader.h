@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "runtime/record/log.h"
-#include "tools/files/log_format.h"
+#include "runtime/record/log_format.h"
 
-namespace jarol::tools {
+namespace jarol {
 
 class LogReader : public TakenValues {
  public:
@@ -67,4 +67,4 @@ class LogReader : public TakenValues {
   bool has_record_ = false;
 };
 
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -1,11 +1,11 @@
-#include "tools/files/trace_csv.h"
+#include "runtime/record/trace_csv.h"
 
 #include <algorithm>
 
 #include "graph/language/quantities.h"
 #include "graph/text/escape.h"
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 // RFC 4180: in quotes, with quotes doubled.
@@ -74,4 +74,4 @@ void TraceCsv::write_row() {
   file_.write(row_);
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -1,4 +1,4 @@
-#include "tools/files/partial_files.h"
+#include "runtime/files/partial_files.h"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 #include <csignal>
 #include <cstring>
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 // Plain memory, since a signal may come at any moment.
@@ -48,4 +48,4 @@ void remove_partial_files() {
     if (partial.there.load()) ::unlink(partial.path.data());
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -1,4 +1,4 @@
-#include "tools/files/log_writer.h"
+#include "runtime/record/log_writer.h"
 
 #include <cerrno>
 #include <cstring>
@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "graph/values/pack.h"
-#include "tools/files/sync.h"
-#include "tools/files/whole_file.h"
+#include "runtime/files/sync.h"
+#include "runtime/files/whole_file.h"
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 // Nothing that somebody would miss: no regular file, an empty one, or a log.
@@ -48,11 +48,9 @@ void LogWriter::open() {
   pause();
 }
 
-void LogWriter::close(const Report& report) {
+void LogWriter::close(const LogEnd& end) {
   recorder_->close();
-  const LogEnd end{report.covered.count(), report.simulated.count(), report.digest,
-                   report.activations,     report.instants,          report.fault_count};
-  append(report.covered, LogRecord::end, &end, sizeof end);
+  append(Duration(end.covered), LogRecord::end, &end, sizeof end);
   // what is in the buffer goes out here at the latest, so that a full disk shows
   if (!sync(file_)) fail(std::strerror(errno));
   if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(std::strerror(errno));
@@ -90,4 +88,4 @@ void LogWriter::fail(const std::string& reason) const {
   throw std::runtime_error("can't write '" + path_ + "': " + reason);
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -1,4 +1,4 @@
-#include "tools/files/trace_csv.h"
+#include "runtime/record/trace_csv.h"
 
 #include <doctest/doctest.h>
 
@@ -10,14 +10,13 @@
 
 namespace {
 using namespace jarol;
-using namespace jarol::tools;
 
 std::string text_of(const std::string& path) { return jarol::read_source(path)->text; }
 
 std::string temporary(const std::string& name) { return (std::filesystem::temp_directory_path() / name).string(); }
 }  // namespace
 
-TEST_SUITE("tools/trace_csv") {
+TEST_SUITE("runtime/trace_csv") {
   TEST_CASE("a row per instant, a column per number in order of name, empty where nothing was published") {
     const std::string path = temporary("jarol_trace_test.csv");
     const std::vector<Output> outputs{{"a.out", &type_of<double>()}, {"fins.actuation", &type_of<tasks::Actuation>()}};

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace jarol::tools {
+namespace jarol {
 
 /// From now on SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE and SIGXFSZ remove the file where they would end the program,
 /// and those of which nobody else takes care end it. One of more than a few at once, or with a very long path, is not
@@ -16,4 +16,4 @@ void drop_partial_file(const std::string& path);
 /// Those that are there now; may be called by a signal handler.
 void remove_partial_files();
 
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "graph/values/bind.h"
+#include "runtime/files/whole_file.h"
 #include "runtime/plan/plan.h"
 #include "runtime/record/recorder.h"
-#include "tools/files/whole_file.h"
 
-namespace jarol::tools {
+namespace jarol {
 
 /// Columns: `time` (s, exact), then `task.output`, `task.output.field`, `communicator` or `communicator.field` in
 /// bytewise order. An empty cell: not published at that instant, or, filled, never so far. The file appears when it is
@@ -39,4 +39,4 @@ class TraceCsv : public RecordSink {
   std::string row_;
 };
 
-}  // namespace jarol::tools
+}  // namespace jarol

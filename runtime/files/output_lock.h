@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace jarol::tools {
+namespace jarol {
 
 /// Held while it lives, whatever ends the process; no file is left. It is a name of the system's, by the folder and the
 /// name of the output: seen by every process of the machine, not by those of other machines or containers.
@@ -20,4 +20,4 @@ class OutputLock {
   int socket_ = -1;
 };
 
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -12,7 +12,7 @@
 #include "graph/model/graph.h"
 #include "graph/values/digest.h"
 
-namespace jarol::tools {
+namespace jarol {
 
 /// What can't be replayed, and why.
 struct LogError : std::runtime_error {
@@ -76,4 +76,4 @@ std::string signature_of(const Type& type);
 /// The same for the same text.
 std::string sum_of_text(std::string_view text);
 
-}  // namespace jarol::tools
+}  // namespace jarol

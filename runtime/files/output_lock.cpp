@@ -1,4 +1,4 @@
-#include "tools/files/output_lock.h"
+#include "runtime/files/output_lock.h"
 
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -14,7 +14,7 @@
 
 #include "graph/values/digest.h"
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 std::string number_text(std::uint64_t number) { return std::to_string(number) + " "; }
@@ -57,4 +57,4 @@ OutputLock& OutputLock::operator=(OutputLock&& other) noexcept {
   return *this;
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -1,0 +1,34 @@
+#include "distributers/session/linked.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace jarol {
+
+std::vector<Channels*> pointers_to(const std::vector<std::unique_ptr<Channels>>& all) {
+  std::vector<Channels*> pointers;
+  for (const auto& channels : all) pointers.push_back(channels.get());
+  return pointers;
+}
+
+Linked::Linked(std::vector<Channels*> channels, NoteSink note)
+    : channels_(std::move(channels)), note_(std::move(note)) {
+  for (Channels* each : channels_) each->begin();
+}
+
+void Linked::finish() {
+  for (Channels* channels : channels_) {
+    try {
+      channels->finish();
+    } catch (const std::runtime_error& error) { note_(error.what()); }
+  }
+}
+
+std::vector<LinkReport> Linked::reports() const {
+  std::vector<LinkReport> reports;
+  for (const Channels* channels : channels_)
+    if (auto report = channels->link_report()) reports.push_back(std::move(*report));
+  return reports;
+}
+
+}  // namespace jarol

@@ -1,0 +1,71 @@
+#include "distributers/session/load.h"
+
+#include "distributers/distributers.h"
+#include "graph/expect/at_end.h"
+#include "graph/expect/parse.h"
+#include "graph/model/build.h"
+#include "graph/plugins/plugins.h"
+#include "graph/text/escape.h"
+
+namespace jarol {
+namespace {
+
+// Where the vehicle of each distributer is.
+std::vector<expect::TrueValues> true_values_of(const Loaded& loaded) {
+  using Where = expect::TrueValues::Where;
+  std::vector<expect::TrueValues> all;
+  for (std::size_t i = 0; i < loaded.graph->distributers.size(); ++i) {
+    const Distributer& distributer = loaded.graph->distributers[i];
+    const Yaml* link = distributer.link.kind == Yaml::Kind::mapping ? distributer.link.find("type") : nullptr;
+    const Type* type = i < loaded.channels.size() && loaded.channels[i] ? loaded.channels[i]->true_type() : nullptr;
+    const bool is_vehicle = distributer.distributer_class == nullptr || distributer.distributer_class->is_vehicle;
+    all.push_back({type != nullptr                                              ? Where::here
+                   : !is_vehicle || (link != nullptr && link->text == "script") ? Where::nowhere
+                                                                                : Where::elsewhere,
+                   type});
+  }
+  return all;
+}
+
+// What is loaded runs as the user: who it is stands there first.
+Loaded load(const GraphSpec& spec, const Catalogue& catalogue, const NoteSink& note, Problems& problems) {
+  Loaded loaded;
+  loaded.registry = std::make_unique<Registry>(catalogue.registry);
+  for (const Located<std::string>& plugin : spec.plugins)
+    note("loads plugin '" + printable(plugin_path(spec, plugin.value)) + "'");
+  load_plugins(spec, *loaded.registry, problems);
+  loaded.graph = std::make_unique<Graph>(build_graph(spec, *loaded.registry, problems));
+  expect::add_at_end(spec, *loaded.graph, problems);
+  return loaded;
+}
+
+}  // namespace
+
+Loaded load_without_channels(const std::shared_ptr<const Source>& source, const Catalogue& catalogue,
+                             const Overrides& overrides, const NoteSink& note) {
+  Problems problems;
+  const GraphSpec spec = load_spec(source, overrides, problems);
+  Loaded loaded = load(spec, catalogue, note, problems);
+  loaded.graph->expectations = expect::read_expectations(spec.expect, *loaded.graph, true_values_of(loaded), problems);
+  problems.throw_if_any();
+  return loaded;
+}
+
+Loaded load_graph(const std::shared_ptr<const Source>& source, const Catalogue& catalogue, const Overrides& overrides,
+                  std::uint64_t seed, const NoteSink& note) {
+  Problems problems;
+  const GraphSpec spec = load_spec(source, overrides, problems);
+  Loaded loaded = load(spec, catalogue, note, problems);
+  loaded.channels = distributers::make_channels(*loaded.graph, catalogue.vehicles, seed, problems);
+  loaded.graph->expectations = expect::read_expectations(spec.expect, *loaded.graph, true_values_of(loaded), problems);
+  problems.throw_if_any();
+  return loaded;
+}
+
+const Distributer* find_in_real_time(const Loaded& loaded) {
+  for (std::size_t i = 0; i < loaded.channels.size(); ++i)
+    if (loaded.channels[i]->needs_real_clock()) return &loaded.graph->distributers[i];
+  return nullptr;
+}
+
+}  // namespace jarol

@@ -1,0 +1,40 @@
+// From a file name to a graph that can run, joined to its world: what every session does first.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "distributers/interfaces/vehicle.h"
+#include "distributers/session/note_sink.h"
+#include "graph/language/load.h"
+#include "graph/model/graph.h"
+#include "runtime/channels.h"
+
+namespace jarol {
+
+/// All that graphs may name.
+struct Catalogue {
+  const Registry& registry;
+  const std::vector<vehicles::VehicleClass>& vehicles;
+};
+
+struct Loaded {
+  std::unique_ptr<Registry> registry;  // with the graph's plugins
+  std::unique_ptr<Graph> graph;
+  std::vector<std::unique_ptr<Channels>> channels;
+};
+
+/// Throws SpecError with everything that is wrong with the file, its overrides and its links. The seed is that of all
+/// noise. A plugin is noted, "loads plugin 'path'", before it is loaded.
+Loaded load_graph(const std::shared_ptr<const Source>& source, const Catalogue& catalogue, const Overrides& overrides,
+                  std::uint64_t seed, const NoteSink& note = no_notes);
+
+/// The same without channels: of the files that links name, none is needed.
+Loaded load_without_channels(const std::shared_ptr<const Source>& source, const Catalogue& catalogue,
+                             const Overrides& overrides, const NoteSink& note = no_notes);
+
+/// A distributer whose external system goes on by itself, whatever the logical clock says; null: none does.
+const Distributer* find_in_real_time(const Loaded& loaded);
+
+}  // namespace jarol

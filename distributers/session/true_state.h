@@ -1,0 +1,21 @@
+// Where the vehicles of a run truly are.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "graph/model/graph.h"
+#include "runtime/channels.h"
+
+namespace jarol {
+
+/// Where the vehicle of a distributer truly is.
+struct TrueState {
+  std::string distributer;
+  Value values;
+};
+
+/// Of each vehicle that is simulated on these channels, one per distributer of the graph.
+std::vector<TrueState> find_true_states(const Graph& graph, const std::vector<Channels*>& channels);
+
+}  // namespace jarol
