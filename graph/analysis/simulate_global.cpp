@@ -169,4 +169,12 @@ GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores
   return std::move(simulator.result());
 }
 
+std::vector<Slice> slices_before(std::int64_t until, std::span<const Load> loads, std::int64_t cores,
+                                 const RunRules& rules) {
+  if (loads.empty()) return {};
+  Simulator simulator(loads, cores, rules);
+  simulator.run_until(until, std::numeric_limits<std::uint64_t>::max());
+  return std::move(simulator.result().slices);
+}
+
 }  // namespace jarol::analysis

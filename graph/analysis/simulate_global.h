@@ -29,4 +29,8 @@ struct RunRules {
 GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores, std::uint64_t most_activations,
                                  const RunRules& rules = {});
 
+/// The last pieces that ran before `until` or the first late activation, at least 400 of them.
+std::vector<Slice> slices_before(std::int64_t until, std::span<const Load> loads, std::int64_t cores,
+                                 const RunRules& rules);
+
 }  // namespace jarol::analysis

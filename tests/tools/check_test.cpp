@@ -214,11 +214,17 @@ connections: [a.out -> b.in]
     CHECK(with["alpha"] == doctest::Approx(7.992 / 8));
   }
 
-  TEST_CASE("check draws the chart of a late activation") {
+  TEST_CASE("check draws who runs when, and the chart of a late activation") {
     const TemporaryFolder folder;
+    const auto text_of = [](const std::string& path) {
+      std::ifstream file(path);
+      return std::string{std::istreambuf_iterator<char>(file), {}};
+    };
+    CHECK(jarol("check specs/counting.yaml --svg " + (folder / "good.svg")).exit_code == 0);
+    const std::string good = text_of(folder / "good.svg");
+    CHECK(good.find(">counting: the first 110ms, each task as long as its wcet</text>") != std::string::npos);
     CHECK(jarol("check specs/counting.yaml --set tasks.slow.wcet=20ms --svg " + (folder / "g.svg")).exit_code == 1);
-    std::ifstream file(folder / "g.svg");
-    const std::string svg{std::istreambuf_iterator<char>(file), {}};
+    const std::string svg = text_of(folder / "g.svg");
     CHECK(svg.starts_with("<svg xmlns"));
     CHECK(svg.find("counting: activation 0 of slow is 5.05ms late</text>") != std::string::npos);
     CHECK(svg.ends_with("</svg>\n"));

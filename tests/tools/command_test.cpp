@@ -262,6 +262,20 @@ connections: [i -> sum.in]
     CHECK(jarol("graph specs/counting.yaml").output.find("count (Counter): every 10ms, deadline 10ms\n") !=
           std::string::npos);
     CHECK(jarol("graph specs/counting.yaml --dot").output.starts_with("digraph \"counting\" {\n"));
+    // the core within its boundary, distributers outside
+    const std::string dot = jarol("graph specs/exolauv.yaml --dot").output;
+    const std::size_t boundary = dot.find("subgraph cluster_core {"), end = dot.find("\n  }\n");
+    REQUIRE(boundary < end);
+    CHECK(dot.find("\n    \"fins\" [style=\"rounded,filled\"") < end);
+    CHECK(dot.find("\n    \"depth\" -> \"fins\" [label=\"moment > pitch\"];\n") < end);
+    CHECK(dot.find("\n    \"navigation\" -> \"depth\" [label=\"motion\"];\n") < end);
+    const std::string outside = dot.substr(end);
+    CHECK(outside.find("\n  \"distributer dune\" [style=\"filled,dashed\", fillcolor=\"#eeeeee\", "
+                       "label=\"dune\\nLauvVehicle\\nsimulation vehicles/submarine.yaml\"];\n") != std::string::npos);
+    CHECK(outside.find("\n  \"distributer dune\" -> \"from_dune\" [label=\"instruments\", style=dashed];\n") !=
+          std::string::npos);
+    CHECK(outside.find("\n  \"to_dune\" -> \"distributer dune\" [label=\"actuation\", style=dashed];\n") !=
+          std::string::npos);
     CHECK(jarol("graph specs/counting.yaml --dot --json").exit_code == 2);
   }
 

@@ -12,7 +12,8 @@ namespace jarol::tools {
 /// the late one, `^` at its release and `|` at its deadline. `width` columns.
 std::string gantt_text(const Graph& graph, const analysis::Result& result, std::size_t width = 72);
 
-/// The same as an SVG picture.
+/// As an SVG picture: that window, or, where no activation is shown to be late, who runs when over a hyperperiod or the
+/// begin of one. Empty: not every task has a 'wcet', or there is none.
 std::string gantt_svg(const Graph& graph, const analysis::Result& result);
 
 }  // namespace jarol::tools

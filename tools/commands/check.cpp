@@ -96,8 +96,8 @@ std::optional<Duration> measured_time(const std::string& text) {
 
 // What was asked for and is not there.
 void tell_what_lacks(const CheckReport& report, const Options& options) {
-  if (!options.svg.empty() && !report.result.late)
-    std::cerr << "note: no picture in '" << options.svg << "', as there is no activation that is shown to be late\n";
+  if (!options.svg.empty() && gantt_svg(*report.graph, report.result).empty())
+    std::cerr << "note: no picture in '" << options.svg << "', as it needs a 'wcet' of every task\n";
   if (options.sensitivity && !report.sensitivity)
     std::cerr << "note: --sensitivity tells nothing, as it needs a 'wcet' of every task\n";
   if (options.all_chains && report.chains.size() == report.graph->chains.size())
@@ -119,9 +119,9 @@ int check_file(const std::string& file, const Options& options) {
   // what was written holds by now
   if (!options.measuring.write) report.measured = std::move(measured);
   tell_what_lacks(report, options);
-  if (!options.svg.empty() && report.result.late) {
+  if (const std::string drawn = gantt_svg(*loaded.graph, report.result); !options.svg.empty() && !drawn.empty()) {
     WholeFile picture(options.svg);
-    picture.write(gantt_svg(*loaded.graph, report.result));
+    picture.write(drawn);
     picture.commit();
   }
   if (options.json)
@@ -199,7 +199,9 @@ void add_check(CommandLine& line, int& exit_code) {
       ->add_option("--margin", options->measuring.margin,
                    "With --write: percent on top of what was measured; default 20")
       ->in_range(0.0, 10'000.0);
-  command->add_option("--svg", options->svg, "Draw what ran around the first late activation into this SVG file");
+  command->add_option(
+      "--svg", options->svg,
+      "Draw who runs when into this SVG file: around the first late activation, else over a hyperperiod");
   command
       ->add_option("--generate", options->generate,
                    "Instead of checking, write random graphs: waters (automotive periods) or uunifast")

@@ -109,35 +109,64 @@ void print_json(const Graph& graph) {
   std::cout << json_line(json);
 }
 
+// A name may be one of DOT's own words.
+std::string quoted(const std::string& name) { return '"' + dot_text(name) + '"'; }
+
 std::string dot_name(const Graph& graph, const End& end) {
-  return end.kind == End::Kind::task ? graph.tasks[end.index].name : graph.communicators[end.index].name;
+  return quoted(end.kind == End::Kind::task ? graph.tasks[end.index].name : graph.communicators[end.index].name);
 }
 
 std::string dot_label(const Graph& graph, const Connection& c) {
-  std::string label;
-  if (c.from.kind == End::Kind::task) label = graph.tasks[c.from.index].task_class->out->fields[c.from.field].name;
-  if (c.to.kind == End::Kind::task)
-    label += (label.empty() ? "" : " > ") + graph.tasks[c.to.index].task_class->in->fields[c.to.field].name;
-  return label;
+  std::string from, to;
+  if (c.from.kind == End::Kind::task) from = graph.tasks[c.from.index].task_class->out->fields[c.from.field].name;
+  if (c.to.kind == End::Kind::task) to = graph.tasks[c.to.index].task_class->in->fields[c.to.field].name;
+  return from.empty() || to.empty() || from == to ? (from.empty() ? to : from) : from + " > " + to;
 }
 
+// "simulation vehicles/lauv.yaml", "udp 127.0.0.1:6002"
+std::string link_text(const Distributer& distributer) {
+  std::string text;
+  for (const char* key : {"type", "vehicle", "file", "peer", "listen", "device"})
+    if (const Yaml* value = distributer.link.find(key); value != nullptr && value->kind == Yaml::Kind::scalar)
+      text += (text.empty() ? "" : " ") + value->text;
+  return text;
+}
+
+void print_dot_task(const Task& t) {
+  std::cout << "    " << quoted(t.name) << " [style=\"rounded,filled\", fillcolor=\"" << (t.let ? "#e8f0fe" : "white")
+            << "\", label=\"" << t.name << "\\n"
+            << dot_text(t.task_class->name) << "\\n"
+            << timing_text(t.period, t.offset) << (t.let ? "\\nLET " + duration_text(*t.let) : "") << "\"];\n";
+}
+
+// The core within its boundary, communicators as boxes of another colour; outside it the distributers with their links.
 void print_dot(const Graph& graph) {
   std::cout << "digraph \"" << dot_text(graph.name)
-            << "\" {\n  rankdir=LR;\n  node [fontname=\"sans-serif\", fontsize=11];\n"
-            << "  edge [fontname=\"sans-serif\", fontsize=9];\n";
+            << "\" {\n  rankdir=LR;\n  node [fontname=\"sans-serif\", fontsize=11, shape=box, margin=\"0.15,0.08\"];\n"
+            << "  edge [fontname=\"sans-serif\", fontsize=9];\n"
+            << "  subgraph cluster_core {\n    label=\"" << dot_text(graph.name)
+            << "\"; fontname=\"sans-serif\"; style=rounded; margin=16;\n";
   for (const Communicator& c : graph.communicators)
-    std::cout << "  " << c.name << " [shape=" << (c.direction == Direction::in ? "cds" : "rarrow") << ", label=\""
-              << c.name << "\\n"
-              << timing_text(c.period, c.offset) << "\"];\n";
-  for (const Task& t : graph.tasks)
-    std::cout << "  " << t.name
-              << " [shape=box, style=" << (t.let ? "\"rounded,filled\", fillcolor=\"#e8f0fe\"" : "rounded")
-              << ", label=\"" << t.name << "\\n"
-              << dot_text(t.task_class->name) << "\\n"
-              << timing_text(t.period, t.offset) << (t.let ? "\\nLET " + duration_text(*t.let) : "") << "\"];\n";
+    std::cout << "    " << quoted(c.name) << " [style=filled, fillcolor=\"#fff4d6\", label=\"" << c.name << "\\n"
+              << (c.direction == Direction::in ? "in " : "out ") << timing_text(c.period, c.offset) << "\"];\n";
+  for (const Task& t : graph.tasks) print_dot_task(t);
   for (const Connection& c : graph.connections)
-    std::cout << "  " << dot_name(graph, c.from) << " -> " << dot_name(graph, c.to) << " [label=\""
+    std::cout << "    " << dot_name(graph, c.from) << " -> " << dot_name(graph, c.to) << " [label=\""
               << dot_text(dot_label(graph, c)) << "\"];\n";
+  std::cout << "  }\n";
+  for (const Distributer& d : graph.distributers)
+    std::cout << "  " << quoted("distributer " + d.name) << " [style=\"filled,dashed\", fillcolor=\"#eeeeee\", label=\""
+              << d.name << "\\n"
+              << dot_text(d.distributer_class->name) << (d.link.kind == Yaml::Kind::mapping ? "\\n" : "")
+              << dot_text(link_text(d)) << "\"];\n";
+  for (const Communicator& c : graph.communicators) {
+    if (!c.distributer) continue;
+    const Distributer& d = graph.distributers[*c.distributer];
+    const std::string outside = quoted("distributer " + d.name), inside = quoted(c.name),
+                      channel = d.distributer_class->channels[c.channel].name;
+    std::cout << "  " << (c.direction == Direction::in ? outside + " -> " + inside : inside + " -> " + outside)
+              << " [label=\"" << dot_text(channel) << "\", style=dashed];\n";
+  }
   std::cout << "}\n";
 }
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "graph/analysis/time_line.h"
 #include "graph/language/key.h"
 #include "graph/model/build.h"
 #include "tools/check/gantt.h"
@@ -108,6 +109,21 @@ void check_verdict(const CheckReport& r) {
   }
 }
 
+// What people look at agrees with the verdict, which rests on other code.
+void check_time_line(const CheckReport& r) {
+  if (r.result.verdict != Verdict::schedulable) return;
+  const auto line = jarol::analysis::time_line_of(jarol::analysis::system_of(*r.graph), r.result);
+  for (const jarol::analysis::Slice& s : line.slices) {
+    const Task& t = r.graph->tasks[s.task];
+    const std::int64_t release = t.offset.count() + s.activation * t.period.count();
+    CHECK(s.begin >= release);
+    CHECK(s.end <= release + t.deadline.count());
+    if (r.result.response[s.task]) CHECK(s.end - release <= *r.result.response[s.task]);
+  }
+  const std::string picture = gantt_svg(*r.graph, r.result);
+  CHECK((picture.starts_with("<svg ") && picture.ends_with("</svg>\n")) == !r.graph->tasks.empty());
+}
+
 void check_texts(const CheckReport& r) {
   const std::string text = to_text(r);
   const std::string word = r.result.verdict == Verdict::schedulable       ? "SCHEDULABLE"
@@ -153,6 +169,7 @@ TEST_SUITE("tools/check_graph") {
               const CheckReport report = check_graph("file", graph, false, true);
               check_verdict(report);
               check_texts(report);
+              check_time_line(report);
               analysis::Effort effort;
               if (!report.result.reason.starts_with("no 'wcet'"))
                 CHECK(analysis::verdict_of(analysis::system_of(graph), effort) == report.result.verdict);
