@@ -15,17 +15,18 @@ std::string quoted(const std::string& text) {
   return cell + "\"";
 }
 
-// Truth values and enumerators as numbers: what plots and other programs read.
-std::string cell_text(const Type& type, const void* value) {
-  if (type.kind == Kind::boolean || type.kind == Kind::enumeration) return std::to_string(read_integer(type, value));
+// Truth values and enumerators as numbers, which plots and other programs read, unless words are wanted.
+std::string cell_text(const Type& type, const void* value, bool words) {
+  if (type.kind == Kind::boolean || type.kind == Kind::enumeration)
+    return words ? csv_text(scalar_text(type, value)) : std::to_string(read_integer(type, value));
   if (type.kind == Kind::sequence || type.kind == Kind::string) return quoted(scalar_text(type, value));
   return scalar_text(type, value);
 }
 
 }  // namespace
 
-TraceCsv::TraceCsv(std::string path, const std::vector<Output>& outputs, bool filled)
-    : file_(std::move(path)), filled_(filled) {
+TraceCsv::TraceCsv(std::string path, const std::vector<Output>& outputs, const TraceOptions& options)
+    : file_(std::move(path)), options_(options) {
   struct Column {
     std::string name;
     std::size_t output;
@@ -40,13 +41,13 @@ TraceCsv::TraceCsv(std::string path, const std::vector<Output>& outputs, bool fi
   std::sort(columns.begin(), columns.end(), [](const Column& a, const Column& b) { return a.name < b.name; });
   targets_.resize(outputs.size());
   cells_.resize(columns.size());
-  std::string title = "time";
+  std::string title = "time", units = "s";
   for (std::size_t i = 0; i < columns.size(); ++i) {
     title += "," + csv_text(columns[i].name);
+    units += "," + csv_text(columns[i].leaf.unit);
     targets_[columns[i].output].push_back({columns[i].leaf, i});
   }
-  title += "\n";
-  file_.write(title);
+  file_.write(title + "\n" + (options.words ? units + "\n" : ""));
 }
 
 void TraceCsv::take(Duration instant, std::uint32_t output, const void* value) {
@@ -55,7 +56,8 @@ void TraceCsv::take(Duration instant, std::uint32_t output, const void* value) {
   instant_ = instant;
   pending_ = true;
   for (const Target& target : targets_[output])
-    cells_[target.column] = cell_text(*target.leaf.type, static_cast<const std::byte*>(value) + target.leaf.offset);
+    cells_[target.column] =
+        cell_text(*target.leaf.type, static_cast<const std::byte*>(value) + target.leaf.offset, options_.words);
 }
 
 void TraceCsv::finish() {
@@ -68,7 +70,7 @@ void TraceCsv::write_row() {
   for (std::string& cell : cells_) {
     row_ += ',';
     row_ += cell;
-    if (!filled_) cell.clear();
+    if (!options_.filled) cell.clear();
   }
   row_ += '\n';
   file_.write(row_);

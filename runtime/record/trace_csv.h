@@ -11,13 +11,18 @@
 
 namespace jarol {
 
+struct TraceOptions {
+  bool filled = false;  // a cell has what was published last
+  bool words = false;   // a second row has the units; truth values and enumerators are words, not numbers
+};
+
 /// Columns: `time` (s, exact), then `task.output`, `task.output.field`, `communicator` or `communicator.field` in
 /// bytewise order. An empty cell: not published at that instant, or, filled, never so far. The file appears when it is
 /// whole.
 class TraceCsv : public RecordSink {
  public:
   /// Throws std::runtime_error if the file can't be made.
-  TraceCsv(std::string path, const std::vector<Output>& outputs, bool filled = false);
+  TraceCsv(std::string path, const std::vector<Output>& outputs, const TraceOptions& options = {});
 
   void take(Duration instant, std::uint32_t output, const void* value) override;
   void finish() override;
@@ -34,7 +39,7 @@ class TraceCsv : public RecordSink {
   std::vector<std::vector<Target>> targets_;  // per output
   std::vector<std::string> cells_;
   Duration instant_{};
-  bool filled_;
+  TraceOptions options_;
   bool pending_ = false;
   std::string row_;
 };

@@ -124,7 +124,7 @@ void require_effect(const Command& command, const Options& options) {
   if (options.log == "-") throw std::invalid_argument("--log: '-' is no file; replay reads a log by its name");
   if (options.concurrency != "threads") return;
   if (options.clock != "real") throw std::invalid_argument("--concurrency threads needs --clock real");
-  command.refuse({"--trace", "--trace-fill", "--plot", "--signals", "--log", "--workers", "--spin"},
+  command.refuse({"--trace", "--trace-fill", "--trace-words", "--plot", "--signals", "--log", "--workers", "--spin"},
                  "belongs to --concurrency exotasks");
   command.refuse({"--force"}, "belongs to --concurrency exotasks; whether threads come in time is not checked before");
 }

@@ -103,6 +103,9 @@ void add_run_file_options(Command& command, RunFileArguments& arguments) {
   command.add_option("--trace", arguments.trace, "Write every published value to this CSV file; -: to stdout");
   command.add_flag("--trace-fill", arguments.fill,
                    "Repeat in each row of the trace what was published last, in place of empty cells");
+  command.add_flag(
+      "--trace-words", arguments.words,
+      "In the trace a second row with the units, and words for truth values and enumerators, as in 'landing'");
   command.add_option("--plot", arguments.plot, "Draw what was commanded and reached into this SVG file; -: to stdout");
   command.add_option("--signals", arguments.signals,
                      "Draw these published fields instead: names with * for any part, as in depth.*,fins.*");
@@ -127,15 +130,18 @@ ReportsAside::~ReportsAside() {
 RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments) {
   if (!arguments.signals.empty() && arguments.plot.empty())
     throw std::invalid_argument("--signals says what --plot draws; add --plot FILE, or leave it out");
-  if (arguments.fill && arguments.trace.empty())
-    throw std::invalid_argument("--trace-fill is about --trace; add --trace FILE, or leave it out");
+  for (const auto& [given, name] : {std::pair(arguments.fill, "--trace-fill"), {arguments.words, "--trace-words"}})
+    if (given && arguments.trace.empty())
+      throw std::invalid_argument(std::string(name) + " is about --trace; add --trace FILE, or leave it out");
   if (arguments.trace.empty() && arguments.plot.empty() && graph.expectations.empty()) return;
   const std::string trace = path_of(arguments.trace), plot = path_of(arguments.plot);
   for (const std::string& path : {trace, plot})
     if (!path.empty()) require_no_input(path);
   require_svg(plot);
   const Plan plan(graph);
-  if (!trace.empty()) sinks_.push_back(std::make_unique<TraceCsv>(trace, plan.outputs, arguments.fill));
+  if (!trace.empty())
+    sinks_.push_back(std::make_unique<TraceCsv>(trace, plan.outputs,
+                                                TraceOptions{.filled = arguments.fill, .words = arguments.words}));
   if (!plot.empty())
     sinks_.push_back(std::make_unique<PlotSvg>(
         plot, graph.name, arguments.signals.empty() ? panels_of(graph, plan) : panels_named(arguments.signals, plan)));

@@ -17,6 +17,7 @@ class Command;
 struct RunFileArguments {
   std::string trace, plot;  // "-": stdout
   bool fill = false;        // the trace
+  bool words = false;       // in the trace
   std::string signals;      // of the plot
 };
 

@@ -71,6 +71,38 @@ TEST_SUITE("tools/run_files") {
           "error: --trace-fill is about --trace; add --trace FILE, or leave it out\n");
   }
 
+  TEST_CASE("a trace in words has a row of units, and names what enumerators and truth values mean") {
+    const TemporaryFolder folder;
+    const std::string plain = folder / "p.csv", words = folder / "w.csv";
+    CHECK(jarol("run specs/javiator.yaml --for 40ms --set expect=null --trace-fill --trace " + plain).exit_code == 0);
+    CHECK(jarol("run specs/javiator.yaml --for 40ms --set expect=null --trace-fill --trace-words --trace " + words)
+              .exit_code == 0);
+    const auto table = [](const std::string& path) {
+      std::vector<std::vector<std::string>> rows;
+      std::istringstream text(content(path));
+      for (std::string line; std::getline(text, line);) {
+        std::istringstream cells(line + ",");
+        rows.emplace_back();
+        for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+      }
+      return rows;
+    };
+    const auto numbers = table(plain), named = table(words);
+    REQUIRE(named.size() == numbers.size() + 1);
+    CHECK(named[0] == numbers[0]);
+    const auto column = [&](const std::string& name) {
+      return static_cast<std::size_t>(std::find(named[0].begin(), named[0].end(), name) - named[0].begin());
+    };
+    CHECK(named[1][0] == "s");
+    CHECK(named[1].at(column("filter.estimate.roll")) == "rad");
+    CHECK(named[1].at(column("logic.directive.state")).empty());
+    CHECK(numbers.back().at(column("logic.directive.state")) == "0");
+    CHECK(named.back().at(column("logic.directive.state")) == "halt");
+    CHECK(numbers[1].at(column("filter.estimate.roll")) == named[2].at(column("filter.estimate.roll")));
+    CHECK(jarol(counting + "--trace-words").output ==
+          "error: --trace-words is about --trace; add --trace FILE, or leave it out\n");
+  }
+
   TEST_CASE("SVG is not written under the name of another kind of picture") {
     for (const std::string name : {"p.png", "p.pdf", "p.SVG"}) {
       CHECK(jarol(counting + "--plot " + name).output ==
