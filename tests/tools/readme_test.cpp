@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "graph/language/yaml.h"
@@ -97,5 +98,22 @@ TEST_SUITE("tools/readme") {
     const std::string trace = jarol::read_source(folder + "/smooth.csv")->text;
     const std::size_t last = trace.rfind('\n', trace.size() - 2);
     CHECK(text.find(trace.substr(last)) != std::string::npos);
+  }
+
+  TEST_CASE("the page of field types shows a task that compiles, and a graph that sets each of them") {
+    const std::string text = page("graph/values/README.md"), folder = JAROL_PLUGIN_FOLDER;
+    CHECK(between(text, "```cpp\n", "```") == page("tests/tools/plugins/field_types.cpp"));
+    std::ofstream(folder + "/every_type.yaml") << between(text, "```yaml\n", "```");
+    const std::string run = output_of("run " + folder + "/every_type.yaml --for 20ms --trace - 2>/dev/null");
+    CHECK(run == "time,all.gain\n0,0.2\n0.01,0.2\n");
+    // and no parameter is left out
+    const std::string described = output_of("tasks FieldTypes --plugin " + folder + "/field_types.so");
+    std::istringstream lines(between(described, "parameters\n", "\noutputs"));
+    int fields = 0;
+    for (std::string line; std::getline(lines, line); ++fields) {
+      const std::string name = line.substr(2, line.find(' ', 2) - 2);
+      CHECK(text.find("\n      " + name + ": ") != std::string::npos);
+    }
+    CHECK(fields >= 12);
   }
 }
