@@ -103,9 +103,9 @@ void UdpTransport::open() {
     holder->hold(door_.socket.get(), {});
 }
 
+// Under peer_mutex_, once anything can be sent.
 void UdpTransport::associate(const Address& peer) {
   Descriptor made = connect_beside(door_.socket, peer);
-  const std::lock_guard lock(peer_mutex_);
   peer_ = peer;
   peer_socket_ = {std::move(made), 0};
   ++counts.connected;
@@ -165,6 +165,9 @@ void UdpTransport::take(std::span<const std::byte> bytes, const Address& sender,
   // its number goes with the packet, for the packet may be looked at before there is an answer to it
   const bool is_owner = ownership_.owner() && *ownership_.owner() == sender;
   const std::uint64_t peer = counts.connected + (is_owner ? 0 : 1);
+  // who answers a new peer at once waits until it is known
+  std::unique_lock lock(peer_mutex_, std::defer_lock);
+  if (!is_owner) lock.lock();
   const bool valid = sink.take(bytes, static_cast<std::uint32_t>(peer));
   if (const auto answer = sink.answer(); !answer.empty())
     sendto(door_.socket.get(), answer.data(), answer.size(), MSG_NOSIGNAL, sender.get(), sender.size());
