@@ -24,11 +24,17 @@ void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
 }
 
 // False also where a closer look has to tell.
-inline bool are_let_outputs_finite(const Group& group) {
-  for (const LetValue& v : group.let_values)
+inline bool are_finite(const LetOutputs& outputs) {
+  for (const LetValue& v : outputs.values)
     if (!v.finite(v.value)) return false;
-  const Range<double>& doubles = group.let_doubles;
+  const Range<double>& doubles = outputs.doubles;
   return doubles.first == doubles.last || are_surely_finite(doubles.first, doubles.last);
+}
+
+// Where the vehicle may be brought to rest, what that hangs on.
+std::span<const expect::Signal> tapped_signals(const Graph& graph, const ExecutorOptions& options) {
+  if (options.clock == nullptr || !graph.at_end) return {};
+  return graph.at_end->until.signals;
 }
 
 // More than there are processors never pay.
@@ -39,12 +45,15 @@ std::size_t useful_workers(std::size_t wanted, Sharing sharing) {
 
 }  // namespace
 
-Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options)
-    : graph_(graph),
-      plan_(graph, options.clock != nullptr),
+Executor::Executor(PlanOfRun plan, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options)
+    : shared_plan_(std::move(plan)),
+      plan_(*shared_plan_),
+      graph_(plan_.graph),
+      state_(plan_, tapped_signals(graph_, options)),
       channels_(std::move(channels)),
       options_(options),
-      safe_commands_(graph) {
+      safe_commands_(graph_) {
+  const Graph& graph = graph_;
   assert(channels_.size() == graph.distributers.size());
   if (options.recorder != nullptr) options.recorder->expect(plan_.outputs);
   if (options.log != nullptr) begin_log();
@@ -62,24 +71,15 @@ Executor::Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> ch
     if (const Type* type = channels_[distributer]->true_type();
         type != nullptr && options.record_truth && options.recorder != nullptr)
       watched_.push_back({distributer, Value(*type)});
-  if (options.clock != nullptr && graph.at_end) rest_ = std::make_unique<Rest>(graph, plan_, channels_);
+  if (options.clock != nullptr && graph.at_end) rest_ = std::make_unique<Rest>(state_, channels_);
   const std::size_t groups = plan_.groups.size();
   cursors_.resize(groups);
   in_stage_.resize(groups);
   ticks_.resize(groups);
   outs_.reserve(graph.communicators.size());
   ins_.reserve(graph.communicators.size());
-  releases_.resize(groups);
-  last_.resize(graph.communicators.size());
   report_.left_out.resize(graph.tasks.size());
-  for (const Group& group : plan_.groups) {
-    calendar_.add(group.first.count(), group.period.count());
-    for (const auto& actions : {group.outs, group.ins})
-      for (const CommunicatorAction& action : actions) last_[action.communicator] = action.value;
-  }
 }
-
-const void* Executor::last_value(std::size_t communicator) const { return last_[communicator]; }
 
 namespace {
 // The calling thread covers instants while this lives.
@@ -119,9 +119,9 @@ void Executor::cover(Duration end) {
 
 template <bool Digest, bool Record, bool MayMiss>
 void Executor::walk(Duration end) {
-  while (calendar_.next() < end.count()) {
+  while (state_.calendar.next() < end.count()) {
     if (must_return()) return;
-    const std::int64_t instant = calendar_.next();
+    const std::int64_t instant = state_.calendar.next();
     if (MayMiss && missed_ == nullptr) {
       options_.clock->wait_until(instant, interrupted_);
       if (must_return()) return;
@@ -130,7 +130,7 @@ void Executor::walk(Duration end) {
     }
     if (options_.log != nullptr && instant >= checkpoint_due_) log_checkpoint(instant);
     now_.store(instant, std::memory_order_relaxed);
-    due_ = calendar_.take();
+    due_ = state_.calendar.take();
     const bool done = step_instant<Digest, Record, MayMiss>(instant);
     if (!done) return;
     report_.instants += 1;
@@ -151,7 +151,7 @@ void Executor::walk(Duration end) {
 template <bool Digest, bool Record, bool MayMiss>
 bool Executor::step_instant(std::int64_t instant) {
   const std::uint64_t instant_term = Digest ? digest::instant_term(instant) : 0;
-  if (!last_.empty()) gather_communicators();
+  if (!state_.last.empty()) gather_communicators();
   ChannelsInUse channels_in_use(outs_.empty() && ins_.empty() ? nullptr : &use_);
   if (channels_in_use.closed()) return false;
   // step 0: external systems reach this instant with the inputs they held before it
@@ -163,12 +163,13 @@ bool Executor::step_instant(std::int64_t instant) {
   }
   // step 1: outputs of LET tasks that end now
   for (const std::uint32_t g : due_) {
-    const Group& group = plan_.groups[g];
-    if (group.let_ends.first == group.let_ends.last) continue;
+    const Plan::Group& group = plan_.groups[g];
+    if (group.let_ends.count == 0) continue;
+    const LetOutputs& outputs = state_.let_outputs[g];
     if (MayMiss && threads_ != nullptr) {
-      for (const LetEnd& let_end : group.let_ends) end_let(let_end, instant);
-    } else if (bad_outcomes_ == 0 && are_let_outputs_finite(group)) [[likely]] {
-      publish<Digest, Record>(group.let_publish, instant, instant_term);
+      for (const LetEnd& let_end : group.let_ends.of(state_.let_ends)) end_let(let_end, instant);
+    } else if (state_.bad_outcomes == 0 && are_finite(outputs)) [[likely]] {
+      publish<Digest, Record>(outputs.publish, instant, instant_term);
     } else {
       publish_one_by_one<Digest, Record>(group, instant, instant_term);
     }
@@ -186,13 +187,14 @@ bool Executor::step_instant(std::int64_t instant) {
   // step 4: tasks released now
   if (MayMiss && threads_ != nullptr) {
     release_on_threads(instant);
-  } else if (team_ != nullptr && team_->may_share(plan_.groups, due_)) {
+  } else if (team_ != nullptr && team_->may_share(due_)) {
     run_stages_shared<Digest, Record>(instant, instant_term);
   } else if (due_.size() == 1) {
-    const Group& group = plan_.groups[due_[0]];
-    const Tick tick{Duration(instant), releases_[due_[0]]++, group.period};
-    for (const Segment& segment : group.segments) run_segment<Digest, Record, MayMiss>(segment, tick, instant_term);
-    report_.activations += group.activations;
+    const Plan::Group& group = plan_.groups[due_[0]];
+    const Tick tick{Duration(instant), state_.releases[due_[0]]++, group.period};
+    for (const Plan::Segment& segment : plan_.segments_of(group))
+      run_segment<Digest, Record, MayMiss>(segment, tick, instant_term);
+    report_.activations += group.tasks.count;
   } else {
     run_stages<Digest, Record, MayMiss>(instant, instant_term);
   }
@@ -201,9 +203,9 @@ bool Executor::step_instant(std::int64_t instant) {
 
 // As a LET task among those that are under way has a fault, or may have one.
 template <bool Digest, bool Record>
-void Executor::publish_one_by_one(const Group& group, std::int64_t instant, std::uint64_t instant_term) {
-  for (const LetEnd& let_end : group.let_ends) {
-    Outcome& outcome = plan_.outcomes[let_end.task];
+void Executor::publish_one_by_one(const Plan::Group& group, std::int64_t instant, std::uint64_t instant_term) {
+  for (const LetEnd& let_end : group.let_ends.of(state_.let_ends)) {
+    Outcome& outcome = state_.outcomes[let_end.task];
     if (outcome == Outcome::good && has_late_fault(let_end, instant)) {
       record_fault(let_end.task, instant);
     } else if (outcome == Outcome::good) {
@@ -211,7 +213,7 @@ void Executor::publish_one_by_one(const Group& group, std::int64_t instant, std:
     } else {
       if (outcome != Outcome::left_out) record_fault(let_end.task, instant);
       outcome = Outcome::good;  // at most one activation waits for its end
-      --bad_outcomes_;
+      --state_.bad_outcomes;
     }
   }
 }
@@ -221,8 +223,8 @@ void Executor::gather_communicators() {
   outs_.clear();
   ins_.clear();
   for (const std::uint32_t g : due_) {
-    for (const CommunicatorAction& action : plan_.groups[g].outs) outs_.push_back(&action);
-    for (const CommunicatorAction& action : plan_.groups[g].ins) ins_.push_back(&action);
+    for (const CommunicatorAction& action : plan_.groups[g].outs.of(state_.outs)) outs_.push_back(&action);
+    for (const CommunicatorAction& action : plan_.groups[g].ins.of(state_.ins)) ins_.push_back(&action);
   }
   sort_by_name(outs_);
   sort_by_name(ins_);
@@ -238,10 +240,11 @@ void Executor::record_true_values(std::int64_t instant) {
 
 void Executor::start_groups(std::int64_t instant) {
   for (std::size_t i = 0; i < due_.size(); ++i) {
-    const Group& group = plan_.groups[due_[i]];
-    cursors_[i] = group.segments.first;
-    ticks_[i] = {Duration(instant), releases_[due_[i]]++, group.period};
-    report_.activations += group.activations;
+    const Plan::Group& group = plan_.groups[due_[i]];
+    const std::span<const Plan::Segment> segments = plan_.segments_of(group);
+    cursors_[i] = {segments.data(), segments.data() + segments.size()};
+    ticks_[i] = {Duration(instant), state_.releases[due_[i]]++, group.period};
+    report_.activations += group.tasks.count;
   }
 }
 
@@ -253,10 +256,10 @@ void Executor::run_stages(std::int64_t instant, std::uint64_t instant_term) {
   for (std::uint32_t stage = 0; stage != none;) {
     std::uint32_t next = none;
     for (std::size_t i = 0; i < due_.size(); ++i) {
-      const Segment* last = plan_.groups[due_[i]].segments.last;
-      if (cursors_[i] != last && cursors_[i]->stage == stage)
-        run_segment<Digest, Record, MayMiss>(*cursors_[i]++, ticks_[i], instant_term);
-      if (cursors_[i] != last) next = std::min(next, cursors_[i]->stage);
+      Cursor& cursor = cursors_[i];
+      if (cursor.next != cursor.last && cursor.next->stage == stage)
+        run_segment<Digest, Record, MayMiss>(*cursor.next++, ticks_[i], instant_term);
+      if (cursor.next != cursor.last) next = std::min(next, cursor.next->stage);
     }
     stage = next;
   }
@@ -269,24 +272,24 @@ void Executor::run_stages_shared(std::int64_t instant, std::uint64_t instant_ter
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   for (std::uint32_t stage = 0; stage != none;) {
     std::uint32_t next = none;
-    std::ptrdiff_t levels = 0;
+    std::uint32_t levels = 0;
     std::size_t segments = 0;
     bool deep = false;
     for (std::size_t i = 0; i < due_.size(); ++i) {
-      const Segment* last = plan_.groups[due_[i]].segments.last;
-      in_stage_[i] = cursors_[i] != last && cursors_[i]->stage == stage ? cursors_[i]++ : nullptr;
+      Cursor& cursor = cursors_[i];
+      in_stage_[i] = cursor.next != cursor.last && cursor.next->stage == stage ? cursor.next++ : nullptr;
       if (in_stage_[i] != nullptr) {
         ++segments;
         deep = deep || in_stage_[i]->publishes_deep;
-        levels = std::max(levels, in_stage_[i]->levels.last - in_stage_[i]->levels.first);
+        levels = std::max(levels, in_stage_[i]->levels.count);
       }
-      if (cursors_[i] != last) next = std::min(next, cursors_[i]->stage);
+      if (cursor.next != cursor.last) next = std::min(next, cursor.next->stage);
     }
     if (deep && segments > 1) {  // a reader's heap tells which of its producers came first
       for (std::size_t i = 0; i < due_.size(); ++i)
         if (in_stage_[i] != nullptr) run_segment<Digest, Record, false>(*in_stage_[i], ticks_[i], instant_term);
     } else {
-      for (std::ptrdiff_t level = 0; level < levels; ++level) run_level_shared<Digest, Record>(level, instant_term);
+      for (std::uint32_t level = 0; level < levels; ++level) run_level_shared<Digest, Record>(level, instant_term);
       tell_bad_outcomes();
     }
     stage = next;
@@ -295,12 +298,13 @@ void Executor::run_stages_shared(std::int64_t instant, std::uint64_t instant_ter
 
 // The tasks of one level of all segments of the stage: none feeds another.
 template <bool Digest, bool Record>
-void Executor::run_level_shared(std::ptrdiff_t level, std::uint64_t instant_term) {
+void Executor::run_level_shared(std::uint32_t level, std::uint64_t instant_term) {
   team_->clear();
   for (std::size_t i = 0; i < due_.size(); ++i) {
-    const Segment* const segment = in_stage_[i];
-    if (segment == nullptr || level >= segment->levels.last - segment->levels.first) continue;
-    for (const Activation& activation : segment->levels.first[level]) team_->add(activation, ticks_[i]);
+    const Plan::Segment* const segment = in_stage_[i];
+    if (segment == nullptr || level >= segment->levels.count) continue;
+    const Indices& tasks = plan_.levels[segment->levels.first + level];
+    for (const Activation& activation : tasks.of(state_.activations)) team_->add(activation, ticks_[i]);
   }
   report_.digest += team_->run(Digest, instant_term);
   for (const StageTeam::Item& item : team_->items()) {
@@ -324,11 +328,13 @@ void Executor::tell_bad_outcomes() {
 }
 
 template <bool Digest, bool Record, bool MayMiss>
-void Executor::run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term) {
+void Executor::run_segment(const Plan::Segment& segment, const Tick& tick, std::uint64_t instant_term) {
   running_task.tick.store(&tick, std::memory_order_relaxed);
-  for (const Activation* next = segment.activations.first; next != segment.activations.last;) {
+  const Activation* next = state_.activations.data() + segment.tasks.first;
+  const Activation* const last = next + segment.tasks.count;
+  while (next != last) {
     if (!MayMiss && next->body != nullptr) {
-      next = run_bodies(next, segment.activations.last, tick);
+      next = run_bodies(next, last, tick);
       continue;
     }
     const Activation& activation = *next++;

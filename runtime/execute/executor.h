@@ -9,7 +9,6 @@
 
 #include "runtime/channels.h"
 #include "runtime/execute/attend.h"
-#include "runtime/execute/calendar.h"
 #include "runtime/execute/fault_summary.h"
 #include "runtime/execute/rest.h"
 #include "runtime/execute/safe_commands.h"
@@ -17,9 +16,9 @@
 #include "runtime/execute/task_threads.h"
 #include "runtime/machine/real_clock.h"
 #include "runtime/machine/running_task.h"
-#include "runtime/plan/plan.h"
 #include "runtime/record/log.h"
 #include "runtime/record/recorder.h"
+#include "runtime/state/run_state.h"
 
 namespace jarol {
 
@@ -66,7 +65,7 @@ struct ExecutorOptions {
 class Executor {
  public:
   /// One Channels per distributer of the graph, in its order. Graph and recorder outlive the executor.
-  Executor(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options = {});
+  Executor(PlanOfRun plan, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options = {});
 
   /// Covers the instants from where it stands to before `end`, or stops at a fault. In pieces it is the same run.
   void run_until(Duration end);
@@ -104,7 +103,7 @@ class Executor {
 
   const Report& report() const { return report_; }
   const std::vector<SafeCommandReport>& safe_commands() const { return safe_commands_.reports(); }
-  const Plan& plan() const { return plan_; }
+  const RunState& state() const { return state_; }
 
   /// How the stages were shared among several workers; null with one.
   const StageTeam* team() const { return team_.get(); }
@@ -113,7 +112,7 @@ class Executor {
   std::vector<std::string> refusals() const;
 
   /// What a communicator last published, or its initial value.
-  const void* last_value(std::size_t communicator) const;
+  const void* last_value(std::size_t communicator) const { return state_.last[communicator]; }
 
  private:
   template <bool Digest, bool Record, bool MayMiss>
@@ -123,15 +122,15 @@ class Executor {
   template <bool Digest, bool Record>
   void publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term);
   template <bool Digest, bool Record, bool MayMiss>
-  void run_segment(const Segment& segment, const Tick& tick, std::uint64_t instant_term);
+  void run_segment(const Plan::Segment& segment, const Tick& tick, std::uint64_t instant_term);
   template <bool Digest, bool Record, bool MayMiss>
   void run_stages(std::int64_t instant, std::uint64_t instant_term);
   template <bool Digest, bool Record>
   void run_stages_shared(std::int64_t instant, std::uint64_t instant_term);
   template <bool Digest, bool Record>
-  void run_level_shared(std::ptrdiff_t level, std::uint64_t instant_term);
+  void run_level_shared(std::uint32_t level, std::uint64_t instant_term);
   template <bool Digest, bool Record>
-  void publish_one_by_one(const Group& group, std::int64_t instant, std::uint64_t instant_term);
+  void publish_one_by_one(const Plan::Group& group, std::int64_t instant, std::uint64_t instant_term);
   bool has_late_fault(const LetEnd& let_end, std::int64_t instant);
   const Activation* run_bodies(const Activation* next, const Activation* last, const Tick& tick);
   const Task* task_of(const RunningTask* running) const;
@@ -164,19 +163,21 @@ class Executor {
   void publish_in_time(const Publish& what, std::int64_t instant);
   void on_bad_outcome_in_time(std::uint32_t task, Outcome outcome, std::int64_t instant);
 
+  const PlanOfRun shared_plan_;
+  const Plan& plan_;
   const Graph& graph_;
-  Plan plan_;
+  RunState state_;
   std::vector<std::unique_ptr<Channels>> channels_;
   ExecutorOptions options_;
-  Calendar calendar_;                                  // when each group is due
-  std::span<const std::uint32_t> due_;                 // groups due now, in the calendar
-  std::vector<const Segment*> cursors_;                // of the groups due now
-  std::vector<const Segment*> in_stage_;               // of the groups due now, null where none
+  std::span<const std::uint32_t> due_;  // groups due now, in the calendar
+  struct Cursor {
+    const Plan::Segment* next = nullptr;
+    const Plan::Segment* last = nullptr;
+  };
+  std::vector<Cursor> cursors_;                        // of the groups due now: what is still to be run
+  std::vector<const Plan::Segment*> in_stage_;         // of the groups due now, null where none
   std::vector<Tick> ticks_;                            // of the groups due now
   std::vector<const CommunicatorAction*> outs_, ins_;  // due now
-  std::size_t bad_outcomes_ = 0;                       // in the plan's outcomes: of LET tasks, until their LETs end
-  std::vector<std::int64_t> releases_;                 // per group: how often it was due
-  std::vector<const std::byte*> last_;                 // per communicator
   std::vector<StageTeam::Item> bad_items_;             // of the stage under way, where workers share it
   std::unique_ptr<StageTeam> team_;                    // null: one worker
   SafeCommands safe_commands_;

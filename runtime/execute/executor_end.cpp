@@ -7,7 +7,7 @@ namespace jarol {
 
 std::optional<Duration> Executor::begin_rest() {
   if (rest_ == nullptr || report_.stopped || interrupted_.load()) return std::nullopt;
-  rest_begun_ = Duration(calendar_.next());
+  rest_begun_ = Duration(state_.calendar.next());
   rest_->begin();
   log_rest();
   resting_.store(true);
@@ -54,7 +54,7 @@ Finish Executor::finish(std::optional<Futex::Time> patience) {
 const Task* Executor::task_of(const RunningTask* running) const {
   const TaskMemory* const memory = running != nullptr ? running->memory.load(std::memory_order_relaxed) : nullptr;
   if (memory == nullptr) return nullptr;
-  return &graph_.tasks[static_cast<std::size_t>(static_cast<const TaskStatus*>(memory->fault) - plan_.status.data())];
+  return &graph_.tasks[static_cast<std::size_t>(static_cast<const TaskStatus*>(memory->fault) - state_.status.data())];
 }
 
 HangingTask Executor::hanging(const Task& task) const {

@@ -15,7 +15,7 @@ bool Executor::has_late_fault(const LetEnd& let_end, std::int64_t instant) {
   const Task& task = graph_.tasks[let_end.task];
   const Type& type = *task.task_class->out;
   if (!is_checked_at_let_end(task) || type.finite(let_end.out)) return false;
-  TaskStatus& status = plan_.status[let_end.task];
+  TaskStatus& status = state_.status[let_end.task];
   keep_text(status, find_non_finite(type, let_end.out));
   status.activation = (Duration(instant) - *task.let - task.offset) / task.period;
   return true;
@@ -24,10 +24,10 @@ bool Executor::has_late_fault(const LetEnd& let_end, std::int64_t instant) {
 // A LET task's fault shows at the end of its LET, when its outputs would have.
 void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, const Tick& tick) {
   const Task& task = graph_.tasks[activation.task];
-  TaskStatus& status = plan_.status[activation.task];
+  TaskStatus& status = state_.status[activation.task];
   if (activation.has_let) {
-    plan_.outcomes[activation.task] = outcome;
-    ++bad_outcomes_;
+    state_.outcomes[activation.task] = outcome;
+    ++state_.bad_outcomes;
   }
   if (outcome == Outcome::left_out) {
     --report_.activations;
@@ -56,7 +56,7 @@ void Executor::on_bad_outcome(const Activation& activation, Outcome outcome, con
 }
 
 void Executor::record_fault(std::uint32_t task, std::int64_t instant) {
-  const TaskStatus& status = plan_.status[task];
+  const TaskStatus& status = state_.status[task];
   add_fault(task, status.activation, instant, status.text);
 }
 

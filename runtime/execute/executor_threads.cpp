@@ -6,7 +6,7 @@
 namespace jarol {
 
 void Executor::begin_threads() {
-  threads_ = std::make_unique<TaskThreads>(graph_, plan_, *options_.clock, options_.threads);
+  threads_ = std::make_unique<TaskThreads>(state_, *options_.clock, options_.threads);
   under_way_.reserve(graph_.tasks.size());
   // a data-flow task is seen to have ended by its deadline, when others may have published at later instants
   Duration longest{};
@@ -51,16 +51,15 @@ void Executor::end_let(const LetEnd& let_end, std::int64_t instant) {
 void Executor::release_on_threads(std::int64_t instant) {
   start_groups(instant);
   for (std::size_t i = 0; i < due_.size(); ++i)
-    for (const Segment& segment : plan_.groups[due_[i]].segments)
-      for (const Activation& activation : segment.activations) {
-        const Outcome outcome = threads_->add(activation.task, ticks_[i]);
-        if (outcome != Outcome::good) --report_.activations;
-        if (outcome == Outcome::left_out) ++report_.left_out[activation.task];
-        if (outcome == Outcome::overrun) log_miss({ticks_[i].activation, Miss::unknown, activation.task, 1}, instant);
-        if (activation.has_let) continue;  // what it was shows at the end of the LET
-        if (outcome == Outcome::good) under_way_.push_back(&activation);
-        if (outcome == Outcome::overrun) on_bad_outcome_in_time(activation.task, outcome, instant);
-      }
+    for (const Activation& activation : plan_.groups[due_[i]].tasks.of(state_.activations)) {
+      const Outcome outcome = threads_->add(activation.task, ticks_[i]);
+      if (outcome != Outcome::good) --report_.activations;
+      if (outcome == Outcome::left_out) ++report_.left_out[activation.task];
+      if (outcome == Outcome::overrun) log_miss({ticks_[i].activation, Miss::unknown, activation.task, 1}, instant);
+      if (activation.has_let) continue;  // what it was shows at the end of the LET
+      if (outcome == Outcome::good) under_way_.push_back(&activation);
+      if (outcome == Outcome::overrun) on_bad_outcome_in_time(activation.task, outcome, instant);
+    }
   threads_->release();
 }
 
@@ -85,7 +84,7 @@ void Executor::on_bad_outcome_in_time(std::uint32_t task, Outcome outcome, std::
   } else if (outcome == Outcome::non_finite) {
     cause = find_non_finite(*t.task_class->out, threads_->out(task));
   } else {
-    cause = plan_.status[task].text;
+    cause = state_.status[task].text;
   }
   if (outcome != Outcome::overrun) threads_->undo(task, t.on_fault == OnFault::skip);
   add_fault(task, activation, instant, cause);

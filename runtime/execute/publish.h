@@ -2,8 +2,8 @@
 #pragma once
 
 #include "graph/values/digest.h"
-#include "runtime/plan/copy.h"
 #include "runtime/record/recorder.h"
+#include "runtime/state/copy.h"
 
 namespace jarol {
 

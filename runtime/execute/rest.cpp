@@ -5,11 +5,12 @@
 
 namespace jarol {
 
-Rest::Rest(const Graph& graph, Plan& plan, const std::vector<std::unique_ptr<Channels>>& channels)
-    : at_end_(*graph.at_end),
-      plan_(plan),
-      commands_(graph.communicators.size()),
-      signals_(graph.at_end->until.signals.size()) {
+Rest::Rest(RunState& state, const std::vector<std::unique_ptr<Channels>>& channels)
+    : at_end_(*state.plan.graph.at_end),
+      state_(state),
+      commands_(state.plan.graph.communicators.size()),
+      signals_(at_end_.until.signals.size()) {
+  const Graph& graph = state.plan.graph;
   for (std::size_t i = 0; i < channels.size(); ++i)
     missions_.push_back(!graph.distributers[i].distributer_class->is_vehicle && channels[i]->end().has_value());
   std::vector<Ins> all(channels.size());
@@ -38,7 +39,7 @@ bool Rest::command(std::size_t communicator, void* value) const {
 void Rest::begin() {
   if (begun_) return;
   begun_ = true;
-  std::fill(plan_.tap_news.begin(), plan_.tap_news.end(), std::byte{});
+  std::fill(state_.tap_news.begin(), state_.tap_news.end(), std::byte{});
 }
 
 bool Rest::hears_vehicles(const SafeCommands& inputs, Duration instant) const {
@@ -51,11 +52,11 @@ bool Rest::hears_vehicles(const SafeCommands& inputs, Duration instant) const {
 
 bool Rest::is_reached(const SafeCommands& inputs, Duration instant) {
   heard_ = hears_vehicles(inputs, instant);
-  const auto& news = plan_.tap_news;
+  const auto& news = state_.tap_news;
   if (!heard_ || std::find(news.begin(), news.end(), std::byte{}) != news.end()) return false;
   const expect::Condition& until = at_end_.until;
   for (std::size_t i = 0; i < signals_.size(); ++i)
-    signals_[i] = expect::read_number(*until.signals[i].leaf.type, plan_.taps[i]);
+    signals_[i] = expect::read_number(*until.signals[i].leaf.type, state_.taps[i]);
   return expect::holds(until.comparison, expect::calc_value(until.metric.value, signals_));
 }
 

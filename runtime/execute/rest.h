@@ -9,7 +9,7 @@
 #include "graph/model/graph.h"
 #include "runtime/channels.h"
 #include "runtime/execute/safe_commands.h"
-#include "runtime/plan/plan.h"
+#include "runtime/state/run_state.h"
 
 namespace jarol {
 
@@ -23,8 +23,8 @@ struct RestReport {
 /// Used by the thread that publishes, while it does not.
 class Rest {
  public:
-  /// Of a graph that states it. All outlive this.
-  Rest(const Graph& graph, Plan& plan, const std::vector<std::unique_ptr<Channels>>& channels);
+  /// Of a graph that states it, and taps the signals of its condition. All outlive this.
+  Rest(RunState& state, const std::vector<std::unique_ptr<Channels>>& channels);
 
   Duration longest() const { return at_end_.longest; }
   /// Nothing more is taken from that distributer: it plays a mission, which is over.
@@ -42,7 +42,7 @@ class Rest {
   bool hears_vehicles(const SafeCommands& inputs, Duration instant) const;
 
   const AtEnd& at_end_;
-  Plan& plan_;
+  RunState& state_;
   bool begun_ = false, heard_ = true;
   // per vehicle that reports anything: all of the first are to be heard, or any of them if none has a time-out
   struct Ins {

@@ -7,7 +7,7 @@
 
 #include "runtime/machine/running_task.h"
 #include "runtime/machine/thread_time.h"
-#include "runtime/plan/copy.h"
+#include "runtime/state/copy.h"
 
 namespace jarol {
 namespace {
@@ -30,14 +30,15 @@ double now() {
 }  // namespace
 
 StageTeam::StageTeam(std::size_t workers, Sharing sharing, const Plan& plan)
-    : workers_(workers, parts_per_worker * workers),
+    : plan_(plan),
+      workers_(workers, parts_per_worker * workers),
       sharing_(sharing),
-      took_(sharing == Sharing::measure ? plan.status.size() : 0),
-      costs_(plan.status.size()),
+      took_(sharing == Sharing::measure ? plan.order.size() : 0),
+      costs_(plan.order.size()),
       widest_(plan.groups.size(), std::numeric_limits<double>::infinity()),
       unknown_(costs_.size()),
       parts_(workers_.parts()) {
-  items_.reserve(plan.status.size());
+  items_.reserve(plan.order.size());
   if (sharing == Sharing::measure) between_readings_ = thread_time_between_readings();
 }
 
@@ -65,25 +66,25 @@ std::uint64_t StageTeam::run(bool digest, std::uint64_t instant_term) {
   return sum;
 }
 
-bool StageTeam::may_share(std::span<const Group> groups, std::span<const std::uint32_t> due) {
+bool StageTeam::may_share(std::span<const std::uint32_t> due) {
   if (sharing_ == Sharing::measure) return true;
   double cost = 0;
-  for (const std::uint32_t g : due) cost += widest_of(groups[g], widest_[g]);
+  for (const std::uint32_t g : due) cost += widest_of(plan_.groups[g], widest_[g]);
   if (!too_short(cost)) return true;
   ++alone_;
   return false;
 }
 
-double StageTeam::widest_of(const Group& group, double& known) const {
+double StageTeam::widest_of(const Plan::Group& group, double& known) const {
   if (known < std::numeric_limits<double>::infinity()) [[likely]]
     return known;
   double widest = 0;
-  for (const Segment& segment : group.segments)
-    for (const auto& level : segment.levels) {
+  for (const Plan::Segment& segment : plan_.segments_of(group))
+    for (const Indices& level : segment.levels.of(plan_.levels)) {
       double sum = 0;
-      for (const Activation& activation : level) {
-        if (costs_[activation.task].measured < measurements) return known;
-        sum += costs_[activation.task].least;
+      for (const std::uint32_t task : level.of(plan_.order)) {
+        if (costs_[task].measured < measurements) return known;
+        sum += costs_[task].least;
       }
       widest = std::max(widest, sum);
     }

@@ -9,6 +9,7 @@
 #include "runtime/execute/workers.h"
 #include "runtime/machine/histogram.h"
 #include "runtime/plan/plan.h"
+#include "runtime/state/actions.h"
 
 namespace jarol {
 
@@ -20,7 +21,7 @@ class StageTeam {
   StageTeam(std::size_t workers, Sharing sharing, const Plan& plan);
 
   /// Could it pay to share a level of the groups that are due? If not, the plain walk is the quickest.
-  bool may_share(std::span<const Group> groups, std::span<const std::uint32_t> due);
+  bool may_share(std::span<const std::uint32_t> due);
 
   /// One task that is due; tick lives as long as the level.
   struct Item {
@@ -60,7 +61,7 @@ class StageTeam {
     double least = 1e9;          // ns
   };
 
-  double widest_of(const Group& group, double& known) const;
+  double widest_of(const Plan::Group& group, double& known) const;
   bool too_short(double cost) const;
   bool all_known() const;
   std::uint64_t run_measured();
@@ -71,6 +72,7 @@ class StageTeam {
   double cost_of(const Item& item) const { return costs_[item.activation->task].least; }
   double cost_or_one(const Item& item) const { return sharing_ == Sharing::always ? 1 : cost_of(item); }
 
+  const Plan& plan_;
   Workers workers_;
   Sharing sharing_;
   std::vector<Histogram> took_;        // per task, with Sharing::measure

@@ -13,13 +13,12 @@
 #include "runtime/machine/futex.h"
 #include "runtime/machine/running_task.h"
 #include "runtime/machine/signal_stack.h"
-#include "runtime/plan/copy.h"
+#include "runtime/state/copy.h"
 
 namespace jarol {
 
-TaskThreads::TaskThreads(const Graph& graph, Plan& plan, RealClock& clock,
-                         std::span<const analysis::TaskThread> threads)
-    : graph_(graph), plan_(plan), clock_(clock), jobs_(graph.tasks.size()), threads_(threads.size()) {
+TaskThreads::TaskThreads(RunState& state, RealClock& clock, std::span<const analysis::TaskThread> threads)
+    : graph_(state.plan.graph), state_(state), clock_(clock), jobs_(graph_.tasks.size()), threads_(threads.size()) {
   added_.reserve(jobs_.size());
   make_jobs();
   for (std::size_t t = 0; t < threads.size(); ++t)
@@ -55,20 +54,18 @@ void TaskThreads::make_jobs() {
   void* place = latched_.data();
   std::align(line, 1, place, size);
   auto* next = static_cast<std::byte*>(place);
-  for (const Group& group : plan_.groups)
-    for (const Segment& segment : group.segments)
-      for (const Activation& activation : segment.activations) {
-        const Task& task = graph_.tasks[activation.task];
-        Job& job = jobs_[activation.task];
-        job.task = activation.task;
-        job.run = activation.run;
-        job.memory = activation.memory;
-        job.memory.in = job.latched = next;
-        job.published = static_cast<const std::byte*>(activation.memory.in);
-        job.in_size = task.task_class->in->size;
-        job.deadline = task.deadline.count();
-        next += rounded(job.in_size);
-      }
+  for (const Activation& activation : state_.activations) {
+    const Task& task = graph_.tasks[activation.task];
+    Job& job = jobs_[activation.task];
+    job.task = activation.task;
+    job.run = activation.run;
+    job.memory = activation.memory;
+    job.memory.in = job.latched = next;
+    job.published = static_cast<const std::byte*>(activation.memory.in);
+    job.in_size = task.task_class->in->size;
+    job.deadline = task.deadline.count();
+    next += rounded(job.in_size);
+  }
   const std::vector<std::size_t> turns = turns_of(graph_);
   for (std::size_t turn = 0; turn < turns.size(); ++turn) jobs_[turns[turn]].turn = turn;
 }
@@ -135,7 +132,7 @@ Outcome TaskThreads::add(std::size_t task, const Tick& tick) {
     job.to_skip = false;  // this was the one to skip
     return job.left_out = Outcome::overrun;
   }
-  if (std::exchange(job.to_undo, false) && job.began) plan_.status[task].put_back(job.memory.state);
+  if (std::exchange(job.to_undo, false) && job.began) state_.status[task].put_back(job.memory.state);
   if (std::exchange(job.to_skip, false)) return job.left_out = Outcome::left_out;
   job.tick = tick;
   job.left_out = Outcome::good;
@@ -191,7 +188,7 @@ std::optional<Duration> TaskThreads::ended_after(std::size_t task) const {
 }
 
 void TaskThreads::undo(std::size_t task, bool skip) {
-  jobs_[task].to_undo = plan_.status[task].undoable;
+  jobs_[task].to_undo = state_.status[task].undoable;
   jobs_[task].to_skip = skip;
 }
 

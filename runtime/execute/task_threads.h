@@ -17,7 +17,7 @@
 #include "runtime/machine/futex.h"
 #include "runtime/machine/memory.h"
 #include "runtime/machine/real_clock.h"
-#include "runtime/plan/plan.h"
+#include "runtime/state/run_state.h"
 
 namespace jarol {
 
@@ -26,7 +26,7 @@ class TaskThreads {
   /// Begins the threads, with the priorities, CPUs and slack of the clock's options. All outlive them. Throws
   /// std::invalid_argument for an input of changing size, and for a priority that leaves none for the threads;
   /// std::runtime_error where the system has no more threads.
-  TaskThreads(const Graph& graph, Plan& plan, RealClock& clock, std::span<const analysis::TaskThread> threads);
+  TaskThreads(RunState& state, RealClock& clock, std::span<const analysis::TaskThread> threads);
   ~TaskThreads();
   TaskThreads(const TaskThreads&) = delete;
   TaskThreads& operator=(const TaskThreads&) = delete;
@@ -119,7 +119,7 @@ class TaskThreads {
   static void hand_on(const Job& job, std::int64_t instant, bool good);
 
   const Graph& graph_;
-  Plan& plan_;
+  RunState& state_;
   RealClock& clock_;
   std::vector<std::byte> latched_;
   std::vector<Job> jobs_;  // per task

@@ -14,25 +14,27 @@
 #include "runtime/machine/real_clock.h"
 #include "runtime/machine/running_task.h"
 #include "runtime/machine/signal_stack.h"
-#include "runtime/plan/copy.h"
+#include "runtime/state/copy.h"
 
 namespace jarol {
 
-ThreadsCore::ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, Recorder* recorder)
-    : graph_(graph),
-      plan_(graph, true),
+ThreadsCore::ThreadsCore(PlanOfRun plan, std::vector<std::unique_ptr<Channels>> channels, Recorder* recorder)
+    : plan_(std::move(plan)),
+      graph_(plan_->graph),
+      state_(*plan_, graph_.at_end ? std::span<const expect::Signal>(graph_.at_end->until.signals)
+                                   : std::span<const expect::Signal>()),
       channels_(std::move(channels)),
       period_(choose_period()),
       recorder_(recorder),
-      safe_commands_(graph) {
+      safe_commands_(graph_) {
+  const Graph& graph = graph_;
   for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::mutex>());
-  last_.resize(graph.communicators.size());
   threads_report_.execution.resize(graph.tasks.size());
   report_.left_out.resize(graph.tasks.size());
   gather();
-  if (graph.at_end) rest_ = std::make_unique<Rest>(graph, plan_, channels_);
+  if (graph.at_end) rest_ = std::make_unique<Rest>(state_, channels_);
   if (recorder_ == nullptr) return;
-  recorder_->expect(plan_.outputs);
+  recorder_->expect(plan_->outputs);
   recorder_->never_wait();
   for (const std::size_t distributer : watched_vehicles(graph))
     if (const Type* type = channels_[distributer]->true_type())
@@ -66,30 +68,26 @@ std::int64_t ThreadsCore::rounds_of(const std::string& what, Duration period) co
 void ThreadsCore::gather() {
   std::vector<const Activation*> activations(graph_.tasks.size());
   std::vector<const Publish*> publishes(graph_.tasks.size());
-  for (const Group& group : plan_.groups) {
-    for (const Segment& segment : group.segments)
-      for (const Activation& activation : segment.activations) {
-        activations[activation.task] = &activation;
-        if (!activation.has_let) publishes[activation.task] = &activation.publish;
-      }
-    for (const LetEnd& end : group.let_ends) publishes[end.task] = &end.publish;
-    for (const auto& [actions, to] : {std::pair(group.ins, &ins_), std::pair(group.outs, &outs_)})
-      for (const CommunicatorAction& action : actions) {
-        const Communicator& c = graph_.communicators[action.communicator];
-        last_[action.communicator] = action.value;
-        if (c.type->is_deep())
-          throw std::invalid_argument("communicator '" + c.name +
-                                      "' carries a value of changing size, which threads can't hand over");
-        Carried carried;
-        carried.communicator = action.communicator;
-        carried.action = &action;
-        carried.core = carried.outside = Cadence(rounds_of("communicator '" + c.name + "'", c.period));
-        carried.terminal = c.distributer && !on_vehicle(action.communicator);
-        carried.port = std::make_unique<PushBytesPort>(1, c.type->size);
-        carried.room.resize(c.type->size);
-        to->push_back(std::move(carried));
-      }
+  for (const Activation& activation : state_.activations) {
+    activations[activation.task] = &activation;
+    if (!activation.has_let) publishes[activation.task] = &activation.publish;
   }
+  for (const LetEnd& end : state_.let_ends) publishes[end.task] = &end.publish;
+  for (const auto& [actions, to] : {std::pair(&state_.ins, &ins_), std::pair(&state_.outs, &outs_)})
+    for (const CommunicatorAction& action : *actions) {
+      const Communicator& c = graph_.communicators[action.communicator];
+      if (c.type->is_deep())
+        throw std::invalid_argument("communicator '" + c.name +
+                                    "' carries a value of changing size, which threads can't hand over");
+      Carried carried;
+      carried.communicator = action.communicator;
+      carried.action = &action;
+      carried.core = carried.outside = Cadence(rounds_of("communicator '" + c.name + "'", c.period));
+      carried.terminal = c.distributer && !on_vehicle(action.communicator);
+      carried.port = std::make_unique<PushBytesPort>(1, c.type->size);
+      carried.room.resize(c.type->size);
+      to->push_back(std::move(carried));
+    }
   const auto by_name = [](const Carried& a, const Carried& b) { return a.communicator < b.communicator; };
   std::sort(ins_.begin(), ins_.end(), by_name);
   std::sort(outs_.begin(), outs_.end(), by_name);
@@ -378,7 +376,7 @@ void ThreadsCore::publish(const Publish& what, std::int64_t instant, std::uint64
 
 void ThreadsCore::record_true_values(std::int64_t instant) {
   for (const auto& vehicle : watched_) {
-    const auto output = static_cast<std::uint32_t>(plan_.outputs.size() + vehicle->distributer);
+    const auto output = static_cast<std::uint32_t>(plan_->outputs.size() + vehicle->distributer);
     if (vehicle->port.read(vehicle->core.data()))
       record(*recorder_, output, *vehicle->core.type(), vehicle->core.data(), instant);
   }
@@ -386,7 +384,7 @@ void ThreadsCore::record_true_values(std::int64_t instant) {
 
 void ThreadsCore::on_fault(const Counted& task, Outcome outcome, std::int64_t instant) {
   const Task& t = graph_.tasks[task.activation->task];
-  TaskStatus& status = plan_.status[task.activation->task];
+  TaskStatus& status = state_.status[task.activation->task];
   if (outcome == Outcome::non_finite) keep_text(status, "an output is not finite");
   ++report_.left_out[task.activation->task];
   report_.add({t.name, task.activations - 1, Duration(instant), status.text});

@@ -23,8 +23,8 @@
 #include "runtime/jarol/signal.h"
 #include "runtime/jarol/time_trigger.h"
 #include "runtime/machine/histogram.h"
-#include "runtime/plan/plan.h"
 #include "runtime/record/recorder.h"
+#include "runtime/state/run_state.h"
 
 namespace jarol {
 
@@ -44,7 +44,7 @@ class ThreadsCore {
   /// std::invalid_argument for a graph whose periods can't be counted in those of the sensor thread, or with deep
   /// values between threads. `recorder`: gets what is published, and true values for the conditions of the graph; or
   /// null.
-  ThreadsCore(const Graph& graph, std::vector<std::unique_ptr<Channels>> channels, Recorder* recorder = nullptr);
+  ThreadsCore(PlanOfRun plan, std::vector<std::unique_ptr<Channels>> channels, Recorder* recorder = nullptr);
   ~ThreadsCore();
 
   /// Covers the instants before `end`, unless a fault stops it or it is interrupted; once. `prepare` is called in each
@@ -77,7 +77,7 @@ class ThreadsCore {
   const std::vector<SafeCommandReport>& safe_commands() const { return safe_commands_.reports(); }
   /// The instant reached, as of Executor.
   Duration now() const { return Duration(now_.load(std::memory_order_relaxed)); }
-  const void* last_value(std::size_t communicator) const { return last_[communicator]; }
+  const void* last_value(std::size_t communicator) const { return state_.last[communicator]; }
 
  private:
   // What is due once in so many rounds: in the first that is run of these, as others may be left out.
@@ -150,8 +150,9 @@ class ThreadsCore {
   void record_true_values(std::int64_t instant);
   void on_fault(const Counted& task, Outcome outcome, std::int64_t instant);
 
+  const PlanOfRun plan_;
   const Graph& graph_;
-  Plan plan_;
+  RunState state_;
   std::vector<std::unique_ptr<Channels>> channels_;
   std::vector<std::unique_ptr<std::mutex>> channel_mutexes_;  // sensor and actuator thread share a vehicle's
   Duration period_{};
@@ -159,7 +160,6 @@ class ThreadsCore {
   std::vector<std::unique_ptr<Watched>> watched_;
   std::vector<Carried> ins_, outs_;
   std::vector<Counted> tasks_;  // data-flow order
-  std::vector<const std::byte*> last_;
   SafeCommands safe_commands_;  // of the core thread
   std::atomic<std::uint64_t> refused_inputs_{0};
   Report report_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "graph/model/graph.h"
@@ -20,7 +21,7 @@ struct Layout {
   };
 
   /// With the tasks in that order.
-  Layout(const Graph& graph, const std::vector<std::size_t>& order);
+  Layout(const Graph& graph, const std::vector<std::uint32_t>& order);
 
   std::vector<OfTask> tasks;                  // per task
   std::vector<OfCommunicator> communicators;  // per communicator
@@ -32,7 +33,7 @@ struct Layout {
  private:
   std::size_t place(std::size_t bytes, std::size_t alignment);
   std::size_t place(const Type& type) { return place(type.size, type.alignment); }
-  void place_let_doubles(const Graph& graph, const std::vector<std::size_t>& order);
+  void place_let_doubles(const Graph& graph, const std::vector<std::uint32_t>& order);
 };
 
 /// True if state and outputs are put back after a fault.

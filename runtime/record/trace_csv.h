@@ -6,7 +6,7 @@
 
 #include "graph/values/bind.h"
 #include "runtime/files/whole_file.h"
-#include "runtime/plan/plan.h"
+#include "runtime/plan/output.h"
 #include "runtime/record/recorder.h"
 
 namespace jarol {

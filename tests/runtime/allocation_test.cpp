@@ -38,6 +38,26 @@ connections: [a.out -> b.in, b.out -> c.a, i -> c.b, c.out -> d.in, d.out -> o]
     CHECK(during == 0);
   }
 
+  TEST_CASE("what a run of a plan asks for memory does not hang on the number of its tasks") {
+    const auto asked = [](int tasks) {
+      std::string text = "graph: t\ncommunicators:\n  o: {type: double, direction: out, period: 1ms}\ntasks:\n",
+                  connections;
+      for (int i = 0; i < tasks; ++i) {
+        const std::string name = "t" + std::to_string(i);
+        text += "  " + name + ": {type: " + (i == 0 ? "Counter" : "Relay") + ", period: " + std::to_string(1 + i % 7) +
+                "ms" + (i % 2 == 0 ? ", let: 1ms" : "") + (i % 3 == 0 ? ", on_fault: hold" : "") + "}\n";
+        connections += "  - t" + std::to_string(std::max(0, i - 1)) + ".out -> " + (i == 0 ? "o" : name + ".in") + "\n";
+      }
+      const Graph graph = tests::graph_of(text + "connections:\n" + connections);
+      const Plan plan(graph);
+      const std::uint64_t before = allocations();
+      const RunState state(plan);
+      return allocations() - before;
+    };
+    CHECK(asked(700) == asked(70));
+    CHECK(asked(70) < 40);
+  }
+
   TEST_CASE("a million activations on values of changing size allocate nothing once communicators have their room") {
     const Graph graph = tests::graph_of(R"(graph: t
 timing: {period: 1ms}

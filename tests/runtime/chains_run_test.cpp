@@ -12,9 +12,9 @@ constexpr std::int64_t ms = 1'000'000;
 // When the last task published which activation of the first: (instant, activation).
 class Arrivals : public RecordSink {
  public:
-  Arrivals(const Graph& graph, std::string last) : plan_(graph), last_(std::move(last)) {}
+  Arrivals(const Graph& graph, std::string last) : outputs_(outputs_of(graph)), last_(std::move(last)) {}
   void take(Duration instant, std::uint32_t output, const void* value) override {
-    if (plan_.outputs[output].name != last_) return;
+    if (outputs_[output].name != last_) return;
     const auto activation = static_cast<std::int64_t>(*static_cast<const double*>(value));
     if (activation >= 0) seen.emplace_back(instant.count(), activation);
   }
@@ -22,7 +22,7 @@ class Arrivals : public RecordSink {
   std::vector<std::pair<std::int64_t, std::int64_t>> seen;
 
  private:
-  Plan plan_;
+  std::vector<Output> outputs_;
   std::string last_;
 };
 

@@ -157,7 +157,6 @@ connections: [y -> a, B -> Z, B -> _b]
   TEST_CASE("an output publishes at most once at an instant, and instants come in their order") {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       const Graph graph = tests::graph_of(oracle::to_yaml(oracle::random_model(seed), seed));
-      const Plan plan(graph);
       struct Once : RecordSink {
         void take(Duration instant, std::uint32_t output, const void*) override {
           good = good && instant >= now && published.emplace(instant, output).second;
@@ -192,7 +191,7 @@ tasks:
 connections: [a.out -> b, a_ -> _.in]
 )");
     std::vector<std::string> names;
-    for (const Output& output : Plan(graph).outputs) names.push_back(output.name);
+    for (const Output& output : outputs_of(graph)) names.push_back(output.name);
     CHECK(names == std::vector<std::string>{"B.out", "_.out", "a.out", "a0.out", "a_", "b"});
   }
 }

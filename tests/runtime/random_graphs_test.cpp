@@ -16,15 +16,15 @@ constexpr Duration end{std::int64_t{60'000'000}};
 // Every publication of plain numbers.
 class Collect : public RecordSink {
  public:
-  explicit Collect(const Graph& graph) : plan_(graph) {}
+  explicit Collect(const Graph& graph) : outputs_(outputs_of(graph)) {}
   void take(Duration instant, std::uint32_t output, const void* value) override {
-    trace.emplace_back(instant.count(), plan_.outputs[output].name, *static_cast<const double*>(value));
+    trace.emplace_back(instant.count(), outputs_[output].name, *static_cast<const double*>(value));
   }
   void finish() override { std::sort(trace.begin(), trace.end()); }
   oracle::Trace trace;
 
  private:
-  Plan plan_;
+  std::vector<Output> outputs_;
 };
 
 // The first difference between two traces, for people; nothing if there is none.

@@ -56,11 +56,11 @@ Dive dive(const std::string& file, const std::vector<std::string>& overrides, st
   const std::size_t colon = std::min(file.find(':'), file.size());
   const std::string profile = colon < file.size() ? file.substr(colon + 1) : "";
   auto loaded = tools::load_graph(file.substr(0, colon), {.profile = profile, .set = overrides}, seed);
-  const Plan plan(*loaded.graph);
+  const std::vector<Output> outputs = outputs_of(*loaded.graph);
   Dive done;
-  const auto at = std::find_if(plan.outputs.begin(), plan.outputs.end(),
-                               [](const Output& o) { return o.name == "supervisor.condition"; });
-  Alarms alarms(static_cast<std::uint32_t>(at - plan.outputs.begin()), done);
+  const auto at =
+      std::find_if(outputs.begin(), outputs.end(), [](const Output& o) { return o.name == "supervisor.condition"; });
+  Alarms alarms(static_cast<std::uint32_t>(at - outputs.begin()), done);
   Recorder recorder({&alarms});
   if (end == Duration{})
     for (const auto& channels : loaded.channels) end = std::max(end, channels->end().value_or(Duration{}));

@@ -63,10 +63,9 @@ class PilotChannels : public Channels {
 template <class T>
 class Keep : public RecordSink {
  public:
-  Keep(const Plan& plan, const std::string& output, std::vector<std::pair<double, T>>& to) : to_(to) {
-    const auto found =
-        std::find_if(plan.outputs.begin(), plan.outputs.end(), [&](const Output& o) { return o.name == output; });
-    output_ = static_cast<std::uint32_t>(found - plan.outputs.begin());
+  Keep(const std::vector<Output>& outputs, const std::string& output, std::vector<std::pair<double, T>>& to) : to_(to) {
+    const auto found = std::find_if(outputs.begin(), outputs.end(), [&](const Output& o) { return o.name == output; });
+    output_ = static_cast<std::uint32_t>(found - outputs.begin());
   }
   void take(Duration instant, std::uint32_t output, const void* value) override {
     if (output == output_) to_.emplace_back(1e-9 * static_cast<double>(instant.count()), *static_cast<const T*>(value));
@@ -100,9 +99,9 @@ Flight fly(const FlightPlan& plan) {
       end = channels[i]->end().value_or(end);
     }
   }
-  const Plan order(*loaded.graph);
-  Keep directives(order, "logic.directive", flight.directives);
-  Keep estimates(order, "filter.estimate", flight.estimates);
+  const std::vector<Output> outputs = outputs_of(*loaded.graph);
+  Keep directives(outputs, "logic.directive", flight.directives);
+  Keep estimates(outputs, "filter.estimate", flight.estimates);
   Recorder recorder({&directives, &estimates});
   Executor executor(*loaded.graph, std::move(channels), {.digest = true, .recorder = &recorder});
   executor.run_until(end);

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <memory>
 
-#include "runtime/plan/copy.h"
+#include "runtime/state/copy.h"
 #include "tools/bench/timing.h"
 
 namespace jarol::bench {

@@ -51,7 +51,7 @@ class BytesFile : public RecordSink {
 };
 
 double ns_per_value(const Graph& graph, bool digest) {
-  BytesFile file(Plan(graph).outputs);
+  BytesFile file(outputs_of(graph));
   Recorder recorder({&file});
   Executor executor(graph, {}, {.digest = digest, .recorder = &recorder});
   const double seconds = seconds_of([&] {

@@ -18,7 +18,7 @@
 #include "graph/text/escape.h"
 #include "runtime/files/partial_files.h"
 #include "runtime/machine/running_task.h"
-#include "runtime/plan/plan.h"
+#include "runtime/state/task_status.h"
 #include "tools/report/exit_code.h"
 #include "tools/run/prompt_line.h"
 

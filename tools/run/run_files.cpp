@@ -27,18 +27,18 @@ Panel panel_of(const Output& output, std::uint32_t index, const Leaf& leaf) {
 }
 
 // A panel for each number that is published, in order of name.
-std::vector<Panel> all_panels(const Plan& plan) {
+std::vector<Panel> all_panels(const std::vector<Output>& outputs) {
   std::vector<Panel> panels;
-  for (std::uint32_t i = 0; i < plan.outputs.size(); ++i)
-    for (const Leaf& leaf : leaves_of(*plan.outputs[i].type))
-      if (!leaf.type->is_deep()) panels.push_back(panel_of(plan.outputs[i], i, leaf));
+  for (std::uint32_t i = 0; i < outputs.size(); ++i)
+    for (const Leaf& leaf : leaves_of(*outputs[i].type))
+      if (!leaf.type->is_deep()) panels.push_back(panel_of(outputs[i], i, leaf));
   return panels;
 }
 
 // Those whose names fit one of the patterns, each once.
-std::vector<Panel> panels_named(const std::string& patterns, const Plan& plan) {
+std::vector<Panel> panels_named(const std::string& patterns, const std::vector<Output>& outputs) {
   constexpr std::size_t most = 40;
-  const std::vector<Panel> all = all_panels(plan);
+  const std::vector<Panel> all = all_panels(outputs);
   std::vector<bool> taken(all.size());
   std::vector<Panel> panels;
   std::istringstream words(patterns);
@@ -73,12 +73,12 @@ void require_svg(const std::string& path) {
                                 std::filesystem::path(path).replace_extension(".svg").string());
 }
 
-std::vector<Panel> panels_of(const Graph& graph, const Plan& plan) {
+std::vector<Panel> panels_of(const Graph& graph, const std::vector<Output>& outputs) {
   const auto output_of = [&](std::size_t communicator) {
     const std::string& name = graph.communicators[communicator].name;
-    const auto at = std::lower_bound(plan.outputs.begin(), plan.outputs.end(), name,
+    const auto at = std::lower_bound(outputs.begin(), outputs.end(), name,
                                      [](const Output& o, const std::string& n) { return o.name < n; });
-    return static_cast<std::uint32_t>(at - plan.outputs.begin());
+    return static_cast<std::uint32_t>(at - outputs.begin());
   };
   std::vector<Panel> panels;
   for (const Reported& r : find_reported(graph)) {
@@ -90,7 +90,7 @@ std::vector<Panel> panels_of(const Graph& graph, const Plan& plan) {
     std::cerr
         << "note: no 'out' communicator of an operator reports what one of its 'in' communicators commands, so the "
            "picture shows what is published first; name fields by --signals\n";
-    panels = all_panels(plan);
+    panels = all_panels(outputs);
   }
   constexpr std::size_t most = 8;
   if (panels.size() > most) panels.resize(most);
@@ -126,7 +126,6 @@ ReportsAside::~ReportsAside() {
   if (stdout_ != nullptr) std::cout.rdbuf(stdout_);
 }
 
-// The plan gives trace and plot their outputs before there is an executor.
 RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments) {
   if (!arguments.signals.empty() && arguments.plot.empty())
     throw std::invalid_argument("--signals says what --plot draws; add --plot FILE, or leave it out");
@@ -138,15 +137,16 @@ RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments) {
   for (const std::string& path : {trace, plot})
     if (!path.empty()) require_no_input(path);
   require_svg(plot);
-  const Plan plan(graph);
+  const std::vector<Output> outputs = outputs_of(graph);
   if (!trace.empty())
-    sinks_.push_back(std::make_unique<TraceCsv>(trace, plan.outputs,
-                                                TraceOptions{.filled = arguments.fill, .words = arguments.words}));
+    sinks_.push_back(
+        std::make_unique<TraceCsv>(trace, outputs, TraceOptions{.filled = arguments.fill, .words = arguments.words}));
   if (!plot.empty())
     sinks_.push_back(std::make_unique<PlotSvg>(
-        plot, graph.name, arguments.signals.empty() ? panels_of(graph, plan) : panels_named(arguments.signals, plan)));
+        plot, graph.name,
+        arguments.signals.empty() ? panels_of(graph, outputs) : panels_named(arguments.signals, outputs)));
   std::vector<RecordSink*> sinks;
-  if (!graph.expectations.empty()) sinks.push_back(&expectations_.emplace(graph, plan.outputs));
+  if (!graph.expectations.empty()) sinks.push_back(&expectations_.emplace(graph, outputs));
   for (const auto& sink : sinks_) sinks.push_back(sink.get());
   recorder_ = std::make_unique<Recorder>(std::move(sinks));
 }

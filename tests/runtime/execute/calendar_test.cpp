@@ -1,4 +1,4 @@
-#include "runtime/execute/calendar.h"
+#include "runtime/state/calendar.h"
 
 #include <doctest/doctest.h>
 

@@ -208,11 +208,12 @@ tasks:
 connections: [i -> h.in, i -> s.in, i -> t.in]
 )");
     const Plan plan(graph);
-    CHECK(plan.status[0].kept != nullptr);
-    CHECK(plan.status[1].kept != nullptr);
-    CHECK(plan.status[2].kept == nullptr);
-    CHECK(plan.status[0].undoable);
-    CHECK_FALSE(plan.status[2].undoable);
+    const RunState state(plan);
+    CHECK(state.status[0].kept != nullptr);
+    CHECK(state.status[1].kept != nullptr);
+    CHECK(state.status[2].kept == nullptr);
+    CHECK(state.status[0].undoable);
+    CHECK_FALSE(state.status[2].undoable);
   }
 
   TEST_CASE("every fault is counted, the first thousand are told") {

@@ -12,6 +12,12 @@ namespace jarol {
 
 class Calendar {
  public:
+  void reserve(std::size_t groups) {
+    due_.reserve(groups);
+    times_.reserve(groups);
+    heap_.reserve(groups);
+  }
+
   /// Adds a group, numbered in the order of adding: due at `first`, `first + period`, ... (ns).
   void add(std::int64_t first, std::int64_t period) {
     due_.push_back(0);

@@ -3,7 +3,8 @@
 
 #include <cstring>
 
-#include "runtime/plan/plan.h"
+#include "graph/values/heap.h"
+#include "runtime/state/actions.h"
 
 namespace jarol {
 

@@ -1,0 +1,93 @@
+// The state of one run: the memory of a plan's values, what acts on it, and how far the run has come. Runs of one plan
+// share nothing but the plan.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "graph/model/graph.h"
+#include "graph/values/heap.h"
+#include "runtime/plan/plan.h"
+#include "runtime/state/actions.h"
+#include "runtime/state/calendar.h"
+#include "runtime/state/task_status.h"
+
+namespace jarol {
+
+class RunState {
+ public:
+  /// As before the first instant. The plan outlives it, and so do the signals, of which it keeps the last values that
+  /// were published: its taps.
+  explicit RunState(const Plan& plan, std::span<const expect::Signal> tapped = {});
+  RunState(const RunState&) = delete;
+  RunState& operator=(const RunState&) = delete;
+
+  const Plan& plan;
+
+  // with addresses, in the order of the plan
+  std::vector<Activation> activations;
+  std::vector<LetEnd> let_ends;
+  std::vector<LetOutputs> let_outputs;  // per group
+  std::vector<CommunicatorAction> outs, ins;
+
+  std::vector<TaskStatus> status;                   // per task
+  std::vector<Outcome> outcomes;                    // per task: how the activation ended whose LET is under way
+  std::size_t bad_outcomes = 0;                     // among these
+  std::vector<std::unique_ptr<PrivateHeap>> heaps;  // per task, null where it has none
+  std::vector<const std::byte*> last;               // per communicator: what it last published, or its initial value
+  std::vector<std::byte*> taps;                     // per tapped signal: the field as last published
+  std::vector<std::byte> tap_news;                  // per tapped signal: 1, where that was since somebody put it to 0
+  Calendar calendar;                                // when each group is due
+  std::vector<std::int64_t> releases;               // per group: how often it was due
+
+ private:
+  struct Release {
+    void operator()(std::byte* memory) const;
+  };
+  // a deep value in the arena whose memory is not a private heap
+  struct Destroy {
+    const Type* type = nullptr;
+    void operator()(std::byte* value) const { type->destroy(value); }
+  };
+
+  std::byte* at(std::size_t place) const { return arena_.get() + place; }
+  const std::byte* source_of(const End& end) const;
+  std::byte* target_of(const End& end) const;
+
+  // values as before the first instant
+  void make_task(std::size_t i);
+  void make_communicator(std::size_t i);
+  void make_private(const Type& type, std::size_t place, PrivateHeap* heap);
+  void make_owned(const Type& type, std::size_t place, std::pmr::memory_resource* memory);
+  void make_deep_inputs();
+  void make_taps();
+
+  // actions
+  void reserve_actions();
+  void make_group(const Plan::Group& group);
+  Activation make_activation(std::uint32_t task);
+  CommunicatorAction make_action(std::uint32_t communicator);
+  void add_let_output(LetOutputs& outputs, std::uint32_t task);
+  Publish publish_of(End::Kind kind, std::uint32_t index);
+  void add_copy(std::uint32_t connection);
+  void add_taps(End::Kind kind, std::size_t index);
+  Copy tap_of(std::size_t i) const;
+
+  std::span<const expect::Signal> tapped_;
+  std::unique_ptr<std::byte, Release> arena_;
+  std::pmr::unsynchronized_pool_resource communicator_memory_;  // of deep values; no more than they need
+  std::vector<std::unique_ptr<std::byte, Destroy>> owned_;
+  std::vector<std::uint64_t> tap_memory_;
+  std::vector<DeepInput> deep_inputs_;
+  std::vector<DeepInput*> deep_input_of_;  // per connection, if there are any
+  std::vector<Copy> copies_;
+  std::vector<DeepCopy> deep_copies_;
+  std::vector<Publication> publications_;
+  std::vector<LetValue> let_values_;
+};
+
+}  // namespace jarol
