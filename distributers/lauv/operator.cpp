@@ -5,6 +5,7 @@
 
 #include "distributers/lauv/messages.h"
 #include "distributers/messages/imc.h"
+#include "graph/math/geometry.h"
 
 namespace jarol::distributers {
 namespace imc = messages::imc;
@@ -26,8 +27,6 @@ std::string_view name_of(tasks::Alarm alarm) {
     if (e.value == alarm) return e.name;
   return "";
 }
-
-double seconds(Duration duration) { return 1e-9 * static_cast<double>(duration.count()); }
 
 }  // namespace
 

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/math/geometry.h"
+
 namespace jarol::tasks {
 namespace {
 
 constexpr double gravity = 9.81;
-
-double limited(double value, double limit) { return std::clamp(value, -limit, limit); }
-
-double seconds(Duration duration) { return 1e-9 * static_cast<double>(duration.count()); }
 
 // critically damped, s^2 + 2 w s + w^2, but for its bounds
 void approach(Approach& a, double goal, const ApproachLimits& p, double dt) {

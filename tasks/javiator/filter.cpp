@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "graph/math/geometry.h"
+
 namespace jarol::tasks {
 namespace {
 
@@ -94,7 +96,7 @@ void weigh_pressure(JaviatorFilter::State& state, const JaviatorFilter::Param& p
 void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const JaviatorSensors& s = in.sensors;
   FlightEstimate& e = out.estimate;
-  const double dt = 1e-9 * static_cast<double>(tick.period.count());
+  const double dt = seconds(tick.period);
   const bool fresh = s.answers != state.answers;
   state.answers = s.answers;
   const FlightState doing = in.directive.state;

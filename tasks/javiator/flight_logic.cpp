@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "graph/math/geometry.h"
+
 namespace jarol::tasks {
 namespace {
 
@@ -65,7 +67,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   const FlightEstimate& e = in.estimate;
   const PilotCommand& command = in.command;
   FlightDirective& d = out.directive;
-  const double dt = 1e-9 * static_cast<double>(tick.period.count());
+  const double dt = seconds(tick.period);
   state.since += dt;
   state.unheard = command.heard ? 0 : state.unheard + dt;
   const bool wants_position = command.mode_switches % 2 == 1;

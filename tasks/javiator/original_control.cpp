@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/math/geometry.h"
+
 namespace jarol::tasks {
 namespace {
-
-double seconds(Duration duration) { return 1e-9 * static_cast<double>(duration.count()); }
 
 double calc_pidd(const PiddGains& g, double goal, double place, double velocity, double acceleration, PiddState& state,
                  double dt) {

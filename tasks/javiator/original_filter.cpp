@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "graph/math/geometry.h"
+
 namespace jarol::tasks {
 namespace {
 
@@ -68,7 +70,7 @@ void step(AxisKalman& k, double acceleration, bool is_new, double measured, bool
 void OriginalFilter::run(const Tick& tick, const In& in, State& state, Out& out) {
   const JaviatorSensors& s = in.sensors;
   FlightEstimate& e = out.estimate;
-  const double dt = 1e-9 * static_cast<double>(tick.period.count());
+  const double dt = seconds(tick.period);
   const bool fresh = s.answers != state.answers;
   state.answers = s.answers;
   const bool settled = in.directive.state == FlightState::halt || in.directive.state == FlightState::ground;

@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/math/geometry.h"
+
 namespace jarol::tasks {
-namespace {
-
-double limited(double value, double limit) { return std::clamp(value, -limit, limit); }
-
-// The same angle from -pi to pi.
-double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
-
-double seconds(Duration duration) { return 1e-9 * static_cast<double>(duration.count()); }
-
-}  // namespace
+namespace {}  // namespace
 
 void DepthControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const Motion& m = in.motion;

@@ -2,15 +2,13 @@
 // two. The loops are those of DUNE's autopilot, bettered where its own runs show an error that stays or a windup.
 #pragma once
 
-#include <numbers>
 #include <string_view>
 
+#include "graph/math/geometry.h"
 #include "graph/task.h"
 #include "tasks/values/lauv.h"
 
 namespace jarol::tasks {
-
-inline constexpr double degree = std::numbers::pi / 180.0;
 
 struct DepthControl {
   static constexpr std::string_view summary = "holds a commanded depth with the stern planes";

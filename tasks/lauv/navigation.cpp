@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "graph/math/geometry.h"
+
 namespace jarol::tasks {
 namespace {
-
-double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
 // The part of an error that a step sets right.
 double share(double step, double time) { return time > step ? step / time : 1.0; }
@@ -17,7 +17,7 @@ double share(double step, double time) { return time > step ? step / time : 1.0;
 void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const Instruments& i = in.instruments;
   Motion& m = state.motion;
-  const double dt = 1e-9 * static_cast<double>(tick.period.count());
+  const double dt = seconds(tick.period);
   if (!state.started) {
     state.started = i.attitude.count > 0 && i.heading.count > 0 && i.depth.count > 0;
     m.z = i.depth.value;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/math/geometry.h"
+
 namespace jarol::tasks {
 namespace {
 
@@ -13,8 +15,6 @@ constexpr double gravity = 9.81, water_density = 1000, air_pressure = 1013.25;  
 constexpr double watch_time = 2;                                                // s, over which rates add up
 constexpr double floor_time = 30;                                               // s, for the sea floor to rise or fall
 constexpr double surface_depth = 0.2;                                           // m, at which GPS has to work
-
-double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
 Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
   const std::int64_t counts[] = {i.depth.count,    i.pressure.count,     i.attitude.count,          i.rates.count,
@@ -127,7 +127,7 @@ bool steerable(Alarm alarm) {
 }  // namespace
 
 void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
-  const double dt = 1e-9 * static_cast<double>(tick.period.count());
+  const double dt = seconds(tick.period);
   const Alarm lost = find_lost(p, in.instruments, dt, state), liar = find_liar(p, in.instruments, dt, state);
   const bool stopped = in.contact.stops != state.stops;
   state.stops = in.contact.stops;

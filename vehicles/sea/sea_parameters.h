@@ -1,13 +1,10 @@
 // Parameters of the sea.
 #pragma once
 
-#include <numbers>
-
+#include "graph/math/geometry.h"
 #include "graph/values/type_of.h"
 
 namespace jarol::vehicles {
-
-inline constexpr double degree = std::numbers::pi / 180.0;
 
 /// The current is the same at all depths and carries the waves along, so that the motion through the water does not
 /// depend on it.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "distributers/messages/imc.h"
+#include "graph/math/geometry.h"
 #include "vehicles/sea/sea_water.h"
 
 namespace jarol::vehicles {
@@ -13,11 +14,8 @@ namespace {
 namespace imc = messages::imc;
 
 constexpr double step_seconds = SubmarineMotion::step_seconds;
-constexpr double air_pressure = 1013.25;                                                  // hPa
-constexpr double longest_range = 100.0, shortest_range = 0.1;                             // m, of the altimeter
-constexpr double equatorial_radius = 6378137.0, eccentricity_squared = 6.69437999014e-3;  // WGS-84
-
-double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+constexpr double air_pressure = 1013.25;                       // hPa
+constexpr double longest_range = 100.0, shortest_range = 0.1;  // m, of the altimeter
 
 template <class Message>
 void tell_value(messages::Receiver& receiver, const Sensor& sensor) {
@@ -195,14 +193,12 @@ void SubmarineSensors::tell_hull(messages::Receiver& receiver) const {
 
 void SubmarineSensors::tell_place(messages::Receiver& receiver) const {
   if (gps_.told()) {
-    // radii of curvature of the ellipsoid at the origin
-    const double s = std::sin(sea_.latitude), w = 1.0 - eccentricity_squared * s * s;
-    const double east_radius = equatorial_radius / std::sqrt(w);
+    const EarthRadii radii = earth_radii(sea_.latitude);
     imc::GpsFix fix;
     fix.validity = imc::GpsFix::Validity::VALID_POS;
     fix.type = imc::GpsFix::Type::SIM;
-    fix.lat = sea_.latitude + gps_.values()[0] / (east_radius * (1.0 - eccentricity_squared) / w);
-    fix.lon = sea_.longitude + gps_.values()[1] / (east_radius * std::cos(sea_.latitude));
+    fix.lat = sea_.latitude + gps_.values()[0] / radii.north;
+    fix.lon = sea_.longitude + gps_.values()[1] / radii.east;
     receiver.receive(messages::refer_to(fix));
   }
   if (altitude_.told()) {

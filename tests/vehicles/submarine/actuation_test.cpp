@@ -9,6 +9,7 @@
 
 namespace {
 using namespace jarol::vehicles;
+using jarol::degree;
 }  // namespace
 
 TEST_SUITE("vehicles/submarine_actuation") {
