@@ -1,5 +1,9 @@
 #include "distributers/session/load.h"
 
+#include <fnmatch.h>
+
+#include <algorithm>
+
 #include "distributers/distributers.h"
 #include "graph/expect/at_end.h"
 #include "graph/expect/parse.h"
@@ -51,11 +55,18 @@ Loaded load_without_channels(const std::shared_ptr<const Source>& source, const 
   return loaded;
 }
 
+bool fits(const std::string& name, const std::vector<std::string>& patterns) {
+  return std::any_of(patterns.begin(), patterns.end(),
+                     [&](const std::string& pattern) { return fnmatch(pattern.c_str(), name.c_str(), 0) == 0; });
+}
+
 Loaded load_graph(const std::shared_ptr<const Source>& source, const Catalogue& catalogue, const Overrides& overrides,
-                  std::uint64_t seed, const NoteSink& note) {
+                  std::uint64_t seed, const NoteSink& note, const std::vector<std::string>& without_link) {
   Problems problems;
   const GraphSpec spec = load_spec(source, overrides, problems);
   Loaded loaded = load(spec, catalogue, note, problems);
+  for (Distributer& distributer : loaded.graph->distributers)
+    if (fits(distributer.name, without_link)) distributer.link = {};
   loaded.channels = distributers::make_channels(*loaded.graph, catalogue.vehicles, seed, problems);
   loaded.graph->expectations = expect::read_expectations(spec.expect, *loaded.graph, true_values_of(loaded), problems);
   problems.throw_if_any();

@@ -51,6 +51,15 @@ void Recorder::append_deep(std::int64_t instant, std::uint32_t output, const voi
   used_ += sizeof header + padded;
 }
 
+void Recorder::catch_up() {
+  if (used_ > 0) next_chunk();
+  const std::uint64_t written = written_.load(std::memory_order_relaxed);
+  for (std::uint64_t read = read_.load(std::memory_order_acquire); read < written;
+       read = read_.load(std::memory_order_acquire))
+    read_.wait(read, std::memory_order_acquire);
+  if (failure_) std::rethrow_exception(failure_);
+}
+
 void Recorder::close() {
   if (!thread_.joinable()) return;
   if (used_ > 0 && !is_cut_off_) publish_chunk();

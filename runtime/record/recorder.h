@@ -75,6 +75,9 @@ class Recorder {
   void hand_on() {
     if (used_ > 0 && read_.load(std::memory_order_acquire) == written_.load(std::memory_order_relaxed)) next_chunk();
   }
+  /// Hands on what was appended so far and waits until the sinks have it, but for what is held for its order; throws
+  /// what a sink threw.
+  void catch_up();
   /// Something was not recorded, which `close` tells.
   bool has_lost() const { return !lost_.empty(); }
 
@@ -114,7 +117,7 @@ class Recorder {
   bool is_cut_off_ = false;                // nothing is handed on any more
   std::atomic<std::uint64_t> written_{0};  // chunks handed on; the top bit says that no more will come
   std::atomic<std::uint64_t> read_{0};     // chunks drained
-  std::exception_ptr failure_;             // of a sink; read after the thread has ended
+  std::exception_ptr failure_;             // of a sink; read when all is drained
   std::thread thread_;
 };
 

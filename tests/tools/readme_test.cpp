@@ -69,6 +69,10 @@ TEST_SUITE("tools/readme") {
     CHECK(page("specs/flying.md").find(run.substr(begin)) != std::string::npos);
   }
 
+  TEST_CASE("the README shows a test of one's own as it is built against an installed tree") {
+    CHECK(readme().find("```cpp\n" + page("tests/library/dive_test.cpp") + "```\n") != std::string::npos);
+  }
+
   TEST_CASE("the README shows what the demo reaches as it is") {
     for (const std::string graph : {"exolauv", "javiator"}) {
       const std::string run = output_of("run specs/" + graph + ".yaml");

@@ -1,0 +1,54 @@
+// What a session refuses, by type; the text says what is wrong and what would be right. What is wrong with a graph is a
+// SpecError.
+#pragma once
+
+#include <stdexcept>
+
+namespace jarol {
+
+/// All but SpecError.
+struct SessionError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Nothing of the graph has that name.
+struct UnknownName : SessionError {
+  using SessionError::SessionError;
+};
+
+/// The value of that name has another type than the program says.
+struct WrongType : SessionError {
+  using SessionError::SessionError;
+};
+
+/// It comes from elsewhere: the session was not opened so that the program feeds it.
+struct NotFed : SessionError {
+  using SessionError::SessionError;
+};
+
+/// It was not watched before it was run.
+struct NotWatched : SessionError {
+  using SessionError::SessionError;
+};
+
+/// An instant that the run has left behind.
+struct WrongInstant : SessionError {
+  using SessionError::SessionError;
+};
+
+/// The run has ended: by a fault, by an external system that was lost, or as it was finished.
+struct RunOver : SessionError {
+  using SessionError::SessionError;
+};
+
+/// An external system goes on by itself, whatever the logical clock says.
+struct NeedsRealClock : SessionError {
+  using SessionError::SessionError;
+};
+
+/// A vehicle whose motion has left what numbers can tell, or one in another process that is gone.
+struct SystemLost : SessionError {
+  using SessionError::SessionError;
+};
+
+}  // namespace jarol

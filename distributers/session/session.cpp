@@ -1,0 +1,51 @@
+#include "distributers/session/session.h"
+
+#include "distributers/session/session_run.h"
+#include "distributers/session/true_state.h"
+#include "graph/language/problems.h"
+#include "graph/values/bind.h"
+
+namespace jarol {
+
+Session::Session(const Catalogue& known, const std::string& path, SessionOptions options)
+    : Session(known, read_source(path), std::move(options)) {}
+Session::Session(const Catalogue& known, std::shared_ptr<const Source> source, SessionOptions options)
+    : run_(std::make_unique<Run>(known, std::move(source), options)) {}
+Session::~Session() = default;
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+
+void Session::run_until(Duration end) { run_->run_until(end); }
+Duration Session::now() const { return run_->executor->now(); }
+Duration Session::end_of_mission() const { return jarol::end_of_mission(run_->channels); }
+const Graph& Session::graph() const { return *run_->loaded.graph; }
+const Report& Session::report() const { return run_->executor->report(); }
+void Session::watch(const std::string& pattern) { run_->observed->watch(pattern); }
+RunVerdict Session::finish() { return run_->finish(); }
+
+void Session::feed_value(std::string_view name, const Type& type, const void* value) { run_->feed(name, type, value); }
+
+const void* Session::last_value(std::string_view name, const Type& type) const {
+  return run_->observed->last(run_->observed->find(name, type));
+}
+
+void Session::for_each_kept(std::string_view name, const Type& type,
+                            void (*visit)(void* to, Duration instant, const void* value), void* to) const {
+  const Place place = run_->observed->find(name, type);
+  for (const auto& [instant, value] : run_->observed->series(place))
+    visit(to, instant, static_cast<const std::byte*>(value.data()) + place.offset);
+}
+
+double Session::true_value(const std::string& field_of_distributer) const {
+  const std::vector<TrueState> states = find_true_states(graph(), run_->channels);
+  std::vector<std::string> names;
+  for (const TrueState& state : states)
+    for (const Leaf& leaf : leaves_of(*state.values.type())) {
+      names.push_back(leaf.path + " of " + state.distributer);
+      if (names.back() == field_of_distributer) return expect::read_number(leaf, state.values.data());
+    }
+  throw UnknownName("no vehicle in this process has the true value '" + field_of_distributer + "'" +
+                    did_you_mean(field_of_distributer, names) + "; there are: " + list_of(names));
+}
+
+}  // namespace jarol

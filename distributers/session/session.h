@@ -1,0 +1,109 @@
+// A run that a program steps, feeds and watches: a graph joined to its world, on the virtual clock.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "distributers/session/errors.h"
+#include "distributers/session/load.h"
+#include "distributers/session/verdict.h"
+#include "graph/values/type_of.h"
+#include "graph/values/value.h"
+#include "runtime/execute/executor.h"
+
+namespace jarol {
+
+struct SessionOptions {
+  std::string profile{};           // of the graph; empty: none
+  std::vector<std::string> set{};  // "path=value", as in "tasks.depth.parameters.kp=0.7"
+  std::uint64_t seed = 0;          // of all noise
+  std::vector<std::string> fed{};  // what the program feeds, by name, * for any part: distributers, whose links are
+                                   // not used, and `in` communicators that have no channel
+  std::size_t workers = 1;         // threads that run tasks; the outcome is the same for any number
+  std::string no_plugins{};        // why plugins that the graph names are an error; empty: they are loaded
+  NoteSink note = no_notes;        // gets what is worth knowing and no error
+};
+
+/// A publication.
+template <class T>
+struct Sample {
+  Duration instant{};
+  T value{};
+};
+
+/// Names are those of the trace: "task.output", "communicator", and fields within their values, as "depth.moment.z" or
+/// "fins.actuation.fins.0". Used by one thread at a time; any number of sessions may live side by side.
+class Session {
+ public:
+  /// A graph's file with what it may name, which outlives the session. Throws SpecError with all that is wrong with the
+  /// file, the options and the links; UnknownName where nothing fits a name in `fed`; NeedsRealClock.
+  Session(const Catalogue& known, const std::string& path, SessionOptions options = {});
+  /// The same of a text; paths in it are relative to the folder of the source's name.
+  Session(const Catalogue& known, std::shared_ptr<const Source> source, SessionOptions options = {});
+  ~Session();
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+
+  /// Covers the instants from `now()` to before `end`; in pieces it is the same run. Ends earlier at a fault that stops
+  /// the run. Throws WrongInstant for an `end` before `now()`; RunOver where it was stopped before, or finished;
+  /// SystemLost.
+  void run_until(Duration end);
+  void run_for(Duration length) { run_until(now() + length); }
+
+  /// The instant that is reached; the instants before it were run.
+  Duration now() const;
+  /// When the mission of the graph's scripts ends; zero: it has none.
+  Duration end_of_mission() const;
+  const Graph& graph() const;
+  /// Digest, counts and faults so far.
+  const Report& report() const;
+
+  /// Gives an `in` communicator, or the channel "distributer.channel", a value: it is taken at the next instant at
+  /// which that acts, now() included. A value that is not finite is counted and not taken. Throws UnknownName,
+  /// WrongType, NotFed.
+  template <class T>
+  void feed(std::string_view name, const T& value) {
+    feed_value(name, type_of<T>(), &value);
+  }
+
+  /// What was published last, or what that reads as until then. Throws UnknownName, WrongType.
+  template <class T>
+  T value(std::string_view name) const {
+    return *static_cast<const T*>(last_value(name, type_of<T>()));
+  }
+
+  /// From now on each publication of the outputs with that name, * for any part, is kept. Throws UnknownName.
+  void watch(const std::string& pattern);
+
+  /// All that was kept, in order. Throws UnknownName, WrongType, NotWatched.
+  template <class T>
+  std::vector<Sample<T>> samples(std::string_view name) const {
+    std::vector<Sample<T>> all;
+    for_each_kept(
+        name, type_of<T>(),
+        [](void* to, Duration instant, const void* value) {
+          static_cast<std::vector<Sample<T>>*>(to)->push_back({instant, *static_cast<const T*>(value)});
+        },
+        &all);
+    return all;
+  }
+
+  /// Where a vehicle truly is, in the words of `expect`: "depth of dune". Throws UnknownName.
+  double true_value(const std::string& field_of_distributer) const;
+
+  /// Ends the run; what the graph expects of it is judged. Throws RunOver the second time.
+  RunVerdict finish();
+
+ private:
+  void feed_value(std::string_view name, const Type& type, const void* value);
+  const void* last_value(std::string_view name, const Type& type) const;
+  void for_each_kept(std::string_view name, const Type& type,
+                     void (*visit)(void* to, Duration instant, const void* value), void* to) const;
+
+  class Run;
+  std::unique_ptr<Run> run_;
+};
+
+}  // namespace jarol

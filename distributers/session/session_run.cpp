@@ -1,0 +1,143 @@
+#include "distributers/session/session_run.h"
+
+#include <algorithm>
+
+#include "graph/language/problems.h"
+
+namespace jarol {
+namespace {
+
+bool can_be_fed(const Communicator& c) { return c.direction == Direction::in && !c.distributer; }
+
+// What can be fed, by name.
+std::vector<std::string> names_to_feed(const Graph& graph) {
+  std::vector<std::string> names;
+  for (const Distributer& distributer : graph.distributers) names.push_back(distributer.name);
+  for (const Communicator& c : graph.communicators)
+    if (can_be_fed(c)) names.push_back(c.name);
+  return names;
+}
+
+// "distributer.channel", or the communicator's own name where the graph gives it none.
+std::string channel_name(const Graph& graph, const Communicator& c) {
+  if (!c.distributer || graph.distributers[*c.distributer].name.empty()) return c.name;
+  const Distributer& distributer = graph.distributers[*c.distributer];
+  return distributer.name + "." + distributer.distributer_class->channels[c.channel].name;
+}
+
+}  // namespace
+
+Session::Run::Run(const Catalogue& known, std::shared_ptr<const Source> source, const SessionOptions& options)
+    : loaded(load_graph(source, known, {options.profile, options.set, options.no_plugins}, options.seed, options.note,
+                        options.fed)) {
+  feed_in_place_of_links(options.fed);
+  if (const Distributer* distributer = find_in_real_time(loaded))
+    throw NeedsRealClock("distributer '" + distributer->name +
+                         "' has a link to what goes on by itself; open the session with .fed = {\"" +
+                         distributer->name + "\"} and feed it, or run the graph by jarol run --clock real");
+  channels = pointers_to(loaded.channels);
+  const Graph& graph = *loaded.graph;
+  const std::vector<Output> outputs = outputs_of(graph);
+  observed = std::make_unique<Observed>(graph, outputs);
+  std::vector<RecordSink*> sinks{observed.get()};
+  if (!graph.expectations.empty()) {
+    expectations = std::make_unique<Expectations>(graph, outputs);
+    sinks.push_back(expectations.get());
+  }
+  recorder = std::make_unique<Recorder>(std::move(sinks));
+  executor = std::make_unique<Executor>(
+      graph, std::move(loaded.channels),
+      ExecutorOptions{.recorder = recorder.get(), .record_truth = true, .workers = options.workers});
+  linked.emplace(channels, options.note);
+}
+
+Session::Run::~Run() {
+  if (executor) executor->close();
+}
+
+void Session::Run::feed_in_place_of_links(const std::vector<std::string>& patterns) {
+  Graph& graph = *loaded.graph;
+  const std::vector<std::string> names = names_to_feed(graph);
+  for (const std::string& pattern : patterns)
+    if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return fits(name, {pattern}); }))
+      throw UnknownName("no distributer, and no 'in' communicator without a channel, has the name '" + pattern + "'" +
+                        did_you_mean(pattern, names) + "; there are: " + list_of(names));
+  for (Communicator& c : graph.communicators) {
+    if (!can_be_fed(c) || !fits(c.name, patterns)) continue;
+    c.distributer = graph.distributers.size();
+    c.channel = without_channel.channels.size();
+    without_channel.channels.push_back({c.name, Direction::in, c.type, ""});
+  }
+  if (!without_channel.channels.empty()) {
+    without_channel.name = "Session";
+    Distributer added;
+    added.distributer_class = &without_channel;
+    graph.distributers.push_back(std::move(added));
+    loaded.channels.emplace_back();
+  }
+  fed.resize(loaded.channels.size());
+  for (std::size_t i = 0; i < fed.size(); ++i) {
+    if (loaded.channels[i] != nullptr) continue;
+    auto made = std::make_unique<FedChannels>(*graph.distributers[i].distributer_class);
+    fed[i] = made.get();
+    loaded.channels[i] = std::move(made);
+  }
+}
+
+void Session::Run::run_until(Duration end) {
+  if (!over.empty()) throw RunOver("the run is over at " + seconds_text(executor->now()) + " s: " + over);
+  if (end < executor->now())
+    throw WrongInstant("a run does not go back: it has reached " + seconds_text(executor->now()) +
+                       " s, and was to run until " + seconds_text(end) + " s");
+  try {
+    executor->run_until(end);
+  } catch (const std::exception& error) {
+    over = error.what();
+    recorder->catch_up();
+    throw SystemLost(over);
+  }
+  recorder->catch_up();
+  if (executor->report().stopped) over = to_text(executor->report().faults.back());
+}
+
+void Session::Run::feed(std::string_view name, const Type& type, const void* value) {
+  const Graph& graph = *loaded.graph;
+  std::vector<std::string> names;
+  for (const Communicator& c : graph.communicators) {
+    if (c.direction != Direction::in) continue;
+    const std::string channel = channel_name(graph, c);
+    names.push_back(c.name);
+    if (channel != c.name) names.push_back(channel);
+    if (name != c.name && name != channel) continue;
+    if (!same_type(*c.type, type))
+      throw WrongType("'" + std::string(name) + "' takes a " + c.type->name + ", not a " + type.name);
+    if (c.distributer && fed[*c.distributer] != nullptr) return fed[*c.distributer]->feed(c.channel, value);
+    const std::string who = c.distributer ? graph.distributers[*c.distributer].name : c.name;
+    throw NotFed("'" + std::string(name) +
+                 "' is not fed: " + (c.distributer ? "distributer '" + who + "' has its link" : "it has no channel") +
+                 "; open the session with .fed = {\"" + who + "\"}");
+  }
+  throw UnknownName("no 'in' communicator, and no channel of one, has the name '" + std::string(name) + "'" +
+                    did_you_mean(name, names) + "; there are: " + list_of(names));
+}
+
+RunVerdict Session::Run::finish() {
+  if (finished_) throw RunOver("the run was finished before");
+  executor->close();
+  executor->finish();
+  linked->finish();
+  recorder->close();
+  finished_ = true;
+  over = "it was finished";
+  const Graph& graph = *loaded.graph;
+  const Report& report = executor->report();
+  RunVerdict verdict;
+  if (expectations)
+    verdict.expectations = expectations->judge(
+        report.covered, why_cut_short(report.simulated, executor->now(), jarol::end_of_mission(channels)));
+  verdict.mishaps = find_mishaps(graph, channels);
+  verdict.left_out = find_left_out(graph, report);
+  return verdict;
+}
+
+}  // namespace jarol
