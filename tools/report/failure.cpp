@@ -37,6 +37,10 @@ Failure of_one(int exit_code, const std::string& text) {
   return {exit_code, {{{}, text, {}}}, "error: " + printable(text) + "\n"};
 }
 
+Failure of_ours(const std::string& text) {
+  return of_one(exit_unfinished, "jarol itself is wrong: " + text + "; please report what you did");
+}
+
 }  // namespace
 
 Failure failure_of(const std::exception_ptr& error, const std::string& file) {
@@ -61,7 +65,15 @@ Failure failure_of(const std::exception_ptr& error, const std::string& file) {
     const bool no_room = refused.code() == std::errc::resource_unavailable_try_again;
     failure = no_room ? of_one(exit_unfinished, "there is not enough memory for this, or there are too many threads")
                       : of_one(exit_input, refused.what());
-  } catch (const std::exception& wrong) { failure = of_one(exit_input, wrong.what()); }
+  } catch (const std::runtime_error& wrong) {
+    failure = of_one(exit_input, wrong.what());
+  } catch (const std::invalid_argument& wrong) {
+    failure = of_one(exit_input, wrong.what());
+  } catch (const std::length_error& wrong) {
+    failure = of_one(exit_input, wrong.what());
+  } catch (const std::exception& ours) { failure = of_ours(ours.what()); } catch (...) {
+    failure = of_ours("something that is not a std::exception was thrown");
+  }
   if (!file.empty()) failure.text += sum(1);
   return failure;
 }
