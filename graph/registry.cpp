@@ -1,7 +1,7 @@
 #include "graph/registry.h"
 
 #include <algorithm>
-#include <cassert>
+#include <stdexcept>
 
 namespace jarol {
 namespace {
@@ -10,7 +10,8 @@ template <class C>
 void insert_by_name(std::vector<C>& classes, C added) {
   const auto at =
       std::lower_bound(classes.begin(), classes.end(), added, [](const C& a, const C& b) { return a.name < b.name; });
-  assert((at == classes.end() || at->name != added.name) && "two classes of one name");
+  if (at != classes.end() && at->name == added.name)
+    throw std::invalid_argument("there is a '" + added.name + "' already; names are unique");
   classes.insert(at, std::move(added));
 }
 
@@ -24,14 +25,16 @@ const C* find_by_name(const std::vector<C>& classes, std::string_view name) {
 }  // namespace
 
 void Registry::add(TaskClass task) {
-  for (const TypeField& f : task.in->fields) add_type(*f.type);
-  for (const TypeField& f : task.out->fields) add_type(*f.type);
+  const Type &in = *task.in, &out = *task.out;
   insert_by_name(tasks_, std::move(task));
+  for (const TypeField& f : in.fields) add_type(*f.type);
+  for (const TypeField& f : out.fields) add_type(*f.type);
 }
 
 void Registry::add(DistributerClass distributer) {
-  for (const ChannelClass& c : distributer.channels) add_type(*c.type);
+  const std::vector<ChannelClass> channels = distributer.channels;
   insert_by_name(distributers_, std::move(distributer));
+  for (const ChannelClass& c : channels) add_type(*c.type);
 }
 
 const TaskClass* Registry::find_task(std::string_view name) const { return find_by_name(tasks_, name); }

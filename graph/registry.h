@@ -1,6 +1,7 @@
 // The task types and distributer classes that graphs may name.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,10 @@
 #include "graph/task.h"
 
 namespace jarol {
+
+namespace distributers {
+class AnyDistributer;
+}
 
 /// A channel that a distributer class defines: `in` brings values into the graph, `out` takes them to the outside.
 struct ChannelClass {
@@ -25,11 +30,15 @@ struct DistributerClass {
   std::vector<ChannelClass> channels;
   bool is_vehicle = false;           // else an operator
   const Type* parameters = nullptr;  // a struct; null: it has none
+
+  /// From a value of the type of parameters. Throws std::invalid_argument if there can be none with them. Null: it
+  /// speaks no messages, and can be played from a script only.
+  std::unique_ptr<distributers::AnyDistributer> (*make)(const void* parameters) = nullptr;
 };
 
 class Registry {
  public:
-  /// Names are unique; a second class of one name is a bug of the catalogue that adds it.
+  /// Throws std::invalid_argument if there is one of that name.
   void add(TaskClass task);
   void add(DistributerClass distributer);
 

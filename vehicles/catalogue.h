@@ -1,17 +1,12 @@
-// The vehicles there are, by name, with the type of their parameters.
+// The vehicles of this folder.
 #pragma once
 
-#include <memory>
-#include <string_view>
-#include <vector>
-
 #include "distributers/interfaces/vehicle.h"
+#include "graph/named_list.h"
 
 namespace jarol::vehicles {
 
-const std::vector<VehicleClass>& catalogue();
-
-/// The class of that name, or null.
-const VehicleClass* find_vehicle(std::string_view name);
+/// Adds every vehicle of this folder.
+void add_vehicles(NamedList<VehicleClass>& vehicles);
 
 }  // namespace jarol::vehicles

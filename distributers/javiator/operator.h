@@ -1,7 +1,7 @@
 // The helicopter's operator as the core sees it: commands come in, reports go out.
 #pragma once
 
-#include "distributers/interfaces/adapter.h"
+#include "distributers/interfaces/any_distributer.h"
 #include "distributers/javiator/trim_file.h"
 #include "graph/registry.h"
 #include "tasks/values/gains.h"
@@ -23,7 +23,7 @@ struct JaviatorOperatorParameters {
 /// JAviator's own laws. Over UDP, the first SwitchState of a new peer is a hello and switches nothing. Where a trim
 /// file is named, the trim is read from it at the start and kept in it when the run ends, as the JAviator's controller
 /// does.
-class JaviatorOperator : public Adapter {
+class JaviatorOperator : public AnyDistributer {
  public:
   /// Throws std::invalid_argument if the trim file is none.
   explicit JaviatorOperator(const JaviatorOperatorParameters& parameters = {});

@@ -1,14 +1,14 @@
 // The helicopter as the core sees it: what its sensors tell comes in, motor signals go out.
 #pragma once
 
-#include "distributers/interfaces/adapter.h"
+#include "distributers/interfaces/any_distributer.h"
 #include "graph/registry.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::distributers {
 
 /// Speaks the JAviator's protocol: JaviatorData in; MotorSignals, SwitchState and ShutDown out.
-class JaviatorVehicle : public Adapter {
+class JaviatorVehicle : public AnyDistributer {
  public:
   static DistributerClass describe_class();
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "distributers/interfaces/adapter.h"
+#include "distributers/interfaces/any_distributer.h"
 #include "distributers/lauv/tuple_list.h"
 #include "graph/registry.h"
 #include "tasks/values/instruments.h"
@@ -40,7 +40,7 @@ struct LauvOperatorParameters {
 /// the propeller, so that the vehicle comes up. An Abort, and the stop of a plan or maneuver, also has an alarm of the
 /// vehicle forgotten whose cause is gone; until then its state is an error. What is asked is answered at the next
 /// instant.
-class LauvOperator : public Adapter {
+class LauvOperator : public AnyDistributer {
  public:
   static DistributerClass describe_class();
 

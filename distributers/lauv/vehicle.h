@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "distributers/interfaces/adapter.h"
+#include "distributers/interfaces/any_distributer.h"
 #include "graph/registry.h"
 #include "tasks/values/instruments.h"
 #include "tasks/values/lauv.h"
@@ -15,7 +15,7 @@ namespace jarol::distributers {
 /// Speaks IMC: SimulatedState or EstimatedState, whichever came last, and what instruments tell in;
 /// SetThrusterActuation and SetServoPosition out. A field that is no number beside others that are is one that the
 /// instrument does not measure; a reading that is not finite otherwise is counted and left out.
-class LauvVehicle : public Adapter {
+class LauvVehicle : public AnyDistributer {
  public:
   static DistributerClass describe_class();
 

@@ -3,7 +3,7 @@
 namespace jarol::distributers {
 
 LinkedChannels::LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<Link> announcer,
-                               std::unique_ptr<Adapter> adapter)
+                               std::unique_ptr<AnyDistributer> adapter)
     : link_(std::move(link)),
       announcer_(std::move(announcer)),
       adapter_(std::move(adapter)),

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "distributers/interfaces/adapter.h"
+#include "distributers/interfaces/any_distributer.h"
 #include "distributers/links/link.h"
 
 namespace jarol::distributers {
@@ -11,7 +11,7 @@ namespace jarol::distributers {
 class LinkedChannels : public Channels {
  public:
   /// `announcer` is for what goes to all who may look for this system, or null.
-  LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<Link> announcer, std::unique_ptr<Adapter> adapter);
+  LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<Link> announcer, std::unique_ptr<AnyDistributer> adapter);
 
   Link& link() { return *link_; }
   const Link& link() const { return *link_; }
@@ -36,16 +36,16 @@ class LinkedChannels : public Channels {
 
   // What the peer sends goes to the adapter, which learns of a new peer before.
   struct FromPeer : messages::Receiver {
-    FromPeer(const Link& from, Adapter& to) : link(from), adapter(to) {}
+    FromPeer(const Link& from, AnyDistributer& to) : link(from), adapter(to) {}
     void receive(messages::MessageRef message) override;
     const Link& link;
-    Adapter& adapter;
+    AnyDistributer& adapter;
     std::uint32_t peer = 0;
   };
 
   std::unique_ptr<Link> link_;
   std::unique_ptr<Link> announcer_;
-  std::unique_ptr<Adapter> adapter_;
+  std::unique_ptr<AnyDistributer> adapter_;
   FromPeer from_peer_;
   ToLink to_link_;
 };

@@ -108,7 +108,7 @@ class RemoteVehicle : public vehicles::Stepped {
   mutable Taker taker_;
 };
 
-LockstepChannels::LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<Adapter> adapter,
+LockstepChannels::LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<AnyDistributer> adapter,
                                    CheckGrid check_grid, LockstepOptions options)
     : peer_(peer),
       seed_(seed),

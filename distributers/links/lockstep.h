@@ -11,6 +11,11 @@
 
 namespace jarol::distributers {
 
+struct LinkType;
+
+/// The link type `lockstep`.
+LinkType lockstep_link();
+
 /// Says what is wrong with a vehicle that has that grid, or nothing.
 using CheckGrid = std::function<std::string(Duration grid)>;
 
@@ -28,8 +33,8 @@ class RemoteVehicle;
 
 class LockstepChannels : public Channels {
  public:
-  LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<Adapter> adapter, CheckGrid check_grid,
-                   LockstepOptions options = {});
+  LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<AnyDistributer> adapter,
+                   CheckGrid check_grid, LockstepOptions options = {});
   ~LockstepChannels() override;
 
   /// Connects, and has the vehicle begin. Throws FrameError, also if it is not one for this adapter and grid.
@@ -47,7 +52,7 @@ class LockstepChannels : public Channels {
  private:
   Address peer_;
   std::uint64_t seed_;
-  std::unique_ptr<Adapter> adapter_;  // until it begins
+  std::unique_ptr<AnyDistributer> adapter_;  // until it begins
   CheckGrid check_grid_;
   LockstepOptions options_;
   RemoteVehicle* vehicle_ = nullptr;  // the simulation's, while it runs

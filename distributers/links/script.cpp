@@ -2,11 +2,16 @@
 
 #include <cstring>
 
+#include "distributers/links/link_type.h"
 #include "distributers/links/table.h"
 #include "graph/values/bind.h"
 
 namespace jarol::distributers {
 namespace {
+
+struct ScriptSpec {
+  Maybe<std::string> file;
+};
 
 // Which scalar of which channel a column sets.
 struct Column {
@@ -74,6 +79,19 @@ bool ScriptChannels::take(std::size_t channel, void* value) {
   playing_[channel].fresh = false;
   std::memcpy(value, playing_[channel].value, distributer_.channels[channel].type->size);
   return true;
+}
+
+LinkType script_link() {
+  LinkType type = link_type<ScriptSpec>(
+      "script", "rows of a CSV", {key<&ScriptSpec::file>("file", Form::word, "the CSV, relative to this file", true)},
+      [](const ScriptSpec& spec, const LinkRequest& request, Problems& problems) -> std::unique_ptr<Channels> {
+        if (!spec.file) return nullptr;
+        const auto source = request.read_beside(*spec.file, problems);
+        if (!source) return nullptr;
+        return std::make_unique<ScriptChannels>(source, *request.whose().distributer_class, problems);
+      });
+  type.without_messages = true;
+  return type;
 }
 
 }  // namespace jarol::distributers

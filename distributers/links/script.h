@@ -9,6 +9,11 @@
 
 namespace jarol::distributers {
 
+struct LinkType;
+
+/// The link type `script`.
+LinkType script_link();
+
 /// Columns: `time` (s), then `channel.field` of the distributer's `in` channels. A row holds until the next, an empty
 /// cell keeps what was. The mission ends at the time of the last row.
 class ScriptChannels : public Channels {

@@ -10,8 +10,17 @@
 #include <stdexcept>
 #include <thread>
 
+#include "distributers/links/packet_link.h"
+
 namespace jarol::distributers {
 namespace {
+
+constexpr int usual_baud = 115200;
+
+struct SerialSpec : PacketLinkSpec {
+  Maybe<std::string> device;
+  Maybe<std::int64_t> baud;
+};
 
 struct Rate {
   int baud;
@@ -27,6 +36,17 @@ speed_t speed_of(int baud) {
     known += (known.empty() ? "" : ", ") + std::to_string(rate.baud);
   }
   throw std::invalid_argument("no serial line has " + std::to_string(baud) + " baud; there are: " + known);
+}
+
+std::unique_ptr<Transport> make_serial(const SerialSpec& spec, const Yaml& yaml, const std::string&,
+                                       Problems& problems) {
+  try {
+    return std::make_unique<SerialTransport>(spec.device->value,
+                                             static_cast<int>(spec.baud ? spec.baud->value : usual_baud));
+  } catch (const std::invalid_argument& error) {
+    problems.add(spec.baud ? spec.baud->where : yaml.where, error.what());
+    return nullptr;
+  }
 }
 
 }  // namespace
@@ -70,6 +90,17 @@ Descriptor SerialTransport::get_stream() {
   cfsetspeed(&settings, speed_of(baud_));
   if (tcsetattr(line.get(), TCSANOW, &settings) != 0) return {};
   return line;
+}
+
+LinkType serial_link() {
+  return packet_link<SerialSpec>("serial", "a serial line", {},
+                                 {key<&SerialSpec::device>("device", Form::word, "the line, as in /dev/ttyS0", true),
+                                  key<&SerialSpec::baud>("baud", Form::integer, "its rate; default 115200").one_of([] {
+                                    std::vector<std::int64_t> all;
+                                    for (const Rate& rate : rates) all.push_back(rate.baud);
+                                    return all;
+                                  }())},
+                                 make_serial);
 }
 
 }  // namespace jarol::distributers

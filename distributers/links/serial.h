@@ -5,6 +5,11 @@
 
 namespace jarol::distributers {
 
+struct LinkType;
+
+/// The link type `serial`.
+LinkType serial_link();
+
 class SerialTransport : public StreamTransport {
  public:
   /// Throws std::invalid_argument for a rate that no line has.

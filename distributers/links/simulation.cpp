@@ -1,10 +1,56 @@
 #include "distributers/links/simulation.h"
 
+#include "distributers/interfaces/vehicle_file.h"
+#include "distributers/links/link_type.h"
 #include "graph/language/quantities.h"
+#include "graph/values/bind.h"
 
 namespace jarol::distributers {
+namespace {
 
-SimulationChannels::SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle, std::unique_ptr<Adapter> adapter)
+struct SimulationSpec {
+  Maybe<std::string> vehicle;
+  Maybe<Yaml> parameters;
+};
+
+std::unique_ptr<Channels> make_channels(const SimulationSpec& spec, const LinkRequest& request, Problems& problems) {
+  if (!spec.vehicle) return nullptr;
+  const auto source = request.read_beside(*spec.vehicle, problems);
+  if (!source) return nullptr;
+  const std::size_t before = problems.size();
+  std::optional<VehicleFile> file = read_vehicle_file(source, request.vehicles, problems);
+  if (!file) return nullptr;
+  const std::string name = "vehicle '" + file->vehicle->name + "'";
+  if (spec.parameters)
+    bind_fields(spec.parameters->value, *file->vehicle->parameters, file->parameters.data(), name, "parameter",
+                problems);
+  if (problems.size() > before) return nullptr;
+  try {
+    auto made = file->vehicle->make(file->parameters.data(), request.seed);
+    for (const Problem& problem : off_grid(request.graph, request.distributer, made->grid()))
+      problems.add(problem.where, problem.text);
+    return std::make_unique<SimulationChannels>(std::move(made), request.make_distributer());
+  } catch (const std::exception& error) {
+    problems.add(spec.vehicle->where, name + " can't be made: " + error.what());
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+LinkType simulation_link() {
+  LinkType type = link_type<SimulationSpec>(
+      "simulation", "a vehicle in this process",
+      {key<&SimulationSpec::vehicle>("vehicle", Form::word, "parameter file of the vehicle, relative to this file",
+                                     true),
+       key<&SimulationSpec::parameters>("parameters", Form::mapping, "changes to the parameters of that file")},
+      make_channels);
+  type.for_vehicles = true;
+  return type;
+}
+
+SimulationChannels::SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle,
+                                       std::unique_ptr<AnyDistributer> adapter)
     : vehicle_(std::move(vehicle)), adapter_(std::move(adapter)), to_vehicle_(*vehicle_) {}
 
 void SimulationChannels::reach(Duration instant) {

@@ -3,15 +3,20 @@
 
 #include <memory>
 
-#include "distributers/interfaces/adapter.h"
+#include "distributers/interfaces/any_distributer.h"
 #include "distributers/interfaces/vehicle.h"
 #include "runtime/channels.h"
 
 namespace jarol::distributers {
 
+struct LinkType;
+
+/// The link type `simulation`.
+LinkType simulation_link();
+
 class SimulationChannels : public Channels {
  public:
-  SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle, std::unique_ptr<Adapter> adapter);
+  SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle, std::unique_ptr<AnyDistributer> adapter);
 
   std::uint64_t non_finite_inputs() const override { return adapter_->non_finite_inputs(); }
   const Type* true_type() const override { return vehicle_->true_type(); }
@@ -30,7 +35,7 @@ class SimulationChannels : public Channels {
   };
 
   std::unique_ptr<vehicles::Stepped> vehicle_;
-  std::unique_ptr<Adapter> adapter_;
+  std::unique_ptr<AnyDistributer> adapter_;
   ToVehicle to_vehicle_;
   Duration at_{};
   bool sensed_ = false;  // at the start

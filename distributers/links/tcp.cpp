@@ -9,8 +9,18 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "distributers/links/packet_link.h"
+
 namespace jarol::distributers {
 namespace {
+
+struct ClientSpec : PacketLinkSpec {
+  Maybe<std::string> peer;
+};
+
+struct ServerSpec : PacketLinkSpec {
+  Maybe<std::string> listen;
+};
 
 constexpr int connect_limit = 1000;  // ms
 
@@ -57,6 +67,25 @@ Descriptor accept_from(const Descriptor& socket) {
 void TcpServer::close() {
   StreamTransport::close();
   socket_.close();
+}
+
+LinkType tcp_client_link() {
+  return packet_link<ClientSpec>(
+      "tcp_client", "a stream, to where somebody listens", {.key = true},
+      {key<&ClientSpec::peer>("peer", Form::address, "address and port to connect to", true)},
+      [](const ClientSpec& spec, const Yaml&, const std::string&, Problems& problems) -> std::unique_ptr<Transport> {
+        return std::make_unique<TcpClient>(read_address(spec.peer, problems));
+      });
+}
+
+LinkType tcp_server_link() {
+  return packet_link<ServerSpec>(
+      "tcp_server", "a stream, for one who connects", {.silence = true, .key = true},
+      {key<&ServerSpec::listen>("listen", Form::address, "port to listen at, with an address where not the loopback",
+                                true)},
+      [](const ServerSpec& spec, const Yaml&, const std::string&, Problems& problems) -> std::unique_ptr<Transport> {
+        return std::make_unique<TcpServer>(read_address(spec.listen, problems), spec.silence_of_peer());
+      });
 }
 
 }  // namespace jarol::distributers

@@ -6,6 +6,12 @@
 
 namespace jarol::distributers {
 
+struct LinkType;
+
+/// The link types `tcp_client` and `tcp_server`.
+LinkType tcp_client_link();
+LinkType tcp_server_link();
+
 /// A socket that listens and does not block. Throws std::runtime_error with the cause.
 Descriptor listen_at(const Address& address, int backlog = 1);
 /// Whoever has connected to a socket that listens; none: nobody waits.

@@ -7,6 +7,11 @@
 
 namespace jarol::distributers {
 
+struct LinkType;
+
+/// The link type `udp`.
+LinkType udp_link();
+
 /// With a peer named, only its datagrams count. Without, the link is that of the first that speaks validly
 /// (ownership.h), until its port is closed.
 ///

@@ -15,16 +15,17 @@ namespace jarol {
 namespace {
 
 // Where the vehicle of each distributer is.
-std::vector<expect::TrueValues> true_values_of(const Loaded& loaded) {
+std::vector<expect::TrueValues> true_values_of(const Loaded& loaded, const distributers::Registries& known) {
   using Where = expect::TrueValues::Where;
   std::vector<expect::TrueValues> all;
   for (std::size_t i = 0; i < loaded.graph->distributers.size(); ++i) {
     const Distributer& distributer = loaded.graph->distributers[i];
-    const Yaml* link = distributer.link.kind == Yaml::Kind::mapping ? distributer.link.find("type") : nullptr;
+    const Yaml* name = distributer.link.kind == Yaml::Kind::mapping ? distributer.link.find("type") : nullptr;
+    const distributers::LinkType* link = name == nullptr ? nullptr : known.links.find(name->text);
     const Type* type = i < loaded.channels.size() && loaded.channels[i] ? loaded.channels[i]->true_type() : nullptr;
     const bool is_vehicle = distributer.distributer_class == nullptr || distributer.distributer_class->is_vehicle;
     all.push_back({type != nullptr                                              ? Where::here
-                   : !is_vehicle || (link != nullptr && link->text == "script") ? Where::nowhere
+                   : !is_vehicle || (link != nullptr && link->without_messages) ? Where::nowhere
                                                                                 : Where::elsewhere,
                    type});
   }
@@ -32,9 +33,9 @@ std::vector<expect::TrueValues> true_values_of(const Loaded& loaded) {
 }
 
 // What is loaded runs as the user: who it is stands there first.
-Loaded load(const GraphSpec& spec, const Catalogue& catalogue, const NoteSink& note, Problems& problems) {
+Loaded load(const GraphSpec& spec, const distributers::Registries& known, const NoteSink& note, Problems& problems) {
   Loaded loaded;
-  loaded.registry = std::make_unique<Registry>(catalogue.registry);
+  loaded.registry = std::make_unique<Registry>(known.graph);
   for (const Located<std::string>& plugin : spec.plugins)
     note("loads plugin '" + printable(plugin_path(spec, plugin.value)) + "'");
   load_plugins(spec, *loaded.registry, problems);
@@ -45,12 +46,13 @@ Loaded load(const GraphSpec& spec, const Catalogue& catalogue, const NoteSink& n
 
 }  // namespace
 
-Loaded load_without_channels(const std::shared_ptr<const Source>& source, const Catalogue& catalogue,
+Loaded load_without_channels(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
                              const Overrides& overrides, const NoteSink& note) {
   Problems problems;
   const GraphSpec spec = load_spec(source, overrides, problems);
-  Loaded loaded = load(spec, catalogue, note, problems);
-  loaded.graph->expectations = expect::read_expectations(spec.expect, *loaded.graph, true_values_of(loaded), problems);
+  Loaded loaded = load(spec, known, note, problems);
+  loaded.graph->expectations =
+      expect::read_expectations(spec.expect, *loaded.graph, true_values_of(loaded, known), problems);
   problems.throw_if_any();
   return loaded;
 }
@@ -60,15 +62,17 @@ bool fits(const std::string& name, const std::vector<std::string>& patterns) {
                      [&](const std::string& pattern) { return fnmatch(pattern.c_str(), name.c_str(), 0) == 0; });
 }
 
-Loaded load_graph(const std::shared_ptr<const Source>& source, const Catalogue& catalogue, const Overrides& overrides,
-                  std::uint64_t seed, const NoteSink& note, const std::vector<std::string>& without_link) {
+Loaded load_graph(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
+                  const Overrides& overrides, std::uint64_t seed, const NoteSink& note,
+                  const std::vector<std::string>& without_link) {
   Problems problems;
   const GraphSpec spec = load_spec(source, overrides, problems);
-  Loaded loaded = load(spec, catalogue, note, problems);
+  Loaded loaded = load(spec, known, note, problems);
   for (Distributer& distributer : loaded.graph->distributers)
     if (fits(distributer.name, without_link)) distributer.link = {};
-  loaded.channels = distributers::make_channels(*loaded.graph, catalogue.vehicles, seed, problems);
-  loaded.graph->expectations = expect::read_expectations(spec.expect, *loaded.graph, true_values_of(loaded), problems);
+  loaded.channels = distributers::make_channels(*loaded.graph, known, seed, problems);
+  loaded.graph->expectations =
+      expect::read_expectations(spec.expect, *loaded.graph, true_values_of(loaded, known), problems);
   problems.throw_if_any();
   return loaded;
 }

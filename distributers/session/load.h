@@ -5,19 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "distributers/interfaces/vehicle.h"
+#include "distributers/registries.h"
 #include "distributers/session/note_sink.h"
 #include "graph/language/load.h"
 #include "graph/model/graph.h"
 #include "runtime/channels.h"
 
 namespace jarol {
-
-/// All that graphs may name.
-struct Catalogue {
-  const Registry& registry;
-  const std::vector<vehicles::VehicleClass>& vehicles;
-};
 
 struct Loaded {
   std::unique_ptr<Registry> registry;  // with the graph's plugins
@@ -28,15 +22,15 @@ struct Loaded {
 /// Throws SpecError with everything that is wrong with the file, its overrides and its links. The seed is that of all
 /// noise. A plugin is noted, "loads plugin 'path'", before it is loaded. The links of distributers whose names fit one
 /// of `without_link`, with * for any part, are not looked at: a null stands in the place of their channels.
-Loaded load_graph(const std::shared_ptr<const Source>& source, const Catalogue& catalogue, const Overrides& overrides,
-                  std::uint64_t seed, const NoteSink& note = no_notes,
+Loaded load_graph(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
+                  const Overrides& overrides, std::uint64_t seed, const NoteSink& note = no_notes,
                   const std::vector<std::string>& without_link = {});
 
 /// Does the name fit one of the patterns, with * for any part?
 bool fits(const std::string& name, const std::vector<std::string>& patterns);
 
 /// The same without channels: of the files that links name, none is needed.
-Loaded load_without_channels(const std::shared_ptr<const Source>& source, const Catalogue& catalogue,
+Loaded load_without_channels(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
                              const Overrides& overrides, const NoteSink& note = no_notes);
 
 /// A distributer whose external system goes on by itself, whatever the logical clock says; null: none does.

@@ -7,9 +7,9 @@
 
 namespace jarol {
 
-Session::Session(const Catalogue& known, const std::string& path, SessionOptions options)
+Session::Session(const distributers::Registries& known, const std::string& path, SessionOptions options)
     : Session(known, read_source(path), std::move(options)) {}
-Session::Session(const Catalogue& known, std::shared_ptr<const Source> source, SessionOptions options)
+Session::Session(const distributers::Registries& known, std::shared_ptr<const Source> source, SessionOptions options)
     : run_(std::make_unique<Run>(known, std::move(source), options)) {}
 Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;

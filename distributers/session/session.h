@@ -39,9 +39,9 @@ class Session {
  public:
   /// A graph's file with what it may name, which outlives the session. Throws SpecError with all that is wrong with the
   /// file, the options and the links; UnknownName where nothing fits a name in `fed`; NeedsRealClock.
-  Session(const Catalogue& known, const std::string& path, SessionOptions options = {});
+  Session(const distributers::Registries& known, const std::string& path, SessionOptions options = {});
   /// The same of a text; paths in it are relative to the folder of the source's name.
-  Session(const Catalogue& known, std::shared_ptr<const Source> source, SessionOptions options = {});
+  Session(const distributers::Registries& known, std::shared_ptr<const Source> source, SessionOptions options = {});
   ~Session();
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;

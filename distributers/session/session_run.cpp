@@ -27,7 +27,8 @@ std::string channel_name(const Graph& graph, const Communicator& c) {
 
 }  // namespace
 
-Session::Run::Run(const Catalogue& known, std::shared_ptr<const Source> source, const SessionOptions& options)
+Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const Source> source,
+                  const SessionOptions& options)
     : loaded(load_graph(source, known, {options.profile, options.set, options.no_plugins}, options.seed, options.note,
                         options.fed)) {
   feed_in_place_of_links(options.fed);

@@ -17,7 +17,7 @@ namespace jarol {
 
 class Session::Run {
  public:
-  Run(const Catalogue& known, std::shared_ptr<const Source> source, const SessionOptions& options);
+  Run(const distributers::Registries& known, std::shared_ptr<const Source> source, const SessionOptions& options);
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;

@@ -16,6 +16,8 @@ namespace jarol {
 /// How the value of a key is written.
 enum class Form {
   word,
+  address,    // a word: of a socket
+  addresses,  // a word: of sockets, with commas and ranges of ports
   duration,
   positive_duration,
   integer,
@@ -29,20 +31,41 @@ enum class Form {
   section
 };
 
-/// One key of a mapping that is read into an S.
-template <class S>
-struct Key {
+/// What is said of a key to people and to editors, whatever reads it.
+struct KeyDescription {
   std::string name;
   Form form = Form::word;
   bool required = false;
-  std::string text;                  // for people: meaning and default
-  std::vector<std::string> choices;  // Form::choice
-  void (*read)(const Key& key, const Yaml& yaml, S& to, const std::string& subject, Problems& problems) = nullptr;
+  std::string text;                                                         // meaning and default
+  std::vector<std::string> choices;                                         // Form::choice
   std::int64_t least = 0, most = std::numeric_limits<std::int32_t>::max();  // Form::integer
+  std::pair<std::int64_t, std::int64_t> limits{0, -1};  // Form::integer: of what is good, where something else checks
+  std::vector<std::int64_t> integers;                   // the same: all that are
+  std::vector<KeyDescription> keys;  // Form::mapping: what it may hold; empty: that is not known here
+};
+
+/// One key of a mapping that is read into an S; without `read` something else reads it.
+template <class S>
+struct Key : KeyDescription {
+  void (*read)(const Key& key, const Yaml& yaml, S& to, const std::string& subject, Problems& problems) = nullptr;
 
   Key in_range(std::int64_t from, std::int64_t to) && {
     least = from;
     most = to;
+    return std::move(*this);
+  }
+  /// The same where something else checks it.
+  Key within(std::int64_t from, std::int64_t to) && {
+    limits = {from, to};
+    return std::move(*this);
+  }
+  Key one_of(std::vector<std::int64_t> values) && {
+    integers = std::move(values);
+    return std::move(*this);
+  }
+  template <class Within>
+  Key holding(const std::vector<Key<Within>>& within) && {
+    keys.assign(within.begin(), within.end());
     return std::move(*this);
   }
 };
@@ -134,15 +157,36 @@ struct MaybeMember<Maybe<T_> S_::*> {
 
 }  // namespace detail
 
+/// A key of an S whose value goes into the member of S, or of a struct from which S is derived.
+template <class S, auto Member>
+Key<S> key_for(std::string name, Form form, std::string text, bool required = false) {
+  using T = typename detail::MaybeMember<decltype(Member)>::T;
+  Key<S> made;
+  made.name = std::move(name);
+  made.form = form;
+  made.required = required;
+  made.text = std::move(text);
+  if constexpr (std::is_enum_v<T>) made.choices = Words<T>::list();
+  made.read = [](const Key<S>& k, const Yaml& yaml, S& to, const std::string& subject, Problems& problems) {
+    detail::read_member<Member, S, T>(k, yaml, to, subject, problems);
+  };
+  return made;
+}
+
 /// A key whose value goes into the member.
 template <auto Member, class M = detail::MaybeMember<decltype(Member)>>
 Key<typename M::S> key(std::string name, Form form, std::string text, bool required = false) {
-  Key<typename M::S> made{std::move(name), form, required, std::move(text), {}, nullptr};
-  if constexpr (std::is_enum_v<typename M::T>) made.choices = Words<typename M::T>::list();
-  made.read = [](const Key<typename M::S>& k, const Yaml& yaml, typename M::S& to, const std::string& subject,
-                 Problems& problems) {
-    detail::read_member<Member, typename M::S, typename M::T>(k, yaml, to, subject, problems);
-  };
+  return key_for<typename M::S, Member>(std::move(name), form, std::move(text), required);
+}
+
+/// A key that something else reads.
+template <class S>
+Key<S> key_read_elsewhere(std::string name, Form form, std::string text, bool required = false) {
+  Key<S> made;
+  made.name = std::move(name);
+  made.form = form;
+  made.required = required;
+  made.text = std::move(text);
   return made;
 }
 

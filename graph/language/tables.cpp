@@ -1,24 +1,31 @@
 #include "graph/language/tables.h"
 
 namespace jarol {
+namespace {
+
+Key<GraphSpec> section(std::string name, std::string text) {
+  return key_read_elsewhere<GraphSpec>(std::move(name), Form::section, std::move(text));
+}
+
+}  // namespace
 
 const std::vector<Key<GraphSpec>>& graph_keys() {
   static const std::vector<Key<GraphSpec>> keys{
       key<&GraphSpec::name>("graph", Form::word, "name of the graph", true),
-      {"timing", Form::section, false, "period and timing grammar of the whole graph", {}, nullptr},
-      {"plugins", Form::section, false, "shared libraries with task types, relative to this file", {}, nullptr},
-      {"distributers", Form::section, false, "external systems, each with a link", {}, nullptr},
-      {"communicators", Form::section, false, "what comes in and goes out, pinned in time", {}, nullptr},
-      {"tasks", Form::section, false, "the compute tasks", {}, nullptr},
-      {"connections", Form::section, false, "one connection a line: 'from.output -> to.input'", {}, nullptr},
-      {"chains", Form::section, false, "paths whose reaction time and data age check tells", {}, nullptr},
-      {"platform", Form::section, false, "what check analyses and run executes", {}, nullptr},
+      section("timing", "period and timing grammar of the whole graph"),
+      section("plugins", "shared libraries with task types, relative to this file"),
+      section("distributers", "external systems, each with a link"),
+      section("communicators", "what comes in and goes out, pinned in time"),
+      section("tasks", "the compute tasks"),
+      section("connections", "one connection a line: 'from.output -> to.input'"),
+      section("chains", "paths whose reaction time and data age check tells"),
+      section("platform", "what check analyses and run executes"),
       key<&GraphSpec::expect>("expect", Form::any,
                               "conditions on which run judges itself, as in 'depth of dune within 0.1 of 3'"),
       key<&GraphSpec::fault_limit>("fault_limit", Form::share,
                                    "share of a task's activations that faults may leave without outputs, default 10%"),
-      {"at_end", Form::section, false, "how the vehicle comes to rest when a run on the real clock ends", {}, nullptr},
-      {"profiles", Form::section, false, "named sets of overrides, chosen by run --profile", {}, nullptr},
+      section("at_end", "how the vehicle comes to rest when a run on the real clock ends"),
+      section("profiles", "named sets of overrides, chosen by run --profile"),
   };
   return keys;
 }

@@ -22,9 +22,8 @@ struct Double {
 }  // namespace
 
 TEST_CASE("a graph names a task of this program") {
-  jarol::Registry registry = jarol::built_in_registry();
-  registry.add(jarol::task_class<Double>());
-  const jarol::Catalogue known{registry, jarol::built_in_vehicles()};
+  jarol::distributers::Registries known = jarol::built_in();
+  known.graph.add(jarol::task_class<Double>());
   const auto source = std::make_shared<const jarol::Source>(jarol::Source{"own.yaml", R"(
 graph: own
 timing: {period: 10ms}

@@ -30,6 +30,8 @@ const std::vector<std::string> brought_about_elsewhere{
     "plugin '", "' is not loaded: ",
     // a metric alone: tests/graph/expect/parse_test.cpp
     "a metric is a number; this is a ",
+    // a program that adds to the registries: tests/distributers/registries_test.cpp
+    "there is a '", "' already; names are unique",
     // no error: tests/graph/expect/parse_test.cpp
     "' is not simulated in this process",
     // a communicator of such a type: tests/graph/expect/at_end_test.cpp

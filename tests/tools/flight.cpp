@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "distributers/distributers.h"
+#include "tools/library/built_in.h"
 #include "tools/run/load_graph.h"
-#include "vehicles/catalogue.h"
 #include "vehicles/helicopter/helicopter.h"
 
 namespace jarol::tests {
@@ -81,14 +81,17 @@ class Keep : public RecordSink {
 
 Flight fly(const FlightPlan& plan) {
   auto loaded = tools::load_graph(plan.graph, {.profile = plan.profile, .set = plan.set});
-  vehicles::VehicleClass watched = *vehicles::find_vehicle("helicopter");
+  vehicles::VehicleClass watched = *built_in().vehicles.find("helicopter");
   watched.make = [](const void* parameters, std::uint64_t seed) -> std::unique_ptr<vehicles::Vehicle> {
     return std::make_unique<Watched>(*static_cast<const vehicles::HelicopterParameters*>(parameters), seed);
   };
+  distributers::Registries known = built_in();
+  known.vehicles = {};
+  known.vehicles.add(watched);
   Flight flight;
   watching = &flight.path;
   Problems problems;
-  auto channels = distributers::make_channels(*loaded.graph, {watched}, plan.seed, problems);
+  auto channels = distributers::make_channels(*loaded.graph, known, plan.seed, problems);
   problems.throw_if_any();
   Duration end(std::llround(1e9 * plan.seconds));
   for (std::size_t i = 0; i < channels.size(); ++i) {

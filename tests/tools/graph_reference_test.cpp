@@ -5,7 +5,6 @@
 #include <map>
 #include <sstream>
 
-#include "distributers/links/link_spec.h"
 #include "graph/language/tables.h"
 #include "tools/library/built_in.h"
 #include "tools/run/load_graph.h"
@@ -130,9 +129,7 @@ TEST_SUITE("tools/graph_reference") {
   }
 
   TEST_CASE("the reference has the keys of each link") {
-    std::vector<std::string> types = distributers::link_types();
-    types.insert(types.end(), {"simulation", "lockstep", "script"});
-    for (const std::string& type : types) {
+    for (const std::string& type : built_in().links.names()) {
       CAPTURE(type);
       const std::string keys = keys_of_link("{type: " + type + ", nothing: 1}");
       CHECK(keys != "");
@@ -142,7 +139,7 @@ TEST_SUITE("tools/graph_reference") {
   }
 
   TEST_CASE("the reference has each distributer with its channels and parameters") {
-    for (const DistributerClass& distributer : built_in_registry().distributers()) {
+    for (const DistributerClass& distributer : built_in().graph.distributers()) {
       CAPTURE(distributer.name);
       const Row* row = find_row("distributers", distributer.name);
       REQUIRE(row != nullptr);

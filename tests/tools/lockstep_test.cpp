@@ -5,13 +5,13 @@
 
 #include <thread>
 
+#include "distributers/interfaces/vehicle_file.h"
 #include "distributers/links/tcp.h"
-#include "distributers/vehicle_file.h"
 #include "runtime/execute/executor.h"
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
+#include "tools/library/built_in.h"
 #include "tools/run/load_graph.h"
-#include "vehicles/catalogue.h"
 
 namespace {
 using namespace jarol;
@@ -23,7 +23,7 @@ class Process {
  public:
   Process(const std::string& file, std::size_t runners) {
     Problems problems;
-    file_ = read_vehicle_file(read_source(file), vehicles::catalogue(), problems);
+    file_ = read_vehicle_file(read_source(file), built_in().vehicles, problems);
     problems.throw_if_any();
     thread_ = std::thread([this, runners] {
       for (std::size_t i = 0; i < runners; ++i) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "distributers/vehicle_file.h"
+#include "distributers/interfaces/vehicle_file.h"
 #include "graph/values/bind.h"
 #include "tests/tools/csv_rows.h"
 #include "tests/tools/run_command.h"
@@ -44,7 +44,7 @@ void check_follows(const std::string& recording, const std::string& initial) {
 
 SubmarineParameters parameters_of(const std::string& path) {
   Problems problems;
-  const auto file = distributers::read_vehicle_file(read_source(path), built_in_vehicles(), problems);
+  const auto file = distributers::read_vehicle_file(read_source(path), built_in().vehicles, problems);
   problems.throw_if_any();
   return *static_cast<const SubmarineParameters*>(file->parameters.data());
 }

@@ -78,7 +78,7 @@ class Asker {
 };
 
 // The id of a motor signal is the value; what has been answered is not answered again.
-class EchoAdapter : public Adapter {
+class EchoAdapter : public AnyDistributer {
  public:
   const messages::MessageSet& message_set() const override { return javiator::message_set(); }
   void receive(messages::MessageRef message) override {

@@ -4,8 +4,7 @@
 #include <iostream>
 #include <memory>
 
-#include "distributers/links/link_spec.h"
-#include "distributers/vehicle_file.h"
+#include "distributers/interfaces/vehicle_file.h"
 #include "graph/language/override.h"
 #include "graph/language/quantities.h"
 #include "graph/registry.h"
@@ -57,7 +56,7 @@ Value read_parameters(const Options& options, const vehicles::VehicleClass& vehi
   Value parameters(*vehicle.parameters);
   if (!options.parameters.empty()) {
     const auto source = read_source(options.parameters);
-    if (auto file = distributers::read_vehicle_file(source, built_in_vehicles(), problems)) {
+    if (auto file = distributers::read_vehicle_file(source, built_in().vehicles, problems)) {
       if (file->vehicle->name == vehicle.name)
         parameters = std::move(file->parameters);
       else
@@ -216,7 +215,8 @@ int serve_in_lockstep(const Options& options, const vehicles::VehicleClass& vehi
 int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
           Problems& problems) {
   if (options.link.front().second == "lockstep") return serve_in_lockstep(options, vehicle_class, parameters, problems);
-  const auto link = distributers::make_link(link_of(options), *vehicle_class.message_set, "link", problems);
+  const distributers::LinkType& type = *built_in().links.find(options.link.front().second);
+  const auto link = type.make_link(link_of(options), *vehicle_class.message_set, "link", problems);
   const auto vehicle = make_vehicle(options, vehicle_class, parameters, own_seed(options, vehicle_class), problems);
   const Duration end = options.duration.empty() ? Duration::max() : end_of(options, {});
   const Told told = options.bare ? Told::true_state : Told::all;
@@ -262,10 +262,10 @@ void require_effect(const Command& command, const Options& options) {
 }
 
 int vehicle(const Options& options) {
-  const auto& known = built_in_vehicles();
-  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& v) { return v.name == options.name; });
-  if (found == known.end()) {
-    const std::vector<std::string> names = names_of(known);
+  const auto& known = built_in().vehicles;
+  const vehicles::VehicleClass* const found = known.find(options.name);
+  if (found == nullptr) {
+    const std::vector<std::string> names = known.names();
     throw std::invalid_argument("there is no vehicle '" + options.name + "'" + did_you_mean(options.name, names) +
                                 "; this build has: " + list_of(names));
   }
@@ -306,7 +306,9 @@ void add_vehicle(CommandLine& line, int& exit_code) {
   struct LinkKey {
     const char *key, *text;
   };
-  std::vector<std::string> links = distributers::link_types();
+  std::vector<std::string> links;
+  for (const distributers::LinkType& type : built_in().links.entries())
+    if (type.make_link) links.push_back(type.name);
   links.insert(links.end(), {"tcp", "lockstep"});
   const LinkKey link_keys[] = {
       {"listen", "Link: port to listen at, with an address where not the loopback, as in 6002"},

@@ -9,27 +9,22 @@
 namespace jarol {
 namespace {
 
-Registry make_registry() {
-  Registry made;
-  tasks::add_tasks(made);
-  distributers::add_distributers(made);
+distributers::Registries make_registries() {
+  distributers::Registries made;
+  tasks::add_tasks(made.graph);
+  distributers::add_distributers(made.graph);
+  distributers::add_links(made.links);
+#ifdef JAROL_VEHICLES
+  vehicles::add_vehicles(made.vehicles);
+#endif
   return made;
 }
 
 }  // namespace
 
-const Registry& built_in_registry() {
-  static const Registry known = make_registry();
+const distributers::Registries& built_in() {
+  static const distributers::Registries known = make_registries();
   return known;
-}
-
-const std::vector<vehicles::VehicleClass>& built_in_vehicles() {
-#ifdef JAROL_VEHICLES
-  return vehicles::catalogue();
-#else
-  static const std::vector<vehicles::VehicleClass> none;
-  return none;
-#endif
 }
 
 }  // namespace jarol

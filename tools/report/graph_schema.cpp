@@ -19,6 +19,8 @@ template <class S>
 Json value_schema(const Key<S>& key) {
   switch (key.form) {
     case Form::word: return {{"type", "string"}};
+    case Form::address:
+    case Form::addresses: return {{"type", {"string", "integer"}}};
     case Form::duration:
     case Form::positive_duration: return {{"type", "string"}, {"pattern", duration_pattern}};
     case Form::integer: return {{"type", "integer"}, {"minimum", key.least}, {"maximum", key.most}};

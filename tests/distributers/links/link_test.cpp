@@ -353,7 +353,7 @@ TEST_SUITE("distributers/links/link") {
   }
 
   TEST_CASE("an adapter learns of a new peer before its first packet, and of the end") {
-    struct Diary : Adapter {
+    struct Diary : AnyDistributer {
       explicit Diary(std::string& to) : text(to) {}
       const messages::MessageSet& message_set() const override { return javiator::message_set(); }
       void peer_changed() override { text += "peer "; }

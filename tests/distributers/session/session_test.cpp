@@ -23,17 +23,16 @@ struct FailsAtThree {
   }
 };
 
-const Catalogue& known() {
-  static const std::vector<vehicles::VehicleClass> no_vehicles;
-  static const Registry registry = [] {
-    Registry made;
-    tasks::add_tasks(made);
-    distributers::add_distributers(made);
-    made.add(task_class<FailsAtThree>());
+const distributers::Registries& known() {
+  static const distributers::Registries all = [] {
+    distributers::Registries made;
+    tasks::add_tasks(made.graph);
+    distributers::add_distributers(made.graph);
+    distributers::add_links(made.links);
+    made.graph.add(task_class<FailsAtThree>());
     return made;
   }();
-  static const Catalogue catalogue{registry, no_vehicles};
-  return catalogue;
+  return all;
 }
 
 Session session_of(const std::string& text, SessionOptions options = {}) {

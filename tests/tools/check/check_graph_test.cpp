@@ -21,7 +21,7 @@ using analysis::Verdict;
 // With what its file says, but no vehicle, link or plugin.
 Graph graph_of(const std::shared_ptr<const Source>& source, const Overrides& overrides) {
   Problems problems;
-  Graph graph = build_graph(load_spec(source, overrides, problems), built_in_registry(), problems);
+  Graph graph = build_graph(load_spec(source, overrides, problems), built_in().graph, problems);
   problems.throw_if_any();
   return graph;
 }

@@ -199,7 +199,9 @@ TEST_SUITE("vehicles/helicopter") {
   }
 
   TEST_CASE("it stands in the catalogue under its name") {
-    const VehicleClass* found = find_vehicle("helicopter");
+    NamedList<VehicleClass> known;
+    add_vehicles(known);
+    const VehicleClass* found = known.find("helicopter");
     REQUIRE(found != nullptr);
     CHECK(found->parameters == &type_of<HelicopterParameters>());
   }

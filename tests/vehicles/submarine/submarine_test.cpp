@@ -195,11 +195,13 @@ TEST_SUITE("vehicles/submarine") {
   }
 
   TEST_CASE("it stands in the catalogue under its name") {
-    const VehicleClass* found = find_vehicle("submarine");
+    NamedList<VehicleClass> known;
+    add_vehicles(known);
+    const VehicleClass* found = known.find("submarine");
     REQUIRE(found != nullptr);
     CHECK(found->parameters == &type_of<SubmarineParameters>());
     const SubmarineParameters parameters;
     CHECK(found->make(&parameters, 0)->grid() == std::chrono::milliseconds(10));
-    CHECK(find_vehicle("airship") == nullptr);
+    CHECK(known.find("airship") == nullptr);
   }
 }

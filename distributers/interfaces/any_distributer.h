@@ -10,7 +10,7 @@
 
 namespace jarol::distributers {
 
-class Adapter : public messages::Receiver {
+class AnyDistributer : public messages::Receiver {
  public:
   /// What is received from now on comes from another peer than before, as after the external system was started anew.
   /// Told where a link knows it by the sender's address, as over UDP, and of the first peer too.

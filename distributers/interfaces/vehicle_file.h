@@ -5,6 +5,7 @@
 
 #include "distributers/interfaces/vehicle.h"
 #include "graph/language/yaml.h"
+#include "graph/named_list.h"
 #include "graph/values/value.h"
 
 namespace jarol::distributers {
@@ -16,6 +17,6 @@ struct VehicleFile {
 
 /// What is wrong goes to `problems`; nothing is returned then.
 std::optional<VehicleFile> read_vehicle_file(const std::shared_ptr<const Source>& source,
-                                             const std::vector<vehicles::VehicleClass>& known, Problems& problems);
+                                             const NamedList<vehicles::VehicleClass>& known, Problems& problems);
 
 }  // namespace jarol::distributers

@@ -1,9 +1,10 @@
-#include "distributers/links/link_spec.h"
+#include "distributers/links/packet_link.h"
 
 #include <doctest/doctest.h>
 
 #include <thread>
 
+#include "distributers/distributers.h"
 #include "distributers/links/announcer.h"
 #include "distributers/links/udp.h"
 #include "distributers/messages/javiator.h"
@@ -17,7 +18,9 @@ namespace javiator = messages::javiator;
 std::unique_ptr<Link> make(const std::string& text) {
   Problems problems;
   const Yaml yaml = read_yaml(std::make_shared<Source>(Source{"link.yaml", text}), problems);
-  auto link = make_link(yaml, javiator::message_set(), "link", problems);
+  NamedList<LinkType> known;
+  add_links(known);
+  auto link = known.find(yaml.find("type")->text)->make_link(yaml, javiator::message_set(), "link", problems);
   problems.throw_if_any();
   return link;
 }
@@ -63,7 +66,7 @@ std::vector<std::size_t> kept(const std::string& port) {
 }
 }  // namespace
 
-TEST_SUITE("distributers/links/link_spec") {
+TEST_SUITE("distributers/links/packet_link") {
   TEST_CASE("'port' chooses kind and size of the output port; it is plain and holds 64 by default") {
     CHECK(refused("") == 36);
     CHECK(refused(", port: {out: {packets: 4}}") == 96);

@@ -1,4 +1,4 @@
-#include "distributers/vehicle_file.h"
+#include "distributers/interfaces/vehicle_file.h"
 
 #include <algorithm>
 
@@ -25,24 +25,22 @@ const std::vector<Key<VehicleSpec>>& vehicle_keys() {
 }  // namespace
 
 std::optional<VehicleFile> read_vehicle_file(const std::shared_ptr<const Source>& source,
-                                             const std::vector<vehicles::VehicleClass>& known, Problems& problems) {
+                                             const NamedList<vehicles::VehicleClass>& known, Problems& problems) {
   const std::size_t before = problems.size();
   const Yaml file = read_yaml(source, problems);
   if (problems.size() > before) return std::nullopt;
   VehicleSpec spec;
   read_keys(file, vehicle_keys(), spec, "a vehicle file", problems);
   if (!spec.vehicle) return std::nullopt;
-  const auto found = std::find_if(known.begin(), known.end(), [&](const vehicles::VehicleClass& vehicle) {
-    return vehicle.name == spec.vehicle->value;
-  });
-  if (found == known.end()) {
-    const std::vector<std::string> names = names_of(known);
+  const vehicles::VehicleClass* const found = known.find(spec.vehicle->value);
+  if (found == nullptr) {
+    const std::vector<std::string> names = known.names();
     problems.add(spec.vehicle->where, "there is no vehicle '" + spec.vehicle->value + "'" +
                                           did_you_mean(spec.vehicle->value, names) +
                                           "; this build has: " + list_of(names));
     return std::nullopt;
   }
-  VehicleFile read{&*found, Value(*found->parameters)};
+  VehicleFile read{found, Value(*found->parameters)};
   if (spec.parameters)
     bind_fields(spec.parameters->value, *found->parameters, read.parameters.data(), "vehicle '" + found->name + "'",
                 "parameter", problems);

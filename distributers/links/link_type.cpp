@@ -1,0 +1,40 @@
+#include "distributers/links/link_type.h"
+
+#include <filesystem>
+
+#include "distributers/interfaces/any_distributer.h"
+
+namespace jarol::distributers {
+
+std::string LinkRequest::subject() const { return "link of distributer '" + whose().name + "'"; }
+
+std::unique_ptr<AnyDistributer> LinkRequest::make_distributer() const {
+  return whose().distributer_class->make(whose().parameters.data());
+}
+
+std::shared_ptr<const Source> LinkRequest::read_beside(const Located<std::string>& path, Problems& problems) const {
+  const std::filesystem::path base =
+      graph.where.source ? std::filesystem::path(graph.where.source->name).parent_path() : "";
+  try {
+    return read_source((base / path.value).string());
+  } catch (const SpecError& error) {
+    for (const Problem& problem : error.problems()) problems.add(path.where, problem.text);
+    return nullptr;
+  }
+}
+
+std::vector<Problem> off_grid(const Graph& graph, std::size_t distributer, Duration grid) {
+  std::vector<Problem> found;
+  for (const Communicator& c : graph.communicators) {
+    if (c.distributer != distributer) continue;
+    for (const auto& [what, duration] : {std::pair("period", c.period), std::pair("offset", c.offset)})
+      if (duration.count() % grid.count() != 0)
+        found.push_back({c.where,
+                         "communicator '" + c.name + "' has " + what + " " + duration_text(duration) +
+                             "; it has to be a multiple of the vehicle's step of " + duration_text(grid),
+                         {}});
+  }
+  return found;
+}
+
+}  // namespace jarol::distributers

@@ -1,0 +1,81 @@
+// What graphs may name as the `type` of a link: its keys, and what makes it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "distributers/interfaces/vehicle.h"
+#include "distributers/links/link.h"
+#include "graph/language/key.h"
+#include "graph/model/graph.h"
+#include "graph/named_list.h"
+#include "runtime/channels.h"
+
+namespace jarol::distributers {
+
+class AnyDistributer;
+
+/// A distributer of a graph that needs its link.
+struct LinkRequest {
+  const Graph& graph;
+  std::size_t distributer = 0;
+  const NamedList<vehicles::VehicleClass>& vehicles;  // that can be simulated
+  std::uint64_t seed = 0;                             // this distributer's share of the run's
+
+  const Distributer& whose() const { return graph.distributers[distributer]; }
+  const Yaml& yaml() const { return whose().link; }
+  /// As messages call it: "link of distributer 'dune'".
+  std::string subject() const;
+  /// The distributer's code. Throws std::invalid_argument if there can be none with its parameters.
+  std::unique_ptr<AnyDistributer> make_distributer() const;
+  /// A file that the link names, whose path is relative to the graph's; null: it can't be read, which is reported.
+  std::shared_ptr<const Source> read_beside(const Located<std::string>& path, Problems& problems) const;
+};
+
+/// What is not on the grid of a vehicle: periods and offsets of what touches it have to be.
+std::vector<Problem> off_grid(const Graph& graph, std::size_t distributer, Duration grid);
+
+struct LinkType {
+  std::string name;
+  std::string summary;
+  std::vector<KeyDescription> keys{};
+
+  /// Joins vehicles only.
+  bool for_vehicles = false;
+  /// Carries no messages, so that the distributer needs no code.
+  bool without_messages = false;
+
+  /// What is wrong goes to `problems`, and then there are no channels.
+  std::function<std::unique_ptr<Channels>(const LinkRequest& request, Problems& problems)> make_channels{};
+
+  /// The link alone, for packets of that set; `subject` is what messages call it. Of those types that carry packets in
+  /// real time; others have none.
+  std::function<std::unique_ptr<Link>(const Yaml& yaml, const messages::MessageSet& set, const std::string& subject,
+                                      Problems& problems)>
+      make_link{};
+};
+
+/// The key `type`, which every link has, before those of its own.
+template <class S>
+std::vector<Key<S>> with_type_key(std::string text, std::vector<Key<S>> keys) {
+  keys.insert(keys.begin(), key_read_elsewhere<S>("type", Form::word, std::move(text), true));
+  return keys;
+}
+
+/// A link type whose keys are read into an S; `make` gets it with what could be read.
+template <class S, class Make>
+LinkType link_type(std::string name, std::string summary, std::vector<Key<S>> own_keys, Make make) {
+  LinkType type{std::move(name), summary};
+  const std::vector<Key<S>> keys = with_type_key(std::move(summary), std::move(own_keys));
+  type.keys.assign(keys.begin(), keys.end());
+  type.make_channels = [keys, make](const LinkRequest& request, Problems& problems) -> std::unique_ptr<Channels> {
+    S spec;
+    read_keys(request.yaml(), keys, spec, request.subject(), problems);
+    return make(spec, request, problems);
+  };
+  return type;
+}
+
+}  // namespace jarol::distributers

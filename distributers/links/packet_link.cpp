@@ -1,0 +1,137 @@
+#include "distributers/links/packet_link.h"
+
+#include <stdexcept>
+
+#include "distributers/interfaces/any_distributer.h"
+#include "distributers/links/announcer.h"
+#include "distributers/links/linked.h"
+
+namespace jarol {
+
+template <>
+struct Words<distributers::PortKind> {
+  static std::vector<std::string> list() { return {"plain", "push"}; }
+};
+
+namespace distributers {
+namespace {
+
+constexpr std::int64_t most_packets = 4096;
+
+struct PortSpec {
+  Maybe<PortKind> kind;
+  Maybe<std::int64_t> packets;
+};
+
+const std::vector<Key<PortSpec>>& port_keys() {
+  static const std::vector<Key<PortSpec>> keys{
+      key<&PortSpec::kind>("kind", Form::choice, "push: the newest overwrites the oldest; plain: what is full refuses"),
+      key<&PortSpec::packets>("packets", Form::integer, "how many it holds; default 64").within(1, most_packets),
+  };
+  return keys;
+}
+
+void read_port(const Maybe<Yaml>& yaml, PortOptions& to, const std::string& subject, Problems& problems) {
+  if (!yaml) return;
+  PortSpec spec;
+  read_keys(yaml->value, port_keys(), spec, subject, problems);
+  if (spec.kind) to.kind = spec.kind->value;
+  if (!spec.packets) return;
+  if (spec.packets->value < 1 || spec.packets->value > most_packets)
+    problems.add(spec.packets->where, subject + " holds from 1 to " + std::to_string(most_packets) + " packets, not " +
+                                          std::to_string(spec.packets->value));
+  else
+    to.packets = static_cast<std::size_t>(spec.packets->value);
+}
+
+// The link by which a system announces itself where the mapping of a good link says so, or none.
+std::unique_ptr<Link> make_announcer(const Yaml& yaml, const messages::MessageSet& set, Problems& problems) {
+  const Yaml *to = yaml.find("announce"), *id = yaml.find("id");
+  if (to == nullptr) return nullptr;
+  LinkOptions options;
+  std::int64_t sender = 0;
+  Problems told;  // what is wrong with the link's keys was reported with the link
+  if (id != nullptr && detail::read_id(*id, sender, "id", told))
+    options.header.emplace_back("src", static_cast<std::uint64_t>(sender));
+  try {
+    return std::make_unique<Link>(std::make_unique<Announcer>(Announcer::parse(to->text)), set, options);
+  } catch (const std::invalid_argument& error) {
+    problems.add(to->where, error.what());
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+std::chrono::nanoseconds PacketLinkSpec::silence_of_peer() const {
+  return silence ? silence->value : std::chrono::nanoseconds(Ownership::default_silence);
+}
+
+const std::vector<Key<PortsSpec>>& ports_keys() {
+  static const std::vector<Key<PortsSpec>> keys{
+      key<&PortsSpec::in>("in", Form::mapping, "of packets that arrive; default push").holding(port_keys()),
+      key<&PortsSpec::out>("out", Form::mapping, "of packets to send; default plain").holding(port_keys()),
+  };
+  return keys;
+}
+
+Address read_address(const Maybe<std::string>& text, Problems& problems) {
+  if (!text) return {};
+  try {
+    return Address::parse(text->value);
+  } catch (const std::invalid_argument& error) {
+    problems.add(text->where, error.what());
+    return {};
+  }
+}
+
+std::optional<SecretKey> read_key_file(const Located<std::string>& path, Problems& problems) {
+  try {
+    return read_key(path.value);
+  } catch (const std::invalid_argument& error) {
+    problems.add(path.where, error.what());
+    return std::nullopt;
+  }
+}
+
+std::unique_ptr<Link> make_packet_link(std::unique_ptr<Transport> transport, const PacketLinkSpec& spec,
+                                       const messages::MessageSet& set, const std::string& subject,
+                                       Problems& problems) {
+  const std::size_t before = problems.size();
+  LinkOptions options;
+  options.silence = spec.silence_of_peer();
+  if (spec.key) options.key = read_key_file(*spec.key, problems);
+  if (spec.port) {
+    PortsSpec ports;
+    read_keys(spec.port->value, ports_keys(), ports, "port of the " + subject, problems);
+    read_port(ports.in, options.input, "port 'in' of the " + subject, problems);
+    read_port(ports.out, options.output, "port 'out' of the " + subject, problems);
+  }
+  if (transport == nullptr || problems.size() > before) return nullptr;
+  if (spec.id) options.header.emplace_back("src", static_cast<std::uint64_t>(spec.id->value));
+  const Maybe<std::int64_t>& last = spec.source ? spec.source : spec.id;
+  if (spec.source) options.accept.emplace_back("src", static_cast<std::uint64_t>(spec.source->value));
+  try {
+    return std::make_unique<Link>(std::move(transport), set, options);
+  } catch (const std::invalid_argument& error) {
+    problems.add(last->where, subject + ": " + error.what());
+    return nullptr;
+  }
+}
+
+std::unique_ptr<Channels> make_packet_channels(const LinkType& type, const LinkRequest& request, Problems& problems) {
+  try {
+    auto adapter = request.make_distributer();
+    const messages::MessageSet& set = adapter->message_set();
+    auto link = type.make_link(request.yaml(), set, request.subject(), problems);
+    if (!link) return nullptr;
+    auto announcer = make_announcer(request.yaml(), set, problems);
+    return std::make_unique<LinkedChannels>(std::move(link), std::move(announcer), std::move(adapter));
+  } catch (const std::invalid_argument& error) {
+    problems.add(request.yaml().where, "distributer '" + request.whose().name + "': " + error.what());
+    return nullptr;
+  }
+}
+
+}  // namespace distributers
+}  // namespace jarol

@@ -1,0 +1,19 @@
+// All that graphs and commands may name: what is built in, and what a program or a plugin adds.
+#pragma once
+
+#include "distributers/interfaces/vehicle.h"
+#include "distributers/links/link_type.h"
+#include "graph/named_list.h"
+#include "graph/registry.h"
+
+namespace jarol::distributers {
+
+/// A description and a factory for each; loader, help, reference and JSON Schema read them. Filled by `add_tasks`,
+/// `add_distributers`, `add_links`, `add_vehicles` and whoever has more.
+struct Registries {
+  Registry graph;  // task types and distributers
+  NamedList<LinkType> links;
+  NamedList<vehicles::VehicleClass> vehicles;
+};
+
+}  // namespace jarol::distributers

@@ -1,0 +1,40 @@
+// A list of entries with a name each, as of vehicles or of link types.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace jarol {
+
+/// In the order in which they were added.
+template <class Entry>
+class NamedList {
+ public:
+  /// Throws std::invalid_argument if there is one of that name.
+  void add(Entry entry) {
+    if (find(entry.name) != nullptr)
+      throw std::invalid_argument("there is a '" + std::string(entry.name) + "' already; names are unique");
+    entries_.push_back(std::move(entry));
+  }
+
+  /// The entry of that name, or null.
+  const Entry* find(std::string_view name) const {
+    for (const Entry& entry : entries_)
+      if (entry.name == name) return &entry;
+    return nullptr;
+  }
+
+  const std::vector<Entry>& entries() const { return entries_; }
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const Entry& entry : entries_) names.emplace_back(entry.name);
+    return names;
+  }
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+}  // namespace jarol
