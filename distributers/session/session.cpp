@@ -16,10 +16,10 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
 void Session::run_until(Duration end) { run_->run_until(end); }
-Duration Session::now() const { return run_->executor->now(); }
-Duration Session::end_of_mission() const { return jarol::end_of_mission(run_->channels); }
-const Graph& Session::graph() const { return *run_->loaded.graph; }
-const Report& Session::report() const { return run_->executor->report(); }
+Duration Session::now() const { return run_->graph_run().executor().now(); }
+Duration Session::end_of_mission() const { return jarol::end_of_mission(run_->graph_run().channels()); }
+const Graph& Session::graph() const { return run_->graph_run().graph(); }
+const Report& Session::report() const { return run_->graph_run().executor().report(); }
 void Session::watch(const std::string& pattern) { run_->observed->watch(pattern); }
 RunVerdict Session::finish() { return run_->finish(); }
 
@@ -37,7 +37,7 @@ void Session::for_each_kept(std::string_view name, const Type& type,
 }
 
 double Session::true_value(const std::string& field_of_distributer) const {
-  const std::vector<TrueState> states = find_true_states(graph(), run_->channels);
+  const std::vector<TrueState> states = find_true_states(graph(), run_->graph_run().channels());
   std::vector<std::string> names;
   for (const TrueState& state : states)
     for (const Leaf& leaf : leaves_of(*state.values.type())) {

@@ -28,35 +28,24 @@ std::string channel_name(const Graph& graph, const Communicator& c) {
 }  // namespace
 
 Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const Source> source,
-                  const SessionOptions& options)
-    : loaded(load_graph(source, known, {options.profile, options.set, options.no_plugins}, options.seed, options.note,
-                        options.fed)) {
-  feed_in_place_of_links(options.fed);
+                  const SessionOptions& options) {
+  Loaded loaded = feed_in_place_of_links(load_graph(source, known, {options.profile, options.set, options.no_plugins},
+                                                    options.seed, options.note, options.fed),
+                                         options.fed);
   if (const Distributer* distributer = find_in_real_time(loaded))
     throw NeedsRealClock("distributer '" + distributer->name +
                          "' has a link to what goes on by itself; open the session with .fed = {\"" +
                          distributer->name + "\"} and feed it, or run the graph by jarol run --clock real");
-  channels = pointers_to(loaded.channels);
-  const Graph& graph = *loaded.graph;
-  const std::vector<Output> outputs = outputs_of(graph);
-  observed = std::make_unique<Observed>(graph, outputs);
-  std::vector<RecordSink*> sinks{observed.get()};
-  if (!graph.expectations.empty()) {
-    expectations = std::make_unique<Expectations>(graph, outputs);
-    sinks.push_back(expectations.get());
-  }
-  recorder = std::make_unique<Recorder>(std::move(sinks));
-  executor = std::make_unique<Executor>(
-      graph, std::move(loaded.channels),
-      ExecutorOptions{.recorder = recorder.get(), .record_truth = true, .workers = options.workers});
-  linked.emplace(channels, options.note);
+  observed = std::make_unique<Observed>(*loaded.graph, outputs_of(*loaded.graph));
+  graph_run_.emplace(std::move(loaded), GraphRunOptions{.sinks = {observed.get()}, .workers = options.workers});
+  graph_run_->connect(options.note);
 }
 
 Session::Run::~Run() {
-  if (executor) executor->close();
+  if (graph_run_) graph_run_->executor().close();
 }
 
-void Session::Run::feed_in_place_of_links(const std::vector<std::string>& patterns) {
+Loaded Session::Run::feed_in_place_of_links(Loaded loaded, const std::vector<std::string>& patterns) {
   Graph& graph = *loaded.graph;
   const std::vector<std::string> names = names_to_feed(graph);
   for (const std::string& pattern : patterns)
@@ -66,43 +55,46 @@ void Session::Run::feed_in_place_of_links(const std::vector<std::string>& patter
   for (Communicator& c : graph.communicators) {
     if (!can_be_fed(c) || !fits(c.name, patterns)) continue;
     c.distributer = graph.distributers.size();
-    c.channel = without_channel.channels.size();
-    without_channel.channels.push_back({c.name, Direction::in, c.type, ""});
+    c.channel = without_channel_.channels.size();
+    without_channel_.channels.push_back({c.name, Direction::in, c.type, ""});
   }
-  if (!without_channel.channels.empty()) {
-    without_channel.name = "Session";
+  if (!without_channel_.channels.empty()) {
+    without_channel_.name = "Session";
     Distributer added;
-    added.distributer_class = &without_channel;
+    added.distributer_class = &without_channel_;
     graph.distributers.push_back(std::move(added));
     loaded.channels.emplace_back();
   }
-  fed.resize(loaded.channels.size());
-  for (std::size_t i = 0; i < fed.size(); ++i) {
+  fed_.resize(loaded.channels.size());
+  for (std::size_t i = 0; i < fed_.size(); ++i) {
     if (loaded.channels[i] != nullptr) continue;
     auto made = std::make_unique<FedChannels>(*graph.distributers[i].distributer_class);
-    fed[i] = made.get();
+    fed_[i] = made.get();
     loaded.channels[i] = std::move(made);
   }
+  return loaded;
 }
 
 void Session::Run::run_until(Duration end) {
-  if (!over.empty()) throw RunOver("the run is over at " + seconds_text(executor->now()) + " s: " + over);
-  if (end < executor->now())
-    throw WrongInstant("a run does not go back: it has reached " + seconds_text(executor->now()) +
+  Executor& executor = graph_run_->executor();
+  if (!over_.empty()) throw RunOver("the run is over at " + seconds_text(executor.now()) + " s: " + over_);
+  if (end < executor.now())
+    throw WrongInstant("a run does not go back: it has reached " + seconds_text(executor.now()) +
                        " s, and was to run until " + seconds_text(end) + " s");
+  asked_ = end;
   try {
-    executor->run_until(end);
+    executor.run_until(end);
   } catch (const std::exception& error) {
-    over = error.what();
-    recorder->catch_up();
-    throw SystemLost(over);
+    over_ = error.what();
+    graph_run_->sinks().catch_up();
+    throw SystemLost(over_);
   }
-  recorder->catch_up();
-  if (executor->report().stopped) over = to_text(executor->report().faults.back());
+  graph_run_->sinks().catch_up();
+  if (executor.report().stopped) over_ = to_text(executor.report().faults.back());
 }
 
 void Session::Run::feed(std::string_view name, const Type& type, const void* value) {
-  const Graph& graph = *loaded.graph;
+  const Graph& graph = graph_run_->graph();
   std::vector<std::string> names;
   for (const Communicator& c : graph.communicators) {
     if (c.direction != Direction::in) continue;
@@ -112,7 +104,7 @@ void Session::Run::feed(std::string_view name, const Type& type, const void* val
     if (name != c.name && name != channel) continue;
     if (!same_type(*c.type, type))
       throw WrongType("'" + std::string(name) + "' takes a " + c.type->name + ", not a " + type.name);
-    if (c.distributer && fed[*c.distributer] != nullptr) return fed[*c.distributer]->feed(c.channel, value);
+    if (c.distributer && fed_[*c.distributer] != nullptr) return fed_[*c.distributer]->feed(c.channel, value);
     const std::string who = c.distributer ? graph.distributers[*c.distributer].name : c.name;
     throw NotFed("'" + std::string(name) +
                  "' is not fed: " + (c.distributer ? "distributer '" + who + "' has its link" : "it has no channel") +
@@ -124,21 +116,16 @@ void Session::Run::feed(std::string_view name, const Type& type, const void* val
 
 RunVerdict Session::Run::finish() {
   if (finished_) throw RunOver("the run was finished before");
-  executor->close();
-  executor->finish();
-  linked->finish();
-  recorder->close();
   finished_ = true;
-  over = "it was finished";
-  const Graph& graph = *loaded.graph;
-  const Report& report = executor->report();
-  RunVerdict verdict;
-  if (expectations)
-    verdict.expectations = expectations->judge(
-        report.covered, why_cut_short(report.simulated, executor->now(), jarol::end_of_mission(channels)));
-  verdict.mishaps = find_mishaps(graph, channels);
-  verdict.left_out = find_left_out(graph, report);
-  return verdict;
+  over_ = "it was finished";
+  Executor& executor = graph_run_->executor();
+  executor.close();
+  executor.finish();
+  graph_run_->disconnect();
+  graph_run_->sinks().close();
+  RunEnd end;
+  end.ending = Ending::over();
+  return graph_run_->judge(asked_, end);
 }
 
 }  // namespace jarol

@@ -1,17 +1,15 @@
 // What a session is made of.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "distributers/session/fed_channels.h"
-#include "distributers/session/linked.h"
+#include "distributers/session/graph_run.h"
 #include "distributers/session/observed.h"
 #include "distributers/session/session.h"
-#include "runtime/execute/expectations.h"
 
 namespace jarol {
 
@@ -26,20 +24,20 @@ class Session::Run {
   void feed(std::string_view name, const Type& type, const void* value);
   RunVerdict finish();
 
-  Loaded loaded;
-  DistributerClass without_channel;  // of communicators that the program feeds
-  std::vector<Channels*> channels;
-  std::vector<FedChannels*> fed;  // per distributer, null: it has its link
+  GraphRun& graph_run() { return *graph_run_; }
+  const GraphRun& graph_run() const { return *graph_run_; }
+
   std::unique_ptr<Observed> observed;
-  std::unique_ptr<Expectations> expectations;
-  std::unique_ptr<Recorder> recorder;
-  std::unique_ptr<Executor> executor;
-  std::optional<Linked> linked;
-  std::string over;  // why no more can be run; empty: it can
 
  private:
+  Loaded feed_in_place_of_links(Loaded loaded, const std::vector<std::string>& patterns);
+
+  DistributerClass without_channel_;  // of communicators that the program feeds
+  std::vector<FedChannels*> fed_;     // per distributer, null: it has its link
+  std::optional<GraphRun> graph_run_;
+  Duration asked_{};  // to which it was to run last
+  std::string over_;  // why no more can be run; empty: it can
   bool finished_ = false;
-  void feed_in_place_of_links(const std::vector<std::string>& patterns);
 };
 
 }  // namespace jarol

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "distributers/session/rest_verdict.h"
+
 namespace jarol {
 namespace {
 
@@ -72,6 +74,24 @@ std::vector<std::string> find_left_out(const Graph& graph, const Report& report)
                     task.name, report.left_out[i], due, 100 * share, 100 * graph.fault_limit));
   }
   return lines;
+}
+
+RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector<Channels*>& channels,
+                     const RunSinks& sinks, const std::optional<RestReport>& rest, Duration until, const RunEnd& end,
+                     const std::string& unseen) {
+  RunVerdict verdict;
+  const std::optional<Duration> rest_begun = rest ? std::optional(rest->begun) : std::nullopt;
+  if (!end.hangs) {
+    const std::string cut_short =
+        why_cut_short(judged_until(rest_begun, until, report.simulated), until, end_of_mission(channels));
+    verdict.expectations =
+        sinks.judge(judged_until(rest_begun, until, report.covered), unseen.empty() ? cut_short : unseen);
+    verdict.mishaps = find_mishaps(graph, channels);
+  }
+  verdict.not_at_rest = not_at_rest_text(graph, rest, end);
+  verdict.left_out = find_left_out(graph, report);
+  verdict.unheard = find_unheard(graph, channels);
+  return verdict;
 }
 
 }  // namespace jarol

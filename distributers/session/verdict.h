@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "distributers/session/run_sinks.h"
 #include "graph/model/graph.h"
 #include "runtime/channels.h"
 #include "runtime/execute/executor.h"
@@ -41,5 +42,11 @@ std::string why_cut_short(Duration reached, Duration until, Duration mission);
 
 /// Of all scripts on these channels; zero: there is none.
 Duration end_of_mission(const std::vector<Channels*>& channels);
+
+/// All of that, of a run that was to go on `until`, came to rest or not, and ended like that; its sinks are closed.
+/// `unseen`: why they have not got all that was published.
+RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector<Channels*>& channels,
+                     const RunSinks& sinks, const std::optional<RestReport>& rest, Duration until, const RunEnd& end,
+                     const std::string& unseen = "");
 
 }  // namespace jarol

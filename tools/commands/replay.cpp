@@ -10,8 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "distributers/session/graph_run.h"
+#include "distributers/session/replay.h"
+#include "distributers/session/rest_verdict.h"
 #include "graph/text/escape.h"
-#include "runtime/execute/executor.h"
 #include "runtime/record/log_reader.h"
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
@@ -54,56 +56,6 @@ Loaded load(const Options& options, const LogHeader& header) {
     throw LogError("'" + header.file + "', the graph of the run, is not there; name it: jarol replay LOG FILE");
   return load_without_channels(header.file, overrides);
 }
-
-enum class Standing { same, diverged, unknown };
-
-// What the replay shows beside the run.
-struct Comparison {
-  Standing standing = Standing::unknown;
-  std::optional<Duration> same_until;      // the newest checkpoint up to which it was
-  std::optional<Duration> diverged_until;  // the first one up to which it was not
-  bool interrupted = false;
-};
-
-// Goes from checkpoint to checkpoint, so that where the two diverge can be told.
-void run_beside(Executor& executor, const LogReader& log, Comparison& comparison) {
-  const auto go_to = [&](Duration end) {
-    executor.run_until(end);
-    comparison.interrupted = executor.now() < end;
-    return !comparison.interrupted;
-  };
-  for (const Checkpoint& checkpoint : log.checkpoints()) {
-    const Duration settled(checkpoint.settled);
-    if (checkpoint.exact == 0 || comparison.diverged_until || settled > log.covered()) continue;
-    if (!go_to(settled)) return;
-    (executor.report().digest == checkpoint.digest ? comparison.same_until : comparison.diverged_until) = settled;
-  }
-  if (!go_to(log.covered())) return;
-  const Report& report = executor.report();
-  const std::optional<LogEnd>& end = log.end();
-  const bool same = !end || (report.digest == end->digest && report.activations == end->activations &&
-                             report.instants == end->instants && report.fault_count == end->faults);
-  if (comparison.diverged_until || !same) {
-    comparison.standing = Standing::diverged;
-  } else if (end) {
-    comparison.standing = Standing::same;
-  }
-}
-
-class ReplayRun : public ExecutorRun {
- public:
-  ReplayRun(Executor& executor, const LogReader& log)
-      : ExecutorRun(executor, log.covered()), executor_(executor), log_(log) {}
-  void cover() override { run_beside(executor_, log_, comparison); }
-  // it goes on after the fault, to the end of the log
-  bool stopped_by_fault() const override { return false; }
-
-  Comparison comparison;
-
- private:
-  Executor& executor_;
-  const LogReader& log_;
-};
 
 std::string text_of(const Comparison& comparison, const Report& report, const LogReader& log, bool is_other_text) {
   if (comparison.interrupted) return "";
@@ -159,17 +111,19 @@ nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comp
 int replay(const Options& options) {
   LogReader log(options.log);
   const std::string file = options.file.empty() ? log.header().file : options.file;
-  const Loaded loaded = load(options, log.header());
+  Loaded loaded = load(options, log.header());
   const Graph& graph = *loaded.graph;
   require_apart({{"LOG", options.log}, {"FILE", file}},
                 {{"--trace", options.files.trace}, {"--plot", options.files.plot}});
   const std::vector<Miss> misses = log.begin(graph);
   const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
-  if (log.rest_begun()) files.judge_before(*log.rest_begun());
   ToldChanges told(graph);
-  Executor executor(graph, told.listen(replayed_channels(graph, log)),
-                    {.digest = true, .recorder = files.recorder(), .misses = misses});
+  loaded.channels = told.listen(replayed_channels(graph, log));
+  GraphRun graph_run(std::move(loaded), {.sinks = files.sinks(), .misses = misses});
+  RunSinks& sinks = graph_run.sinks();
+  Executor& executor = graph_run.executor();
+  if (log.rest_begun()) sinks.judge_before(*log.rest_begun());
   const auto start = std::chrono::steady_clock::now();
   ReplayRun attended(executor, log);
   const CrashLine crash_line(graph);
@@ -188,15 +142,15 @@ int replay(const Options& options) {
   if (!comparison.interrupted) log.require_all_taken();
   std::string unwritten;
   try {
-    if (run_end.hangs && files.recorder() != nullptr)
+    if (run_end.hangs && sinks.recorder() != nullptr)
       unwritten = "trace and picture are not written, as the replay has not ended";
-    if (!run_end.hangs) files.close();
+    if (!run_end.hangs) sinks.close();
   } catch (const std::exception& error) { unwritten = error.what(); }
   const Report& report = executor.report();
   RunVerdict verdict;
   const Duration reached = comparison.interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated);
   if (unwritten.empty())
-    verdict.expectations = files.judge(judged_until(log.rest_begun(), log.header().until, report.covered),
+    verdict.expectations = sinks.judge(judged_until(log.rest_begun(), log.header().until, report.covered),
                                        why_cut_short(judged_until(log.rest_begun(), log.header().until, reached),
                                                      log.header().until, log.header().mission));
   verdict.left_out = find_left_out(graph, report);

@@ -9,10 +9,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "distributers/session/graph_run.h"
 #include "distributers/session/guard.h"
-#include "distributers/session/linked.h"
+#include "distributers/session/rest_verdict.h"
 #include "graph/text/escape.h"
-#include "runtime/execute/executor.h"
+#include "runtime/execute/executor_run.h"
 #include "runtime/execute/log_end.h"
 #include "runtime/record/log_writer.h"
 #include "tools/commands/commands.h"
@@ -158,15 +159,13 @@ int run(const Options& options) {
   const CrashLine crash_line(graph, guard ? guard->process() : nullptr, options.log);
   ToldChanges told(graph);
   loaded.channels = told.listen(std::move(loaded.channels));
-  std::vector<Channels*> channels = pointers_to(loaded.channels);
-  Executor executor(graph, std::move(loaded.channels),
-                    {.digest = true,
-                     .recorder = files.recorder(),
-                     .record_truth = true,
-                     .workers = options.workers,
-                     .clock = clock ? &*clock : nullptr,
-                     .threads = threads,
-                     .log = log ? log->recorder() : nullptr});
+  GraphRun graph_run(std::move(loaded), {.sinks = files.sinks(),
+                                         .workers = options.workers,
+                                         .clock = clock ? &*clock : nullptr,
+                                         .threads = threads,
+                                         .log = log ? log->recorder() : nullptr});
+  Executor& executor = graph_run.executor();
+  const std::vector<Channels*>& channels = graph_run.channels();
   const bool steers =
       clock || std::any_of(channels.begin(), channels.end(), [](const Channels* c) { return c->outlives_run(); });
   const bool shown = !options.json && isatty(STDERR_FILENO) != 0 && end != Duration::max();
@@ -179,11 +178,11 @@ int run(const Options& options) {
   progress.emplace(shown, end, [&] { return executor.now(); });
   const std::optional<int> priority = clock ? clock->options().priority : std::nullopt;
   if (clock) take_priority(priority);
-  Linked linked(channels, print_note);
+  graph_run.connect(print_note);
   if (log) log->open();
   take_priority_above(priority);
   auto start = std::chrono::steady_clock::now();
-  ExecutorRun attended(executor, end, rest, [&](Duration begun) { files.judge_before(begun); });
+  ExecutorRun attended(executor, end, rest, [&](Duration begun) { graph_run.sinks().judge_before(begun); });
   const RunEnd run_end = attend(
       attended,
       [&] {
@@ -196,7 +195,7 @@ int run(const Options& options) {
   progress.reset();
   // a link that is in use can't be finished, and what it has to be handed is left to the guardian
   if (run_end.links_are_free()) {
-    linked.finish();
+    graph_run.disconnect();
     if (guard) guard->close();
   }
   halt_if_asked(run_end);
@@ -212,24 +211,14 @@ int run(const Options& options) {
   };
   if (run_end.hangs) {
     // a log is whole up to its last checkpoint
-    if (files.recorder() != nullptr) unwritten = "trace and picture are not written, as the run has not ended";
+    if (graph_run.sinks().recorder() != nullptr)
+      unwritten = "trace and picture are not written, as the run has not ended";
   } else {
-    finish_writing([&] { files.close(); });
+    finish_writing([&] { graph_run.sinks().close(); });
     unseen = unwritten;
     if (log) finish_writing([&] { log->close(log_end_of(report)); });
   }
-  RunVerdict verdict;
-  const std::optional<RestReport> rested = executor.rest();
-  const std::optional<Duration> rest_begun = rested ? std::optional(rested->begun) : std::nullopt;
-  if (!run_end.hangs)
-    verdict.expectations = files.judge(judged_until(rest_begun, end, report.covered),
-                                       !unseen.empty() ? unseen
-                                                       : why_cut_short(judged_until(rest_begun, end, report.simulated),
-                                                                       end, end_of_mission(channels)));
-  verdict.not_at_rest = not_at_rest_text(graph, rested, run_end);
-  if (!run_end.hangs) verdict.mishaps = find_mishaps(graph, channels);
-  verdict.left_out = find_left_out(graph, report);
-  verdict.unheard = find_unheard(graph, channels);
+  const RunVerdict verdict = graph_run.judge(end, run_end, unseen);
   print(options,
         {.graph = graph,
          .executor = executor,
@@ -238,7 +227,7 @@ int run(const Options& options) {
          .clock = clock ? &*clock : nullptr,
          .guard = guard ? &*guard : nullptr,
          .workers = options.workers,
-         .links = linked.reports(),
+         .links = graph_run.link_reports(),
          .seconds = seconds,
          .simulated = report.simulated,
          .verdict = verdict,

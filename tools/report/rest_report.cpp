@@ -8,18 +8,6 @@
 #include "tools/report/value_json.h"
 
 namespace jarol::tools {
-namespace {
-
-Ending asked(const RunEnd& end) { return end.before_rest.value_or(Ending::over()); }
-
-bool is_cut_short(const RunEnd& end) { return end.ending.reason != asked(end).reason; }
-
-}  // namespace
-
-std::optional<Duration> longest_rest(const Graph& graph) {
-  return graph.at_end ? std::optional(graph.at_end->longest) : std::nullopt;
-}
-
 std::string command_text(const Graph& graph) {
   std::string text;
   for (const EndCommand& command : graph.at_end->commands) {
@@ -55,14 +43,14 @@ std::string to_text(const Graph& graph, const std::optional<RestReport>& rest, c
   if (!rest && !end.before_rest) return "";
   const std::string begin = "  at end      " + command_text(graph);
   if (!rest) return begin + ": NOT COMMANDED, as " + end.ending.reason + "\n";
-  return begin + " from " + seconds_text(rest->begun) + " s, as " + asked(end).reason + ": " +
+  return begin + " from " + seconds_text(rest->begun) + " s, as " + asked_ending(end).reason + ": " +
          (rest->reached ? "at rest" : "NOT AT REST") + " after " + seconds_text(rest->ended - rest->begun) + " s" +
          (!rest->reached && is_cut_short(end) ? ", as " + end.ending.reason : "") + "\n";
 }
 
 nlohmann::ordered_json to_json(const Graph& graph, const std::optional<RestReport>& rest, const RunEnd& end) {
   if (!rest && !end.before_rest) return {};
-  nlohmann::ordered_json json{{"reason", asked(end).reason},
+  nlohmann::ordered_json json{{"reason", asked_ending(end).reason},
                               {"command", command_to_json(graph)},
                               {"until", graph.at_end->until.text},
                               {"longest_ns", graph.at_end->longest.count()},
@@ -74,19 +62,6 @@ nlohmann::ordered_json to_json(const Graph& graph, const std::optional<RestRepor
   }
   if ((!rest || !rest->reached) && is_cut_short(end)) json["cut_short_by"] = end.ending.reason;
   return json;
-}
-
-std::string not_at_rest_text(const Graph& graph, const std::optional<RestReport>& rest, const RunEnd& end) {
-  if ((!rest && !end.before_rest) || (rest && rest->reached)) return "";
-  if (rest && !rest->heard)
-    return "whether the vehicle came to rest is not known: it was silent when " +
-           (is_cut_short(end) ? end.ending.reason : duration_text(graph.at_end->longest) + " were over");
-  return "the vehicle did not come to rest: '" + printable(graph.at_end->until.text) + "' was not so " +
-         (is_cut_short(end) ? "when " + end.ending.reason : "within " + duration_text(graph.at_end->longest));
-}
-
-Duration judged_until(const std::optional<Duration>& rest_begun, Duration until, Duration reached) {
-  return rest_begun ? std::min({*rest_begun, until, reached}) : reached;
 }
 
 }  // namespace jarol::tools

@@ -132,7 +132,7 @@ RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments) {
   for (const auto& [given, name] : {std::pair(arguments.fill, "--trace-fill"), {arguments.words, "--trace-words"}})
     if (given && arguments.trace.empty())
       throw std::invalid_argument(std::string(name) + " is about --trace; add --trace FILE, or leave it out");
-  if (arguments.trace.empty() && arguments.plot.empty() && graph.expectations.empty()) return;
+  if (arguments.trace.empty() && arguments.plot.empty()) return;
   const std::string trace = path_of(arguments.trace), plot = path_of(arguments.plot);
   for (const std::string& path : {trace, plot})
     if (!path.empty()) require_no_input(path);
@@ -145,20 +145,14 @@ RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments) {
     sinks_.push_back(std::make_unique<PlotSvg>(
         plot, graph.name,
         arguments.signals.empty() ? panels_of(graph, outputs) : panels_named(arguments.signals, outputs)));
-  std::vector<RecordSink*> sinks;
-  if (!graph.expectations.empty()) sinks.push_back(&expectations_.emplace(graph, outputs));
-  for (const auto& sink : sinks_) sinks.push_back(sink.get());
-  recorder_ = std::make_unique<Recorder>(std::move(sinks));
 }
 
 RunFiles::~RunFiles() = default;
 
-void RunFiles::close() {
-  if (recorder_) recorder_->close();
-}
-
-std::vector<Verdict> RunFiles::judge(Duration end, const std::string& cut_short) const {
-  return expectations_ ? expectations_->judge(end, cut_short) : std::vector<Verdict>();
+std::vector<RecordSink*> RunFiles::sinks() const {
+  std::vector<RecordSink*> sinks;
+  for (const auto& sink : sinks_) sinks.push_back(sink.get());
+  return sinks;
 }
 
 }  // namespace jarol::tools

@@ -1,4 +1,4 @@
-// Who looks on at a run: its trace, its picture, and what the graph expects of it.
+// The files that a run writes as it goes: its trace and its picture.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "graph/model/graph.h"
-#include "runtime/execute/expectations.h"
 #include "runtime/record/recorder.h"
 
 namespace jarol::tools {
@@ -46,24 +45,10 @@ class RunFiles {
   RunFiles(const RunFiles&) = delete;
   RunFiles& operator=(const RunFiles&) = delete;
 
-  /// Null if nobody looks on.
-  Recorder* recorder() { return recorder_.get(); }
-
-  /// Writes all that is left. Throws std::runtime_error if something could not be written.
-  void close();
-
-  /// What is published from that instant on is not judged.
-  void judge_before(Duration instant) {
-    if (expectations_) expectations_->judge_before(instant);
-  }
-  /// After `close`, of a run that covered the instants before `end`. `cut_short`: why it ended before what it was meant
-  /// to do; else empty.
-  std::vector<Verdict> judge(Duration end, const std::string& cut_short) const;
+  std::vector<RecordSink*> sinks() const;
 
  private:
-  std::optional<Expectations> expectations_;
   std::vector<std::unique_ptr<RecordSink>> sinks_;
-  std::unique_ptr<Recorder> recorder_;
 };
 
 }  // namespace jarol::tools

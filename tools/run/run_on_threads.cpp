@@ -25,7 +25,6 @@
 #include "tools/run/interrupt.h"
 #include "tools/run/prompt_line.h"
 #include "tools/run/real_time.h"
-#include "tools/run/run_files.h"
 
 namespace jarol::tools {
 namespace {
@@ -155,9 +154,9 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
   ToldChanges told(*loaded.graph);
   loaded.channels = told.listen(std::move(loaded.channels));
   const std::vector<Channels*> channels = pointers_to(loaded.channels);
-  RunFiles files(*loaded.graph, {});
-  ThreadsCore core(*loaded.graph, std::move(loaded.channels), files.recorder());
-  core.on_rest([&](Duration begun) { files.judge_before(begun); });
+  RunSinks sinks(*loaded.graph, {});
+  ThreadsCore core(*loaded.graph, std::move(loaded.channels), sinks.recorder());
+  core.on_rest([&](Duration begun) { sinks.judge_before(begun); });
   let_writing_fail();
   const std::optional<Duration> rest = longest_rest(*loaded.graph);
   const Interruptible interruptible([] {}, HaltKey::ends, rest ? SecondSignal::hastens : SecondSignal::ends);
@@ -174,22 +173,12 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
     guard.close();
   }
   halt_if_asked(run_end);
-  RunVerdict verdict;
-  const std::optional<RestReport> rested = core.rest();
-  const std::optional<Duration> rest_begun = rested ? std::optional(rested->begun) : std::nullopt;
   std::string unwatched;
-  if (!run_end.hangs) {
-    try {
-      files.close();
-      verdict.expectations = files.judge(
-          judged_until(rest_begun, end, core.report().covered),
-          why_cut_short(judged_until(rest_begun, end, core.report().simulated), end, end_of_mission(channels)));
-    } catch (const std::exception& error) { unwatched = error.what(); }
-    verdict.mishaps = find_mishaps(*loaded.graph, channels);
-  }
-  verdict.not_at_rest = not_at_rest_text(*loaded.graph, rested, run_end);
-  verdict.left_out = find_left_out(*loaded.graph, core.report());
-  verdict.unheard = find_unheard(*loaded.graph, channels);
+  try {
+    if (!run_end.hangs) sinks.close();
+  } catch (const std::exception& error) { unwatched = error.what(); }
+  const RunVerdict verdict =
+      judge_run(*loaded.graph, core.report(), channels, sinks, core.rest(), end, run_end, unwatched);
   const std::vector<TrueState> true_states =
       run_end.hangs ? std::vector<TrueState>{} : find_true_states(*loaded.graph, channels);
   json ? print_json(*loaded.graph, core, told, linked.reports(), guard, run_end, verdict, true_states)

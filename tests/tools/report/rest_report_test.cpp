@@ -27,16 +27,16 @@ RunEnd end_after(const Ending& ending) {
 
 TEST_SUITE("tools/rest_report") {
   TEST_CASE("conditions are judged up to where the way to rest began, and never beyond what was reached") {
-    CHECK(tools::judged_until({}, 10s, 4s) == 4s);
-    CHECK(tools::judged_until(3s, 10s, 4s) == 3s);
-    CHECK(tools::judged_until(10s, 10s, 14s) == 10s);
-    CHECK(tools::judged_until(3s, 10s, 2s) == 2s);  // a log that was cut before
+    CHECK(judged_until({}, 10s, 4s) == 4s);
+    CHECK(judged_until(3s, 10s, 4s) == 3s);
+    CHECK(judged_until(10s, 10s, 14s) == 10s);
+    CHECK(judged_until(3s, 10s, 2s) == 2s);  // a log that was cut before
   }
 
   TEST_CASE("a vehicle that is not at rest is said to be so, and one that was not heard not to be known") {
     const Graph graph = graph_with_rest();
     const RunEnd end = end_after(Ending::of_signal(SIGINT));
-    using tools::not_at_rest_text;
+    using jarol::not_at_rest_text;
     CHECK(not_at_rest_text(graph, RestReport{1s, 3s, true, true}, end) == "");
     CHECK(not_at_rest_text(graph, RestReport{1s, 21s, false, true}, end) ==
           "the vehicle did not come to rest: 'state is ground' was not so within 20s");

@@ -1,0 +1,54 @@
+// A loaded graph while it runs: its executor, who looks on, its links, and the verdict on it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "distributers/session/linked.h"
+#include "distributers/session/load.h"
+#include "distributers/session/run_sinks.h"
+#include "distributers/session/verdict.h"
+#include "runtime/execute/executor.h"
+
+namespace jarol {
+
+struct GraphRunOptions {
+  std::vector<RecordSink*> sinks{};  // get all that is published; they outlive the run
+  std::size_t workers = 1;
+  RealClock* clock = nullptr;                       // none: the virtual clock
+  std::span<const analysis::TaskThread> threads{};  // on the real clock: who runs the tasks
+  Recorder* log = nullptr;                          // gets what a replay needs
+  std::optional<std::span<const Miss>> misses{};    // of a replay
+};
+
+class GraphRun {
+ public:
+  /// Links are not connected yet. All that the options name outlives it.
+  GraphRun(Loaded loaded, const GraphRunOptions& options);
+
+  const Graph& graph() const { return *loaded_.graph; }
+  const std::vector<Channels*>& channels() const { return channels_; }
+  Executor& executor() { return executor_; }
+  const Executor& executor() const { return executor_; }
+  RunSinks& sinks() { return sinks_; }
+
+  /// Before the first instant. Throws std::runtime_error if there is no way to an external system.
+  void connect(NoteSink note) { linked_.emplace(channels_, std::move(note)); }
+  /// After the last one.
+  void disconnect() { linked_->finish(); }
+  std::vector<LinkReport> link_reports() const { return linked_->reports(); }
+
+  /// Of a run that was to go on `until` and ended like that. `unseen`: why not all that was published has been seen.
+  RunVerdict judge(Duration until, const RunEnd& end, const std::string& unseen = "") const;
+
+ private:
+  Loaded loaded_;
+  std::vector<Channels*> channels_;
+  RunSinks sinks_;
+  Executor executor_;
+  std::optional<Linked> linked_;
+};
+
+}  // namespace jarol

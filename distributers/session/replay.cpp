@@ -1,0 +1,29 @@
+#include "distributers/session/replay.h"
+
+namespace jarol {
+
+void ReplayRun::cover() {
+  const auto go_to = [&](Duration end) {
+    executor_.run_until(end);
+    comparison.interrupted = executor_.now() < end;
+    return !comparison.interrupted;
+  };
+  for (const Checkpoint& checkpoint : log_.checkpoints()) {
+    const Duration settled(checkpoint.settled);
+    if (checkpoint.exact == 0 || comparison.diverged_until || settled > log_.covered()) continue;
+    if (!go_to(settled)) return;
+    (executor_.report().digest == checkpoint.digest ? comparison.same_until : comparison.diverged_until) = settled;
+  }
+  if (!go_to(log_.covered())) return;
+  const Report& report = executor_.report();
+  const std::optional<LogEnd>& end = log_.end();
+  const bool same = !end || (report.digest == end->digest && report.activations == end->activations &&
+                             report.instants == end->instants && report.fault_count == end->faults);
+  if (comparison.diverged_until || !same) {
+    comparison.standing = Standing::diverged;
+  } else if (end) {
+    comparison.standing = Standing::same;
+  }
+}
+
+}  // namespace jarol

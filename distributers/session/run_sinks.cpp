@@ -1,0 +1,24 @@
+#include "distributers/session/run_sinks.h"
+
+#include <utility>
+
+namespace jarol {
+
+RunSinks::RunSinks(const Graph& graph, std::vector<RecordSink*> sinks) {
+  if (!graph.expectations.empty()) sinks.insert(sinks.begin(), &expectations_.emplace(graph, outputs_of(graph)));
+  if (!sinks.empty()) recorder_ = std::make_unique<Recorder>(std::move(sinks));
+}
+
+void RunSinks::catch_up() {
+  if (recorder_) recorder_->catch_up();
+}
+
+void RunSinks::close() {
+  if (recorder_) recorder_->close();
+}
+
+std::vector<Verdict> RunSinks::judge(Duration end, const std::string& cut_short) const {
+  return expectations_ ? expectations_->judge(end, cut_short) : std::vector<Verdict>();
+}
+
+}  // namespace jarol

@@ -1,0 +1,40 @@
+// Who looks on at a run: what its graph expects, and whatever sinks it is given; without any, nothing is recorded.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/model/graph.h"
+#include "runtime/execute/expectations.h"
+#include "runtime/record/recorder.h"
+
+namespace jarol {
+
+class RunSinks {
+ public:
+  /// The sinks and the graph outlive it.
+  RunSinks(const Graph& graph, std::vector<RecordSink*> sinks);
+
+  /// For ExecutorOptions; null if nobody looks on.
+  Recorder* recorder() { return recorder_.get(); }
+
+  /// What is published from that instant on is not judged. Any thread.
+  void judge_before(Duration instant) {
+    if (expectations_) expectations_->judge_before(instant);
+  }
+  /// The sinks have got all that was published so far.
+  void catch_up();
+  /// They have got all. Throws what a sink threw.
+  void close();
+  /// After `close`, of a run that covered the instants before `end`. `cut_short`: why it ended before what it was meant
+  /// to do; else empty.
+  std::vector<Verdict> judge(Duration end, const std::string& cut_short) const;
+
+ private:
+  std::optional<Expectations> expectations_;
+  std::unique_ptr<Recorder> recorder_;
+};
+
+}  // namespace jarol
