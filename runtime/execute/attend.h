@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "runtime/execute/ending.h"
 #include "runtime/machine/futex.h"
+#include "runtime/run/ending.h"
 
 namespace jarol {
 

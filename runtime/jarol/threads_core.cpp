@@ -9,34 +9,26 @@
 
 #include "graph/floating_point.h"
 #include "runtime/execute/expectations.h"
-#include "runtime/execute/publish.h"
 #include "runtime/jarol/threads_order.h"
 #include "runtime/machine/real_clock.h"
 #include "runtime/machine/running_task.h"
 #include "runtime/machine/signal_stack.h"
-#include "runtime/state/copy.h"
 
 namespace jarol {
 
 ThreadsCore::ThreadsCore(PlanOfRun plan, std::vector<std::unique_ptr<Channels>> channels, Recorder* recorder)
-    : plan_(std::move(plan)),
-      graph_(plan_->graph),
-      state_(*plan_, graph_.at_end ? std::span<const expect::Signal>(graph_.at_end->until.signals)
-                                   : std::span<const expect::Signal>()),
+    : run_(std::move(plan), {.recorder = recorder, .may_rest = true}),
+      graph_(run_.graph),
       channels_(std::move(channels)),
       period_(choose_period()),
-      recorder_(recorder),
       safe_commands_(graph_) {
-  const Graph& graph = graph_;
   for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::mutex>());
-  threads_report_.execution.resize(graph.tasks.size());
-  report_.left_out.resize(graph.tasks.size());
+  threads_report_.execution.resize(graph_.tasks.size());
   gather();
-  if (graph.at_end) rest_ = std::make_unique<Rest>(state_, channels_);
-  if (recorder_ == nullptr) return;
-  recorder_->expect(plan_->outputs);
-  recorder_->never_wait();
-  for (const std::size_t distributer : watched_vehicles(graph))
+  if (run_.may_rest) rest_ = std::make_unique<Rest>(run_.state, channels_);
+  if (recorder == nullptr) return;
+  recorder->never_wait();
+  for (const std::size_t distributer : watched_vehicles(graph_))
     if (const Type* type = channels_[distributer]->true_type())
       watched_.push_back(std::make_unique<Watched>(distributer, *type));
 }
@@ -68,12 +60,12 @@ std::int64_t ThreadsCore::rounds_of(const std::string& what, Duration period) co
 void ThreadsCore::gather() {
   std::vector<const Activation*> activations(graph_.tasks.size());
   std::vector<const Publish*> publishes(graph_.tasks.size());
-  for (const Activation& activation : state_.activations) {
+  for (const Activation& activation : run_.state.activations) {
     activations[activation.task] = &activation;
     if (!activation.has_let) publishes[activation.task] = &activation.publish;
   }
-  for (const LetEnd& end : state_.let_ends) publishes[end.task] = &end.publish;
-  for (const auto& [actions, to] : {std::pair(&state_.ins, &ins_), std::pair(&state_.outs, &outs_)})
+  for (const LetEnd& end : run_.state.let_ends) publishes[end.task] = &end.publish;
+  for (const auto& [actions, to] : {std::pair(&run_.state.ins, &ins_), std::pair(&run_.state.outs, &outs_)})
     for (const CommunicatorAction& action : *actions) {
       const Communicator& c = graph_.communicators[action.communicator];
       if (c.type->is_deep())
@@ -171,11 +163,11 @@ Finish ThreadsCore::finish(std::optional<Futex::Time> patience) {
     }
     part->thread.join();
   }
-  report_.non_finite_inputs = refused_inputs_;
-  for (const auto& channels : channels_) report_.non_finite_inputs += channels->non_finite_inputs();
-  report_.simulated = now();
+  run_.report.non_finite_inputs = refused_inputs_;
+  for (const auto& channels : channels_) run_.report.non_finite_inputs += channels->non_finite_inputs();
+  run_.report.simulated = now();
   // the instant at which a run is broken off was run
-  report_.covered = now() + Duration(reached_end_ || threads_report_.rounds == 0 ? 0 : 1);
+  run_.report.covered = now() + Duration(reached_end_ || threads_report_.rounds == 0 ? 0 : 1);
   return {};
 }
 
@@ -297,7 +289,7 @@ void ThreadsCore::sense(bool terminal, std::int64_t round) {
 void ThreadsCore::run_core() {
   const SignalStack signal_stack;
   const MemoryScope scope(no_heap());
-  for (std::int64_t done = 0; !report_.stopped;) {
+  for (std::int64_t done = 0; !run_.report.stopped;) {
     const auto ready = [&] { return rounds_begun_.load(std::memory_order_acquire) > done; };
     const bool over = core_signal_.await_unless(ready) == Awaiting::interrupted;
     if (!ready()) {
@@ -316,9 +308,9 @@ void ThreadsCore::run_core() {
 }
 
 void ThreadsCore::run_round(std::int64_t round) {
-  const std::int64_t instant = round * period_.count();
-  const std::uint64_t instant_term = digest::instant_term(instant);
-  ++report_.instants;
+  const Duration instant = round * period_;
+  const Now now = run_.publisher.at(instant);
+  ++run_.report.instants;
   if (!watched_.empty()) record_true_values(instant);
   const std::int64_t rest_from = rest_from_.load(std::memory_order_acquire);
   const bool rests = rest_from >= 0 && round >= rest_from;
@@ -327,74 +319,59 @@ void ThreadsCore::run_round(std::int64_t round) {
     if (!in.core.due(round)) continue;
     const std::optional<std::size_t>& distributer = graph_.communicators[in.communicator].distributer;
     const bool over = rests && distributer && rest_->is_mission(*distributer);
-    while (!over && in.port->read(in.action->value)) safe_commands_.took(in.communicator, Duration(instant));
-    if (rests && rest_->command(in.communicator, in.action->value))
-      safe_commands_.took(in.communicator, Duration(instant));
-    publish(in.action->publish, instant, instant_term);
+    while (!over && in.port->read(in.action->value)) safe_commands_.took(in.communicator, instant);
+    if (rests && rest_->command(in.communicator, in.action->value)) safe_commands_.took(in.communicator, instant);
+    run_.publisher.publish(in.action->publish, now);
   }
   for (Counted& task : tasks_)
-    if (task.cadence.due(round)) run_task(task, instant, instant_term);
+    if (task.cadence.due(round)) run_task(task, now);
   for (Carried& out : outs_) {
     if (!out.core.due(round)) continue;
-    const void* const safe = safe_commands_.in_place_of_input(out.communicator, Duration(instant));
+    const void* const safe = safe_commands_.in_place_of_input(out.communicator, instant);
     copy_value(*graph_.communicators[out.communicator].type, out.action->value,
                safe != nullptr ? safe : out.action->input);
-    publish(out.action->publish, instant, instant_term);
+    run_.publisher.publish(out.action->publish, now);
     out.port->write(out.action->value);
   }
-  if (rests && rest_reached_.load(std::memory_order_relaxed) < 0 &&
-      rest_->is_reached(safe_commands_, Duration(instant)))
+  if (rests && rest_reached_.load(std::memory_order_relaxed) < 0 && rest_->is_reached(safe_commands_, instant))
     rest_reached_.store(round, std::memory_order_release);
 }
 
-void ThreadsCore::run_task(Counted& task, std::int64_t instant, std::uint64_t instant_term) {
-  const Tick tick{Duration(instant), task.activations++, task.period};
+void ThreadsCore::run_task(Counted& task, const Now& now) {
+  const Activation& activation = *task.activation;
+  const Tick tick{now.instant, task.activations++, task.period};
   const std::int64_t begin = RealClock::monotonic();
   running_.activation.store(tick.activation, std::memory_order_relaxed);
-  running_.instant.store(instant, std::memory_order_relaxed);
+  running_.instant.store(tick.now.count(), std::memory_order_relaxed);
   running_.task.store(&task, std::memory_order_release);
-  running_task.begin(task.activation->memory, tick);
-  const Outcome outcome = task.activation->run(task.activation->memory, tick);
+  running_task.begin(activation.memory, tick);
+  const Outcome outcome = activation.run(activation.memory, tick);
   running_task.end();
   running_.task.store(nullptr, std::memory_order_relaxed);
   if (outcome == Outcome::left_out) {
-    ++report_.left_out[task.activation->task];
+    ++run_.report.left_out[activation.task];
     return;
   }
-  threads_report_.execution[task.activation->task].add(RealClock::monotonic() - begin);
-  ++report_.activations;
+  threads_report_.execution[activation.task].add(RealClock::monotonic() - begin);
+  ++run_.report.activations;
   if (outcome == Outcome::good)
-    publish(*task.publish, instant, instant_term);
+    run_.publisher.publish(*task.publish, now);
   else
-    on_fault(task, outcome, instant);
+    on_bad(activation, {outcome, tick.activation, tick.now});
 }
 
-void ThreadsCore::publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term) {
-  report_.digest += make_visible<true>(what, instant_term);
-  if (recorder_ != nullptr) record(*recorder_, what, instant);
-}
-
-void ThreadsCore::record_true_values(std::int64_t instant) {
+void ThreadsCore::record_true_values(Duration instant) {
   for (const auto& vehicle : watched_) {
-    const auto output = static_cast<std::uint32_t>(plan_->outputs.size() + vehicle->distributer);
+    const auto output = static_cast<std::uint32_t>(run_.plan.outputs.size() + vehicle->distributer);
     if (vehicle->port.read(vehicle->core.data()))
-      record(*recorder_, output, *vehicle->core.type(), vehicle->core.data(), instant);
+      record(*run_.publisher.recorder(), output, *vehicle->core.type(), vehicle->core.data(), instant);
   }
 }
 
-void ThreadsCore::on_fault(const Counted& task, Outcome outcome, std::int64_t instant) {
-  const Task& t = graph_.tasks[task.activation->task];
-  TaskStatus& status = state_.status[task.activation->task];
-  if (outcome == Outcome::non_finite) keep_text(status, "an output is not finite");
-  ++report_.left_out[task.activation->task];
-  report_.add({t.name, task.activations - 1, Duration(instant), status.text});
-  if (t.on_fault == OnFault::stop) {
-    report_.stopped = true;
-    stopped_.store(true, std::memory_order_release);
-    return;
-  }
-  status.put_back(task.activation->memory.state);
-  status.skip_next = t.on_fault == OnFault::skip;
+void ThreadsCore::on_bad(const Activation& activation, const BadActivation& bad) {
+  run_.faults.add(activation.task, bad, activation.memory.out);
+  if (run_.report.stopped) stopped_.store(true, std::memory_order_release);
+  run_.faults.restore(activation);
 }
 
 // Values of one side from the ports to the outside.

@@ -16,15 +16,13 @@
 
 #include "runtime/channels.h"
 #include "runtime/execute/attend.h"
-#include "runtime/execute/executor.h"
 #include "runtime/execute/rest.h"
 #include "runtime/execute/safe_commands.h"
 #include "runtime/jarol/push_port.h"
 #include "runtime/jarol/signal.h"
 #include "runtime/jarol/time_trigger.h"
 #include "runtime/machine/histogram.h"
-#include "runtime/record/recorder.h"
-#include "runtime/state/run_state.h"
+#include "runtime/run/run.h"
 
 namespace jarol {
 
@@ -72,12 +70,12 @@ class ThreadsCore {
   /// The period of the sensor thread: the shortest of the vehicle's channels, else of all.
   Duration period() const { return period_; }
   /// The digest counts rounds as instants; nothing is claimed of it.
-  const Report& report() const { return report_; }
+  const Report& report() const { return run_.report; }
   const ThreadsReport& threads_report() const { return threads_report_; }
   const std::vector<SafeCommandReport>& safe_commands() const { return safe_commands_.reports(); }
   /// The instant reached, as of Executor.
   Duration now() const { return Duration(now_.load(std::memory_order_relaxed)); }
-  const void* last_value(std::size_t communicator) const { return state_.last[communicator]; }
+  const void* last_value(std::size_t communicator) const { return run_.state.last[communicator]; }
 
  private:
   // What is due once in so many rounds: in the first that is run of these, as others may be left out.
@@ -145,24 +143,20 @@ class ThreadsCore {
   void sense(bool terminal, std::int64_t round);
   void act(bool terminal);
   void run_round(std::int64_t round);
-  void run_task(Counted& task, std::int64_t instant, std::uint64_t instant_term);
-  void publish(const Publish& what, std::int64_t instant, std::uint64_t instant_term);
-  void record_true_values(std::int64_t instant);
-  void on_fault(const Counted& task, Outcome outcome, std::int64_t instant);
+  void run_task(Counted& task, const Now& now);
+  void record_true_values(Duration instant);
+  void on_bad(const Activation& activation, const BadActivation& bad);
 
-  const PlanOfRun plan_;
+  Run run_;  // of the core thread
   const Graph& graph_;
-  RunState state_;
   std::vector<std::unique_ptr<Channels>> channels_;
   std::vector<std::unique_ptr<std::mutex>> channel_mutexes_;  // sensor and actuator thread share a vehicle's
   Duration period_{};
-  Recorder* recorder_;  // of the core thread; null: nobody looks on
   std::vector<std::unique_ptr<Watched>> watched_;
   std::vector<Carried> ins_, outs_;
   std::vector<Counted> tasks_;  // data-flow order
   SafeCommands safe_commands_;  // of the core thread
   std::atomic<std::uint64_t> refused_inputs_{0};
-  Report report_;
   ThreadsReport threads_report_;
   Signal start_signal_, core_signal_, actuator_signal_, terminal_signal_;
   std::atomic<std::int64_t> rounds_begun_{0};

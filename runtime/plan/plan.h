@@ -54,7 +54,7 @@ struct Plan {
     Indices let_ends;  // step 1
     Indices outs;      // step 2
     Indices ins;       // step 3
-    Indices tasks;     // step 4, in `order`
+    Indices tasks;     // step 5, in `order`
     Indices segments;  // of the same tasks
   };
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "runtime/execute/finite.h"
+#include "runtime/dispatch/finite.h"
 #include "tests/runtime/trace_of.h"
 
 namespace {

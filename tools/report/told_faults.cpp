@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/text/escape.h"
-#include "runtime/execute/faults.h"
+#include "runtime/run/fault_text.h"
 
 namespace jarol::tools {
 namespace {

@@ -10,9 +10,9 @@
 #include "graph/analysis/threads.h"
 #include "graph/model/graph.h"
 #include "runtime/channels.h"
-#include "runtime/execute/ending.h"
 #include "runtime/execute/safe_commands.h"
 #include "runtime/machine/real_clock.h"
+#include "runtime/run/ending.h"
 
 namespace jarol::tools {
 

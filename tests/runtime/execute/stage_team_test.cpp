@@ -1,5 +1,5 @@
 // Several workers give what one gives.
-#include "runtime/execute/stage_team.h"
+#include "runtime/dispatch/stage_team.h"
 
 #include <doctest/doctest.h>
 

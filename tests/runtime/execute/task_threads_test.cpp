@@ -1,5 +1,5 @@
 // Tasks on several threads in real time: what is published is what the virtual clock publishes.
-#include "runtime/execute/task_threads.h"
+#include "runtime/dispatch/task_threads.h"
 
 #include <doctest/doctest.h>
 

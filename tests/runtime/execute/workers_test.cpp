@@ -1,4 +1,4 @@
-#include "runtime/execute/workers.h"
+#include "runtime/dispatch/workers.h"
 
 #include <doctest/doctest.h>
 

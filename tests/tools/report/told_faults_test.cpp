@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "runtime/execute/faults.h"
+#include "runtime/run/fault_text.h"
 
 namespace {
 using namespace jarol;

@@ -1,4 +1,4 @@
-#include "runtime/execute/task_threads.h"
+#include "runtime/dispatch/task_threads.h"
 
 #include <algorithm>
 #include <bit>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/execute/workers.h"
+#include "runtime/dispatch/workers.h"
 #include "runtime/machine/histogram.h"
 #include "runtime/plan/plan.h"
 #include "runtime/state/actions.h"

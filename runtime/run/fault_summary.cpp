@@ -1,4 +1,4 @@
-#include "runtime/execute/fault_summary.h"
+#include "runtime/run/fault_summary.h"
 
 namespace jarol {
 namespace {

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "graph/analysis/threads.h"
-#include "runtime/execute/ending.h"
 #include "runtime/machine/futex.h"
 #include "runtime/machine/memory.h"
 #include "runtime/machine/real_clock.h"
+#include "runtime/run/ending.h"
 #include "runtime/state/run_state.h"
 
 namespace jarol {

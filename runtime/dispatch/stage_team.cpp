@@ -1,4 +1,4 @@
-#include "runtime/execute/stage_team.h"
+#include "runtime/dispatch/stage_team.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "runtime/execute/ending.h"
+#include "runtime/run/ending.h"
 
 #include <cstring>
 

@@ -1,4 +1,4 @@
-#include "runtime/execute/workers.h"
+#include "runtime/dispatch/workers.h"
 
 #include "graph/floating_point.h"
 #include "graph/values/heap.h"

@@ -1,4 +1,4 @@
-#include "runtime/execute/faults.h"
+#include "runtime/run/fault_text.h"
 
 #include "graph/values/bind.h"
 
@@ -25,6 +25,11 @@ std::string find_in(const Type& type, const void* value, const std::string& path
 }  // namespace
 
 std::string find_non_finite(const Type& type, const void* value) { return find_in(type, value, ""); }
+
+std::string to_text(const Fault& fault) {
+  return "task '" + fault.task + "' activation " + std::to_string(fault.activation) + " at " +
+         seconds_text(fault.instant) + " s: " + fault.cause;
+}
 
 std::string late_text(std::optional<Duration> ended, Duration deadline) {
   return "late: " +

@@ -1,0 +1,83 @@
+#include "runtime/dispatch/in_line.h"
+
+#include "runtime/dispatch/let_ends.h"
+#include "runtime/dispatch/releases.h"
+
+namespace jarol {
+namespace {
+
+// Digest and recorder are known to the compiler: an activation may take less time than asking for them.
+template <bool Digest, bool Record>
+class InLine : public Dispatcher {
+ public:
+  explicit InLine(Run& run) : run_(run), releases_(run) {}
+
+  void end_lets(const Now& now) override {
+    jarol::end_lets(run_, now, [&](const Publish& what) { publish(what, now); });
+  }
+
+  void release(const Now& now) override {
+    releases_.each_segment(now,
+                           [&](const Plan::Segment& segment, const Tick& tick) { run_segment(segment, tick, now); });
+  }
+
+ private:
+  [[gnu::always_inline]] void publish(const Publish& what, const Now& now) {
+    run_.publisher.publish_as<Digest, Record>(what, now);
+  }
+
+  void run_segment(const Plan::Segment& segment, const Tick& tick, const Now& now) {
+    running_task.tick.store(&tick, std::memory_order_relaxed);
+    const Activation* next = run_.state.activations.data() + segment.tasks.first;
+    const Activation* const last = next + segment.tasks.count;
+    while (next != last) {
+      if (next->body != nullptr) {
+        next = run_bodies(next, last, tick);
+        continue;
+      }
+      const Activation& activation = *next++;
+      running_task.next(activation.memory);
+      const Outcome outcome = activation.run(activation.memory, tick);
+      if (outcome == Outcome::good) [[likely]] {
+        if (!activation.has_let) publish(activation.publish, now);
+      } else {
+        run_.faults.on_bad(activation, {outcome, tick.activation, tick.now});
+      }
+    }
+    running_task.end();
+  }
+
+  // Those in a row that are checked at the ends of their LETs; returns the first that is not one. What one throws ends
+  // its own activation alone.
+  [[gnu::noinline]] const Activation* run_bodies(const Activation* next, const Activation* last, const Tick& tick) {
+    while (next != last && next->body != nullptr) {
+      const Outcome outcome = contain(
+          [&] {
+            for (; next != last && next->body != nullptr; ++next) {
+              running_task.next(next->memory);
+              next->body(next->memory, tick);
+            }
+          },
+          [&]() -> FaultText& { return *next->memory.fault; });
+      if (outcome != Outcome::good) run_.faults.on_bad(*next++, {outcome, tick.activation, tick.now});
+    }
+    return next;
+  }
+
+  Run& run_;
+  Releases releases_;
+};
+
+}  // namespace
+
+std::unique_ptr<Dispatcher> make_in_line(Run& run) {
+  const bool record = run.publisher.recorder() != nullptr;
+  if (run.publisher.with_digest()) {
+    if (record) return std::make_unique<InLine<true, true>>(run);
+    return std::make_unique<InLine<true, false>>(run);
+  }
+  if (record) return std::make_unique<InLine<false, true>>(run);
+  return std::make_unique<InLine<false, false>>(run);
+}
+
+}  // namespace jarol

@@ -1,0 +1,102 @@
+// The tasks that are released at an instant, in the order of the plan: stage by stage, and within a stage by group.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "runtime/run/run.h"
+
+namespace jarol {
+
+class Releases {
+ public:
+  explicit Releases(Run& run) : run_(run), cursors_(run.plan.groups.size()), ticks_(run.plan.groups.size()) {
+    in_stage_.reserve(run.plan.groups.size());
+  }
+
+  /// Calls run_segment(segment, tick) for each segment of the groups that are due.
+  template <class RunSegment>
+  [[gnu::always_inline]] void each_segment(const Now& now, RunSegment run_segment) {
+    if (now.due.size() == 1) {
+      const Tick tick = begin(now.due[0], now.instant);
+      for (const Plan::Segment& segment : run_.plan.segments_of(run_.plan.groups[now.due[0]]))
+        run_segment(segment, tick);
+      return;
+    }
+    begin_all(now);
+    for (std::uint32_t stage = 0; stage != none;) {
+      std::uint32_t next = none;
+      for (std::size_t i = 0; i < now.due.size(); ++i) {
+        Cursor& cursor = cursors_[i];
+        if (cursor.next != cursor.last && cursor.next->stage == stage) run_segment(*cursor.next++, ticks_[i]);
+        if (cursor.next != cursor.last) next = std::min(next, cursor.next->stage);
+      }
+      stage = next;
+    }
+  }
+
+  struct Released {
+    const Plan::Segment* segment = nullptr;
+    const Tick* tick = nullptr;
+  };
+
+  /// Calls run_stage(segments) for each stage, with those of the groups that are due.
+  template <class RunStage>
+  void each_stage(const Now& now, RunStage run_stage) {
+    begin_all(now);
+    for (std::uint32_t stage = 0; stage != none;) {
+      std::uint32_t next = none;
+      in_stage_.clear();
+      for (std::size_t i = 0; i < now.due.size(); ++i) {
+        Cursor& cursor = cursors_[i];
+        if (cursor.next != cursor.last && cursor.next->stage == stage)
+          in_stage_.push_back({cursor.next++, &ticks_[i]});
+        if (cursor.next != cursor.last) next = std::min(next, cursor.next->stage);
+      }
+      run_stage(in_stage_);
+      stage = next;
+    }
+  }
+
+  /// Calls release(activation, tick) for each task of the groups that are due, group by group.
+  template <class Release>
+  void each_task(const Now& now, Release release) {
+    for (const std::uint32_t group : now.due) {
+      const Tick tick = begin(group, now.instant);
+      for (const Activation& activation : run_.plan.groups[group].tasks.of(run_.state.activations))
+        release(activation, tick);
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  // what of a group is still to be run
+  struct Cursor {
+    const Plan::Segment* next = nullptr;
+    const Plan::Segment* last = nullptr;
+  };
+
+  Tick begin(std::uint32_t g, Duration instant) {
+    const Plan::Group& group = run_.plan.groups[g];
+    run_.report.activations += group.tasks.count;
+    return {instant, run_.state.releases[g]++, group.period};
+  }
+
+  void begin_all(const Now& now) {
+    for (std::size_t i = 0; i < now.due.size(); ++i) {
+      const auto segments = run_.plan.segments_of(run_.plan.groups[now.due[i]]);
+      cursors_[i] = {segments.data(), segments.data() + segments.size()};
+      ticks_[i] = begin(now.due[i], now.instant);
+    }
+  }
+
+  Run& run_;
+  std::vector<Cursor> cursors_;  // of the groups due now
+  std::vector<Tick> ticks_;      // of the groups due now
+  std::vector<Released> in_stage_;  // of the stage under way
+};
+
+}  // namespace jarol

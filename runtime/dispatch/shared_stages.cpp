@@ -1,0 +1,84 @@
+#include "runtime/dispatch/shared_stages.h"
+
+#include <algorithm>
+
+namespace jarol {
+namespace {
+
+// More than there are processors never pay.
+std::size_t useful_workers(std::size_t wanted, Sharing sharing) {
+  if (sharing == Sharing::always) return wanted;
+  return std::min<std::size_t>(wanted, std::max(1U, std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+SharedStages::SharedStages(Run& run, std::size_t workers, Sharing sharing, std::unique_ptr<Dispatcher> alone)
+    : run_(run),
+      releases_(run),
+      team_(useful_workers(workers, sharing), sharing, run.plan),
+      alone_(std::move(alone)) {
+  bad_.reserve(run.graph.tasks.size());
+}
+
+void SharedStages::release(const Now& now) {
+  if (!team_.may_share(now.due)) return alone_->release(now);
+  releases_.each_stage(now, [&](const Stage& stage) {
+    std::uint32_t levels = 0;
+    bool deep = false;
+    for (const auto& [segment, tick] : stage) {
+      deep = deep || segment->publishes_deep;
+      levels = std::max(levels, segment->levels.count);
+    }
+    // a reader's heap tells which of its producers came first
+    if (deep && stage.size() > 1) return run_in_order(stage, now);
+    for (std::uint32_t level = 0; level < levels; ++level) run_level(stage, level, now);
+    report_bad();
+  });
+}
+
+void SharedStages::run_in_order(const Stage& stage, const Now& now) {
+  for (const auto& [segment, tick] : stage) {
+    for (const Activation& activation : segment->tasks.of(run_.state.activations)) {
+      running_task.begin(activation.memory, *tick);
+      const Outcome outcome = activation.run(activation.memory, *tick);
+      if (outcome != Outcome::good) {
+        run_.faults.on_bad(activation, {outcome, tick->activation, tick->now});
+      } else if (!activation.has_let) {
+        run_.publisher.publish(activation.publish, now);
+      }
+    }
+    running_task.end();
+  }
+}
+
+// The tasks of one level of all segments of the stage: none feeds another.
+void SharedStages::run_level(const Stage& stage, std::uint32_t level, const Now& now) {
+  team_.clear();
+  for (const auto& [segment, tick] : stage) {
+    if (level >= segment->levels.count) continue;
+    const Indices& tasks = run_.plan.levels[segment->levels.first + level];
+    for (const Activation& activation : tasks.of(run_.state.activations)) team_.add(activation, *tick);
+  }
+  run_.publisher.add_to_digest(team_.run(run_.publisher.with_digest(), now.digest_term));
+  for (const StageTeam::Item& item : team_.items()) {
+    if (item.outcome != Outcome::good) {
+      bad_.push_back(item);
+    } else if (item.activation->publishes_deep) {
+      run_.publisher.publish(item.activation->publish, now);
+    } else {
+      run_.publisher.record(item.activation->publish, now);
+    }
+  }
+}
+
+// In the order in which one worker would have seen them, which is that of the plan.
+void SharedStages::report_bad() {
+  std::sort(bad_.begin(), bad_.end(),
+            [](const StageTeam::Item& a, const StageTeam::Item& b) { return a.activation < b.activation; });
+  for (const StageTeam::Item& item : bad_)
+    run_.faults.on_bad(*item.activation, {item.outcome, item.tick->activation, item.tick->now});
+  bad_.clear();
+}
+
+}  // namespace jarol

@@ -1,0 +1,147 @@
+#include "runtime/execute/communicators.h"
+
+#include <algorithm>
+#include <cassert>
+#include <thread>
+
+#include "runtime/execute/expectations.h"
+
+namespace jarol {
+namespace {
+
+// Communicators are in order of name in the graph, so their index tells it; few are due at once.
+void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
+  if (actions.size() < 2) return;
+  std::sort(actions.begin(), actions.end(),
+            [](const auto* a, const auto* b) { return a->communicator < b->communicator; });
+}
+
+}  // namespace
+
+Communicators::Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, bool record_truth)
+    : run_(run),
+      channels_(std::move(channels)),
+      safe_commands_(run.graph),
+      are_any_(!run.graph.communicators.empty()) {
+  assert(channels_.size() == run.graph.distributers.size());
+  outs_.reserve(run.plan.outs.size());
+  ins_.reserve(run.plan.ins.size());
+  for (const std::size_t distributer : watched_vehicles(run.graph))
+    if (const Type* type = channels_[distributer]->true_type();
+        type != nullptr && record_truth && run.publisher.recorder() != nullptr)
+      watched_.push_back({distributer, Value(*type)});
+  if (run.may_rest) rest_ = std::make_unique<Rest>(run.state, channels_);
+}
+
+void Communicators::begin(Turn& turn, const Now& now) {
+  gather(now);
+  if (outs_.empty() && ins_.empty()) return;
+  Use free = Use::free;
+  turn.uses_ = use_.compare_exchange_strong(free, Use::covering, std::memory_order_acquire);
+  turn.closed_ = !turn.uses_;
+  if (turn.uses_) reach(now.instant);
+}
+
+void Communicators::end(Turn& turn) {
+  turn.uses_ = false;
+  use_.store(Use::free, std::memory_order_release);
+}
+
+// The communicators due now, by name.
+void Communicators::gather(const Now& now) {
+  outs_.clear();
+  ins_.clear();
+  for (const std::uint32_t g : now.due) {
+    const Plan::Group& group = run_.plan.groups[g];
+    for (const CommunicatorAction& action : group.outs.of(run_.state.outs)) outs_.push_back(&action);
+    for (const CommunicatorAction& action : group.ins.of(run_.state.ins)) ins_.push_back(&action);
+  }
+  sort_by_name(outs_);
+  sort_by_name(ins_);
+}
+
+void Communicators::reach(Duration instant) {
+  const MemoryScope outside(nullptr);
+  for (const auto& channels : channels_) channels->reach(instant);
+  for (WatchedVehicle& vehicle : watched_) {
+    channels_[vehicle.distributer]->copy_true_values(vehicle.values.data());
+    const auto output = static_cast<std::uint32_t>(run_.plan.outputs.size() + vehicle.distributer);
+    record(*run_.publisher.recorder(), output, *vehicle.values.type(), vehicle.values.data(), instant);
+  }
+}
+
+void Communicators::act(Turn& turn, const Now& now) {
+  for (const CommunicatorAction* out : outs_) {
+    hand_over(*out, now.instant);
+    run_.publisher.publish(out->publish, now);
+  }
+  for (const CommunicatorAction* in : ins_) {
+    take(*in, now.instant);
+    run_.publisher.publish(in->publish, now);
+  }
+  end(turn);
+}
+
+void Communicators::hand_over(const CommunicatorAction& out, Duration instant) {
+  const Communicator& communicator = run_.graph.communicators[out.communicator];
+  const void* const safe = safe_commands_.in_place_of_input(out.communicator, instant);
+  copy_value(*communicator.type, out.value, safe != nullptr ? safe : out.input);
+  const MemoryScope outside(nullptr);
+  if (communicator.distributer) channels_[*communicator.distributer]->hand_over(communicator.channel, out.value);
+}
+
+void Communicators::take(const CommunicatorAction& in, Duration instant) {
+  const Communicator& communicator = run_.graph.communicators[in.communicator];
+  if (!communicator.distributer) return;
+  const MemoryScope outside(nullptr);
+  const bool over = resting() && rest_->is_mission(*communicator.distributer);
+  bool fresh = !over && channels_[*communicator.distributer]->take(communicator.channel, in.taken);
+  if (fresh && !communicator.type->finite(in.taken)) {
+    ++refused_;
+    fresh = false;
+  }
+  if (fresh) copy_value(*communicator.type, in.value, in.taken);
+  const bool commanded = resting() && rest_->command(in.communicator, in.value);
+  if (!fresh && !commanded) return;
+  safe_commands_.took(in.communicator, instant);
+  run_.log.took(in.communicator, in.value, instant);
+}
+
+void Communicators::begin_rest(Duration instant) {
+  rest_begun_ = instant;
+  rest_->begin();
+  run_.log.rest(instant);
+  resting_.store(true);
+}
+
+bool Communicators::has_come_to_rest(Duration instant) {
+  return resting() && (rest_reached_ = rest_->is_reached(safe_commands_, instant));
+}
+
+std::optional<RestReport> Communicators::rest(Duration reached) const {
+  if (!resting()) return std::nullopt;
+  return RestReport{rest_begun_, std::max(rest_begun_, reached), rest_reached_, rest_->was_heard()};
+}
+
+void Communicators::close(Futex::Time patience, bool outliving, const std::function<Duration()>& time) {
+  Use use = Use::free;
+  while (!use_.compare_exchange_strong(use, Use::closed, std::memory_order_acquire)) {
+    if (use == Use::closed) return;
+    if (Futex::now() >= patience) break;
+    use = Use::free;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const MemoryScope outside(nullptr);
+  if (use == Use::free)
+    safe_commands_.hand_over_at_end(channels_, time(), outliving);
+  else
+    safe_commands_.fail_at_end(channels_, time(), outliving, busy_link_text);
+}
+
+std::uint64_t Communicators::non_finite_inputs() const {
+  std::uint64_t sum = refused_;
+  for (const auto& channels : channels_) sum += channels->non_finite_inputs();
+  return sum;
+}
+
+}  // namespace jarol

@@ -1,0 +1,99 @@
+// The communicators of a run and the channels behind them: steps 0, 2 and 3 of each instant. Nobody else may use the
+// channels then, and nothing uses them once the run is closed.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "runtime/channels.h"
+#include "runtime/execute/rest.h"
+#include "runtime/execute/safe_commands.h"
+#include "runtime/machine/futex.h"
+#include "runtime/run/run.h"
+
+namespace jarol {
+
+class Communicators {
+ public:
+  /// One Channels per distributer, in the order of the graph. With `record_truth` the run's recorder gets true values
+  /// too. The run outlives it.
+  Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, bool record_truth);
+
+  /// An instant, from its begin until `act` has been called.
+  class Turn {
+   public:
+    /// Step 0: external systems reach the instant with the inputs that they held before it.
+    Turn(Communicators& all, const Now& now) : all_(all) {
+      if (all_.are_any_) all_.begin(*this, now);
+    }
+    ~Turn() {
+      if (uses_) all_.end(*this);
+    }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+    /// The run was closed: nothing of the instant takes place.
+    bool closed() const { return closed_; }
+    /// Steps 2 and 3: communicators act, by name.
+    void act(const Now& now) {
+      if (uses_) all_.act(*this, now);
+    }
+
+   private:
+    friend Communicators;
+    Communicators& all_;
+    bool uses_ = false, closed_ = false;
+  };
+
+  /// The vehicle may be brought to rest.
+  bool may_rest() const { return rest_ != nullptr; }
+  /// From that instant on it is.
+  void begin_rest(Duration instant);
+  /// After an instant: it has come to rest.
+  bool has_come_to_rest(Duration instant);
+  /// Until when it may take at the latest.
+  Duration end_of_rest() const { return rest_begun_ + rest_->longest(); }
+  bool resting() const { return resting_.load(std::memory_order_relaxed); }
+  /// None: it did not begin. `reached`: the instant that the run has reached.
+  std::optional<RestReport> rest(Duration reached) const;
+
+  /// No more is handed over, but now, once, all that is safe; with `outliving` only to external systems that outlive
+  /// the run. Any thread; what an instant has begun to hand over is waited for until then.
+  void close(Futex::Time patience, bool outliving, const std::function<Duration()>& time);
+
+  const std::vector<SafeCommandReport>& safe_commands() const { return safe_commands_.reports(); }
+  /// Values from outside that were not taken as they were not finite.
+  std::uint64_t non_finite_inputs() const;
+
+ private:
+  void begin(Turn& turn, const Now& now);
+  void act(Turn& turn, const Now& now);
+  void end(Turn& turn);
+  void gather(const Now& now);
+  void reach(Duration instant);
+  void hand_over(const CommunicatorAction& out, Duration instant);
+  void take(const CommunicatorAction& in, Duration instant);
+
+  Run& run_;
+  std::vector<std::unique_ptr<Channels>> channels_;
+  SafeCommands safe_commands_;
+  const bool are_any_;
+  std::vector<const CommunicatorAction*> outs_, ins_;  // due now
+  std::uint64_t refused_ = 0;                          // values of `in` channels that were not finite
+  struct WatchedVehicle {
+    std::size_t distributer;
+    Value values;
+  };
+  std::vector<WatchedVehicle> watched_;  // whose true values are recorded
+  // of the channels, by an instant or by whoever closed the run
+  enum class Use : std::uint32_t { free, covering, closed };
+  std::atomic<Use> use_{Use::free};
+  std::unique_ptr<Rest> rest_;  // null: the run can't be brought to rest
+  std::atomic<bool> resting_{false};
+  Duration rest_begun_{};
+  bool rest_reached_ = false;
+};
+
+}  // namespace jarol
