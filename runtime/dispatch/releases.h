@@ -51,8 +51,7 @@ class Releases {
       in_stage_.clear();
       for (std::size_t i = 0; i < now.due.size(); ++i) {
         Cursor& cursor = cursors_[i];
-        if (cursor.next != cursor.last && cursor.next->stage == stage)
-          in_stage_.push_back({cursor.next++, &ticks_[i]});
+        if (cursor.next != cursor.last && cursor.next->stage == stage) in_stage_.push_back({cursor.next++, &ticks_[i]});
         if (cursor.next != cursor.last) next = std::min(next, cursor.next->stage);
       }
       run_stage(in_stage_);
@@ -94,8 +93,8 @@ class Releases {
   }
 
   Run& run_;
-  std::vector<Cursor> cursors_;  // of the groups due now
-  std::vector<Tick> ticks_;      // of the groups due now
+  std::vector<Cursor> cursors_;     // of the groups due now
+  std::vector<Tick> ticks_;         // of the groups due now
   std::vector<Released> in_stage_;  // of the stage under way
 };
 

@@ -14,10 +14,7 @@ std::size_t useful_workers(std::size_t wanted, Sharing sharing) {
 }  // namespace
 
 SharedStages::SharedStages(Run& run, std::size_t workers, Sharing sharing, std::unique_ptr<Dispatcher> alone)
-    : run_(run),
-      releases_(run),
-      team_(useful_workers(workers, sharing), sharing, run.plan),
-      alone_(std::move(alone)) {
+    : run_(run), releases_(run), team_(useful_workers(workers, sharing), sharing, run.plan), alone_(std::move(alone)) {
   bad_.reserve(run.graph.tasks.size());
 }
 

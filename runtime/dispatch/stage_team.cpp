@@ -7,7 +7,7 @@
 
 #include "runtime/machine/running_task.h"
 #include "runtime/machine/thread_time.h"
-#include "runtime/state/copy.h"
+#include "runtime/run/publisher.h"
 
 namespace jarol {
 namespace {
@@ -175,10 +175,8 @@ inline void StageTeam::run_item(Item& item, std::uint64_t& digest) const {
   item.outcome = activation.run(activation.memory, *item.tick);
   running_task.end();
   if (item.outcome != Outcome::good || activation.publishes_deep) return;
-  for (const Copy& c : activation.publish.copies) transfer(c);
-  if (!digest_) return;
-  for (const Publication& p : activation.publish.publications)
-    digest += digest::publication(p.name_hash, instant_term_, p.hash_words(p.value));
+  digest +=
+      digest_ ? make_visible<true>(activation.publish, instant_term_) : make_visible<false>(activation.publish, 0);
 }
 
 }  // namespace jarol

@@ -19,10 +19,7 @@ void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
 }  // namespace
 
 Communicators::Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, bool record_truth)
-    : run_(run),
-      channels_(std::move(channels)),
-      safe_commands_(run.graph),
-      are_any_(!run.graph.communicators.empty()) {
+    : run_(run), channels_(std::move(channels)), safe_commands_(run.graph), are_any_(!run.graph.communicators.empty()) {
   assert(channels_.size() == run.graph.distributers.size());
   outs_.reserve(run.plan.outs.size());
   ins_.reserve(run.plan.ins.size());
