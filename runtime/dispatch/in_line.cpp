@@ -13,7 +13,9 @@ class InLine : public Dispatcher {
   explicit InLine(Run& run) : run_(run), releases_(run) {}
 
   void end_lets(const Now& now) override {
-    jarol::end_lets(run_, now, [&](const Publish& what) { publish(what, now); });
+    std::uint64_t digest = 0;
+    jarol::end_lets(run_, now, [&](const Publish& what) { digest += publish(what, now); });
+    if constexpr (Digest) run_.publisher.add_to_digest(digest);
   }
 
   void release(const Now& now) override {
@@ -22,14 +24,18 @@ class InLine : public Dispatcher {
   }
 
  private:
-  [[gnu::always_inline]] void publish(const Publish& what, const Now& now) {
-    run_.publisher.publish_as<Digest, Record>(what, now);
+  // Returns the digest's part.
+  [[gnu::always_inline]] std::uint64_t publish(const Publish& what, const Now& now) {
+    const std::uint64_t digest = make_visible<Digest>(what, now.digest_term);
+    if constexpr (Record) run_.publisher.record(what, now);
+    return digest;
   }
 
   void run_segment(const Plan::Segment& segment, const Tick& tick, const Now& now) {
     running_task.tick.store(&tick, std::memory_order_relaxed);
     const Activation* next = run_.state.activations.data() + segment.tasks.first;
     const Activation* const last = next + segment.tasks.count;
+    std::uint64_t digest = 0;
     while (next != last) {
       if (next->body != nullptr) {
         next = run_bodies(next, last, tick);
@@ -39,12 +45,13 @@ class InLine : public Dispatcher {
       running_task.next(activation.memory);
       const Outcome outcome = activation.run(activation.memory, tick);
       if (outcome == Outcome::good) [[likely]] {
-        if (!activation.has_let) publish(activation.publish, now);
+        if (!activation.has_let) digest += publish(activation.publish, now);
       } else {
         run_.faults.on_bad(activation, {outcome, tick.activation, tick.now});
       }
     }
     running_task.end();
+    if constexpr (Digest) run_.publisher.add_to_digest(digest);
   }
 
   // Those in a row that are checked at the ends of their LETs; returns the first that is not one. What one throws ends
