@@ -120,7 +120,7 @@ TEST_SUITE("distributers/session") {
     session.run_until(30ms);
     CHECK(session.value<double>("goal.depth") == 3);
     session.feed("a", std::numeric_limits<double>::infinity());
-    session.run_until(40ms);
+    session.run_until(60ms);
     CHECK(session.value<double>("a") == 3);
     session.finish();
     CHECK(session.report().non_finite_inputs == 1);
