@@ -46,6 +46,11 @@ struct NeedsRealClock : SessionError {
   using SessionError::SessionError;
 };
 
+/// On the real clock: nothing executes its policy, this machine has too little for it, or check has a negative verdict.
+struct NotExecutable : SessionError {
+  using SessionError::SessionError;
+};
+
 /// A vehicle whose motion has left what numbers can tell, or one in another process that is gone.
 struct SystemLost : SessionError {
   using SessionError::SessionError;

@@ -1,4 +1,4 @@
-// A run that a program steps, feeds and watches: a graph joined to its world, on the virtual clock.
+// A run that a program steps, feeds and watches: a graph joined to its world, on the virtual clock or the real one.
 #pragma once
 
 #include <memory>
@@ -22,6 +22,9 @@ struct SessionOptions {
   std::vector<std::string> fed{};  // what the program feeds, by name, * for any part: distributers, whose links are
                                    // not used, and `in` communicators that have no channel
   std::size_t workers = 1;         // threads that run tasks; the outcome is the same for any number
+  bool real_clock = false;         // against the machine's clock; else as fast as possible
+  RealTimeOptions real_time{};     // on the real clock: priority and CPUs of the threads that run the graph
+  bool force = false;              // on the real clock: also what check has a negative verdict on
   std::string no_plugins{};        // why plugins that the graph names are an error; empty: they are loaded
   NoteSink note = no_notes;        // gets what is worth knowing and no error
 };
@@ -38,7 +41,8 @@ struct Sample {
 class Session {
  public:
   /// A graph's file with what it may name, which outlives the session. Throws SpecError with all that is wrong with the
-  /// file, the options and the links; UnknownName where nothing fits a name in `fed`; NeedsRealClock.
+  /// file, the options and the links; UnknownName where nothing fits a name in `fed`; NeedsRealClock;
+  /// NotExecutable.
   Session(const distributers::Registries& known, const std::string& path, SessionOptions options = {});
   /// The same of a text; paths in it are relative to the folder of the source's name.
   Session(const distributers::Registries& known, std::shared_ptr<const Source> source, SessionOptions options = {});
@@ -49,6 +53,10 @@ class Session {
   /// Covers the instants from `now()` to before `end`; in pieces it is the same run. Ends earlier at a fault that stops
   /// the run. Throws WrongInstant for an `end` before `now()`; RunOver where it was stopped before, or finished;
   /// SystemLost.
+  ///
+  /// On the real clock instant 0 is at the first call. The calling thread keeps the time, and gets its priority and
+  /// CPUs; values that nobody could take in time are lost, which `finish` reports by an exception. What has a `safe`
+  /// gets that at the end, also if the process dies; `at_end` of a graph is for jarol run.
   void run_until(Duration end);
   void run_for(Duration length) { run_until(now() + length); }
 

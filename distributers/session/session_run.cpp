@@ -1,7 +1,9 @@
 #include "distributers/session/session_run.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "distributers/session/real_time.h"
 #include "graph/language/problems.h"
 
 namespace jarol {
@@ -25,24 +27,65 @@ std::string channel_name(const Graph& graph, const Communicator& c) {
   return distributer.name + "." + distributer.distributer_class->channels[c.channel].name;
 }
 
+void require_no_clock(const Loaded& loaded) {
+  if (const Distributer* distributer = find_in_real_time(loaded))
+    throw NeedsRealClock("distributer '" + distributer->name +
+                         "' has a link to what goes on by itself; open the session with .real_clock = true, or with "
+                         ".fed = {\"" +
+                         distributer->name + "\"} and feed it");
+}
+
 }  // namespace
 
 Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const Source> source,
-                  const SessionOptions& options) {
+                  const SessionOptions& options)
+    : note_(options.note) {
   Loaded loaded = feed_in_place_of_links(load_graph(source, known, {options.profile, options.set, options.no_plugins},
                                                     options.seed, options.note, options.fed),
                                          options.fed);
-  if (const Distributer* distributer = find_in_real_time(loaded))
-    throw NeedsRealClock("distributer '" + distributer->name +
-                         "' has a link to what goes on by itself; open the session with .fed = {\"" +
-                         distributer->name + "\"} and feed it, or run the graph by jarol run --clock real");
+  if (options.real_clock)
+    make_clock(source->name, loaded, options);
+  else
+    require_no_clock(loaded);
   observed = std::make_unique<Observed>(*loaded.graph, outputs_of(*loaded.graph));
-  graph_run_.emplace(std::move(loaded), GraphRunOptions{.sinks = {observed.get()}, .workers = options.workers});
-  graph_run_->connect(options.note);
+  graph_run_.emplace(std::move(loaded), GraphRunOptions{.sinks = {observed.get()},
+                                                        .workers = options.workers,
+                                                        .clock = clock_ ? &*clock_ : nullptr,
+                                                        .threads = threads_});
+  graph_run_->connect(note_);
 }
 
 Session::Run::~Run() {
-  if (graph_run_) graph_run_->executor().close();
+  if (graph_run_ && !finished_) end();
+}
+
+void Session::Run::make_clock(const std::string& name, const Loaded& loaded, const SessionOptions& options) {
+  if (options.workers > 1) throw NotExecutable("workers belong to the virtual clock; the real one goes by 'platform'");
+  const Graph& graph = *loaded.graph;
+  require_executed(name, graph);
+  const CheckFindings found = find_against(graph);
+  if (!found.against.empty() && !options.force)
+    throw NotExecutable("'" + name + "' " + found.against + "; 'jarol check' says more, .force runs it all the same");
+  if (!found.unknown.empty()) note_("whether this graph can be scheduled is not known: " + found.unknown);
+  RealTimeOptions real_time = options.real_time;
+  threads_ = threads_for(name, graph, real_time);
+  clock_.emplace(graph.tasks.size(), real_time);
+  guard_.emplace(loaded, "", real_time.priority, note_);
+}
+
+void Session::Run::start_clock() {
+  if (!clock_ || std::exchange(started_, true)) return;
+  for (const std::string& refusal : clock_->prepare_thread()) note_(refusal);
+  clock_->start();
+  guard_->arm();
+}
+
+// What has a safe gets it, then the links are let go.
+void Session::Run::end() {
+  graph_run_->executor().close();
+  graph_run_->executor().finish();
+  graph_run_->disconnect();
+  if (guard_) guard_->close();
 }
 
 Loaded Session::Run::feed_in_place_of_links(Loaded loaded, const std::vector<std::string>& patterns) {
@@ -82,6 +125,7 @@ void Session::Run::run_until(Duration end) {
     throw WrongInstant("a run does not go back: it has reached " + seconds_text(executor.now()) +
                        " s, and was to run until " + seconds_text(end) + " s");
   asked_ = end;
+  start_clock();
   try {
     executor.run_until(end);
   } catch (const std::exception& error) {
@@ -118,10 +162,7 @@ RunVerdict Session::Run::finish() {
   if (finished_) throw RunOver("the run was finished before");
   finished_ = true;
   over_ = "it was finished";
-  Executor& executor = graph_run_->executor();
-  executor.close();
-  executor.finish();
-  graph_run_->disconnect();
+  this->end();
   graph_run_->sinks().close();
   RunEnd end;
   end.ending = Ending::over();

@@ -8,6 +8,7 @@
 
 #include "distributers/session/fed_channels.h"
 #include "distributers/session/graph_run.h"
+#include "distributers/session/guard.h"
 #include "distributers/session/observed.h"
 #include "distributers/session/session.h"
 
@@ -30,12 +31,22 @@ class Session::Run {
   std::unique_ptr<Observed> observed;
 
  private:
+  void make_clock(const std::string& name, const Loaded& loaded, const SessionOptions& options);
+  void start_clock();
+  void end();
   Loaded feed_in_place_of_links(Loaded loaded, const std::vector<std::string>& patterns);
 
   DistributerClass without_channel_;  // of communicators that the program feeds
   std::vector<FedChannels*> fed_;     // per distributer, null: it has its link
+  // on the real clock
+  std::optional<RealClock> clock_;
+  std::vector<analysis::TaskThread> threads_;
+  std::optional<Guard> guard_;
+  bool started_ = false;
+
   std::optional<GraphRun> graph_run_;
   Duration asked_{};  // to which it was to run last
+  NoteSink note_;
   std::string over_;  // why no more can be run; empty: it can
   bool finished_ = false;
 };

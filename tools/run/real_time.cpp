@@ -9,11 +9,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "graph/analysis/chains.h"
-#include "graph/analysis/check.h"
-#include "graph/analysis/policies.h"
+#include "distributers/session/real_time.h"
 #include "graph/language/quantities.h"
-#include "runtime/machine/machine.h"
 #include "tools/report/command_line.h"
 #include "tools/report/failure.h"
 #include "tools/report/value_json.h"
@@ -42,6 +39,8 @@ void add_cpus(const std::string& part, const std::string& list, std::vector<int>
     cpus.push_back(cpu);
   }
 }
+
+const RealTimeWords words{"--rt-priority", "--cpus", "--set"};
 
 // The safe value as a graph has it: {signals: [0, 0, 0, 0], unlocked: false}.
 std::string value_text(const Communicator& out) {
@@ -90,62 +89,19 @@ RealTimeOptions options_of(const RealTimeArguments& arguments) {
   return options;
 }
 
-namespace {
-// "'table' and 'fixed_priority'"
-std::string executed_policies() {
-  std::string names;
-  for (const analysis::PolicyEntry& policy : analysis::policies())
-    if (policy.executed) names += (names.empty() ? "'" : " and '") + policy.name() + "'";
-  return names;
-}
-}  // namespace
-
 std::vector<analysis::TaskThread> threads_for(const std::string& file, const Graph& graph, RealTimeOptions& options) {
-  const bool by_priority = analysis::entry_of(graph.platform.policy).urgency == analysis::Urgency::priority;
-  if (!by_priority && graph.platform.cores == 1) return {};
-  std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
-  std::size_t cores = 0, levels = 0;
-  for (const analysis::TaskThread& thread : threads) {
-    cores = std::max(cores, thread.core + 1);
-    levels = std::max(levels, thread.urgency + 1);
-  }
-  const int needed = static_cast<int>(levels) + 1;  // and one above, for the thread that keeps the time
-  const int most = sched_get_priority_max(SCHED_FIFO);
-  if (needed > most)
-    throw std::invalid_argument("'" + file + "' takes " + std::to_string(needed) + " priorities and SCHED_FIFO has " +
-                                std::to_string(most) + "; use more cores, or choose --set platform.policy=table");
-  if (options.priority && *options.priority < needed)
-    throw std::invalid_argument("--rt-priority " + std::to_string(*options.priority) + ": the tasks of '" + file +
-                                "' take " + std::to_string(levels) + " priorities below it; choose " +
-                                std::to_string(needed) + " or more");
-  if (!options.priority && by_priority) options.priority = needed;
-  const std::vector<int> usable = options.cpus.empty() ? find_machine_facts().usable : options.cpus;
-  if (usable.size() < cores)
-    throw std::invalid_argument("'" + file + "' has tasks on " + std::to_string(cores) + " cores; " +
-                                (options.cpus.empty() ? "this machine lets it use " : "--cpus names ") +
-                                std::to_string(usable.size()) + (usable.size() == 1 ? " CPU" : " CPUs"));
-  options.core_cpus.assign(usable.begin(), usable.begin() + static_cast<std::ptrdiff_t>(cores));
-  return threads;
+  return jarol::threads_for(file, graph, options, words);
 }
 
 void require_executable(const std::string& file, const Graph& graph, const RealTimeArguments& arguments) {
-  if (const analysis::PolicyEntry& policy = analysis::entry_of(graph.platform.policy); !policy.executed)
-    throw std::invalid_argument("'" + file + "' has the policy '" + policy.name() + "'; the real clock executes " +
-                                executed_policies() + "; choose one by --set platform.policy=table");
-  const analysis::Result result = analysis::check(graph);
-  std::vector<std::string> against;
-  if (result.verdict == analysis::Verdict::not_schedulable) against.push_back("is not schedulable: " + result.reason);
-  for (const Chain& chain : graph.chains) {
-    const auto broken = analysis::broken_limits(chain, analysis::latency_of(graph, chain.path));
-    if (!broken.empty()) against.push_back("breaks a limit of chain '" + chain.name + "': " + list_of(broken));
-  }
-  std::string all;
-  for (const std::string& each : against) all += (all.empty() ? "" : ", and ") + each;
-  if (!all.empty() && !arguments.force)
-    throw NegativeVerdict("'" + file + "' " + all + "; 'jarol check' says more, --force runs it all the same");
-  if (!all.empty()) std::cerr << "note: run by force: '" << file << "' " << all << "\n";
-  if (result.verdict == analysis::Verdict::unknown)
-    std::cerr << "note: whether this graph can be scheduled is not known: " << result.reason << "\n";
+  require_executed(file, graph, words);
+  const CheckFindings found = find_against(graph);
+  if (!found.against.empty() && !arguments.force)
+    throw NegativeVerdict("'" + file + "' " + found.against +
+                          "; 'jarol check' says more, --force runs it all the same");
+  if (!found.against.empty()) std::cerr << "note: run by force: '" << file << "' " << found.against << "\n";
+  if (!found.unknown.empty())
+    std::cerr << "note: whether this graph can be scheduled is not known: " << found.unknown << "\n";
 }
 
 std::string to_text(const Graph& graph, const RealClock& clock) {

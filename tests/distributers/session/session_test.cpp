@@ -167,8 +167,8 @@ TEST_SUITE("distributers/session") {
     CHECK_THROWS_WITH_AS(session.feed("b", 1.0),
                          "'b' is not fed: it has no channel; open the session with .fed = {\"b\"}", NotFed);
     CHECK_THROWS_WITH_AS(session_of(adding),
-                         "distributer 'neptus' has a link to what goes on by itself; open the session with .fed = "
-                         "{\"neptus\"} and feed it, or run the graph by jarol run --clock real",
+                         "distributer 'neptus' has a link to what goes on by itself; open the session with "
+                         ".real_clock = true, or with .fed = {\"neptus\"} and feed it",
                          NeedsRealClock);
   }
 
@@ -188,6 +188,33 @@ TEST_SUITE("distributers/session") {
     CHECK(stopped.now() < 10s);
     CHECK_THROWS_WITH_AS(stopped.run_until(10s),
                          "the run is over at 0.03 s: task 'fails' activation 3 at 0.03 s: threw: three", RunOver);
+  }
+
+  TEST_CASE("on the real clock it takes the time that it says, and what it reached is what it would have reached") {
+    std::vector<std::string> notes;
+    Session real = session_of(
+        counting, {.real_clock = true, .force = true, .note = [&](const std::string& note) { notes.push_back(note); }});
+    Session logical = session_of(counting);
+    logical.run_until(100ms);
+    const auto begin = std::chrono::steady_clock::now();
+    real.run_until(40ms);
+    real.run_until(100ms);
+    CHECK(std::chrono::steady_clock::now() - begin > 80ms);  // its last instant is 90 ms
+    CHECK(real.now() == 100ms);
+    if (real.report().fault_count == 0) CHECK(real.value<double>("count.out") == logical.value<double>("count.out"));
+    real.finish();
+    CHECK_THROWS_WITH_AS(
+        session_of(counting + "platform: {policy: edf}\n", {.real_clock = true}),
+        "'t.yaml' has the policy 'edf'; the real clock executes 'table' and 'fixed_priority'; choose one by .set "
+        "platform.policy=table",
+        NotExecutable);
+    CHECK_THROWS_WITH_AS(
+        session_of(counting, {.set = {"tasks.count.wcet=11ms"}, .real_clock = true}),
+        "'t.yaml' is not schedulable: the tasks need more than the whole core; 'jarol check' says more, "
+        ".force runs it all the same",
+        NotExecutable);
+    CHECK_THROWS_WITH_AS(session_of(counting, {.workers = 2, .real_clock = true}),
+                         "workers belong to the virtual clock; the real one goes by 'platform'", NotExecutable);
   }
 
   TEST_CASE("all that is wrong with a graph is one SpecError, as on the command line") {

@@ -1,0 +1,77 @@
+#include "distributers/session/real_time.h"
+
+#include <sched.h>
+
+#include <algorithm>
+
+#include "distributers/session/errors.h"
+#include "graph/analysis/chains.h"
+#include "graph/analysis/check.h"
+#include "graph/analysis/policies.h"
+#include "graph/language/problems.h"
+#include "runtime/machine/machine.h"
+
+namespace jarol {
+namespace {
+
+// "'table' and 'fixed_priority'"
+std::string executed_policies() {
+  std::string names;
+  for (const analysis::PolicyEntry& policy : analysis::policies())
+    if (policy.executed) names += (names.empty() ? "'" : " and '") + policy.name() + "'";
+  return names;
+}
+
+}  // namespace
+
+void require_executed(const std::string& name, const Graph& graph, const RealTimeWords& words) {
+  const analysis::PolicyEntry& policy = analysis::entry_of(graph.platform.policy);
+  if (!policy.executed)
+    throw NotExecutable("'" + name + "' has the policy '" + policy.name() + "'; the real clock executes " +
+                        executed_policies() + "; choose one by " + words.set + " platform.policy=table");
+}
+
+std::vector<analysis::TaskThread> threads_for(const std::string& name, const Graph& graph, RealTimeOptions& options,
+                                              const RealTimeWords& words) {
+  require_executed(name, graph, words);
+  const bool by_priority = analysis::entry_of(graph.platform.policy).urgency == analysis::Urgency::priority;
+  if (!by_priority && graph.platform.cores == 1) return {};
+  std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
+  std::size_t cores = 0, levels = 0;
+  for (const analysis::TaskThread& thread : threads) {
+    cores = std::max(cores, thread.core + 1);
+    levels = std::max(levels, thread.urgency + 1);
+  }
+  const int needed = static_cast<int>(levels) + 1;  // and one above, for the thread that keeps the time
+  const int most = sched_get_priority_max(SCHED_FIFO);
+  if (needed > most)
+    throw NotExecutable("'" + name + "' takes " + std::to_string(needed) + " priorities and SCHED_FIFO has " +
+                        std::to_string(most) + "; use more cores, or choose " + words.set + " platform.policy=table");
+  if (options.priority && *options.priority < needed)
+    throw NotExecutable(words.priority + " " + std::to_string(*options.priority) + ": the tasks of '" + name +
+                        "' take " + std::to_string(levels) + " priorities below it; choose " + std::to_string(needed) +
+                        " or more");
+  if (!options.priority && by_priority) options.priority = needed;
+  const std::vector<int> usable = options.cpus.empty() ? find_machine_facts().usable : options.cpus;
+  if (usable.size() < cores)
+    throw NotExecutable("'" + name + "' has tasks on " + std::to_string(cores) + " cores; " +
+                        (options.cpus.empty() ? "this machine lets it use " : words.cpus + " names ") +
+                        std::to_string(usable.size()) + (usable.size() == 1 ? " CPU" : " CPUs"));
+  options.core_cpus.assign(usable.begin(), usable.begin() + static_cast<std::ptrdiff_t>(cores));
+  return threads;
+}
+
+CheckFindings find_against(const Graph& graph) {
+  const analysis::Result result = analysis::check(graph);
+  CheckFindings found;
+  const auto add = [&](const std::string& text) { found.against += (found.against.empty() ? "" : ", and ") + text; };
+  if (result.verdict == analysis::Verdict::not_schedulable) add("is not schedulable: " + result.reason);
+  for (const Chain& chain : graph.chains) {
+    const auto broken = analysis::broken_limits(chain, analysis::latency_of(graph, chain.path));
+    if (!broken.empty()) add("breaks a limit of chain '" + chain.name + "': " + list_of(broken));
+  }
+  if (result.verdict == analysis::Verdict::unknown) found.unknown = result.reason;
+  return found;
+}
+
+}  // namespace jarol
