@@ -1,5 +1,6 @@
 #include "distributers/distributers.h"
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/javiator/operator.h"
 #include "distributers/javiator/vehicle.h"
 #include "distributers/lauv/operator.h"
@@ -13,22 +14,6 @@
 #include "graph/values/seed.h"
 
 namespace jarol::distributers {
-namespace {
-
-// With parameters: made of them.
-template <class D, class Parameters = void>
-void add(Registry& registry) {
-  DistributerClass described = D::describe_class();
-  described.make = []([[maybe_unused]] const void* parameters) -> std::unique_ptr<AnyDistributer> {
-    if constexpr (std::is_void_v<Parameters>)
-      return std::make_unique<D>();
-    else
-      return std::make_unique<D>(*static_cast<const Parameters*>(parameters));
-  };
-  registry.add(std::move(described));
-}
-
-// The link types that a distributer can have.
 std::vector<std::string> links_of(const DistributerClass& distributer, const NamedList<LinkType>& all) {
   std::vector<std::string> names;
   for (const LinkType& type : all.entries()) {
@@ -38,13 +23,11 @@ std::vector<std::string> links_of(const DistributerClass& distributer, const Nam
   return names;
 }
 
-}  // namespace
-
 void add_distributers(Registry& registry) {
-  add<JaviatorVehicle>(registry);
-  add<JaviatorOperator, JaviatorOperatorParameters>(registry);
-  add<LauvVehicle>(registry);
-  add<LauvOperator, LauvOperatorParameters>(registry);
+  registry.add(distributer_class<JaviatorVehicle>());
+  registry.add(distributer_class<JaviatorOperator>());
+  registry.add(distributer_class<LauvVehicle>());
+  registry.add(distributer_class<LauvOperator>());
 }
 
 void add_links(NamedList<LinkType>& links) {
@@ -86,9 +69,10 @@ std::vector<std::vector<std::byte>> safe_packets(const Graph& graph, std::size_t
     std::vector<std::vector<std::byte>> packets;
   } encoder(link);
   const Distributer& of = graph.distributers[distributer];
-  const auto adapter = of.distributer_class->make(of.parameters.data());
+  const auto made = of.distributer_class->make(of.parameters.data());
+  made->take_over();
   for (const Communicator& c : graph.communicators)
-    if (c.distributer == distributer && c.safe) adapter->take_over(c.channel, c.safe->data(), encoder);
+    if (c.distributer == distributer && c.safe) made->hand_over(c.channel, c.safe->data(), encoder);
   return std::move(encoder.packets);
 }
 

@@ -14,6 +14,9 @@ void add_distributers(Registry& registry);
 /// Adds every link type of this folder.
 void add_links(NamedList<LinkType>& links);
 
+/// The names of the link types that a distributer can have.
+std::vector<std::string> links_of(const DistributerClass& distributer, const NamedList<LinkType>& all);
+
 /// The channels of each distributer of the graph, in its order, linked as the file says; each gets its share of the
 /// seed by the distributer's name. What is wrong goes to `problems`, and a null stands in the place.
 std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph, const Registries& known, std::uint64_t seed,

@@ -1,7 +1,9 @@
-// The adaptation layer of one kind of external system: its messages on one side, values of the core on the other.
+// A distributer as links and channels see it: messages of its external system on one side, values of the core on the
+// other, whatever its type. Who writes one writes a plain class, see distributer.h.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "distributers/messages/message.h"
@@ -12,39 +14,37 @@ namespace jarol::distributers {
 
 class AnyDistributer : public messages::Receiver {
  public:
-  /// What is received from now on comes from another peer than before, as after the external system was started anew.
-  /// Told where a link knows it by the sender's address, as over UDP, and of the first peer too.
-  virtual void peer_changed() {}
-
   /// The message set that the external system speaks.
   virtual const messages::MessageSet& message_set() const = 0;
 
+  /// What is received from now on comes from another peer than before, as after the external system was started anew.
+  /// Where a link knows that by the sender's address, as over UDP, and for the first peer too.
+  virtual void peer_changed() = 0;
+
   /// An instant of a run; what the external system expects from time to time can be sent. Messages that arrived before
   /// it have been received.
-  virtual void reach(Duration, messages::Receiver&) {}
+  virtual void reach(Duration instant, messages::Receiver& system) = 0;
 
-  /// Where others reach this end of the link, as in udp://127.0.0.1:6001; told before the first instant.
-  virtual void listen_at(const std::string&) {}
+  /// Where others reach this end of the link, as in udp://127.0.0.1:6001; before the first instant.
+  virtual void listen_at(const std::string& address) = 0;
 
   /// After `reach`, for what goes to all who may look for this system, not to the peer alone.
-  virtual void announce(Duration, messages::Receiver&) {}
+  virtual void announce(Duration instant, messages::Receiver& all) = 0;
 
   /// The run is over. Throws std::runtime_error if something can't be kept for the next one.
-  virtual void finish() {}
+  virtual void finish() = 0;
 
   /// Readings that were not finite; they are not in the values of `in` channels.
-  virtual std::uint64_t non_finite_inputs() const { return 0; }
+  virtual std::uint64_t non_finite_inputs() const = 0;
 
-  /// Copies the newest value of an `in` channel if a message brought one since the last call.
+  /// Copies the value of an `in` channel if there is a new one since the last call.
   virtual bool take(std::size_t channel, void* value) = 0;
 
   /// Turns a value of an `out` channel into messages for the external system.
   virtual void hand_over(std::size_t channel, const void* value, messages::Receiver& system) = 0;
 
-  /// The same of an adapter that knows nothing of what the system was told before it, as another was there.
-  virtual void take_over(std::size_t channel, const void* value, messages::Receiver& system) {
-    hand_over(channel, value, system);
-  }
+  /// What is handed over next follows what another has sent, which is not known.
+  virtual void take_over() = 0;
 };
 
 }  // namespace jarol::distributers

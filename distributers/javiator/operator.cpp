@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "distributers/messages/javiator.h"
-
 namespace jarol::distributers {
-namespace javiator = messages::javiator;
 namespace {
 
 // its numbers have 16 bits and no fractions
@@ -44,9 +41,6 @@ javiator::MotorOffsets effort(const std::array<double, 4>& signals) {
           to_wire((front + right + rear + left) / 4)};
 }
 
-// in the order of describe_class
-enum Channel : std::size_t { command_channel, report_channel, gains_channel };
-
 // all of them are told as thousandths
 template <class Params>
 tasks::ToldGains gains_of(const Params& p) {
@@ -64,80 +58,47 @@ JaviatorOperator::JaviatorOperator(const JaviatorOperatorParameters& parameters)
   command_.kept_trim_pitch = kept_.pitch;
 }
 
-DistributerClass JaviatorOperator::describe_class() {
-  return {"JaviatorOperator",
-          "the helicopter's operator, over the JAviator's protocol",
-          {{"command", Direction::in, &type_of<tasks::PilotCommand>(), "attitude, altitude, position and switches"},
-           {"report", Direction::out, &type_of<tasks::HelicopterReport>(), "motion, motor signals and state"},
-           {"gains", Direction::in, &type_of<tasks::OperatorGains>(), "of the JAviator's own laws"}},
-          false,
-          &type_of<JaviatorOperatorParameters>()};
+void JaviatorOperator::lean_gains(const javiator::RollPitchParams& p) { in.gains.renew().lean = gains_of(p); }
+
+void JaviatorOperator::yaw_gains(const javiator::YawParams& p) { in.gains.renew().yaw = gains_of(p); }
+
+void JaviatorOperator::altitude_gains(const javiator::AltParams& p) { in.gains.renew().altitude = gains_of(p); }
+
+void JaviatorOperator::position_gains(const javiator::XYParams& p) { in.gains.renew().position = gains_of(p); }
+
+void JaviatorOperator::idle_limit(const javiator::IdleLimit& limit) {
+  in.gains.renew().idle = {static_cast<double>(limit.idle), true};
 }
 
-const messages::MessageSet& JaviatorOperator::message_set() const { return javiator::message_set(); }
-
-bool JaviatorOperator::receive_gains(messages::MessageRef message) {
-  if (const auto* lean = message.as<javiator::RollPitchParams>()) {
-    gains_.lean = gains_of(*lean);
-  } else if (const auto* yaw = message.as<javiator::YawParams>()) {
-    gains_.yaw = gains_of(*yaw);
-  } else if (const auto* altitude = message.as<javiator::AltParams>()) {
-    gains_.altitude = gains_of(*altitude);
-  } else if (const auto* position = message.as<javiator::XYParams>()) {
-    gains_.position = gains_of(*position);
-  } else if (const auto* limit = message.as<javiator::IdleLimit>()) {
-    gains_.idle = {static_cast<double>(limit->idle), true};
-  } else {
-    return false;
-  }
-  return gains_fresh_ = true;
+// The same two numbers say how it shall lean, or where it shall be.
+void JaviatorOperator::command_data(const javiator::CommandData& c) {
+  command_.roll = 1e-3 * c.roll;
+  command_.pitch = 1e-3 * c.pitch;
+  command_.y = command_.roll;
+  command_.x = command_.pitch;
+  command_.yaw = 1e-3 * c.yaw;
+  command_.altitude = 1e-3 * c.z;
+  command_.heard = true;
 }
 
-void JaviatorOperator::receive(messages::MessageRef message) {
-  if (receive_gains(message)) return;
-  if (const auto* c = message.as<javiator::CommandData>()) {
-    // the same two numbers say how it shall lean, or where it shall be
-    command_.roll = 1e-3 * c->roll;
-    command_.pitch = 1e-3 * c->pitch;
-    command_.y = command_.roll;
-    command_.x = command_.pitch;
-    command_.yaw = 1e-3 * c->yaw;
-    command_.altitude = 1e-3 * c->z;
-    command_.heard = true;
-  } else if (message.as<javiator::SwitchState>() != nullptr) {
-    if (!hello_due_) ++command_.state_switches;
-    hello_due_ = false;
-  } else if (message.as<javiator::SwitchMode>() != nullptr) {
-    ++command_.mode_switches;
-  } else if (message.as<javiator::ShutDown>() != nullptr) {
-    ++command_.shut_downs;
-  } else if (message.as<javiator::StoreTrim>() != nullptr) {
-    ++command_.trim_stores;
-  } else if (message.as<javiator::ClearTrim>() != nullptr) {
-    ++command_.trim_clears;
-  }
+void JaviatorOperator::switch_state(const javiator::SwitchState&) {
+  if (!hello_due_) ++command_.state_switches;
+  hello_due_ = false;
 }
 
 void JaviatorOperator::finish() {
   if (!trim_file_.empty() && std::exchange(kept_, trim_) != trim_) write_trim(trim_file_, trim_);
 }
 
-void JaviatorOperator::reach(Duration instant, messages::Receiver&) { now_ = instant; }
-
-bool JaviatorOperator::take(std::size_t channel, void* value) {
-  if (channel == gains_channel) {
-    *static_cast<tasks::OperatorGains*>(value) = gains_;
-    return std::exchange(gains_fresh_, false);
-  }
-  *static_cast<tasks::PilotCommand*>(value) = command_;
+tasks::PilotCommand JaviatorOperator::take_command() {
+  const tasks::PilotCommand taken = command_;
   command_.heard = false;
   period_ = now_ - taken_;
   taken_ = now_;
-  return true;
+  return taken;
 }
 
-void JaviatorOperator::hand_over(std::size_t, const void* value, messages::Receiver& system) {
-  const auto& report = *static_cast<const tasks::HelicopterReport*>(value);
+void JaviatorOperator::send_report(const tasks::HelicopterReport& report, messages::Receiver& system) {
   const std::array<double, 3> rates = euler_rates(report);
   // what it calls acceleration is less than a third of it at 15 ms
   const auto gain = [&](std::size_t axis) { return to_wire(19.79 * (rates[axis] - rates_[axis])); };

@@ -1,13 +1,15 @@
 // The helicopter's operator as the core sees it: commands come in, reports go out.
 #pragma once
 
-#include "distributers/interfaces/any_distributer.h"
+#include "distributers/interfaces/distributer.h"
 #include "distributers/javiator/trim_file.h"
-#include "graph/registry.h"
+#include "distributers/messages/javiator.h"
+#include "graph/values/type_of.h"
 #include "tasks/values/gains.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::distributers {
+namespace javiator = messages::javiator;
 
 struct JaviatorOperatorParameters {
   String trim_file;
@@ -23,30 +25,65 @@ struct JaviatorOperatorParameters {
 /// JAviator's own laws. Over UDP, the first SwitchState of a new peer is a hello and switches nothing. Where a trim
 /// file is named, the trim is read from it at the start and kept in it when the run ends, as the JAviator's controller
 /// does.
-class JaviatorOperator : public AnyDistributer {
+class JaviatorOperator {
  public:
-  /// Throws std::invalid_argument if the trim file is none.
-  explicit JaviatorOperator(const JaviatorOperatorParameters& parameters = {});
-  static DistributerClass describe_class();
+  static constexpr std::string_view summary = "the helicopter's operator, over the JAviator's protocol";
+  static constexpr bool is_vehicle = false;
+  using Param = JaviatorOperatorParameters;
 
-  const messages::MessageSet& message_set() const override;
-  void peer_changed() override { hello_due_ = true; }
-  void receive(messages::MessageRef message) override;
-  void reach(Duration instant, messages::Receiver& system) override;
-  void finish() override;
-  /// A command at each instant, for silence is one, too: it is heard if CommandData came since the instant before.
-  /// Gains when some came.
-  bool take(std::size_t channel, void* value) override;
-  void hand_over(std::size_t channel, const void* value, messages::Receiver& system) override;
+  struct In {
+    Computed<tasks::PilotCommand> command;
+    Newest<tasks::OperatorGains> gains;
+    static constexpr auto fields() {
+      return describe(channel<&In::command>("attitude, altitude, position and switches"),
+                      channel<&In::gains>("of the JAviator's own laws"));
+    }
+  };
+  struct Out {
+    tasks::HelicopterReport report;
+    static constexpr auto fields() { return describe(channel<&Out::report>("motion, motor signals and state")); }
+  };
+
+  static const messages::MessageSet& message_set() { return javiator::message_set(); }
+  static constexpr auto handlers() {
+    using O = JaviatorOperator;
+    return handle(on<javiator::CommandData>(&O::command_data), on<javiator::SwitchState>(&O::switch_state),
+                  on<javiator::SwitchMode>(&O::switch_mode), on<javiator::ShutDown>(&O::shut_down),
+                  on<javiator::StoreTrim>(&O::store_trim), on<javiator::ClearTrim>(&O::clear_trim),
+                  on<javiator::RollPitchParams>(&O::lean_gains), on<javiator::YawParams>(&O::yaw_gains),
+                  on<javiator::AltParams>(&O::altitude_gains), on<javiator::XYParams>(&O::position_gains),
+                  on<javiator::IdleLimit>(&O::idle_limit), compute<&In::command>(&O::take_command),
+                  send<&Out::report>(&O::send_report));
+  }
+
+  /// Throws std::invalid_argument if the trim file is none.
+  explicit JaviatorOperator(const Param& parameters = {});
+
+  void peer_changed() { hello_due_ = true; }
+  void reach(Duration instant, messages::Receiver&) { now_ = instant; }
+  void finish();
+
+  In in;
 
  private:
-  bool receive_gains(messages::MessageRef message);
+  void command_data(const javiator::CommandData& c);
+  void switch_state(const javiator::SwitchState&);
+  void switch_mode(const javiator::SwitchMode&) { ++command_.mode_switches; }
+  void shut_down(const javiator::ShutDown&) { ++command_.shut_downs; }
+  void store_trim(const javiator::StoreTrim&) { ++command_.trim_stores; }
+  void clear_trim(const javiator::ClearTrim&) { ++command_.trim_clears; }
+  void lean_gains(const javiator::RollPitchParams& p);
+  void yaw_gains(const javiator::YawParams& p);
+  void altitude_gains(const javiator::AltParams& p);
+  void position_gains(const javiator::XYParams& p);
+  void idle_limit(const javiator::IdleLimit& limit);
+  /// One at each instant, for silence is one, too: it is heard if CommandData came since the instant before.
+  tasks::PilotCommand take_command();
+  void send_report(const tasks::HelicopterReport& report, messages::Receiver& system);
 
   std::string trim_file_;
   Trim kept_, trim_;  // at the start, and in the newest report
   tasks::PilotCommand command_{.heard = false};
-  tasks::OperatorGains gains_;
-  bool gains_fresh_ = false;
   bool hello_due_ = false;
 
   Duration now_{}, taken_{}, period_{}, reported_{};

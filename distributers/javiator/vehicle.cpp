@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "distributers/messages/javiator.h"
 #include "distributers/messages/javiator_units.h"
 
 namespace jarol::distributers {
-namespace javiator = messages::javiator;
 namespace {
 
 std::int16_t to_signal(double signal) {
@@ -16,68 +14,42 @@ std::int16_t to_signal(double signal) {
 
 }  // namespace
 
-DistributerClass JaviatorVehicle::describe_class() {
-  return {"JaviatorVehicle",
-          "the helicopter, over the JAviator's protocol",
-          {{"sensors", Direction::in, &type_of<tasks::JaviatorSensors>(), "what its sensors tell"},
-           {"motors", Direction::out, &type_of<tasks::MotorCommand>(), "signals for the four motors"}},
-          true};
-}
-
-const messages::MessageSet& JaviatorVehicle::message_set() const { return javiator::message_set(); }
-
-void JaviatorVehicle::receive(messages::MessageRef message) {
-  const auto* d = message.as<javiator::JaviatorData>();
-  if (d == nullptr) return;
-  tasks::JaviatorSensors& s = sensors_;
-  const auto has = [&](std::uint16_t bit) { return (d->flags & bit) != 0; };
+void JaviatorVehicle::data(const javiator::JaviatorData& d) {
+  const bool waits = in.sensors.is_new;
+  tasks::JaviatorSensors& s = in.sensors.renew();
+  const auto has = [&](std::uint16_t bit) { return (d.flags & bit) != 0; };
   // what was new and has not been taken yet is new still
-  const auto is_new = [&](bool before, std::uint16_t bit) { return (fresh_ && before) || has(bit); };
-  s = {.roll = javiator::radians_per_count * d->roll,
-       .pitch = javiator::radians_per_count * d->pitch,
-       .yaw = javiator::radians_per_count * d->yaw,
-       .p = javiator::radians_per_second_per_count * d->droll,
-       .q = javiator::radians_per_second_per_count * d->dpitch,
-       .r = javiator::radians_per_second_per_count * d->dyaw,
-       .a_x = javiator::newtons_per_kilogram_per_count * d->ddx,
-       .a_y = javiator::newtons_per_kilogram_per_count * d->ddy,
-       .a_z = javiator::newtons_per_kilogram_per_count * d->ddz,
-       .sonar = javiator::sonar_metres_per_count * d->sonar,
-       .laser_x = javiator::metres_of(d->x_pos),
-       .laser_y = javiator::metres_of(d->y_pos),
-       .pressure = javiator::pascals_per_count * d->maps,
-       .temperature = javiator::celsius_of(d->temp),
-       .battery = javiator::volts_per_count * d->batt,
+  const auto is_new = [&](bool before, std::uint16_t bit) { return (waits && before) || has(bit); };
+  s = {.roll = javiator::radians_per_count * d.roll,
+       .pitch = javiator::radians_per_count * d.pitch,
+       .yaw = javiator::radians_per_count * d.yaw,
+       .p = javiator::radians_per_second_per_count * d.droll,
+       .q = javiator::radians_per_second_per_count * d.dpitch,
+       .r = javiator::radians_per_second_per_count * d.dyaw,
+       .a_x = javiator::newtons_per_kilogram_per_count * d.ddx,
+       .a_y = javiator::newtons_per_kilogram_per_count * d.ddy,
+       .a_z = javiator::newtons_per_kilogram_per_count * d.ddz,
+       .sonar = javiator::sonar_metres_per_count * d.sonar,
+       .laser_x = javiator::metres_of(d.x_pos),
+       .laser_y = javiator::metres_of(d.y_pos),
+       .pressure = javiator::pascals_per_count * d.maps,
+       .temperature = javiator::celsius_of(d.temp),
+       .battery = javiator::volts_per_count * d.batt,
        .new_imu = is_new(s.new_imu, javiator::JaviatorData::Flags::IMU),
        .new_bmu = is_new(s.new_bmu, javiator::JaviatorData::Flags::BMU),
        .new_sonar = is_new(s.new_sonar, javiator::JaviatorData::Flags::SONAR),
        .new_x = is_new(s.new_x, javiator::JaviatorData::Flags::X_POS),
        .new_y = is_new(s.new_y, javiator::JaviatorData::Flags::Y_POS),
        .answers = s.answers + 1};
-  fresh_ = true;
 }
 
-bool JaviatorVehicle::take(std::size_t, void* value) {
-  if (!fresh_) return false;
-  *static_cast<tasks::JaviatorSensors*>(value) = sensors_;
-  fresh_ = false;
-  return true;
-}
-
-void JaviatorVehicle::hand_over(std::size_t, const void* value, messages::Receiver& system) {
-  const auto& motors = *static_cast<const tasks::MotorCommand*>(value);
+void JaviatorVehicle::send_motors(const tasks::MotorCommand& motors, messages::Receiver& system) {
   if (motors.unlocked && !unlocked_) system.receive(messages::refer_to(javiator::SwitchState{}));
   if (!motors.unlocked && unlocked_) system.receive(messages::refer_to(javiator::ShutDown{}));
   unlocked_ = motors.unlocked;
   const auto& s = motors.signals;
   system.receive(messages::refer_to(
       javiator::MotorSignals{to_signal(s[0]), to_signal(s[1]), to_signal(s[2]), to_signal(s[3]), ++id_}));
-}
-
-// A ShutDown too many does no harm; a SwitchState might.
-void JaviatorVehicle::take_over(std::size_t channel, const void* value, messages::Receiver& system) {
-  unlocked_ = true;
-  hand_over(channel, value, system);
 }
 
 }  // namespace jarol::distributers

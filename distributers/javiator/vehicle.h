@@ -1,26 +1,43 @@
-// The helicopter as the core sees it: what its sensors tell comes in, motor signals go out.
+// The helicopter as the core sees it: what its sensors report comes in, motor signals go out.
 #pragma once
 
-#include "distributers/interfaces/any_distributer.h"
-#include "graph/registry.h"
+#include "distributers/interfaces/distributer.h"
+#include "distributers/messages/javiator.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::distributers {
+namespace javiator = messages::javiator;
 
 /// Speaks the JAviator's protocol: JaviatorData in; MotorSignals, SwitchState and ShutDown out.
-class JaviatorVehicle : public AnyDistributer {
+class JaviatorVehicle {
  public:
-  static DistributerClass describe_class();
+  static constexpr std::string_view summary = "the helicopter, over the JAviator's protocol";
+  static constexpr bool is_vehicle = true;
 
-  const messages::MessageSet& message_set() const override;
-  void receive(messages::MessageRef message) override;
-  bool take(std::size_t channel, void* value) override;
-  void hand_over(std::size_t channel, const void* value, messages::Receiver& system) override;
-  void take_over(std::size_t channel, const void* value, messages::Receiver& system) override;
+  struct In {
+    Newest<tasks::JaviatorSensors> sensors;
+    static constexpr auto fields() { return describe(channel<&In::sensors>("what its sensors tell")); }
+  };
+  struct Out {
+    tasks::MotorCommand motors;
+    static constexpr auto fields() { return describe(channel<&Out::motors>("signals for the four motors")); }
+  };
+
+  static const messages::MessageSet& message_set() { return javiator::message_set(); }
+  static constexpr auto handlers() {
+    return handle(on<javiator::JaviatorData>(&JaviatorVehicle::data),
+                  send<&Out::motors>(&JaviatorVehicle::send_motors));
+  }
+
+  /// A ShutDown too many does no harm; a SwitchState might.
+  void take_over() { unlocked_ = true; }
+
+  In in;
 
  private:
-  tasks::JaviatorSensors sensors_{};
-  bool fresh_ = false;
+  void data(const javiator::JaviatorData& d);
+  void send_motors(const tasks::MotorCommand& motors, messages::Receiver& system);
+
   bool unlocked_ = false;
   std::uint16_t id_ = 0;
 };

@@ -4,19 +4,15 @@
 #include <cmath>
 
 #include "distributers/lauv/messages.h"
-#include "distributers/messages/imc.h"
+#include "distributers/lauv/tuple_list.h"
 #include "graph/math/geometry.h"
 
 namespace jarol::distributers {
-namespace imc = messages::imc;
 namespace {
 
 using namespace std::chrono_literals;
 using tasks::Drive;
 using tasks::Turn;
-
-// in the order of describe_class
-enum Channel : std::size_t { setpoint_channel, actuation_channel, contact_channel, report_channel, motion_channel };
 
 constexpr double axis_end = 127;
 constexpr std::string_view actions_known =
@@ -30,122 +26,99 @@ std::string_view name_of(tasks::Alarm alarm) {
 
 }  // namespace
 
-DistributerClass LauvOperator::describe_class() {
-  return {"LauvOperator",
-          "the submarine's operator, over IMC",
-          {{"setpoint", Direction::in, &type_of<tasks::Setpoint>(), "commanded depth, heading and speed"},
-           {"actuation", Direction::in, &type_of<tasks::Actuation>(), "propeller and fins, steered by hand"},
-           {"contact", Direction::in, &type_of<tasks::Contact>(),
-            "how long the operator was not heard, and demands of a stop"},
-           {"report", Direction::out, &type_of<tasks::VehicleReport>(), "depth, pitch, heading and speed reached"},
-           {"motion", Direction::out, &type_of<tasks::Motion>(), "the vehicle's motion as it came"}},
-          false,
-          &type_of<LauvOperatorParameters>()};
-}
-
-const messages::MessageSet& LauvOperator::message_set() const { return imc::message_set(); }
-
-void LauvOperator::receive(messages::MessageRef message) {
-  heard_ = now_;
-  if (message.as<imc::Abort>() != nullptr) return receive_abort();
-  if (const auto* actions = message.as<imc::RemoteActions>()) return receive_actions(TupleList(actions->actions));
-  receive_reference(message);
-  receive_actuation(message);
-  receive_plan(message);
-  receive_question(message);
-}
-
 bool LauvOperator::is_finite(double value) {
   if (std::isfinite(value)) return true;
   ++non_finite_inputs_;
   return false;
 }
 
-void LauvOperator::receive_reference(messages::MessageRef message) {
-  if (const auto* z = message.as<imc::DesiredZ>()) {
-    if (z->z_units != imc::ZUnits::DEPTH || !is_finite(z->value))
-      return refuse("DesiredZ is taken as a depth in m only");
-    // the hand that steers keeps the propeller and the rudders
-    if (mode_ != Mode::teleoperation && !use_autopilot()) return;
-    setpoint_.depth = static_cast<double>(z->value);
-    setpoint_fresh_ = true;
-  } else if (const auto* heading = message.as<imc::DesiredHeading>()) {
-    if (!is_finite(heading->value)) return refuse("DesiredHeading is no number");
-    if (!use_autopilot()) return;
-    setpoint_.turn = Turn::heading;
-    setpoint_.heading = heading->value;
-  } else if (const auto* rate = message.as<imc::DesiredHeadingRate>()) {
-    if (!is_finite(rate->value)) return refuse("DesiredHeadingRate is no number");
-    if (!use_autopilot()) return;
-    setpoint_.turn = Turn::rate;
-    setpoint_.rate = rate->value;
-  } else if (const auto* speed = message.as<imc::DesiredSpeed>()) {
-    const bool percent = speed->speed_units == imc::SpeedUnits::PERCENTAGE;
-    if ((!percent && speed->speed_units != imc::SpeedUnits::METERS_PS) || !is_finite(speed->value))
-      return refuse("DesiredSpeed is taken in m/s or % only");
-    if (!use_autopilot()) return;
-    setpoint_.drive = percent ? Drive::thrust : Drive::speed;
-    (percent ? setpoint_.thrust : setpoint_.speed) = percent ? std::clamp(speed->value / 100, -1.0, 1.0) : speed->value;
-  }
+void LauvOperator::desired_z(const imc::DesiredZ& z) {
+  if (z.z_units != imc::ZUnits::DEPTH || !is_finite(z.value)) return refuse("DesiredZ is taken as a depth in m only");
+  // the hand that steers keeps the propeller and the rudders
+  if (mode_ != Mode::teleoperation && !use_autopilot()) return;
+  in.setpoint.renew().depth = static_cast<double>(z.value);
+}
+
+void LauvOperator::desired_heading(const imc::DesiredHeading& heading) {
+  if (!is_finite(heading.value)) return refuse("DesiredHeading is no number");
+  if (!use_autopilot()) return;
+  in.setpoint.renew().turn = Turn::heading;
+  in.setpoint.renew().heading = heading.value;
+}
+
+void LauvOperator::desired_heading_rate(const imc::DesiredHeadingRate& rate) {
+  if (!is_finite(rate.value)) return refuse("DesiredHeadingRate is no number");
+  if (!use_autopilot()) return;
+  in.setpoint.renew().turn = Turn::rate;
+  in.setpoint.renew().rate = rate.value;
+}
+
+void LauvOperator::desired_speed(const imc::DesiredSpeed& speed) {
+  const bool percent = speed.speed_units == imc::SpeedUnits::PERCENTAGE;
+  if ((!percent && speed.speed_units != imc::SpeedUnits::METERS_PS) || !is_finite(speed.value))
+    return refuse("DesiredSpeed is taken in m/s or % only");
+  if (!use_autopilot()) return;
+  tasks::Setpoint& setpoint = in.setpoint.renew();
+  setpoint.drive = percent ? Drive::thrust : Drive::speed;
+  (percent ? setpoint.thrust : setpoint.speed) = percent ? std::clamp(speed.value / 100, -1.0, 1.0) : speed.value;
 }
 
 // An operator who has propeller and fins in hand; a graph that has no use for it does not take the channel.
-void LauvOperator::receive_actuation(messages::MessageRef message) {
-  if (const auto* thruster = message.as<imc::SetThrusterActuation>()) {
-    if (thruster->id != 0 || !is_finite(thruster->value)) return;
-    actuation_.thruster = static_cast<double>(thruster->value);
-    actuation_fresh_ = true;
-  } else if (const auto* servo = message.as<imc::SetServoPosition>()) {
-    if (servo->id >= actuation_.fins.size() || !is_finite(servo->value)) return;
-    actuation_.fins[servo->id] = static_cast<double>(servo->value);
-    actuation_fresh_ = true;
-  }
+void LauvOperator::set_thruster(const imc::SetThrusterActuation& thruster) {
+  if (thruster.id != 0 || !is_finite(thruster.value)) return;
+  in.actuation.renew().thruster = static_cast<double>(thruster.value);
 }
 
-void LauvOperator::receive_plan(messages::MessageRef message) {
-  if (const auto* plan = message.as<imc::PlanControl>()) {
-    if (plan->type != imc::PlanControl::Type::REQUEST) return;
-    imc::PlanControl reply;
-    reply.op = plan->op;
-    reply.request_id = plan->request_id;
-    reply.plan_id = plan->plan_id;
-    if (plan->op == imc::PlanControl::Op::START) {
-      reply.info = execute(plan->arg.id);
-    } else if (plan->op == imc::PlanControl::Op::STOP) {
-      demand_stop();
-    } else {
-      reply.info = "plans are not stored here";
-    }
-    reply.type = reply.info == "" ? imc::PlanControl::Type::SUCCESS : imc::PlanControl::Type::FAILURE;
-    answer(reply);
-  } else if (const auto* command = message.as<imc::VehicleCommand>()) {
-    if (command->type != imc::VehicleCommand::Type::REQUEST) return;
-    imc::VehicleCommand reply;
-    reply.request_id = command->request_id;
-    reply.command = command->command;
-    if (command->command == imc::VehicleCommand::Command::EXEC_MANEUVER) {
-      reply.info = execute(command->maneuver.id);
-    } else if (command->command == imc::VehicleCommand::Command::STOP_MANEUVER) {
-      demand_stop();
-    } else {
-      reply.info = "there is nothing to calibrate";
-    }
-    reply.type = reply.info == "" ? imc::VehicleCommand::Type::SUCCESS : imc::VehicleCommand::Type::FAILURE;
-    answer(reply);
-  }
+void LauvOperator::set_servo(const imc::SetServoPosition& servo) {
+  if (servo.id >= in.actuation->fins.size() || !is_finite(servo.value)) return;
+  in.actuation.renew().fins[servo.id] = static_cast<double>(servo.value);
 }
 
-void LauvOperator::receive_question(messages::MessageRef message) {
-  if (const auto* request = message.as<imc::RemoteActionsRequest>()) {
-    if (request->op != imc::RemoteActionsRequest::Op::QUERY) return;
-    answer(imc::RemoteActionsRequest{imc::RemoteActionsRequest::Op::REPORT, actions_known});
-  } else if (const auto* list = message.as<imc::EntityList>()) {
-    if (list->op != imc::EntityList::Op::QUERY) return;
-    answer(imc::EntityList{imc::EntityList::Op::REPORT, entities_known});
+void LauvOperator::plan_control(const imc::PlanControl& plan) {
+  if (plan.type != imc::PlanControl::Type::REQUEST) return;
+  imc::PlanControl reply;
+  reply.op = plan.op;
+  reply.request_id = plan.request_id;
+  reply.plan_id = plan.plan_id;
+  if (plan.op == imc::PlanControl::Op::START) {
+    reply.info = execute(plan.arg.id);
+  } else if (plan.op == imc::PlanControl::Op::STOP) {
+    demand_stop();
+  } else {
+    reply.info = "plans are not stored here";
   }
+  reply.type = reply.info == "" ? imc::PlanControl::Type::SUCCESS : imc::PlanControl::Type::FAILURE;
+  answer(reply);
 }
 
-void LauvOperator::receive_actions(const TupleList& actions) {
+void LauvOperator::vehicle_command(const imc::VehicleCommand& command) {
+  if (command.type != imc::VehicleCommand::Type::REQUEST) return;
+  imc::VehicleCommand reply;
+  reply.request_id = command.request_id;
+  reply.command = command.command;
+  if (command.command == imc::VehicleCommand::Command::EXEC_MANEUVER) {
+    reply.info = execute(command.maneuver.id);
+  } else if (command.command == imc::VehicleCommand::Command::STOP_MANEUVER) {
+    demand_stop();
+  } else {
+    reply.info = "there is nothing to calibrate";
+  }
+  reply.type = reply.info == "" ? imc::VehicleCommand::Type::SUCCESS : imc::VehicleCommand::Type::FAILURE;
+  answer(reply);
+}
+
+void LauvOperator::actions_request(const imc::RemoteActionsRequest& request) {
+  if (request.op != imc::RemoteActionsRequest::Op::QUERY) return;
+  answer(imc::RemoteActionsRequest{imc::RemoteActionsRequest::Op::REPORT, actions_known});
+}
+
+void LauvOperator::entity_list(const imc::EntityList& list) {
+  if (list.op != imc::EntityList::Op::QUERY) return;
+  answer(imc::EntityList{imc::EntityList::Op::REPORT, entities_known});
+}
+
+void LauvOperator::remote_actions(const imc::RemoteActions& message) {
+  const TupleList actions(message.actions);
   const bool silent = !hand_heard_ || seconds(now_ - *hand_heard_) >= parameters_.silence;
   hand_heard_ = now_;
   if (silent) let_go_ = true;
@@ -157,18 +130,18 @@ void LauvOperator::receive_actions(const TupleList& actions) {
   if (mode_ != Mode::teleoperation) start_teleoperation();
   if (silent) heading_axis_ = thrust_axis_ = 0;
   if (const auto heading = actions.number("Heading")) heading_axis_ = *heading;
-  setpoint_.rate = std::clamp(heading_axis_ / axis_end, -1.0, 1.0) * parameters_.full_rate;
+  tasks::Setpoint& setpoint = in.setpoint.renew();
+  setpoint.rate = std::clamp(heading_axis_ / axis_end, -1.0, 1.0) * parameters_.full_rate;
   // an axis that rests leaves the thrust to the buttons
   if (const auto thrust = actions.number("Thrust"); thrust && *thrust != thrust_axis_) {
     thrust_axis_ = *thrust;
-    setpoint_.thrust = std::clamp(thrust_axis_ / axis_end, -1.0, 1.0) * parameters_.full_thrust;
+    setpoint.thrust = std::clamp(thrust_axis_ / axis_end, -1.0, 1.0) * parameters_.full_thrust;
   }
   button_ = (actions.is_set("Accelerate") ? 1 : 0) - (actions.is_set("Decelerate") ? 1 : 0);
-  if (actions.is_set("Stop")) setpoint_.thrust = 0;
-  setpoint_fresh_ = true;
+  if (actions.is_set("Stop")) setpoint.thrust = 0;
 }
 
-void LauvOperator::receive_abort() {
+void LauvOperator::abort(const imc::Abort&) {
   demand_stop();
   set_mode(Mode::error);
   aborted_ = now_;
@@ -178,20 +151,19 @@ void LauvOperator::receive_abort() {
 // False: it has been aborted just now.
 bool LauvOperator::use_autopilot() {
   if (mode_ == Mode::error) return false;
+  tasks::Setpoint& setpoint = in.setpoint.renew();
   if (mode_ != Mode::external) {
-    setpoint_ = {setpoint_.depth, heading_, 0};
+    setpoint = {setpoint.depth, heading_, 0};
     set_mode(Mode::external);
   }
-  setpoint_fresh_ = true;
   return true;
 }
 
 void LauvOperator::start_teleoperation() {
-  setpoint_ = {setpoint_.depth, heading_, 0, Turn::rate, 0, Drive::thrust, 0};
+  in.setpoint = {in.setpoint->depth, heading_, 0, Turn::rate, 0, Drive::thrust, 0};
   heading_axis_ = thrust_axis_ = 0;
   button_ = 0;
   let_go_ = true;
-  setpoint_fresh_ = true;
   set_mode(Mode::teleoperation);
 }
 
@@ -203,8 +175,7 @@ void LauvOperator::demand_stop() {
 // The propeller stops; a little lighter than water, the vehicle comes up.
 void LauvOperator::stop() {
   if (mode_ == Mode::teleoperation) answer(imc::TeleoperationDone{});
-  setpoint_ = {0, heading_, 0};
-  setpoint_fresh_ = true;
+  in.setpoint = {0, heading_, 0};
   if (mode_ != Mode::error) set_mode(Mode::service);
 }
 
@@ -240,24 +211,23 @@ void LauvOperator::reach(Duration instant, messages::Receiver& system) {
   const bool heartbeat = second_ != second;
   second_ = second;
   if (heartbeat) system.receive(messages::refer_to(imc::Heartbeat{}));
-  if (heartbeat || mode_changed_) tell_state(system);
+  if (heartbeat || mode_changed_) send_vehicle_state(system);
   mode_changed_ = false;
 }
 
 void LauvOperator::steer_by_hand(Duration instant) {
   if (button_ != 0) {
     const double change = button_ * parameters_.button_rate * seconds(instant - now_);
-    setpoint_.thrust = std::clamp(setpoint_.thrust + change, -parameters_.full_thrust, parameters_.full_thrust);
-    setpoint_fresh_ = true;
+    double& thrust = in.setpoint.renew().thrust;
+    thrust = std::clamp(thrust + change, -parameters_.full_thrust, parameters_.full_thrust);
   }
-  const bool rests = setpoint_.thrust == 0 && setpoint_.rate == 0;
+  const bool rests = in.setpoint->thrust == 0 && in.setpoint->rate == 0;
   if (rests || !hand_heard_ || seconds(instant - *hand_heard_) < parameters_.silence) return;
-  setpoint_.thrust = setpoint_.rate = 0;
+  in.setpoint.renew().thrust = in.setpoint.renew().rate = 0;
   button_ = 0;
-  setpoint_fresh_ = true;
 }
 
-void LauvOperator::tell_state(messages::Receiver& system) const {
+void LauvOperator::send_vehicle_state(messages::Receiver& system) const {
   using Loops = imc::CLoopsMask;
   imc::VehicleState state;
   imc::PlanControlState plan;
@@ -269,8 +239,8 @@ void LauvOperator::tell_state(messages::Receiver& system) const {
     state.last_error = "abort";
     plan.last_outcome = imc::PlanControlState::LastOutcome::FAILURE;
   }
-  const std::int64_t turning = setpoint_.turn == Turn::rate ? Loops::YAW_RATE : Loops::YAW;
-  const std::int64_t driving = setpoint_.drive == Drive::thrust ? Loops::THROTTLE : Loops::SPEED;
+  const std::int64_t turning = in.setpoint->turn == Turn::rate ? Loops::YAW_RATE : Loops::YAW;
+  const std::int64_t driving = in.setpoint->drive == Drive::thrust ? Loops::THROTTLE : Loops::SPEED;
   const auto loops = static_cast<std::uint32_t>(Loops::DEPTH | Loops::TORQUE | turning | driving);
   switch (mode_) {
     case Mode::service: state.op_mode = imc::VehicleState::OpMode::SERVICE; break;
@@ -313,38 +283,33 @@ void LauvOperator::announce(Duration instant, messages::Receiver& all) {
                                                 .address = address_})));
 }
 
-bool LauvOperator::take(std::size_t channel, void* value) {
-  if (channel == setpoint_channel) {
-    *static_cast<tasks::Setpoint*>(value) = setpoint_;
-    return std::exchange(setpoint_fresh_, false);
-  }
-  if (channel == contact_channel) {
-    // nobody has to be there as long as nothing was asked for
-    const bool steered = mode_ == Mode::external || mode_ == Mode::teleoperation;
-    *static_cast<tasks::Contact*>(value) = {.silence = steered ? seconds(now_ - heard_) : 0, .stops = stops_};
-    return true;
-  }
-  *static_cast<tasks::Actuation*>(value) = actuation_;
-  return std::exchange(actuation_fresh_, false);
+// Nobody has to be there as long as nothing was asked for.
+tasks::Contact LauvOperator::contact() {
+  const bool steered = mode_ == Mode::external || mode_ == Mode::teleoperation;
+  return {.silence = steered ? seconds(now_ - heard_) : 0, .stops = stops_};
 }
 
-void LauvOperator::hand_over(std::size_t channel, const void* value, messages::Receiver& system) {
+void LauvOperator::send_report(const tasks::VehicleReport& report, messages::Receiver& system) {
+  if (alarm_ != report.alarm) mode_changed_ = true;
+  alarm_ = report.alarm;
+  heading_ = report.heading;
+  if (motion_sent_) return;
   tasks::Motion motion;
-  if (channel == motion_channel) {
-    motion = *static_cast<const tasks::Motion*>(value);
-    motion_told_ = true;
-  } else {
-    const auto& report = *static_cast<const tasks::VehicleReport*>(value);
-    motion.z = report.depth;
-    motion.theta = report.pitch;
-    motion.psi = report.heading;
-    motion.u = report.speed;
-    if (alarm_ != report.alarm) mode_changed_ = true;
-    alarm_ = report.alarm;
-  }
+  motion.z = report.depth;
+  motion.theta = report.pitch;
+  motion.psi = report.heading;
+  motion.u = report.speed;
+  send_state(motion, system);
+}
+
+void LauvOperator::send_motion(const tasks::Motion& motion, messages::Receiver& system) {
+  motion_sent_ = true;
   heading_ = motion.psi;
-  if (channel == motion_channel || !motion_told_)
-    system.receive(messages::refer_to(estimate_state(motion, parameters_.latitude, parameters_.longitude)));
+  send_state(motion, system);
+}
+
+void LauvOperator::send_state(const tasks::Motion& motion, messages::Receiver& system) const {
+  system.receive(messages::refer_to(estimate_state(motion, parameters_.latitude, parameters_.longitude)));
 }
 
 }  // namespace jarol::distributers

@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "distributers/interfaces/any_distributer.h"
-#include "distributers/lauv/tuple_list.h"
-#include "graph/registry.h"
+#include "distributers/interfaces/distributer.h"
+#include "distributers/messages/imc.h"
+#include "graph/values/type_of.h"
 #include "tasks/values/instruments.h"
 #include "tasks/values/lauv.h"
 
 namespace jarol::distributers {
+namespace imc = messages::imc;
 
 /// Defaults: what DUNE does as a simulator, and the vehicle of that name that Neptus knows.
 struct LauvOperatorParameters {
@@ -40,30 +41,74 @@ struct LauvOperatorParameters {
 /// the propeller, so that the vehicle comes up. An Abort, and the stop of a plan or maneuver, also has an alarm of the
 /// vehicle forgotten whose cause is gone; until then its state is an error. What is asked is answered at the next
 /// instant.
-class LauvOperator : public AnyDistributer {
+class LauvOperator {
  public:
-  static DistributerClass describe_class();
+  static constexpr std::string_view summary = "the submarine's operator, over IMC";
+  static constexpr bool is_vehicle = false;
+  using Param = LauvOperatorParameters;
 
-  explicit LauvOperator(const LauvOperatorParameters& parameters) : parameters_(parameters) {}
+  struct In {
+    Newest<tasks::Setpoint> setpoint;
+    Newest<tasks::Actuation> actuation;
+    Computed<tasks::Contact> contact;
+    static constexpr auto fields() {
+      return describe(channel<&In::setpoint>("commanded depth, heading and speed"),
+                      channel<&In::actuation>("propeller and fins, steered by hand"),
+                      channel<&In::contact>("how long the operator was not heard, and demands of a stop"));
+    }
+  };
+  struct Out {
+    tasks::VehicleReport report;
+    tasks::Motion motion;
+    static constexpr auto fields() {
+      return describe(channel<&Out::report>("depth, pitch, heading and speed reached"),
+                      channel<&Out::motion>("the vehicle's motion as it came"));
+    }
+  };
 
-  const messages::MessageSet& message_set() const override;
-  void listen_at(const std::string& address) override { address_ = address; }
-  void receive(messages::MessageRef message) override;
-  void reach(Duration instant, messages::Receiver& system) override;
-  void announce(Duration instant, messages::Receiver& all) override;
-  std::uint64_t non_finite_inputs() const override { return non_finite_inputs_; }
-  bool take(std::size_t channel, void* value) override;
-  void hand_over(std::size_t channel, const void* value, messages::Receiver& system) override;
+  static const messages::MessageSet& message_set() { return imc::message_set(); }
+  static constexpr auto handlers() {
+    using O = LauvOperator;
+    return handle(on<imc::DesiredZ>(&O::desired_z), on<imc::DesiredHeading>(&O::desired_heading),
+                  on<imc::DesiredHeadingRate>(&O::desired_heading_rate), on<imc::DesiredSpeed>(&O::desired_speed),
+                  on<imc::SetThrusterActuation>(&O::set_thruster), on<imc::SetServoPosition>(&O::set_servo),
+                  on<imc::RemoteActions>(&O::remote_actions), on<imc::Abort>(&O::abort),
+                  on<imc::PlanControl>(&O::plan_control), on<imc::VehicleCommand>(&O::vehicle_command),
+                  on<imc::RemoteActionsRequest>(&O::actions_request), on<imc::EntityList>(&O::entity_list),
+                  compute<&In::contact>(&O::contact), send<&Out::report>(&O::send_report),
+                  send<&Out::motion>(&O::send_motion));
+  }
+
+  explicit LauvOperator(const Param& parameters) : parameters_(parameters) {}
+
+  void any_message() { heard_ = now_; }
+  void reach(Duration instant, messages::Receiver& system);
+  void announce(Duration instant, messages::Receiver& all);
+  void listen_at(const std::string& address) { address_ = address; }
+  std::uint64_t non_finite_inputs() const { return non_finite_inputs_; }
+
+  In in;
 
  private:
   enum class Mode { service, external, teleoperation, error };
 
-  void receive_reference(messages::MessageRef message);
-  void receive_plan(messages::MessageRef message);
-  void receive_actuation(messages::MessageRef message);
-  void receive_question(messages::MessageRef message);
-  void receive_actions(const TupleList& actions);
-  void receive_abort();
+  void desired_z(const imc::DesiredZ& z);
+  void desired_heading(const imc::DesiredHeading& heading);
+  void desired_heading_rate(const imc::DesiredHeadingRate& rate);
+  void desired_speed(const imc::DesiredSpeed& speed);
+  void set_thruster(const imc::SetThrusterActuation& thruster);
+  void set_servo(const imc::SetServoPosition& servo);
+  void remote_actions(const imc::RemoteActions& message);
+  void abort(const imc::Abort&);
+  void plan_control(const imc::PlanControl& plan);
+  void vehicle_command(const imc::VehicleCommand& command);
+  void actions_request(const imc::RemoteActionsRequest& request);
+  void entity_list(const imc::EntityList& list);
+  tasks::Contact contact();
+  void send_report(const tasks::VehicleReport& report, messages::Receiver& system);
+  void send_motion(const tasks::Motion& motion, messages::Receiver& system);
+  void send_state(const tasks::Motion& motion, messages::Receiver& system) const;
+
   bool is_finite(double value);  // else that is counted
   bool use_autopilot();
   void start_teleoperation();
@@ -78,15 +123,12 @@ class LauvOperator : public AnyDistributer {
   }
 
   void steer_by_hand(Duration instant);
-  void tell_state(messages::Receiver& system) const;
+  void send_vehicle_state(messages::Receiver& system) const;
 
   LauvOperatorParameters parameters_;
   std::string address_;
   Duration now_{};
   Mode mode_ = Mode::service;
-  tasks::Setpoint setpoint_;
-  tasks::Actuation actuation_;
-  bool setpoint_fresh_ = false, actuation_fresh_ = false;
   std::uint64_t non_finite_inputs_ = 0;
 
   // of the hand that steers
@@ -100,7 +142,7 @@ class LauvOperator : public AnyDistributer {
   std::uint32_t stops_ = 0;  // demanded by the operator
   tasks::Alarm alarm_ = tasks::Alarm::none;
   double heading_ = 0;        // of the vehicle, as told last
-  bool motion_told_ = false;  // by channel `motion`, which tells more than `report`
+  bool motion_sent_ = false;  // by channel `motion`, which has more than `report`
   bool mode_changed_ = true;
   std::optional<std::int64_t> second_;  // told for it
   std::optional<Duration> announced_;

@@ -1,4 +1,4 @@
-// Channels on a link: an adapter speaks with a peer in another process or device, in real time.
+// Channels on a link: an distributer speaks with a peer in another process or device, in real time.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,8 @@ namespace jarol::distributers {
 class LinkedChannels : public Channels {
  public:
   /// `announcer` is for what goes to all who may look for this system, or null.
-  LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<Link> announcer, std::unique_ptr<AnyDistributer> adapter);
+  LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<Link> announcer,
+                 std::unique_ptr<AnyDistributer> distributer);
 
   Link& link() { return *link_; }
   const Link& link() const { return *link_; }
@@ -20,32 +21,32 @@ class LinkedChannels : public Channels {
   void finish() override;
   bool needs_real_clock() const override { return true; }
   std::optional<LinkReport> link_report() const override { return link_->report(); }
-  std::uint64_t non_finite_inputs() const override { return adapter_->non_finite_inputs(); }
+  std::uint64_t non_finite_inputs() const override { return distributer_->non_finite_inputs(); }
 
   void reach(Duration instant) override;
-  bool take(std::size_t channel, void* value) override { return adapter_->take(channel, value); }
+  bool take(std::size_t channel, void* value) override { return distributer_->take(channel, value); }
   void hand_over(std::size_t channel, const void* value) override;
 
  private:
-  // What the adapter sends goes to a link.
+  // What the distributer sends goes to a link.
   struct ToLink : messages::Receiver {
     explicit ToLink(Link& to) : link(to) {}
     void receive(messages::MessageRef message) override { link.send(message); }
     Link& link;
   };
 
-  // What the peer sends goes to the adapter, which learns of a new peer before.
+  // What the peer sends goes to the distributer, which learns of a new peer before.
   struct FromPeer : messages::Receiver {
-    FromPeer(const Link& from, AnyDistributer& to) : link(from), adapter(to) {}
+    FromPeer(const Link& from, AnyDistributer& to) : link(from), distributer(to) {}
     void receive(messages::MessageRef message) override;
     const Link& link;
-    AnyDistributer& adapter;
+    AnyDistributer& distributer;
     std::uint32_t peer = 0;
   };
 
   std::unique_ptr<Link> link_;
   std::unique_ptr<Link> announcer_;
-  std::unique_ptr<AnyDistributer> adapter_;
+  std::unique_ptr<AnyDistributer> distributer_;
   FromPeer from_peer_;
   ToLink to_link_;
 };

@@ -108,11 +108,11 @@ class RemoteVehicle : public vehicles::Stepped {
   mutable Taker taker_;
 };
 
-LockstepChannels::LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<AnyDistributer> adapter,
+LockstepChannels::LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<AnyDistributer> distributer,
                                    CheckGrid check_grid, LockstepOptions options)
     : peer_(peer),
       seed_(seed),
-      adapter_(std::move(adapter)),
+      distributer_(std::move(distributer)),
       check_grid_(std::move(check_grid)),
       options_(std::move(options)) {}
 
@@ -120,7 +120,7 @@ LockstepChannels::~LockstepChannels() = default;
 
 void LockstepChannels::begin() {
   FrameStream stream = FrameStream::connect(peer_, options_.patience);
-  if (options_.key) stream.secure(*options_.key, adapter_->message_set().name);
+  if (options_.key) stream.secure(*options_.key, distributer_->message_set().name);
   const FrameStream::Frame welcome = stream.read();
   const auto refuse = [&](const std::string& why) {
     throw FrameError("the vehicle at " + peer_.text() + " does not fit: " + why);
@@ -130,14 +130,14 @@ void LockstepChannels::begin() {
     refuse("it does not speak version " + std::to_string(version) + " of the lockstep protocol");
   const Duration grid(static_cast<std::int64_t>(number(welcome, 1)));
   const std::string set = text_after(welcome, 2);
-  if (set != adapter_->message_set().name)
-    refuse("it speaks '" + set + "', not '" + std::string(adapter_->message_set().name) + "'");
+  if (set != distributer_->message_set().name)
+    refuse("it speaks '" + set + "', not '" + std::string(distributer_->message_set().name) + "'");
   if (grid <= Duration::zero()) refuse("its step is " + duration_text(grid) + "; it has to be above zero");
   if (const std::string wrong = check_grid_(grid); !wrong.empty()) refuse(wrong);
   stream.put(FrameKind::begin, numbers({seed_}));
-  auto vehicle = std::make_unique<RemoteVehicle>(std::move(stream), grid, adapter_->message_set());
+  auto vehicle = std::make_unique<RemoteVehicle>(std::move(stream), grid, distributer_->message_set());
   vehicle_ = vehicle.get();
-  simulation_ = std::make_unique<SimulationChannels>(std::move(vehicle), std::move(adapter_));
+  simulation_ = std::make_unique<SimulationChannels>(std::move(vehicle), std::move(distributer_));
 }
 
 void LockstepChannels::finish() {

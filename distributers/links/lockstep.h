@@ -33,11 +33,11 @@ class RemoteVehicle;
 
 class LockstepChannels : public Channels {
  public:
-  LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<AnyDistributer> adapter,
+  LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<AnyDistributer> distributer,
                    CheckGrid check_grid, LockstepOptions options = {});
   ~LockstepChannels() override;
 
-  /// Connects, and has the vehicle begin. Throws FrameError, also if it is not one for this adapter and grid.
+  /// Connects, and has the vehicle begin. Throws FrameError, also if it is not one for this distributer and grid.
   void begin() override;
   void finish() override;
   bool outlives_run() const override { return true; }
@@ -52,7 +52,7 @@ class LockstepChannels : public Channels {
  private:
   Address peer_;
   std::uint64_t seed_;
-  std::unique_ptr<AnyDistributer> adapter_;  // until it begins
+  std::unique_ptr<AnyDistributer> distributer_;  // until it begins
   CheckGrid check_grid_;
   LockstepOptions options_;
   RemoteVehicle* vehicle_ = nullptr;  // the simulation's, while it runs

@@ -121,12 +121,12 @@ std::unique_ptr<Link> make_packet_link(std::unique_ptr<Transport> transport, con
 
 std::unique_ptr<Channels> make_packet_channels(const LinkType& type, const LinkRequest& request, Problems& problems) {
   try {
-    auto adapter = request.make_distributer();
-    const messages::MessageSet& set = adapter->message_set();
+    auto distributer = request.make_distributer();
+    const messages::MessageSet& set = distributer->message_set();
     auto link = type.make_link(request.yaml(), set, request.subject(), problems);
     if (!link) return nullptr;
     auto announcer = make_announcer(request.yaml(), set, problems);
-    return std::make_unique<LinkedChannels>(std::move(link), std::move(announcer), std::move(adapter));
+    return std::make_unique<LinkedChannels>(std::move(link), std::move(announcer), std::move(distributer));
   } catch (const std::invalid_argument& error) {
     problems.add(request.yaml().where, "distributer '" + request.whose().name + "': " + error.what());
     return nullptr;

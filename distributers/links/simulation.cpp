@@ -50,19 +50,19 @@ LinkType simulation_link() {
 }
 
 SimulationChannels::SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle,
-                                       std::unique_ptr<AnyDistributer> adapter)
-    : vehicle_(std::move(vehicle)), adapter_(std::move(adapter)), to_vehicle_(*vehicle_) {}
+                                       std::unique_ptr<AnyDistributer> distributer)
+    : vehicle_(std::move(vehicle)), distributer_(std::move(distributer)), to_vehicle_(*vehicle_) {}
 
 void SimulationChannels::reach(Duration instant) {
   // sensors speak at every step of the grid, whether or not anyone listens: nothing depends on who looks
   if (!sensed_) {
-    vehicle_->sense(*adapter_);
+    vehicle_->sense(*distributer_);
     sensed_ = true;
   }
   while (at_ + vehicle_->grid() <= instant) {
     vehicle_->step();
     at_ += vehicle_->grid();
-    vehicle_->sense(*adapter_);
+    vehicle_->sense(*distributer_);
   }
 }
 
@@ -71,10 +71,10 @@ std::string SimulationChannels::mishap() const {
   return mishap ? mishap->text + ", at " + seconds_text(mishap->instant) + " s" : "";
 }
 
-bool SimulationChannels::take(std::size_t channel, void* value) { return adapter_->take(channel, value); }
+bool SimulationChannels::take(std::size_t channel, void* value) { return distributer_->take(channel, value); }
 
 void SimulationChannels::hand_over(std::size_t channel, const void* value) {
-  adapter_->hand_over(channel, value, to_vehicle_);
+  distributer_->hand_over(channel, value, to_vehicle_);
 }
 
 }  // namespace jarol::distributers

@@ -16,9 +16,9 @@ LinkType simulation_link();
 
 class SimulationChannels : public Channels {
  public:
-  SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle, std::unique_ptr<AnyDistributer> adapter);
+  SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle, std::unique_ptr<AnyDistributer> distributer);
 
-  std::uint64_t non_finite_inputs() const override { return adapter_->non_finite_inputs(); }
+  std::uint64_t non_finite_inputs() const override { return distributer_->non_finite_inputs(); }
   const Type* true_type() const override { return vehicle_->true_type(); }
   void copy_true_values(void* to) const override { copy_value(*true_type(), to, vehicle_->true_values()); }
   std::string mishap() const override;
@@ -27,7 +27,7 @@ class SimulationChannels : public Channels {
   void hand_over(std::size_t channel, const void* value) override;
 
  private:
-  // What the adapter sends goes straight to the vehicle.
+  // What the distributer sends goes straight to the vehicle.
   struct ToVehicle : messages::Receiver {
     explicit ToVehicle(vehicles::Stepped& to) : vehicle(to) {}
     void receive(messages::MessageRef message) override { vehicle.accept(message); }
@@ -35,7 +35,7 @@ class SimulationChannels : public Channels {
   };
 
   std::unique_ptr<vehicles::Stepped> vehicle_;
-  std::unique_ptr<AnyDistributer> adapter_;
+  std::unique_ptr<AnyDistributer> distributer_;
   ToVehicle to_vehicle_;
   Duration at_{};
   bool sensed_ = false;  // at the start

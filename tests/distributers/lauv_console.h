@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/lauv/operator.h"
 #include "distributers/messages/imc.h"
 
@@ -48,20 +49,20 @@ struct Conversation {
   void pass(Duration time) {
     for (const Duration end = now + time; now < end;) adapter.reach(now += 50ms, to);
   }
-  void report(const tasks::VehicleReport& told) { adapter.hand_over(3, &told, to); }
+  void report(const tasks::VehicleReport& told) { adapter.hand_over<&LauvOperator::Out::report>(told, to); }
   tasks::Setpoint setpoint() {
-    adapter.take(0, &value);
+    adapter.take<&LauvOperator::In::setpoint>(value);
     return value;
   }
   tasks::Contact contact() {
     tasks::Contact contact;
-    REQUIRE(adapter.take(2, &contact));
+    REQUIRE(adapter.take<&LauvOperator::In::contact>(contact));
     return contact;
   }
   double silence() { return contact().silence; }
   std::uint8_t op_mode() const { return to.last<imc::VehicleState>().op_mode; }
 
-  LauvOperator adapter;
+  distributers::Typed<LauvOperator> adapter;
   Console to;
   Duration now{};
   tasks::Setpoint value;

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "distributers/distributers.h"
+#include "distributers/interfaces/typed.h"
 #include "distributers/javiator/vehicle.h"
 #include "distributers/links/linked.h"
 #include "distributers/links/tcp.h"
@@ -77,7 +78,7 @@ void flood(std::unique_ptr<Transport> transport, const MakeFlood& make_flood, bo
   Loaded loaded = load_graph(read_source("specs/javiator.yaml"), {registry, no_vehicles},
                              {.profile = "", .set = {"distributers.robostix.link={type: udp, listen: 0}"}}, 0);
   const Graph& graph = *loaded.graph;
-  auto adapter = std::make_unique<JaviatorVehicle>();
+  auto adapter = std::make_unique<Typed<JaviatorVehicle>>();
   const auto& set = adapter->message_set();
   auto channels = std::make_unique<LinkedChannels>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
                                                    nullptr, std::move(adapter));

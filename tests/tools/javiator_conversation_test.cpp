@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/javiator/operator.h"
 #include "distributers/messages/javiator.h"
 #include "distributers/messages/packet.h"
@@ -75,7 +76,7 @@ class Replay : public Channels, messages::Receiver {
  private:
   void receive(messages::MessageRef message) override { answers_.push_back({now_, messages::Message(message)}); }
 
-  distributers::JaviatorOperator adapter_;
+  distributers::Typed<distributers::JaviatorOperator> adapter_;
   std::vector<Packet> packets_;
   std::vector<Answer>& answers_;
   std::size_t next_ = 0;

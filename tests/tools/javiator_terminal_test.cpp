@@ -11,6 +11,7 @@
 #include <sstream>
 #include <thread>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/javiator/operator.h"
 #include "distributers/links/linked.h"
 #include "distributers/links/tcp.h"
@@ -53,7 +54,7 @@ class Lab {
       port_of_ = [at = tcp.get()] { return at->port(); };
       transport = std::move(tcp);
     }
-    auto adapter = std::make_unique<JaviatorOperator>();
+    auto adapter = std::make_unique<Typed<JaviatorOperator>>();
     const auto& set = adapter->message_set();
     auto channels = std::make_unique<LinkedChannels>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
                                                      nullptr, std::move(adapter));

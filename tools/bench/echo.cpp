@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/links/linked.h"
 #include "distributers/links/udp.h"
 #include "distributers/messages/javiator.h"
@@ -78,27 +79,32 @@ class Asker {
 };
 
 // The id of a motor signal is the value; what has been answered is not answered again.
-class EchoAdapter : public AnyDistributer {
- public:
-  const messages::MessageSet& message_set() const override { return javiator::message_set(); }
-  void receive(messages::MessageRef message) override {
-    if (const auto* motors = message.as<javiator::MotorSignals>()) id_ = motors->id;
-    fresh_ = true;
+struct Echo {
+  static constexpr std::string_view summary = "answers";
+  static constexpr bool is_vehicle = false;
+  struct In {
+    Newest<double> in;
+    static constexpr auto fields() { return describe(channel<&In::in>("the id of a motor signal")); }
+  };
+  struct Out {
+    double out = 0;
+    static constexpr auto fields() { return describe(channel<&Out::out>("the same")); }
+  };
+  static const messages::MessageSet& message_set() { return javiator::message_set(); }
+  static constexpr auto handlers() {
+    return handle(on<javiator::MotorSignals>(&Echo::motors), send<&Out::out>(&Echo::answer));
   }
-  bool take(std::size_t, void* value) override {
-    *static_cast<double*>(value) = id_;
-    return std::exchange(fresh_, false);
-  }
-  void hand_over(std::size_t, const void* value, messages::Receiver& system) override {
-    const auto id = static_cast<std::uint16_t>(*static_cast<const double*>(value));
-    if (id == answered_) return;
-    answered_ = id;
+
+  void motors(const javiator::MotorSignals& motors) { in.in = motors.id; }
+  void answer(double value, messages::Receiver& system) {
+    const auto id = static_cast<std::uint16_t>(value);
+    if (id == answered) return;
+    answered = id;
     system.receive(messages::refer_to(javiator::MotorSignals{1, 2, 3, 4, id}));
   }
 
- private:
-  std::uint16_t id_ = 0, answered_ = 0;
-  bool fresh_ = false;
+  In in;
+  std::uint16_t answered = 0;
 };
 
 // The product: a graph that runs as fast as it can, so that a packet is taken at once.
@@ -119,7 +125,7 @@ connections: [from -> relay.in, relay.out -> to]
     const UdpTransport& udp = *transport;
     auto link = std::make_unique<Link>(std::move(transport), javiator::message_set(), LinkOptions{});
     std::vector<std::unique_ptr<Channels>> channels;
-    channels.push_back(std::make_unique<LinkedChannels>(std::move(link), nullptr, std::make_unique<EchoAdapter>()));
+    channels.push_back(std::make_unique<LinkedChannels>(std::move(link), nullptr, std::make_unique<Typed<Echo>>()));
     channels_ = channels.back().get();
     executor_ = std::make_unique<Executor>(graph_, std::move(channels));
     channels_->begin();

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/messages/javiator.h"
 #include "distributers/messages/packet.h"
 #include "tests/distributers/messages/recorded.h"
@@ -20,13 +21,13 @@ struct Sent : messages::Receiver {
 };
 
 template <class M>
-void send(JaviatorOperator& adapter, const M& message = {}) {
+void send(Typed<JaviatorOperator>& adapter, const M& message = {}) {
   adapter.receive(messages::refer_to(message));
 }
 
-tasks::PilotCommand take(JaviatorOperator& adapter) {
+tasks::PilotCommand take(Typed<JaviatorOperator>& adapter) {
   tasks::PilotCommand command;
-  CHECK(adapter.take(0, &command));
+  CHECK(adapter.take<&JaviatorOperator::In::command>(command));
   return command;
 }
 
@@ -35,16 +36,16 @@ struct Told {
   javiator::TraceData trace;
 };
 
-Told tell(JaviatorOperator& adapter, const tasks::HelicopterReport& report) {
+Told tell(Typed<JaviatorOperator>& adapter, const tasks::HelicopterReport& report) {
   Sent sent;
-  adapter.hand_over(1, &report, sent);
+  adapter.hand_over<&JaviatorOperator::Out::report>(report, sent);
   REQUIRE(sent.all.size() == 2);
   REQUIRE(sent.all[0].as<javiator::GroundReport>() != nullptr);
   REQUIRE(sent.all[1].as<javiator::TraceData>() != nullptr);
   return {*sent.all[0].as<javiator::GroundReport>(), *sent.all[1].as<javiator::TraceData>()};
 }
 
-void reach(JaviatorOperator& adapter, Duration instant) {
+void reach(Typed<JaviatorOperator>& adapter, Duration instant) {
   Sent sent;
   adapter.reach(instant, sent);
   CHECK(sent.all.empty());
@@ -53,7 +54,7 @@ void reach(JaviatorOperator& adapter, Duration instant) {
 
 TEST_SUITE("distributers/javiator_operator") {
   TEST_CASE("the first switch of a new peer is a hello; the next one counts") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     adapter.peer_changed();
     send<javiator::SwitchState>(adapter);
     CHECK(take(adapter).state_switches == 0);
@@ -69,20 +70,20 @@ TEST_SUITE("distributers/javiator_operator") {
   }
 
   TEST_CASE("in a stream, which knows no peers, every switch counts") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     send<javiator::SwitchState>(adapter);
     CHECK(take(adapter).state_switches == 1);
   }
 
   TEST_CASE("a hello does not keep a shut-down from counting") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     adapter.peer_changed();
     send<javiator::ShutDown>(adapter);
     CHECK(take(adapter).shut_downs == 1);
   }
 
   TEST_CASE("commands are radians and metres; the first two may mean a place") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     send(adapter, javiator::CommandData{75, -30, -200, 515});
     const tasks::PilotCommand command = take(adapter);
     CHECK(command.roll == doctest::Approx(0.075));
@@ -94,7 +95,7 @@ TEST_SUITE("distributers/javiator_operator") {
   }
 
   TEST_CASE("the operator is heard in a period in which a command came; keys alone are not enough") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     CHECK_FALSE(take(adapter).heard);
     send(adapter, javiator::CommandData{0, 0, 0, 500});
     CHECK(take(adapter).heard);
@@ -105,7 +106,7 @@ TEST_SUITE("distributers/javiator_operator") {
   }
 
   TEST_CASE("every key counts, however many come between two periods") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     send<javiator::SwitchState>(adapter);
     send<javiator::SwitchState>(adapter);
     send<javiator::SwitchMode>(adapter);
@@ -125,12 +126,12 @@ TEST_SUITE("distributers/javiator_operator") {
   }
 
   TEST_CASE("gains and idle signal are told once after each change, those that never came as not told") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     tasks::OperatorGains gains;
-    CHECK_FALSE(adapter.take(2, &gains));
+    CHECK_FALSE(adapter.take<&JaviatorOperator::In::gains>(gains));
     send(adapter, javiator::RollPitchParams{1700, 0, 500, -70});
     send(adapter, javiator::AltParams{1500, 500, 1000, 50});
-    REQUIRE(adapter.take(2, &gains));
+    REQUIRE(adapter.take<&JaviatorOperator::In::gains>(gains));
     CHECK(gains.lean.told);
     CHECK(gains.lean.gains.kp == doctest::Approx(1.7));
     CHECK(gains.lean.gains.kd == doctest::Approx(0.5));
@@ -139,11 +140,11 @@ TEST_SUITE("distributers/javiator_operator") {
     CHECK(gains.altitude.gains.ki == doctest::Approx(0.5));
     CHECK_FALSE(gains.yaw.told);
     CHECK_FALSE(gains.idle.told);
-    CHECK_FALSE(adapter.take(2, &gains));
+    CHECK_FALSE(adapter.take<&JaviatorOperator::In::gains>(gains));
     send(adapter, javiator::YawParams{1500, 0, 500, 0});
     send(adapter, javiator::XYParams{210, 30, -60, 1});
     send(adapter, javiator::IdleLimit{8000});
-    REQUIRE(adapter.take(2, &gains));
+    REQUIRE(adapter.take<&JaviatorOperator::In::gains>(gains));
     CHECK(gains.yaw.gains.kp == doctest::Approx(1.5));
     CHECK(gains.position.gains.kdd == doctest::Approx(0.001));
     CHECK(gains.idle.told);
@@ -153,7 +154,7 @@ TEST_SUITE("distributers/javiator_operator") {
   }
 
   TEST_CASE("a report has the recorded one's bytes") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     tasks::HelicopterReport report;
     report.pressure = 115e3 / 16777216 * 14782186;
     report.temperature = 25.0068;
@@ -162,7 +163,7 @@ TEST_SUITE("distributers/javiator_operator") {
     report.state = tasks::FlightState::flying;
     for (int i = 1; i < 692; ++i) tell(adapter, report);
     Sent sent;
-    adapter.hand_over(1, &report, sent);
+    adapter.hand_over<&JaviatorOperator::Out::report>(report, sent);
     std::vector<std::byte> packet;
     REQUIRE(messages::write_packet(messages::Message(*javiator::message_set().header), sent.all[0],
                                    javiator::message_set().order, packet));
@@ -172,7 +173,7 @@ TEST_SUITE("distributers/javiator_operator") {
   }
 
   TEST_CASE("motion is told in mrad, mm and their rates, cut to whole numbers") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     tasks::HelicopterReport report;
     report.roll = 0.0779;
     report.pitch = -0.0109;
@@ -204,7 +205,7 @@ TEST_SUITE("distributers/javiator_operator") {
   }
 
   TEST_CASE("rates are those of Euler's angles, and accelerations 19.79 times their difference") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     tasks::HelicopterReport report;
     report.roll = 0.5;
     report.pitch = 0.3;
@@ -221,7 +222,7 @@ TEST_SUITE("distributers/javiator_operator") {
   }
 
   TEST_CASE("what 16 bits can't hold is clipped, but for the pressure, which wraps") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     tasks::HelicopterReport report;
     report.altitude = 40;
     report.yaw = -33;
@@ -233,7 +234,7 @@ TEST_SUITE("distributers/javiator_operator") {
   }
 
   TEST_CASE("effort is what the signals of the motors have in it") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     tasks::HelicopterReport report;
     constexpr double u_z = 7993, u_yaw = 22, u_roll = 3, u_pitch = -5;
     report.signals = {u_z - u_yaw + u_pitch, u_z + u_yaw - u_roll, u_z - u_yaw - u_pitch, u_z + u_yaw + u_roll};
@@ -248,7 +249,7 @@ TEST_SUITE("distributers/javiator_operator") {
 
   TEST_CASE("states and modes are those that the terminal knows") {
     using tasks::FlightState;
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     tasks::HelicopterReport report;
     const auto state = [&](FlightState s) {
       report.state = s;
@@ -267,7 +268,7 @@ TEST_SUITE("distributers/javiator_operator") {
   }
 
   TEST_CASE("a trace has the state of the report before, and times of the logical clock") {
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     tasks::HelicopterReport report;
     report.roll_goal = 0.074;
     report.pitch_goal = -0.01;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/javiator/operator.h"
 #include "distributers/messages/javiator.h"
 
@@ -27,9 +28,9 @@ struct Nobody : messages::Receiver {
   void receive(messages::MessageRef) override {}
 };
 
-tasks::PilotCommand command_of(JaviatorOperator& adapter) {
+tasks::PilotCommand command_of(Typed<JaviatorOperator>& adapter) {
   tasks::PilotCommand command;
-  REQUIRE(adapter.take(0, &command));
+  REQUIRE(adapter.take<&JaviatorOperator::In::command>(command));
   return command;
 }
 }  // namespace
@@ -67,13 +68,13 @@ TEST_SUITE("distributers/trim_file") {
     parameters.trim_file = place.path();
     Nobody nobody;
     {
-      JaviatorOperator first(parameters);
+      Typed<JaviatorOperator> first(parameters);
       CHECK(command_of(first).kept_trim_roll == 0);
       const tasks::HelicopterReport report{.trim_roll = 0.02, .trim_pitch = -0.01};
-      first.hand_over(1, &report, nobody);
+      first.hand_over<&JaviatorOperator::Out::report>(report, nobody);
       first.finish();
     }
-    JaviatorOperator second(parameters);
+    Typed<JaviatorOperator> second(parameters);
     CHECK(command_of(second).kept_trim_roll == 0.02);
     CHECK(command_of(second).kept_trim_pitch == -0.01);
     // nothing new: nothing is written
@@ -84,11 +85,11 @@ TEST_SUITE("distributers/trim_file") {
 
   TEST_CASE("without a trim file each run begins level") {
     Nobody nobody;
-    JaviatorOperator adapter;
+    Typed<JaviatorOperator> adapter;
     const tasks::HelicopterReport report{.trim_roll = 0.02};
-    adapter.hand_over(1, &report, nobody);
+    adapter.hand_over<&JaviatorOperator::Out::report>(report, nobody);
     adapter.finish();
-    JaviatorOperator next;
+    Typed<JaviatorOperator> next;
     CHECK(command_of(next).kept_trim_roll == 0);
   }
 

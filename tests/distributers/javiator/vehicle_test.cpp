@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/messages/javiator.h"
 
 namespace {
@@ -30,7 +31,7 @@ struct Sent : messages::Receiver {
 };
 
 struct Vehicle {
-  JaviatorVehicle distributer{};
+  Typed<JaviatorVehicle> distributer{};
   tasks::JaviatorSensors sensors{};
 
   void hear(std::uint16_t flags) {
@@ -39,13 +40,13 @@ struct Vehicle {
     distributer.receive(messages::refer_to(data));
   }
   std::string take() {
-    if (!distributer.take(0, &sensors)) return "nothing";
+    if (!distributer.take<&JaviatorVehicle::In::sensors>(sensors)) return "nothing";
     return std::string(sensors.new_imu ? "i" : "") + (sensors.new_bmu ? "b" : "") + (sensors.new_sonar ? "s" : "") +
            (sensors.new_x ? "x" : "") + (sensors.new_y ? "y" : "");
   }
   void command(Sent& sent, bool unlocked, std::array<double, 4> signals) {
     const tasks::MotorCommand motors{.signals = signals, .unlocked = unlocked};
-    distributer.hand_over(1, &motors, sent);
+    distributer.hand_over<&JaviatorVehicle::Out::motors>(motors, sent);
   }
 };
 }  // namespace

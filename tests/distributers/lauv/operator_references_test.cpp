@@ -17,13 +17,13 @@ TEST_SUITE("distributers/lauv_operator_references") {
   TEST_CASE("depth, heading and speed become one setpoint, taken once after each change") {
     Conversation c;
     tasks::Setpoint value;
-    CHECK_FALSE(c.adapter.take(0, &value));
+    CHECK_FALSE(c.adapter.take<&LauvOperator::In::setpoint>(value));
     c.say(imc::DesiredZ{3, imc::ZUnits::DEPTH});
     c.say(imc::DesiredHeading{90 * degree});
     c.say(imc::DesiredSpeed{1.2, imc::SpeedUnits::METERS_PS});
-    CHECK(c.adapter.take(0, &value));
+    CHECK(c.adapter.take<&LauvOperator::In::setpoint>(value));
     check(value, {3, 90 * degree, 1.2});
-    CHECK_FALSE(c.adapter.take(0, &value));
+    CHECK_FALSE(c.adapter.take<&LauvOperator::In::setpoint>(value));
     c.pass(50ms);
     const auto state = c.to.last<imc::VehicleState>();
     CHECK(state.op_mode == OpMode::EXTERNAL);
@@ -61,7 +61,7 @@ TEST_SUITE("distributers/lauv_operator_references") {
     refused(imc::DesiredHeadingRate{INFINITY}, "DesiredHeadingRate is no number");
     refused(imc::DesiredSpeed{1000, imc::SpeedUnits::RPM}, "DesiredSpeed is taken in m/s or % only");
     CHECK(c.adapter.non_finite_inputs() == 3);
-    CHECK_FALSE(c.adapter.take(0, &c.value));
+    CHECK_FALSE(c.adapter.take<&LauvOperator::In::setpoint>(c.value));
     CHECK(c.op_mode() == OpMode::SERVICE);
   }
 
@@ -79,14 +79,14 @@ TEST_SUITE("distributers/lauv_operator_references") {
   TEST_CASE("thruster and servo commands become an actuation by hand") {
     Conversation c;
     tasks::Actuation value;
-    CHECK_FALSE(c.adapter.take(1, &value));
+    CHECK_FALSE(c.adapter.take<&LauvOperator::In::actuation>(value));
     c.say(imc::SetThrusterActuation{0, 0.5F});
     c.say(imc::SetServoPosition{2, 0.25F});
     c.say(imc::SetServoPosition{4, 1});      // there is no such fin
     c.say(imc::SetThrusterActuation{1, 1});  // nor such a thruster
-    CHECK(c.adapter.take(1, &value));
+    CHECK(c.adapter.take<&LauvOperator::In::actuation>(value));
     CHECK(value.thruster == 0.5);
     CHECK(value.fins == std::array<double, 4>{0, 0, 0.25, 0});
-    CHECK_FALSE(c.adapter.take(1, &value));
+    CHECK_FALSE(c.adapter.take<&LauvOperator::In::actuation>(value));
   }
 }

@@ -32,7 +32,7 @@ TEST_SUITE("distributers/lauv_operator") {
   }
 
   TEST_CASE("it announces itself every ten seconds, with the address at which it is reached") {
-    LauvOperator adapter({});
+    distributers::Typed<LauvOperator> adapter;
     Console all;
     adapter.listen_at("udp://127.0.0.1:6001");
     for (Duration now{}; now < 25s; now += 50ms) adapter.announce(now, all);
@@ -100,7 +100,7 @@ TEST_SUITE("distributers/lauv_operator") {
     motion.u = 1;
     motion.v = 0.5;
     motion.r = 0.25;
-    c.adapter.hand_over(4, &motion, c.to);
+    c.adapter.hand_over<&LauvOperator::Out::motion>(motion, c.to);
     state = c.to.last<imc::EstimatedState>();
     CHECK(state.x == 10.0F);
     CHECK(state.vx == doctest::Approx(-0.5));

@@ -8,11 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/messages/imc.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::distributers;
+using In = LauvVehicle::In;
 namespace imc = messages::imc;
 
 struct Sent : messages::Receiver {
@@ -34,25 +36,25 @@ struct Sent : messages::Receiver {
 
 TEST_SUITE("distributers/lauv_vehicle") {
   TEST_CASE("a simulated state becomes motion, taken once") {
-    LauvVehicle adapter;
+    Typed<LauvVehicle> adapter;
     tasks::Motion motion;
-    CHECK_FALSE(adapter.take(0, &motion));
+    CHECK_FALSE(adapter.take<&In::motion>(motion));
     imc::SimulatedState state;
     state.z = 2.5F;
     state.psi = 0.1F;
     state.u = 1.2F;
     state.r = -0.3F;
     adapter.receive(messages::refer_to(state));
-    CHECK(adapter.take(0, &motion));
+    CHECK(adapter.take<&In::motion>(motion));
     CHECK(motion.z == 2.5);
     CHECK(motion.psi == static_cast<double>(0.1F));  // the wire's 32 bits, in process too
     CHECK(motion.u == static_cast<double>(1.2F));
     CHECK(motion.r == static_cast<double>(-0.3F));
-    CHECK_FALSE(adapter.take(0, &motion));
+    CHECK_FALSE(adapter.take<&In::motion>(motion));
   }
 
   TEST_CASE("an estimated state becomes motion as well, whichever came last; its depth counts") {
-    LauvVehicle adapter;
+    Typed<LauvVehicle> adapter;
     tasks::Motion motion;
     imc::SimulatedState truth;
     truth.z = 2.5F;
@@ -65,13 +67,13 @@ TEST_SUITE("distributers/lauv_vehicle") {
     estimate.q = 0.25F;
     adapter.receive(messages::refer_to(truth));
     adapter.receive(messages::refer_to(estimate));
-    CHECK(adapter.take(0, &motion));
+    CHECK(adapter.take<&In::motion>(motion));
     CHECK(motion.x == 1);
     CHECK(motion.z == 3);
     CHECK(motion.u == 1.5);
     CHECK(motion.q == 0.25);
     adapter.receive(messages::refer_to(truth));
-    CHECK(adapter.take(0, &motion));
+    CHECK(adapter.take<&In::motion>(motion));
     CHECK(motion.z == 2.5);
   }
 
@@ -82,7 +84,7 @@ TEST_SUITE("distributers/lauv_vehicle") {
       }
       std::vector<imc::Announce> announces;
     } heard;
-    LauvVehicle adapter;
+    Typed<LauvVehicle> adapter;
     adapter.listen_at("udp://127.0.0.1:7002");
     for (Duration now{}; now < std::chrono::seconds(11); now += std::chrono::seconds(1)) adapter.announce(now, heard);
     REQUIRE(heard.announces.size() == 2);
@@ -92,10 +94,10 @@ TEST_SUITE("distributers/lauv_vehicle") {
   }
 
   TEST_CASE("an actuation becomes one thruster and four servo messages, in that order") {
-    LauvVehicle adapter;
+    Typed<LauvVehicle> adapter;
     Sent sent;
     const tasks::Actuation actuation{0.5, {0.1, 0.2, 0.3, 0.4}};
-    adapter.hand_over(1, &actuation, sent);
+    adapter.hand_over<&LauvVehicle::Out::actuation>(actuation, sent);
     CHECK(sent.order == "t0123");
     REQUIRE(sent.thruster.size() == 1);
     CHECK(sent.thruster[0].value == 0.5F);
@@ -105,9 +107,9 @@ TEST_SUITE("distributers/lauv_vehicle") {
   }
 
   TEST_CASE("readings become instruments, counted; what is no number is none") {
-    LauvVehicle adapter;
+    Typed<LauvVehicle> adapter;
     tasks::Instruments i;
-    CHECK_FALSE(adapter.take(2, &i));
+    CHECK_FALSE(adapter.take<&In::instruments>(i));
     imc::Depth depth;
     depth.value = 2.5F;
     adapter.receive(messages::refer_to(depth));
@@ -122,21 +124,21 @@ TEST_SUITE("distributers/lauv_vehicle") {
     imc::Distance range;
     range.value = 30;
     adapter.receive(messages::refer_to(range));  // not valid
-    CHECK(adapter.take(2, &i));
+    CHECK(adapter.take<&In::instruments>(i));
     CHECK(i.depth.value == 2.5);
     CHECK(i.depth.count == 2);
     CHECK(i.heading.value == 1.5);
     CHECK(i.attitude.count == 0);
     CHECK(i.leak.value == 1);
     CHECK(i.altitude.count == 0);
-    CHECK_FALSE(adapter.take(2, &i));
+    CHECK_FALSE(adapter.take<&In::instruments>(i));
     tasks::Motion motion;
-    CHECK_FALSE(adapter.take(0, &motion));
+    CHECK_FALSE(adapter.take<&In::motion>(motion));
   }
 
   TEST_CASE("a reading that is not finite is counted and left out, unless others stand beside it") {
     constexpr double none = std::numeric_limits<double>::quiet_NaN(), beyond = std::numeric_limits<double>::infinity();
-    LauvVehicle adapter;
+    Typed<LauvVehicle> adapter;
     tasks::Instruments i;
     imc::EulerAngles angles;
     angles.phi = angles.theta = angles.psi = none;
@@ -146,7 +148,7 @@ TEST_SUITE("distributers/lauv_vehicle") {
     angles.psi_magnetic = none;
     adapter.receive(messages::refer_to(angles));  // an IMU
     CHECK(adapter.non_finite_inputs() == 0);
-    CHECK(adapter.take(2, &i));
+    CHECK(adapter.take<&In::instruments>(i));
     CHECK(i.heading.count == 1);
     CHECK(i.attitude.count == 1);
 
@@ -169,11 +171,11 @@ TEST_SUITE("distributers/lauv_vehicle") {
     fix.lat = none;
     adapter.receive(messages::refer_to(fix));
     CHECK(adapter.non_finite_inputs() == 7);
-    CHECK_FALSE(adapter.take(2, &i));
+    CHECK_FALSE(adapter.take<&In::instruments>(i));
   }
 
   TEST_CASE("a fix that is not valid, a range that is not, and a dry hull are none of what they might be") {
-    LauvVehicle adapter;
+    Typed<LauvVehicle> adapter;
     tasks::Instruments i;
     imc::GpsFix fix;
     fix.lat = 0.7;
@@ -181,13 +183,13 @@ TEST_SUITE("distributers/lauv_vehicle") {
     imc::Distance range;
     range.value = 30;
     adapter.receive(messages::refer_to(range));
-    CHECK_FALSE(adapter.take(2, &i));
+    CHECK_FALSE(adapter.take<&In::instruments>(i));
     range.validity = imc::Distance::Validity::VALID;
     adapter.receive(messages::refer_to(range));
     imc::EntityState entity;
     entity.state = imc::EntityState::State::NORMAL;
     adapter.receive(messages::refer_to(entity));
-    CHECK(adapter.take(2, &i));
+    CHECK(adapter.take<&In::instruments>(i));
     CHECK(i.place.count == 0);
     CHECK(i.altitude.value == 30);
     CHECK(i.leak.count == 1);
@@ -195,7 +197,7 @@ TEST_SUITE("distributers/lauv_vehicle") {
   }
 
   TEST_CASE("a fix becomes metres along meridian and parallel, which come together to the north") {
-    LauvVehicle adapter;
+    Typed<LauvVehicle> adapter;
     tasks::Instruments i;
     imc::GpsFix fix;
     fix.validity = imc::GpsFix::Validity::VALID_POS;
@@ -205,7 +207,7 @@ TEST_SUITE("distributers/lauv_vehicle") {
     fix.lat += 1e-5;
     fix.lon += 1e-5;
     adapter.receive(messages::refer_to(fix));
-    CHECK(adapter.take(2, &i));
+    CHECK(adapter.take<&In::instruments>(i));
     // through the centre of the earth: WGS-84 as an ellipsoid of 6378137 and 6356752.314245 m, chords of the two points
     const auto point = [](double latitude, double longitude) {
       const double a = 6378137.0, b = 6356752.314245;
@@ -219,7 +221,7 @@ TEST_SUITE("distributers/lauv_vehicle") {
   }
 
   TEST_CASE("the first fix is the origin of the place") {
-    LauvVehicle adapter;
+    Typed<LauvVehicle> adapter;
     imc::GpsFix fix;
     fix.validity = imc::GpsFix::Validity::VALID_POS;
     fix.lat = 0.7;
@@ -232,7 +234,7 @@ TEST_SUITE("distributers/lauv_vehicle") {
     fix.lat = 0;
     adapter.receive(messages::refer_to(fix));
     tasks::Instruments i;
-    CHECK(adapter.take(2, &i));
+    CHECK(adapter.take<&In::instruments>(i));
     CHECK(i.place.count == 2);
     // radii of the ellipsoid at 0.7 rad: 6362 km along the meridian, 4889 km of the parallel
     CHECK(i.place.x == doctest::Approx(63.62).epsilon(1e-3));
@@ -240,9 +242,9 @@ TEST_SUITE("distributers/lauv_vehicle") {
   }
 
   TEST_CASE("other messages change nothing") {
-    LauvVehicle adapter;
+    Typed<LauvVehicle> adapter;
     adapter.receive(messages::refer_to(imc::SetServoPosition{}));
     tasks::Motion motion;
-    CHECK_FALSE(adapter.take(0, &motion));
+    CHECK_FALSE(adapter.take<&In::motion>(motion));
   }
 }

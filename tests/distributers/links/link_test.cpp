@@ -11,6 +11,7 @@
 #include <functional>
 #include <optional>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/links/linked.h"
 #include "distributers/links/serial.h"
 #include "distributers/links/tcp.h"
@@ -208,6 +209,18 @@ void check_meets_again(Pair pair) {
     CHECK(meet(pair));
   }
 }
+
+// What it learns, in order.
+struct Diary {
+  static constexpr std::string_view summary = "keeps what it is called for";
+  static constexpr bool is_vehicle = false;
+  static const messages::MessageSet& message_set() { return javiator::message_set(); }
+  static constexpr auto handlers() { return handle(on<javiator::MotorSignals>(&Diary::motors)); }
+  void motors(const javiator::MotorSignals& m) { text += std::to_string(m.id) + " "; }
+  void peer_changed() { text += "peer "; }
+  void finish() { text += "end "; }
+  static inline std::string text;
+};
 }  // namespace
 
 TEST_SUITE("distributers/links/link") {
@@ -353,24 +366,12 @@ TEST_SUITE("distributers/links/link") {
   }
 
   TEST_CASE("an adapter learns of a new peer before its first packet, and of the end") {
-    struct Diary : AnyDistributer {
-      explicit Diary(std::string& to) : text(to) {}
-      const messages::MessageSet& message_set() const override { return javiator::message_set(); }
-      void peer_changed() override { text += "peer "; }
-      void receive(messages::MessageRef message) override {
-        text += std::to_string(message.as<javiator::MotorSignals>()->id) + " ";
-      }
-      bool take(std::size_t, void*) override { return false; }
-      void hand_over(std::size_t, const void*, messages::Receiver&) override {}
-      void finish() override { text += "end "; }
-      std::string& text;
-    };
     auto transport = std::make_unique<UdpTransport>(Address::parse("127.0.0.1:0"), Address{});
     const UdpTransport& at = *transport;
-    std::string diary;
+    std::string& diary = Diary::text;
     auto made = make(std::move(transport));
     Link& link = *made;
-    LinkedChannels channels(std::move(made), nullptr, std::make_unique<Diary>(diary));
+    LinkedChannels channels(std::move(made), nullptr, std::make_unique<Typed<Diary>>());
     channels.begin();
     const Address to = Address::parse("127.0.0.1:" + std::to_string(at.port()));
     for (int restart = 0; restart < 2; ++restart) {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <thread>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/javiator/vehicle.h"
 #include "distributers/links/lockstep.h"
 #include "distributers/links/tcp.h"
@@ -186,7 +187,7 @@ TEST_SUITE("distributers/links/lockstep_garbage") {
     const Peer peer(packets, session_count());
     for (std::size_t session = 0; session < session_count(); ++session) {
       const Bytes bytes = vehicle_session(packets, session);
-      LockstepChannels channels(peer.address(), 0, std::make_unique<JaviatorVehicle>(),
+      LockstepChannels channels(peer.address(), 0, std::make_unique<Typed<JaviatorVehicle>>(),
                                 [](Duration) { return std::string(); });
       channels.begin();
       try {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <thread>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/lauv/vehicle.h"
 #include "distributers/links/tcp.h"
 
@@ -32,7 +33,7 @@ std::string said_to(std::int64_t grid) {
   });
   std::string said;
   try {
-    LockstepChannels channels(address, 0, std::make_unique<LauvVehicle>(), [](Duration its) {
+    LockstepChannels channels(address, 0, std::make_unique<Typed<LauvVehicle>>(), [](Duration its) {
       return Duration(1000).count() % its.count() == 0 ? std::string() : std::string("off its grid");
     });
     channels.begin();

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/lauv/operator.h"
 
 namespace {
@@ -10,7 +11,7 @@ using namespace jarol::distributers;
 using namespace std::chrono_literals;
 
 const DistributerClass& operator_class() {
-  static const DistributerClass made = LauvOperator::describe_class();
+  static const DistributerClass made = distributer_class<LauvOperator>();
   return made;
 }
 

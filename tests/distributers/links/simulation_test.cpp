@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/lauv/vehicle.h"
 #include "distributers/messages/imc.h"
 
@@ -35,7 +36,7 @@ class Steps : public vehicles::Vehicle {
   float held_ = 0;
 };
 
-SimulationChannels make() { return {std::make_unique<Steps>(), std::make_unique<LauvVehicle>()}; }
+SimulationChannels make() { return {std::make_unique<Steps>(), std::make_unique<Typed<LauvVehicle>>()}; }
 
 double depth_of(SimulationChannels& channels) {
   tasks::Motion motion;
@@ -63,7 +64,7 @@ TEST_SUITE("distributers/links/simulation") {
     auto channels = make();
     channels.reach(10ms);
     const tasks::Actuation actuation{0, {4, 0, 0, 0}};
-    channels.hand_over(1, &actuation);
+    channels.hand_over(2, &actuation);
     CHECK(depth_of(channels) == 1);
     channels.reach(30ms);
     CHECK(depth_of(channels) == 11);

@@ -10,6 +10,7 @@
 #include <random>
 #include <thread>
 
+#include "distributers/interfaces/typed.h"
 #include "distributers/javiator/operator.h"
 #include "distributers/links/linked.h"
 #include "distributers/links/tcp.h"
@@ -267,7 +268,7 @@ TEST_SUITE("distributers/links/strangers") {
   TEST_CASE("a hello from a stray socket does not swallow the pilot's next command") {
     auto transport = std::make_unique<UdpTransport>(any, Address{});
     const UdpTransport& at = *transport;
-    auto adapter = std::make_unique<JaviatorOperator>();
+    auto adapter = std::make_unique<Typed<JaviatorOperator>>();
     auto link = std::make_unique<Link>(std::move(transport), javiator::message_set(), LinkOptions{});
     LinkedChannels channels(std::move(link), nullptr, std::move(adapter));
     channels.begin();

@@ -1,0 +1,323 @@
+// From a distributer of its own type to one that links and channels know: channels by number, messages by id.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "distributers/interfaces/any_distributer.h"
+#include "distributers/interfaces/distributer.h"
+#include "graph/registry.h"
+#include "graph/values/type_of.h"
+
+namespace jarol::distributers {
+namespace detail {
+
+template <class D>
+concept WithParameters = requires { typename D::Param; };
+
+struct NoParameters {
+  static constexpr auto fields() { return describe(); }
+};
+template <class D>
+auto parameters_of() {
+  if constexpr (WithParameters<D>)
+    return typename D::Param{};
+  else
+    return NoParameters{};
+}
+template <class D>
+auto in_of() {
+  if constexpr (requires { typename D::In; })
+    return typename D::In{};
+  else
+    return NoParameters{};
+}
+template <class D>
+auto out_of() {
+  if constexpr (requires { typename D::Out; })
+    return typename D::Out{};
+  else
+    return NoParameters{};
+}
+
+template <class T>
+inline constexpr bool is_newest = false;
+template <class T>
+inline constexpr bool is_newest<Newest<T>> = true;
+template <class T>
+inline constexpr bool is_computed = false;
+template <class T>
+inline constexpr bool is_computed<Computed<T>> = true;
+
+enum class EntryKind { on, send, compute };
+template <class E>
+struct EntryOf;
+template <class M, class F>
+struct EntryOf<On<M, F>> {
+  static constexpr EntryKind kind = EntryKind::on;
+};
+template <auto Channel, class F>
+struct EntryOf<Send<Channel, F>> {
+  static constexpr EntryKind kind = EntryKind::send;
+};
+template <auto Channel, class F>
+struct EntryOf<Compute<Channel, F>> {
+  static constexpr EntryKind kind = EntryKind::compute;
+};
+
+// The places of members, as template arguments of one function: true if they are the same member.
+template <auto A, auto B>
+constexpr bool same_member() {
+  if constexpr (std::is_same_v<decltype(A), decltype(B)>)
+    return A == B;
+  else
+    return false;
+}
+
+// A member that has that name and can't be called as it would be: a mistake, not a member of its own.
+#define JAROL_HOOK(name, arguments, call)                                                                         \
+  template <class D>                                                                                              \
+  inline constexpr bool has_##name = [] {                                                                         \
+    constexpr bool fits = requires(D & d) { call; };                                                              \
+    static_assert(fits || !requires { &D::name; }, "a distributer's " #name " is called as " #name arguments);    \
+    return fits;                                                                                                  \
+  }();
+JAROL_HOOK(peer_changed, "()", d.peer_changed())
+JAROL_HOOK(any_message, "()", d.any_message())
+JAROL_HOOK(take_over, "()", d.take_over())
+JAROL_HOOK(finish, "()", d.finish())
+JAROL_HOOK(non_finite_inputs, "()", static_cast<std::uint64_t>(d.non_finite_inputs()))
+JAROL_HOOK(listen_at, "(const std::string& address)", d.listen_at(std::declval<const std::string&>()))
+JAROL_HOOK(reach, "(Duration instant, messages::Receiver& system)",
+           d.reach(Duration{}, std::declval<messages::Receiver&>()))
+JAROL_HOOK(announce, "(Duration instant, messages::Receiver& all)",
+           d.announce(Duration{}, std::declval<messages::Receiver&>()))
+#undef JAROL_HOOK
+
+}  // namespace detail
+
+template <class D>
+class Typed final : public AnyDistributer {
+ public:
+  using Param = decltype(detail::parameters_of<D>());
+  using In = decltype(detail::in_of<D>());
+  using Out = decltype(detail::out_of<D>());
+
+  Typed() : Typed(Param{}) {}
+  /// Throws what the distributer throws, std::invalid_argument if there can be none with them.
+  explicit Typed(const Param& parameters) : distributer_(make(parameters)) {}
+
+  D& operator*() { return distributer_; }
+  D* operator->() { return &distributer_; }
+
+  const messages::MessageSet& message_set() const override { return D::message_set(); }
+  void receive(messages::MessageRef message) override {
+    if constexpr (detail::has_any_message<D>) distributer_.any_message();
+    for (auto handler = find_handler(message.form->id); handler->id == message.form->id; ++handler)
+      if (handler->form == message.form) return handler->call(distributer_, message.value);
+  }
+  void peer_changed() override {
+    if constexpr (detail::has_peer_changed<D>) distributer_.peer_changed();
+  }
+  void reach([[maybe_unused]] Duration instant, [[maybe_unused]] messages::Receiver& system) override {
+    if constexpr (detail::has_reach<D>) distributer_.reach(instant, system);
+  }
+  void listen_at([[maybe_unused]] const std::string& address) override {
+    if constexpr (detail::has_listen_at<D>) distributer_.listen_at(address);
+  }
+  void announce([[maybe_unused]] Duration instant, [[maybe_unused]] messages::Receiver& all) override {
+    if constexpr (detail::has_announce<D>) distributer_.announce(instant, all);
+  }
+  void finish() override {
+    if constexpr (detail::has_finish<D>) distributer_.finish();
+  }
+  void take_over() override {
+    if constexpr (detail::has_take_over<D>) distributer_.take_over();
+  }
+  std::uint64_t non_finite_inputs() const override {
+    if constexpr (detail::has_non_finite_inputs<D>) return distributer_.non_finite_inputs();
+    return 0;
+  }
+
+  bool take(std::size_t channel, void* value) override { return takes[channel](distributer_, value); }
+  void hand_over(std::size_t channel, const void* value, messages::Receiver& system) override {
+    sends[channel - in_count](distributer_, value, system);
+  }
+
+  /// The same of a channel by its name, as in take<&In::motion>(motion).
+  template <auto Channel>
+  bool take(typename Field<Channel>::Value::Value& value) {
+    return take_channel<Channel>(distributer_, &value);
+  }
+  template <auto Channel>
+  void hand_over(const typename Field<Channel>::Value& value, messages::Receiver& system) {
+    send_channel<Channel>(distributer_, &value, system);
+  }
+  template <SomeMessage M>
+  void receive(const M& message) {
+    receive(messages::refer_to(message));
+  }
+
+ private:
+  static_assert(requires { { D::message_set() } -> std::same_as<const messages::MessageSet&>; },
+                "a distributer has a static message_set() that returns the messages::MessageSet it speaks");
+  static_assert(requires { D::handlers(); },
+                "a distributer has a static constexpr handlers(): return handle(on<M>(...), send<&Out::x>(...));");
+  static_assert(Described<In>, "In has fields(): return describe(channel<&In::x>(\"what it is\"));");
+  static_assert(Described<Out>, "Out has fields(): return describe(channel<&Out::x>(\"what it is\"));");
+
+  using Handlers = decltype(D::handlers());
+  static constexpr std::size_t entry_count = std::tuple_size_v<Handlers>;
+  static constexpr std::size_t in_count = std::tuple_size_v<decltype(In::fields())>;
+  static constexpr std::size_t out_count = std::tuple_size_v<decltype(Out::fields())>;
+
+  static D make([[maybe_unused]] const Param& parameters) {
+    if constexpr (detail::WithParameters<D>)
+      return D(parameters);
+    else
+      return D();
+  }
+
+  template <std::size_t I>
+  using Entry = std::tuple_element_t<I, Handlers>;
+
+  // The entry of that kind for a channel; entry_count: there is none.
+  template <auto Channel, detail::EntryKind Kind>
+  static constexpr std::size_t find_entry() {
+    std::size_t found = entry_count, count = 0;
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      const auto look = [&]<std::size_t J>(std::integral_constant<std::size_t, J>) {
+        if constexpr (detail::EntryOf<Entry<J>>::kind == Kind)
+          if (detail::same_member<Entry<J>::channel, Channel>()) found = J, ++count;
+      };
+      (look(std::integral_constant<std::size_t, I>{}), ...);
+    }(std::make_index_sequence<entry_count>{});
+    return count > 1 ? entry_count + 1 : found;
+  }
+
+  using Call = void (*)(D&, const void*);
+  struct Handler {
+    std::uint32_t id = 0;
+    const messages::MessageForm* form = nullptr;
+    Call call = nullptr;
+  };
+
+  template <std::size_t I>
+  static void call(D& distributer, const void* message) {
+    using M = typename Entry<I>::Message;
+    constexpr auto entry = std::get<I>(D::handlers());
+    static_assert(std::is_invocable_v<decltype(entry.handler), D&, const M&>,
+                  "the handler of on<M> is called with the distributer and a const M&");
+    std::invoke(entry.handler, distributer, *static_cast<const M*>(message));
+  }
+
+  // By id; the last stands for what is not handled.
+  static constexpr auto make_handlers() {
+    std::array<Handler, entry_count + 1> all{};
+    std::size_t count = 0;
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      const auto add = [&]<std::size_t J>(std::integral_constant<std::size_t, J>) {
+        if constexpr (detail::EntryOf<Entry<J>>::kind == detail::EntryKind::on)
+          all[count++] = {Entry<J>::Message::message_id, &Entry<J>::Message::form, &call<J>};
+      };
+      (add(std::integral_constant<std::size_t, I>{}), ...);
+    }(std::make_index_sequence<entry_count>{});
+    std::sort(all.begin(), all.begin() + count, [](const Handler& a, const Handler& b) { return a.id < b.id; });
+    for (; count < all.size(); ++count) all[count].id = no_message;
+    return all;
+  }
+  static constexpr std::uint32_t no_message = 0xffffffff;
+
+  static constexpr bool handles_each_once() {
+    const auto all = make_handlers();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (all[i].form != nullptr && all[i].form == all[j].form) return false;
+    return true;
+  }
+
+  static const Handler* find_handler(std::uint32_t id) {
+    static constexpr auto handlers = make_handlers();
+    static_assert(handles_each_once(), "a message has one handler, one on<M>(...)");
+    return std::lower_bound(handlers.data(), handlers.data() + handlers.size() - 1, id,
+                            [](const Handler& handler, std::uint32_t wanted) { return handler.id < wanted; });
+  }
+
+  template <auto Channel>
+  static bool take_channel(D& distributer, void* value) {
+    using C = typename Field<Channel>::Value;
+    static_assert(detail::is_newest<C> || detail::is_computed<C>,
+                  "a channel of In is a Newest<T>, which messages bring, or a Computed<T>");
+    constexpr std::size_t at = find_entry<Channel, detail::EntryKind::compute>();
+    if constexpr (detail::is_newest<C>) {
+      static_assert(at == entry_count, "compute<&In::x> is for a Computed<T>; a Newest<T> is written by handlers");
+      static_assert(requires { { (distributer.in) } -> std::same_as<In&>; },
+                    "a distributer has a public member `In in`, which its handlers write");
+      C& channel = distributer.in.*Channel;
+      if (!std::exchange(channel.is_new, false)) return false;
+      *static_cast<typename C::Value*>(value) = channel.value;
+    } else {
+      static_assert(at < entry_count, "each Computed<T> of In needs one compute<&In::x>(...) in handlers()");
+      constexpr auto entry = std::get<at>(D::handlers());
+      static_assert(std::is_invocable_r_v<typename C::Value, decltype(entry.handler), D&>,
+                    "the handler of compute<&In::x> returns the channel's value");
+      *static_cast<typename C::Value*>(value) = std::invoke(entry.handler, distributer);
+    }
+    return true;
+  }
+
+  template <auto Channel>
+  static void send_channel(D& distributer, const void* value, messages::Receiver& system) {
+    using T = typename Field<Channel>::Value;
+    constexpr std::size_t at = find_entry<Channel, detail::EntryKind::send>();
+    static_assert(at < entry_count, "each channel of Out needs one send<&Out::x>(...) in handlers()");
+    constexpr auto entry = std::get<at>(D::handlers());
+    static_assert(std::is_invocable_v<decltype(entry.handler), D&, const T&, messages::Receiver&>,
+                  "the handler of send<&Out::x> is called with the distributer, the value and a messages::Receiver&");
+    std::invoke(entry.handler, distributer, *static_cast<const T*>(value), system);
+  }
+
+  // In the order of their description.
+  static constexpr auto takes = []<auto... Channel>(std::tuple<Field<Channel>...>) {
+    return std::array<bool (*)(D&, void*), sizeof...(Channel)>{&take_channel<Channel>...};
+  }(In::fields());
+  static constexpr auto sends = []<auto... Channel>(std::tuple<Field<Channel>...>) {
+    return std::array<void (*)(D&, const void*, messages::Receiver&), sizeof...(Channel)>{&send_channel<Channel>...};
+  }(Out::fields());
+
+  D distributer_;
+};
+
+/// The description of a distributer and what makes it, as the registry has it.
+template <class D>
+DistributerClass distributer_class() {
+  using T = Typed<D>;
+  DistributerClass made{std::string(type_name<D>()), std::string(D::summary), {}, D::is_vehicle};
+  std::apply(
+      [&](auto... f) {
+        (made.channels.push_back({std::string(f.name), Direction::in,
+                                  &type_of<typename decltype(f)::Value::Value>(), std::string(f.text)}),
+         ...);
+      },
+      T::In::fields());
+  std::apply(
+      [&](auto... f) {
+        (made.channels.push_back({std::string(f.name), Direction::out, &type_of<typename decltype(f)::Value>(),
+                                  std::string(f.text)}),
+         ...);
+      },
+      T::Out::fields());
+  if constexpr (detail::WithParameters<D>) made.parameters = &type_of<typename D::Param>();
+  made.make = []([[maybe_unused]] const void* parameters) -> std::unique_ptr<AnyDistributer> {
+    if constexpr (detail::WithParameters<D>)
+      return std::make_unique<T>(*static_cast<const typename D::Param*>(parameters));
+    else
+      return std::make_unique<T>();
+  };
+  return made;
+}
+
+}  // namespace jarol::distributers
