@@ -42,6 +42,8 @@ struct LinkType {
   std::string summary;
   std::vector<KeyDescription> keys{};
 
+  /// Keys of which it needs one at least.
+  std::vector<std::string> needs_one_of{};
   /// Joins vehicles only.
   bool for_vehicles = false;
   /// Carries no messages, so that the distributer needs no code.

@@ -41,7 +41,7 @@ std::unique_ptr<Transport> make_udp(const UdpSpec& spec, const Yaml& yaml, const
 }  // namespace
 
 LinkType udp_link() {
-  return packet_link<UdpSpec>(
+  LinkType type = packet_link<UdpSpec>(
       "udp", "datagrams, a packet each", {.silence = true, .key = true},
       {key<&UdpSpec::listen>("listen", Form::address,
                              "port to listen at, with an address where not the loopback; default: any port"),
@@ -50,6 +50,8 @@ LinkType udp_link() {
        key<&UdpSpec::announce>("announce", Form::addresses,
                                "where to announce itself, as in 127.0.0.1:30100-30104; default: nowhere")},
       make_udp);
+  type.needs_one_of = {"listen", "peer"};
+  return type;
 }
 
 }  // namespace jarol::distributers

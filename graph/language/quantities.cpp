@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "graph/language/units.h"
+
 namespace jarol {
 namespace {
 
@@ -225,5 +227,12 @@ std::string duration_text(Duration duration) {
 }
 
 std::string seconds_text(Duration duration) { return decimal(duration.count(), 9); }
+
+std::vector<std::string> units_for(const std::string& unit) {
+  std::vector<std::string> units{unit};
+  for (const Conversion& conversion : conversions)
+    if (conversion.to == unit) units.emplace_back(conversion.from);
+  return units;
+}
 
 }  // namespace jarol

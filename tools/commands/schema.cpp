@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "tools/commands/commands.h"
+#include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/graph_schema.h"
 
@@ -13,7 +14,7 @@ void add_schema(CommandLine& line, int& exit_code) {
                           "Print the JSON Schema of graphs, for editors: jarol schema > specs/graph.schema.json.\n"
                           "A file names it in its first line: # yaml-language-server: $schema=graph.schema.json");
   command->callback([&exit_code] {
-    std::cout << graph_schema();
+    std::cout << graph_schema(built_in());
     exit_code = exit_good;
   });
 }

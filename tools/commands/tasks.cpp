@@ -29,6 +29,30 @@ std::string default_text(const Type& type, const void* value) {
   return "{" + text + "}";
 }
 
+// The words of an enumeration below what has its type: with meanings one a line, else all in one.
+void print_enumerators(const Type& type, const std::string& margin) {
+  if (type.kind != Kind::enumeration) return;
+  std::size_t width = 0;
+  std::string names;
+  bool explained = false;
+  for (std::size_t i = 0; i < type.enumerators.size(); ++i) {
+    const std::string& name = type.enumerators[i].first;
+    width = std::max(width, name.size());
+    names += (i == 0 ? "" : ", ") + name;
+    explained = explained || !type.meanings[i].empty();
+  }
+  if (!explained) {
+    std::cout << margin << names << "\n";
+    return;
+  }
+  for (std::size_t i = 0; i < type.enumerators.size(); ++i) {
+    std::string line = margin + type.enumerators[i].first;
+    if (!type.meanings[i].empty())
+      line += std::string(width - type.enumerators[i].first.size() + 2, ' ') + type.meanings[i];
+    std::cout << line << "\n";
+  }
+}
+
 void print_fields(const std::string& title, const Type& type, bool defaults) {
   if (type.fields.empty()) return;
   std::cout << "\n" << title << "\n";
@@ -47,11 +71,13 @@ void print_fields(const std::string& title, const Type& type, bool defaults) {
               default_text(*f.type, static_cast<const std::byte*>(value.data()) + f.offset);
     line.erase(line.find_last_not_of(' ') + 1);
     std::cout << line << "\n";
+    print_enumerators(*f.type, "    ");
     // members of a struct, one level down
     for (const Leaf& leaf : f.type->kind == Kind::structure && !defaults ? leaves_of(*f.type) : std::vector<Leaf>{}) {
       const TypeField* member = find_field(*f.type, leaf.path);
       std::cout << "    ." << leaf.path << (leaf.unit.empty() ? "" : " [" + leaf.unit + "]")
                 << (member == nullptr || member->text.empty() ? "" : "  " + member->text) << "\n";
+      print_enumerators(*leaf.type, "      ");
     }
   }
 }
@@ -59,12 +85,15 @@ void print_fields(const std::string& title, const Type& type, bool defaults) {
 nlohmann::ordered_json fields_json(const Type& type) {
   auto list = nlohmann::ordered_json::array();
   const Value value(type);
-  for (const TypeField& f : type.fields)
+  for (const TypeField& f : type.fields) {
     list.push_back({{"name", f.name},
                     {"type", f.type->name},
                     {"unit", f.unit},
                     {"text", f.text},
                     {"default", default_text(*f.type, static_cast<const std::byte*>(value.data()) + f.offset)}});
+    for (std::size_t i = 0; i < f.type->enumerators.size(); ++i)
+      list.back()["enumerators"].push_back({{"name", f.type->enumerators[i].first}, {"meaning", f.type->meanings[i]}});
+  }
   return list;
 }
 

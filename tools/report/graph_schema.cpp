@@ -1,54 +1,23 @@
 #include "tools/report/graph_schema.h"
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "graph/language/tables.h"
+#include "tools/report/key_schema.h"
+#include "tools/report/link_schema.h"
+#include "tools/report/value_schema.h"
 
 namespace jarol::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::string name_pattern = "^[A-Za-z_][A-Za-z0-9_]*$";
-const std::string duration_pattern = "^(0|[1-9][0-9]*)(\\.[0-9]+)? *(h|min|s|ms|us|ns)$";
-const std::string bytes_pattern = "^(0|[1-9][0-9]*)(\\.[0-9]+)? *(B|KiB|MiB|GiB)$";
-const std::string arrow_pattern =
-    "^ *[A-Za-z_][A-Za-z0-9_]*(\\.[A-Za-z_][A-Za-z0-9_]*)? *-> *[A-Za-z_][A-Za-z0-9_]*(\\.[A-Za-z_][A-Za-z0-9_]*)? *$";
+const std::string end_pattern = "[A-Za-z_][A-Za-z0-9_]*(\\.[A-Za-z_][A-Za-z0-9_]*)?";
+const std::string arrow_pattern = "^ *" + end_pattern + " *-> *" + end_pattern + " *$";
 
-template <class S>
-Json value_schema(const Key<S>& key) {
-  switch (key.form) {
-    case Form::word: return {{"type", "string"}};
-    case Form::address:
-    case Form::addresses: return {{"type", {"string", "integer"}}};
-    case Form::duration:
-    case Form::positive_duration: return {{"type", "string"}, {"pattern", duration_pattern}};
-    case Form::integer: return {{"type", "integer"}, {"minimum", key.least}, {"maximum", key.most}};
-    case Form::id: return {{"type", "integer"}, {"minimum", 0}};
-    case Form::bytes: return {{"type", "string"}, {"pattern", bytes_pattern}};
-    case Form::frequency:
-    case Form::share: return {{"type", {"string", "number"}}};
-    case Form::choice: return {{"enum", key.choices}};
-    case Form::mapping: return {{"type", "object"}};
-    case Form::any:
-    case Form::section: return Json::object();
-  }
-  return Json::object();
-}
-
-template <class S>
-Json mapping_schema(const std::vector<Key<S>>& keys) {
-  Json properties = Json::object(), required = Json::array();
-  for (const Key<S>& key : keys) {
-    Json value = value_schema(key);
-    value["description"] = key.text;
-    properties[key.name] = std::move(value);
-    if (key.required) required.push_back(key.name);
-  }
-  Json schema{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
-  if (!required.empty()) schema["required"] = std::move(required);
-  return schema;
-}
+Json reference(const std::string& name) { return {{"$ref", "#/definitions/" + name}}; }
 
 // A section of named entries.
 Json entries_schema(Json entry) {
@@ -56,27 +25,124 @@ Json entries_schema(Json entry) {
       {"type", "object"}, {"patternProperties", {{name_pattern, std::move(entry)}}}, {"additionalProperties", false}};
 }
 
+Json texts() { return {{"type", "array"}, {"items", {{"type", "string"}, {"minLength", 1}}}}; }
+
 void describe_section(Json& schema, const std::string& name, Json section) {
   section["description"] = schema["properties"][name]["description"];
   schema["properties"][name] = std::move(section);
 }
 
+// What each task type lets one write; others may be a plugin's.
+Json task_schema(const Registry& known, Json& definitions) {
+  Json schema = mapping_schema(task_keys()), names = Json::array(), rules = Json::array();
+  for (const TaskClass& task : known.tasks()) {
+    names.push_back({{"const", task.name}, {"description", task.summary}});
+    definitions["task." + task.name] = {
+        {"properties", {{"parameters", fields_schema(*task.parameters)}, {"init", fields_schema(*task.out)}}}};
+    rules.push_back({{"if", {{"properties", {{"type", {{"const", task.name}}}}}, {"required", {"type"}}}},
+                     {"then", reference("task." + task.name)}});
+  }
+  names.push_back({{"type", "string"}});
+  schema["properties"]["type"]["anyOf"] = std::move(names);
+  schema["allOf"] = std::move(rules);
+  return schema;
+}
+
+// The directions and types of all channels of one name.
+struct Channels {
+  std::set<std::string> in, out;
+};
+
+Json any_value(const std::set<std::string>& types) {
+  if (types.empty()) return false;
+  Json any = Json::array();
+  for (const std::string& type : types) any.push_back(reference("value." + type));
+  return any.size() == 1 ? any[0] : Json{{"anyOf", std::move(any)}};
+}
+
+// A communicator with a channel has what channels of that name have; one without says its type and direction.
+Json communicator_schema(const Registry& known, Json& definitions) {
+  std::map<std::string, Channels> channels;
+  for (const DistributerClass& distributer : known.distributers())
+    for (const ChannelClass& c : distributer.channels)
+      (c.direction == Direction::in ? channels[c.name].in : channels[c.name].out).insert(c.type->name);
+  std::string names;
+  Json rules = Json::array();
+  for (const auto& [name, of] : channels) {
+    names += (names.empty() ? "" : "|") + name;
+    Json values{{"init", any_value(of.in)}, {"safe", any_value(of.out)}};
+    if (of.in.empty()) values["timeout"] = false;
+    rules.push_back(
+        {{"if", {{"properties", {{"channel", {{"pattern", "\\." + name + "$"}}}}}, {"required", {"channel"}}}},
+         {"then", {{"properties", std::move(values)}}}});
+  }
+  for (const std::string& name : known.type_names()) {
+    definitions["value." + name] = value_schema(*known.find_type(name), "");
+    rules.push_back({{"if",
+                      {{"properties", {{"type", {{"const", name}}}, {"direction", {{"const", "in"}}}}},
+                       {"required", {"type", "direction"}}}},
+                     {"then", {{"properties", {{"init", reference("value." + name)}}}}}});
+  }
+  rules.push_back({{"if", {{"properties", {{"direction", {{"const", "out"}}}}}, {"required", {"direction"}}}},
+                   {"then", {{"properties", {{"init", false}}}}}});
+  Json schema = mapping_schema(communicator_keys());
+  schema["properties"]["channel"]["pattern"] = "^[A-Za-z_][A-Za-z0-9_]*\\.(" + names + ")$";
+  schema["if"] = {{"required", {"channel"}}};
+  schema["then"] = {{"properties", {{"type", false}, {"direction", false}}}};
+  schema["else"] = {{"required", {"type", "direction"}}, {"properties", {{"timeout", false}, {"safe", false}}}};
+  schema["dependencies"] = {{"timeout", {"channel"}}, {"safe", {"channel"}}};
+  schema["allOf"] = std::move(rules);
+  return schema;
+}
+
+Json chain_schema() {
+  Json schema = mapping_schema(chain_keys());
+  schema["properties"]["path"].update(
+      {{"type", "array"}, {"items", {{"type", "string"}, {"pattern", name_pattern}}}, {"minItems", 2}});
+  return schema;
+}
+
+Json at_end_schema() {
+  Json schema = mapping_schema(at_end_keys());
+  schema["properties"]["command"]["minProperties"] = 1;
+  schema["properties"]["until"].update({{"type", "string"}, {"minLength", 1}});
+  return schema;
+}
+
+// A graph is of something.
+Json some_of(const std::string& section) {
+  return {{"required", Json::array({section})}, {"properties", {{section, {{"minProperties", 1}}}}}};
+}
+
+// Without plugins there are no task types and types of values but those that are known here.
+Json without_plugins(const Registry& known) {
+  Json tasks{{"type", {{"enum", names_of(known.tasks())}}}}, values{{"type", {{"enum", known.type_names()}}}};
+  const auto each = [](Json properties) {
+    return Json{{"additionalProperties", {{"properties", std::move(properties)}}}};
+  };
+  return {{"if", {{"required", {"plugins"}}}},
+          {"else", {{"properties", {{"tasks", each(std::move(tasks))}, {"communicators", each(std::move(values))}}}}}};
+}
+
 }  // namespace
 
-std::string graph_schema() {
-  Json schema = mapping_schema(graph_keys());
+std::string graph_schema(const distributers::Registries& known) {
+  Json schema = mapping_schema(graph_keys()), definitions = link_schemas(known);
   describe_section(schema, "timing", mapping_schema(timing_keys()));
-  describe_section(schema, "plugins", {{"type", "array"}, {"items", {{"type", "string"}}}});
-  describe_section(schema, "distributers", entries_schema(mapping_schema(distributer_keys())));
-  describe_section(schema, "communicators", entries_schema(mapping_schema(communicator_keys())));
-  describe_section(schema, "tasks", entries_schema(mapping_schema(task_keys())));
+  describe_section(schema, "plugins", texts());
+  describe_section(schema, "distributers", entries_schema(distributer_schema(known)));
+  describe_section(schema, "communicators", entries_schema(communicator_schema(known.graph, definitions)));
+  describe_section(schema, "tasks", entries_schema(task_schema(known.graph, definitions)));
   describe_section(schema, "connections",
                    {{"type", "array"}, {"items", {{"type", "string"}, {"pattern", arrow_pattern}}}});
-  describe_section(schema, "chains", entries_schema(mapping_schema(chain_keys())));
+  describe_section(schema, "chains", entries_schema(chain_schema()));
   describe_section(schema, "platform", mapping_schema(platform_keys()));
-  describe_section(schema, "at_end", mapping_schema(at_end_keys()));
-  describe_section(schema, "expect", {{"type", "array"}, {"items", {{"type", "string"}}}});
+  describe_section(schema, "at_end", at_end_schema());
+  describe_section(schema, "expect", texts());
   describe_section(schema, "profiles", {{"type", "object"}, {"additionalProperties", {{"type", "object"}}}});
+  schema["anyOf"] = Json::array({some_of("tasks"), some_of("communicators"), some_of("distributers")});
+  schema["allOf"] = Json::array({without_plugins(known.graph)});
+  schema["definitions"] = std::move(definitions);
   Json whole{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "A graph of Jarol"}};
   whole.update(schema);
   return whole.dump(2) + "\n";

@@ -7,6 +7,7 @@
 
 #include "graph/language/tables.h"
 #include "graph/language/yaml.h"
+#include "tools/library/built_in.h"
 
 namespace {
 std::string text_of(const std::string& path) { return jarol::read_source(path)->text; }
@@ -16,11 +17,11 @@ TEST_SUITE("tools/graph_schema") {
   using namespace jarol;
 
   TEST_CASE("the schema in specs is what the command prints") {
-    CHECK(text_of("specs/graph.schema.json") == tools::graph_schema());
+    CHECK(text_of("specs/graph.schema.json") == tools::graph_schema(built_in()));
   }
 
   TEST_CASE("the schema has every key of the loader's tables and no other") {
-    const auto schema = nlohmann::json::parse(tools::graph_schema());
+    const auto schema = nlohmann::json::parse(tools::graph_schema(built_in()));
     const auto& task = schema["properties"]["tasks"]["patternProperties"].begin().value();
     CHECK(task["properties"].size() == task_keys().size());
     for (const auto& key : task_keys()) CHECK(task["properties"].contains(key.name));
