@@ -16,7 +16,9 @@ namespace jarol::distributers {
 namespace detail {
 
 template <class D>
-concept WithParameters = requires { typename D::Param; };
+concept WithParameters = requires {
+  typename D::Param;
+};
 
 struct NoParameters {
   static constexpr auto fields() { return describe(); }
@@ -78,12 +80,13 @@ constexpr bool same_member() {
 }
 
 // A member that has that name and can't be called as it would be: a mistake, not a member of its own.
-#define JAROL_HOOK(name, arguments, call)                                                                         \
-  template <class D>                                                                                              \
-  inline constexpr bool has_##name = [] {                                                                         \
-    constexpr bool fits = requires(D & d) { call; };                                                              \
-    static_assert(fits || !requires { &D::name; }, "a distributer's " #name " is called as " #name arguments);    \
-    return fits;                                                                                                  \
+#define JAROL_HOOK(name, arguments, call)                                                            \
+  template <class D>                                                                                 \
+  inline constexpr bool has_##name = [] {                                                            \
+    constexpr bool fits = requires(D & d) { call; };                                                 \
+    static_assert(                                                                                   \
+        fits || !requires { &D::name; }, "a distributer's " #name " is called as " #name arguments); \
+    return fits;                                                                                     \
   }();
 JAROL_HOOK(peer_changed, "()", d.peer_changed())
 JAROL_HOOK(any_message, "()", d.any_message())
@@ -162,10 +165,14 @@ class Typed final : public AnyDistributer {
   }
 
  private:
-  static_assert(requires { { D::message_set() } -> std::same_as<const messages::MessageSet&>; },
-                "a distributer has a static message_set() that returns the messages::MessageSet it speaks");
-  static_assert(requires { D::handlers(); },
-                "a distributer has a static constexpr handlers(): return handle(on<M>(...), send<&Out::x>(...));");
+  static_assert(
+      requires {
+        { D::message_set() } -> std::same_as<const messages::MessageSet&>;
+      },
+      "a distributer has a static message_set() that returns the messages::MessageSet it speaks");
+  static_assert(
+      requires { D::handlers(); },
+      "a distributer has a static constexpr handlers(): return handle(on<M>(...), send<&Out::x>(...));");
   static_assert(Described<In>, "In has fields(): return describe(channel<&In::x>(\"what it is\"));");
   static_assert(Described<Out>, "Out has fields(): return describe(channel<&Out::x>(\"what it is\"));");
 
@@ -194,7 +201,8 @@ class Typed final : public AnyDistributer {
           if (detail::same_member<Entry<J>::channel, Channel>()) found = J, ++count;
       };
       (look(std::integral_constant<std::size_t, I>{}), ...);
-    }(std::make_index_sequence<entry_count>{});
+    }
+    (std::make_index_sequence<entry_count>{});
     return count > 1 ? entry_count + 1 : found;
   }
 
@@ -224,7 +232,8 @@ class Typed final : public AnyDistributer {
           all[count++] = {Entry<J>::Message::message_id, &Entry<J>::Message::form, &call<J>};
       };
       (add(std::integral_constant<std::size_t, I>{}), ...);
-    }(std::make_index_sequence<entry_count>{});
+    }
+    (std::make_index_sequence<entry_count>{});
     std::sort(all.begin(), all.begin() + count, [](const Handler& a, const Handler& b) { return a.id < b.id; });
     for (; count < all.size(); ++count) all[count].id = no_message;
     return all;
@@ -254,8 +263,11 @@ class Typed final : public AnyDistributer {
     constexpr std::size_t at = find_entry<Channel, detail::EntryKind::compute>();
     if constexpr (detail::is_newest<C>) {
       static_assert(at == entry_count, "compute<&In::x> is for a Computed<T>; a Newest<T> is written by handlers");
-      static_assert(requires { { (distributer.in) } -> std::same_as<In&>; },
-                    "a distributer has a public member `In in`, which its handlers write");
+      static_assert(
+          requires {
+            { (distributer.in) } -> std::same_as<In&>;
+          },
+          "a distributer has a public member `In in`, which its handlers write");
       C& channel = distributer.in.*Channel;
       if (!std::exchange(channel.is_new, false)) return false;
       *static_cast<typename C::Value*>(value) = channel.value;
@@ -283,10 +295,12 @@ class Typed final : public AnyDistributer {
   // In the order of their description.
   static constexpr auto takes = []<auto... Channel>(std::tuple<Field<Channel>...>) {
     return std::array<bool (*)(D&, void*), sizeof...(Channel)>{&take_channel<Channel>...};
-  }(In::fields());
+  }
+  (In::fields());
   static constexpr auto sends = []<auto... Channel>(std::tuple<Field<Channel>...>) {
     return std::array<void (*)(D&, const void*, messages::Receiver&), sizeof...(Channel)>{&send_channel<Channel>...};
-  }(Out::fields());
+  }
+  (Out::fields());
 
   D distributer_;
 };
@@ -298,15 +312,15 @@ DistributerClass distributer_class() {
   DistributerClass made{std::string(type_name<D>()), std::string(D::summary), {}, D::is_vehicle};
   std::apply(
       [&](auto... f) {
-        (made.channels.push_back({std::string(f.name), Direction::in,
-                                  &type_of<typename decltype(f)::Value::Value>(), std::string(f.text)}),
+        (made.channels.push_back(
+             {std::string(f.name), Direction::in, &type_of<typename decltype(f)::Value::Value>(), std::string(f.text)}),
          ...);
       },
       T::In::fields());
   std::apply(
       [&](auto... f) {
-        (made.channels.push_back({std::string(f.name), Direction::out, &type_of<typename decltype(f)::Value>(),
-                                  std::string(f.text)}),
+        (made.channels.push_back(
+             {std::string(f.name), Direction::out, &type_of<typename decltype(f)::Value>(), std::string(f.text)}),
          ...);
       },
       T::Out::fields());

@@ -34,7 +34,8 @@ Json integer_schema(const Type& type) {
   const std::size_t bits = 8 * type.size;
   const bool is_signed = type.kind == Kind::signed_integer;
   Json schema{{"type", "integer"}, {"minimum", 0}};
-  if (is_signed) schema["minimum"] = bits == 64 ? std::numeric_limits<std::int64_t>::min() : -(std::int64_t{1} << (bits - 1));
+  if (is_signed)
+    schema["minimum"] = bits == 64 ? std::numeric_limits<std::int64_t>::min() : -(std::int64_t{1} << (bits - 1));
   const std::size_t places = bits - (is_signed ? 1 : 0);
   schema["maximum"] = places >= 63 ? std::numeric_limits<std::int64_t>::max() : (std::int64_t{1} << places) - 1;
   return schema;
@@ -82,9 +83,9 @@ Json value_schema(const Type& type, const std::string& unit) {
     case Kind::signed_integer:
     case Kind::unsigned_integer: return integer_schema(type);
     case Kind::floating:
-      return number_schema(type.size == 4 ? static_cast<double>(std::numeric_limits<float>::max())
-                                          : std::numeric_limits<double>::max(),
-                           unit);
+      return number_schema(
+          type.size == 4 ? static_cast<double>(std::numeric_limits<float>::max()) : std::numeric_limits<double>::max(),
+          unit);
     case Kind::duration: return {{"type", "string"}, {"pattern", duration_pattern}};
     case Kind::enumeration: return enumeration_schema(type);
     case Kind::string: return {{"type", {"string", "number", "boolean"}}};
@@ -105,7 +106,8 @@ Json fields_schema(const Type& type) {
   for (const TypeField& field : type.fields) {
     Json schema = value_schema(*field.type, field.unit);
     if (const std::string text = described(field); !text.empty())
-      schema["description"] = schema.contains("description") ? text + "; " + schema["description"].get<std::string>() : text;
+      schema["description"] =
+          schema.contains("description") ? text + "; " + schema["description"].get<std::string>() : text;
     if (field.type->kind != Kind::structure)
       schema["default"] = default_of(*field.type, static_cast<const std::byte*>(value.data()) + field.offset);
     properties[field.name] = std::move(schema);

@@ -33,13 +33,13 @@ struct Lamp {
     return handle(on<javiator::IdleLimit>(&Lamp::hear), on<javiator::IdleLimit>(&Lamp::hear),
                   send<&Out::lit>(&Lamp::shine));
 #elif CASE == 5  // no message
-    return handle(on<double>(&Lamp::hear), send<&Out::lit>(&Lamp::shine));
+  return handle(on<double>(&Lamp::hear), send<&Out::lit>(&Lamp::shine));
 #elif CASE == 6  // the handler of another message
-    return handle(on<javiator::StoreTrim>(&Lamp::hear), send<&Out::lit>(&Lamp::shine));
+  return handle(on<javiator::StoreTrim>(&Lamp::hear), send<&Out::lit>(&Lamp::shine));
 #elif CASE == 7  // the handler of another channel
-    return handle(on<javiator::IdleLimit>(&Lamp::hear), send<&Out::lit>(&Lamp::hear));
+  return handle(on<javiator::IdleLimit>(&Lamp::hear), send<&Out::lit>(&Lamp::hear));
 #else
-    return handle(on<javiator::IdleLimit>(&Lamp::hear), send<&Out::lit>(&Lamp::shine));
+  return handle(on<javiator::IdleLimit>(&Lamp::hear), send<&Out::lit>(&Lamp::shine));
 #endif
   }
   void hear(const javiator::IdleLimit&) {}

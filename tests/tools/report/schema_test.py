@@ -46,7 +46,7 @@ WRITTEN = [
     ("tasks: {a: {type: HeadingControl, parameters: {kp: 0.5, rate_limit: 20deg/s}}}", ""),
     ("tasks: {a: {type: HeadingControl, parameters: {rate_limit: 20m}}}", "tasks/a/parameters/rate_limit"),
     ("tasks: {a: {type: HeadingControl, parameters: {gain: 1}}}", "tasks/a/parameters"),
-    ("tasks: {a: {type: HeadingControl, init: {moment: {x: 1}}}}", "tasks/a/init"),
+    ("tasks: {a: {type: HeadingControl, init: {moment: {x: 1}}}}", "tasks/a/init/moment"),
     ("tasks: {a: {type: Mine, parameters: {anything: 1}}}", "tasks/a/type"),
     ("tasks: {a: {type: Mine, parameters: {anything: 1}}}\nplugins: [mine.so]", ""),
     ("tasks: {a: {type: Counter, perod: 1ms}}\nplugins: [mine.so]", "tasks/a"),
@@ -64,6 +64,12 @@ WRITTEN = [
 
 class Core(yaml.SafeLoader):
     """YAML 1.2, core schema; a key that is there twice is an error, as editors report it."""
+
+    def construct_mapping(self, node, deep=False):
+        keys = [key.value for key, _ in node.value if isinstance(key, yaml.ScalarNode)]
+        if len(set(keys)) < len(keys):
+            raise yaml.YAMLError("a key is there twice")
+        return super().construct_mapping(node, deep)
 
 
 Core.yaml_implicit_resolvers = {}
