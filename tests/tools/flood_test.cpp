@@ -71,11 +71,11 @@ std::uint64_t count_of(const LinkReport& report, const std::string& name) {
 // The helicopter's graph on the real clock; its vehicle is whatever comes over the link.
 template <class MakeFlood>
 void flood(std::unique_ptr<Transport> transport, const MakeFlood& make_flood, bool loses_nothing) {
-  const std::vector<vehicles::VehicleClass> no_vehicles;
-  Registry registry;
-  tasks::add_tasks(registry);
-  add_distributers(registry);
-  Loaded loaded = load_graph(read_source("specs/javiator.yaml"), {registry, no_vehicles},
+  Registries known;
+  tasks::add_tasks(known.graph);
+  add_distributers(known.graph);
+  add_links(known.links);
+  Loaded loaded = load_graph(read_source("specs/javiator.yaml"), known,
                              {.profile = "", .set = {"distributers.robostix.link={type: udp, listen: 0}"}}, 0);
   const Graph& graph = *loaded.graph;
   auto adapter = std::make_unique<Typed<JaviatorVehicle>>();
