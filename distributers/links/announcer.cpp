@@ -56,15 +56,9 @@ void Announcer::open() {
   }
 }
 
-void Announcer::receive(const Interrupter& interrupter, ByteSink&) {
-  while (interrupter.wait(-1, std::chrono::milliseconds(-1)) != Interrupter::Woken::interrupted) {}
-}
-
-bool Announcer::send(std::span<const std::byte> packet) {
+void Announcer::send(std::span<const std::byte> packet) {
   for (std::size_t i = 0; i < to_.size(); ++i)
-    if (sendto(sockets_[i].get(), packet.data(), packet.size(), MSG_NOSIGNAL, to_[i].get(), to_[i].size()) < 0)
-      ++counts.unsent;
-  return true;
+    sendto(sockets_[i].get(), packet.data(), packet.size(), MSG_NOSIGNAL, to_[i].get(), to_[i].size());
 }
 
 }  // namespace jarol::distributers

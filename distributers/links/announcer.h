@@ -1,14 +1,17 @@
-// Datagrams to several addresses at once, for those who look for systems. Nothing is received.
+// Where a link announces itself: datagrams to all who may look for systems. Nothing is received.
 #pragma once
 
+#include <cstddef>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "distributers/links/address.h"
-#include "distributers/links/transport.h"
+#include "distributers/links/descriptor.h"
 
 namespace jarol::distributers {
 
-class Announcer : public Transport {
+class Announcer {
  public:
   explicit Announcer(std::vector<Address> to) : to_(std::move(to)) {}
 
@@ -16,14 +19,15 @@ class Announcer : public Transport {
   /// some. Throws std::invalid_argument that says what would be right.
   static std::vector<Address> parse(const std::string& text);
 
-  std::string text() const override;
-  void open() override;
-  void receive(const Interrupter& interrupter, ByteSink&) override;
+  /// Throws std::runtime_error with the cause.
+  void open();
   /// Where nobody listens now somebody may later: that it arrives is not known, and no matter.
-  bool send(std::span<const std::byte> packet) override;
-  void close() override { sockets_.clear(); }
+  void send(std::span<const std::byte> packet);
+  void close() { sockets_.clear(); }
 
  private:
+  std::string text() const;
+
   std::vector<Address> to_;
   std::vector<Descriptor> sockets_;  // of each address
 };

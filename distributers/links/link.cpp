@@ -35,6 +35,11 @@ Link::Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set
       reader_(set),
       header_(*set.header),
       timestamp_(find_timestamp(set)) {
+  if (auto to = transport_->announces_to(); !to.empty()) {
+    constexpr std::size_t announcements = 4;
+    announcer_ = std::make_unique<Announcer>(std::move(to));
+    announcements_ = std::make_unique<PacketPort>(announcements, longest_);
+  }
   packet_.reserve(longest_);
   room_.resize(Translator::peer_size + longest_);
   for (const auto& [name, value] : options.header) {
@@ -48,6 +53,12 @@ Link::~Link() { disconnect(); }
 void Link::connect() {
   if (connected_) return;
   transport_->open();
+  try {
+    if (announcer_) announcer_->open();
+  } catch (...) {
+    transport_->close();
+    throw;
+  }
   interrupter_.reset();
   send_signal_.resume();
   ending_ = false;
@@ -72,6 +83,7 @@ void Link::disconnect() {
   interrupter_.interrupt();
   receiver_.join();
   transport_->close();
+  if (announcer_) announcer_->close();
   connected_ = false;
 }
 
@@ -101,6 +113,10 @@ void Link::send(messages::MessageRef message) {
   ++given_;
 }
 
+void Link::announce(messages::MessageRef message) {
+  if (!encode(message).empty() && announcements_->write(packet_)) ++given_;
+}
+
 void Link::flush() {
   if (queued_.load(std::memory_order_relaxed) == given_) return;
   queued_.store(given_, std::memory_order_seq_cst);
@@ -126,6 +142,11 @@ void Link::send_pending(std::vector<std::byte>& room, std::vector<std::byte>& se
     if (!transport_->send(seal_ ? std::span<const std::byte>(sealed) : packet)) continue;
     packets_out_.fetch_add(1, std::memory_order_relaxed);
     bytes_out_.fetch_add(*length, std::memory_order_relaxed);
+  }
+  while (announcer_) {
+    const auto length = announcements_->read(room);
+    if (!length) break;
+    announcer_->send(std::span<const std::byte>(room).first(*length));
   }
 }
 

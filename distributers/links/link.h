@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "distributers/links/announcer.h"
 #include "distributers/links/link_options.h"
 #include "distributers/links/translator.h"
 #include "runtime/jarol/signal.h"
@@ -43,7 +44,11 @@ class Link {
 
   /// Has the message sent as a packet soon. One that finds no room is counted and dropped.
   void send(messages::MessageRef message);
-  /// Wakes the sending thread for what was given to `send` since the last call.
+  /// Is there anybody to announce anything to?
+  bool announces() const { return announcer_ != nullptr; }
+  /// The same for all who may look for this system, in place of the peer.
+  void announce(messages::MessageRef message);
+  /// Wakes the sending thread for what was given to `send` and `announce` since the last call.
   void flush();
 
   const Transport& transport() const { return *transport_; }
@@ -58,6 +63,8 @@ class Link {
   std::unique_ptr<Transport> transport_;
   std::size_t longest_;
   PacketPorts input_, output_;
+  std::unique_ptr<Announcer> announcer_;  // null: nobody looks for it
+  std::unique_ptr<PacketPort> announcements_;
   std::unique_ptr<Seal> seal_;
   Translator translator_;  // used by the receiving thread
   Interrupter interrupter_;

@@ -2,13 +2,12 @@
 
 namespace jarol::distributers {
 
-LinkedChannels::LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<Link> announcer,
-                               std::unique_ptr<AnyDistributer> distributer)
+LinkedChannels::LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<AnyDistributer> distributer)
     : link_(std::move(link)),
-      announcer_(std::move(announcer)),
       distributer_(std::move(distributer)),
       from_peer_(*link_, *distributer_),
-      to_link_(*link_) {}
+      to_link_(*link_),
+      to_all_(*link_) {}
 
 void LinkedChannels::FromPeer::receive(messages::MessageRef message) {
   if (link.peer() != peer) distributer.peer_changed();
@@ -18,24 +17,19 @@ void LinkedChannels::FromPeer::receive(messages::MessageRef message) {
 
 void LinkedChannels::begin() {
   link_->connect();
-  if (announcer_) announcer_->connect();
   distributer_->listen_at(link_->transport().address());
 }
 
 void LinkedChannels::finish() {
   link_->disconnect();
-  if (announcer_) announcer_->disconnect();
   distributer_->finish();
 }
 
 void LinkedChannels::reach(Duration instant) {
   link_->receive(from_peer_);
   distributer_->reach(instant, to_link_);
+  if (link_->announces()) distributer_->announce(instant, to_all_);
   link_->flush();
-  if (!announcer_) return;
-  ToLink to_all(*announcer_);
-  distributer_->announce(instant, to_all);
-  announcer_->flush();
 }
 
 void LinkedChannels::hand_over(std::size_t channel, const void* value) {

@@ -10,9 +10,7 @@ namespace jarol::distributers {
 
 class LinkedChannels : public Channels {
  public:
-  /// `announcer` is for what goes to all who may look for this system, or null.
-  LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<Link> announcer,
-                 std::unique_ptr<AnyDistributer> distributer);
+  LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<AnyDistributer> distributer);
 
   Link& link() { return *link_; }
   const Link& link() const { return *link_; }
@@ -35,6 +33,13 @@ class LinkedChannels : public Channels {
     Link& link;
   };
 
+  // Or to all who may look for this system.
+  struct ToAll : messages::Receiver {
+    explicit ToAll(Link& by) : link(by) {}
+    void receive(messages::MessageRef message) override { link.announce(message); }
+    Link& link;
+  };
+
   // What the peer sends goes to the distributer, which learns of a new peer before.
   struct FromPeer : messages::Receiver {
     FromPeer(const Link& from, AnyDistributer& to) : link(from), distributer(to) {}
@@ -45,10 +50,10 @@ class LinkedChannels : public Channels {
   };
 
   std::unique_ptr<Link> link_;
-  std::unique_ptr<Link> announcer_;
   std::unique_ptr<AnyDistributer> distributer_;
   FromPeer from_peer_;
   ToLink to_link_;
+  ToAll to_all_;
 };
 
 }  // namespace jarol::distributers

@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "distributers/interfaces/any_distributer.h"
-#include "distributers/links/announcer.h"
 #include "distributers/links/linked.h"
 
 namespace jarol {
@@ -42,23 +41,6 @@ void read_port(const Maybe<Yaml>& yaml, PortOptions& to, const std::string& subj
                                           std::to_string(spec.packets->value));
   else
     to.packets = static_cast<std::size_t>(spec.packets->value);
-}
-
-// The link by which a system announces itself where the mapping of a good link says so, or none.
-std::unique_ptr<Link> make_announcer(const Yaml& yaml, const messages::MessageSet& set, Problems& problems) {
-  const Yaml *to = yaml.find("announce"), *id = yaml.find("id");
-  if (to == nullptr) return nullptr;
-  LinkOptions options;
-  std::int64_t sender = 0;
-  Problems told;  // what is wrong with the link's keys was reported with the link
-  if (id != nullptr && detail::read_id(*id, sender, "id", told))
-    options.header.emplace_back("src", static_cast<std::uint64_t>(sender));
-  try {
-    return std::make_unique<Link>(std::make_unique<Announcer>(Announcer::parse(to->text)), set, options);
-  } catch (const std::invalid_argument& error) {
-    problems.add(to->where, error.what());
-    return nullptr;
-  }
 }
 
 }  // namespace
@@ -125,8 +107,7 @@ std::unique_ptr<Channels> make_packet_channels(const LinkType& type, const LinkR
     const messages::MessageSet& set = distributer->message_set();
     auto link = type.make_link(request.yaml(), set, request.subject(), problems);
     if (!link) return nullptr;
-    auto announcer = make_announcer(request.yaml(), set, problems);
-    return std::make_unique<LinkedChannels>(std::move(link), std::move(announcer), std::move(distributer));
+    return std::make_unique<LinkedChannels>(std::move(link), std::move(distributer));
   } catch (const std::invalid_argument& error) {
     problems.add(request.yaml().where, "distributer '" + request.whose().name + "': " + error.what());
     return nullptr;

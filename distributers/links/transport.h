@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "distributers/links/address.h"
 #include "distributers/links/descriptor.h"
 #include "distributers/links/holder.h"
 #include "distributers/links/ownership.h"
@@ -49,6 +51,9 @@ class Transport {
 
   /// Where others reach it once it is open, as in "udp://127.0.0.1:6001"; empty: nowhere.
   virtual std::string address() const { return {}; }
+
+  /// To whom this end announces where it can be reached; none: to nobody.
+  virtual std::vector<Address> announces_to() const { return {}; }
 
   /// Takes hold of what must be there from the begin, as a port to listen at. Throws std::runtime_error with the cause.
   virtual void open() = 0;

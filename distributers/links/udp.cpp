@@ -83,7 +83,7 @@ std::string UdpTransport::text() const {
 }
 
 std::string UdpTransport::address() const {
-  const Address host = listen_.is_any() && seen_from_ ? local_towards(seen_from_) : listen_;
+  const Address host = listen_.is_any() && !announce_.empty() ? local_towards(announce_.front()) : listen_;
   const bool reachable = host && (listen_.family() == AF_INET6 || host.family() == AF_INET);
   return reachable ? "udp://" + host.with_port(port()).text() : "";
 }

@@ -19,13 +19,14 @@ LinkType udp_link();
 /// its datagrams apart, whatever flood there is of others', and tells when its port is closed.
 class UdpTransport : public Transport {
  public:
-  /// `seen_from`: who is told where it can be reached, or none. It matters where it listens at all addresses.
-  UdpTransport(const Address& listen, const Address& peer, const Address& seen_from = {},
+  /// `announce`: to whom. All are sent the same: the address at which the first of them sees this end.
+  UdpTransport(const Address& listen, const Address& peer, std::vector<Address> announce = {},
                std::chrono::nanoseconds silence = Ownership::default_silence)
-      : listen_(listen), named_peer_(peer), seen_from_(seen_from), ownership_(silence, peer) {}
+      : listen_(listen), named_peer_(peer), announce_(std::move(announce)), ownership_(silence, peer) {}
 
   std::string text() const override;
   std::string address() const override;
+  std::vector<Address> announces_to() const override { return announce_; }
   void open() override;
   void receive(const Interrupter& interrupter, ByteSink& sink) override;
   bool send(std::span<const std::byte> packet) override;
@@ -49,7 +50,7 @@ class UdpTransport : public Transport {
 
   Address listen_;
   Address named_peer_;
-  Address seen_from_;
+  std::vector<Address> announce_;
   Receiving door_;  // where all arrive that are not the peer
   Ownership ownership_;
   int strangers_in_row_ = 0;

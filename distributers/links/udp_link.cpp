@@ -28,10 +28,9 @@ std::unique_ptr<Transport> make_udp(const UdpSpec& spec, const Yaml& yaml, const
     problems.add(spec.peer->where, "'" + spec.peer->value + "' can't be reached from '" + spec.listen->value +
                                        "': one is IPv4, the other IPv6");
   try {
-    // all who may look for it are told the same: where the first of them sees it
-    return std::make_unique<UdpTransport>(listen, peer,
-                                          spec.announce ? Announcer::parse(spec.announce->value).front() : Address{},
-                                          spec.silence_of_peer());
+    return std::make_unique<UdpTransport>(
+        listen, peer, spec.announce ? Announcer::parse(spec.announce->value) : std::vector<Address>{},
+        spec.silence_of_peer());
   } catch (const std::invalid_argument& error) {
     problems.add(spec.announce->where, error.what());
     return nullptr;

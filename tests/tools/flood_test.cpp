@@ -81,7 +81,7 @@ void flood(std::unique_ptr<Transport> transport, const MakeFlood& make_flood, bo
   auto adapter = std::make_unique<Typed<JaviatorVehicle>>();
   const auto& set = adapter->message_set();
   auto channels = std::make_unique<LinkedChannels>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
-                                                   nullptr, std::move(adapter));
+                                                   std::move(adapter));
   LinkedChannels& link = *channels;
   std::size_t robostix = 0, from_robostix = 0;
   for (std::size_t i = 0; i < graph.distributers.size(); ++i)

@@ -57,7 +57,7 @@ class Lab {
     auto adapter = std::make_unique<Typed<JaviatorOperator>>();
     const auto& set = adapter->message_set();
     auto channels = std::make_unique<LinkedChannels>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
-                                                     nullptr, std::move(adapter));
+                                                     std::move(adapter));
     link_ = channels.get();
     for (std::size_t i = 0; i < loaded_.channels.size(); ++i)
       if (loaded_.graph->distributers[i].name == "terminal") loaded_.channels[i] = std::move(channels);

@@ -125,7 +125,7 @@ connections: [from -> relay.in, relay.out -> to]
     const UdpTransport& udp = *transport;
     auto link = std::make_unique<Link>(std::move(transport), javiator::message_set(), LinkOptions{});
     std::vector<std::unique_ptr<Channels>> channels;
-    channels.push_back(std::make_unique<LinkedChannels>(std::move(link), nullptr, std::make_unique<Typed<Echo>>()));
+    channels.push_back(std::make_unique<LinkedChannels>(std::move(link), std::make_unique<Typed<Echo>>()));
     channels_ = channels.back().get();
     executor_ = std::make_unique<Executor>(graph_, std::move(channels));
     channels_->begin();

@@ -57,11 +57,11 @@ TEST_SUITE("distributers/links/announcer") {
   TEST_CASE("what is announced arrives at each address, where somebody listens or not") {
     Socket one, other;
     const std::string nobody = Socket().port();  // free again at once
-    Link link(std::make_unique<Announcer>(Announcer::parse(one.port() + "," + nobody + "," + other.port())),
-              imc::message_set(), {});
+    const auto to = Announcer::parse(one.port() + "," + nobody + "," + other.port());
+    Link link(std::make_unique<UdpTransport>(Address::parse("0"), Address{}, to), imc::message_set(), {});
     link.connect();
     for (int i = 0; i < 3; ++i) {
-      link.send(messages::refer_to(imc::Heartbeat{}));
+      link.announce(messages::refer_to(imc::Heartbeat{}));
       link.flush();
       CHECK(one.next() == 22);
       CHECK(other.next() == 22);

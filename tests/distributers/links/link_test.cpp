@@ -371,7 +371,7 @@ TEST_SUITE("distributers/links/link") {
     std::string& diary = Diary::text;
     auto made = make(std::move(transport));
     Link& link = *made;
-    LinkedChannels channels(std::move(made), nullptr, std::make_unique<Typed<Diary>>());
+    LinkedChannels channels(std::move(made), std::make_unique<Typed<Diary>>());
     channels.begin();
     const Address to = Address::parse("127.0.0.1:" + std::to_string(at.port()));
     for (int restart = 0; restart < 2; ++restart) {

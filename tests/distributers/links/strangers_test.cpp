@@ -57,7 +57,7 @@ struct Ids : messages::Receiver {
 template <class Listens>
 std::unique_ptr<Listens> listening(std::chrono::nanoseconds silence) {
   if constexpr (std::is_same_v<Listens, UdpTransport>)
-    return std::make_unique<UdpTransport>(any, Address{}, Address{}, silence);
+    return std::make_unique<UdpTransport>(any, Address{}, std::vector<Address>{}, silence);
   else
     return std::make_unique<Listens>(any, silence);
 }
@@ -270,7 +270,7 @@ TEST_SUITE("distributers/links/strangers") {
     const UdpTransport& at = *transport;
     auto adapter = std::make_unique<Typed<JaviatorOperator>>();
     auto link = std::make_unique<Link>(std::move(transport), javiator::message_set(), LinkOptions{});
-    LinkedChannels channels(std::move(link), nullptr, std::move(adapter));
+    LinkedChannels channels(std::move(link), std::move(adapter));
     channels.begin();
     const Address to = any.with_port(at.port());
     const Speaker pilot(to, SOCK_DGRAM), stray(to, SOCK_DGRAM);
