@@ -1,13 +1,12 @@
 // A vehicle and a distributer of this program, in a closed loop with a task of it.
 #include <doctest/doctest.h>
-#include <jarol/distributers/interfaces/any_distributer.h>
+#include <jarol/distributers/interfaces/typed.h>
 #include <jarol/distributers/interfaces/vehicle_class.h>
 #include <jarol/distributers/messages/imc.h>
 #include <jarol/session.h>
 #include <jarol/tools/library/built_in.h>
 
 #include <algorithm>
-#include <utility>
 
 using namespace std::chrono_literals;
 using jarol::describe, jarol::field, jarol::Tick;
@@ -73,41 +72,31 @@ class Balloon : public jarol::vehicles::Vehicle {
 };
 
 // Its messages on one side, plain numbers on the other.
-class BalloonGauge : public jarol::distributers::AnyDistributer {
+class BalloonGauge {
  public:
-  static jarol::DistributerClass describe_class() {
-    jarol::DistributerClass described;
-    described.name = "BalloonGauge";
-    described.summary = "a balloon with a pump, over IMC";
-    described.is_vehicle = true;
-    described.channels = {{"depth", jarol::Direction::in, &jarol::type_of<double>(), "below the surface"},
-                          {"pump", jarol::Direction::out, &jarol::type_of<double>(), "-1 (up) to 1 (down)"}};
-    described.make = [](const void*) -> std::unique_ptr<jarol::distributers::AnyDistributer> {
-      return std::make_unique<BalloonGauge>();
-    };
-    return described;
+  static constexpr std::string_view summary = "a balloon with a pump, over IMC";
+  static constexpr bool is_vehicle = true;
+  struct In {
+    jarol::distributers::Newest<double> depth;
+    static constexpr auto fields() { return describe(jarol::distributers::channel<&In::depth>("below the surface")); }
+  };
+  struct Out {
+    double pump = 0;
+    static constexpr auto fields() { return describe(jarol::distributers::channel<&Out::pump>("-1 (up) to 1 (down)")); }
+  };
+  static const jarol::messages::MessageSet& message_set() { return imc::message_set(); }
+  static constexpr auto handlers() {
+    return jarol::distributers::handle(jarol::distributers::on<imc::Depth>(&BalloonGauge::depth),
+                                       jarol::distributers::send<&Out::pump>(&BalloonGauge::pump));
   }
+  In in;
 
-  const jarol::messages::MessageSet& message_set() const override { return imc::message_set(); }
-  void receive(jarol::messages::MessageRef message) override {
-    const auto* const depth = message.as<imc::Depth>();
-    if (depth == nullptr) return;
-    depth_ = depth->value;
-    is_new_ = true;
-  }
-  bool take(std::size_t, void* value) override {
-    *static_cast<double*>(value) = depth_;
-    return std::exchange(is_new_, false);
-  }
-  void hand_over(std::size_t, const void* value, jarol::messages::Receiver& system) override {
+  void depth(const imc::Depth& message) { in.depth = message.value; }
+  void pump(const double& actuation, jarol::messages::Receiver& system) {
     imc::SetThrusterActuation command;
-    command.value = static_cast<float>(*static_cast<const double*>(value));
+    command.value = static_cast<float>(actuation);
     system.receive(jarol::messages::refer_to(command));
   }
-
- private:
-  double depth_ = 0;
-  bool is_new_ = false;
 };
 
 // A law for it.
@@ -139,7 +128,7 @@ struct HoldDepth {
 jarol::distributers::Registries with_balloon() {
   jarol::distributers::Registries known = jarol::built_in();
   known.graph.add(jarol::task_class<HoldDepth>());
-  known.graph.add(BalloonGauge::describe_class());
+  known.graph.add(jarol::distributers::distributer_class<BalloonGauge>());
   known.vehicles.add(jarol::vehicles::vehicle_class<Balloon>("balloon", imc::message_set(), "a balloon in water"));
   return known;
 }
