@@ -108,11 +108,14 @@ void Communicators::begin_rest(Duration instant) {
   rest_begun_ = instant;
   rest_->begin();
   run_.log.rest(instant);
+  run_.publisher.show({.kind = RunEvent::Kind::rest_begun, .instant = instant});
   resting_.store(true);
 }
 
 bool Communicators::has_come_to_rest(Duration instant) {
-  return resting() && (rest_reached_ = rest_->is_reached(safe_commands_, instant));
+  if (!resting() || !rest_->is_reached(safe_commands_, instant)) return false;
+  run_.publisher.show({.kind = RunEvent::Kind::at_rest, .instant = instant});
+  return rest_reached_ = true;
 }
 
 std::optional<RestReport> Communicators::rest(Duration reached) const {

@@ -93,8 +93,15 @@ void Executor::walk(Duration end) {
 bool Executor::wait_until(Duration instant) {
   clock_->wait_until(instant.count(), interrupted_);
   if (must_return()) return false;
+  if (instant >= hand_on_due_) hand_on(instant);
   dispatcher_->settle(instant);
   return !has_stopped();
+}
+
+// About each second those who look on see all that was published, however little it is.
+void Executor::hand_on(Duration instant) {
+  hand_on_due_ = instant + std::chrono::seconds(1);
+  if (Recorder* const recorder = run_.publisher.recorder()) recorder->hand_on();
 }
 
 // False: the run was closed before anything of the instant took place.

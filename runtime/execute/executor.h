@@ -94,6 +94,7 @@ class Executor {
     return interrupted_.load(std::memory_order_relaxed) || (rest_asked_.load(std::memory_order_relaxed) && !resting());
   }
   [[gnu::cold]] void log_checkpoint(Duration instant);
+  [[gnu::cold]] void hand_on(Duration instant);
   const Task* task_of(const RunningTask* running) const;
   HangingTask hanging(const Task& task) const;
 
@@ -102,6 +103,7 @@ class Executor {
   RealClock* const clock_;  // null: the virtual clock
   const bool stops_;        // at a fault that says so
   const StageTeam* team_ = nullptr;
+  Duration hand_on_due_{};  // on the real clock
   std::unique_ptr<Dispatcher> dispatcher_;
   std::atomic<std::int64_t> now_{0};
   std::atomic<std::int64_t> cover_end_{0};

@@ -64,6 +64,7 @@ class Expectations : public RecordSink {
 
   /// What is published from that instant on is not judged. Any thread, before it is published.
   void judge_before(Duration instant) { before_.store(instant.count(), std::memory_order_relaxed); }
+  bool wants(std::uint32_t output) const override { return !targets_[output].empty(); }
   void take(Duration instant, std::uint32_t output, const void* value) override;
   void finish() override { settle(); }
 

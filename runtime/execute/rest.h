@@ -33,6 +33,7 @@ class Rest {
   bool command(std::size_t communicator, void* value) const;
   /// Before the first instant at which it commands, or again later, which changes nothing.
   void begin();
+  bool has_begun() const { return begun_; }
   /// By what was published since it began, while all vehicles are heard.
   bool is_reached(const SafeCommands& inputs, Duration instant);
   /// When that was asked last.

@@ -98,7 +98,10 @@ void ThreadsCore::run_round(std::int64_t round) {
   if (!watched_.empty()) record_true_values(instant);
   const std::int64_t rest_from = rest_from_.load(std::memory_order_acquire);
   const bool rests = rest_from >= 0 && round >= rest_from;
-  if (rests) rest_->begin();
+  if (rests && !rest_->has_begun()) {
+    rest_->begin();
+    run_.publisher.show({.kind = RunEvent::Kind::rest_begun, .instant = rest_from * period_});
+  }
   for (Carried& in : ins_) {
     if (!in.core.due(round)) continue;
     const std::optional<std::size_t>& distributer = graph_.communicators[in.communicator].distributer;
@@ -117,8 +120,10 @@ void ThreadsCore::run_round(std::int64_t round) {
     run_.publisher.publish(out.action->publish, now);
     out.port->write(out.action->value);
   }
-  if (rests && rest_reached_.load(std::memory_order_relaxed) < 0 && rest_->is_reached(safe_commands_, instant))
+  if (rests && rest_reached_.load(std::memory_order_relaxed) < 0 && rest_->is_reached(safe_commands_, instant)) {
+    run_.publisher.show({.kind = RunEvent::Kind::at_rest, .instant = instant});
     rest_reached_.store(round, std::memory_order_release);
+  }
 }
 
 void ThreadsCore::run_task(Counted& task, const Now& now) {

@@ -1,6 +1,7 @@
 #include "runtime/record/recorder.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "graph/values/pack.h"
@@ -8,7 +9,14 @@
 namespace jarol {
 namespace {
 constexpr std::uint64_t ended = std::uint64_t{1} << 63;
-}
+
+// What stands before the cause of an event.
+struct EventHeader {
+  std::int64_t activation = 0;
+  std::uint32_t task = 0;
+  RunEvent::Kind kind{};
+};
+}  // namespace
 
 Recorder::Recorder(std::vector<RecordSink*> sinks)
     : sinks_(std::move(sinks)), memory_(std::make_unique<std::byte[]>(chunk_bytes * chunks)), now_(memory_.get()) {
@@ -32,6 +40,10 @@ void Recorder::expect(const std::vector<Output>& outputs) {
                               " bytes; values of up to " + std::to_string(most_bytes) + " can be recorded");
     deep_values_.push_back(output.type->is_deep() ? Value(*output.type) : Value());
   }
+  wanted_.clear();
+  for (std::uint32_t i = 0; i < outputs.size(); ++i)
+    wanted_.push_back(
+        std::any_of(sinks_.begin(), sinks_.end(), [&](const RecordSink* sink) { return sink->wants(i); }) ? 1 : 0);
 }
 
 void Recorder::append_deep(std::int64_t instant, std::uint32_t output, const void* value) {
@@ -58,6 +70,15 @@ void Recorder::catch_up() {
        read = read_.load(std::memory_order_acquire))
     read_.wait(read, std::memory_order_acquire);
   if (failure_) std::rethrow_exception(failure_);
+}
+
+void Recorder::append_event(const RunEvent& event) {
+  std::array<std::byte, 512> room;
+  const EventHeader header{event.activation, event.task, event.kind};
+  const std::size_t length = std::min(event.cause.size(), room.size() - sizeof header);
+  std::memcpy(room.data(), &header, sizeof header);
+  std::memcpy(room.data() + sizeof header, event.cause.data(), length);
+  append(event.instant.count(), event_output, room.data(), static_cast<std::uint32_t>(sizeof header + length));
 }
 
 void Recorder::close() {
@@ -149,7 +170,16 @@ void Recorder::hand_on_held(std::int64_t until) {
     hand_on(first->second.header, first->second.packed.data());
 }
 
+void Recorder::hand_on_event(const RecordHeader& header, const std::byte* packed) {
+  EventHeader event;
+  std::memcpy(&event, packed, sizeof event);
+  const std::string_view cause(reinterpret_cast<const char*>(packed) + sizeof event, header.size - sizeof event);
+  for (RecordSink* sink : sinks_)
+    sink->take_event({event.kind, Duration(header.instant), event.task, event.activation, cause});
+}
+
 void Recorder::hand_on(const RecordHeader& header, const std::byte* packed) {
+  if (header.output == event_output) return hand_on_event(header, packed);
   const void* value = value_of(header, packed);
   for (RecordSink* sink : sinks_) sink->take(Duration(header.instant), header.output, value);
 }

@@ -16,6 +16,7 @@
 
 #include "graph/values/value.h"
 #include "runtime/plan/output.h"
+#include "runtime/record/sink.h"
 
 namespace jarol {
 
@@ -24,17 +25,6 @@ struct RecordHeader {
   std::int64_t instant = 0;  // ns since the start
   std::uint32_t output = 0;  // index into Plan::outputs
   std::uint32_t size = 0;    // bytes of the value that follows, padded to 8
-};
-
-/// Takes recorded values in their order, on the recorder's thread.
-class RecordSink {
- public:
-  virtual ~RecordSink() = default;
-  virtual void take(Duration instant, std::uint32_t output, const void* value) = 0;
-  /// There is nothing more to take for now.
-  virtual void pause() {}
-  /// After the last value. Throws if anything was lost.
-  virtual void finish() = 0;
 };
 
 class Recorder {
@@ -69,6 +59,12 @@ class Recorder {
   /// The same for a deep value; one beyond most_bytes is lost, which `close` tells.
   void append_deep(std::int64_t instant, std::uint32_t output, const void* value);
 
+  /// Some sink wants publications of that output.
+  bool wants(std::uint32_t output) const { return wanted_[output] != 0; }
+
+  /// Appends what happened beside publications.
+  [[gnu::cold]] void append_event(const RunEvent& event);
+
   /// What is appended while the sinks are a whole ring behind is lost, rather than waited for, and all that follows.
   void never_wait() { waits_ = false; }
   /// Hands on what was appended so far, if the sinks have all that was handed on before.
@@ -87,6 +83,7 @@ class Recorder {
  private:
   static constexpr std::size_t chunk_bytes = most_bytes + sizeof(RecordHeader);
   static constexpr std::size_t chunks = 8;
+  static constexpr std::uint32_t event_output = 0xffffffff;  // stands for an event in place of an output
 
   void next_chunk();
   [[gnu::cold]] void cut_off();
@@ -96,12 +93,14 @@ class Recorder {
   void hold(const RecordHeader& header, const std::byte* packed);
   void hand_on_held(std::int64_t until);
   void hand_on(const RecordHeader& header, const std::byte* packed);
+  void hand_on_event(const RecordHeader& header, const std::byte* packed);
   const void* value_of(const RecordHeader& header, const std::byte* packed);
 
   std::vector<RecordSink*> sinks_;
   std::vector<Output> outputs_;
-  std::vector<Value> deep_values_;  // per output: what the sinks see, empty for flat ones
-  std::string lost_;                // the first value that was lost, and why
+  std::vector<std::uint8_t> wanted_;  // per output
+  std::vector<Value> deep_values_;    // per output: what the sinks see, empty for flat ones
+  std::string lost_;                  // the first value that was lost, and why
   struct Held {
     RecordHeader header;
     std::vector<std::byte> packed;

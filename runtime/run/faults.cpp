@@ -5,8 +5,8 @@
 
 namespace jarol {
 
-Faults::Faults(RunState& state, Report& report, InputLog& log)
-    : graph_(state.plan.graph), state_(state), report_(report), log_(log) {}
+Faults::Faults(RunState& state, Report& report, Publisher& publisher, InputLog& log)
+    : graph_(state.plan.graph), state_(state), report_(report), publisher_(publisher), log_(log) {}
 
 std::string Faults::cause_of(std::uint32_t task, const BadActivation& bad, const void* out) const {
   const Task& t = graph_.tasks[task];
@@ -91,6 +91,7 @@ void Faults::add_noted(std::uint32_t task, Duration instant) {
 void Faults::add(std::uint32_t task, std::int64_t activation, Duration instant, const std::string& cause) {
   ++report_.left_out[task];
   report_.add({graph_.tasks[task].name, activation, instant, cause});
+  publisher_.show({RunEvent::Kind::fault, instant, task, activation, cause});
   if (graph_.tasks[task].on_fault == OnFault::stop) report_.stopped = true;
 }
 

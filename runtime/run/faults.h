@@ -6,6 +6,7 @@
 #include <string>
 
 #include "runtime/run/input_log.h"
+#include "runtime/run/publisher.h"
 #include "runtime/run/report.h"
 #include "runtime/state/run_state.h"
 
@@ -22,7 +23,7 @@ struct BadActivation {
 
 class Faults {
  public:
-  Faults(RunState& state, Report& report, InputLog& log);
+  Faults(RunState& state, Report& report, Publisher& publisher, InputLog& log);
 
   /// On the thread that ran it, right away. A LET task's fault shows at the end of its LET, when its outputs would
   /// have: see `end_let`.
@@ -48,6 +49,7 @@ class Faults {
   const Graph& graph_;
   RunState& state_;
   Report& report_;
+  Publisher& publisher_;
   InputLog& log_;
 };
 

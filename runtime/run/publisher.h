@@ -21,6 +21,7 @@ template <bool Digest>
 
 inline void record(Recorder& recorder, const Publish& what, Duration instant) {
   for (const Publication& p : what.publications) {
+    if (!recorder.wants(p.output)) continue;
     if (p.size > 0) [[likely]] {
       recorder.append(instant.count(), p.output, p.value, p.size);
     } else {
@@ -56,11 +57,9 @@ class Publisher {
     if (recorder_ != nullptr) jarol::record(*recorder_, what, now.instant);
   }
 
-  /// The same where the digest and the recorder are known when the program is compiled.
-  template <bool Digest, bool Record>
-  [[gnu::always_inline]] void publish_as(const Publish& what, const Now& now) {
-    digest_ += make_visible<Digest>(what, now.digest_term);
-    if constexpr (Record) jarol::record(*recorder_, what, now.instant);
+  /// Shows those who look on what is no publication.
+  void show(const RunEvent& event) {
+    if (recorder_ != nullptr) recorder_->append_event(event);
   }
 
   /// Of what others have made visible: its part of the digest, and that it is recorded.

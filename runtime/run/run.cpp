@@ -20,7 +20,7 @@ Run::Run(PlanOfRun of, const Options& options)
       report(graph.tasks.size()),
       publisher(options.digest, report.digest, options.recorder),
       log(graph, options.log),
-      faults(state, report, log) {
+      faults(state, report, publisher, log) {
   if (options.recorder != nullptr) options.recorder->expect(plan.outputs);
 }
 

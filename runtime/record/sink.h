@@ -1,0 +1,36 @@
+// Whoever looks on at a run: gets what is published, and what happens beside that.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "runtime/plan/output.h"
+
+namespace jarol {
+
+/// What happens in a run and is no publication.
+struct RunEvent {
+  enum class Kind : std::uint32_t { fault, rest_begun, at_rest };
+  Kind kind = Kind::fault;
+  Duration instant{};           // of a fault: at which it would have published
+  std::uint32_t task = 0;       // of a fault: index in the graph
+  std::int64_t activation = 0;  // of a fault
+  std::string_view cause{};     // of a fault, in words
+};
+
+/// All is called on the recorder's thread, in the order in which it took place.
+class RecordSink {
+ public:
+  virtual ~RecordSink() = default;
+  /// False: publications of that output need not be recorded for it.
+  virtual bool wants(std::uint32_t) const { return true; }
+  /// A publication, by the index of its output, or the true values of a vehicle.
+  virtual void take(Duration instant, std::uint32_t output, const void* value) = 0;
+  virtual void take_event(const RunEvent&) {}
+  /// There is nothing more to take for now.
+  virtual void pause() {}
+  /// After the last value. Throws if anything was lost.
+  virtual void finish() = 0;
+};
+
+}  // namespace jarol
