@@ -119,8 +119,10 @@ int replay(const Options& options) {
   const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
   ToldChanges told(graph);
-  loaded.channels = told.listen(replayed_channels(graph, log));
-  GraphRun graph_run(std::move(loaded), {.sinks = files.sinks(), .misses = misses});
+  loaded.channels = replayed_channels(graph, log);
+  std::vector<RecordSink*> looking_on = files.sinks();
+  if (told.can_be_any()) looking_on.push_back(&told);
+  GraphRun graph_run(std::move(loaded), {.sinks = looking_on, .misses = misses});
   RunSinks& sinks = graph_run.sinks();
   Executor& executor = graph_run.executor();
   if (log.rest_begun()) sinks.judge_before(*log.rest_begun());
@@ -142,7 +144,7 @@ int replay(const Options& options) {
   if (!comparison.interrupted) log.require_all_taken();
   std::string unwritten;
   try {
-    if (run_end.hangs && sinks.recorder() != nullptr)
+    if (run_end.hangs && (!files.sinks().empty() || !graph.expectations.empty()))
       unwritten = "trace and picture are not written, as the replay has not ended";
     if (!run_end.hangs) sinks.close();
   } catch (const std::exception& error) { unwritten = error.what(); }

@@ -47,45 +47,9 @@ void ToldChanges::Watch::note(Duration instant, std::size_t watch, const void* v
   ++count;
 }
 
-// Passes everything on.
-class ToldChanges::Listening : public Channels {
- public:
-  // `watch` per channel of the distributer: an index into the watches, or none.
-  Listening(std::unique_ptr<Channels> to, std::vector<Watch>& watches, std::vector<std::optional<std::size_t>> watch)
-      : to_(std::move(to)), watches_(watches), watch_(std::move(watch)) {}
-
-  void begin() override { to_->begin(); }
-  void finish() override { to_->finish(); }
-  bool needs_real_clock() const override { return to_->needs_real_clock(); }
-  bool outlives_run() const override { return to_->outlives_run(); }
-  void flush() override { to_->flush(); }
-  std::optional<LinkReport> link_report() const override { return to_->link_report(); }
-  std::uint64_t non_finite_inputs() const override { return to_->non_finite_inputs(); }
-  std::optional<Duration> end() const override { return to_->end(); }
-  const Type* true_type() const override { return to_->true_type(); }
-  void copy_true_values(void* to) const override { to_->copy_true_values(to); }
-  std::string mishap() const override { return to_->mishap(); }
-  bool take(std::size_t channel, void* value) override { return to_->take(channel, value); }
-  void reach(Duration instant) override {
-    now_ = instant;
-    to_->reach(instant);
-  }
-  void hand_over(std::size_t channel, const void* value) override {
-    if (const auto watch = watch_[channel]) watches_[*watch].note(now_, *watch, value);
-    to_->hand_over(channel, value);
-  }
-
- private:
-  std::unique_ptr<Channels> to_;
-  std::vector<Watch>& watches_;
-  std::vector<std::optional<std::size_t>> watch_;
-  Duration now_{};
-};
-
-std::vector<std::unique_ptr<Channels>> ToldChanges::listen(std::vector<std::unique_ptr<Channels>> channels) {
-  std::vector<std::vector<std::optional<std::size_t>>> watch_of(channels.size());
-  for (std::size_t d = 0; d < channels.size(); ++d)
-    watch_of[d].resize(graph_.distributers[d].distributer_class->channels.size());
+ToldChanges::ToldChanges(const Graph& graph) : graph_(graph) {
+  const std::vector<Output> outputs = outputs_of(graph);
+  watch_of_.resize(outputs.size());
   for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
     const Communicator& c = graph_.communicators[i];
     if (c.direction != Direction::out || !c.distributer) continue;
@@ -95,14 +59,17 @@ std::vector<std::unique_ptr<Channels>> ToldChanges::listen(std::vector<std::uniq
       if (leaf.type->kind == Kind::enumeration && watch.leaves.size() < most_leaves) watch.leaves.push_back(leaf);
     if (std::none_of(watch.leaves.begin(), watch.leaves.end(), [](const Leaf& l) { return has_meaning(*l.type); }))
       continue;
-    watch.kept.reserve(most_kept);
-    watch_of[*c.distributer][c.channel] = watches_.size();
+    const auto its = [&](const Output& output) { return output.name == c.name; };
+    watch_of_[static_cast<std::size_t>(std::find_if(outputs.begin(), outputs.end(), its) - outputs.begin())] =
+        watches_.size();
     watches_.push_back(std::move(watch));
   }
-  std::vector<std::unique_ptr<Channels>> listening;
-  for (std::size_t d = 0; d < channels.size(); ++d)
-    listening.push_back(std::make_unique<Listening>(std::move(channels[d]), watches_, std::move(watch_of[d])));
-  return listening;
+}
+
+void ToldChanges::take(Duration instant, std::uint32_t output, const void* value) {
+  if (!wants(output)) return;
+  const std::lock_guard lock(mutex_);
+  watches_[*watch_of_[output]].note(instant, *watch_of_[output], value);
 }
 
 std::vector<ToldChanges::Change> ToldChanges::in_order() const {
@@ -113,6 +80,7 @@ std::vector<ToldChanges::Change> ToldChanges::in_order() const {
 }
 
 std::string ToldChanges::to_text() const {
+  const std::lock_guard lock(mutex_);
   std::string text;
   std::vector<bool> begun(watches_.size(), false);
   for (const Change& change : in_order()) {
@@ -138,6 +106,7 @@ std::string ToldChanges::to_text() const {
 }
 
 nlohmann::ordered_json ToldChanges::to_json() const {
+  const std::lock_guard lock(mutex_);
   auto json = nlohmann::ordered_json::array();
   for (const Change& change : in_order()) {
     const Watch& watch = watches_[change.watch];

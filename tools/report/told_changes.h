@@ -2,30 +2,35 @@
 #pragma once
 
 #include <array>
-#include <memory>
+#include <mutex>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "graph/model/graph.h"
 #include "graph/values/bind.h"
-#include "runtime/channels.h"
+#include "runtime/record/sink.h"
 
 namespace jarol::tools {
 
 /// Notes when an enumeration of a value that goes out takes an enumerator that has a meaning, and what the enumerations
-/// of that value become until it is left again. It makes no allocation while a graph runs.
-class ToldChanges {
+/// of that value become until it is left again.
+class ToldChanges : public RecordSink {
  public:
   static constexpr std::size_t most_kept = 100;
 
   /// The graph outlives it.
-  explicit ToldChanges(const Graph& graph) : graph_(graph) {}
+  explicit ToldChanges(const Graph& graph);
 
-  /// The same channels, and what is handed over to them is noted. This outlives them.
-  std::vector<std::unique_ptr<Channels>> listen(std::vector<std::unique_ptr<Channels>> channels);
+  /// Some value that goes out has such an enumeration.
+  bool can_be_any() const { return !watches_.empty(); }
 
-  /// After the run: a line per change, and an array of them.
+  bool wants(std::uint32_t output) const override { return output < watch_of_.size() && watch_of_[output]; }
+  void take(Duration instant, std::uint32_t output, const void* value) override;
+  void finish() override {}
+
+  /// What was noted so far: a line per change, and an array of them.
   std::string to_text() const;
   nlohmann::ordered_json to_json() const;
 
@@ -48,12 +53,12 @@ class ToldChanges {
     std::vector<Change> kept;
     void note(Duration instant, std::size_t watch, const void* value);
   };
-  class Listening;
-
   std::vector<Change> in_order() const;
 
   const Graph& graph_;
   std::vector<Watch> watches_;
+  std::vector<std::optional<std::size_t>> watch_of_;  // per output
+  mutable std::mutex mutex_;                          // of a run that has not ended, too, there is a report
 };
 
 }  // namespace jarol::tools

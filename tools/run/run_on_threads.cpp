@@ -152,9 +152,8 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
   Guard guard(loaded, arguments.no_guardian ? "--no-guardian" : "", options.priority, print_note);
   const CrashLine crash_line(*loaded.graph, guard.process());
   ToldChanges told(*loaded.graph);
-  loaded.channels = told.listen(std::move(loaded.channels));
   const std::vector<Channels*> channels = pointers_to(loaded.channels);
-  RunSinks sinks(*loaded.graph, {});
+  RunSinks sinks(*loaded.graph, told.can_be_any() ? std::vector<RecordSink*>{&told} : std::vector<RecordSink*>{});
   ThreadsCore core(*loaded.graph, std::move(loaded.channels), sinks.recorder());
   core.on_rest([&](Duration begun) { sinks.judge_before(begun); });
   let_writing_fail();
