@@ -44,7 +44,7 @@ connections: [a.out -> b.in, b.out -> c.a, i -> c.b, c.out -> d.in, d.out -> o]
                   connections;
       for (int i = 0; i < tasks; ++i) {
         const std::string name = "t" + std::to_string(i);
-        text += "  " + name + ": {type: " + (i == 0 ? "Counter" : "Relay") + ", period: " + std::to_string(1 + i % 7) +
+        text += "  " + name + ": {type: " + (i == 0 ? "Counter" : "Relay") + ", period: " + std::to_string(1 + i) +
                 "ms" + (i % 2 == 0 ? ", let: 1ms" : "") + (i % 3 == 0 ? ", on_fault: hold" : "") + "}\n";
         connections += "  - t" + std::to_string(std::max(0, i - 1)) + ".out -> " + (i == 0 ? "o" : name + ".in") + "\n";
       }

@@ -45,8 +45,8 @@ TEST_SUITE("runtime/events") {
     const Report report = run(graph, {&seen}, 100ms);
     REQUIRE(report.fault_count > 1);
     const Fault& first = report.faults.front();
-    const std::string line = duration_text(first.instant) + " task 1 activation " + std::to_string(first.activation) +
-                             ": " + first.cause;
+    const std::string line =
+        duration_text(first.instant) + " task 1 activation " + std::to_string(first.activation) + ": " + first.cause;
     const auto at = std::find(seen.lines.begin(), seen.lines.end(), line);
     REQUIRE(at != seen.lines.end());
     CHECK(*(at - 1) == duration_text(first.instant) + " a.out=" + std::to_string(first.activation));
