@@ -2,9 +2,16 @@
 #include "distributers/registries.h"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "distributers/distributers.h"
+#include "distributers/interfaces/typed.h"
+#include "distributers/interfaces/vehicle_class.h"
 #include "distributers/links/packet_link.h"
+#include "distributers/messages/javiator.h"
 #include "tests/graph/graph_of.h"
 
 namespace {
@@ -35,6 +42,72 @@ std::unique_ptr<Transport> make_radio(const RadioSpec& spec, const Yaml&, const 
   return std::make_unique<Radio>(spec.frequency->value);
 }
 
+// What is heard of a buoy: its depth, and to be told how far to sink.
+struct Probe {
+  static constexpr std::string_view summary = "a buoy";
+  static constexpr bool is_vehicle = true;
+  struct In {
+    Newest<double> depth;
+    static constexpr auto fields() { return describe(channel<&In::depth>("below the surface")); }
+  };
+  struct Out {
+    double goal = 0;
+    static constexpr auto fields() { return describe(channel<&Out::goal>("how deep it shall be")); }
+  };
+  static const messages::MessageSet& message_set() { return messages::javiator::message_set(); }
+  static constexpr auto handlers() {
+    return handle(on<messages::javiator::IdleLimit>(&Probe::hear), send<&Out::goal>(&Probe::sink));
+  }
+  void hear(const messages::javiator::IdleLimit& m) { in.depth = m.idle; }
+  void sink(double goal, messages::Receiver& system) {
+    messages::javiator::IdleLimit m;
+    m.idle = static_cast<decltype(m.idle)>(goal);
+    system.receive(messages::refer_to(m));
+  }
+  In in;
+};
+
+struct Metres {
+  double value = 0;
+  static constexpr auto fields() { return describe(field<&Metres::value>("m", "below the surface")); }
+  static std::vector<vehicles::Range> ranges() { return {{0, 100}}; }
+};
+struct Groups {
+  Metres depth;
+  static constexpr auto fields() { return describe(field<&Groups::depth>()); }
+};
+
+// Each step takes it by its speed towards what it was told.
+class Buoy : public vehicles::Vehicle {
+ public:
+  using Parameters = Metres;  // of a step
+  using Inputs = Metres;
+  using Outputs = Groups;
+  using Truth = Metres;
+  Buoy(const Parameters& speed, std::uint64_t) : speed_(speed.value) {}
+  Duration grid() const override { return std::chrono::milliseconds(5); }
+  void accept(messages::MessageRef command) override {
+    if (const auto* m = command.as<messages::javiator::IdleLimit>()) goal_ = m->idle;
+  }
+  void step() override { truth_.value += std::clamp(goal_ - truth_.value, -speed_, speed_); }
+  void sense(messages::Receiver& receiver) const override {
+    messages::javiator::IdleLimit m;
+    m.idle = static_cast<decltype(m.idle)>(truth_.value);
+    receiver.receive(messages::refer_to(m));
+  }
+  const Type* true_type() const override { return &type_of<Truth>(); }
+  const void* true_values() const override { return &truth_; }
+  vehicles::VehicleState state() const override { return {}; }
+  void place(const vehicles::VehicleState&) override {}
+  void command(const void* inputs) override { goal_ = static_cast<const Inputs*>(inputs)->value; }
+  const void* outputs() const override { return &outputs_; }
+
+ private:
+  double speed_, goal_ = 0;
+  Truth truth_;
+  Outputs outputs_;
+};
+
 const Registries& known() {
   static const Registries all = [] {
     Registries made;
@@ -44,6 +117,8 @@ const Registries& known() {
     made.links.add(packet_link<RadioSpec>(
         "radio", "a modem", {},
         {key<&RadioSpec::frequency>("frequency", Form::integer, "in MHz", true).in_range(400, 500)}, make_radio));
+    made.graph.add(distributer_class<Probe>());
+    made.vehicles.add(vehicles::vehicle_class<Buoy>("buoy", messages::javiator::message_set(), "goes up and down"));
     return made;
   }();
   return all;
@@ -87,6 +162,33 @@ TEST_SUITE("distributers/registries") {
     CHECK(report_on("{type: radi, frequency: 433}") ==
           "error: link of distributer 'pilot' has type 'radi'; did you mean 'radio'?; a JaviatorOperator can "
           "have: script, udp, tcp_client, tcp_server, serial, radio");
+  }
+
+  TEST_CASE("a vehicle and a distributer of another's are simulated by the link that is built in") {
+    const auto path = std::filesystem::temp_directory_path() / ("buoy_" + std::to_string(getpid()) + ".yaml");
+    std::ofstream(path) << "vehicle: buoy\nparameters: {value: 3}\n";
+    Problems problems;
+    const Graph graph = tests::graph_of(known().graph,
+                                        "graph: g\ntiming: {period: 10ms}\n"
+                                        "distributers: {sea: {type: Probe, link: {type: simulation, vehicle: " +
+                                            path.string() + "}}}\n");
+    const auto channels = make_channels(graph, known(), 0, problems);
+    std::filesystem::remove(path);
+    problems.throw_if_any();
+    double depth = -1;
+    const double goal = 10;
+    channels[0]->reach(Duration{});
+    CHECK(channels[0]->take(0, &depth));
+    CHECK(depth == 0);
+    channels[0]->hand_over(1, &goal);
+    channels[0]->reach(std::chrono::milliseconds(10));
+    CHECK(channels[0]->take(0, &depth));
+    CHECK(depth == 6);
+    CHECK_FALSE(channels[0]->take(0, &depth));
+    channels[0]->reach(std::chrono::seconds(1));
+    Metres truth;
+    channels[0]->copy_true_values(&truth);
+    CHECK(truth.value == 10);
   }
 
   TEST_CASE("a second entry of one name is refused") {
