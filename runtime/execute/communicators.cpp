@@ -36,7 +36,13 @@ void Communicators::begin(Turn& turn, const Now& now) {
   Use free = Use::free;
   turn.uses_ = use_.compare_exchange_strong(free, Use::covering, std::memory_order_acquire);
   turn.closed_ = !turn.uses_;
-  if (turn.uses_) reach(now.instant);
+  if (!turn.uses_) return;
+  try {
+    reach(now.instant);
+  } catch (...) {
+    end(turn);  // the turn is not made, and nobody else ends it
+    throw;
+  }
 }
 
 void Communicators::end(Turn& turn) {
