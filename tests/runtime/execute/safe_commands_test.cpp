@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <stdexcept>
 
 #include "runtime/jarol/threads_core.h"
 #include "tests/runtime/at_some_speed.h"
@@ -251,6 +252,35 @@ connections: [i -> s.a, k -> s.b, s.out -> o]
       CHECK(whole.report().covered == times * 10ms);
       return tests::misses_of(whole.report()) == "" && handed == std::vector<double>{1, -1};
     }));
+  }
+
+  TEST_CASE("an external system that is lost within an instant is handed the safe value all the same") {
+    struct Lost : Sensor {
+      Lost(std::vector<double>& handed, bool in_reach) : Sensor({{0ms, 7}}, handed), in_reach_(in_reach) {}
+      void reach(Duration instant) override {
+        Sensor::reach(instant);
+        if (in_reach_ && instant == 20ms) throw std::runtime_error("it is lost");
+      }
+      bool take(std::size_t channel, void* value) override {
+        if (++taken_ == 3 && !in_reach_) throw std::runtime_error("it is lost");
+        return Sensor::take(channel, value);
+      }
+      bool outlives_run() const override { return true; }
+      bool in_reach_;
+      int taken_ = 0;
+    };
+    for (const bool in_reach : {true, false}) {
+      CAPTURE(in_reach);
+      const Graph graph = graph_with_timeout();
+      std::vector<double> handed;
+      std::vector<std::unique_ptr<Channels>> channels;
+      channels.push_back(std::make_unique<Lost>(handed, in_reach));
+      Executor executor(graph, std::move(channels));
+      CHECK_THROWS_WITH_AS(executor.run_until(100ms), "it is lost", std::runtime_error);
+      executor.close(Futex::now() + 10s);
+      CHECK(handed == std::vector<double>{7, 7, -1});
+      CHECK(executor.safe_commands()[0].at_end->failure == "");
+    }
   }
 
   TEST_CASE("so it is on threads") {
