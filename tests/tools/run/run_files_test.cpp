@@ -71,6 +71,7 @@ TEST_SUITE("tools/run_files") {
           "error: --trace-fill is about --trace; add --trace FILE, or leave it out\n");
   }
 
+#ifdef JAROL_VEHICLES
   TEST_CASE("a trace in words has a row of units, and names what enumerators and truth values mean") {
     const TemporaryFolder folder;
     const std::string plain = folder / "p.csv", words = folder / "w.csv";
@@ -102,6 +103,7 @@ TEST_SUITE("tools/run_files") {
     CHECK(jarol(counting + "--trace-words").output ==
           "error: --trace-words is about --trace; add --trace FILE, or leave it out\n");
   }
+#endif
 
   TEST_CASE("SVG is not written under the name of another kind of picture") {
     for (const std::string name : {"p.png", "p.pdf", "p.SVG"}) {
