@@ -80,8 +80,8 @@ class Asker {
 
 // The id of a motor signal is the value; what has been answered is not answered again.
 struct Echo {
-  static constexpr std::string_view summary = "answers";
-  static constexpr bool is_vehicle = false;
+  [[maybe_unused]] static constexpr std::string_view summary = "answers";
+  [[maybe_unused]] static constexpr bool is_vehicle = false;
   struct In {
     Newest<double> in;
     static constexpr auto fields() { return describe(channel<&In::in>("the id of a motor signal")); }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "graph/analysis/policies.h"
 #include "graph/language/tables.h"
@@ -89,8 +88,9 @@ class Search {
   // One change and one more: another policy or a core more beside each of the others.
   void try_pairs() {
     std::vector<Remedy> others{cores_remedy(), priorities_remedy()};
-    for (const analysis::PolicyEntry& policy : std::views::reverse(analysis::policies()))
-      if (policy.executed) others.push_back(policy_remedy(policy));
+    const std::vector<analysis::PolicyEntry>& policies = analysis::policies();
+    for (auto policy = policies.rbegin(); policy != policies.rend(); ++policy)
+      if (policy->executed) others.push_back(policy_remedy(*policy));
     for (const Remedy& first : others) {
       if (first.set.empty() || !found_.empty()) continue;
       beside_ = first;

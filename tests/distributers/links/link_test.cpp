@@ -212,8 +212,8 @@ void check_meets_again(Pair pair) {
 
 // What it learns, in order.
 struct Diary {
-  static constexpr std::string_view summary = "keeps what it is called for";
-  static constexpr bool is_vehicle = false;
+  [[maybe_unused]] static constexpr std::string_view summary = "keeps what it is called for";
+  [[maybe_unused]] static constexpr bool is_vehicle = false;
   static const messages::MessageSet& message_set() { return javiator::message_set(); }
   static constexpr auto handlers() { return handle(on<javiator::MotorSignals>(&Diary::motors)); }
   void motors(const javiator::MotorSignals& m) { text += std::to_string(m.id) + " "; }
