@@ -1,6 +1,8 @@
 #include "distributers/links/stream.h"
 
+#include <linux/sockios.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -8,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <thread>
 
 namespace jarol::distributers {
 namespace {
@@ -17,6 +20,7 @@ using Clock = std::chrono::steady_clock;
 constexpr milliseconds first_pause{20};
 constexpr milliseconds longest_pause{1000};
 constexpr milliseconds send_limit{200};  // how long a send waits for room; the next one does not wait if it was in vain
+constexpr milliseconds delivery_limit{200};  // how long a close waits until the peer has what was sent
 constexpr std::size_t max_waiting = 8;
 constexpr std::size_t piece_size = 1 << 16;  // bytes that are read at once
 constexpr std::size_t pieces_of_begin = 2;   // of a stream, to look at before it is taken or gives way
@@ -190,7 +194,23 @@ bool StreamTransport::send(std::span<const std::byte> packet) {
   return false;
 }
 
+// A stream that is closed while its peer still speaks is broken off, and what has not arrived by then never does: first
+// it ends in the one direction only, and what comes is thrown away. Other streams than sockets need no such care.
+void StreamTransport::await_delivery() {
+  const std::lock_guard lock(stream_mutex_);
+  if (!stream_ || ::shutdown(stream_.get(), SHUT_WR) != 0) return;
+  std::array<std::byte, 4096> room;
+  for (const auto end = Clock::now() + delivery_limit; Clock::now() < end;) {
+    const auto length = ::recv(stream_.get(), room.data(), room.size(), MSG_DONTWAIT);
+    if (length < 0 && errno != EAGAIN && errno != EINTR) return;
+    int under_way = 0;
+    if (::ioctl(stream_.get(), SIOCOUTQ, &under_way) != 0 || under_way == 0) return;
+    if (length <= 0) std::this_thread::sleep_for(milliseconds(1));
+  }
+}
+
 void StreamTransport::close() {
+  await_delivery();
   replace({});
   waiting_.clear();
 }

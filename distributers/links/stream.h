@@ -36,6 +36,7 @@ class StreamTransport : public Transport {
   };
 
   void replace(Descriptor stream);
+  void await_delivery();
   void turn_away(const Address& peer);
   // Until the stream ends or another peer takes its place.
   End receive_stream(const Interrupter& interrupter, ByteSink& sink, const Address& peer);
