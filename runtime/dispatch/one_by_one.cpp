@@ -1,30 +1,8 @@
 #include "runtime/dispatch/one_by_one.h"
 
-#include "runtime/dispatch/let_ends.h"
-
 namespace jarol {
 
-void OneByOne::end_lets(const Now& now) {
-  jarol::end_lets(run_, now, [&](const Publish& what) { run_.publisher.publish(what, now); });
-}
-
-void OneByOne::release(const Now& now) {
-  releases_.each_segment(now, [&](const Plan::Segment& segment, const Tick& tick) {
-    running_task.tick.store(&tick, std::memory_order_relaxed);
-    for (const Activation& activation : segment.tasks.of(run_.state.activations)) {
-      running_task.next(activation.memory);
-      const BadActivation went = run_one(activation, tick);
-      if (went.outcome != Outcome::good) {
-        run_.faults.on_bad(activation, went);
-      } else if (!activation.has_let) {
-        run_.publisher.publish(activation.publish, now);
-      }
-    }
-    running_task.end();
-  });
-}
-
-BadActivation InTime::run_one(const Activation& activation, const Tick& tick) {
+BadActivation InTime::operator()(const Activation& activation, const Tick& tick) {
   TaskTiming& timing = clock_.timing(activation.task);
   BadActivation went{.activation = tick.activation, .instant = tick.now};
   if (timing.busy_until > tick.now.count()) {
@@ -48,7 +26,7 @@ BadActivation InTime::run_one(const Activation& activation, const Tick& tick) {
 }
 
 // What was late or left out has the same effect whether it runs or not.
-BadActivation AsLogged::run_one(const Activation& activation, const Tick& tick) {
+BadActivation AsLogged::operator()(const Activation& activation, const Tick& tick) {
   BadActivation went{.activation = tick.activation, .instant = tick.now};
   const Miss* const miss = missed_.find(activation.task, tick.activation);
   if (miss == nullptr) {

@@ -1,53 +1,72 @@
-// Tasks run one after the other on the thread that calls, where an activation may be late or left out: who derives from
-// this says how one runs.
+// Tasks run one after the other on the thread that calls, each looked at before the next begins.
 #pragma once
 
 #include "runtime/dispatch/dispatcher.h"
+#include "runtime/dispatch/let_ends.h"
 #include "runtime/dispatch/releases.h"
 #include "runtime/machine/real_clock.h"
 #include "runtime/record/log.h"
 
 namespace jarol {
 
+/// Runs the tasks of a segment; run_one(activation, tick) says how one went.
+template <class RunOne>
+void run_one_by_one(Run& run, const Plan::Segment& segment, const Tick& tick, const Now& now, RunOne&& run_one) {
+  running_task.tick.store(&tick, std::memory_order_relaxed);
+  for (const Activation& activation : segment.tasks.of(run.state.activations)) {
+    running_task.next(activation.memory);
+    const BadActivation went = run_one(activation, tick);
+    if (went.outcome != Outcome::good) {
+      run.faults.on_bad(activation, went);
+    } else if (!activation.has_let) {
+      run.publisher.publish(activation.publish, now);
+    }
+  }
+  running_task.end();
+}
+
+/// RunOne: how an activation goes, which may be late or left out.
+template <class RunOne>
 class OneByOne : public Dispatcher {
  public:
-  explicit OneByOne(Run& run) : run_(run), releases_(run) {}
+  /// The run outlives it.
+  OneByOne(Run& run, RunOne run_one) : run_(run), releases_(run), run_one_(std::move(run_one)) {}
 
-  void end_lets(const Now& now) override;
-  void release(const Now& now) override;
-
- protected:
-  /// How the activation went; what is not good has its outcome there.
-  virtual BadActivation run_one(const Activation& activation, const Tick& tick) = 0;
+  void end_lets(const Now& now) override {
+    jarol::end_lets(run_, now, [&](const Publish& what) { run_.publisher.publish(what, now); });
+  }
+  void release(const Now& now) override {
+    releases_.each_segment(now, [&](const Plan::Segment& segment, const Tick& tick) {
+      run_one_by_one(run_, segment, tick, now, run_one_);
+    });
+  }
 
  private:
   Run& run_;
   Releases releases_;
+  RunOne run_one_;
 };
 
 /// On the real clock: an activation that ends after its deadline has a fault, and so have those whose releases fall
 /// into the time that it took.
-class InTime : public OneByOne {
+class InTime {
  public:
   /// Both outlive it.
-  InTime(Run& run, RealClock& clock) : OneByOne(run), graph_(run.graph), clock_(clock) {}
+  InTime(const Graph& graph, RealClock& clock) : graph_(graph), clock_(clock) {}
+  BadActivation operator()(const Activation& activation, const Tick& tick);
 
  private:
-  BadActivation run_one(const Activation& activation, const Tick& tick) override;
-
   const Graph& graph_;
   RealClock& clock_;
 };
 
 /// In a replay: activations come late or are left out as in the run that it repeats.
-class AsLogged : public OneByOne {
+class AsLogged {
  public:
-  /// The run outlives it.
-  AsLogged(Run& run, std::span<const Miss> misses) : OneByOne(run), missed_(run.graph.tasks.size(), misses) {}
+  AsLogged(const Graph& graph, std::span<const Miss> misses) : missed_(graph.tasks.size(), misses) {}
+  BadActivation operator()(const Activation& activation, const Tick& tick);
 
  private:
-  BadActivation run_one(const Activation& activation, const Tick& tick) override;
-
   MissedActivations missed_;
 };
 

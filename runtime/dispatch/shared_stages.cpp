@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runtime/dispatch/one_by_one.h"
+
 namespace jarol {
 namespace {
 
@@ -27,7 +29,7 @@ void SharedStages::release(const Now& now) {
       deep = deep || segment->publishes_deep;
       levels = std::max(levels, segment->levels.count);
     }
-    // a reader's heap tells which of its producers came first
+    // a reader's heap shows which of its producers came first
     if (deep && stage.size() > 1) return run_in_order(stage, now);
     for (std::uint32_t level = 0; level < levels; ++level) run_level(stage, level, now);
     report_bad();
@@ -35,18 +37,10 @@ void SharedStages::release(const Now& now) {
 }
 
 void SharedStages::run_in_order(const Stage& stage, const Now& now) {
-  for (const auto& [segment, tick] : stage) {
-    for (const Activation& activation : segment->tasks.of(run_.state.activations)) {
-      running_task.begin(activation.memory, *tick);
-      const Outcome outcome = activation.run(activation.memory, *tick);
-      if (outcome != Outcome::good) {
-        run_.faults.on_bad(activation, {outcome, tick->activation, tick->now});
-      } else if (!activation.has_let) {
-        run_.publisher.publish(activation.publish, now);
-      }
-    }
-    running_task.end();
-  }
+  for (const Releases::Released& released : stage)
+    run_one_by_one(run_, *released.segment, *released.tick, now, [](const Activation& activation, const Tick& tick) {
+      return BadActivation{activation.run(activation.memory, tick), tick.activation, tick.now};
+    });
 }
 
 // The tasks of one level of all segments of the stage: none feeds another.

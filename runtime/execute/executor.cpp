@@ -40,9 +40,9 @@ Executor::Executor(PlanOfRun plan, std::vector<std::unique_ptr<Channels>> channe
 
 std::unique_ptr<Dispatcher> Executor::make_dispatcher(const ExecutorOptions& options) {
   assert(!options.misses || (options.clock == nullptr && options.workers == 1));
-  if (options.misses) return std::make_unique<AsLogged>(run_, *options.misses);
+  if (options.misses) return std::make_unique<OneByOne<AsLogged>>(run_, AsLogged(run_.graph, *options.misses));
   if (!options.threads.empty()) return std::make_unique<OnThreads>(run_, *options.clock, options.threads);
-  if (options.clock != nullptr) return std::make_unique<InTime>(run_, *options.clock);
+  if (options.clock != nullptr) return std::make_unique<OneByOne<InTime>>(run_, InTime(run_.graph, *options.clock));
   if (options.workers == 1 && options.sharing != Sharing::measure) return make_in_line(run_);
   auto shared = std::make_unique<SharedStages>(run_, options.workers, options.sharing, make_in_line(run_));
   team_ = &shared->team();
