@@ -44,8 +44,9 @@ LinkType udp_link() {
       "udp", "datagrams, a packet each", {.silence = true, .key = true},
       {key<&UdpSpec::listen>("listen", Form::address,
                              "port to listen at, with an address where not the loopback; default: any port"),
-       key<&UdpSpec::peer>("peer", Form::address,
-                           "address and port of the other end; default: whoever sent the last valid packet"),
+       key<&UdpSpec::peer>(
+           "peer", Form::address,
+           "address and port of the other end; default: the first that speaks validly, while it is heard"),
        key<&UdpSpec::announce>("announce", Form::addresses,
                                "where to announce itself, as in 127.0.0.1:30100-30104; default: nowhere")},
       make_udp);

@@ -50,8 +50,11 @@ Place find_within(Place place, std::string_view path, std::string name) {
 Observed::Observed(const Graph& graph, std::vector<Output> outputs)
     : outputs_(std::move(outputs)), series_(outputs_.size()) {
   const auto put = [&](const std::string& name, const void* value) {
-    for (std::size_t i = 0; i < outputs_.size(); ++i)
-      if (outputs_[i].name == name) copy_value(*outputs_[i].type, last_[i].data(), value);
+    // they are in bytewise order of name
+    const auto found =
+        std::lower_bound(outputs_.begin(), outputs_.end(), name,
+                         [](const Output& output, const std::string& wanted) { return output.name < wanted; });
+    copy_value(*found->type, last_[static_cast<std::size_t>(found - outputs_.begin())].data(), value);
   };
   for (const Output& output : outputs_) last_.emplace_back(*output.type);
   for (const Task& task : graph.tasks)

@@ -6,7 +6,7 @@
 
 namespace jarol {
 
-/// False also where a closer look has to tell.
+/// False also where it takes a closer look.
 inline bool are_finite(const LetOutputs& outputs) {
   for (const LetValue& v : outputs.values)
     if (!v.finite(v.value)) return false;

@@ -9,7 +9,7 @@
 namespace jarol {
 namespace {
 
-// Communicators are in order of name in the graph, so their index tells it; few are due at once.
+// Communicators are in order of name in the graph, so their index gives it; few are due at once.
 void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
   if (actions.size() < 2) return;
   std::sort(actions.begin(), actions.end(),
