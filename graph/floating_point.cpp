@@ -74,9 +74,11 @@ std::string describe_difference(const FloatingPointControl& control) {
 
 #endif
 
+void restore_floating_point() { set_floating_point_control(default_floating_point_control()); }
+
 void reject_floating_point() {
   const std::string difference = describe_difference(floating_point_control());
-  set_floating_point_control(default_floating_point_control());
+  restore_floating_point();
   throw std::runtime_error("left another floating-point environment behind: " + difference);
 }
 

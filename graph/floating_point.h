@@ -38,6 +38,9 @@ class DefaultFloatingPoint {
   FloatingPointControl before_;
 };
 
+/// The default again, after a task that did not end by itself.
+void restore_floating_point();
+
 /// Restores the default and throws std::runtime_error that says how the environment differed.
 [[noreturn, gnu::cold]] void reject_floating_point();
 

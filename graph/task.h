@@ -38,7 +38,7 @@ inline void keep_text(FaultText& fault, std::string_view text, std::size_t from 
 template <class Run, class Text>
 Outcome contain(Run&& run, Text&& fault_text) {
   const auto keep_threw = [&](const char* what) {
-    set_floating_point_control(default_floating_point_control());
+    restore_floating_point();
     constexpr std::string_view threw = "threw: ";
     keep_text(fault_text(), threw);
     keep_text(fault_text(), what, threw.size());
@@ -48,7 +48,7 @@ Outcome contain(Run&& run, Text&& fault_text) {
     run();
     return Outcome::good;
   } catch (const HeapExhausted& error) {
-    set_floating_point_control(default_floating_point_control());
+    restore_floating_point();
     keep_text(fault_text(), error.what());
     return Outcome::heap_exhausted;
   } catch (const std::exception& error) { return keep_threw(error.what()); } catch (...) {
@@ -81,6 +81,17 @@ struct TaskClass {
   const Type* out = nullptr;
   Thunk run = nullptr;
   Body body = nullptr;
+
+  /// The same without a look at the floating-point environment afterwards: for tasks whose machine code can't change
+  /// it (graph/plugins/machine_code.h).
+  struct Unchecked {
+    Thunk run = nullptr;
+    Body body = nullptr;
+  } unchecked{};
+  void trust_floating_point() {
+    run = unchecked.run;
+    body = unchecked.body;
+  }
 
   /// Has values of changing size, which need a heap.
   bool is_deep() const { return in->is_deep() || state->is_deep() || out->is_deep(); }
@@ -133,21 +144,24 @@ auto present(Pointer* pointer) {
 }
 
 // The task gets a tick of its own: one that it changes in spite of `const` reaches no other.
-template <class T>
+template <class T, bool Checked>
 inline void call(const TaskMemory& memory, const Tick& tick) {
   const Tick own = tick;
   std::apply(T::run, std::tuple_cat(present<const decltype(parameters_of<T>())>(memory.parameters),
                                     std::tuple<const Tick&>(own), present<const decltype(in_of<T>())>(memory.in),
                                     present<decltype(state_of<T>())>(memory.state),
                                     present<decltype(out_of<T>())>(memory.out)));
-  if (!computes_by_default()) [[unlikely]]
-    reject_floating_point();
+  if constexpr (Checked) {
+    if (!computes_by_default()) [[unlikely]]
+      reject_floating_point();
+  }
 }
 
-template <class T>
+template <class T, bool Checked>
 Outcome thunk(const TaskMemory& memory, const Tick& tick) {
   using Out = decltype(out_of<T>());
-  const Outcome outcome = contain([&] { call<T>(memory, tick); }, [&]() -> FaultText& { return *memory.fault; });
+  const Outcome outcome =
+      contain([&] { call<T, Checked>(memory, tick); }, [&]() -> FaultText& { return *memory.fault; });
   if (outcome != Outcome::good) return outcome;
   return has_non_finite(*static_cast<const Out*>(memory.out)) ? Outcome::non_finite : Outcome::good;
 }
@@ -165,8 +179,17 @@ TaskClass task_class() {
           &type_of<decltype(detail::in_of<T>())>(),
           &type_of<decltype(detail::state_of<T>())>(),
           &type_of<decltype(detail::out_of<T>())>(),
-          &detail::thunk<T>,
-          &detail::call<T>};
+          &detail::thunk<T, true>,
+          &detail::call<T, true>,
+          {&detail::thunk<T, false>, &detail::call<T, false>}};
+}
+
+/// The same for a task whose machine code can't change the floating-point environment.
+template <class T>
+TaskClass trusted_task_class() {
+  TaskClass made = task_class<T>();
+  made.trust_floating_point();
+  return made;
 }
 
 }  // namespace jarol

@@ -1,0 +1,171 @@
+#include "graph/plugins/machine_code.h"
+
+#include <elf.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace jarol {
+namespace {
+
+using namespace std::literals;
+using Bytes = std::span<const unsigned char>;
+
+// A file whose numbers may be anything; what lies outside of it is not there.
+class Elf {
+ public:
+  explicit Elf(Bytes bytes) : bytes_(bytes) {
+    const auto head = read<Elf64_Ehdr>(0);
+    if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0 || head->e_ident[EI_CLASS] != ELFCLASS64 ||
+        head->e_machine != EM_X86_64)
+      return;
+    for (std::size_t i = 0; i < head->e_shnum; ++i) {
+      const auto section = read<Elf64_Shdr>(head->e_shoff + i * sizeof(Elf64_Shdr));
+      if (!section) {
+        sections_.clear();
+        return;
+      }
+      sections_.push_back(*section);
+    }
+  }
+
+  /// Empty: it is no ELF file of this kind, or a damaged one.
+  const std::vector<Elf64_Shdr>& sections() const { return sections_; }
+
+  Bytes content(const Elf64_Shdr& section) const {
+    if (section.sh_type == SHT_NOBITS || section.sh_offset > bytes_.size() ||
+        section.sh_size > bytes_.size() - section.sh_offset)
+      return {};
+    return bytes_.subspan(section.sh_offset, section.sh_size);
+  }
+
+  /// The text at an offset of the string table that belongs to a section.
+  std::string_view text(const Elf64_Shdr& section, std::size_t offset) const {
+    if (section.sh_link >= sections_.size()) return {};
+    const Bytes table = content(sections_[section.sh_link]);
+    if (offset >= table.size()) return {};
+    const auto begin = table.begin() + static_cast<std::ptrdiff_t>(offset);
+    const auto end = std::find(begin, table.end(), 0);
+    return {reinterpret_cast<const char*>(&*begin), static_cast<std::size_t>(end - begin)};
+  }
+
+  /// All entries of a table.
+  template <class Entry>
+  std::vector<Entry> entries(const Elf64_Shdr& section) const {
+    const Bytes table = content(section);
+    std::vector<Entry> all(table.size() / sizeof(Entry));
+    if (!all.empty()) std::memcpy(all.data(), table.data(), all.size() * sizeof(Entry));
+    return all;
+  }
+
+ private:
+  template <class T>
+  std::optional<T> read(std::size_t offset) const {
+    if (offset > bytes_.size() || bytes_.size() - offset < sizeof(T)) return std::nullopt;
+    T value;
+    std::memcpy(&value, bytes_.data() + offset, sizeof value);
+    return value;
+  }
+
+  Bytes bytes_;
+  std::vector<Elf64_Shdr> sections_;
+};
+
+// An instruction that loads MXCSR begins here, or bytes that look like one: LDMXCSR 0F AE /2, FXRSTOR /1, XRSTOR /5
+// with an operand in memory (Intel SDM volume 2), VLDMXCSR the same after a VEX prefix in place of 0F.
+bool loads_control(Bytes code) {
+  if (code.empty()) return false;
+  const std::size_t opcode = code[0] == 0x0f ? 1 : code[0] == 0xc5 ? 2 : code[0] == 0xc4 ? 3 : 0;
+  if (opcode == 0 || code.size() < opcode + 2 || code[opcode] != 0xae) return false;
+  const unsigned operand = code[opcode + 1];
+  const unsigned extension = operand >> 3 & 7U;
+  const bool in_memory = operand >> 6 != 3;
+  return in_memory && (extension == 1 || extension == 2 || extension == 5);
+}
+
+bool begins_with_one_of(std::string_view name, std::span<const std::string_view> beginnings) {
+  return std::any_of(beginnings.begin(), beginnings.end(),
+                     [&](std::string_view beginning) { return name.starts_with(beginning); });
+}
+
+// A list has a space before and after each of its words.
+bool holds(std::string_view list, std::string_view word) {
+  return list.find(" " + std::string(word) + " ") != std::string_view::npos;
+}
+
+// What may be called: mathematics and memory of the C library, the C++ library, what compilers call by themselves, and
+// what Jarol's headers use. Whatever of these changes the environment for a moment gives it back.
+bool leaves_it_alone(std::string_view name) {
+  static constexpr std::string_view mathematics =
+      " acos acosh asin asinh atan atan2 atanh cabs carg cbrt ceil copysign cos cosh erf erfc "
+      "exp exp10 exp2 expm1 fabs fdim floor fma fmax fmin fmod frexp hypot ldexp lgamma log "
+      "log10 log1p log2 logb lrint lround llrint llround modf nearbyint nextafter pow "
+      "remainder rint round scalbn sin sincos sinh sqrt tan tanh tgamma trunc ";
+  static constexpr std::string_view others =
+      " abort bcmp free malloc calloc realloc aligned_alloc posix_memalign memchr memcmp memcpy "
+      "memmove memset strlen strcmp strncmp strchr strtod strtol strtoul snprintf qsort rand "
+      "__errno_location __dso_handle _GLOBAL_OFFSET_TABLE_ __gmon_start__ "
+      "_ITM_deregisterTMCloneTable _ITM_registerTMCloneTable __tls_get_addr __stack_chk_fail "
+      "__assert_fail __memcpy_chk __memmove_chk __memset_chk __snprintf_chk ";
+  // mangled: std::, operators new and delete, type information, and jarol::
+  static constexpr std::array beginnings = {
+      "__cxa_"sv, "__gxx_personality"sv, "_Unwind_"sv, "_ZNSt"sv, "_ZNKSt"sv, "_ZSt"sv,      "_ZTV"sv,      "_ZTI"sv,
+      "_ZTS"sv,   "_ZTTNSt"sv,           "_ZTTSt"sv,   "_Zn"sv,   "_Zd"sv,    "_ZN5jarol"sv, "_ZNK5jarol"sv};
+  if (name.starts_with("_ZN5jarol26set_floating_point_control")) return false;
+  if (holds(others, name) || begins_with_one_of(name, beginnings)) return true;
+  if (holds(mathematics, name)) return true;
+  return name.ends_with('f') && holds(mathematics, name.substr(0, name.size() - 1));
+}
+
+std::string find_instruction(Bytes code) {
+  for (std::size_t i = 0; i < code.size(); ++i)
+    if (loads_control(code.subspan(i))) return "holds an instruction that loads it";
+  return "";
+}
+
+std::string find_call(const Elf& file, const Elf64_Shdr& table) {
+  for (const auto& symbol : file.entries<Elf64_Sym>(table)) {
+    std::string_view name = file.text(table, symbol.st_name);
+    name = name.substr(0, name.find('@'));  // without its version
+    const bool elsewhere = symbol.st_shndx == SHN_UNDEF && ELF64_ST_BIND(symbol.st_info) != STB_LOCAL;
+    if (elsewhere && !leaves_it_alone(name)) return "calls '" + std::string(name) + "'";
+  }
+  return "";
+}
+
+std::string find_library(const Elf& file, const Elf64_Shdr& dynamic) {
+  static constexpr std::string_view known = " libc.so.6 libm.so.6 libstdc++.so.6 libgcc_s.so.1 ld-linux-x86-64.so.2 ";
+  for (const auto& entry : file.entries<Elf64_Dyn>(dynamic)) {
+    if (entry.d_tag == DT_NULL) break;
+    const std::string_view name = entry.d_tag == DT_NEEDED ? file.text(dynamic, entry.d_un.d_val) : "";
+    if (!name.empty() && !holds(known, name)) return "uses the library '" + std::string(name) + "'";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string find_floating_point_change(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const Elf file({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+  if (file.sections().empty()) return "is no object file that can be read here";
+  for (const Elf64_Shdr& section : file.sections()) {
+    std::string found;
+    if ((section.sh_flags & SHF_EXECINSTR) != 0) found = find_instruction(file.content(section));
+    if (section.sh_type == SHT_SYMTAB || section.sh_type == SHT_DYNSYM) found = find_call(file, section);
+    if (section.sh_type == SHT_DYNAMIC) found = find_library(file, section);
+    if (!found.empty()) return found;
+  }
+  return "";
+}
+
+}  // namespace jarol
