@@ -72,6 +72,15 @@ std::string four_rates_let(int i) {
   return "period: " + std::to_string(period) + "ms, let: " + std::to_string(period * 500) + "us";
 }
 
+std::string scattered(int count) {
+  std::string tasks;
+  for (int i = 0; i < count; ++i) {
+    const std::uint64_t period = 9'000'000 + std::uint64_t(i) * 2'654'435'761 % 80'000'000 + 1;
+    tasks += "  " + name_of(i) + ": {type: Source, period: " + std::to_string(period) + "ns}\n";
+  }
+  return "graph: scattered\ntasks:\n" + tasks;
+}
+
 std::string layers(int depth, int width, std::uint32_t rounds) {
   std::string tasks = "  source: {type: Source, period: 1ms}\n", connections;
   for (int layer = 0; layer < depth; ++layer)

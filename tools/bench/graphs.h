@@ -23,6 +23,8 @@ std::string four_rates_let(int i);
 std::string chain(int length, const Keys& keys);
 /// One source, all others read it.
 std::string fan(int readers);
+/// Tasks that nobody reads, whose periods of 9 to 89 ms have little in common.
+std::string scattered(int count);
 /// A source and `depth` layers of `width` tasks, each fed by the one above.
 std::string layers(int depth, int width, std::uint32_t rounds);
 
