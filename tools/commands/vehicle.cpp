@@ -4,19 +4,16 @@
 #include <iostream>
 #include <memory>
 
-#include "distributers/interfaces/vehicle_file.h"
-#include "graph/language/override.h"
 #include "graph/language/quantities.h"
 #include "graph/registry.h"
-#include "graph/values/bind.h"
-#include "graph/values/seed.h"
 #include "tools/commands/commands.h"
 #include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/describe_vehicle.h"
 #include "tools/run/apart.h"
-#include "tools/run/open_loop.h"
-#include "tools/run/serve_vehicle.h"
+#include "tools/vehicle/made_vehicle.h"
+#include "tools/vehicle/open_loop.h"
+#include "tools/vehicle/serve_vehicle.h"
 
 namespace jarol::tools {
 namespace {
@@ -26,83 +23,15 @@ struct Options {
   bool describe = false;
   bool json = false;
   bool bare = false;
-  std::string parameters;
-  std::string initial;
-  std::vector<std::string> set;
+  VehicleOptions made;
   std::string script;
   std::string csv;
   std::string duration;
   double rate = 100;
-  std::uint64_t seed = 0;
   int priority = 0;  // SCHED_FIFO; 0: the ordinary scheduler
   // of a link
   std::vector<std::pair<std::string, std::string>> link;  // as its keys are written in a graph
 };
-
-// "hull.mass" and a value as the mapping {hull: {mass: value}}.
-Yaml nested(const std::string& path, Yaml value, const Location& where) {
-  const std::size_t dot = path.find('.');
-  Yaml mapping;
-  mapping.kind = Yaml::Kind::mapping;
-  mapping.where = where;
-  Yaml child = dot == std::string::npos ? std::move(value) : nested(path.substr(dot + 1), std::move(value), where);
-  child.key = path.substr(0, dot);
-  child.key_where = where;
-  mapping.children.push_back(std::move(child));
-  return mapping;
-}
-
-Value read_parameters(const Options& options, const vehicles::VehicleClass& vehicle, Problems& problems) {
-  Value parameters(*vehicle.parameters);
-  if (!options.parameters.empty()) {
-    const auto source = read_source(options.parameters);
-    if (auto file = distributers::read_vehicle_file(source, built_in().vehicles, problems)) {
-      if (file->vehicle->name == vehicle.name)
-        parameters = std::move(file->parameters);
-      else
-        problems.add({source, 1, 1},
-                     "the file is one of vehicle '" + file->vehicle->name + "', not of vehicle '" + vehicle.name + "'");
-    }
-  }
-  for (const std::string& argument : options.set) {
-    std::string path;
-    Yaml value;
-    if (!read_set(argument, "sea.density=1025", path, value, problems)) continue;
-    const Location where{value.where.source, 1, 1};
-    bind_fields(nested(path, std::move(value), where), *vehicle.parameters, parameters.data(),
-                "vehicle '" + vehicle.name + "'", "parameter", problems);
-  }
-  return parameters;
-}
-
-// "z=4,theta=5deg" over the state where the vehicle stands.
-void read_initial(const std::string& text, vehicles::VehicleState& state, Problems& problems) {
-  const auto source = std::make_shared<Source>(Source{"--initial", text});
-  const std::vector<Leaf> leaves = leaves_of(type_of<vehicles::VehicleState>());
-  std::vector<std::string> names;
-  for (const Leaf& leaf : leaves) names.push_back(leaf.path);
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string part = text.substr(begin, end - begin);
-    const Location where{source, 1, static_cast<int>(begin) + 1};
-    begin = end + 1;
-    const std::size_t equals = part.find('=');
-    if (equals == std::string::npos) {
-      problems.add(where, "'" + part + "' sets nothing; write name=value, as in z=4,theta=0.1");
-      continue;
-    }
-    const std::string name = part.substr(0, equals), value = part.substr(equals + 1);
-    const auto leaf = std::find_if(leaves.begin(), leaves.end(), [&](const Leaf& l) { return l.path == name; });
-    if (leaf == leaves.end()) {
-      problems.add(where,
-                   "the state has no '" + name + "'" + did_you_mean(name, names) + "; it has: " + list_of(names));
-      continue;
-    }
-    const std::string wrong =
-        parse_scalar(*leaf->type, value, leaf->unit, reinterpret_cast<std::byte*>(&state) + leaf->offset);
-    if (!wrong.empty()) problems.add(where, "'" + name + "': '" + value + "' " + wrong);
-  }
-}
 
 Duration period_of(const Options& options, Duration grid, Duration end) {
   const double nanoseconds = 1e9 / options.rate;
@@ -130,37 +59,11 @@ Duration end_of(const Options& options, const std::vector<Commands>& commands) {
   return end;
 }
 
-std::unique_ptr<vehicles::Vehicle> make_vehicle(const Options& options, const vehicles::VehicleClass& vehicle_class,
-                                                const Value& parameters, std::uint64_t seed, Problems& problems) {
-  std::unique_ptr<vehicles::Vehicle> vehicle;
-  try {
-    vehicle = vehicle_class.make(parameters.data(), seed);
-  } catch (const std::runtime_error& error) {
-    problems.throw_if_any();
-    throw std::invalid_argument("vehicle '" + vehicle_class.name + "' can't be made: " + error.what());
-  }
-  if (!options.initial.empty()) {
-    vehicles::VehicleState state = vehicle->state();
-    read_initial(options.initial, state, problems);
-    problems.throw_if_any();
-    try {
-      vehicle->place(state);
-    } catch (const std::runtime_error& error) {
-      throw std::invalid_argument("--initial: " + std::string(error.what()));
-    }
-  }
-  problems.throw_if_any();
-  return vehicle;
-}
-
-std::uint64_t own_seed(const Options& options, const vehicles::VehicleClass& vehicle_class) {
-  return spread_seed(options.seed, vehicle_class.name);
-}
-
 int drive(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
           Problems& problems) {
   const auto commands = read_commands(read_source(options.script), vehicle_class, problems);
-  const auto vehicle = make_vehicle(options, vehicle_class, parameters, own_seed(options, vehicle_class), problems);
+  const auto vehicle =
+      make_vehicle(options.made, vehicle_class, parameters, own_seed(options.made, vehicle_class), problems);
   const Duration end = end_of(options, commands), period = period_of(options, vehicle->grid(), end);
   try {
     run_open_loop(*vehicle, vehicle_class, commands, period, end, options.csv);
@@ -201,13 +104,13 @@ int serve_in_lockstep(const Options& options, const vehicles::VehicleClass& vehi
       throw std::invalid_argument("--link lockstep has no --" + key + "; it needs --listen");
   }
   if (listen.empty()) throw std::invalid_argument("--link lockstep needs --listen, as in --listen 7010");
-  make_vehicle(options, vehicle_class, parameters, own_seed(options, vehicle_class),
+  make_vehicle(options.made, vehicle_class, parameters, own_seed(options.made, vehicle_class),
                problems);  // what is wrong with it is told at once
   return serve_vehicle_in_lockstep(
       vehicle_class, distributers::Address::parse(listen),
       [&](std::uint64_t seed) {
         Problems none;
-        return make_vehicle(options, vehicle_class, parameters, seed, none);
+        return make_vehicle(options.made, vehicle_class, parameters, seed, none);
       },
       lockstep);
 }
@@ -217,7 +120,8 @@ int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, c
   if (options.link.front().second == "lockstep") return serve_in_lockstep(options, vehicle_class, parameters, problems);
   const distributers::LinkType& type = *built_in().links.find(options.link.front().second);
   const auto link = type.make_link(link_of(options), *vehicle_class.message_set, "link", problems);
-  const auto vehicle = make_vehicle(options, vehicle_class, parameters, own_seed(options, vehicle_class), problems);
+  const auto vehicle =
+      make_vehicle(options.made, vehicle_class, parameters, own_seed(options.made, vehicle_class), problems);
   const Duration end = options.duration.empty() ? Duration::max() : end_of(options, {});
   const Told told = options.bare ? Told::true_state : Told::all;
   RealTimeOptions real_time;
@@ -272,8 +176,8 @@ int vehicle(const Options& options) {
   if (options.bare && found->true_state == nullptr)
     throw std::invalid_argument("--bare: there is no message of a " + found->name + "'s true state");
   Problems problems;
-  const Value parameters = read_parameters(options, *found, problems);
-  require_apart({{"--script", options.script}, {"--parameters", options.parameters}}, {{"--csv", options.csv}});
+  const Value parameters = read_parameters(options.made, *found, problems);
+  require_apart({{"--script", options.script}, {"--parameters", options.made.parameters}}, {{"--csv", options.csv}});
   if (options.describe) {
     problems.throw_if_any();
     describe_vehicle(*found, parameters, options.json);
@@ -293,15 +197,17 @@ void add_vehicle(CommandLine& line, int& exit_code) {
   command->add_flag("--describe", options->describe, "Print state, inputs, outputs and parameters, with units");
   command->add_flag("--json", options->json,
                     "With --describe, or --link in real time: one JSON object instead of text");
-  command->add_option("--parameters", options->parameters, "A parameter file, as in specs/vehicles/submarine.yaml");
-  command->add_option("--set", options->set, "Change a parameter: path=value, as in sea.density=1025")->one_value();
-  command->add_option("--initial", options->initial, "Change the state at the start, as in z=4,theta=0.1");
+  command->add_option("--parameters", options->made.parameters,
+                      "A parameter file, as in specs/vehicles/submarine.yaml");
+  command->add_option("--set", options->made.set, "Change a parameter: path=value, as in sea.density=1025")
+      ->one_value();
+  command->add_option("--initial", options->made.initial, "Change the state at the start, as in z=4,theta=0.1");
   command->add_option("--script", options->script,
                       "A CSV of commands: time (s), then inputs; a row holds until the next");
   command->add_option("--csv", options->csv, "Write time, state and outputs to this CSV file");
   command->add_option("--rate", options->rate, "Rows per second of that file; default 100");
   command->add_option("--for", options->duration, "How long, as in 10s; default: to the last row of the script");
-  command->add_option("--seed", options->seed, "Seed of the sensors' noise; default 0");
+  command->add_option("--seed", options->made.seed, "Seed of the sensors' noise; default 0");
   command->add_flag("--bare", options->bare, "Link: tell the true state only, as SimulatedState of a submarine");
   struct LinkKey {
     const char *key, *text;

@@ -1,4 +1,4 @@
-#include "tools/run/open_loop.h"
+#include "tools/vehicle/open_loop.h"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "tools/run/serve_vehicle.h"
+#include "tools/vehicle/serve_vehicle.h"
 
 #include <iostream>
 #include <nlohmann/json.hpp>
