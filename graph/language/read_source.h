@@ -10,7 +10,7 @@
 namespace jarol {
 
 /// Of a graph, a mission, a vehicle's parameters, a message definition.
-inline constexpr std::size_t most_source_bytes = std::size_t{16} << 20;
+inline constexpr std::size_t most_source_bytes = std::size_t{64} << 20;
 
 /// The text of a regular file as a source named by its path, or of "-", which is stdin, whatever that is. Throws
 /// SpecError for what can't be read or is larger.

@@ -16,7 +16,7 @@
 namespace jarol {
 namespace {
 
-constexpr std::size_t most_values = 1'000'000;
+constexpr std::size_t most_values = 6'000'000;
 constexpr std::size_t most_aliased = 100'000;
 constexpr std::size_t most_depth = 64;
 // what yaml-cpp may scan before it has understood what it began with

@@ -77,9 +77,9 @@ TEST_SUITE("tools/memory") {
       CHECK(refused.exit_code == 2);
       CHECK(refused.output.find(": error: ") != std::string::npos);
     }
-    const std::string lines = folder.write("g.yaml", std::string(60'000'000, '\n'));
+    const std::string lines = folder.write("g.yaml", std::string(70'000'000, '\n'));
     CHECK(within(size, "graph " + lines).output ==
-          "error: can't read '" + lines + "': it is larger than 16 MiB\n1 error\n");
+          "error: can't read '" + lines + "': it is larger than 64 MiB\n1 error\n");
   }
 #endif
 }

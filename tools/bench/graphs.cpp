@@ -81,6 +81,17 @@ std::string scattered(int count) {
   return "graph: scattered\ntasks:\n" + tasks;
 }
 
+std::string sums(int count) {
+  std::string tasks = "  source: {type: Counter, period: 1ms}\n", connections, before = "source";
+  for (int i = 0; i < count; ++i) {
+    const std::string name = name_of(i);
+    tasks += "  " + name + ": {type: Sum, period: 1ms}\n";
+    connections += "  - source.out -> " + name + ".a\n  - " + before + ".out -> " + name + ".b\n";
+    before = name;
+  }
+  return "graph: sums\ntasks:\n" + tasks + "connections:\n" + connections;
+}
+
 std::string layers(int depth, int width, std::uint32_t rounds) {
   std::string tasks = "  source: {type: Source, period: 1ms}\n", connections;
   for (int layer = 0; layer < depth; ++layer)

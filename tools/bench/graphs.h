@@ -25,6 +25,8 @@ std::string chain(int length, const Keys& keys);
 std::string fan(int readers);
 /// Tasks that nobody reads, whose periods of 9 to 89 ms have little in common.
 std::string scattered(int count);
+/// A source and tasks of two inputs each, one of them from the task before.
+std::string sums(int count);
 /// A source and `depth` layers of `width` tasks, each fed by the one above.
 std::string layers(int depth, int width, std::uint32_t rounds);
 
