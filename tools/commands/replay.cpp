@@ -118,10 +118,10 @@ int replay(const Options& options) {
   const std::vector<Miss> misses = log.begin(graph);
   const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
-  ToldChanges told(graph);
+  Noted noted(graph);
   loaded.channels = replayed_channels(graph, log);
   std::vector<RecordSink*> looking_on = files.sinks();
-  if (told.can_be_any()) looking_on.push_back(&told);
+  noted.add_to(looking_on);
   GraphRun graph_run(std::move(loaded), {.sinks = looking_on, .misses = misses});
   RunSinks& sinks = graph_run.sinks();
   Executor& executor = graph_run.executor();
@@ -158,7 +158,7 @@ int replay(const Options& options) {
   verdict.left_out = find_left_out(graph, report);
   const RunOutcome outcome{.graph = graph,
                            .executor = executor,
-                           .told = told,
+                           .noted = noted,
                            .end = run_end,
                            .seconds = seconds,
                            .simulated = reached,

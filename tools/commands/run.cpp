@@ -19,10 +19,10 @@
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
+#include "tools/report/noted.h"
 #include "tools/report/progress.h"
 #include "tools/report/rest_report.h"
 #include "tools/report/run_end.h"
-#include "tools/report/told_changes.h"
 #include "tools/report/told_faults.h"
 #include "tools/run/apart.h"
 #include "tools/run/crash_line.h"
@@ -157,9 +157,9 @@ int run(const Options& options) {
     guard.emplace(loaded, options.real_time.no_guardian ? "--no-guardian" : "", real_time.priority, print_note);
   }
   const CrashLine crash_line(graph, guard ? guard->process() : nullptr, options.log);
-  ToldChanges told(graph);
+  Noted noted(graph);
   std::vector<RecordSink*> looking_on = files.sinks();
-  if (told.can_be_any()) looking_on.push_back(&told);
+  noted.add_to(looking_on);
   GraphRun graph_run(std::move(loaded), {.sinks = looking_on,
                                          .workers = options.workers,
                                          .clock = clock ? &*clock : nullptr,
@@ -223,7 +223,7 @@ int run(const Options& options) {
   print(options,
         {.graph = graph,
          .executor = executor,
-         .told = told,
+         .noted = noted,
          .end = run_end,
          .clock = clock ? &*clock : nullptr,
          .guard = guard ? &*guard : nullptr,

@@ -15,9 +15,9 @@
 #include "tools/report/exit_code.h"
 #include "tools/report/guard_report.h"
 #include "tools/report/json_line.h"
+#include "tools/report/noted.h"
 #include "tools/report/rest_report.h"
 #include "tools/report/run_end.h"
-#include "tools/report/told_changes.h"
 #include "tools/report/told_faults.h"
 #include "tools/report/value_json.h"
 #include "tools/report/verdicts.h"
@@ -29,8 +29,8 @@
 namespace jarol::tools {
 namespace {
 
-void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& told,
-                const std::vector<LinkReport>& links, const Guard& guard, const RunEnd& end, const RunVerdict& verdict,
+void print_text(const Graph& graph, const ThreadsCore& core, const Noted& noted, const std::vector<LinkReport>& links,
+                const Guard& guard, const RunEnd& end, const RunVerdict& verdict,
                 const std::vector<TrueState>& true_states) {
   const Report& report = core.report();
   const ThreadsReport& threads = core.threads_report();
@@ -59,7 +59,7 @@ void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
   if (threads.core_busy > 0) std::cout << "  core        " << threads.core_busy << " ticks found it at work\n";
   if (threads.unawaited_ticks > 0)
     std::cout << "  sensors     " << threads.unawaited_ticks << " ticks found their thread at work\n";
-  std::cout << told.to_text();
+  std::cout << noted.told.to_text() << noted.logged.to_text();
   for (const LinkReport& link : links) std::cout << to_text(link);
   std::cout << to_text(graph, core.rest(), end) << to_text(graph, core.safe_commands(), end.ending) << to_text(guard);
   if (report.non_finite_inputs > 0)
@@ -68,8 +68,8 @@ void print_text(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
   std::cerr << told_faults(report);
 }
 
-void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& told,
-                const std::vector<LinkReport>& links, const Guard& guard, const RunEnd& end, const RunVerdict& verdict,
+void print_json(const Graph& graph, const ThreadsCore& core, const Noted& noted, const std::vector<LinkReport>& links,
+                const Guard& guard, const RunEnd& end, const RunVerdict& verdict,
                 const std::vector<TrueState>& true_states) {
   const Report& report = core.report();
   const ThreadsReport& threads = core.threads_report();
@@ -94,7 +94,8 @@ void print_json(const Graph& graph, const ThreadsCore& core, const ToldChanges& 
                               {"ending", to_json(end)},
                               {"rest", to_json(graph, core.rest(), end)},
                               {"safe_commands", to_json(graph, core.safe_commands())},
-                              {"told", told.to_json()}};
+                              {"told", noted.told.to_json()},
+                              {"logged", noted.logged.to_json()}};
   json["outputs"] = outputs_to_json(graph, [&](std::size_t communicator) { return core.last_value(communicator); });
   auto tasks = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
@@ -151,9 +152,11 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
   const RealTimeOptions options = options_of(arguments);
   Guard guard(loaded, arguments.no_guardian ? "--no-guardian" : "", options.priority, print_note);
   const CrashLine crash_line(*loaded.graph, guard.process());
-  ToldChanges told(*loaded.graph);
+  Noted noted(*loaded.graph);
+  std::vector<RecordSink*> looking_on;
+  noted.add_to(looking_on);
   const std::vector<Channels*> channels = pointers_to(loaded.channels);
-  RunSinks sinks(*loaded.graph, told.can_be_any() ? std::vector<RecordSink*>{&told} : std::vector<RecordSink*>{});
+  RunSinks sinks(*loaded.graph, looking_on);
   ThreadsCore core(*loaded.graph, std::move(loaded.channels), sinks.recorder());
   core.on_rest([&](Duration begun) { sinks.judge_before(begun); });
   let_writing_fail();
@@ -180,8 +183,8 @@ int run_on_threads(Loaded& loaded, Duration end, const RealTimeArguments& argume
       judge_run(*loaded.graph, core.report(), channels, sinks, core.rest(), end, run_end, unwatched);
   const std::vector<TrueState> true_states =
       run_end.hangs ? std::vector<TrueState>{} : find_true_states(*loaded.graph, channels);
-  json ? print_json(*loaded.graph, core, told, linked.reports(), guard, run_end, verdict, true_states)
-       : print_text(*loaded.graph, core, told, linked.reports(), guard, run_end, verdict, true_states);
+  json ? print_json(*loaded.graph, core, noted, linked.reports(), guard, run_end, verdict, true_states)
+       : print_text(*loaded.graph, core, noted, linked.reports(), guard, run_end, verdict, true_states);
   std::cerr << errors_of(run_end, core.now()) << failures_text(verdict);
   if (!unwatched.empty()) std::cerr << "error: " << unwatched << "\n";
   const int exit_code =

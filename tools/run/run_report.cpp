@@ -42,7 +42,7 @@ std::string to_text(const RunOutcome& outcome) {
     if (const PrivateHeap* heap = executor.state().heaps[i].get())
       text += fmt::format("  heap        {}: at most {} of {} bytes in use\n", graph.tasks[i].name, heap->most_used(),
                           heap->size());
-  text += outcome.told.to_text();
+  text += outcome.noted.told.to_text() + outcome.noted.logged.to_text();
   if (outcome.clock != nullptr) text += to_text(graph, *outcome.clock);
   for (const LinkReport& link : outcome.links) text += to_text(link);
   text += to_text(graph, executor.rest(), outcome.end);
@@ -84,7 +84,8 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
       {"ending", to_json(outcome.end)},
       {"rest", to_json(graph, executor.rest(), outcome.end)},
       {"safe_commands", to_json(graph, executor.safe_commands())},
-      {"told", outcome.told.to_json()},
+      {"told", outcome.noted.told.to_json()},
+      {"logged", outcome.noted.logged.to_json()},
       {"heaps", heaps},
       {"outputs", outputs_to_json(graph, [&](std::size_t communicator) { return executor.last_value(communicator); })}};
   if (outcome.clock != nullptr) json["real_time"] = to_json(graph, *outcome.clock);

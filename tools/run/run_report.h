@@ -8,8 +8,8 @@
 #include "distributers/session/guard.h"
 #include "runtime/execute/executor.h"
 #include "tools/report/commanded.h"
+#include "tools/report/noted.h"
 #include "tools/report/run_end.h"
-#include "tools/report/told_changes.h"
 #include "tools/report/verdicts.h"
 
 namespace jarol::tools {
@@ -17,7 +17,7 @@ namespace jarol::tools {
 struct RunOutcome {
   const Graph& graph;
   const Executor& executor;
-  const ToldChanges& told;
+  const Noted& noted;
   const RunEnd& end;
   const RealClock* clock = nullptr;  // null: the virtual clock
   const Guard* guard = nullptr;      // null: the virtual clock

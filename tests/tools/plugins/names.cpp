@@ -26,6 +26,23 @@ struct Sequence {
   };
   static void run(const Tick&, const In&) {}
 };
+
+struct Talks {
+  static constexpr std::string_view summary = "says something now and then";
+  struct Out {
+    jarol::String log{};
+    double other = 0;
+    static constexpr auto fields() {
+      return describe(field<&Out::log>("", "what is worth knowing"), field<&Out::other>());
+    }
+  };
+  static void run(const Tick& tick, Out& out) {
+    if (tick.activation == 2) out.log = "two\x1b[31m";
+    if (tick.activation == 5) out.log = "";
+    if (tick.activation == 6) out.log = "two\x1b[31m";
+    if (tick.activation > 7) out.log = jarol::String(tick.activation % 2 == 0 ? "even" : "odd");
+  }
+};
 }  // namespace
 
-JAROL_PLUGIN(Source, Problem, Sequence)
+JAROL_PLUGIN(Source, Problem, Sequence, Talks)

@@ -1,0 +1,61 @@
+#include "tools/report/logged_texts.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "graph/language/quantities.h"
+#include "graph/text/escape.h"
+#include "runtime/plan/output.h"
+
+namespace jarol::tools {
+
+LoggedTexts::LoggedTexts(const Graph& graph) {
+  const std::vector<jarol::Output> all = outputs_of(graph);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].type->kind == Kind::string && all[i].name.find('.') != std::string::npos)
+      outputs_.push_back({.index = static_cast<std::uint32_t>(i), .name = all[i].name});
+}
+
+const LoggedTexts::Output* LoggedTexts::find(std::uint32_t index) const {
+  const auto found = std::lower_bound(outputs_.begin(), outputs_.end(), index,
+                                      [](const Output& output, std::uint32_t i) { return output.index < i; });
+  return found != outputs_.end() && found->index == index ? &*found : nullptr;
+}
+
+void LoggedTexts::take(Duration instant, std::uint32_t index, const void* value) {
+  const Output* const found = find(index);
+  if (found == nullptr) return;
+  const std::string_view text = *static_cast<const String*>(value);
+  const std::lock_guard lock(mutex_);
+  Output& output = outputs_[static_cast<std::size_t>(found - outputs_.data())];
+  if (text == output.last) return;
+  output.last = text;
+  if (text.empty()) return;
+  ++output.count;
+  if (output.kept == most_kept) return;
+  ++output.kept;
+  kept_.push_back({instant, output.name, output.last});
+}
+
+std::string LoggedTexts::to_text() const {
+  const std::lock_guard lock(mutex_);
+  std::string text;
+  for (const Logged& logged : kept_)
+    text += "  logged      " + logged.output + " at " + seconds_text(logged.instant) + " s: " + printable(logged.text) +
+            "\n";
+  for (const Output& output : outputs_)
+    if (output.count > output.kept)
+      text += "  logged      " + output.name + ": and " + std::to_string(output.count - output.kept) + " texts more\n";
+  return text;
+}
+
+nlohmann::ordered_json LoggedTexts::to_json() const {
+  const std::lock_guard lock(mutex_);
+  auto json = nlohmann::ordered_json::array();
+  for (const Logged& logged : kept_)
+    json.push_back(
+        {{"output", logged.output}, {"instant_ns", logged.instant.count()}, {"text", printable(logged.text)}});
+  return json;
+}
+
+}  // namespace jarol::tools

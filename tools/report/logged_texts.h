@@ -1,0 +1,53 @@
+// What tasks logged during a run: the texts of their outputs of type String.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "graph/model/graph.h"
+#include "runtime/record/sink.h"
+
+namespace jarol::tools {
+
+/// Notes when such an output becomes another text; none where it becomes empty.
+class LoggedTexts : public RecordSink {
+ public:
+  static constexpr std::size_t most_kept = 100;
+
+  explicit LoggedTexts(const Graph& graph);
+
+  /// Some task has such an output.
+  bool can_be_any() const { return !outputs_.empty(); }
+
+  bool wants(std::uint32_t output) const override { return find(output) != nullptr; }
+  void take(Duration instant, std::uint32_t output, const void* value) override;
+  void finish() override {}
+
+  /// What was noted so far: a line per text, and an array of them.
+  std::string to_text() const;
+  nlohmann::ordered_json to_json() const;
+
+ private:
+  struct Output {
+    std::uint32_t index = 0;
+    std::string name;
+    std::string last{};
+    std::size_t count = 0;  // of texts; the first are kept
+    std::size_t kept = 0;
+  };
+  struct Logged {
+    Duration instant{};
+    std::string output, text;
+  };
+
+  const Output* find(std::uint32_t index) const;
+
+  std::vector<Output> outputs_;  // by index
+  std::vector<Logged> kept_;     // in the order in which they were published
+  mutable std::mutex mutex_;     // of a run that has not ended, too, there is a report
+};
+
+}  // namespace jarol::tools

@@ -1,0 +1,24 @@
+// What a run's report tells beside counts and verdicts: what operators were told, and what tasks logged.
+#pragma once
+
+#include <vector>
+
+#include "tools/report/logged_texts.h"
+#include "tools/report/told_changes.h"
+
+namespace jarol::tools {
+
+struct Noted {
+  explicit Noted(const Graph& graph) : told(graph), logged(graph) {}
+
+  /// Those of both that have anything to note.
+  void add_to(std::vector<RecordSink*>& sinks) {
+    if (told.can_be_any()) sinks.push_back(&told);
+    if (logged.can_be_any()) sinks.push_back(&logged);
+  }
+
+  ToldChanges told;
+  LoggedTexts logged;
+};
+
+}  // namespace jarol::tools
