@@ -2,12 +2,14 @@
 #include <fcntl.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "distributers/guardian/guardian_process.h"
+#include "graph/language/inputs.h"
 #include "graph/language/problems.h"
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
@@ -78,6 +80,9 @@ int run_command(int argc, char** argv) {
 int main(int argc, char** argv) {
   if (argc == 1 && distributers::is_guardian(argv[0])) return distributers::run_guardian();
   keep_standard_streams();
+  // what it writes must not take its own place
+  std::error_code none;
+  note_input(std::filesystem::read_symlink("/proc/self/exe", none).string());
   const tools::PrintableStream out(std::cout), errors(std::cerr);
   const int exit_code = run_command(argc, argv);
   if (std::cout.flush()) return exit_code;

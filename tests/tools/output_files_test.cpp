@@ -262,6 +262,21 @@ tasks: {a: {type: Counter, period: 10ms}}
     CHECK(jarol::LogReader(log).end());
   }
 
+  TEST_CASE("what is written does not take the place of the program that writes") {
+    const TemporaryFolder folder;
+    const std::string own = folder / "own";
+    fs::copy_file(JAROL_COMMAND, own);
+    const auto size = fs::file_size(own);
+    for (const std::string option : {"--trace ", "--plot ", "--log "}) {
+      CAPTURE(option);
+      const auto refused = command::jarol("run specs/counting.yaml --for 1s " + option + own, "2>&1", own);
+      CHECK(refused.exit_code == 2);
+      CHECK(refused.output ==
+            "error: can't write '" + own + "': it is '" + own + "', which was read; choose another file\n");
+    }
+    CHECK(fs::file_size(own) == size);
+  }
+
   TEST_CASE("check --generate overwrites nothing, and says so before it writes anything") {
     const TemporaryFolder folder;
     const std::string graphs = folder / "g", third = graphs + "/waters_7.yaml";

@@ -19,9 +19,10 @@ struct Result {
 };
 
 /// Runs `jarol ARGUMENTS` in the root of the tree, by default with errors and output in one.
-inline Result jarol(const std::string& arguments, const std::string& errors = "2>&1") {
+inline Result jarol(const std::string& arguments, const std::string& errors = "2>&1",
+                    const std::string& program = JAROL_COMMAND) {
   Result result;
-  std::FILE* pipe = popen((std::string(JAROL_COMMAND) + " " + arguments + " " + errors).c_str(), "r");
+  std::FILE* pipe = popen((program + " " + arguments + " " + errors).c_str(), "r");
   std::array<char, 4096> chunk{};
   for (std::size_t n = 0; (n = std::fread(chunk.data(), 1, chunk.size(), pipe)) > 0;)
     result.output.append(chunk.data(), n);
