@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "tools/bench/timing.h"
+#include "tools/library/session.h"
 #include "tools/run/load_graph.h"
 #ifdef JAROL_VEHICLES
 #include "tools/bench/plain_helicopter.h"
@@ -63,6 +64,20 @@ Figure measure_dive(int repeats) {
                         plain.step(0.01, 180.0);
                         return plain.surge();
                       });
+}
+
+Figure measure_dive_rigid(int repeats) {
+  const auto of = [](const std::string& dynamics) {
+    SessionOptions options;
+    options.set = {"distributers.dune.link.parameters.dynamics=" + dynamics};
+    auto run = std::make_shared<Session>(open(dive, options));
+    run->run_for(std::chrono::seconds(10));
+    return [run] { return 1e6 * seconds_of([&] { run->run_for(std::chrono::milliseconds(500)); }) / 50; };
+  };
+  Figure figure = compare("dive_rigid", "10 ms of the dive with dynamics: rigid / with Simbody", 1.0 / 15, repeats,
+                          of("rigid"), of("simbody"));
+  figure.unit = "us";
+  return figure;
 }
 
 Figure measure_hover(int repeats) {

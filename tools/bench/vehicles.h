@@ -12,6 +12,9 @@ bool has_vehicles();
 /// Microseconds for 10 ms of the dive; 100 of them are 100 times real time.
 Figure measure_dive(int repeats);
 
+/// The same 10 ms with `dynamics: rigid`, beside those with Simbody.
+Figure measure_dive_rigid(int repeats);
+
 /// Microseconds for 15 ms of the hover; 250 of them are 60 times real time.
 Figure measure_hover(int repeats);
 

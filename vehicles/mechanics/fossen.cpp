@@ -26,20 +26,6 @@ Matrix6 cholesky(const Matrix6& M) {
 
 }  // namespace
 
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector6 multiply(const Matrix6& M, const Vector6& x) {
-  Vector6 y{};
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) y[i] += M[i][j] * x[j];
-  }
-  return y;
-}
-
 Matrix6 inverse(const Matrix6& M) {
   const Matrix6 L = cholesky(M);
   Matrix6 inverse{};

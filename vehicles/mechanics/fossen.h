@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace jarol::vehicles::fossen {
 
@@ -11,9 +12,19 @@ using Vector3 = std::array<double, 3>;
 using Vector6 = std::array<double, 6>;  // force then moment, or linear then angular velocity
 using Matrix6 = std::array<Vector6, 6>;
 
-Vector3 cross(const Vector3& a, const Vector3& b);
-double dot(const Vector3& a, const Vector3& b);
-Vector6 multiply(const Matrix6& M, const Vector6& x);
+inline Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+inline double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+inline Vector6 multiply(const Matrix6& M, const Vector6& x) {
+  Vector6 y{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) y[i] += M[i][j] * x[j];
+  }
+  return y;
+}
 
 /// Inverse of a symmetric positive definite matrix; throws std::runtime_error for any other.
 Matrix6 inverse(const Matrix6& M);

@@ -3,6 +3,7 @@
 // them.
 #pragma once
 
+#include "vehicles/mechanics/dynamics.h"
 #include "vehicles/sea/sea_parameters.h"
 #include "vehicles/submarine/power.h"
 #include "vehicles/submarine/sensor_parameters.h"
@@ -245,6 +246,7 @@ struct DiveLimitParameters {
 };
 
 struct SubmarineParameters {
+  Dynamics dynamics = Dynamics::simbody;
   bool vsim_compatible = false;
   VsimParameters vsim{};
   Duration command_timeout = std::chrono::seconds(2);
@@ -265,7 +267,8 @@ struct SubmarineParameters {
 
   static constexpr auto fields() {
     using S = SubmarineParameters;
-    return describe(field<&S::vsim_compatible>("", "moves as DUNE's simulator has it, errors and all"),
+    return describe(field<&S::dynamics>("", "what integrates the motion"),
+                    field<&S::vsim_compatible>("", "moves as DUNE's simulator has it, errors and all"),
                     field<&S::vsim>("", "numbers of that simulator alone"),
                     field<&S::command_timeout>("", "without a command for so long an actuator goes to rest; 0 never"),
                     field<&S::hull>("", "the rigid body and its buoyancy"), field<&S::added_mass>("", "added mass"),

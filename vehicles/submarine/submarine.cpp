@@ -7,6 +7,7 @@
 #include "distributers/messages/imc.h"
 #include "vehicles/submarine/coefficients.h"
 #include "vehicles/submarine/plant.h"
+#include "vehicles/submarine/rigid_plant.h"
 #include "vehicles/submarine/vsim_plant.h"
 
 namespace jarol::vehicles {
@@ -127,6 +128,8 @@ void Submarine::place(const VehicleState& s) {
   start.nu = {s.u, s.v, s.w, s.p, s.q, s.r};
   if (parameters_.vsim_compatible) {
     motion_ = std::make_unique<VsimPlant>(parameters_, start);
+  } else if (parameters_.dynamics == Dynamics::rigid) {
+    motion_ = std::make_unique<RigidSubmarine>(make_body(parameters_), waves_, start);
   } else {
     motion_ = std::make_unique<SubmarinePlant>(make_body(parameters_), waves_, start);
   }

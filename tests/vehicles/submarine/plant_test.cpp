@@ -1,4 +1,5 @@
-// The plant against a second model of the same submarine, and against what physics demands of both.
+// The plant, in Simbody and as one rigid body, against a second model of the same submarine, and against what physics
+// demands of both.
 #include "vehicles/submarine/plant.h"
 
 #include <doctest/doctest.h>
@@ -9,6 +10,7 @@
 #include "tests/vehicles/submarine_oracle.h"
 #include "vehicles/sea/hydrostatics.h"
 #include "vehicles/submarine/coefficients.h"
+#include "vehicles/submarine/rigid_plant.h"
 
 namespace {
 using namespace jarol::vehicles;
@@ -45,7 +47,9 @@ double kinetic_energy(const SubmarineBody& body, const PlantState& state) {
 }  // namespace
 
 TEST_SUITE("vehicles/submarine_plant") {
-  TEST_CASE("after a minute of dives and turns it stands within a millionth of the way where the oracle stands") {
+  TEST_CASE_TEMPLATE(
+      "after a minute of dives and turns it stands within a millionth of the way where the oracle stands", Plant,
+      SubmarinePlant, RigidSubmarine) {
     SubmarineParameters parameters;
     double depth = 20;
     SUBCASE("in still water") {}
@@ -62,8 +66,7 @@ TEST_SUITE("vehicles/submarine_plant") {
       parameters.thruster.advance_coefficient = 0.01;
     }
     const SeaParameters& sea = parameters.sea;
-    SubmarinePlant plant(make_body(parameters), Waves(sea.wave_height, sea.wave_period, sea.wave_direction),
-                         at(depth, 1.0));
+    Plant plant(make_body(parameters), Waves(sea.wave_height, sea.wave_period, sea.wave_direction), at(depth, 1.0));
     jarol::test::SubmarineOracle oracle(parameters, depth, 1.0);
     double way = 0, worst = 0;
     Eigen::Vector3d last(0, 0, depth);
@@ -85,9 +88,9 @@ TEST_SUITE("vehicles/submarine_plant") {
     CHECK(worst < 1e-6 * way);
   }
 
-  TEST_CASE("the same inputs give the same bits") {
+  TEST_CASE_TEMPLATE("the same inputs give the same bits", Plant, SubmarinePlant, RigidSubmarine) {
     const SubmarineBody body = make_body({});
-    SubmarinePlant one(body, {}, deep(1)), two(body, {}, deep(1));
+    Plant one(body, {}, deep(1)), two(body, {}, deep(1));
     for (int i = 0; i < 500; ++i) {
       one.step(minute(0.1 * i));
       two.step(minute(0.1 * i));
@@ -99,14 +102,15 @@ TEST_SUITE("vehicles/submarine_plant") {
     }
   }
 
-  TEST_CASE("left alone in the water it loses kinetic energy at every step") {
+  TEST_CASE_TEMPLATE("left alone in the water it loses kinetic energy at every step", Plant, SubmarinePlant,
+                     RigidSubmarine) {
     SubmarineParameters parameters;
     parameters.hull.z_g = 0;
     parameters.hull.buoyancy = parameters.hull.mass * parameters.sea.gravity;  // no potential energy to be had
     const SubmarineBody body = make_body(parameters);
     PlantState start = deep(1.5);
     start.nu = {1.5, 0.3, -0.2, 0.5, 0.2, -0.3};
-    SubmarinePlant plant(body, {}, start);
+    Plant plant(body, {}, start);
     double energy = kinetic_energy(body, start);
     for (int i = 0; i < 2000; ++i) {
       plant.step({});
@@ -117,7 +121,7 @@ TEST_SUITE("vehicles/submarine_plant") {
     CHECK(energy < 0.5);
   }
 
-  TEST_CASE("without damping it keeps its energy") {
+  TEST_CASE_TEMPLATE("without damping it keeps its energy", Plant, SubmarinePlant, RigidSubmarine) {
     SubmarineParameters parameters;
     parameters.linear_damping = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     parameters.quadratic_damping = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
@@ -131,28 +135,29 @@ TEST_SUITE("vehicles/submarine_plant") {
       const double down = std::cos(s.eta[3]) * std::cos(s.eta[4]);
       return kinetic_energy(body, s) - body.hull.W * (s.eta[2] + body.hull.r_bg[2] * down) + body.hull.B * s.eta[2];
     };
-    SubmarinePlant plant(body, {}, start);
+    Plant plant(body, {}, start);
     for (int i = 0; i < 1500; ++i) plant.step({});
     CHECK(plant.state().eta[2] < 48);  // clear of the floor
     CHECK(std::abs(energy(plant.state()) - energy(start)) < 1e-6 * kinetic_energy(body, start));
   }
 
-  TEST_CASE("neutrally buoyant and at rest it stays where it is") {
+  TEST_CASE_TEMPLATE("neutrally buoyant and at rest it stays where it is", Plant, SubmarinePlant, RigidSubmarine) {
     SubmarineParameters parameters;
     parameters.hull.buoyancy = parameters.hull.mass * parameters.sea.gravity;
-    SubmarinePlant plant(make_body(parameters), {}, deep(0));
+    Plant plant(make_body(parameters), {}, deep(0));
     for (int i = 0; i < 6000; ++i) plant.step({});
     for (std::size_t i = 0; i < 6; ++i) CHECK(plant.state().nu[i] == 0);
     CHECK(plant.state().eta[2] == 20);
   }
 
-  TEST_CASE("in a steady turn yaw rate and sway solve the two equations of sway and yaw") {
+  TEST_CASE_TEMPLATE("in a steady turn yaw rate and sway solve the two equations of sway and yaw", Plant,
+                     SubmarinePlant, RigidSubmarine) {
     SubmarineParameters parameters;
     parameters.hull.z_g = 0;  // no banking
     parameters.hull.buoyancy = parameters.hull.mass * parameters.sea.gravity;
     parameters.quadratic_damping.Y_vv = parameters.quadratic_damping.Y_rr = 0;
     parameters.quadratic_damping.N_vv = parameters.quadratic_damping.N_rr = 0;
-    SubmarinePlant plant(make_body(parameters), {}, deep(1));
+    Plant plant(make_body(parameters), {}, deep(1));
     const double rudder = 8 * angle;
     SubmarineInput input{.propeller = 200, .fins = {rudder, 0, 0, rudder}};
     for (int i = 0; i < 12000; ++i) plant.step(input);
@@ -168,14 +173,14 @@ TEST_SUITE("vehicles/submarine_plant") {
     CHECK(nu[5] < -0.05);
   }
 
-  TEST_CASE("driven onto the sea floor it comes to rest on it") {
+  TEST_CASE_TEMPLATE("driven onto the sea floor it comes to rest on it", Plant, SubmarinePlant, RigidSubmarine) {
     SubmarineParameters parameters;
     parameters.hull.mass = 20;
     parameters.sea.floor = 6;
     PlantState start = deep(1.5);
     start.eta[2] = 5;
     start.eta[4] = -30 * angle;
-    SubmarinePlant plant(make_body(parameters), {}, start);
+    Plant plant(make_body(parameters), {}, start);
     double deepest = 0;
     for (int i = 0; i < 3000; ++i) {
       plant.step({});
@@ -188,11 +193,12 @@ TEST_SUITE("vehicles/submarine_plant") {
     for (const double speed : end.nu) CHECK(std::abs(speed) < 1e-6);
   }
 
-  TEST_CASE("in straight deep run the terminal speed is that at which drag equals thrust") {
+  TEST_CASE_TEMPLATE("in straight deep run the terminal speed is that at which drag equals thrust", Plant,
+                     SubmarinePlant, RigidSubmarine) {
     SubmarineParameters parameters;
     parameters.hull.z_g = 0;
     parameters.hull.buoyancy = parameters.hull.mass * parameters.sea.gravity;
-    SubmarinePlant plant(make_body(parameters), {}, deep(1));
+    Plant plant(make_body(parameters), {}, deep(1));
     SubmarineInput input;
     input.propeller = 200;
     for (int i = 0; i < 12000; ++i) plant.step(input);
@@ -201,18 +207,18 @@ TEST_SUITE("vehicles/submarine_plant") {
     CHECK(plant.state().nu[0] == doctest::Approx(expected).epsilon(1e-6));
   }
 
-  TEST_CASE("at rest it floats where its buoyancy carries its weight") {
+  TEST_CASE_TEMPLATE("at rest it floats where its buoyancy carries its weight", Plant, SubmarinePlant, RigidSubmarine) {
     const SubmarineBody body = make_body({});
     PlantState start;
     start.eta[2] = calc_floating_depth(body.hull);
-    SubmarinePlant plant(body, {}, start);
+    Plant plant(body, {}, start);
     for (int i = 0; i < 1000; ++i) plant.step({});
     CHECK(std::abs(plant.state().eta[2] - start.eta[2]) < 1e-9);
     CHECK(std::abs(plant.state().nu[2]) < 1e-9);
   }
 
-  TEST_CASE("deep down the surplus of buoyancy carries it up") {
-    SubmarinePlant plant(make_body({}), {}, deep(0));
+  TEST_CASE_TEMPLATE("deep down the surplus of buoyancy carries it up", Plant, SubmarinePlant, RigidSubmarine) {
+    Plant plant(make_body({}), {}, deep(0));
     for (int i = 0; i < 500; ++i) plant.step({});
     CHECK(plant.state().eta[2] < 20);
     CHECK(plant.state().nu[2] < 0);

@@ -1,0 +1,81 @@
+// One rigid body that moves freely: place, attitude and velocity, integrated by the classical Runge-Kutta method
+// (Kutta, 1901) in steps of one length. The attitude is a unit quaternion, so that no attitude is singular.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <initializer_list>
+
+#include "vehicles/mechanics/fossen.h"
+
+namespace jarol::vehicles {
+
+struct RigidState {
+  Eigen::Vector3d p_n = Eigen::Vector3d::Zero();             // of the origin of body axes, NED
+  Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();  // turns vectors of body axes into NED
+  Eigen::Vector3d v_n = Eigen::Vector3d::Zero();             // of that origin
+  Eigen::Vector3d omega_n = Eigen::Vector3d::Zero();
+
+  Eigen::Matrix3d R_nb() const { return q_nb.normalized().toRotationMatrix(); }
+};
+
+/// Attitude of Euler angles ZYX: roll, pitch, yaw.
+inline Eigen::Quaterniond quaternion_of(double phi, double theta, double psi) {
+  return Eigen::AngleAxisd(psi, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(theta, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(phi, Eigen::Vector3d::UnitX());
+}
+
+/// Rates of a state.
+struct RigidRates {
+  Eigen::Vector3d p_dot;
+  Eigen::Vector4d q_dot;
+  Eigen::Vector3d v_dot;
+  Eigen::Vector3d omega_dot;
+};
+
+struct Weighted {
+  double weight;
+  const RigidRates& rates;
+};
+
+inline RigidState moved(RigidState s, double time, std::initializer_list<Weighted> all) {
+  for (const Weighted& each : all) {
+    s.p_n += time * each.weight * each.rates.p_dot;
+    s.q_nb.coeffs() += time * each.weight * each.rates.q_dot;
+    s.v_n += time * each.weight * each.rates.v_dot;
+    s.omega_n += time * each.weight * each.rates.omega_dot;
+  }
+  return s;
+}
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// Velocity in body axes: linear, then angular.
+inline Vector6d nu_of(const RigidState& s, const Eigen::Matrix3d& R_nb) {
+  Vector6d nu;
+  nu << R_nb.transpose() * s.v_n, R_nb.transpose() * s.omega_n;
+  return nu;
+}
+
+/// One step from time t to t + h; `nu_dot(p_n, nu, R_nb, t)` gives the rate of nu in body axes.
+template <class Acceleration>
+RigidState merson_step(const RigidState& s, double t, double h, const Acceleration& nu_dot) {
+  const auto rates = [&](const RigidState& at, double time) {
+    const Eigen::Matrix3d R_nb = at.R_nb();
+    const Vector6d nu = nu_of(at, R_nb), dot = nu_dot(at.p_n, nu, R_nb, time);
+    const Eigen::Quaterniond spin(0.0, at.omega_n[0], at.omega_n[1], at.omega_n[2]);
+    // body axes turn themselves
+    const Eigen::Vector3d v_dot_b = dot.head<3>() + nu.tail<3>().cross(nu.head<3>());
+    return RigidRates{at.v_n, 0.5 * (spin * at.q_nb).coeffs(), R_nb * v_dot_b, R_nb * dot.tail<3>()};
+  };
+  const RigidRates k1 = rates(s, t);
+  const RigidRates k2 = rates(moved(s, h / 3.0, {{1.0, k1}}), t + h / 3.0);
+  const RigidRates k3 = rates(moved(s, h / 6.0, {{1.0, k1}, {1.0, k2}}), t + h / 3.0);
+  const RigidRates k4 = rates(moved(s, h / 8.0, {{1.0, k1}, {3.0, k3}}), t + h / 2.0);
+  const RigidRates k5 = rates(moved(s, h / 2.0, {{1.0, k1}, {-3.0, k3}, {4.0, k4}}), t + h);
+  RigidState end = moved(s, h / 6.0, {{1.0, k1}, {4.0, k4}, {1.0, k5}});
+  end.q_nb.normalize();
+  return end;
+}
+
+}  // namespace jarol::vehicles
