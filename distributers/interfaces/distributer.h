@@ -87,7 +87,8 @@ struct On {
   F handler;
 };
 
-/// Each M that arrives is given to the handler: a member function, or called with the distributer and the message.
+/// Each M that arrives is given to the handler: a member function, or called with the distributer and the message; and
+/// with the MessageRef after it where it takes that, for the header of its packet.
 template <class M, class F>
 constexpr On<M, F> on(F handler) {
   static_assert(SomeMessage<M>, "on<M>(...): M is a message of a message set, as messages::imc::Depth");

@@ -120,7 +120,7 @@ class Typed final : public AnyDistributer {
   void receive(messages::MessageRef message) override {
     if constexpr (detail::has_any_message<D>) distributer_.any_message();
     for (auto handler = find_handler(message.form->id); handler->id == message.form->id; ++handler)
-      if (handler->form == message.form) return handler->call(distributer_, message.value);
+      if (handler->form == message.form) return handler->call(distributer_, message);
   }
   void peer_changed() override {
     if constexpr (detail::has_peer_changed<D>) distributer_.peer_changed();
@@ -206,7 +206,7 @@ class Typed final : public AnyDistributer {
     return count > 1 ? entry_count + 1 : found;
   }
 
-  using Call = void (*)(D&, const void*);
+  using Call = void (*)(D&, const messages::MessageRef&);
   struct Handler {
     std::uint32_t id = 0;
     const messages::MessageForm* form = nullptr;
@@ -214,12 +214,18 @@ class Typed final : public AnyDistributer {
   };
 
   template <std::size_t I>
-  static void call(D& distributer, const void* message) {
+  static void call(D& distributer, const messages::MessageRef& message) {
     using M = typename Entry<I>::Message;
     constexpr auto entry = std::get<I>(D::handlers());
-    static_assert(std::is_invocable_v<decltype(entry.handler), D&, const M&>,
+    constexpr bool wants_header =
+        std::is_invocable_v<decltype(entry.handler), D&, const M&, const messages::MessageRef&>;
+    static_assert(wants_header || std::is_invocable_v<decltype(entry.handler), D&, const M&>,
                   "the handler of on<M> is called with the distributer and a const M&");
-    std::invoke(entry.handler, distributer, *static_cast<const M*>(message));
+    const M& itself = *static_cast<const M*>(message.value);
+    if constexpr (wants_header)
+      std::invoke(entry.handler, distributer, itself, message);
+    else
+      std::invoke(entry.handler, distributer, itself);
   }
 
   // By id; the last stands for what is not handled.

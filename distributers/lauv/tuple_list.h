@@ -18,6 +18,8 @@ class TupleList {
   std::optional<double> number(std::string_view name) const;
   /// There is such a number and it is not 0, as for a button that is pressed.
   bool is_set(std::string_view name) const { return number(name).value_or(0) != 0; }
+  /// Names and texts, in their order.
+  const std::vector<std::pair<std::string, std::string>>& pairs() const { return pairs_; }
 
  private:
   std::vector<std::pair<std::string, std::string>> pairs_;

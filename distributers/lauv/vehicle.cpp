@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "distributers/lauv/messages.h"
 
@@ -11,6 +13,8 @@ using tasks::Instruments;
 
 namespace {
 
+constexpr Duration ask_period = std::chrono::seconds(5);
+
 // what a device does not measure it writes as no number beside what it does
 bool measured(std::initializer_list<double> values) {
   return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
@@ -18,16 +22,67 @@ bool measured(std::initializer_list<double> values) {
 
 }  // namespace
 
-void LauvVehicle::note(tasks::Reading Instruments::*reading, double value) {
-  if (!all_finite({value})) return;
-  tasks::Reading& r = in.instruments.renew().*reading;
-  r = {value, r.count + 1};
+LauvVehicle::LauvVehicle(const Param& parameters) : parameters_(parameters) {
+  using P = LauvVehicleParameters;
+  using I = Instruments;
+  Instruments& all = in.instruments.value;
+  const auto leave_out = [&](const LauvInstrument& instrument, auto& reading) {
+    if (!instrument.fitted) reading.count = -1;
+  };
+  constexpr std::tuple readings{std::pair{&P::depth, &I::depth},
+                                std::pair{&P::pressure, &I::pressure},
+                                std::pair{&P::attitude, &I::attitude},
+                                std::pair{&P::rates, &I::rates},
+                                std::pair{&P::forces, &I::forces},
+                                std::pair{&P::heading, &I::heading},
+                                std::pair{&P::velocity, &I::velocity},
+                                std::pair{&P::rpm, &I::rpm},
+                                std::pair{&P::place, &I::place},
+                                std::pair{&P::altitude, &I::altitude},
+                                std::pair{&P::conductivity, &I::conductivity},
+                                std::pair{&P::water_temperature, &I::water_temperature},
+                                std::pair{&P::leak, &I::leak},
+                                std::pair{&P::voltage, &I::voltage},
+                                std::pair{&P::current, &I::current}};
+  std::apply([&](auto... pair) { (leave_out(parameters_.*(pair.first), all.*(pair.second)), ...); }, readings);
 }
 
-void LauvVehicle::note(tasks::VectorReading Instruments::*reading, double x, double y, double z) {
+bool LauvVehicle::is(const LauvInstrument& instrument, const messages::MessageRef& from) {
+  const std::uint8_t sender = Entities::sender_of(from);
+  if (sender == Entities::nobody) return true;
+  if (instrument.entity.view() != "*" && !entities_.has_label(sender)) label_lacks_ = true;
+  return entities_.is(sender, instrument.entity.view());
+}
+
+void LauvVehicle::note(tasks::Reading Instruments::*reading, const LauvInstrument& instrument,
+                       const messages::MessageRef& from, double value) {
+  if (!is(instrument, from)) return;
+  if (Entities::sender_of(from) != Entities::nobody) value *= instrument.scale;
+  if (!all_finite({value})) return;
+  tasks::Reading& r = in.instruments.renew().*reading;
+  r = {value, std::max<std::int64_t>(r.count, 0) + 1};
+}
+
+void LauvVehicle::note(tasks::VectorReading Instruments::*reading, const LauvInstrument& instrument,
+                       const messages::MessageRef& from, double x, double y, double z) {
+  if (!is(instrument, from)) return;
+  if (Entities::sender_of(from) != Entities::nobody)
+    for (double* part : {&x, &y, &z}) *part *= instrument.scale;
   if (!all_finite({x, y, z})) return;
   tasks::VectorReading& r = in.instruments.renew().*reading;
-  r = {x, y, z, r.count + 1};
+  r = {x, y, z, std::max<std::int64_t>(r.count, 0) + 1};
+}
+
+void LauvVehicle::reach(Duration instant, messages::Receiver& system) {
+  if (!label_lacks_ || (asked_ && instant - *asked_ < ask_period)) return;
+  asked_ = instant;
+  label_lacks_ = false;
+  system.receive(messages::refer_to(imc::EntityList{imc::EntityList::Op::QUERY, ""}));
+}
+
+void LauvVehicle::peer_changed() {
+  entities_.forget();
+  leaks_ = {};
 }
 
 bool LauvVehicle::all_finite(std::initializer_list<double> values) {
@@ -44,36 +99,99 @@ void LauvVehicle::estimated_state(const imc::EstimatedState& m) {
   in.motion = {m.x, m.y, m.depth, m.phi, m.theta, m.psi, m.u, m.v, m.w, m.p, m.q, m.r};
 }
 
-void LauvVehicle::angles(const imc::EulerAngles& m) {
+void LauvVehicle::angles(const imc::EulerAngles& m, const messages::MessageRef& from) {
   const bool attitude = measured({m.phi, m.theta, m.psi}), heading = measured({m.psi_magnetic});
-  if (attitude || !heading) note(&Instruments::attitude, m.phi, m.theta, m.psi);
-  if (heading || !attitude) note(&Instruments::heading, m.psi_magnetic);
+  if (attitude || !heading) note(&Instruments::attitude, parameters_.attitude, from, m.phi, m.theta, m.psi);
+  if (heading || !attitude) note(&Instruments::heading, parameters_.heading, from, m.psi_magnetic);
 }
 
-void LauvVehicle::fix(const imc::GpsFix& m) {
-  if ((m.validity & imc::GpsFix::Validity::VALID_POS) != 0) place(m.lat, m.lon);
+void LauvVehicle::rates(const imc::AngularVelocity& m, const messages::MessageRef& from) {
+  note(&Instruments::rates, parameters_.rates, from, m.x, m.y, m.z);
 }
 
-void LauvVehicle::distance(const imc::Distance& m) {
-  if (m.validity == imc::Distance::Validity::VALID) note(&Instruments::altitude, m.value);
+// specific force: what is felt, acceleration less gravity
+void LauvVehicle::forces(const imc::Acceleration& m, const messages::MessageRef& from) {
+  constexpr double gravity = 9.81;
+  double down_x = 0, down_y = 0, down_z = 0;
+  if (!parameters_.gravity && Entities::sender_of(from) != Entities::nobody) {
+    const tasks::VectorReading& at = in.instruments->attitude;
+    if (at.count < 1) return;  // without it nobody knows where down is
+    down_x = -std::sin(at.y);
+    down_y = std::cos(at.y) * std::sin(at.x);
+    down_z = std::cos(at.y) * std::cos(at.x);
+  }
+  note(&Instruments::forces, parameters_.forces, from, m.x - gravity * down_x, m.y - gravity * down_y,
+       m.z - gravity * down_z);
 }
 
-void LauvVehicle::entity(const imc::EntityState& m) {
-  note(&Instruments::leak, m.state == imc::EntityState::State::FAILURE ? 1 : 0);
+void LauvVehicle::velocity(const imc::WaterVelocity& m, const messages::MessageRef& from) {
+  note(&Instruments::velocity, parameters_.velocity, from, m.x, m.y, m.z);
+}
+
+void LauvVehicle::rpm(const imc::Rpm& m, const messages::MessageRef& from) {
+  note(&Instruments::rpm, parameters_.rpm, from, m.value);
+}
+
+void LauvVehicle::fix(const imc::GpsFix& m, const messages::MessageRef& from) {
+  if ((m.validity & imc::GpsFix::Validity::VALID_POS) != 0 && is(parameters_.place, from)) place(m.lat, m.lon);
+}
+
+void LauvVehicle::depth(const imc::Depth& m, const messages::MessageRef& from) {
+  note(&Instruments::depth, parameters_.depth, from, m.value);
+}
+
+void LauvVehicle::pressure(const imc::Pressure& m, const messages::MessageRef& from) {
+  note(&Instruments::pressure, parameters_.pressure, from, m.value);
+}
+
+void LauvVehicle::conductivity(const imc::Conductivity& m, const messages::MessageRef& from) {
+  note(&Instruments::conductivity, parameters_.conductivity, from, m.value);
+}
+
+void LauvVehicle::temperature(const imc::Temperature& m, const messages::MessageRef& from) {
+  note(&Instruments::water_temperature, parameters_.water_temperature, from, m.value);
+}
+
+void LauvVehicle::distance(const imc::Distance& m, const messages::MessageRef& from) {
+  if (m.validity == imc::Distance::Validity::VALID) note(&Instruments::altitude, parameters_.altitude, from, m.value);
+}
+
+void LauvVehicle::voltage(const imc::Voltage& m, const messages::MessageRef& from) {
+  note(&Instruments::voltage, parameters_.voltage, from, m.value);
+}
+
+void LauvVehicle::current(const imc::Current& m, const messages::MessageRef& from) {
+  note(&Instruments::current, parameters_.current, from, m.value);
+}
+
+// Water anywhere is a leak, and a detector that falls silent is as good as none: the reading counts as far as all have.
+void LauvVehicle::entity(const imc::EntityState& m, const messages::MessageRef& from) {
+  if (!is(parameters_.leak, from)) return;
+  LeakDetector& its = leaks_[Entities::sender_of(from)];
+  ++its.count;
+  its.failed = m.state == imc::EntityState::State::FAILURE;
+  tasks::Reading all{0, its.count};
+  for (const LeakDetector& each : leaks_) {
+    if (each.count == 0) continue;
+    all.count = std::min(all.count, each.count);
+    if (each.failed) all.value = 1;
+  }
+  in.instruments.renew().leak = all;
 }
 
 // offsets from the first fix along meridian and parallel, WGS-84
 void LauvVehicle::place(double latitude, double longitude) {
   if (!all_finite({latitude, longitude})) return;
-  if (in.instruments->place.count == 0) {
+  if (in.instruments->place.count < 1) {
     latitude_ = latitude;
     longitude_ = longitude;
   }
   constexpr double equatorial_radius = 6378137.0, eccentricity_squared = 6.69437999014e-3;
   const double s = std::sin(latitude_), w = 1 - eccentricity_squared * s * s;
   const double east_radius = equatorial_radius / std::sqrt(w);
-  note(&Instruments::place, (latitude - latitude_) * east_radius * (1 - eccentricity_squared) / w,
-       (longitude - longitude_) * east_radius * std::cos(latitude_), 0);
+  tasks::VectorReading& r = in.instruments.renew().place;
+  r = {(latitude - latitude_) * east_radius * (1 - eccentricity_squared) / w,
+       (longitude - longitude_) * east_radius * std::cos(latitude_), 0, std::max<std::int64_t>(r.count, 0) + 1};
 }
 
 void LauvVehicle::announce(Duration instant, messages::Receiver& all) {

@@ -1,11 +1,13 @@
 // The submarine as the core sees it: its motion and instruments come in, its actuation goes out.
 #pragma once
 
+#include <array>
 #include <initializer_list>
 #include <optional>
 #include <string>
 
 #include "distributers/interfaces/distributer.h"
+#include "distributers/lauv/entities.h"
 #include "distributers/messages/imc.h"
 #include "graph/values/type_of.h"
 #include "tasks/values/instruments.h"
@@ -14,13 +16,51 @@
 namespace jarol::distributers {
 namespace imc = messages::imc;
 
+/// Which entity of the vehicle an instrument is. A message of no entity is taken for any of them, and read as IMC has
+/// it; one of an entity as is said here.
+struct LauvInstrument {
+  String entity = "*";
+  double scale = 1;
+  bool fitted = true;
+
+  static constexpr auto fields() {
+    using I = LauvInstrument;
+    return describe(field<&I::entity>("", "its label, or the begin of several and *"),
+                    field<&I::scale>("", "of the readings of an entity, to have them in IMC's unit"),
+                    field<&I::fitted>("", "false: nobody waits for it"));
+  }
+};
+
+/// Labels are DUNE's.
+struct LauvVehicleParameters {
+  LauvInstrument depth{}, pressure{}, attitude{}, rates{}, forces{}, heading{}, velocity{}, rpm{}, place{},
+      altitude{.entity = "Altimeter*"}, conductivity{}, water_temperature{}, leak{.entity = "Leak*"}, voltage{},
+      current{};
+  bool gravity = true;
+
+  static constexpr auto fields() {
+    using P = LauvVehicleParameters;
+    return describe(field<&P::depth>("", "Depth"), field<&P::pressure>("", "Pressure"),
+                    field<&P::attitude>("", "EulerAngles: roll, pitch, yaw"), field<&P::rates>("", "AngularVelocity"),
+                    field<&P::forces>("", "Acceleration"), field<&P::heading>("", "EulerAngles: the magnetic heading"),
+                    field<&P::velocity>("", "WaterVelocity"), field<&P::rpm>("", "Rpm"), field<&P::place>("", "GpsFix"),
+                    field<&P::altitude>("", "Distance, downward"), field<&P::conductivity>("", "Conductivity"),
+                    field<&P::water_temperature>("", "Temperature"),
+                    field<&P::leak>("", "EntityState: each in FAILURE is a leak"), field<&P::voltage>("", "Voltage"),
+                    field<&P::current>("", "Current"),
+                    field<&P::gravity>("", "an entity's Acceleration is what a mass at rest feels: less gravity"));
+  }
+};
+
 /// Speaks IMC: SimulatedState or EstimatedState, whichever came last, and what instruments report in;
 /// SetThrusterActuation and SetServoPosition out. A field that is no number beside others that are is one that the
-/// instrument does not measure; a reading that is not finite otherwise is counted and left out.
+/// instrument does not measure; a reading that is not finite otherwise is counted and left out. Which entity is which
+/// instrument, the parameters say by the labels that the vehicle gives its entities.
 class LauvVehicle {
  public:
   static constexpr std::string_view summary = "the submarine, over IMC";
   static constexpr bool is_vehicle = true;
+  using Param = LauvVehicleParameters;
 
   struct In {
     Newest<tasks::Motion> motion;
@@ -44,12 +84,18 @@ class LauvVehicle {
                   on<imc::GpsFix>(&V::fix), on<imc::Depth>(&V::depth), on<imc::Pressure>(&V::pressure),
                   on<imc::Conductivity>(&V::conductivity), on<imc::Temperature>(&V::temperature),
                   on<imc::Distance>(&V::distance), on<imc::EntityState>(&V::entity), on<imc::Voltage>(&V::voltage),
-                  on<imc::Current>(&V::current), send<&Out::actuation>(&V::send_actuation));
+                  on<imc::Current>(&V::current), on<imc::EntityInfo>(&V::entity_info),
+                  on<imc::EntityList>(&V::entity_list), send<&Out::actuation>(&V::send_actuation));
   }
 
+  explicit LauvVehicle(const Param& parameters);
+
+  /// Asks for the labels of entities that are needed and not known.
+  void reach(Duration instant, messages::Receiver& system);
   /// DUNE listens to systems that have announced themselves only.
   void announce(Duration instant, messages::Receiver& all);
   void listen_at(const std::string& address) { address_ = address; }
+  void peer_changed();
   std::uint64_t non_finite_inputs() const { return non_finite_inputs_; }
 
   In in;
@@ -57,27 +103,44 @@ class LauvVehicle {
  private:
   void simulated_state(const imc::SimulatedState& m);
   void estimated_state(const imc::EstimatedState& m);
-  void angles(const imc::EulerAngles& m);
-  void rates(const imc::AngularVelocity& m) { note(&tasks::Instruments::rates, m.x, m.y, m.z); }
-  void forces(const imc::Acceleration& m) { note(&tasks::Instruments::forces, m.x, m.y, m.z); }
-  void velocity(const imc::WaterVelocity& m) { note(&tasks::Instruments::velocity, m.x, m.y, m.z); }
-  void rpm(const imc::Rpm& m) { note(&tasks::Instruments::rpm, m.value); }
-  void fix(const imc::GpsFix& m);
-  void depth(const imc::Depth& m) { note(&tasks::Instruments::depth, m.value); }
-  void pressure(const imc::Pressure& m) { note(&tasks::Instruments::pressure, m.value); }
-  void conductivity(const imc::Conductivity& m) { note(&tasks::Instruments::conductivity, m.value); }
-  void temperature(const imc::Temperature& m) { note(&tasks::Instruments::water_temperature, m.value); }
-  void distance(const imc::Distance& m);
-  void entity(const imc::EntityState& m);
-  void voltage(const imc::Voltage& m) { note(&tasks::Instruments::voltage, m.value); }
-  void current(const imc::Current& m) { note(&tasks::Instruments::current, m.value); }
+  void angles(const imc::EulerAngles& m, const messages::MessageRef& from);
+  void rates(const imc::AngularVelocity& m, const messages::MessageRef& from);
+  void forces(const imc::Acceleration& m, const messages::MessageRef& from);
+  void velocity(const imc::WaterVelocity& m, const messages::MessageRef& from);
+  void rpm(const imc::Rpm& m, const messages::MessageRef& from);
+  void fix(const imc::GpsFix& m, const messages::MessageRef& from);
+  void depth(const imc::Depth& m, const messages::MessageRef& from);
+  void pressure(const imc::Pressure& m, const messages::MessageRef& from);
+  void conductivity(const imc::Conductivity& m, const messages::MessageRef& from);
+  void temperature(const imc::Temperature& m, const messages::MessageRef& from);
+  void distance(const imc::Distance& m, const messages::MessageRef& from);
+  void entity(const imc::EntityState& m, const messages::MessageRef& from);
+  void voltage(const imc::Voltage& m, const messages::MessageRef& from);
+  void current(const imc::Current& m, const messages::MessageRef& from);
+  void entity_info(const imc::EntityInfo& m) { entities_.note(m); }
+  void entity_list(const imc::EntityList& m) { entities_.note(m); }
   void send_actuation(const tasks::Actuation& actuation, messages::Receiver& system);
 
   void place(double latitude, double longitude);
-  void note(tasks::Reading tasks::Instruments::*reading, double value);
-  void note(tasks::VectorReading tasks::Instruments::*reading, double x, double y, double z);
+  // of whoever is that instrument; what is not finite is counted
+  void note(tasks::Reading tasks::Instruments::*reading, const LauvInstrument& instrument,
+            const messages::MessageRef& from, double value);
+  void note(tasks::VectorReading tasks::Instruments::*reading, const LauvInstrument& instrument,
+            const messages::MessageRef& from, double x, double y, double z);
+  bool is(const LauvInstrument& instrument, const messages::MessageRef& from);
   bool all_finite(std::initializer_list<double> values);  // else that is counted
 
+  // An entity that may be a leak detector.
+  struct LeakDetector {
+    std::int64_t count = 0;
+    bool failed = false;
+  };
+
+  LauvVehicleParameters parameters_;
+  Entities entities_;
+  std::array<LeakDetector, 256> leaks_{};
+  bool label_lacks_ = false;
+  std::optional<Duration> asked_;
   std::uint64_t non_finite_inputs_ = 0;
   double latitude_ = 0, longitude_ = 0;  // of the first fix
   std::string address_;

@@ -21,7 +21,7 @@ struct PortOptions {
 };
 
 struct LinkOptions {
-  PortOptions input{PortKind::push};
+  PortOptions input{PortKind::push, 256};  // a vehicle may send a thousand in a second, in bursts
   PortOptions output{PortKind::plain};
   std::vector<std::pair<std::string, std::uint64_t>> header{};  // fields of the packets sent, as the sender's id
   std::vector<std::pair<std::string, std::uint64_t>> accept{};  // of packets received; others are dropped

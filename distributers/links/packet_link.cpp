@@ -25,7 +25,8 @@ struct PortSpec {
 const std::vector<Key<PortSpec>>& port_keys() {
   static const std::vector<Key<PortSpec>> keys{
       key<&PortSpec::kind>("kind", Form::choice, "push: the newest overwrites the oldest; plain: what is full refuses"),
-      key<&PortSpec::packets>("packets", Form::integer, "how many it holds; default 64").within(1, most_packets),
+      key<&PortSpec::packets>("packets", Form::integer, "how many it holds; default 256 in, 64 out")
+          .within(1, most_packets),
   };
   return keys;
 }

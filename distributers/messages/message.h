@@ -12,6 +12,7 @@ namespace jarol::messages {
 struct MessageRef {
   const MessageForm* form = nullptr;
   const void* value = nullptr;
+  const void* header = nullptr;  // of its packet, in the form that its set has; null: it came in none
 
   /// The message as an M, or null if it is another.
   template <class M>
@@ -24,7 +25,7 @@ struct MessageRef {
 
 template <class M>
 MessageRef refer_to(const M& message) {
-  return {&M::form, &message};
+  return {&M::form, &message, nullptr};
 }
 
 /// A message of a form known at run time only, in memory of its own.
@@ -43,7 +44,7 @@ class Message {
   const MessageForm* form() const { return form_; }
   void* value() { return memory_.get(); }
   const void* value() const { return memory_.get(); }
-  operator MessageRef() const { return {form_, memory_.get()}; }
+  operator MessageRef() const { return {form_, memory_.get(), nullptr}; }
 
   template <class M>
   const M* as() const {

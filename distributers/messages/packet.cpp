@@ -127,6 +127,7 @@ Flaw PacketReader::read(std::span<const std::byte> bytes, std::string* why) {
       !read_payload(*form, frame.order, frame.payload, kept.value(), more))
     return flaw == Flaw::none ? Flaw::payload : flaw;
   message_ = kept;
+  message_.header = header_.value();
   return flaw;
 }
 

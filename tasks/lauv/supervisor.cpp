@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "graph/math/geometry.h"
 
@@ -26,12 +27,14 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
                               Alarm::ctd,         Alarm::leak,  Alarm::battery,  Alarm::battery};
   Alarm found = Alarm::none;
   for (std::size_t k = state.counts.size(); k-- > 0;) {
-    state.silences[k] = counts[k] > state.counts[k] ? 0 : state.silences[k] + dt;
+    const bool fitted = counts[k] >= 0;
+    state.silences[k] = counts[k] > state.counts[k] || !fitted ? 0 : state.silences[k] + dt;
     state.counts[k] = counts[k];
     if (state.silences[k] > p.sensor_timeout) found = alarms[k];
   }
   // GPS tells nothing under water
-  state.since_fix = i.place.count > state.fixes || i.depth.value > surface_depth ? 0 : state.since_fix + dt;
+  state.since_fix =
+      i.place.count > state.fixes || i.place.count < 0 || i.depth.value > surface_depth ? 0 : state.since_fix + dt;
   state.fixes = i.place.count;
   return found == Alarm::none && state.since_fix > p.gps_timeout ? Alarm::gps : found;
 }
@@ -39,21 +42,22 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
 // Speed of the propeller through quadratic and linear drag, at once and for ever.
 double calc_force(const Param& p, double rpm, double speed) {
   const double n = rpm * std::numbers::pi / 30;
-  return std::clamp(p.thrust_coefficient * n * std::abs(n), -p.max_thrust, p.max_thrust) -
-         p.surge_drag * speed * (1 + std::abs(speed));
+  const double thrust = (p.thrust_coefficient * n - p.advance_coefficient * speed) * std::abs(n);
+  return std::clamp(thrust, -p.max_thrust, p.max_thrust) - p.surge_drag * speed * (1 + std::abs(speed));
 }
 
 Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
+  const auto told = [](const auto&... readings) { return (... && (readings.count > 0)); };
+  const bool turns = told(i.attitude, i.rates), moves = told(i.velocity, i.rpm),
+             sounds = told(i.altitude, i.depth, i.attitude);
   const double theta = i.attitude.y, phi = i.attitude.x, c_theta = std::max(std::cos(theta), 0.1);
   const double floor = i.altitude.value * c_theta * std::cos(phi) + i.depth.value;
-  if (!state.started) {
-    if (std::find(state.counts.begin(), state.counts.end(), 0) != state.counts.end()) return Alarm::none;
-    state.started = true;
+  if (turns && !std::exchange(state.attitude_started, true)) {
     state.theta = theta;
     state.psi = i.attitude.z;
-    state.speed = i.velocity.x;
-    state.floor = floor;
   }
+  if (moves && !std::exchange(state.speed_started, true)) state.speed = i.velocity.x;
+  if (sounds && !std::exchange(state.floor_started, true)) state.floor = floor;
   const double part = std::min(dt / watch_time, 1.0);
   state.theta += dt * (i.rates.y * std::cos(phi) - i.rates.z * std::sin(phi));
   state.psi += dt * (i.rates.y * std::sin(phi) + i.rates.z * std::cos(phi)) / c_theta;
@@ -69,22 +73,25 @@ Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
       std::hypot(i.forces.x - gravity * std::sin(theta), i.forces.y + gravity * std::cos(theta) * std::sin(phi),
                  i.forces.z + gravity * std::cos(theta) * std::cos(phi));
   struct Difference {
+    bool known;
     double size, limit, time;
     Alarm alarm;
   };
   const Difference differences[] = {
-      {theta_error, p.angle_error, p.error_time, Alarm::attitude},
-      {psi_error, p.angle_error, p.error_time, Alarm::attitude},
-      {force_error, p.force_error, p.error_time, Alarm::forces},
-      {wrapped(i.heading.value - i.attitude.z), p.heading_error, p.error_time, Alarm::heading},
+      {turns, theta_error, p.angle_error, p.error_time, Alarm::attitude},
+      {turns, psi_error, p.angle_error, p.error_time, Alarm::attitude},
+      {told(i.attitude, i.forces), force_error, p.force_error, p.error_time, Alarm::forces},
+      {told(i.attitude, i.heading), wrapped(i.heading.value - i.attitude.z), p.heading_error, p.error_time,
+       Alarm::heading},
       // the gauge may be out of the water
-      {std::max(i.depth.value, 0.0) - std::max(depth, 0.0), p.depth_error, p.error_time, Alarm::depth_gauge},
-      {i.velocity.x - state.speed, p.speed_error, p.speed_error_time, Alarm::speed},
-      {floor_error, p.floor_error, p.error_time, Alarm::altimeter}};
+      {told(i.depth, i.pressure), std::max(i.depth.value, 0.0) - std::max(depth, 0.0), p.depth_error, p.error_time,
+       Alarm::depth_gauge},
+      {moves, i.velocity.x - state.speed, p.speed_error, p.speed_error_time, Alarm::speed},
+      {sounds, floor_error, p.floor_error, p.error_time, Alarm::altimeter}};
   Alarm found = Alarm::none;
   for (std::size_t k = state.wrong_for.size(); k-- > 0;) {
     const Difference& d = differences[k];
-    state.wrong_for[k] = std::abs(d.size) > d.limit ? state.wrong_for[k] + dt : 0;
+    state.wrong_for[k] = d.known && std::abs(d.size) > d.limit ? state.wrong_for[k] + dt : 0;
     if (state.wrong_for[k] > d.time) found = d.alarm;
   }
   return found;

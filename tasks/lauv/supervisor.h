@@ -12,12 +12,13 @@
 
 namespace jarol::tasks {
 
-/// An instrument that tells no more is lost. One that lies is found by another that knows better: depth gauge and
+/// An instrument that tells no more is lost, and one that is fitted and never tells anything; one that is not fitted is
+/// not waited for. One that lies is found by another that knows better: depth gauge and
 /// pressure, compass and IMU, attitude and rates, attitude and specific force, speed log and propeller, altitude and
-/// depth over a floor without steps. Once alarmed it comes up: nose up at some speed until GPS finds the surface, or,
-/// where attitude or speed are in doubt, with propeller off, by buoyancy. It stays alarmed, whatever becomes of the
-/// cause, until the operator demands a stop when there is none any more: then it is a vehicle at rest, to be commanded
-/// anew.
+/// depth over a floor without steps: each from when both have told something. Once alarmed it comes up: nose up at some
+/// speed until GPS finds the surface, or, where attitude or speed are in doubt, with propeller off, by buoyancy. It
+/// stays alarmed, whatever becomes of the cause, until the operator demands a stop when there is none any more: then it
+/// is a vehicle at rest, to be commanded anew.
 struct LauvSupervisor {
   static constexpr std::string_view summary = "passes the operator's setpoint on, or brings the submarine up";
   struct Param {
@@ -37,6 +38,7 @@ struct LauvSupervisor {
     double error_time = 1;
     double speed_error_time = 3;
     double thrust_coefficient = 2e-4;
+    double advance_coefficient = 0;
     double max_thrust = 10;
     double surge_drag = 2.4;
     double surge_mass = 19;
@@ -58,8 +60,9 @@ struct LauvSupervisor {
           field<&P::floor_error>("m", "greatest step of the sea floor"),
           field<&P::error_time>("s", "how long a difference has to last"),
           field<&P::speed_error_time>("s", "the same for speed"),
-          field<&P::thrust_coefficient>("N s^2/rad^2", "of the propeller"), field<&P::max_thrust>("N", "of the same"),
-          field<&P::surge_drag>("N s/m", "per speed, and per speed squared"),
+          field<&P::thrust_coefficient>("N s^2/rad^2", "of the propeller"),
+          field<&P::advance_coefficient>("N s^2/(m rad)", "less thrust per speed of the propeller and speed ahead"),
+          field<&P::max_thrust>("N", "of the same"), field<&P::surge_drag>("N s/m", "per speed, and per speed squared"),
           field<&P::surge_mass>("kg", "with added mass"), field<&P::climb_speed>("m/s", "on the way up"),
           field<&P::climb_time>("s", "after which it stops the propeller in any case"));
     }
@@ -83,7 +86,7 @@ struct LauvSupervisor {
     double since_fix = 0;
     std::int64_t fixes = 0;
     std::array<double, 7> wrong_for{};
-    bool started = false;
+    bool attitude_started = false, speed_started = false, floor_started = false;
     double theta = 0, psi = 0, speed = 0, floor = 0;
     static constexpr auto fields() {
       using S = State;
@@ -92,9 +95,10 @@ struct LauvSupervisor {
           field<&S::stops>("", "of the operator, up to now"), field<&S::surfaced>(),
           field<&S::counts>("", "of each instrument"), field<&S::silences>("s", "of each instrument"),
           field<&S::since_fix>("s", "at the surface"), field<&S::fixes>(),
-          field<&S::wrong_for>("s", "each difference, for so long"), field<&S::started>(),
-          field<&S::theta>("rad", "that the rates add up to"), field<&S::psi>("rad", "that the rates add up to"),
-          field<&S::speed>("m/s", "that the propeller gives"), field<&S::floor>("m", "depth of the sea floor"));
+          field<&S::wrong_for>("s", "each difference, for so long"), field<&S::attitude_started>(),
+          field<&S::speed_started>(), field<&S::floor_started>(), field<&S::theta>("rad", "that the rates add up to"),
+          field<&S::psi>("rad", "that the rates add up to"), field<&S::speed>("m/s", "that the propeller gives"),
+          field<&S::floor>("m", "depth of the sea floor"));
     }
   };
   struct Out {

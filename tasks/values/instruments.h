@@ -7,13 +7,15 @@
 
 namespace jarol::tasks {
 
-/// The newest reading of an instrument, and how many came so far: one that counts no further is lost.
+/// The newest reading of an instrument, and how many came so far: one that counts no further is lost; -1: there is
+/// none, as it is not fitted.
 struct Reading {
   double value = 0;
   std::int64_t count = 0;
 
   static constexpr auto fields() {
-    return describe(field<&Reading::value>("", "in the instrument's unit"), field<&Reading::count>("", "so far"));
+    return describe(field<&Reading::value>("", "in the instrument's unit"),
+                    field<&Reading::count>("", "so far; -1: not fitted"));
   }
 };
 
@@ -24,7 +26,7 @@ struct VectorReading {
   static constexpr auto fields() {
     using V = VectorReading;
     return describe(field<&V::x>("", "in the instrument's unit"), field<&V::y>(), field<&V::z>(),
-                    field<&V::count>("", "so far"));
+                    field<&V::count>("", "so far; -1: not fitted"));
   }
 };
 
