@@ -79,6 +79,7 @@ void JaviatorOperator::command_data(const javiator::CommandData& c) {
   command_.yaw = 1e-3 * c.yaw;
   command_.altitude = 1e-3 * c.z;
   command_.heard = true;
+  hello_due_ = false;
 }
 
 void JaviatorOperator::switch_state(const javiator::SwitchState&) {

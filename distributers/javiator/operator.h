@@ -22,9 +22,9 @@ struct JaviatorOperatorParameters {
 
 /// Speaks with the JAviator's control terminal as its flight controller does: GroundReport and TraceData out, which the
 /// terminal answers with CommandData; switches, trim and shut-down in. Gains and idle signal that it sends are for the
-/// JAviator's own laws. Over UDP, the first SwitchState of a new peer is a hello and switches nothing. Where a trim
-/// file is named, the trim is read from it at the start and kept in it when the run ends, as the JAviator's controller
-/// does.
+/// JAviator's own laws. Over UDP, a SwitchState that comes first of a new peer is a hello and switches nothing. Where a
+/// trim file is named, the trim is read from it at the start and kept in it when the run ends, as the JAviator's
+/// controller does.
 class JaviatorOperator {
  public:
   static constexpr std::string_view summary = "the helicopter's operator, over the JAviator's protocol";
@@ -68,10 +68,15 @@ class JaviatorOperator {
  private:
   void command_data(const javiator::CommandData& c);
   void switch_state(const javiator::SwitchState&);
-  void switch_mode(const javiator::SwitchMode&) { ++command_.mode_switches; }
-  void shut_down(const javiator::ShutDown&) { ++command_.shut_downs; }
-  void store_trim(const javiator::StoreTrim&) { ++command_.trim_stores; }
-  void clear_trim(const javiator::ClearTrim&) { ++command_.trim_clears; }
+  void switch_mode(const javiator::SwitchMode&) { press(command_.mode_switches); }
+  void shut_down(const javiator::ShutDown&) { press(command_.shut_downs); }
+  void store_trim(const javiator::StoreTrim&) { press(command_.trim_stores); }
+  void clear_trim(const javiator::ClearTrim&) { press(command_.trim_clears); }
+  /// Who sends anything else has said its hello, or has it lost: the next SwitchState is meant.
+  void press(std::uint32_t& key) {
+    ++key;
+    hello_due_ = false;
+  }
   void lean_gains(const javiator::RollPitchParams& p);
   void yaw_gains(const javiator::YawParams& p);
   void altitude_gains(const javiator::AltParams& p);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "graph/math/geometry.h"
 
@@ -47,7 +48,7 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
   const FlightEstimate& e = in.estimate;
   const FlightDirective& d = in.directive;
   const double dt = seconds(tick.period);
-  const double c = std::cos(e.yaw), s = std::sin(e.yaw);
+  const double c = std::cos(e.heading), s = std::sin(e.heading);
   out.goal.yaw = d.yaw;
   state.drag_x += (e.drag_x - state.drag_x) * dt / (p.drag_time + dt);
   state.drag_y += (e.drag_y - state.drag_y) * dt / (p.drag_time + dt);
@@ -65,8 +66,9 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
   // by hand; commands are meant from the take-off heading, not from the nose
   if (!d.hold_position || d.state == FlightState::starting || d.state == FlightState::ground) {
     state.holding = false;
-    out.goal.roll = limited(d.pitch * s + d.roll * c, p.lean_limit);
-    out.goal.pitch = limited(d.pitch * c - d.roll * s, p.lean_limit);
+    const double cos_yaw = std::cos(e.yaw), sin_yaw = std::sin(e.yaw);
+    out.goal.roll = limited(d.pitch * sin_yaw + d.roll * cos_yaw, p.lean_limit);
+    out.goal.pitch = limited(d.pitch * cos_yaw - d.roll * sin_yaw, p.lean_limit);
     return;
   }
   if (!state.holding)
@@ -94,7 +96,9 @@ void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   }
   out.turn.roll = turn(p.lean, state.roll, in.goal.roll, e.roll, e.p, dt);
   out.turn.pitch = turn(p.lean, state.pitch, in.goal.pitch, e.pitch, e.q, dt);
-  out.turn.yaw = turn(p.yaw, state.yaw, in.goal.yaw, e.yaw, e.r, dt);
+  // the short way, however often it has turned round
+  const double ahead = std::remainder(in.goal.yaw - state.yaw.angle, 2 * std::numbers::pi);
+  out.turn.yaw = turn(p.yaw, state.yaw, state.yaw.angle + ahead, e.yaw, e.r, dt);
 }
 
 void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {

@@ -155,7 +155,7 @@ struct AltitudeControl {
     double lift_lag = 0.06;
     ApproachLimits approach{.bandwidth = 2.2, .speed = 1, .acceleration = 2, .jerk = 15, .lag = 0.08};
     double idle = 0.5;
-    double lift_rate = 0.25;
+    double lift_rate = 1.5;
     double descent = 0.5;
     double touch_speed = 0.2;
     double spin_up = 1.5;

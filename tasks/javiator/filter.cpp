@@ -9,12 +9,19 @@
 namespace jarol::tasks {
 namespace {
 
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double gravity = 9.81;
 constexpr double pascal_per_metre = 12.0;
 
-// Counts silence and repeats; tells whether there is a new reading.
+Matrix3d rotation(double roll, double pitch, double heading) {
+  return (Eigen::AngleAxisd(heading, Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3d::UnitY()) *
+          Eigen::AngleAxisd(roll, Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+// Counts repeats, and silence in the answers that come; says whether there is a new reading.
 bool hear(SensorTrust& trust, bool is_new, double reading, std::uint32_t most_repeats, double dt) {
   trust.silent += dt;
   if (!is_new) return false;
@@ -55,12 +62,13 @@ void correct(AxisObserver& axis, double measured, double bandwidth) {
   axis.since = 0;
 }
 
-// Standing still: what is measured is averaged, as zero before the first flight and as the place after it.
-void settle(AxisObserver& axis, double& zero, SensorTrust& trust, bool heard, double measured, double acceleration,
-            bool has_flown) {
-  forgive(trust, heard);
+// Standing still it does not move, and what it feels is the accelerometer's bias.
+void rest(AxisObserver& axis, double acceleration) {
   axis = {.place = axis.place, .bias = axis.bias + 0.02 * (acceleration - axis.bias)};
-  if (!heard) return;
+}
+
+// What is measured there is averaged, as zero before the first flight and as the place after it.
+void settle(AxisObserver& axis, double& zero, double measured, bool has_flown) {
   if (has_flown) {
     axis.place += 0.1 * (measured - zero - axis.place);
   } else {
@@ -74,11 +82,8 @@ void take_off(AxisObserver& axis, double& zero) {
   axis.place = 0;
 }
 
-void observe(AxisObserver& axis, SensorTrust& trust, bool heard, double measured, double acceleration,
-             const JaviatorFilter::Param& p, double dt) {
-  predict(axis, acceleration, dt);
-  const bool credible = heard && std::abs(measured - axis.place) < p.range_jump;
-  if (believe(trust, credible, p.patience)) correct(axis, measured, p.bandwidth);
+bool is_near(const AxisObserver& axis, double measured, const JaviatorFilter::Param& p) {
+  return std::abs(measured - axis.place) < p.range_jump;
 }
 
 // Without a sonar the pressure has to do; with one, it tells whether the sonar can be believed.
@@ -91,6 +96,15 @@ void weigh_pressure(JaviatorFilter::State& state, const JaviatorFilter::Param& p
   state.z.speed += 0.1 * residual;
 }
 
+// Angles that disagree with the weight that it feels on the ground are not believed: it does not fly with them.
+void feel_weight(JaviatorFilter::State& state, const JaviatorFilter::Param& p, const JaviatorSensors& s) {
+  const double roll = std::atan2(-s.a_y, -s.a_z), pitch = std::atan2(s.a_x, std::hypot(s.a_y, s.a_z));
+  state.slant_roll += 0.05 * (roll - s.roll - state.slant_roll);
+  state.slant_pitch += 0.05 * (pitch - s.pitch - state.slant_pitch);
+  const bool level = std::abs(state.slant_roll) < p.angle_jump && std::abs(state.slant_pitch) < p.angle_jump;
+  state.angles = {.lost = !level};
+}
+
 }  // namespace
 
 void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
@@ -99,10 +113,13 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   const double dt = seconds(tick.period);
   const bool fresh = s.answers != state.answers;
   state.answers = s.answers;
+  state.unanswered = fresh ? 0 : state.unanswered + dt;
+  const double heard_dt = fresh ? dt : 0;
   const FlightState doing = in.directive.state;
   const bool settled = doing == FlightState::halt || doing == FlightState::ground;
 
-  const bool imu = hear(state.imu, fresh && s.new_imu, s.roll + s.pitch + s.yaw + s.p + s.q + s.r, p.imu_repeats, dt);
+  const bool imu =
+      hear(state.imu, fresh && s.new_imu, s.roll + s.pitch + s.yaw + s.p + s.q + s.r, p.imu_repeats, heard_dt);
   if (settled) forgive(state.imu, imu);
   const bool turns = believe(state.imu, imu, p.imu_patience);
 
@@ -126,52 +143,77 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     state.pitch = s.pitch;
     if (!state.has_flown) state.zero_yaw = s.yaw;
     state.yaw = std::remainder(s.yaw - state.zero_yaw, 2 * std::numbers::pi);
-    forgive(state.angles, true);
+    feel_weight(state, p, s);
   }
   const bool smooth = std::abs(s.roll - state.roll) < p.angle_jump && std::abs(s.pitch - state.pitch) < p.angle_jump;
-  state.angles.silent += dt;
+  state.angles.silent += heard_dt;
   if (believe(state.angles, turns && smooth, p.imu_patience)) {
     state.roll += p.angle_gain * (s.roll - state.roll);
     state.pitch += p.angle_gain * (s.pitch - state.pitch);
     state.yaw += p.angle_gain * std::remainder(s.yaw - state.zero_yaw - state.yaw, 2 * std::numbers::pi);
   }
 
-  const Eigen::Matrix3d R =
-      (Eigen::AngleAxisd(state.yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(state.pitch, Vector3d::UnitY()) *
-       Eigen::AngleAxisd(state.roll, Vector3d::UnitX()))
-          .toRotationMatrix();
+  const Vector3d rates = turns ? Vector3d(s.p, s.q, s.r) : Vector3d::Zero();
+  const Matrix3d R = rotation(state.roll, state.pitch, state.zero_yaw + state.yaw);
+  // ranges are younger than the IMU's sample
+  const Matrix3d R_now = rotation(state.roll + p.age * rates.x(), state.pitch + p.age * rates.y(),
+                                  state.zero_yaw + state.yaw + p.age * rates.z());
   const Vector3d force_b = turns ? Vector3d(s.a_x, s.a_y, s.a_z) : R.transpose() * Vector3d(0, 0, -gravity);
   const Vector3d a = R * force_b + Vector3d(0, 0, gravity);
-  const double x = (R * Vector3d(p.laser_x_x, p.laser_x_y, p.laser_x_z)).x() - s.laser_x;
-  const double y = (R * Vector3d(p.laser_y_x, p.laser_y_y, p.laser_y_z)).y() - s.laser_y;
   const double z = (R * Vector3d(p.sonar_x, p.sonar_y, p.sonar_z + s.sonar)).z();
   const double last_pressure = state.pressure.last;
-  const bool new_x = hear(state.laser_x, fresh && s.new_x, s.laser_x, p.repeats, dt);
-  const bool new_y = hear(state.laser_y, fresh && s.new_y, s.laser_y, p.repeats, dt);
-  const bool new_z = hear(state.sonar, fresh && s.new_sonar, s.sonar, p.repeats, dt);
-  const bool new_pressure = hear(state.pressure, fresh && s.new_bmu, s.pressure, p.repeats, dt);
+  const bool new_x = hear(state.laser_x, fresh && s.new_x, s.laser_x, p.repeats, heard_dt);
+  const bool new_y = hear(state.laser_y, fresh && s.new_y, s.laser_y, p.repeats, heard_dt);
+  const bool new_z = hear(state.sonar, fresh && s.new_sonar, s.sonar, p.repeats, heard_dt);
+  const bool new_pressure = hear(state.pressure, fresh && s.new_bmu, s.pressure, p.repeats, heard_dt);
   if (settled) {
-    settle(state.x, state.zero_x, state.laser_x, new_x, x, a.x(), state.has_flown);
-    settle(state.y, state.zero_y, state.laser_y, new_y, y, a.y(), state.has_flown);
-    settle(state.z, state.zero_z, state.sonar, new_z, z, -a.z(), state.has_flown);
+    rest(state.x, a.x());
+    rest(state.y, a.y());
+    rest(state.z, -a.z());
+    forgive(state.sonar, new_z);
+    if (new_z) settle(state.z, state.zero_z, z, state.has_flown);
     forgive(state.pressure, new_pressure);
     if (new_pressure) state.zero_pressure += (state.zero_pressure == 0 ? 1 : 0.1) * (s.pressure - state.zero_pressure);
     state.disagreement = 0;
   } else {
-    observe(state.x, state.laser_x, new_x, x - state.zero_x, a.x(), p, dt);
-    observe(state.y, state.laser_y, new_y, y - state.zero_y, a.y(), p, dt);
-    observe(state.z, state.sonar, new_z, z - state.zero_z, -a.z(), p, dt);
+    predict(state.x, a.x(), dt);
+    predict(state.y, a.y(), dt);
+    predict(state.z, -a.z(), dt);
+    const bool credible = new_z && is_near(state.z, z - state.zero_z, p);
+    if (believe(state.sonar, credible, p.patience)) correct(state.z, z - state.zero_z, p.bandwidth);
     // no climb is that fast: a pressure that jumps is wrong
     if (new_pressure && std::abs(s.pressure - last_pressure) > p.pressure_jump) state.pressure.lost = true;
     if (believe(state.pressure, new_pressure, p.patience)) weigh_pressure(state, p, s.pressure);
   }
 
+  AxisObserver* const axes[] = {&state.x, &state.y};
+  double* const zeros[] = {&state.zero_x, &state.zero_y};
+  // a laser measures along the axis whose wall it meets
+  const auto look = [&](SensorTrust& laser, bool heard, const Vector3d& lever, int along, double range) {
+    const Eigen::Vector2d expected(state.zero_x + state.x.place, state.zero_y + state.y.place);
+    const WallFix fix = find_place(p.room, R_now * lever, R_now.col(along), range, expected);
+    AxisObserver& axis = *axes[fix.axis];
+    double& zero = *zeros[fix.axis];
+    if (settled) {
+      forgive(laser, heard && fix.seen);
+      if (heard && fix.seen) settle(axis, zero, fix.place, state.has_flown);
+      return;
+    }
+    const bool credible = heard && fix.seen && is_near(axis, fix.place - zero, p);
+    if (believe(laser, credible, p.patience) && axis.since > 0) correct(axis, fix.place - zero, p.bandwidth);
+  };
+  look(state.laser_x, new_x, {p.laser_x_x, p.laser_x_y, p.laser_x_z}, 0, s.laser_x);
+  look(state.laser_y, new_y, {p.laser_y_x, p.laser_y_y, p.laser_y_z}, 1, s.laser_y);
+  const bool seen = state.x.since < p.place_patience && state.y.since < p.place_patience;
+
+  const bool answers = state.unanswered <= p.imu_patience;
+
   // an accelerometer in flight feels the rotors along their axis, and drag across it
   const Vector3d drag = R * Vector3d(force_b.x(), force_b.y(), 0);
-  const Vector3d rates = turns ? Vector3d(s.p, s.q, s.r) : Vector3d::Zero();
   e = {.roll = state.roll + p.age * rates.x() - in.directive.trim_roll,
        .pitch = state.pitch + p.age * rates.y() - in.directive.trim_pitch,
        .yaw = state.yaw + p.age * rates.z(),
+       .heading = state.zero_yaw + state.yaw + p.age * rates.z(),
        .p = rates.x(),
        .q = rates.y(),
        .r = rates.z(),
@@ -188,11 +230,12 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
        .drag_x = drag.x(),
        .drag_y = drag.y(),
        .battery = e.battery == 0 ? s.battery : e.battery + dt * (s.battery - e.battery),
-       .rates_known = !state.imu.lost,
+       .rates_known = !state.imu.lost && answers,
        .attitude_known = !state.imu.lost && !state.angles.lost,
        .altitude_known = !state.sonar.lost,
-       .position_known = !state.laser_x.lost && !state.laser_y.lost,
-       .pressure_known = !state.pressure.lost};
+       .position_known = !state.laser_x.lost && !state.laser_y.lost && seen,
+       .pressure_known = !state.pressure.lost,
+       .answers_known = answers};
 }
 
 }  // namespace jarol::tasks

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/javiator/room.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
@@ -39,13 +40,15 @@ struct JaviatorFilter {
   static constexpr std::string_view summary = "estimates attitude, position and velocity from the helicopter's sensors";
   struct Param {
     double sonar_x = 0, sonar_y = 0, sonar_z = 0.055;
-    double laser_x_x = 0.070, laser_x_y = -0.075, laser_x_z = -0.080;
-    double laser_y_x = -0.050, laser_y_y = 0.077, laser_y_z = -0.080;
+    double laser_x_x = -0.070, laser_x_y = 0.075, laser_x_z = 0.080;
+    double laser_y_x = 0.050, laser_y_y = -0.077, laser_y_z = 0.080;
+    Room room{};
     double bandwidth = 6;
     double age = 0.02;
     double angle_gain = 0.5;
     double patience = 0.3;
     double imu_patience = 0.04;
+    double place_patience = 3;
     double range_jump = 0.3;
     double angle_jump = 0.1;
     double pressure_jump = 15;
@@ -57,14 +60,16 @@ struct JaviatorFilter {
       return describe(
           field<&P::sonar_x>("m", "of the sonar, or the middle of four, forward of the centre of gravity"),
           field<&P::sonar_y>("m", "right"), field<&P::sonar_z>("m", "down"),
-          field<&P::laser_x_x>("m", "of the laser to the north, forward"), field<&P::laser_x_y>("m", "right"),
-          field<&P::laser_x_z>("m", "down"), field<&P::laser_y_x>("m", "of the laser to the east, forward"),
+          field<&P::laser_x_x>("m", "of the laser that looks forward, forward"), field<&P::laser_x_y>("m", "right"),
+          field<&P::laser_x_z>("m", "down"), field<&P::laser_y_x>("m", "of the laser that looks right, forward"),
           field<&P::laser_y_y>("m", "right"), field<&P::laser_y_z>("m", "down"),
+          field<&P::room>("", "whose walls the lasers see"),
           field<&P::bandwidth>("rad/s", "of the observers of place and speed"),
           field<&P::age>("s", "of the attitude when it is used; it is turned on by the rates"),
           field<&P::angle_gain>("", "part of a measured angle in the new one, the rest is the rate's"),
           field<&P::patience>("s", "without a credible measurement before a sensor counts as lost"),
           field<&P::imu_patience>("s", "the same, for the IMU"),
+          field<&P::place_patience>("s", "without a laser that sees along an axis"),
           field<&P::range_jump>("m", "from the estimate at which a range is not credible"),
           field<&P::angle_jump>("rad", "the same, for roll and pitch"),
           field<&P::pressure_jump>("Pa", "from one reading to the next, which is not credible"),
@@ -85,7 +90,8 @@ struct JaviatorFilter {
     SensorTrust imu{}, angles{}, laser_x{}, laser_y{}, sonar{}, pressure{};
     double zero_x = 0, zero_y = 0, zero_z = 0, zero_yaw = 0, zero_pressure = 0;
     double roll = 0, pitch = 0, yaw = 0;
-    double disagreement = 0;
+    double disagreement = 0, unanswered = 0;
+    double slant_roll = 0, slant_pitch = 0;
     bool stood = false, has_flown = false;
     std::uint32_t answers = 0;
     static constexpr auto fields() {
@@ -96,8 +102,10 @@ struct JaviatorFilter {
                       field<&S::zero_z>("m"), field<&S::zero_yaw>("rad"), field<&S::zero_pressure>("Pa"),
                       field<&S::roll>("rad"), field<&S::pitch>("rad"), field<&S::yaw>("rad", "all turns counted"),
                       field<&S::disagreement>("m", "of pressure and altitude, averaged"),
-                      field<&S::stood>("", "in the period before"), field<&S::has_flown>(),
-                      field<&S::answers>("", "of the Robostix, up to now"));
+                      field<&S::unanswered>("s", "since the Robostix answered"),
+                      field<&S::slant_roll>("rad", "of the weight felt while it stands, less the roll, averaged"),
+                      field<&S::slant_pitch>("rad"), field<&S::stood>("", "in the period before"),
+                      field<&S::has_flown>(), field<&S::answers>("", "of the Robostix, up to now"));
     }
   };
   struct Out {

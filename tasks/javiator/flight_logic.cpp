@@ -1,6 +1,7 @@
 #include "tasks/javiator/flight_logic.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "graph/math/geometry.h"
 
@@ -13,9 +14,10 @@ using Cause = LandingCause;
 Cause find_cause(const FlightLogic::Param& p, const FlightEstimate& e, bool wants_position, double unheard) {
   if (std::abs(e.roll) > p.roll_limit) return Cause::roll;
   if (std::abs(e.pitch) > p.pitch_limit) return Cause::pitch;
-  if (std::abs(e.yaw) > p.yaw_limit) return Cause::yaw;
+  if (std::abs(std::remainder(e.yaw, 2 * std::numbers::pi)) > p.yaw_limit) return Cause::yaw;
   if (e.altitude > p.altitude_limit) return Cause::altitude;
   if (unheard > p.patience) return Cause::operator_lost;
+  if (!e.answers_known) return Cause::answers_late;
   if (!e.attitude_known) return Cause::imu_lost;
   if (!e.altitude_known) return Cause::sonar_lost;
   if (!e.pressure_known) return Cause::bmu_lost;
@@ -54,7 +56,10 @@ void follow(const PilotCommand& command, bool wants_position, FlightDirective& d
 void press_switch(const FlightEstimate& e, FlightLogic::State& state, FlightDirective& d) {
   switch (d.state) {
     case FlightState::halt: enter(FlightState::ground, Cause::none, state, d); break;
-    case FlightState::ground: enter(FlightState::starting, Cause::none, state, d); break;
+    case FlightState::ground:
+      // after a landing that nobody wanted the key may have been meant to land: it only acknowledges
+      enter(d.cause == Cause::none ? FlightState::starting : FlightState::ground, Cause::none, state, d);
+      break;
     case FlightState::starting: enter(FlightState::ground, Cause::none, state, d); break;
     case FlightState::flying: begin_landing(Cause::none, e, state, d); break;
     case FlightState::landing: break;

@@ -28,7 +28,7 @@ struct FlightLogic {
       return describe(field<&P::spin_up>("s", "for the rotors to reach idle"),
                       field<&P::roll_limit>("rad", "beyond which it lands"),
                       field<&P::pitch_limit>("rad", "beyond which it lands"),
-                      field<&P::yaw_limit>("rad", "from the take-off heading, beyond which it lands"),
+                      field<&P::yaw_limit>("rad", "from the take-off heading, the short way, beyond which it lands"),
                       field<&P::altitude_limit>("m", "beyond which it lands"),
                       field<&P::battery_limit>("V", "below which it lands"),
                       field<&P::patience>("s", "without the operator, before it lands"),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "graph/math/geometry.h"
 
@@ -16,6 +17,8 @@ double calc_pidd(const PiddGains& g, double goal, double place, double velocity,
   state.goal = goal;
   return g.kp * error + g.ki * state.integral + g.kd * (goal_rate - velocity) + g.kdd * acceleration;
 }
+
+double short_way(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
 // the terminal's commands are smoothed as they come, one a period
 void smooth(double& value, double command) { value += 0.2 * (command - value); }
@@ -52,7 +55,8 @@ void OriginalLogic::run(const Param& p, const Tick& tick, const In& in, State& s
   d.hold_position = command.mode_switches % 2 == 1;
   smooth(d.roll, command.roll);
   smooth(d.pitch, command.pitch);
-  smooth(d.yaw, command.yaw);
+  // the terminal's yaw goes from one side of 180 degrees to the other; the short way is meant
+  smooth(d.yaw, d.yaw + short_way(command.yaw - d.yaw));
   smooth(d.altitude, command.altitude);
   smooth(d.x, command.x);
   smooth(d.y, command.y);
@@ -83,8 +87,9 @@ void OriginalPosition::run(const Param& p, const Tick& tick, const In& in, State
   } else {
     state = {};
   }
-  // meant from the take-off heading, not from the nose
-  const double c = std::cos(e.yaw), s = std::sin(e.yaw);
+  // a place is meant from north, what is commanded by hand from the take-off heading, neither from the nose
+  const double from = d.hold_position && d.state == FlightState::flying ? e.heading : e.yaw;
+  const double c = std::cos(from), s = std::sin(from);
   out.goal = {.roll = roll * c + pitch * s, .pitch = pitch * c - roll * s, .yaw = d.yaw};
 }
 
@@ -104,7 +109,10 @@ void OriginalAttitude::run(const Param& p, const Tick& tick, const In& in, State
       calc_pidd(lean, 1e3 * in.goal.roll, 1e3 * e.roll, rate_p, per_period * (rate_p - state.p), state.roll, dt);
   const double pitch =
       calc_pidd(lean, 1e3 * in.goal.pitch, 1e3 * e.pitch, rate_q, per_period * (rate_q - state.q), state.pitch, dt);
-  const double yaw = calc_pidd(in.gains.yaw.value_or(p.yaw), 1e3 * in.goal.yaw, 1e3 * e.yaw, rate_r,
+  // turned round, a goal and its rate are those of the nearest heading that is the same
+  const double goal = e.yaw + short_way(in.goal.yaw - e.yaw);
+  state.yaw.goal = 1e3 * (goal + short_way(1e-3 * state.yaw.goal - goal));
+  const double yaw = calc_pidd(in.gains.yaw.value_or(p.yaw), 1e3 * goal, 1e3 * e.yaw, rate_r,
                                per_period * (rate_r - state.r), state.yaw, dt);
   state.p = rate_p;
   state.q = rate_q;

@@ -13,7 +13,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double gravity = 9810;  // mm/s^2
-const Vector3d sonar_b(-95, -95, 55), laser_x_b(70, -75, -80), laser_y_b(-50, 77, -80);
+// its constants of the lasers lead from these to the centre of gravity
+const Vector3d sonar_b(-95, -95, 55), laser_x_b(-70, 75, 80), laser_y_b(50, -77, 80);
 
 // one look-ahead of a period: the rate counts for two of them
 void filter_angle(double& angle, double measured, double rate, double dt) {
@@ -67,7 +68,7 @@ void step(AxisKalman& k, double acceleration, bool is_new, double measured, bool
 
 }  // namespace
 
-void OriginalFilter::run(const Tick& tick, const In& in, State& state, Out& out) {
+void OriginalFilter::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const JaviatorSensors& s = in.sensors;
   FlightEstimate& e = out.estimate;
   const double dt = seconds(tick.period);
@@ -85,19 +86,29 @@ void OriginalFilter::run(const Tick& tick, const In& in, State& state, Out& out)
   filter_angle(state.yaw, yaw, (s.q * std::sin(s.roll) + s.r * std::cos(s.roll)) / std::cos(s.pitch), dt);
   if (settled) state.yaw = 0;
 
-  const Eigen::Matrix3d R = (Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(s.pitch, Vector3d::UnitY()) *
-                             Eigen::AngleAxisd(s.roll, Vector3d::UnitX()))
-                                .toRotationMatrix();
+  const Eigen::Matrix3d R =
+      (Eigen::AngleAxisd(s.yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(s.pitch, Vector3d::UnitY()) *
+       Eigen::AngleAxisd(s.roll, Vector3d::UnitX()))
+          .toRotationMatrix();
   const Vector3d a = R * (1e3 * Vector3d(s.a_x, s.a_y, s.a_z)) + Vector3d(0, 0, gravity);
   const double z = (R * (sonar_b + Vector3d(0, 0, 1e3 * s.sonar))).z();
-  step(state.x, a.x(), fresh && s.new_x, (R * laser_x_b).x() - 1e3 * s.laser_x, settled, state.zero_x, dt);
-  step(state.y, a.y(), fresh && s.new_y, (R * laser_y_b).y() - 1e3 * s.laser_y, settled, state.zero_y, dt);
+  const Eigen::Vector2d expected = 1e-3 * Eigen::Vector2d(state.zero_x + state.x.place, state.zero_y + state.y.place);
+  const WallFix ahead = find_place(p.room, 1e-3 * (R * laser_x_b), R.col(0), s.laser_x, expected);
+  const WallFix right = find_place(p.room, 1e-3 * (R * laser_y_b), R.col(1), s.laser_y, expected);
+  const auto step_along = [&](int axis, AxisKalman& k, double acceleration, double& zero) {
+    const bool by_ahead = fresh && s.new_x && ahead.seen && ahead.axis == axis;
+    const bool by_right = fresh && s.new_y && right.seen && right.axis == axis;
+    step(k, acceleration, by_ahead || by_right, 1e3 * (by_ahead ? ahead.place : right.place), settled, zero, dt);
+  };
+  step_along(0, state.x, a.x(), state.zero_x);
+  step_along(1, state.y, a.y(), state.zero_y);
   step(state.z, -a.z(), fresh && s.new_sonar, z, settled, state.zero_z, dt);
   state.z.place = std::max(state.z.place, 0.0);
 
   e = {.roll = state.roll - in.directive.trim_roll,
        .pitch = state.pitch - in.directive.trim_pitch,
        .yaw = state.yaw,
+       .heading = state.zero_yaw + state.yaw,
        .p = s.p,
        .q = s.q,
        .r = s.r,
@@ -115,7 +126,8 @@ void OriginalFilter::run(const Tick& tick, const In& in, State& state, Out& out)
        .attitude_known = true,
        .altitude_known = true,
        .position_known = true,
-       .pressure_known = true};
+       .pressure_known = true,
+       .answers_known = true};
 }
 
 }  // namespace jarol::tasks

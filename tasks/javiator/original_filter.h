@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/javiator/room.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
@@ -25,8 +26,15 @@ struct AxisKalman {
   }
 };
 
+/// Its lasers and walls are taken as they stand to each other: with the take-off heading along a wall and turned by
+/// less than 45 degrees from there it computes what the JAviator's controller does, who takes any wall for the one
+/// ahead.
 struct OriginalFilter {
   static constexpr std::string_view summary = "estimates attitude, position and velocity as the JAviator's controller";
+  struct Param {
+    Room room{};
+    static constexpr auto fields() { return describe(field<&Param::room>("", "whose walls the lasers see")); }
+  };
   struct In {
     JaviatorSensors sensors{};
     FlightDirective directive{};
@@ -52,7 +60,7 @@ struct OriginalFilter {
     FlightEstimate estimate{};
     static constexpr auto fields() { return describe(field<&Out::estimate>()); }
   };
-  static void run(const Tick& tick, const In& in, State& state, Out& out);
+  static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };
 
 }  // namespace jarol::tasks

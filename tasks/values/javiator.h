@@ -26,8 +26,8 @@ struct JaviatorSensors {
                     field<&S::p>("rad/s", "rate about the body's x"), field<&S::q>("rad/s", "about y"),
                     field<&S::r>("rad/s", "about z"), field<&S::a_x>("m/s^2", "specific force along the body's x"),
                     field<&S::a_y>("m/s^2", "along y"), field<&S::a_z>("m/s^2", "along z, -9.81 at rest"),
-                    field<&S::sonar>("m", "range below"), field<&S::laser_x>("m", "range to the wall in the north"),
-                    field<&S::laser_y>("m", "range to the wall in the east"), field<&S::pressure>("Pa", "of the air"),
+                    field<&S::sonar>("m", "range below"), field<&S::laser_x>("m", "range ahead, 0: nothing seen"),
+                    field<&S::laser_y>("m", "range to the right, likewise"), field<&S::pressure>("Pa", "of the air"),
                     field<&S::temperature>("degC", "of the air"), field<&S::battery>("V", "voltage"),
                     field<&S::new_imu>("", "attitude, rates and forces are new"),
                     field<&S::new_bmu>("", "pressure, temperature and battery are new"),
@@ -94,11 +94,12 @@ enum class LandingCause : std::uint8_t {
   position_lost,
   imu_lost,
   bmu_lost,
-  battery_low
+  battery_low,
+  answers_late
 };
 
 constexpr auto enumerators(LandingCause) {
-  return std::array<Enumerator<LandingCause>, 11>{
+  return std::array<Enumerator<LandingCause>, 12>{
       {{"none", LandingCause::none},
        {"roll", LandingCause::roll, "its roll is beyond the limit"},
        {"pitch", LandingCause::pitch, "its pitch is beyond the limit"},
@@ -109,7 +110,8 @@ constexpr auto enumerators(LandingCause) {
        {"position_lost", LandingCause::position_lost, "a laser tells nothing credible"},
        {"imu_lost", LandingCause::imu_lost, "the IMU tells nothing credible"},
        {"bmu_lost", LandingCause::bmu_lost, "the BMU tells nothing credible"},
-       {"battery_low", LandingCause::battery_low, "the battery's voltage is below the limit"}}};
+       {"battery_low", LandingCause::battery_low, "the battery's voltage is below the limit"},
+       {"answers_late", LandingCause::answers_late, "the Robostix does not answer in time"}}};
 }
 
 /// What the operator is told.
@@ -144,7 +146,7 @@ struct HelicopterReport {
 
 /// How the vehicle moves, as far as its sensors tell.
 struct FlightEstimate {
-  double roll = 0, pitch = 0, yaw = 0;
+  double roll = 0, pitch = 0, yaw = 0, heading = 0;
   double p = 0, q = 0, r = 0;
   double x = 0, y = 0, altitude = 0;
   double v_x = 0, v_y = 0, climb = 0;
@@ -152,24 +154,25 @@ struct FlightEstimate {
   double lift = 0, drag_x = 0, drag_y = 0;
   double battery = 0;
   bool rates_known = false, attitude_known = false, altitude_known = false, position_known = false;
-  bool pressure_known = false;
+  bool pressure_known = false, answers_known = false;
 
   static constexpr auto fields() {
     using E = FlightEstimate;
-    return describe(field<&E::roll>("rad"), field<&E::pitch>("rad"), field<&E::yaw>("rad", "from the take-off heading"),
-                    field<&E::p>("rad/s", "rate about the body's x"), field<&E::q>("rad/s", "about y"),
-                    field<&E::r>("rad/s", "about z"), field<&E::x>("m", "north of the start"),
-                    field<&E::y>("m", "east of the start"), field<&E::altitude>("m", "above the start"),
-                    field<&E::v_x>("m/s", "to the north"), field<&E::v_y>("m/s", "to the east"),
-                    field<&E::climb>("m/s", "upwards"), field<&E::a_x>("m/s^2", "to the north"),
-                    field<&E::a_y>("m/s^2", "to the east"), field<&E::a_up>("m/s^2", "upwards"),
-                    field<&E::lift>("m/s^2", "specific force upwards along the rotors' axis"),
-                    field<&E::drag_x>("m/s^2", "to the north, of all else: drag and wind"),
-                    field<&E::drag_y>("m/s^2", "to the east"), field<&E::battery>("V", "voltage"),
-                    field<&E::rates_known>("", "the IMU tells something new"),
-                    field<&E::attitude_known>("", "and its angles agree with its rates"),
-                    field<&E::altitude_known>("", "the sonar tells something credible"),
-                    field<&E::position_known>("", "both lasers do"), field<&E::pressure_known>("", "the BMU does"));
+    return describe(
+        field<&E::roll>("rad"), field<&E::pitch>("rad"), field<&E::yaw>("rad", "from the take-off heading"),
+        field<&E::heading>("rad", "from north"), field<&E::p>("rad/s", "rate about the body's x"),
+        field<&E::q>("rad/s", "about y"), field<&E::r>("rad/s", "about z"), field<&E::x>("m", "north of the start"),
+        field<&E::y>("m", "east of the start"), field<&E::altitude>("m", "above the start"),
+        field<&E::v_x>("m/s", "to the north"), field<&E::v_y>("m/s", "to the east"), field<&E::climb>("m/s", "upwards"),
+        field<&E::a_x>("m/s^2", "to the north"), field<&E::a_y>("m/s^2", "to the east"),
+        field<&E::a_up>("m/s^2", "upwards"), field<&E::lift>("m/s^2", "specific force upwards along the rotors' axis"),
+        field<&E::drag_x>("m/s^2", "to the north, of all else: drag and wind"),
+        field<&E::drag_y>("m/s^2", "to the east"), field<&E::battery>("V", "voltage"),
+        field<&E::rates_known>("", "the IMU tells something new"),
+        field<&E::attitude_known>("", "and its angles agree with its rates"),
+        field<&E::altitude_known>("", "the sonar tells something credible"),
+        field<&E::position_known>("", "both lasers do"), field<&E::pressure_known>("", "the BMU does"),
+        field<&E::answers_known>("", "the Robostix answers in time"));
   }
 };
 

@@ -68,10 +68,20 @@ TEST_SUITE("vehicles/judge") {
     CHECK(mishap_of(tilted(89.9 * degree)) == "");
     CHECK(mishap_of(tilted(90.1 * degree)) == "capsized: tilted by 90 deg, beyond 90 deg");
     CHECK(mishap_of(tilted(-170 * degree)) == "capsized: tilted by 170 deg, beyond 90 deg");
-    // a hub is 0.30 m out and 0.05 m up
-    const double z = 0.30 * std::sin(0.8) - 0.05 * std::cos(0.8);
+    // a rotor's tip is 0.30 m + 0.25 m out and 0.05 m up
+    const double z = 0.55 * std::sin(0.8) - 0.05 * std::cos(0.8);
     CHECK(mishap_of(tilted(0.8, -z - 0.001)) == "");
     CHECK(mishap_of(tilted(0.8, -z + 0.001)) == "crashed: a rotor met the ground");
+  }
+
+  TEST_CASE("the top at the ground is a crash too, and every part's speed at the ground is kept") {
+    HelicopterMotion head_first = tilted(180 * degree, -0.121);
+    head_first.v_b = {0, 0, -3};  // its axis points up
+    HelicopterJudge judge({}, head_first);
+    head_first.p_n[2] = -0.119;
+    judge.look(std::chrono::milliseconds(5), head_first, {});
+    CHECK(judge.mishap()->text == "crashed: its top met the ground");
+    CHECK(judge.truth().impact == doctest::Approx(3));
   }
 
   TEST_CASE("rotors that were ordered to lift it for 5 s, and did not, have never taken off") {

@@ -1,4 +1,4 @@
-// Wind with gusts: a first-order Gauss-Markov process about the mean.
+// Wind with shear and gusts: first-order Gauss-Markov processes about the mean, or those of Dryden.
 #pragma once
 
 #include "vehicles/air/parameters.h"
@@ -9,17 +9,20 @@ namespace jarol::vehicles {
 
 class Wind {
  public:
-  Wind(const AirParameters& parameters, std::uint64_t seed) : parameters_(parameters), noise_(seed) {}
+  Wind(const AirParameters& parameters, std::uint64_t seed);
 
   void step(double seconds);
 
-  /// NED, m/s.
-  fossen::Vector3 now() const;
+  /// NED, m/s, so high above the ground.
+  fossen::Vector3 now(double height) const;
 
  private:
   AirParameters parameters_;
   Noise noise_;
-  fossen::Vector3 gust_{};
+  fossen::Vector3 gust_{};                       // along the mean wind, across it, down
+  fossen::Vector3 first_{}, lagged_{};           // that those of second order are made of
+  double along_north_ = 1.0, along_east_ = 0.0;  // the mean wind's direction
+  double time_ = 0.0, gust_begin_ = 0.0;         // s
 };
 
 }  // namespace jarol::vehicles

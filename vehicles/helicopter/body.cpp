@@ -82,7 +82,8 @@ fossen::Vector6 calc_loads(const HelicopterBody& body, const HelicopterMotion& m
     add(force, on_foot);
     add(moment, fossen::cross(r_b, on_foot));
   }
-  return {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
+  const double share = body.mass / (body.mass + input.payload);
+  return {share * force[0], share * force[1], share * force[2], moment[0], moment[1], moment[2]};
 }
 
 FootMotion foot_motion(const HelicopterMotion& motion, const Vector3& r_b) {

@@ -20,6 +20,7 @@ struct HelicopterMotion {
 /// Rotors in the order front, right, rear, left.
 struct HelicopterBody {
   double mass = 1.0;
+  double payload = 0.0;  // kg more in the centre of gravity, at the start
   double gravity = 9.81;
   fossen::Vector3 inertia{1.0, 1.0, 1.0};  // principal moments about the centre of gravity
 
@@ -49,13 +50,15 @@ struct HelicopterInput {
   std::array<double, 4> to{};
   double begin = 0.0;  // s
   fossen::Vector3 wind_n{};
-  std::array<FootAnchor, 4> anchors{};
+  std::array<FootAnchor, contact_count> anchors{};
+  double payload = 0.0;
 };
 
 /// The part of a change of setting that is still to come after a time: first-order lag, solved exactly.
 double calc_remaining(const HelicopterBody& body, double seconds);
 
-/// Force and moment about the centre of gravity in body axes, weight left out.
+/// Force and moment about the centre of gravity in body axes, weight left out. The force is what moves the body, of
+/// which a payload takes its share.
 fossen::Vector6 calc_loads(const HelicopterBody& body, const HelicopterMotion& motion, const HelicopterInput& input,
                            double time);
 

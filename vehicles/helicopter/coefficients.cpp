@@ -1,5 +1,6 @@
 #include "vehicles/helicopter/coefficients.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -31,11 +32,16 @@ HelicopterBody make_body(const HelicopterParameters& parameters) {
        "its feet need height and stiffness above zero, dissipation and friction not below zero");
 
   need(parameters.sensors.sonars == 1 || parameters.sensors.sonars == 4, "it has one sonar or four");
+  need(parameters.payload.mass >= 0.0, "its payload can't be below zero");
+  need(parameters.air.roughness >= 0.0 && parameters.air.wind_height > parameters.air.roughness &&
+           parameters.air.gust.time > 0.0,
+       "its ground's roughness has to lie between zero and the height of the wind, and a gust takes time");
   need(parameters.battery.capacity > 0.0 && parameters.air.gust_time > 0.0,
        "its battery's capacity and the time of gusts have to be above zero");
 
   HelicopterBody body;
   body.mass = frame.mass;
+  body.payload = parameters.payload.at > 0.0 ? parameters.payload.mass : 0.0;
   body.gravity = parameters.air.gravity;
   body.inertia = {frame.I_x, frame.I_y, frame.I_z};
   const double a = rotors.arm, h = -rotors.height;
@@ -52,8 +58,14 @@ HelicopterBody make_body(const HelicopterParameters& parameters) {
   body.ground_effect = rotors.ground_effect;
   body.drag = 0.5 * parameters.air.density * frame.drag_area;
 
-  const double r = feet.radius, down = feet.height;
-  body.feet.r_b = {{{r, 0.0, down}, {0.0, r, down}, {-r, 0.0, down}, {0.0, -r, down}}};
+  const auto around = [&](std::size_t first, double r, double down) {
+    const std::array<fossen::Vector3, 4> points{{{r, 0.0, down}, {0.0, r, down}, {-r, 0.0, down}, {0.0, -r, down}}};
+    std::copy(points.begin(), points.end(), body.feet.r_b.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  around(0, feet.radius, feet.height);
+  around(4, a, h);
+  around(8, a + rotors.radius, h);
+  body.feet.r_b[12] = {0.0, 0.0, -frame.top};
   body.feet.stiffness = feet.stiffness;
   body.feet.dissipation = feet.dissipation;
   body.feet.friction = feet.friction;
@@ -67,7 +79,8 @@ HelicopterMotion make_start(const HelicopterParameters& parameters) {
   const LiftOffParameters& start = parameters.start;
   need(start.altitude >= 0.0, "its start can't be below the ground");
   need(start.signal >= 0.0 && start.signal <= 16000.0, "its motor signal at the start has to be from 0 to 16000");
-  const double sunk = parameters.frame.mass * parameters.air.gravity / (4.0 * parameters.feet.stiffness);
+  const double payload = parameters.payload.at > 0.0 ? parameters.payload.mass : 0.0;
+  const double sunk = (parameters.frame.mass + payload) * parameters.air.gravity / (4.0 * parameters.feet.stiffness);
   HelicopterMotion motion;
   motion.p_n = {start.north, start.east, sunk - parameters.feet.height - start.altitude};
   const double c = std::cos(start.heading), s = std::sin(start.heading);

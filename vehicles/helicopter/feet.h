@@ -1,15 +1,20 @@
-// Four feet on level ground at z = 0: springs that only push, and friction that holds. Plain C++17.
+// Four feet, and what else may touch level ground at z = 0: springs that only push, and friction that holds. Plain
+// C++17.
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "vehicles/mechanics/fossen.h"
 
 namespace jarol::vehicles {
 
+constexpr std::size_t foot_count = 4;
+constexpr std::size_t contact_count = 13;  // feet, rotors' hubs, their outermost tips, the top
+
 struct Feet {
-  std::array<fossen::Vector3, 4> r_b{};
-  double stiffness = 1.0;    // of one foot, N/m
+  std::array<fossen::Vector3, contact_count> r_b{};  // feet first
+  double stiffness = 1.0;                            // of one foot, N/m
   double dissipation = 0.0;  // s/m, after Hunt and Crossley, "Coefficient of Restitution ...", 1975
   double friction = 0.0;
   double grip_stiffness = 1.0;  // along the ground, N/m

@@ -53,7 +53,12 @@ Helicopter::Helicopter(const HelicopterParameters& parameters, std::uint64_t see
       wind_(parameters.air, spread_seed(seed, "wind")),
       sensors_(parameters, seed),
       voltage_(battery_.calc_voltage(0.0)),
-      judge_(parameters, plant_->motion()) {
+      judge_(parameters, plant_->motion()),
+      motors_{FailingMotor(parameters.failures.front, spread_seed(seed, "front.failure")),
+              FailingMotor(parameters.failures.right, spread_seed(seed, "right.failure")),
+              FailingMotor(parameters.failures.rear, spread_seed(seed, "rear.failure")),
+              FailingMotor(parameters.failures.left, spread_seed(seed, "left.failure"))},
+      payload_until_(draw_begin(parameters.payload.at, parameters.payload.chance, spread_seed(seed, "payload"))) {
   sensors_.sample(0, scene());
   sensors_.sample_imu(0, scene());
   tell_outputs(0.0);
@@ -73,8 +78,13 @@ void Helicopter::step() {
   constexpr double seconds = 1e-9 * HelicopterPlant::step_nanoseconds;
   wind_.step(seconds);
   HelicopterCommand command;
-  command.wind_n = wind_.now();
-  for (std::size_t i = 0; i < 4; ++i) command.settings[i] = setting_of(parameters_, robostix_.signals()[i], voltage_);
+  command.wind_n = wind_.now(-plant_->motion().p_n[2]);
+  const double time = 1e-9 * static_cast<double>(nanoseconds_);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double setting = setting_of(parameters_, robostix_.signals()[i], voltage_);
+    command.settings[i] = motors_[i].follow(setting, parameters_.rotors.thrust_exponent, time);
+  }
+  command.payload = time < payload_until_ ? parameters_.payload.mass : 0.0;
   plant_->step(command);
   nanoseconds_ += HelicopterPlant::step_nanoseconds;
   judge_.look(std::chrono::nanoseconds(nanoseconds_), plant_->motion(), plant_->settings());

@@ -10,6 +10,7 @@
 #include "vehicles/helicopter/battery.h"
 #include "vehicles/helicopter/io.h"
 #include "vehicles/helicopter/judge.h"
+#include "vehicles/helicopter/motor_failure.h"
 #include "vehicles/helicopter/robostix.h"
 #include "vehicles/helicopter/sensors.h"
 
@@ -63,6 +64,8 @@ class Helicopter : public Vehicle {
   HelicopterOutputs outputs_;
   HelicopterJudge judge_;
   std::int64_t nanoseconds_ = 0;
+  std::array<FailingMotor, 4> motors_{};
+  double payload_until_ = 0.0;  // s
 };
 
 }  // namespace jarol::vehicles

@@ -38,14 +38,15 @@ void HelicopterJudge::tell_truth(const HelicopterMotion& m) {
   truth_.speed = std::hypot(v_n[0], v_n[1]);
   truth_.tilt = std::acos(std::clamp(R[2][2], -1.0, 1.0));
   double lowest = -1e9;
-  for (const fossen::Vector3& r_b : body_.feet.r_b) lowest = std::max(lowest, foot_motion(m, r_b).p_n[2]);
+  for (std::size_t i = 0; i < foot_count; ++i) lowest = std::max(lowest, foot_motion(m, body_.feet.r_b[i]).p_n[2]);
   truth_.height = -lowest;
 }
 
 void HelicopterJudge::look(std::chrono::nanoseconds instant, const HelicopterMotion& motion,
                            const std::array<double, 4>& settings) {
   tell_truth(motion);
-  if (!mishap_) find_mishap(instant, motion);
+  for (std::size_t i = 0; i < contact_count; ++i) meet_ground(instant, motion, i);
+  if (!mishap_) find_capsize(instant);
   has_flown_ = has_flown_ || truth_.height > airborne;
   const double mean = (settings[0] + settings[1] + settings[2] + settings[3]) / 4;
   if (!has_flown_ && most_signal * mean >= limits_.take_off_signal)
@@ -54,20 +55,24 @@ void HelicopterJudge::look(std::chrono::nanoseconds instant, const HelicopterMot
   last_ = motion;
 }
 
-void HelicopterJudge::find_mishap(std::chrono::nanoseconds instant, const HelicopterMotion& motion) {
-  for (const fossen::Vector3& r_b : body_.feet.r_b) {
-    const FootMotion before = foot_motion(last_, r_b), after = foot_motion(motion, r_b);
-    if (before.p_n[2] > 0 || after.p_n[2] <= 0) continue;
-    // the ground has slowed it down since it touched
-    const double speed = std::max(before.v_n[2], after.v_n[2]);
-    if (speed > limits_.touch_speed)
-      mishap_ = {instant,
-                 fmt::format("crashed: a foot met the ground at {:.1f} m/s, above {} m/s", speed, limits_.touch_speed)};
-  }
-  for (const HelicopterBody::Rotor& rotor : body_.rotors)
-    if (!mishap_ && motion.p_n[2] + to_ned(motion.R_nb, rotor.hub_b)[2] > 0)
-      mishap_ = {instant, "crashed: a rotor met the ground"};
-  if (!mishap_ && truth_.tilt > limits_.tilt)
+void HelicopterJudge::meet_ground(std::chrono::nanoseconds instant, const HelicopterMotion& motion, std::size_t part) {
+  const fossen::Vector3& r_b = body_.feet.r_b[part];
+  const FootMotion before = foot_motion(last_, r_b), after = foot_motion(motion, r_b);
+  if (before.p_n[2] > 0 || after.p_n[2] <= 0) return;
+  // the ground has slowed it down since it touched
+  const double speed = std::max(before.v_n[2], after.v_n[2]);
+  truth_.impact = std::max(truth_.impact, speed);
+  if (mishap_) return;
+  if (part >= foot_count)
+    mishap_ = {instant,
+               part + 1 < contact_count ? "crashed: a rotor met the ground" : "crashed: its top met the ground"};
+  else if (speed > limits_.touch_speed)
+    mishap_ = {instant,
+               fmt::format("crashed: a foot met the ground at {:.1f} m/s, above {} m/s", speed, limits_.touch_speed)};
+}
+
+void HelicopterJudge::find_capsize(std::chrono::nanoseconds instant) {
+  if (truth_.tilt > limits_.tilt)
     mishap_ = {instant, fmt::format("capsized: tilted by {:.0f} deg, beyond {:.0f} deg", degrees(truth_.tilt),
                                     degrees(limits_.tilt))};
 }

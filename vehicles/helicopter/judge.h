@@ -22,7 +22,8 @@ class HelicopterJudge {
 
  private:
   void tell_truth(const HelicopterMotion& motion);
-  void find_mishap(std::chrono::nanoseconds instant, const HelicopterMotion& motion);
+  void meet_ground(std::chrono::nanoseconds instant, const HelicopterMotion& motion, std::size_t part);
+  void find_capsize(std::chrono::nanoseconds instant);
 
   HelicopterBody body_;
   LimitParameters limits_;

@@ -17,13 +17,15 @@ struct FrameParameters {
   double I_y = 0.0144;
   double I_z = 0.0288;
   double drag_area = 0.03;
+  double top = 0.12;
 
   static constexpr auto fields() {
     using S = FrameParameters;
     return describe(field<&S::mass>("kg", "mass"), field<&S::I_x>("kg m^2", "moment of inertia in roll"),
                     field<&S::I_y>("kg m^2", "moment of inertia in pitch"),
                     field<&S::I_z>("kg m^2", "moment of inertia in yaw"),
-                    field<&S::drag_area>("m^2", "drag coefficient times area of everything but the rotors"));
+                    field<&S::drag_area>("m^2", "drag coefficient times area of everything but the rotors"),
+                    field<&S::top>("m", "of its highest part above the centre of gravity"));
   }
 };
 
@@ -63,7 +65,7 @@ struct RotorParameters {
   }
 };
 
-/// Four feet, below the arms.
+/// Four feet, below the arms, and how the ground carries them; it carries rotors and top in the same way.
 struct FeetParameters {
   double radius = 0.20;
   double height = 0.20;
@@ -100,6 +102,20 @@ struct BatteryParameters {
                     field<&S::electronics>("A", "current of everything but the motors"),
                     field<&S::full_current>("A", "of the four motors at full thrust"),
                     field<&S::current_exponent>("", "current grows with thrust to this power"));
+  }
+};
+
+/// What it carries below its centre of gravity, and drops.
+struct PayloadParameters {
+  double mass = 0.0;
+  double at = 1e9;
+  double chance = 0.0;
+
+  static constexpr auto fields() {
+    using S = PayloadParameters;
+    return describe(field<&S::mass>("kg", "carried in the centre of gravity"),
+                    field<&S::at>("s", "when it is dropped, or may be"),
+                    field<&S::chance>("1/s", "rate at which it is dropped from then on; 0: it is dropped then"));
   }
 };
 
@@ -145,6 +161,7 @@ struct HelicopterParameters {
   SensorParameters sensors{};
   NoiseParameters noise{};
   FailureParameters failures{};
+  PayloadParameters payload{};
   LimitParameters limits{};
   LiftOffParameters start{};
 
@@ -153,7 +170,8 @@ struct HelicopterParameters {
     return describe(field<&S::frame>("", "the rigid body"), field<&S::rotors>("", "the four rotors"),
                     field<&S::feet>("", "the four feet"), field<&S::battery>("", "the battery"),
                     field<&S::air>("", "the air"), field<&S::sensors>("", "places of the sensors"),
-                    field<&S::noise>("", "of the sensors"), field<&S::failures>("", "of the sensors"),
+                    field<&S::noise>("", "of the sensors"), field<&S::failures>("", "of sensors and motors"),
+                    field<&S::payload>("", "what it carries and drops"),
                     field<&S::limits>("", "of a flight that ends well"), field<&S::start>("", "the start"));
   }
 };

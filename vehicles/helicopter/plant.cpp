@@ -73,10 +73,11 @@ struct HelicopterPlant::Simulation {
     integrator.setFixedStepSize(2e-9 * step_nanoseconds);
     stepper.initialize(initial);
     motion = motion_of(body, integrator.getAdvancedState());
-    for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < contact_count; ++i) {
       const FootMotion foot = foot_motion(motion, helicopter.feet.r_b[i]);
       input.anchors[i] = {foot.p_n[0], foot.p_n[1]};
     }
+    input.payload = helicopter.payload;
   }
 
   // Simbody may notice a number that is not finite itself, or not at all; it must not be asked again after that
@@ -96,11 +97,11 @@ struct HelicopterPlant::Simulation {
     const double remaining = calc_remaining(helicopter, t - input.begin);
     for (std::size_t i = 0; i < 4; ++i) input.from[i] = input.to[i] + (input.from[i] - input.to[i]) * remaining;
     input.begin = t;
-    for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < contact_count; ++i)
       input.anchors[i] = drag_along(helicopter.feet, foot_motion(motion, helicopter.feet.r_b[i]), input.anchors[i]);
   }
 
-  // could a foot touch the ground within a step?
+  // could any part of it touch the ground within a step?
   bool near_ground() const {
     for (const fossen::Vector3& r_b : helicopter.feet.r_b) {
       const FootMotion foot = foot_motion(motion, r_b);
@@ -137,6 +138,7 @@ void HelicopterPlant::step(const HelicopterCommand& command) {
   if (!s.failure.empty()) throw std::runtime_error(s.failure);
   s.input.to = command.settings;
   s.input.wind_n = command.wind_n;
+  s.input.payload = command.payload;
   const long parts = s.near_ground() ? 5 : 1;
   for (long i = 0; i < parts; ++i) s.advance_to(s.now + step_nanoseconds / parts);
 }

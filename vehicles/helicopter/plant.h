@@ -12,6 +12,7 @@ namespace jarol::vehicles {
 struct HelicopterCommand {
   std::array<double, 4> settings{};
   fossen::Vector3 wind_n{};
+  double payload = 0.0;  // kg
 };
 
 class HelicopterPlant {
@@ -23,7 +24,7 @@ class HelicopterPlant {
 
   static constexpr long step_nanoseconds = 5'000'000;
 
-  /// One step, in five parts while a foot touches the ground or could within it; throws std::runtime_error if the state
+  /// One step, in five parts while the ground is touched or could be within it; throws std::runtime_error if the state
   /// is not finite after it.
   void step(const HelicopterCommand& command);
 

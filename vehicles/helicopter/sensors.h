@@ -10,6 +10,9 @@
 
 namespace jarol::vehicles {
 
+/// Distance from a point in a room to its wall in a direction of NED; 0: none, or outside.
+double cast_ray(const SensorParameters& room, const fossen::Vector3& from_n, const fossen::Vector3& direction_n);
+
 class HelicopterSensors {
  public:
   HelicopterSensors(const HelicopterParameters& parameters, std::uint64_t seed);
@@ -31,17 +34,21 @@ class HelicopterSensors {
   messages::javiator::JaviatorData answer(std::uint16_t id);
 
  private:
-  void sample_pressure(const Scene& scene, double bias);
-  void sample_sonars(const Scene& scene, double bias);
-  // reading of a laser at p_b that looks along an axis of NED at a wall
-  std::array<std::uint8_t, 8> range_of(const Scene& scene, std::size_t axis, double wall, const fossen::Vector3& p_b,
-                                       double bias);
+  using Error = FailingSensor::Error;
+  void sample_pressure(const Scene& scene, const Error& error);
+  void sample_sonars(const Scene& scene, const Error& error);
+  // reading of a laser at p_b that looks along an axis of the body
+  std::array<std::uint8_t, 8> range_of(const Scene& scene, std::size_t axis, const fossen::Vector3& p_b,
+                                       const Error& error);
+  void wander(std::int64_t nanoseconds);
 
   SensorParameters parameters_;
   NoiseParameters deviations_;
-  FailureParameters failures_;
+  FailingSensor imu_, sonar_, laser_north_, laser_east_, bmu_;
   Noise imu_noise_, sonar_noise_, laser_noise_, bmu_noise_;
+  Noise drift_noise_;
   fossen::Vector3 rate_bias_{}, force_bias_{};
+  std::int64_t wandered_ = 0;  // ns
   messages::javiator::JaviatorData data_{};
   std::int64_t sampled_ = -1;  // ns
   double ground_z_ = 0.0;      // height at which `pressure` holds

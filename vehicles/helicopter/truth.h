@@ -10,7 +10,7 @@ struct HelicopterTruth {
   double roll = 0, pitch = 0, yaw = 0;
   double x = 0, y = 0, altitude = 0;
   double climb = 0, speed = 0;
-  double height = 0, tilt = 0;
+  double height = 0, tilt = 0, impact = 0;
 
   static constexpr auto fields() {
     using S = HelicopterTruth;
@@ -20,7 +20,8 @@ struct HelicopterTruth {
                     field<&S::altitude>("m", "above the start"), field<&S::climb>("m/s", "upwards"),
                     field<&S::speed>("m/s", "over the ground"),
                     field<&S::height>("m", "of the lowest foot above the ground"),
-                    field<&S::tilt>("rad", "of its axis from the vertical"));
+                    field<&S::tilt>("rad", "of its axis from the vertical"),
+                    field<&S::impact>("m/s", "greatest speed down of a part that met the ground so far"));
   }
 };
 

@@ -15,4 +15,9 @@ double Noise::normal() {
   return radius * std::cos(2.0 * std::numbers::pi * uniform());
 }
 
+// the waiting time of a Poisson process
+double draw_begin(double at, double rate, std::uint64_t seed) {
+  return rate > 0.0 ? at - std::log(Noise(seed).uniform()) / rate : at;
+}
+
 }  // namespace jarol::vehicles

@@ -21,4 +21,7 @@ class Noise {
   std::uint64_t drawn_ = 0;
 };
 
+/// When something begins: at a time, or from then on by chance at a rate (1/s).
+double draw_begin(double at, double rate, std::uint64_t seed);
+
 }  // namespace jarol::vehicles

@@ -26,7 +26,8 @@ Sensor::Sensor(const Errors& errors, Duration period, Duration delay, const std:
       period_(steps_of(period, "sensors." + name + ".period")),
       delay_(steps_of(delay, "sensors." + name + ".delay")),
       width_(width),
-      noise_(spread_seed(seed, name)) {
+      noise_(spread_seed(seed, name)),
+      failing_(errors.failure, spread_seed(seed, name + ".failure")) {
   if (period_ == 0) throw std::runtime_error("submarine: sensors." + name + ".period must be above zero");
   if (delay > longest_delay) throw std::runtime_error("submarine: sensors." + name + ".delay is longer than a minute");
   if (!(errors.noise >= 0.0)) throw std::runtime_error("submarine: sensors." + name + ".noise is below zero");
@@ -35,11 +36,11 @@ Sensor::Sensor(const Errors& errors, Duration period, Duration delay, const std:
   values_.fill(std::numeric_limits<double>::quiet_NaN());
 }
 
-void Sensor::measure(const Values& truth, double bias) {
+void Sensor::measure(const Values& truth, const FailingSensor::Error& error) {
   Values values{};
   for (std::size_t i = 0; i < width_; ++i) {
-    values[i] = truth[i] + errors_.bias + bias;
-    if (errors_.noise > 0.0) values[i] += errors_.noise * noise_.normal();
+    values[i] = truth[i] + errors_.bias + error.bias;
+    if (errors_.noise > 0.0) values[i] += error.noise * errors_.noise * noise_.normal();
     if (errors_.resolution > 0.0) values[i] = errors_.resolution * std::round(values[i] / errors_.resolution);
   }
   measured_ = values;
@@ -47,9 +48,9 @@ void Sensor::measure(const Values& truth, double bias) {
 
 void Sensor::step(std::int64_t step, const std::optional<Values>& truth) {
   if (step % period_ == 0 && truth) {
-    const FailureKind failure = errors_.failure.now(1e-9 * static_cast<double>((step * grid).count()));
-    if (failure == FailureKind::none || failure == FailureKind::biased)
-      measure(*truth, failure == FailureKind::biased ? errors_.failure.by : 0.0);
+    const double seconds = 1e-9 * static_cast<double>((step * grid).count());
+    const FailureKind failure = failing_.now(seconds);
+    if (failure != FailureKind::lost && failure != FailureKind::stuck) measure(*truth, failing_.error(seconds));
     if (failure != FailureKind::lost && measured_)
       pending_[(first_ + count_++) % pending_.size()] = {step + delay_, *measured_};
   }

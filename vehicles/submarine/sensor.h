@@ -43,12 +43,13 @@ class Sensor {
 
   Sensor(const Errors& errors, Duration period, Duration delay, const std::string& name, std::uint64_t seed,
          std::size_t width);
-  void measure(const Values& truth, double bias);
+  void measure(const Values& truth, const FailingSensor::Error& error);
 
   Errors errors_;
   std::int64_t period_ = 1, delay_ = 0;  // steps
   std::size_t width_ = 1;
   Noise noise_;
+  FailingSensor failing_;
   std::optional<Values> measured_;
   std::vector<Reading> pending_;  // a ring: those not told yet
   std::size_t first_ = 0, count_ = 0;

@@ -75,6 +75,14 @@ TEST_SUITE("distributers/javiator_operator") {
     CHECK(take(adapter).state_switches == 1);
   }
 
+  TEST_CASE("a new peer whose hello was lost is obeyed from its first switch after a command on") {
+    Typed<JaviatorOperator> adapter;
+    adapter.peer_changed();
+    send(adapter, javiator::CommandData{});
+    send(adapter, javiator::SwitchState{});
+    CHECK(take(adapter).state_switches == 1);
+  }
+
   TEST_CASE("a hello does not keep a shut-down from counting") {
     Typed<JaviatorOperator> adapter;
     adapter.peer_changed();

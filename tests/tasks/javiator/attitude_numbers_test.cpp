@@ -81,7 +81,7 @@ TEST_SUITE("tasks/javiator_control/attitude") {
     for (const Axis& axis : axes) {
       for (const double side : {-1.0, 1.0}) {
         Attitude a{axis};
-        a.in.goal.*axis.goal = 100 * side;
+        a.in.goal.*axis.goal = 3 * side;
         a.run();
         CHECK((a.state.*axis.model).rate == doctest::Approx(side * 0.8 * axis.limit * axis.effect * dt));
       }

@@ -24,7 +24,7 @@ TEST_SUITE("tasks/javiator_control") {
     for (int i = 0; i < 10; ++i) PositionControl::run({}, tick, in, state, out);
     CHECK(out.goal.pitch < -0.05);
     CHECK(out.goal.roll > 0.05);
-    in.estimate.yaw = 1.5707963267948966;  // nose to the east: north is to the left
+    in.estimate.heading = 1.5707963267948966;  // nose to the east: north is to the left
     for (int i = 0; i < 10; ++i) PositionControl::run({}, tick, in, state, out);
     CHECK(out.goal.pitch < -0.05);
     CHECK(out.goal.roll < -0.05);

@@ -77,6 +77,44 @@ TEST_SUITE("tasks/javiator_filter") {
     CHECK(e.p == 0);
   }
 
+  TEST_CASE("answers that do not come are late, and no sensor is lost by that") {
+    Heard heard;
+    heard.lift_to(1);
+    const auto without_answers = [&](int periods) {
+      for (int i = 0; i < periods; ++i) {
+        heard.run(1);
+        --heard.sensors.answers;
+      }
+      return heard.out.estimate;
+    };
+    ++heard.sensors.answers;
+    heard.run(1);
+    --heard.sensors.answers;
+    CHECK(without_answers(2).answers_known);
+    const FlightEstimate late = without_answers(60);
+    CHECK_FALSE(late.answers_known);
+    CHECK_FALSE(late.rates_known);
+    CHECK(late.attitude_known);
+    CHECK(late.altitude_known);
+    CHECK(late.position_known);
+    CHECK(late.pressure_known);
+    ++heard.sensors.answers;
+    CHECK(heard.run(2).answers_known);
+    CHECK(heard.out.estimate.rates_known);
+  }
+
+  TEST_CASE("on the ground angles that the weight denies are not believed") {
+    Heard heard;
+    heard.run(100);
+    CHECK(heard.out.estimate.attitude_known);
+    heard.sensors.roll = 0.09;
+    CHECK(heard.run(200).attitude_known);
+    heard.sensors.roll = 0.11;
+    CHECK_FALSE(heard.run(200).attitude_known);
+    heard.sensors.a_y = -9.81 * 0.11;  // it does stand that way
+    CHECK(heard.run(200).attitude_known);
+  }
+
   TEST_CASE("sensors that repeat themselves are stuck") {
     Heard heard;
     heard.lift_to(1);

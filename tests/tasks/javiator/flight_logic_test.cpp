@@ -15,11 +15,14 @@ struct Logic {
                                   .attitude_known = true,
                                   .altitude_known = true,
                                   .position_known = true,
-                                  .pressure_known = true},
+                                  .pressure_known = true,
+                                  .answers_known = true},
                      .lift = {1}};
 
+  FlightLogic::Param param{.yaw_limit = 2};
+
   FlightState run(int periods) {
-    for (int i = 0; i < periods; ++i) FlightLogic::run({}, {.period = 15ms}, in, state, out);
+    for (int i = 0; i < periods; ++i) FlightLogic::run(param, {.period = 15ms}, in, state, out);
     return out.directive.state;
   }
   FlightState press() {
@@ -92,7 +95,7 @@ TEST_SUITE("tasks/flight_logic") {
     using In = FlightLogic::In;
     CHECK(cause_of([](In& in) { in.estimate.roll = -0.61; }) == LandingCause::roll);
     CHECK(cause_of([](In& in) { in.estimate.pitch = 0.61; }) == LandingCause::pitch);
-    CHECK(cause_of([](In& in) { in.estimate.yaw = 4.1; }) == LandingCause::yaw);
+    CHECK(cause_of([](In& in) { in.estimate.yaw = 2.1; }) == LandingCause::yaw);
     CHECK(cause_of([](In& in) { in.estimate.altitude = 2.9; }) == LandingCause::altitude);
     CHECK(cause_of([](In& in) { in.estimate.attitude_known = false; }) == LandingCause::imu_lost);
     CHECK(cause_of([](In& in) { in.estimate.altitude_known = false; }) == LandingCause::sonar_lost);
@@ -133,6 +136,38 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(starting.out.directive.cause == LandingCause::sonar_lost);
   }
 
+  TEST_CASE("turned round it has the heading that it had, and goes on") {
+    Logic logic;
+    logic.fly();
+    for (const double turns : {1.0, -1.0, 5.0}) {
+      logic.in.estimate.yaw = 1.9 + turns * 6.283185307179586;
+      CHECK(logic.run(10) == FlightState::flying);
+    }
+    logic.in.estimate.yaw += 0.2;
+    CHECK(logic.run(1) == FlightState::landing);
+  }
+
+  TEST_CASE("answers that are late are named, not the IMU that was in them") {
+    Logic logic;
+    logic.fly();
+    logic.in.estimate.answers_known = logic.in.estimate.rates_known = false;
+    CHECK(logic.run(1) == FlightState::landing);
+    CHECK(logic.out.directive.cause == LandingCause::answers_late);
+  }
+
+  TEST_CASE("after a landing that nobody wanted the operator's key only acknowledges: it may have been meant to land") {
+    Logic logic;
+    logic.fly();
+    logic.in.estimate.altitude = 0.01;
+    logic.in.estimate.attitude_known = false;
+    CHECK(logic.run(200) == FlightState::ground);
+    CHECK(logic.out.directive.cause == LandingCause::imu_lost);
+    CHECK(logic.press() == FlightState::ground);
+    CHECK(logic.out.directive.cause == LandingCause::none);
+    logic.in.estimate.attitude_known = true;
+    CHECK(logic.press() == FlightState::starting);
+  }
+
   TEST_CASE("each limit makes it land when it is exceeded, to either side, and not before") {
     struct Case {
       double FlightEstimate::*value;
@@ -143,8 +178,8 @@ TEST_SUITE("tasks/flight_logic") {
                           {&FlightEstimate::roll, -0.6, -0.601, LandingCause::roll},
                           {&FlightEstimate::pitch, 0.6, 0.601, LandingCause::pitch},
                           {&FlightEstimate::pitch, -0.6, -0.601, LandingCause::pitch},
-                          {&FlightEstimate::yaw, 4, 4.001, LandingCause::yaw},
-                          {&FlightEstimate::yaw, -4, -4.001, LandingCause::yaw},
+                          {&FlightEstimate::yaw, 2, 2.001, LandingCause::yaw},
+                          {&FlightEstimate::yaw, -2, -2.001, LandingCause::yaw},
                           {&FlightEstimate::altitude, 2.8, 2.801, LandingCause::altitude},
                           {&FlightEstimate::battery, 13.4, 13.399, LandingCause::battery_low}};
     for (const Case& c : cases) {

@@ -147,12 +147,13 @@ TEST_SUITE("tasks/javiator_control/lift") {
     CHECK(g.run() == 0);
   }
 
-  TEST_CASE("before it lifts off thrust grows by a quarter each second, to one and a half, and goes back to idle") {
+  TEST_CASE(
+      "before it lifts off thrust grows by one and a half each second, to one and a half, and goes back to idle") {
     Grounded g;
-    CHECK(g.run() == doctest::Approx(0.5 + 0.25 * dt));
+    CHECK(g.run() == doctest::Approx(0.5 + 1.5 * dt));
     CHECK(g.run(1000) == 1.5);
     g.in.directive.altitude = 0.02;  // not above the ground
-    CHECK(g.run() == doctest::Approx(1.5 - 0.25 * dt));
+    CHECK(g.run() == doctest::Approx(1.5 - 1.5 * dt));
     CHECK(g.run(1000) == 0.5);
     CHECK_FALSE(g.state.lifted);
   }

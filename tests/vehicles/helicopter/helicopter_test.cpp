@@ -152,7 +152,7 @@ TEST_SUITE("vehicles/helicopter") {
     constexpr int n = 200000;
     for (int i = 0; i < n; ++i) {
       wind.step(0.1);
-      const double gust = wind.now()[0] - 3;
+      const double gust = wind.now(1)[0] - 3;
       sum += gust;
       squares += gust * gust;
       product += gust * last;

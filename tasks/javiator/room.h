@@ -1,0 +1,31 @@
+// Where a helicopter is in a room, by lasers that are fixed to it: its walls stand north, east, south and west.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "graph/values/describe.h"
+
+namespace jarol::tasks {
+
+struct Room {
+  double north = 8, east = 8, south = 12, west = 12;
+
+  static constexpr auto fields() {
+    return describe(field<&Room::north>("m", "of where it started, its wall"), field<&Room::east>("m"),
+                    field<&Room::south>("m"), field<&Room::west>("m"));
+  }
+};
+
+/// What one range says: the place along one axis, north or east; nothing if no wall is that way.
+struct WallFix {
+  bool seen = false;
+  int axis = 0;  // 0 north, 1 east
+  double place = 0;
+};
+
+/// A laser that stands at `lever_n` from the centre of gravity and looks along `along_n` has measured a range; it has
+/// met the wall that fits better to the place expected. A range of 0 is that of nothing.
+WallFix find_place(const Room& room, const Eigen::Vector3d& lever_n, const Eigen::Vector3d& along_n, double range,
+                   const Eigen::Vector2d& expected);
+
+}  // namespace jarol::tasks
