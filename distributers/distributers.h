@@ -22,6 +22,10 @@ std::vector<std::string> links_of(const DistributerClass& distributer, const Nam
 std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph, const Registries& known, std::uint64_t seed,
                                                      Problems& problems);
 
+/// The same with the distributers as a run has them: other parameters and links than in the graph.
+std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph, const std::vector<Distributer>& distributers,
+                                                     const Registries& known, std::uint64_t seed, Problems& problems);
+
 /// The packets that bring the external system of that distributer to rest, whatever it was told before: its `out`s with
 /// a `safe` hand that over. By the translator of its link, which is not connected yet.
 std::vector<std::vector<std::byte>> safe_packets(const Graph& graph, std::size_t distributer, Link& link);

@@ -54,6 +54,7 @@ int run_command(int argc, char** argv) {
       tools::version_text());
   int exit_code = tools::exit_good;
   tools::add_bench(line, exit_code);
+  tools::add_campaign(line, exit_code);
   tools::add_check(line, exit_code);
   tools::add_doctor(line, exit_code);
   tools::add_graph(line, exit_code);

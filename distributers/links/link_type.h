@@ -20,11 +20,12 @@ class AnyDistributer;
 /// A distributer of a graph that needs its link.
 struct LinkRequest {
   const Graph& graph;
-  std::size_t distributer = 0;
+  const Distributer& of;                              // the graph's, or as a run has it
+  std::size_t distributer = 0;                        // in the graph
   const NamedList<vehicles::VehicleClass>& vehicles;  // that can be simulated
   std::uint64_t seed = 0;                             // this distributer's share of the run's
 
-  const Distributer& whose() const { return graph.distributers[distributer]; }
+  const Distributer& whose() const { return of; }
   const Yaml& yaml() const { return whose().link; }
   /// As messages call it: "link of distributer 'dune'".
   std::string subject() const;

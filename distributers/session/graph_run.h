@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "distributers/session/linked.h"
-#include "distributers/session/load.h"
+#include "distributers/session/planned_graph.h"
 #include "distributers/session/run_sinks.h"
 #include "distributers/session/verdict.h"
 #include "runtime/execute/executor.h"
@@ -21,14 +21,17 @@ struct GraphRunOptions {
   std::span<const analysis::TaskThread> threads{};  // on the real clock: who runs the tasks
   Recorder* log = nullptr;                          // gets what a replay needs
   std::optional<std::span<const Miss>> misses{};    // of a replay
+  std::span<const expect::Condition> measured{};    // beside what the graph expects
 };
 
 class GraphRun {
  public:
   /// Links are not connected yet. All that the options name outlives it.
   GraphRun(Loaded loaded, const GraphRunOptions& options);
+  /// One of many runs of that graph, which outlives it.
+  GraphRun(const PlannedGraph& of, RunStart start, const GraphRunOptions& options);
 
-  const Graph& graph() const { return *loaded_.graph; }
+  const Graph& graph() const { return graph_; }
   const std::vector<Channels*>& channels() const { return channels_; }
   Executor& executor() { return executor_; }
   const Executor& executor() const { return executor_; }
@@ -42,9 +45,14 @@ class GraphRun {
 
   /// Of a run that was to go on `until` and ended like that. `unseen`: why not all that was published has been seen.
   RunVerdict judge(Duration until, const RunEnd& end, const std::string& unseen = "") const;
+  /// What was measured of it, likewise.
+  std::vector<Verdict> measure(Duration until) const;
 
  private:
-  Loaded loaded_;
+  GraphRun(Loaded&& loaded, const Graph& graph, PlanOfRun plan, RunStart start, const GraphRunOptions& options);
+
+  Loaded loaded_;  // empty: others run the graph too
+  const Graph& graph_;
   std::vector<Channels*> channels_;
   RunSinks sinks_;
   Executor executor_;

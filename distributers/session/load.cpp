@@ -3,8 +3,10 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "distributers/distributers.h"
+#include "graph/campaign/read.h"
 #include "graph/expect/at_end.h"
 #include "graph/expect/parse.h"
 #include "graph/model/build.h"
@@ -32,9 +34,19 @@ std::vector<expect::TrueValues> true_values_of(const Loaded& loaded, const distr
   return all;
 }
 
+// What hangs on where the vehicles are.
+void add_conditions(Loaded& loaded, const distributers::Registries& known, Problems& problems) {
+  loaded.true_values = true_values_of(loaded, known);
+  loaded.graph->expectations =
+      expect::read_expectations(loaded.spec.expect, *loaded.graph, loaded.true_values, problems);
+  loaded.campaign = campaign::read_campaign(loaded.spec.campaign, *loaded.graph, loaded.true_values, problems);
+  problems.throw_if_any();
+}
+
 // What is loaded runs as the user: who it is stands there first.
-Loaded load(const GraphSpec& spec, const distributers::Registries& known, const NoteSink& note, Problems& problems) {
+Loaded load(GraphSpec read, const distributers::Registries& known, const NoteSink& note, Problems& problems) {
   Loaded loaded;
+  const GraphSpec& spec = loaded.spec = std::move(read);
   loaded.registry = std::make_unique<Registry>(known.graph);
   for (const Located<std::string>& plugin : spec.plugins)
     note("loads plugin '" + printable(plugin_path(spec, plugin.value)) + "'");
@@ -49,11 +61,8 @@ Loaded load(const GraphSpec& spec, const distributers::Registries& known, const 
 Loaded load_without_channels(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
                              const Overrides& overrides, const NoteSink& note) {
   Problems problems;
-  const GraphSpec spec = load_spec(source, overrides, problems);
-  Loaded loaded = load(spec, known, note, problems);
-  loaded.graph->expectations =
-      expect::read_expectations(spec.expect, *loaded.graph, true_values_of(loaded, known), problems);
-  problems.throw_if_any();
+  Loaded loaded = load(load_spec(source, overrides, problems), known, note, problems);
+  add_conditions(loaded, known, problems);
   return loaded;
 }
 
@@ -66,14 +75,11 @@ Loaded load_graph(const std::shared_ptr<const Source>& source, const distributer
                   const Overrides& overrides, std::uint64_t seed, const NoteSink& note,
                   const std::vector<std::string>& without_link) {
   Problems problems;
-  const GraphSpec spec = load_spec(source, overrides, problems);
-  Loaded loaded = load(spec, known, note, problems);
+  Loaded loaded = load(load_spec(source, overrides, problems), known, note, problems);
   for (Distributer& distributer : loaded.graph->distributers)
     if (fits(distributer.name, without_link)) distributer.link = {};
   loaded.channels = distributers::make_channels(*loaded.graph, known, seed, problems);
-  loaded.graph->expectations =
-      expect::read_expectations(spec.expect, *loaded.graph, true_values_of(loaded, known), problems);
-  problems.throw_if_any();
+  add_conditions(loaded, known, problems);
   return loaded;
 }
 

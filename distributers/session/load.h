@@ -7,6 +7,8 @@
 
 #include "distributers/registries.h"
 #include "distributers/session/note_sink.h"
+#include "graph/campaign/campaign.h"
+#include "graph/expect/names.h"
 #include "graph/language/load.h"
 #include "graph/model/graph.h"
 #include "runtime/channels.h"
@@ -17,6 +19,9 @@ struct Loaded {
   std::unique_ptr<Registry> registry;  // with the graph's plugins
   std::unique_ptr<Graph> graph;
   std::vector<std::unique_ptr<Channels>> channels;
+  campaign::Campaign campaign{};                  // of the key of that name
+  std::vector<expect::TrueValues> true_values{};  // what is known of the vehicle of each distributer
+  GraphSpec spec{};                               // what the file says, overrides included
 };
 
 /// Throws SpecError with everything that is wrong with the file, its overrides and its links. The seed is that of all

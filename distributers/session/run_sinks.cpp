@@ -4,8 +4,12 @@
 
 namespace jarol {
 
-RunSinks::RunSinks(const Graph& graph, std::vector<RecordSink*> sinks) {
-  if (!graph.expectations.empty()) sinks.insert(sinks.begin(), &expectations_.emplace(graph, outputs_of(graph)));
+RunSinks::RunSinks(const Graph& graph, std::vector<RecordSink*> sinks, std::span<const expect::Condition> measured) {
+  const auto watch = [&](std::optional<Expectations>& by, std::span<const expect::Condition> conditions) {
+    if (!conditions.empty()) sinks.insert(sinks.begin(), &by.emplace(graph, outputs_of(graph), conditions));
+  };
+  watch(measured_, measured);
+  watch(expectations_, graph.expectations);
   if (!sinks.empty()) recorder_ = std::make_unique<Recorder>(std::move(sinks));
 }
 
@@ -19,6 +23,10 @@ void RunSinks::close() {
 
 std::vector<Verdict> RunSinks::judge(Duration end, const std::string& cut_short) const {
   return expectations_ ? expectations_->judge(end, cut_short) : std::vector<Verdict>();
+}
+
+std::vector<Verdict> RunSinks::measure(Duration end, const std::string& cut_short) const {
+  return measured_ ? measured_->judge(end, cut_short) : std::vector<Verdict>();
 }
 
 }  // namespace jarol

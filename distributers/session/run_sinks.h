@@ -1,8 +1,10 @@
-// Who looks on at a run: what its graph expects, and whatever sinks it is given; without any, nothing is recorded.
+// Who looks on at a run: what its graph expects, what is measured of it, and whatever sinks it is given; without any,
+// nothing is recorded.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,8 +16,8 @@ namespace jarol {
 
 class RunSinks {
  public:
-  /// The sinks and the graph outlive it.
-  RunSinks(const Graph& graph, std::vector<RecordSink*> sinks);
+  /// The sinks, the graph and what is measured outlive it.
+  RunSinks(const Graph& graph, std::vector<RecordSink*> sinks, std::span<const expect::Condition> measured = {});
 
   /// For ExecutorOptions; null if nobody looks on.
   Recorder* recorder() { return recorder_.get(); }
@@ -31,9 +33,11 @@ class RunSinks {
   /// After `close`, of a run that covered the instants before `end`. `cut_short`: why it ended before what it was meant
   /// to do; else empty.
   std::vector<Verdict> judge(Duration end, const std::string& cut_short) const;
+  /// The same of what is measured.
+  std::vector<Verdict> measure(Duration end, const std::string& cut_short) const;
 
  private:
-  std::optional<Expectations> expectations_;
+  std::optional<Expectations> expectations_, measured_;
   std::unique_ptr<Recorder> recorder_;
 };
 

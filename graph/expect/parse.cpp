@@ -37,12 +37,7 @@ class Parser {
   }
 
   Condition condition() {
-    if (accept("always"))
-      condition_.kind = Condition::Kind::always;
-    else if (accept("never"))
-      condition_.kind = Condition::Kind::never;
-    else if (accept("once"))
-      condition_.kind = Condition::Kind::once;
+    read_kind();
     read_metric();
     read_comparison();
     read_window();
@@ -50,11 +45,24 @@ class Parser {
     return std::move(condition_);
   }
 
-  Condition metric() {
+  Measured measured() {
+    Measured made;
+    if (is("time") && tokens_[at_ + 1].text == "of") {
+      at_ += 2;
+      made.is_instant = true;
+      condition_.kind = Condition::Kind::once;
+    } else {
+      read_kind();
+    }
     read_metric();
-    if (metric_.value.type != nullptr) fail(tokens_.front(), "a metric is a number; this is a " + kind_text());
+    made.is_limit = !made.is_instant && (now().kind != Token::Kind::end || condition_.kind != Condition::Kind::metric);
+    if (made.is_instant || made.is_limit) read_comparison();
+    read_window();
+    // what has to be so before an instant
+    if (metric_.window.to) made.is_limit = made.is_limit || made.is_instant;
     end();
-    return std::move(condition_);
+    made.condition = std::move(condition_);
+    return made;
   }
 
   Condition state() {
@@ -96,6 +104,15 @@ class Parser {
 
   void require(std::string_view text, const std::string& need) {
     if (!accept(text)) fail(now(), need + " needs '" + std::string(text) + "' here" + but());
+  }
+
+  void read_kind() {
+    if (accept("always"))
+      condition_.kind = Condition::Kind::always;
+    else if (accept("never"))
+      condition_.kind = Condition::Kind::never;
+    else if (accept("once"))
+      condition_.kind = Condition::Kind::once;
   }
 
   std::string kind_text() const {
@@ -401,11 +418,11 @@ std::optional<Condition> parse_condition(const Yaml& text, const Graph& graph, c
   } catch (const Stop&) { return std::nullopt; }
 }
 
-std::optional<Condition> parse_metric(const Yaml& text, const Graph& graph, const std::vector<TrueValues>& vehicles,
-                                      Problems& problems) {
-  if (!is_text(text, expect_need, problems)) return std::nullopt;
+std::optional<Measured> parse_measured(const Yaml& text, const std::string& key, const Graph& graph,
+                                       const std::vector<TrueValues>& vehicles, Problems& problems) {
+  if (!is_text(text, key + " needs a metric, as in 'max(depth of dune)'", problems)) return std::nullopt;
   try {
-    return Parser(text, expect_key, graph, &vehicles, problems).metric();
+    return Parser(text, key, graph, &vehicles, problems).measured();
   } catch (const Stop&) { return std::nullopt; }
 }
 

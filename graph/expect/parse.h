@@ -11,9 +11,17 @@ namespace jarol::expect {
 std::optional<Condition> parse_condition(const Yaml& text, const Graph& graph, const std::vector<TrueValues>& vehicles,
                                          Problems& problems);
 
-/// A metric alone: a condition whose comparison does not count.
-std::optional<Condition> parse_metric(const Yaml& text, const Graph& graph, const std::vector<TrueValues>& vehicles,
-                                      Problems& problems);
+/// What is measured of a run: a metric, whose comparison does not count; with one, a condition; or the instant at which
+/// a condition on the value at each instant holds first, "time of VALUE COMPARISON".
+struct Measured {
+  Condition condition;
+  bool is_limit = false;    // it can fail
+  bool is_instant = false;  // of Condition::Kind::once
+};
+
+/// `key` begins messages.
+std::optional<Measured> parse_measured(const Yaml& text, const std::string& key, const Graph& graph,
+                                       const std::vector<TrueValues>& vehicles, Problems& problems);
 
 /// A condition on what is published that holds at an instant or does not: VALUE COMPARISON. `key` begins messages.
 std::optional<Condition> parse_state(const Yaml& text, const std::string& key, const Graph& graph, Problems& problems);

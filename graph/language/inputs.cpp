@@ -1,5 +1,6 @@
 #include "graph/language/inputs.h"
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -27,6 +28,17 @@ void note_input(const std::string& path, const struct stat& status) {
 void note_input(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0) note_input(path, status);
+}
+
+std::vector<std::string> inputs_read() {
+  const std::lock_guard lock(mutex);
+  std::vector<std::string> all;
+  for (const auto& [identity, name] : names()) {
+    struct stat now {};
+    if (::stat(name.c_str(), &now) == 0 && Identity(now.st_dev, now.st_ino) == identity) all.push_back(name);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 std::string input_at(const std::string& path) {

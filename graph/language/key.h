@@ -94,6 +94,10 @@ struct Words<Phasing> {
   static std::vector<std::string> list() { return {"given", "any"}; }
 };
 template <>
+struct Words<Sampling> {
+  static std::vector<std::string> list() { return {"random", "latin"}; }
+};
+template <>
 struct Words<Policy> {
   static std::vector<std::string> list() {
     return {"table", "fixed_priority", "edf", "fixed_priority_nonpreemptive", "edf_nonpreemptive", "global_edf"};

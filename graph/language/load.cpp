@@ -4,7 +4,6 @@
 #include "graph/language/tables.h"
 
 namespace jarol {
-namespace {
 
 bool is_name(std::string_view text) {
   if (text.empty() || (text[0] >= '0' && text[0] <= '9')) return false;
@@ -14,6 +13,8 @@ bool is_name(std::string_view text) {
   }
   return true;
 }
+
+namespace {
 
 // Reads a section of named entries, each by the same table.
 template <class S>
@@ -122,6 +123,16 @@ void refuse_later_keys(Yaml& graph, Problems& problems) {
   }
 }
 
+// What varies is an override like any other.
+void require_varied_paths(const Yaml& graph, const CampaignSpec& campaign, Problems& problems) {
+  if (!campaign.vary) return;
+  for (const Yaml& child : campaign.vary->value.children) {
+    if (child.key == "seed") continue;
+    Yaml changed = graph;
+    apply_override(changed, child.key, child.key_where, child, problems);
+  }
+}
+
 }  // namespace
 
 GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides& overrides, Problems& problems) {
@@ -147,6 +158,10 @@ GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides
   read_section(graph, "platform", platform_keys(), spec.platform, problems);
   if (const Yaml* at_end = graph.find("at_end"); at_end != nullptr && at_end->kind != Yaml::Kind::null)
     read_keys(*at_end, at_end_keys(), spec.at_end.emplace(), "'at_end'", problems);
+  if (const Yaml* campaign = graph.find("campaign"); campaign != nullptr && campaign->kind != Yaml::Kind::null) {
+    read_keys(*campaign, campaign_keys(), spec.campaign.emplace(), "'campaign'", problems);
+    require_varied_paths(graph, *spec.campaign, problems);
+  }
   read_entries(graph, "distributers", "distributer", distributer_keys(), spec.distributers, problems);
   read_entries(graph, "communicators", "communicator", communicator_keys(), spec.communicators, problems);
   read_entries(graph, "chains", "chain", chain_keys(), spec.chains, problems);

@@ -93,9 +93,9 @@ void apply_override(Yaml& graph, const std::string& path, const Location& where,
   *at = std::move(value);
 }
 
-bool read_set(const std::string& argument, std::string_view example, std::string& path, Yaml& value,
-              Problems& problems) {
-  const auto source = std::make_shared<Source>(Source{"--set", argument});
+bool read_set(const std::string& argument, const std::string& option, std::string_view example, std::string& path,
+              Yaml& value, Problems& problems) {
+  const auto source = std::make_shared<Source>(Source{option, argument});
   const std::size_t equals = argument.find('=');
   if (equals == std::string::npos || equals == 0) {
     problems.add({source, 1, 1}, "'" + argument + "' is no override; write path=value, as in " + std::string(example));
@@ -108,7 +108,7 @@ bool read_set(const std::string& argument, std::string_view example, std::string
   }
   // the value alone is read as YAML; blanks in front of it keep its place in the argument
   const auto padded =
-      std::make_shared<Source>(Source{"--set", std::string(equals + 1, ' ') + argument.substr(equals + 1)});
+      std::make_shared<Source>(Source{option, std::string(equals + 1, ' ') + argument.substr(equals + 1)});
   Problems of_value;
   value = read_yaml(padded, of_value);
   for (Problem problem : of_value.list()) {
@@ -124,7 +124,7 @@ bool read_set(const std::string& argument, std::string_view example, std::string
 void apply_set(Yaml& graph, const std::string& argument, Problems& problems) {
   std::string path;
   Yaml value;
-  if (!read_set(argument, "tasks.depth.period=20ms", path, value, problems)) return;
+  if (!read_set(argument, "--set", "tasks.depth.period=20ms", path, value, problems)) return;
   const Location where{value.where.source, 1, 1};
   apply_override(graph, path, where, std::move(value), problems);
 }

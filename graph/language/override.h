@@ -12,9 +12,9 @@ namespace jarol {
 void apply_override(Yaml& graph, const std::string& path, const Location& where, Yaml value, Problems& problems);
 
 /// "path=value" as it came from the command line: the path, and the value with its places in the argument. Returns
-/// false after a report; `example` shows what would be right.
-bool read_set(const std::string& argument, std::string_view example, std::string& path, Yaml& value,
-              Problems& problems);
+/// false after a report; `option` is where it came from, `example` shows what would be right.
+bool read_set(const std::string& argument, const std::string& option, std::string_view example, std::string& path,
+              Yaml& value, Problems& problems);
 
 /// Applies "path=value" as it came from the command line.
 void apply_set(Yaml& graph, const std::string& argument, Problems& problems);

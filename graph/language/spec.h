@@ -103,6 +103,15 @@ struct AtEndSpec {
   Maybe<Duration> longest;
 };
 
+enum class Sampling { random, latin };
+
+struct CampaignSpec {
+  Maybe<Yaml> vary, metrics;
+  Maybe<std::int64_t> runs;
+  Maybe<Sampling> sampling;
+  Maybe<Duration> length;
+};
+
 struct GraphSpec {
   Maybe<std::string> name;
   Location where;  // of the whole
@@ -116,6 +125,7 @@ struct GraphSpec {
   std::vector<ChainSpec> chains;
   Maybe<Yaml> expect;
   std::optional<AtEndSpec> at_end;
+  std::optional<CampaignSpec> campaign;
   Maybe<double> fault_limit;
 };
 

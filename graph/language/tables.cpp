@@ -25,6 +25,7 @@ const std::vector<Key<GraphSpec>>& graph_keys() {
       key<&GraphSpec::fault_limit>("fault_limit", Form::share,
                                    "share of a task's activations that faults may leave without outputs, default 10%"),
       section("at_end", "how the vehicle comes to rest when a run on the real clock ends"),
+      section("campaign", "what campaign varies from run to run, and what it measures"),
       section("profiles", "named sets of overrides, chosen by run --profile"),
   };
   return keys;
@@ -124,6 +125,22 @@ const std::vector<Key<AtEndSpec>>& at_end_keys() {
                                true),
       key<&AtEndSpec::until>("until", Form::any, "the condition that holds at rest, as in 'state is ground'", true),
       key<&AtEndSpec::longest>("longest", Form::positive_duration, "the longest time that it may take", true),
+  };
+  return keys;
+}
+
+const std::vector<Key<CampaignSpec>>& campaign_keys() {
+  static const std::vector<Key<CampaignSpec>> keys{
+      key<&CampaignSpec::vary>("vary", Form::mapping,
+                               "paths as of --set, and 'seed', each with the values that it takes, as in 0.3..0.6"),
+      key<&CampaignSpec::runs>("runs", Form::integer,
+                               "number of runs, default: as many as lists and seeds have combinations")
+          .in_range(1, 1'000'000'000),
+      key<&CampaignSpec::sampling>("sampling", Form::choice,
+                                   "how ranges are drawn from, default random; latin: a Latin hypercube"),
+      key<&CampaignSpec::length>("for", Form::positive_duration, "length of a run, default: to the end of its mission"),
+      key<&CampaignSpec::metrics>("metrics", Form::mapping,
+                                  "names of what is measured of each run, as in {deepest: max(depth of dune) < 3.2}"),
   };
   return keys;
 }

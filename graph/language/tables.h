@@ -16,5 +16,6 @@ const std::vector<Key<TaskSpec>>& task_keys();
 const std::vector<Key<ChainSpec>>& chain_keys();
 const std::vector<Key<PlatformSpec>>& platform_keys();
 const std::vector<Key<AtEndSpec>>& at_end_keys();
+const std::vector<Key<CampaignSpec>>& campaign_keys();
 
 }  // namespace jarol

@@ -7,6 +7,7 @@
 #include "graph/model/connect.h"
 #include "graph/model/deadlines.h"
 #include "graph/model/heaps.h"
+#include "graph/model/parameters.h"
 #include "graph/model/safe_commands.h"
 #include "graph/values/bind.h"
 
@@ -101,23 +102,12 @@ class Builder {
                                               "'" + did_you_mean(spec.type->value, names) +
                                               "; there are: " + list_of(names));
         } else {
-          read_parameters(spec, distributer);
+          distributer.parameters = read_parameters(spec.name, *distributer.distributer_class,
+                                                   spec.parameters ? &spec.parameters->value : nullptr, problems_);
         }
       }
       graph_.distributers.push_back(std::move(distributer));
     }
-  }
-
-  void read_parameters(const DistributerSpec& spec, Distributer& distributer) {
-    const Type* type = distributer.distributer_class->parameters;
-    const std::string subject = "distributer '" + spec.name + "' (" + distributer.distributer_class->name + ")";
-    if (type != nullptr) distributer.parameters = Value(*type);
-    if (!spec.parameters) return;
-    if (type == nullptr) {
-      problems_.add(spec.parameters->where, subject + " has no parameters");
-      return;
-    }
-    bind_fields(spec.parameters->value, *type, distributer.parameters.data(), subject, "parameter", problems_);
   }
 
   void add_communicators() {
@@ -278,11 +268,9 @@ class Builder {
       return;
     }
     subject += " (" + task.task_class->name + ")";
-    task.parameters = Value(*task.task_class->parameters);
+    task.parameters =
+        read_parameters(spec.name, *task.task_class, spec.parameters ? &spec.parameters->value : nullptr, problems_);
     task.out = Value(*task.task_class->out);
-    if (spec.parameters)
-      bind_fields(spec.parameters->value, *task.task_class->parameters, task.parameters.data(), subject, "parameter",
-                  problems_);
     if (spec.init) bind_fields(spec.init->value, *task.task_class->out, task.out.data(), subject, "output", problems_);
   }
 

@@ -18,12 +18,13 @@ void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
 
 }  // namespace
 
-Communicators::Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, bool record_truth)
+Communicators::Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, bool record_truth,
+                             std::span<const expect::Condition> measured)
     : run_(run), channels_(std::move(channels)), safe_commands_(run.graph), are_any_(!run.graph.communicators.empty()) {
   assert(channels_.size() == run.graph.distributers.size());
   outs_.reserve(run.plan.outs.size());
   ins_.reserve(run.plan.ins.size());
-  for (const std::size_t distributer : watched_vehicles(run.graph))
+  for (const std::size_t distributer : watched_vehicles(run.graph, measured))
     if (const Type* type = channels_[distributer]->true_type();
         type != nullptr && record_truth && run.publisher.recorder() != nullptr)
       watched_.push_back({distributer, Value(*type)});

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "runtime/channels.h"
@@ -18,8 +19,9 @@ namespace jarol {
 class Communicators {
  public:
   /// One Channels per distributer, in the order of the graph. With `record_truth` the run's recorder gets true values
-  /// too. The run outlives it.
-  Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, bool record_truth);
+  /// too, for the conditions of the graph and for those that are measured. The run outlives it.
+  Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, bool record_truth,
+                std::span<const expect::Condition> measured = {});
 
   /// An instant, from its begin until `act` has been called.
   class Turn {

@@ -29,7 +29,7 @@ struct RunningHere {
 
 Executor::Executor(PlanOfRun plan, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options)
     : run_(std::move(plan), options_of_run(options)),
-      communicators_(run_, std::move(channels), options.record_truth),
+      communicators_(run_, std::move(channels), options.record_truth, options.measured),
       clock_(options.clock),
       stops_(!options.misses),
       dispatcher_(make_dispatcher(options)) {

@@ -22,7 +22,8 @@ struct ExecutorOptions {
   bool digest = true;
   Recorder* recorder = nullptr;
   bool record_truth = false;  // the recorder gets true values too, for the conditions of the graph: see Expectations
-  std::size_t workers = 1;    // threads that run tasks, the caller's among them; the outcome is the same for any number
+  std::span<const expect::Condition> measured{};  // conditions beside those of the graph, likewise
+  std::size_t workers = 1;  // threads that run tasks, the caller's among them; the outcome is the same for any number
   Sharing sharing = Sharing::if_it_pays;
   RealClock* clock = nullptr;                       // none: the virtual clock; with one there is a single worker
   std::span<const analysis::TaskThread> threads{};  // on the real clock: who runs the tasks; none: the caller
@@ -36,6 +37,9 @@ class Executor {
  public:
   /// One Channels per distributer of the graph, in its order. Graph and recorder outlive the executor.
   Executor(PlanOfRun plan, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options = {});
+
+  /// Before the first instant: the run has other parameters of that task than its graph; a value of their type.
+  void start_with(std::size_t task, const void* parameters) { run_.state.start_with(task, parameters); }
 
   /// Covers the instants from where it stands to before `end`, or stops at a fault. In pieces it is the same run.
   void run_until(Duration end);

@@ -128,7 +128,8 @@ Verdict ConditionWatch::judge_claim(Duration, const std::string& cut_short) cons
   return verdict;
 }
 
-Expectations::Expectations(const Graph& graph, const std::vector<Output>& outputs)
+Expectations::Expectations(const Graph& graph, const std::vector<Output>& outputs,
+                           std::span<const expect::Condition> conditions)
     : targets_(outputs.size() + graph.distributers.size()) {
   const auto output_of = [&](const expect::Signal& signal) -> std::size_t {
     if (signal.distributer) return outputs.size() + *signal.distributer;
@@ -138,8 +139,8 @@ Expectations::Expectations(const Graph& graph, const std::vector<Output>& output
                          [](const Output& output, const std::string& wanted) { return output.name < wanted; }) -
         outputs.begin());
   };
-  watches_.reserve(graph.expectations.size());
-  for (const Condition& condition : graph.expectations) {
+  watches_.reserve(conditions.size());
+  for (const Condition& condition : conditions) {
     if (condition.not_judged.empty())
       for (std::size_t i = 0; i < condition.signals.size(); ++i)
         targets_[output_of(condition.signals[i])].push_back({watches_.size(), i, &condition.signals[i].leaf});
@@ -165,11 +166,12 @@ std::vector<Verdict> Expectations::judge(Duration end, const std::string& cut_sh
   return verdicts;
 }
 
-std::vector<std::size_t> watched_vehicles(const Graph& graph) {
+std::vector<std::size_t> watched_vehicles(const Graph& graph, std::span<const Condition> beside) {
   std::vector<std::size_t> watched;
-  for (const Condition& condition : graph.expectations)
-    for (const expect::Signal& signal : condition.signals)
-      if (signal.distributer && condition.not_judged.empty()) watched.push_back(*signal.distributer);
+  for (const std::span<const Condition> conditions : {std::span<const Condition>(graph.expectations), beside})
+    for (const Condition& condition : conditions)
+      for (const expect::Signal& signal : condition.signals)
+        if (signal.distributer && condition.not_judged.empty()) watched.push_back(*signal.distributer);
   std::sort(watched.begin(), watched.end());
   watched.erase(std::unique(watched.begin(), watched.end()), watched.end());
   return watched;

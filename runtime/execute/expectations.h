@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,8 +60,8 @@ class ConditionWatch {
 /// distributer's vehicle.
 class Expectations : public RecordSink {
  public:
-  /// `outputs`: those of the graph's plan. The graph outlives it.
-  Expectations(const Graph& graph, const std::vector<Output>& outputs);
+  /// `outputs`: those of the graph's plan. Graph and conditions outlive it.
+  Expectations(const Graph& graph, const std::vector<Output>& outputs, std::span<const expect::Condition> conditions);
 
   /// What is published from that instant on is not judged. Any thread, before it is published.
   void judge_before(Duration instant) { before_.store(instant.count(), std::memory_order_relaxed); }
@@ -85,7 +86,7 @@ class Expectations : public RecordSink {
   std::atomic<std::int64_t> before_{std::numeric_limits<std::int64_t>::max()};
 };
 
-/// The distributers whose true values a condition of the graph names.
-std::vector<std::size_t> watched_vehicles(const Graph& graph);
+/// The distributers whose true values a condition of the graph names, or one of those beside them.
+std::vector<std::size_t> watched_vehicles(const Graph& graph, std::span<const expect::Condition> beside = {});
 
 }  // namespace jarol

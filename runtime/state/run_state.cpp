@@ -64,6 +64,10 @@ void RunState::make_task(std::size_t i) {
   of_task.size = plan.layout.undoable_size(plan.graph, i);
 }
 
+void RunState::start_with(std::size_t task, const void* parameters) {
+  copy_value(*plan.graph.tasks[task].task_class->parameters, at(plan.layout.tasks[task].parameters), parameters);
+}
+
 void RunState::make_communicator(std::size_t i) {
   const Communicator& c = plan.graph.communicators[i];
   const Layout::OfCommunicator& places = plan.layout.communicators[i];

@@ -26,6 +26,9 @@ class RunState {
   RunState(const RunState&) = delete;
   RunState& operator=(const RunState&) = delete;
 
+  /// Before the first instant: other parameters of that task than the plan's graph has.
+  void start_with(std::size_t task, const void* parameters);
+
   const Plan& plan;
 
   // with addresses, in the order of the plan

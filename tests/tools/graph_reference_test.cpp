@@ -126,6 +126,7 @@ TEST_SUITE("tools/graph_reference") {
     check_section("chains", chain_keys());
     check_section("platform", platform_keys());
     check_section("at_end", at_end_keys());
+    check_section("campaign", campaign_keys());
   }
 
   TEST_CASE("the reference has the keys of each link") {

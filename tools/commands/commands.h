@@ -11,6 +11,7 @@ class CommandLine;
 
 // Each adds its subcommand; `exit_code` is what the program returns once it has run.
 void add_bench(CommandLine& line, int& exit_code);
+void add_campaign(CommandLine& line, int& exit_code);
 void add_check(CommandLine& line, int& exit_code);
 void add_doctor(CommandLine& line, int& exit_code);
 void add_graph(CommandLine& line, int& exit_code);

@@ -109,6 +109,20 @@ Json at_end_schema() {
   return schema;
 }
 
+Json campaign_schema() {
+  Json schema = mapping_schema(campaign_keys());
+  const Json list{{"type", "array"}, {"items", {{"type", {"string", "number", "boolean"}}}}, {"minItems", 1}};
+  const Json text{{"type", "string"}, {"pattern", "^ *normal\\(|^ *grid\\(|\\.\\."}};
+  const Json seeds{{"type", "array"}, {"items", {{"type", "integer"}, {"minimum", 0}}}, {"minItems", 1}};
+  const Json from_to{{"type", "string"}, {"pattern", "^ *[0-9]+ *\\.\\. *[0-9]+ *$"}};
+  schema["properties"]["vary"]["properties"]["seed"] = {{"anyOf", {from_to, seeds}}};
+  schema["properties"]["vary"]["additionalProperties"] = {{"anyOf", {text, list}}};
+  schema["properties"]["metrics"].update(
+      {{"patternProperties", {{name_pattern, {{"type", "string"}, {"minLength", 1}}}}},
+       {"additionalProperties", false}});
+  return schema;
+}
+
 // A graph is of something.
 Json some_of(const std::string& section) {
   return {{"required", Json::array({section})}, {"properties", {{section, {{"minProperties", 1}}}}}};
@@ -138,6 +152,7 @@ std::string graph_schema(const distributers::Registries& known) {
   describe_section(schema, "chains", entries_schema(chain_schema()));
   describe_section(schema, "platform", mapping_schema(platform_keys()));
   describe_section(schema, "at_end", at_end_schema());
+  describe_section(schema, "campaign", campaign_schema());
   describe_section(schema, "expect", texts());
   describe_section(schema, "profiles", {{"type", "object"}, {"additionalProperties", {{"type", "object"}}}});
   schema["anyOf"] = Json::array({some_of("tasks"), some_of("communicators"), some_of("distributers")});

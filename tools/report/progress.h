@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 #include <mutex>
+#include <string>
 #include <thread>
 
 #include "graph/language/quantities.h"
@@ -14,13 +15,21 @@ namespace jarol::tools {
 class Progress {
  public:
   /// Shows `now()` against `end` five times a second, unless `shown` is false.
-  Progress(bool shown, Duration end, std::function<Duration()> now) {
+  Progress(bool shown, Duration end, std::function<Duration()> now)
+      : Progress(shown, [end, now = std::move(now)] {
+          const double part = static_cast<double>(now().count()) / static_cast<double>(end.count());
+          char text[80];
+          std::snprintf(text, sizeof text, "  %3.0f %% of %s s", 100.0 * part, seconds_text(end).c_str());
+          return std::string(text);
+        }) {}
+
+  /// The same of a line in words.
+  Progress(bool shown, std::function<std::string()> line) {
     if (!shown) return;
-    thread_ = std::thread([this, end, now = std::move(now)] {
+    thread_ = std::thread([this, line = std::move(line)] {
       std::unique_lock lock(mutex_);
       while (!done_.wait_for(lock, std::chrono::milliseconds(200), [this] { return finished_; })) {
-        const double part = static_cast<double>(now().count()) / static_cast<double>(end.count());
-        std::fprintf(stderr, "\r  %3.0f %% of %s s", 100.0 * part, seconds_text(end).c_str());
+        std::fprintf(stderr, "\r%s\033[K", line().c_str());
         std::fflush(stderr);
       }
       std::fputs("\r\033[K", stderr);

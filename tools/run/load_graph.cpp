@@ -1,19 +1,19 @@
 #include "tools/run/load_graph.h"
 
 #include <iostream>
+#include <mutex>
 #include <set>
 
 #include "tools/library/built_in.h"
 
 namespace jarol::tools {
-namespace {
 
 void note_once(const std::string& text) {
+  static std::mutex mutex;
   static std::set<std::string> noted;
+  const std::lock_guard lock(mutex);
   if (noted.insert(text).second) print_note(text);
 }
-
-}  // namespace
 
 Overrides without_changes(const Overrides& overrides) { return {"", {}, overrides.no_plugins}; }
 

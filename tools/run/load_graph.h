@@ -19,5 +19,7 @@ Loaded load_without_channels(const std::string& path, const Overrides& overrides
 
 /// A line on stderr.
 void print_note(const std::string& text);
+/// The same, but each text once in a process. Any thread.
+void note_once(const std::string& text);
 
 }  // namespace jarol::tools

@@ -72,7 +72,7 @@ Value read_parameters(const VehicleOptions& options, const vehicles::VehicleClas
   for (const std::string& argument : options.set) {
     std::string path;
     Yaml value;
-    if (!read_set(argument, "sea.density=1025", path, value, problems)) continue;
+    if (!read_set(argument, "--set", "sea.density=1025", path, value, problems)) continue;
     const Location where{value.where.source, 1, 1};
     bind_fields(nested(path, std::move(value), where), *vehicle.parameters, parameters.data(),
                 "vehicle '" + vehicle.name + "'", "parameter", problems);

@@ -128,18 +128,43 @@ TEST_SUITE("graph/expect/parse") {
       CHECK(parse(words, elsewhere).not_judged == "the vehicle of 'boat' is not simulated in this process");
   }
 
-  TEST_CASE("a metric is a condition without its comparison") {
+  TEST_CASE("what is measured is a metric, with a limit if it is compared, or the instant of a condition") {
     Problems problems;
-    const auto metric =
-        expect::parse_metric(yaml("settling_time(depth of boat to 3 within 5 cm) after 2s"), graph(), here(), problems);
+    const auto measured = [&](const std::string& text) {
+      return expect::parse_measured(yaml(text), "metric 'm'", graph(), here(), problems);
+    };
+    const auto metric = measured("settling_time(depth of boat to 3 within 5 cm) after 2s");
     REQUIRE(metric.has_value());
-    CHECK(metric->metric.reduction == Reduction::settling_time);
-    CHECK(metric->metric.target == 3);
-    CHECK(metric->metric.band == 0.05);
-    CHECK(metric->metric.unit == "s");
-    CHECK(!expect::parse_metric(yaml("watch.condition.alarm"), graph(), here(), problems));
-    REQUIRE(problems.size() == 1);
-    CHECK(problems.list()[0].text == "'expect': a metric is a number; this is a choice");
+    CHECK(metric->condition.metric.reduction == Reduction::settling_time);
+    CHECK(metric->condition.metric.target == 3);
+    CHECK(metric->condition.metric.band == 0.05);
+    CHECK(metric->condition.metric.unit == "s");
+    CHECK(!metric->is_limit);
+    CHECK(!metric->is_instant);
+    const auto state = measured("watch.condition.alarm");
+    REQUIRE(state.has_value());
+    CHECK(!state->is_limit);
+    for (const char* limit : {"max(depth of boat) after 2s < 3", "max(depth of boat) < 3 after 2s",
+                              "never watch.condition.alarm is not none", "watch.condition.alarm is none"}) {
+      const auto found = measured(limit);
+      REQUIRE(found.has_value());
+      CHECK(found->is_limit);
+      CHECK(!found->is_instant);
+    }
+    const auto instant = measured("time of depth of boat > 2");
+    REQUIRE(instant.has_value());
+    CHECK(instant->is_instant);
+    CHECK(!instant->is_limit);
+    CHECK(instant->condition.kind == expect::Condition::Kind::once);
+    const auto in_time = measured("time of depth of boat > 2 before 20s");
+    REQUIRE(in_time.has_value());
+    CHECK(in_time->is_limit);
+    CHECK(problems.empty());
+    CHECK(!measured("time of depth of boat"));
+    CHECK(!measured("max(depth of boat) 3"));
+    REQUIRE(problems.size() == 2);
+    CHECK(problems.list()[0].text ==
+          "metric 'm': a comparison is needed here: <, <=, >, >= or within, but it ends there");
   }
 
   TEST_CASE("no text makes it crash") {

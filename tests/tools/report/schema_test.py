@@ -14,14 +14,14 @@ import yaml
 # What only a program that resolves names, reads files and does sums can see, each with the reason.
 BEYOND_A_SCHEMA = {
     "what other parts of the graph are called": """
-        chain_not_connected chain_unknown_end channel_with_two_readers channel_with_two_writers
+        campaign_unknown_path chain_not_connected chain_unknown_end channel_with_two_readers channel_with_two_writers
         communicator_named_as_a_task communicator_open communicator_unknown_distributer connection_dot_at_communicator
         connection_fed_twice connection_from_an_out connection_to_an_in connection_types connection_unknown_end
         connection_unknown_input connection_unknown_output connection_without_input connection_without_output
         cycle_without_let input_open safe_of_an_in safe_without_in safe_without_timeout
         timeout_of_an_out timeout_without_safe""",
     "sums and comparisons": """
-        core_beyond_platform deadline_later_than_derived deadline_later_than_let let_longer_than_period
+        campaign_seeds_down core_beyond_platform deadline_later_than_derived deadline_later_than_let let_longer_than_period
         offset_not_below_period period_missing period_no_part_of_the_graph timeout_shorter_than_period
         duration_beyond_ten_years duration_part_of_a_nanosecond duration_too_large heap_too_large heap_too_small
         heaps_too_large_together heap_initial_values heap_of_nothing size_part_of_a_byte link_announces_nowhere

@@ -1,0 +1,48 @@
+#include "distributers/campaign/graphs.h"
+
+#include <utility>
+
+#include "graph/campaign/read.h"
+
+namespace jarol::campaign {
+namespace {
+
+Overrides with(Overrides overrides, const std::vector<std::string>& set) {
+  overrides.set.insert(overrides.set.end(), set.begin(), set.end());
+  return overrides;
+}
+
+}  // namespace
+
+MeasuredGraph::MeasuredGraph(const GraphSource& of, const std::vector<std::string>& set)
+    : graph(of.source, of.known, with(of.overrides, set), of.note), measures(graph.campaign().measures) {
+  Problems problems;
+  for (const std::string& metric : of.metrics)
+    add_metric(measures, metric, graph.graph(), graph.true_values(), problems);
+  problems.throw_if_any();
+}
+
+Graphs::Graphs(const GraphSource& of) : source_(of), base_(std::make_shared<const MeasuredGraph>(of)) {}
+
+std::shared_ptr<const MeasuredGraph> Graphs::of(const Start& start) {
+  const std::vector<std::string> changes = changes_of(start, false);
+  if (changes.empty()) return base_;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = others_.find(changes); found != others_.end()) return found->second;
+  }
+  // what two threads load at once is loaded twice, and nobody waits
+  auto made = std::make_shared<const MeasuredGraph>(source_, changes);
+  const std::lock_guard lock(mutex_);
+  if (others_.size() >= most_kept) others_.clear();
+  return others_.emplace(changes, std::move(made)).first->second;
+}
+
+std::vector<std::string> changes_of(const Start& start, bool of_run) {
+  std::vector<std::string> changes;
+  for (const std::string& change : start.set)
+    if (PlannedGraph::is_of_run(change.substr(0, change.find('='))) == of_run) changes.push_back(change);
+  return changes;
+}
+
+}  // namespace jarol::campaign

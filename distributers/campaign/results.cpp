@@ -1,0 +1,224 @@
+#include "distributers/campaign/results.h"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace jarol::campaign {
+namespace {
+
+// "jrl" and the version of the layout.
+constexpr int application_id = 0x6a726c01;
+
+std::string quoted(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string{c};
+  return text + "\"";
+}
+
+std::string text_of(sqlite3_stmt* row, int column) {
+  const auto* const text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
+  return text == nullptr ? "" : std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(row, column)));
+}
+
+void bind_text(sqlite3_stmt* to, int place, const std::string& text) {
+  sqlite3_bind_text(to, place, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
+}
+
+// Numbers as numbers, so that queries can compare them; what SQL has no number for as a word.
+void bind_number(sqlite3_stmt* to, int place, double number) {
+  if (std::isfinite(number))
+    sqlite3_bind_double(to, place, number);
+  else
+    bind_text(to, place, number_text(number));
+}
+
+void bind_value(sqlite3_stmt* to, int place, const std::string& value) {
+  const char* const end = value.data() + value.size();
+  std::int64_t whole = 0;
+  if (const auto read = std::from_chars(value.data(), end, whole); read.ec == std::errc() && read.ptr == end) {
+    sqlite3_bind_int64(to, place, whole);
+    return;
+  }
+  double number = 0;
+  const auto read = std::from_chars(value.data(), end, number);
+  if (read.ec == std::errc() && read.ptr == end && std::isfinite(number))
+    sqlite3_bind_double(to, place, number);
+  else
+    bind_text(to, place, value);
+}
+
+Reached reached_of(sqlite3_stmt* row, int column) {
+  if (sqlite3_column_type(row, column) == SQLITE_FLOAT) return {sqlite3_column_double(row, column), ""};
+  const std::string word = text_of(row, column);
+  for (const double number : {std::nan(""), HUGE_VAL, -HUGE_VAL})
+    if (word == number_text(number)) return {number, ""};
+  return {std::nullopt, word};
+}
+
+// Ends of lines in front of a change that is shown.
+std::string shown(const std::string& text) {
+  std::string line = text.empty() ? "nothing" : "'";
+  if (text.empty()) return line;
+  for (const char c : text) line += c == '\n' ? std::string("', '") : std::string{c};
+  return line + "'";
+}
+
+}  // namespace
+
+void Results::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
+void Results::Close::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+
+Results::Results(const std::string& path, const Identity& identity, const std::vector<std::string>& vary,
+                 const std::vector<std::string>& metrics)
+    : path_(path), metrics_(metrics.size()) {
+  sqlite3* database = nullptr;
+  const int opened = sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+  database_.reset(database);
+  if (opened != SQLITE_OK) fail();
+  // two campaigns never write one file
+  run("PRAGMA locking_mode = EXCLUSIVE");
+  run("PRAGMA journal_mode = WAL");
+  run("PRAGMA synchronous = NORMAL");
+  run("BEGIN IMMEDIATE");
+  is_new() ? create(identity, vary, metrics) : require_same(identity);
+  run("COMMIT");
+  std::string places = "?, ?, ?, ?, ?, ?, ?";
+  for (std::size_t i = 0; i < vary.size() + metrics.size(); ++i) places += ", ?";
+  insert_ = prepare("INSERT INTO runs VALUES (" + places + ")");
+}
+
+Results::~Results() {
+  insert_.reset();
+  // one file is left, without those that SQLite writes beside it
+  sqlite3_exec(database_.get(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
+}
+
+void Results::fail() const {
+  const std::string why = database_ ? sqlite3_errmsg(database_.get()) : "there is no memory";
+  if (why == "database is locked")
+    throw ResultsError("'" + path_ + "' is in use by another campaign; wait for its end, or name another file");
+  throw ResultsError("can't use '" + path_ + "' for results: " + why);
+}
+
+void Results::run(const std::string& sql) const {
+  if (sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
+}
+
+Results::Statement Results::prepare(const std::string& sql) const {
+  sqlite3_stmt* made = nullptr;
+  const int code = sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &made, nullptr);
+  Statement statement(made);
+  if (code != SQLITE_OK) fail();
+  return statement;
+}
+
+// False: there is no further row.
+bool Results::step(const Statement& statement) const {
+  const int code = sqlite3_step(statement.get());
+  if (code != SQLITE_ROW && code != SQLITE_DONE) fail();
+  return code == SQLITE_ROW;
+}
+
+bool Results::is_new() const {
+  const Statement id = prepare("PRAGMA application_id");
+  step(id);
+  const int found = sqlite3_column_int(id.get(), 0);
+  if (found == application_id) return false;
+  const Statement tables = prepare("SELECT count(*) FROM sqlite_master");
+  step(tables);
+  if (found == 0 && sqlite3_column_int(tables.get(), 0) == 0) return true;
+  throw OtherCampaign("'" + path_ + "' is a database, but holds no results of a campaign; name another file");
+}
+
+void Results::create(const Identity& identity, const std::vector<std::string>& vary,
+                     const std::vector<std::string>& metrics) {
+  run("PRAGMA application_id = " + std::to_string(application_id));
+  run("CREATE TABLE campaign (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
+  std::string columns =
+      "run INTEGER PRIMARY KEY, seed, outcome TEXT NOT NULL, why TEXT NOT NULL, simulated INTEGER NOT NULL, "
+      "faults INTEGER NOT NULL, digest TEXT NOT NULL";
+  for (const auto* names : {&vary, &metrics})
+    for (const std::string& name : *names) columns += ", " + quoted(name);
+  run("CREATE TABLE runs (" + columns + ")");
+  const Statement insert = prepare("INSERT INTO campaign VALUES (?, ?)");
+  for (const auto& [key, value] : identity) {
+    bind_text(insert.get(), 1, key);
+    bind_text(insert.get(), 2, value);
+    step(insert);
+    sqlite3_reset(insert.get());
+  }
+}
+
+void Results::require_same(const Identity& identity) const {
+  const std::string other = "'" + path_ + "' has the results of another campaign: ";
+  const std::string remedy = "; repeat that, or name another file";
+  std::size_t known = 0;
+  for (const auto& [key, value] : identity) {
+    const Statement find = prepare("SELECT value FROM campaign WHERE key = ?");
+    bind_text(find.get(), 1, key);
+    if (!step(find)) throw OtherCampaign(other + "'" + key + "' was no part of it" + remedy);
+    ++known;
+    const std::string before = text_of(find.get(), 0);
+    if (before == value) continue;
+    if (key == "graph" || key.starts_with("file "))
+      throw OtherCampaign(other + "the " + (key == "graph" ? "graph" : "'" + key + "'") + " has changed since" +
+                          remedy);
+    throw OtherCampaign(other + "its '" + key + "' was " + shown(before) + ", not " + shown(value) + remedy);
+  }
+  const Statement count = prepare("SELECT count(*) FROM campaign");
+  step(count);
+  if (static_cast<std::size_t>(sqlite3_column_int64(count.get(), 0)) != known)
+    throw OtherCampaign(other + "it read other files" + remedy);
+}
+
+std::vector<std::uint64_t> Results::done() const {
+  std::vector<std::uint64_t> all;
+  const Statement rows = prepare("SELECT run FROM runs ORDER BY run");
+  while (step(rows)) all.push_back(static_cast<std::uint64_t>(sqlite3_column_int64(rows.get(), 0)));
+  return all;
+}
+
+void Results::add(const Start& start, const Result& result) {
+  sqlite3_stmt* const row = insert_.get();
+  sqlite3_bind_int64(row, 1, static_cast<std::int64_t>(result.index));
+  bind_value(row, 2, std::to_string(start.seed));
+  bind_text(row, 3, word_of(result.outcome));
+  bind_text(row, 4, result.why);
+  sqlite3_bind_int64(row, 5, result.simulated.count());
+  sqlite3_bind_int64(row, 6, static_cast<std::int64_t>(result.faults));
+  bind_text(row, 7, fmt::format("0x{:016x}", result.digest));
+  int place = 8;
+  for (const std::string& value : start.set) bind_value(row, place++, value.substr(value.find('=') + 1));
+  for (const Reached& reached : result.metrics) {
+    if (reached.number)
+      bind_number(row, place++, *reached.number);
+    else if (!reached.word.empty())
+      bind_text(row, place++, reached.word);
+    else
+      sqlite3_bind_null(row, place++);
+  }
+  step(insert_);
+  sqlite3_reset(row);
+}
+
+void Results::for_each(const std::function<void(const Result&)>& take) const {
+  const Statement rows = prepare("SELECT * FROM runs ORDER BY run");
+  const int columns = sqlite3_column_count(rows.get());
+  sqlite3_stmt* const row = rows.get();
+  while (step(rows)) {
+    Result result;
+    result.index = static_cast<std::uint64_t>(sqlite3_column_int64(row, 0));
+    result.outcome = outcome_of(text_of(row, 2)).value_or(Outcome::lost);
+    result.why = text_of(row, 3);
+    result.simulated = Duration(sqlite3_column_int64(row, 4));
+    result.faults = static_cast<std::uint64_t>(sqlite3_column_int64(row, 5));
+    result.digest = std::stoull(text_of(row, 6), nullptr, 16);
+    for (int i = columns - static_cast<int>(metrics_); i < columns; ++i) result.metrics.push_back(reached_of(row, i));
+    take(result);
+  }
+}
+
+}  // namespace jarol::campaign

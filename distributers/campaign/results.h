@@ -1,0 +1,66 @@
+// The results of a campaign: an SQLite database, which is the truth of how far the campaign has come. Each run that is
+// added stays, whatever ends the process.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "distributers/campaign/result.h"
+#include "distributers/campaign/statement.h"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace jarol::campaign {
+
+/// The file can't be read or written, or is none of a campaign.
+struct ResultsError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// It has the results of another campaign.
+struct OtherCampaign : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+/// Used by one thread at a time.
+class Results {
+ public:
+  /// Opens the file, or makes it. `vary` and `metrics`: what their columns are called. Throws ResultsError,
+  /// OtherCampaign.
+  Results(const std::string& path, const Identity& identity, const std::vector<std::string>& vary,
+          const std::vector<std::string>& metrics);
+  ~Results();
+  Results(const Results&) = delete;
+  Results& operator=(const Results&) = delete;
+
+  /// The indices of the runs in it, going up.
+  std::vector<std::uint64_t> done() const;
+  void add(const Start& start, const Result& result);
+  /// All of them, by index.
+  void for_each(const std::function<void(const Result&)>& take) const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  using Statement = std::unique_ptr<sqlite3_stmt, Close>;
+
+  void run(const std::string& sql) const;
+  Statement prepare(const std::string& sql) const;
+  bool step(const Statement& statement) const;
+  [[noreturn]] void fail() const;
+  bool is_new() const;
+  void create(const Identity& identity, const std::vector<std::string>& vary, const std::vector<std::string>& metrics);
+  void require_same(const Identity& identity) const;
+
+  std::string path_;
+  std::unique_ptr<sqlite3, Close> database_;
+  std::size_t metrics_;
+  Statement insert_;
+};
+
+}  // namespace jarol::campaign

@@ -1,0 +1,165 @@
+#include "distributers/campaign/run_one.h"
+
+#include <array>
+#include <utility>
+
+#include "distributers/session/graph_run.h"
+
+namespace jarol::campaign {
+namespace {
+
+constexpr std::array<const char*, 5> words{"good", "bad", "fault", "lost", "refused"};
+
+// So much logical time passes between two looks at whether to stop; in pieces it is the same run.
+constexpr Duration piece = std::chrono::seconds(1);
+
+std::string text_of(const SpecError& error) {
+  std::string text;
+  for (const Problem& problem : error.problems()) text += (text.empty() ? "" : "; ") + problem.text;
+  return text;
+}
+
+// What a campaign can't do with those channels; empty: it can run them.
+std::string wrong_with(const Graph& graph, const std::vector<std::unique_ptr<Channels>>& channels) {
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    if (channels[i]->needs_real_clock() || channels[i]->link_report())
+      return "distributer '" + graph.distributers[i].name +
+             "' has a link to another process; a campaign runs vehicles and scripts that are simulated in its own";
+  return "";
+}
+
+// The first of what is against the run; empty: nothing.
+std::string why_bad(const RunVerdict& verdict) {
+  for (const auto& mishap : verdict.mishaps) return "the vehicle of '" + mishap.distributer + "' has " + mishap.text;
+  for (const std::string& line : verdict.left_out) return line;
+  for (const Verdict& v : verdict.expectations)
+    if (v.outcome == Verdict::Outcome::fails) return "expected '" + v.condition + "', but it " + v.why;
+  return "";
+}
+
+Reached reached_of(const Metric& metric, const expect::Condition& condition, const Verdict& verdict) {
+  if (verdict.outcome == Verdict::Outcome::not_judged && !metric.is_instant) return {};
+  if (condition.kind != expect::Condition::Kind::metric) {
+    if (!verdict.instant) return {};
+    return {std::chrono::duration<double>(*verdict.instant).count(), ""};
+  }
+  const Type* type = condition.metric.value.type;
+  const bool is_word = type != nullptr && (type->kind == Kind::enumeration || type->kind == Kind::boolean);
+  if (is_word && verdict.reached) return {std::nullopt, verdict.reached_text};
+  return {verdict.reached, ""};
+}
+
+void measure(const Measures& measures, const std::vector<Verdict>& verdicts, Result& result) {
+  result.metrics.resize(measures.metrics.size());
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    const Metric& metric = measures.metrics[i];
+    result.metrics[i] = reached_of(metric, measures.conditions[i], verdicts[i]);
+    const bool broken = metric.is_limit && verdicts[i].outcome == Verdict::Outcome::fails;
+    if (!broken || result.outcome != Outcome::good) continue;
+    result.outcome = Outcome::bad;
+    result.why = "metric '" + metric.name + "' is beyond its limit: it " + verdicts[i].why;
+  }
+}
+
+class CampaignRun {
+ public:
+  CampaignRun(const MeasuredGraph& of, RunStart start, std::optional<Duration> length)
+      : of_(of),
+        run_(of.graph, std::move(start), {.measured = of.measures.conditions}),
+        end_(length.value_or(end_of_mission(run_.channels()))) {}
+
+  // False: it was to stop.
+  bool cover(Result& result, const std::atomic<bool>& stop) {
+    Executor& executor = run_.executor();
+    try {
+      run_.connect(no_notes);
+      while (executor.now() < end_ && !executor.report().stopped) {
+        if (stop.load(std::memory_order_relaxed)) return false;
+        executor.run_until(std::min(end_, executor.now() + piece));
+      }
+    } catch (const std::exception& error) { lose(result, error.what()); } catch (...) {
+      lose(result, "something was thrown that is no exception");
+    }
+    return true;
+  }
+
+  void judge(Result& result) {
+    run_.disconnect();
+    run_.sinks().close();
+    const Report& report = run_.executor().report();
+    result.simulated = report.simulated;
+    result.faults = report.fault_count;
+    result.digest = report.digest;
+    RunEnd end;
+    end.ending = result.outcome == Outcome::lost ? Ending::lost() : report.stopped ? Ending::fault() : Ending::over();
+    if (result.outcome == Outcome::good && report.stopped) {
+      result.outcome = Outcome::fault;
+      result.why = to_text(report.faults.back());
+    }
+    const RunVerdict verdict = run_.judge(end_, end);
+    if (result.outcome == Outcome::good && verdict.is_negative()) {
+      result.outcome = Outcome::bad;
+      result.why = why_bad(verdict);
+    }
+    measure(of_.measures, run_.measure(end_), result);
+  }
+
+ private:
+  void lose(Result& result, const std::string& text) {
+    result.outcome = Outcome::lost;
+    result.why = "at " + seconds_text(run_.executor().now()) + " s: " + text;
+  }
+
+  const MeasuredGraph& of_;
+  GraphRun run_;
+  Duration end_;
+};
+
+const char* const no_end = "it has no mission that ends; say how long a run is, as in --for 10s";
+
+std::string why_not(const Graph& graph, const RunStart& start, std::optional<Duration> length) {
+  if (std::string wrong = wrong_with(graph, start.channels); !wrong.empty()) return wrong;
+  return length || end_of_mission(pointers_to(start.channels)) > Duration{} ? "" : no_end;
+}
+
+}  // namespace
+
+const char* word_of(Outcome outcome) { return words[static_cast<std::size_t>(outcome)]; }
+
+std::optional<Outcome> outcome_of(const std::string& word) {
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (word == words[i]) return static_cast<Outcome>(i);
+  return std::nullopt;
+}
+
+std::string why_not_in_campaign(const PlannedGraph& graph, std::optional<Duration> length) {
+  return why_not(graph.graph(), graph.start({}, 0), length);
+}
+
+std::optional<Result> run_one(Graphs& graphs, const Start& start, std::optional<Duration> length,
+                              const std::atomic<bool>& stop) {
+  Result result;
+  result.index = start.index;
+  result.metrics.resize(graphs.base().measures.metrics.size());
+  try {
+    const std::shared_ptr<const MeasuredGraph> of = graphs.of(start);
+    RunStart begin = of->graph.start(changes_of(start, true), start.seed);
+    result.why = why_not(of->graph.graph(), begin, length);
+    if (!result.why.empty()) {
+      result.outcome = Outcome::refused;
+      return result;
+    }
+    CampaignRun run(*of, std::move(begin), length);
+    if (!run.cover(result, stop)) return std::nullopt;
+    run.judge(result);
+  } catch (const SpecError& error) {
+    result.outcome = Outcome::refused;
+    result.why = text_of(error);
+  } catch (const std::exception& error) {
+    result.outcome = Outcome::lost;
+    result.why = error.what();
+  }
+  return result;
+}
+
+}  // namespace jarol::campaign

@@ -1,0 +1,120 @@
+#include "distributers/campaign/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "graph/text/escape.h"
+
+namespace jarol::campaign {
+namespace {
+
+using expect::Comparison;
+
+// How far a number lies towards what a limit forbids; none: there is no limit that says.
+std::optional<double> badness(const expect::Condition& condition, double number) {
+  switch (condition.comparison.kind) {
+    case Comparison::Kind::less:
+    case Comparison::Kind::at_most: return number;
+    case Comparison::Kind::greater:
+    case Comparison::Kind::at_least: return -number;
+    case Comparison::Kind::within: return std::abs(number - condition.comparison.of);
+    case Comparison::Kind::is:
+    case Comparison::Kind::is_not: break;
+  }
+  return std::nullopt;
+}
+
+// What is no number is worse than any.
+double rank_of(double badness) { return std::isnan(badness) ? HUGE_VAL : badness; }
+
+class MetricFolder {
+ public:
+  MetricFolder(const Metric& metric, const expect::Condition& condition) : metric_(metric), condition_(condition) {
+    made_.name = metric.name;
+    made_.unit = condition.kind == expect::Condition::Kind::metric ? condition.metric.unit : "s";
+  }
+
+  void add(std::uint64_t index, const Reached& reached) {
+    if (!reached.word.empty()) ++made_.words[reached.word];
+    if (!reached.number) {
+      made_.missing += reached.word.empty() ? 1 : 0;
+      return;
+    }
+    const double number = *reached.number;
+    ++made_.count;
+    made_.numbers.push_back(number);
+    // the first of equals
+    if (!made_.least || number < made_.least->value) made_.least = Case{index, number};
+    if (!made_.greatest || number > made_.greatest->value) made_.greatest = Case{index, number};
+    if (!metric_.is_limit || condition_.kind != expect::Condition::Kind::metric) return;
+    const std::optional<double> bad = badness(condition_, number);
+    if (!bad || (made_.worst && rank_of(*bad) <= worst_)) return;
+    made_.worst = Case{index, number};
+    worst_ = rank_of(*bad);
+  }
+
+  MetricSummary finish() {
+    if (made_.count == 0) return std::move(made_);
+    const auto count = static_cast<double>(made_.count);
+    double sum = 0, squares = 0;
+    for (const double number : made_.numbers) sum += number;
+    made_.mean = sum / count;
+    for (const double number : made_.numbers) squares += (number - made_.mean) * (number - made_.mean);
+    made_.deviation = made_.count > 1 ? std::sqrt(squares / (count - 1)) : 0;
+    std::vector<double> sorted = made_.numbers;
+    // what is no number comes last
+    std::sort(sorted.begin(), sorted.end(), [](double a, double b) { return std::isnan(b) ? !std::isnan(a) : a < b; });
+    for (std::size_t i = 0; i < percents.size(); ++i) {
+      const std::uint64_t rank = (made_.count * static_cast<std::uint64_t>(percents[i]) + 99) / 100;  // from 1
+      made_.percentiles[i] = sorted[std::max<std::uint64_t>(rank, 1) - 1];
+    }
+    return std::move(made_);
+  }
+
+ private:
+  const Metric& metric_;
+  const expect::Condition& condition_;
+  MetricSummary made_;
+  double worst_ = 0;
+};
+
+std::string text_of(const Reached& reached) { return reached.number ? number_text(*reached.number) : reached.word; }
+
+}  // namespace
+
+Summary summarise(const Results& results, const Measures& measures) {
+  Summary summary;
+  std::vector<MetricFolder> folders;
+  for (std::size_t i = 0; i < measures.metrics.size(); ++i)
+    folders.emplace_back(measures.metrics[i], measures.conditions[i]);
+  results.for_each([&](const Result& result) {
+    ++summary.runs;
+    ++summary.outcomes[static_cast<std::size_t>(result.outcome)];
+    if (result.outcome != Outcome::good && summary.not_good.size() < most_not_good) summary.not_good.push_back(result);
+    for (std::size_t i = 0; i < folders.size(); ++i) folders[i].add(result.index, result.metrics[i]);
+  });
+  for (MetricFolder& folder : folders) summary.metrics.push_back(folder.finish());
+  return summary;
+}
+
+void write_csv(const Results& results, const Campaign& campaign, const Draws& draws,
+               const std::function<void(std::string_view)>& write) {
+  std::string line = "run,seed";
+  for (const Variation& v : campaign.vary)
+    if (v.path != "seed") line += "," + csv_text(v.path);
+  for (const Metric& metric : campaign.measures.metrics) line += "," + metric.name;
+  write(line + ",outcome,faults,simulated,digest,why\n");
+  results.for_each([&](const Result& result) {
+    const Start start = draws.at(result.index);
+    line = std::to_string(result.index) + "," + std::to_string(start.seed);
+    for (const std::string& change : start.set) line += "," + csv_text(change.substr(change.find('=') + 1));
+    for (const Reached& reached : result.metrics) line += "," + csv_text(text_of(reached));
+    line += fmt::format(",{},{},{},0x{:016x},{}\n", word_of(result.outcome), result.faults,
+                        seconds_text(result.simulated), result.digest, csv_text(result.why));
+    write(line);
+  });
+}
+
+}  // namespace jarol::campaign

@@ -1,0 +1,81 @@
+#include "graph/campaign/read.h"
+
+#include <algorithm>
+#include <array>
+
+#include "graph/campaign/variation.h"
+#include "graph/expect/parse.h"
+#include "graph/language/load.h"
+#include "graph/language/override.h"
+
+namespace jarol::campaign {
+namespace {
+
+// Columns of the results that are there in every campaign.
+constexpr std::array<std::string_view, 7> own_columns{"run", "seed", "outcome", "why", "simulated", "faults", "digest"};
+
+}  // namespace
+
+void add_metric(Measures& measures, const std::string& name, const Location& where, const Yaml& text,
+                const Graph& graph, const std::vector<expect::TrueValues>& vehicles, Problems& problems) {
+  const std::string subject = "metric '" + name + "'";
+  if (!is_name(name))
+    return problems.add(where, subject + " has no good name; use letters, digits and _, no digit first");
+  if (std::find(own_columns.begin(), own_columns.end(), name) != own_columns.end())
+    return problems.add(where, subject + " has the name of a column that all results have; choose another");
+  auto measured = expect::parse_measured(text, subject, graph, vehicles, problems);
+  if (!measured) return;
+  const auto same = std::find_if(measures.metrics.begin(), measures.metrics.end(),
+                                 [&](const Metric& metric) { return metric.name == name; });
+  const Metric metric{name, measured->is_limit, measured->is_instant};
+  if (same == measures.metrics.end()) {
+    measures.metrics.push_back(metric);
+    measures.conditions.push_back(std::move(measured->condition));
+  } else {
+    measures.conditions[static_cast<std::size_t>(same - measures.metrics.begin())] = std::move(measured->condition);
+    *same = metric;
+  }
+}
+
+void add_metric(Measures& measures, const std::string& argument, const Graph& graph,
+                const std::vector<expect::TrueValues>& vehicles, Problems& problems) {
+  const auto source = std::make_shared<Source>(Source{"--metric", argument});
+  const std::size_t equals = argument.find('=');
+  const std::string name = argument.substr(0, equals);
+  if (equals == std::string::npos || !is_name(name))
+    return problems.add({source, 1, 1},
+                        "'" + argument + "' names no metric; write name=metric, as in deepest=max(depth of dune)");
+  Yaml text;
+  text.kind = Yaml::Kind::scalar;
+  text.text = argument.substr(equals + 1);
+  text.where = {source, 1, static_cast<int>(equals) + 2};
+  add_metric(measures, name, {source, 1, 1}, text, graph, vehicles, problems);
+}
+
+void add_variation(std::vector<Variation>& vary, Variation variation) {
+  const auto same =
+      std::find_if(vary.begin(), vary.end(), [&](const Variation& v) { return v.path == variation.path; });
+  if (same == vary.end())
+    vary.push_back(std::move(variation));
+  else
+    *same = std::move(variation);
+}
+
+Campaign read_campaign(const std::optional<CampaignSpec>& spec, const Graph& graph,
+                       const std::vector<expect::TrueValues>& vehicles, Problems& problems) {
+  Campaign campaign;
+  if (!spec) return campaign;
+  if (spec->vary)
+    for (const Yaml& child : spec->vary->value.children)
+      if (auto variation = read_variation(child.key, child.key_where, child, problems))
+        add_variation(campaign.vary, std::move(*variation));
+  if (spec->runs) campaign.runs = spec->runs->value;
+  if (spec->sampling) campaign.sampling = spec->sampling->value;
+  if (spec->length) campaign.length = spec->length->value;
+  if (spec->metrics)
+    for (const Yaml& child : spec->metrics->value.children)
+      add_metric(campaign.measures, child.key, child.key_where, child, graph, vehicles, problems);
+  return campaign;
+}
+
+}  // namespace jarol::campaign

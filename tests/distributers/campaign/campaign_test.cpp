@@ -1,0 +1,283 @@
+// Campaigns of graphs without vehicles: each run is that of a graph of its own, whatever shares threads and plan with
+// it.
+#include <doctest/doctest.h>
+#include <sqlite3.h>
+
+#include <filesystem>
+
+#include "distributers/campaign/run_all.h"
+#include "distributers/campaign/summary.h"
+#include "distributers/distributers.h"
+#include "distributers/session/session.h"
+#include "graph/campaign/draws.h"
+#include "tasks/tasks.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::campaign;
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+struct Unsteady {
+  static constexpr std::string_view summary = "a sum of sines, which fails when it is asked to";
+  struct Param {
+    double gain = 1;
+    std::int64_t fails_at = -1;
+    std::int64_t stops_being_finite_at = -1;
+    static constexpr auto fields() {
+      return describe(field<&Param::gain>(), field<&Param::fails_at>(), field<&Param::stops_being_finite_at>());
+    }
+  };
+  struct State {
+    double phase = 0;
+    static constexpr auto fields() { return describe(field<&State::phase>()); }
+  };
+  struct Out {
+    double out = 0;
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Param& p, const Tick& tick, State& state, Out& out) {
+    if (tick.activation == p.fails_at) throw std::runtime_error("it was to fail");
+    state.phase += p.gain * 0.1;
+    out.out = tick.activation == p.stops_being_finite_at ? HUGE_VAL : p.gain * std::sin(state.phase);
+  }
+};
+
+const distributers::Registries& known() {
+  static const distributers::Registries all = [] {
+    distributers::Registries made;
+    tasks::add_tasks(made.graph);
+    distributers::add_distributers(made.graph);
+    distributers::add_links(made.links);
+    made.graph.add(task_class<Unsteady>());
+    return made;
+  }();
+  return all;
+}
+
+const std::string waves = R"(
+graph: waves
+timing: {period: 10ms}
+tasks:
+  a: {type: Unsteady, wcet: 1us}
+  b: {type: Unsteady, wcet: 1us, period: 5ms, let: 3ms, parameters: {gain: 0.5}}
+  sum: {type: Sum, wcet: 1us}
+connections: [a.out -> sum.a, b.out -> sum.b]
+expect: [max(sum.out) < 2.3]
+campaign:
+  for: 2s
+  metrics: {most: max(sum.out), mean: mean(abs(sum.out)), early: time of a.out > 0.5}
+)";
+
+struct Folder {
+  Folder() : path(fs::temp_directory_path() / ("campaign_test_" + std::to_string(::getpid()))) {
+    fs::create_directories(path);
+  }
+  ~Folder() { fs::remove_all(path); }
+  std::string operator/(const std::string& name) const { return path / name; }
+  fs::path path;
+};
+
+GraphSource source_of(const std::string& text, std::vector<std::string> metrics = {}) {
+  return {std::make_shared<const Source>(Source{"t.yaml", text}), known(), {}, std::move(metrics)};
+}
+
+// A campaign under way.
+struct Under {
+  Under(const GraphSource& of, const Wishes& wishes, std::uint64_t seed, const std::string& file)
+      : source(of), graphs(source), campaign(state_campaign(graphs, wishes)), draws(campaign, seed) {
+    std::vector<std::string> vary, metrics;
+    for (const Variation& v : campaign.vary)
+      if (v.path != "seed") vary.push_back(v.path);
+    for (const Metric& metric : campaign.measures.metrics) metrics.push_back(metric.name);
+    results.emplace(file, identity_of(source, graphs, campaign, seed, "test"), vary, metrics);
+  }
+
+  void run(std::size_t workers, const Shard& shard = {}) {
+    run_all(
+        graphs, campaign, draws, missing(results->done(), shard, draws.runs()), workers, *results,
+        [this](const Result&) {
+          if (++seen == stop_after) stop = true;
+        },
+        stop);
+  }
+
+  std::string csv() const {
+    std::string text;
+    write_csv(*results, campaign, draws, [&](std::string_view more) { text += more; });
+    return text;
+  }
+
+  std::vector<Result> all() const {
+    std::vector<Result> found;
+    results->for_each([&](const Result& result) { found.push_back(result); });
+    return found;
+  }
+
+  GraphSource source;
+  Graphs graphs;
+  Campaign campaign;
+  Draws draws;
+  std::optional<Results> results;
+  std::size_t seen = 0, stop_after = 0;
+  std::atomic<bool> stop{false};
+};
+
+const Wishes gains{
+    .vary = {"tasks.a.parameters.gain=0.5..1.5", "tasks.b.parameters.gain=normal(1, 0.3)", "seed=1..30"}};
+}  // namespace
+
+TEST_SUITE("distributers/campaign") {
+  TEST_CASE("each run is to the bit that of a session with its values and seed") {
+    const Folder folder;
+    Under under(source_of(waves), {.vary = {gains.vary[0], gains.vary[1], "tasks.b.let=[3ms, 2ms]", "seed=1..5"}}, 3,
+                folder / "r.sqlite");
+    under.run(2);
+    const std::vector<Result> all = under.all();
+    REQUIRE(all.size() == 10);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Start start = under.draws.at(i);
+      Session session(known(), under.source.source, {.set = start.set, .seed = start.seed});
+      session.run_until(2s);
+      CHECK(all[i].digest == session.report().digest);
+      CHECK(all[i].index == i);
+    }
+    CHECK(all[0].digest != all[1].digest);
+  }
+
+  TEST_CASE("table and results are equal for any number of workers, and after runs in pieces and shards") {
+    const Folder folder;
+    Under one(source_of(waves), gains, 7, folder / "1");
+    one.run(1);
+    const std::string table = one.csv();
+    CHECK(std::count(table.begin(), table.end(), '\n') == 31);
+    for (const std::size_t workers : {2, 4, 13}) {
+      Under more(source_of(waves), gains, 7, folder / std::to_string(workers));
+      more.run(workers);
+      CHECK(more.csv() == table);
+      CHECK(more.all() == one.all());
+    }
+    for (int piece = 0; piece < 10; ++piece) {
+      Under part(source_of(waves), gains, 7, folder / "pieces");
+      part.stop_after = 4;
+      part.run(1);
+      CHECK(part.all().size() == std::min<std::size_t>(4 * (static_cast<std::size_t>(piece) + 1), 30));
+      if (part.all().size() == 30) CHECK(part.csv() == table);
+    }
+    for (const std::uint64_t shard : {2, 0, 1}) {
+      Under part(source_of(waves), gains, 7, folder / "shards");
+      part.run(2, {shard, 3});
+      CHECK(part.seen == 10);
+      if (shard == 1) CHECK(part.csv() == table);
+    }
+    Under other(source_of(waves), gains, 8, folder / "other");
+    other.run(1);
+    CHECK(other.csv() != table);
+  }
+
+  TEST_CASE("a shard is of consecutive runs, and all together are all of them") {
+    for (const std::uint64_t runs : {1, 7, 100})
+      for (const std::uint64_t count : {1, 3, 8}) {
+        std::uint64_t next = 0;
+        for (std::uint64_t i = 0; i < count; ++i) {
+          CHECK(Shard{i, count}.begin(runs) == next);
+          next = Shard{i, count}.end(runs);
+        }
+        CHECK(next == runs);
+      }
+    CHECK(missing({0, 2, 3, 9}, {}, 5) == std::vector<std::uint64_t>{1, 4});
+    CHECK(missing({0, 2, 3, 5}, {1, 2}, 8) == std::vector<std::uint64_t>{4, 6, 7});
+  }
+
+  TEST_CASE("a run that faults, is refused or breaks a limit is a result, and the others go on") {
+    const Folder folder;
+    Under under(source_of(waves, {"low=min(sum.out) > -1.2"}),
+                {.vary = {"tasks.a.parameters.fails_at=[-1, 100]", "tasks.a.parameters.stops_being_finite_at=[-1, 50]",
+                          "tasks.b.parameters.gain=[0.1, 0.5, 3]"}},
+                0, folder / "r");
+    under.run(2);
+    std::string outcomes;
+    for (const Result& result : under.all())
+      outcomes += std::to_string(result.index) + " " + word_of(result.outcome) + ": " + result.why + "\n";
+    CHECK(outcomes ==
+          "0 good: \n"
+          "1 bad: metric 'low' is beyond its limit: it reached -1.4982\n"
+          "2 bad: expected 'max(sum.out) < 2.3', but it reached 3.9849\n"
+          "3 fault: task 'a' activation 50 at 0.5 s: output 'out' is inf\n"
+          "4 fault: task 'a' activation 50 at 0.5 s: output 'out' is inf\n"
+          "5 fault: task 'a' activation 50 at 0.5 s: output 'out' is inf\n"
+          "6 fault: task 'a' activation 100 at 1 s: threw: it was to fail\n"
+          "7 fault: task 'a' activation 100 at 1 s: threw: it was to fail\n"
+          "8 fault: task 'a' activation 100 at 1 s: threw: it was to fail\n"
+          "9 fault: task 'a' activation 50 at 0.5 s: output 'out' is inf\n"
+          "10 fault: task 'a' activation 50 at 0.5 s: output 'out' is inf\n"
+          "11 fault: task 'a' activation 50 at 0.5 s: output 'out' is inf\n");
+    const Result& fault = under.all()[6];
+    CHECK(!fault.metrics[0].number);
+    CHECK(fault.metrics[2].number);   // an instant before the fault
+    CHECK(!fault.metrics[3].number);  // of a whole run
+    CHECK(fault.simulated == 1s);
+    CHECK(fault.faults == 1);
+  }
+
+  TEST_CASE("results of another campaign are refused with the reason") {
+    const Folder folder;
+    const std::string file = folder / "r";
+    const auto wrong = [&](const GraphSource& source, const Wishes& wishes, std::uint64_t seed = 1) -> std::string {
+      try {
+        Under under(source, wishes, seed, file);
+      } catch (const OtherCampaign& error) { return std::string(error.what()).substr(file.size() + 2); }
+      return "";
+    };
+    CHECK(wrong(source_of(waves), gains) == "");
+    CHECK(wrong(source_of(waves), gains) == "");
+    const std::string has = " has the results of another campaign: ", remedy = "; repeat that, or name another file";
+    CHECK(wrong(source_of(waves), gains, 2) == has + "its 'seed' was '1', not '2'" + remedy);
+    CHECK(wrong(source_of(waves + "\n"), gains) == has + "the graph has changed since" + remedy);
+    CHECK(wrong(source_of(waves), {.vary = gains.vary, .runs = 5}) == has + "its 'runs' was nothing, not '5'" + remedy);
+    CHECK(wrong(source_of(waves), {.vary = {"seed=1..30"}}) ==
+          has +
+              "its 'vary' was 'tasks.a.parameters.gain=0.5..1.5', 'tasks.b.parameters.gain=normal(1, 0.3)', "
+              "'seed=1..30', not 'seed=1..30'" +
+              remedy);
+    CHECK(wrong(source_of(waves, {"low=min(sum.out)"}), gains) ==
+          has +
+              "its 'metrics' was 'most=max(sum.out)', 'mean=mean(abs(sum.out))', 'early=time of a.out > 0.5', not "
+              "'most=max(sum.out)', 'mean=mean(abs(sum.out))', 'early=time of a.out > 0.5', 'low=min(sum.out)'" +
+              remedy);
+    sqlite3* other = nullptr;
+    REQUIRE(sqlite3_open((folder / "other").c_str(), &other) == SQLITE_OK);
+    CHECK(sqlite3_exec(other, "CREATE TABLE t (a)", nullptr, nullptr, nullptr) == SQLITE_OK);
+    sqlite3_close(other);
+    CHECK_THROWS_WITH_AS(
+        Under(source_of(waves), gains, 1, folder / "other"),
+        ("'" + folder / "other' is a database, but holds no results of a campaign; name another file").c_str(),
+        OtherCampaign);
+  }
+
+  TEST_CASE("what can't vary so is an error at its place, before anything runs") {
+    const Folder folder;
+    const auto wrong = [&](const std::string& vary) -> std::string {
+      try {
+        Under under(source_of(waves), {.vary = {vary}}, 1, folder / "r");
+      } catch (const SpecError& error) { return to_text(error.problems()[0]); }
+      return "";
+    };
+    CHECK(wrong("tasks.a.parameters.fails_at=1..9") ==
+          "--vary:1:1: error: 'tasks.a.parameters.fails_at' can't be 4.055728090000841: task 'a' (Unsteady) parameter "
+          "'fails_at' needs an int64, not '4.055728090000841'; that is not an integer\n"
+          "  tasks.a.parameters.fails_at=1..9\n  ^");
+    CHECK(
+        wrong("tasks.a.parameters.gian=1..9") ==
+        "--vary:1:1: error: 'tasks.a.parameters.gian' can't be 1: task 'a' (Unsteady) has no parameter 'gian'; did you "
+        "mean 'gain'?; it has: gain, fails_at, stops_being_finite_at\n"
+        "  tasks.a.parameters.gian=1..9\n  ^");
+    CHECK(wrong("tasks.c.parameters.gain=1..9") ==
+          "--vary:1:1: error: 'tasks.c.parameters.gain' can't be 1: path 'tasks.c.parameters.gain': 'tasks' has no "
+          "'c'; it "
+          "has: a, b, sum\n  tasks.c.parameters.gain=1..9\n  ^");
+    CHECK(wrong("tasks.b.let=1ms..6ms") ==
+          "--vary:1:1: error: 'tasks.b.let' can't be 0.006s: task 'b' has LET 6ms longer than its period 5ms\n"
+          "  tasks.b.let=1ms..6ms\n  ^");
+  }
+}

@@ -1,0 +1,28 @@
+// What a campaign reports at its end.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "distributers/campaign/summary.h"
+
+namespace jarol::tools {
+
+struct CampaignOutcome {
+  const std::string& graph;  // its name
+  const campaign::Campaign& campaign;
+  const campaign::Draws& draws;
+  const campaign::Summary& summary;
+  std::function<std::string(std::uint64_t run)> repeat;  // the command that does
+  std::string results;                                   // the file
+  std::uint64_t ran = 0;                                 // just now; others were there before
+  double seconds = 0;                                    // that they took
+};
+
+std::string to_text(const CampaignOutcome& outcome);
+nlohmann::ordered_json to_json(const CampaignOutcome& outcome);
+
+/// "1:05", "2:03:04": of seconds.
+std::string clock_text(double seconds);
+
+}  // namespace jarol::tools

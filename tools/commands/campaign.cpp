@@ -1,0 +1,227 @@
+// jarol campaign: a graph run many times, with other values and seeds each time.
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "distributers/campaign/run_all.h"
+#include "distributers/campaign/statement.h"
+#include "distributers/campaign/summary.h"
+#include "graph/text/escape.h"
+#include "runtime/files/whole_file.h"
+#include "tools/campaign/campaign_report.h"
+#include "tools/campaign/repeat.h"
+#include "tools/commands/commands.h"
+#include "tools/library/built_in.h"
+#include "tools/report/command_line.h"
+#include "tools/report/json_line.h"
+#include "tools/report/progress.h"
+#include "tools/report/version.h"
+#include "tools/run/apart.h"
+#include "tools/run/interrupt.h"
+#include "tools/run/load_graph.h"
+#include "tools/run/no_plugins.h"
+
+namespace jarol::tools {
+namespace {
+
+using campaign::Shard;
+
+struct Options {
+  std::string file;
+  Overrides overrides;
+  std::vector<std::string> vary, metrics;
+  int runs = 0;  // 0: as the file says
+  std::string sampling;
+  std::string duration;
+  std::uint64_t seed = 0;
+  int workers = 0;  // 0: as many as CPUs
+  std::string shard;
+  std::string results;
+  std::string csv;
+  bool json = false;
+};
+
+std::optional<Duration> length_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  Duration length{};
+  const std::string wrong = parse_duration(text, length);
+  if (!wrong.empty() || length <= Duration{})
+    throw std::invalid_argument("--for: '" + text + "' " + (wrong.empty() ? "is not above zero" : wrong));
+  return length;
+}
+
+// "2/8": the second of eight.
+Shard shard_of(const std::string& text) {
+  if (text.empty()) return {};
+  Shard shard{0, 0};
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard.index);
+  const auto second = first.ptr == end ? first : std::from_chars(first.ptr + 1, end, shard.count);
+  if (first.ec != std::errc() || second.ec != std::errc() || second.ptr != end || *first.ptr != '/' ||
+      shard.index < 1 || shard.index > shard.count)
+    throw std::invalid_argument("--shard: '" + text + "' is no part of a whole; write it as 2/8, the second of eight");
+  --shard.index;
+  return shard;
+}
+
+std::string results_of(const Options& options) {
+  if (!options.results.empty()) return options.results;
+  const std::string stem = std::filesystem::path(options.file).stem().string();
+  return (options.file == "-" ? "graph" : stem) + ".campaign.sqlite";
+}
+
+// What is shown while it goes on.
+class Pace {
+ public:
+  Pace(std::uint64_t done, std::uint64_t all, std::uint64_t to_run) : done_(done), all_(all), to_run_(to_run) {}
+
+  void count(const campaign::Result& result) {
+    ran_.fetch_add(1, std::memory_order_relaxed);
+    if (result.outcome != campaign::Outcome::good) not_good_.fetch_add(1, std::memory_order_relaxed);
+  }
+  std::uint64_t ran() const { return ran_.load(); }
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+  std::string line() const {
+    const std::uint64_t ran = this->ran();
+    std::string text = fmt::format("  {} of {} runs", done_ + ran, all_);
+    if (not_good_.load() > 0) text += fmt::format(", {} not good", not_good_.load());
+    if (ran == 0) return text;
+    const double left = seconds() / static_cast<double>(ran) * static_cast<double>(to_run_ - ran);
+    return text + ", " + clock_text(left) + " left";
+  }
+
+ private:
+  std::uint64_t done_, all_, to_run_;
+  std::atomic<std::uint64_t> ran_{0}, not_good_{0};
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void write_table(const std::string& path, const campaign::Results& results, const campaign::Campaign& campaign,
+                 const campaign::Draws& draws) {
+  if (path == "-") {
+    write_csv(results, campaign, draws, [](std::string_view text) { std::cout << text; });
+    return;
+  }
+  WholeFile file(path);
+  write_csv(results, campaign, draws, [&](std::string_view text) { file.write(text); });
+  file.commit();
+}
+
+int run(const Options& options) {
+  const std::string results_file = results_of(options);
+  require_apart({{"FILE", options.file}}, {{"--results", results_file}, {"--csv", options.csv}});
+  const Shard shard = shard_of(options.shard);
+  const campaign::GraphSource source{read_source(options.file), built_in(), options.overrides, options.metrics,
+                                     note_once};
+  campaign::Graphs graphs(source);
+  campaign::Wishes wishes{.vary = options.vary, .length = length_of(options.duration)};
+  if (options.runs > 0) wishes.runs = options.runs;
+  if (!options.sampling.empty()) wishes.sampling = options.sampling == "latin" ? Sampling::latin : Sampling::random;
+  const campaign::Campaign campaign = state_campaign(graphs, wishes);
+  if (const std::string wrong = campaign::why_not_in_campaign(graphs.base().graph, campaign.length); !wrong.empty())
+    throw std::invalid_argument("'" + options.file + "' is not for a campaign: " + wrong);
+  if (const std::string wrong = campaign::wrong_runs(campaign); !wrong.empty())
+    throw std::invalid_argument("'" + options.file + "' and its options make no campaign: " + wrong +
+                                ", as in --runs 1000");
+  const campaign::Draws draws(campaign, options.seed);
+
+  std::vector<std::string> varied, measured;
+  for (const campaign::Variation& v : campaign.vary)
+    if (v.path != "seed") varied.push_back(v.path);
+  for (const campaign::Metric& metric : campaign.measures.metrics) measured.push_back(metric.name);
+  campaign::Results results(results_file, identity_of(source, graphs, campaign, options.seed, version_text()), varied,
+                            measured);
+  const std::vector<std::uint64_t> done = results.done();
+  const std::vector<std::uint64_t> to_run = missing(done, shard, draws.runs());
+  Pace pace(done.size(), draws.runs(), to_run.size());
+  const std::size_t workers = options.workers > 0 ? static_cast<std::size_t>(options.workers)
+                                                  : std::max(1U, std::thread::hardware_concurrency());
+  {
+    const Interruptible interruptible;
+    const Progress progress(!options.json && isatty(STDERR_FILENO) != 0, [&] { return pace.line(); });
+    run_all(
+        graphs, campaign, draws, to_run, workers, results, [&](const campaign::Result& r) { pace.count(r); },
+        Interruptible::interrupted());
+  }
+  const bool whole = pace.ran() == to_run.size();
+  const campaign::Summary summary = summarise(results, campaign.measures);
+  const CampaignOutcome outcome{.graph = graphs.base().graph.graph().name,
+                                .campaign = campaign,
+                                .draws = draws,
+                                .summary = summary,
+                                .repeat =
+                                    [&](std::uint64_t index) {
+                                      return repeat_command(options.file, options.overrides, campaign.length,
+                                                            draws.at(index));
+                                    },
+                                .results = results_file,
+                                .ran = pace.ran(),
+                                .seconds = pace.seconds()};
+  if (whole && !options.csv.empty()) write_table(options.csv, results, campaign, draws);
+  std::ostream& out = options.csv == "-" ? std::cerr : std::cout;
+  out << (options.json ? json_line(to_json(outcome)) : to_text(outcome));
+  if (!whole) {
+    std::cerr << "interrupted: " << to_run.size() - pace.ran()
+              << " runs are left; the same command goes on where this one ended\n";
+    return exit_of_signal(Interruptible::signal());
+  }
+  return summary.good() == summary.runs ? exit_good : exit_negative;
+}
+
+}  // namespace
+
+void add_campaign(CommandLine& line, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  Command* command = line.add_subcommand(
+      "campaign",
+      "Run a graph many times on the virtual clock, with other values and seeds each time, and judge what comes of "
+      "it.\n"
+      "Each run is the same to the bit as 'jarol run' with its values, whatever number of workers there are. What is\n"
+      "done stays in the results: the same command goes on where it ended.\n"
+      "Exit code: 0 all runs are good, 1 some are not, 2 bad input, or results of another campaign, 3 results can't\n"
+      "be written, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
+  command->add_option("FILE", options->file, "The graph, a YAML file; its key 'campaign' says what options add to")
+      ->required();
+  command
+      ->add_option(
+          "--vary", options->vary,
+          "What varies: a path as of --set, or seed, and its values, as in tasks.depth.parameters.kp=0.3..0.6, "
+          "'normal(0.5, 0.1)', '[1, 2, 4]', 'grid(0..1, 5)', seed=1..1000; lists, grids and seeds are crossed")
+      ->one_value();
+  command
+      ->add_option("--metric", options->metrics,
+                   "What is measured: name=METRIC in the words of 'expect', with a limit or without, as in "
+                   "'deepest=max(depth of dune) < 3.2'")
+      ->one_value();
+  command->add_option("--runs", options->runs, "How many; default: the combinations of what is crossed")
+      ->in_range(1, 1'000'000'000);
+  command->add_option("--sampling", options->sampling, "Of ranges: random (default), or latin, a Latin hypercube")
+      ->one_of({"random", "latin"});
+  command->add_option("--for", options->duration, "How long a run is, as in 10s; default: until its mission ends");
+  command
+      ->add_option("--set", options->overrides.set,
+                   "Change a value in all runs: path=value, as in tasks.depth.parameters.kp=0.5")
+      ->one_value();
+  command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
+  add_no_plugins(*command, options->overrides);
+  command->add_option("--seed", options->seed,
+                      "Seed of what is drawn, and of all runs where the seed does not vary; default 0");
+  command->add_option("--workers", options->workers, "Runs at once; default: one per CPU")->in_range(1, 1024);
+  command->add_option("--shard", options->shard, "Only this part of the runs, as in 2/8, the second of eight");
+  command->add_option("--results", options->results,
+                      "The SQLite database of the results; default: NAME.campaign.sqlite, here, of a graph NAME.yaml");
+  command->add_option("--csv", options->csv, "Write the results as a table when all are there; -: to stdout");
+  command->add_flag("--json", options->json, "One JSON object instead of text");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace jarol::tools
