@@ -66,14 +66,20 @@ double Draws::part(std::size_t variation, std::uint64_t index) const {
   return (static_cast<double>(strata_[variation][index]) + whole) / static_cast<double>(runs_);
 }
 
+double Draws::number_at(std::size_t variation, std::uint64_t index) const {
+  const Variation& v = campaign_.vary[variation];
+  if (v.kind == Variation::Kind::normal) return v.from + v.to * normal_quantile(part(variation, index));
+  return v.from + (v.to - v.from) * part(variation, index);
+}
+
 Start Draws::at(std::uint64_t index) const {
   Start start{.index = index, .values = {}, .set = {}, .seed = seed_};
   for (std::size_t i = 0; i < campaign_.vary.size(); ++i) {
     const Variation& v = campaign_.vary[i];
     std::string value;
     switch (v.kind) {
-      case Variation::Kind::uniform: value = value_text(v.from + (v.to - v.from) * part(i, index), v.unit); break;
-      case Variation::Kind::normal: value = value_text(v.from + v.to * normal_quantile(part(i, index)), v.unit); break;
+      case Variation::Kind::uniform:
+      case Variation::Kind::normal: value = value_text(number_at(i, index), v.unit); break;
       case Variation::Kind::list: value = v.values[index / every_[i] % v.values.size()]; break;
       case Variation::Kind::seeds: value = std::to_string(v.first + index / every_[i] % v.count); break;
     }

@@ -25,6 +25,8 @@ class Draws {
   std::uint64_t runs() const { return runs_; }
   /// Of the run with that index, from 0.
   Start at(std::uint64_t index) const;
+  /// The number that a run draws of a variation, before it is text; in the unit that is written there.
+  double number_at(std::size_t variation, std::uint64_t index) const;
 
  private:
   double part(std::size_t variation, std::uint64_t index) const;

@@ -80,6 +80,26 @@ Json to_json(const MetricSummary& m, const expect::Condition& condition, bool is
   return json;
 }
 
+std::string shrunk_text(const CampaignOutcome& outcome) {
+  const campaign::Shrunk& shrunk = *outcome.shrunk;
+  return fmt::format("  run {} {}: {}\n    {}\n", shrunk.start.index,
+                     shrunk.at_the_middle ? "is no worse than one in the middle of all ranges"
+                                          : fmt::format("in its mildest form, after {} runs more", shrunk.tried),
+                     printable(shrunk.result.why), printable(outcome.repeat_shrunk));
+}
+
+Json shrunk_json(const CampaignOutcome& outcome) {
+  const campaign::Shrunk& shrunk = *outcome.shrunk;
+  return {{"run", shrunk.start.index},
+          {"outcome", campaign::word_of(shrunk.result.outcome)},
+          {"why", shrunk.result.why},
+          {"set", shrunk.start.set},
+          {"seed", shrunk.start.seed},
+          {"tried", shrunk.tried},
+          {"at_the_middle", shrunk.at_the_middle},
+          {"command", outcome.repeat_shrunk}};
+}
+
 }  // namespace
 
 std::string clock_text(double seconds) {
@@ -104,6 +124,7 @@ std::string to_text(const CampaignOutcome& outcome) {
   if (const std::uint64_t not_good = summary.runs - summary.good(); not_good > summary.not_good.size())
     text += fmt::format("  and {} more runs that are not good, see {}\n", not_good - summary.not_good.size(),
                         printable(outcome.results));
+  if (outcome.shrunk != nullptr) text += shrunk_text(outcome);
   return text + "  results     " + printable(outcome.results) + "\n";
 }
 
@@ -120,11 +141,13 @@ Json to_json(const CampaignOutcome& outcome) {
                         {"outcome", campaign::word_of(result.outcome)},
                         {"why", result.why},
                         {"command", outcome.repeat(result.index)}});
-  return {{"schema", "jarol.campaign/1"}, {"graph", outcome.graph},
-          {"runs", outcome.draws.runs()}, {"done", summary.runs},
-          {"ran", outcome.ran},           {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
-          {"outcomes", outcomes},         {"metrics", metrics},
-          {"not_good", not_good},         {"results", outcome.results}};
+  Json json{{"schema", "jarol.campaign/1"}, {"graph", outcome.graph},
+            {"runs", outcome.draws.runs()}, {"done", summary.runs},
+            {"ran", outcome.ran},           {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
+            {"outcomes", outcomes},         {"metrics", metrics},
+            {"not_good", not_good},         {"results", outcome.results}};
+  if (outcome.shrunk != nullptr) json["shrunk"] = shrunk_json(outcome);
+  return json;
 }
 
 }  // namespace jarol::tools

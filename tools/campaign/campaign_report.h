@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "distributers/campaign/shrink.h"
 #include "distributers/campaign/summary.h"
 
 namespace jarol::tools {
@@ -17,6 +18,8 @@ struct CampaignOutcome {
   std::string results;                                   // the file
   std::uint64_t ran = 0;                                 // just now; others were there before
   double seconds = 0;                                    // that they took
+  const campaign::Shrunk* shrunk = nullptr;  // of the first run that is not good; null: not asked for, or none
+  std::string repeat_shrunk{};               // the command that repeats it
 };
 
 std::string to_text(const CampaignOutcome& outcome);

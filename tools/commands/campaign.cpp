@@ -46,6 +46,7 @@ struct Options {
   std::string shard;
   std::string results;
   std::string csv;
+  bool shrink = false;
   bool json = false;
 };
 
@@ -152,20 +153,29 @@ int run(const Options& options) {
         graphs, campaign, draws, to_run, workers, results, [&](const campaign::Result& r) { pace.count(r); },
         Interruptible::interrupted());
   }
+  const double seconds = pace.seconds();
   const bool whole = pace.ran() == to_run.size();
   const campaign::Summary summary = summarise(results, campaign.measures);
-  const CampaignOutcome outcome{.graph = graphs.base().graph.graph().name,
-                                .campaign = campaign,
-                                .draws = draws,
-                                .summary = summary,
-                                .repeat =
-                                    [&](std::uint64_t index) {
-                                      return repeat_command(options.file, options.overrides, campaign.length,
-                                                            draws.at(index));
-                                    },
-                                .results = results_file,
-                                .ran = pace.ran(),
-                                .seconds = pace.seconds()};
+  std::optional<campaign::Shrunk> shrunk;
+  if (whole && options.shrink && !summary.not_good.empty()) {
+    const campaign::Result& first = summary.not_good.front();
+    const Interruptible interruptible;
+    shrunk = shrink(graphs, campaign, draws, first.index, first.outcome, Interruptible::interrupted());
+  }
+  CampaignOutcome outcome{.graph = graphs.base().graph.graph().name,
+                          .campaign = campaign,
+                          .draws = draws,
+                          .summary = summary,
+                          .repeat =
+                              [&](std::uint64_t index) {
+                                return repeat_command(options.file, options.overrides, campaign.length,
+                                                      draws.at(index));
+                              },
+                          .results = results_file,
+                          .ran = pace.ran(),
+                          .seconds = seconds,
+                          .shrunk = shrunk ? &*shrunk : nullptr};
+  if (shrunk) outcome.repeat_shrunk = repeat_command(options.file, options.overrides, campaign.length, shrunk->start);
   if (whole && !options.csv.empty()) write_table(options.csv, results, campaign, draws);
   std::ostream& out = options.csv == "-" ? std::cerr : std::cout;
   out << (options.json ? json_line(to_json(outcome)) : to_text(outcome));
@@ -220,6 +230,10 @@ void add_campaign(CommandLine& line, int& exit_code) {
   command->add_option("--results", options->results,
                       "The SQLite database of the results; default: NAME.campaign.sqlite, here, of a graph NAME.yaml");
   command->add_option("--csv", options->csv, "Write the results as a table when all are there; -: to stdout");
+  command->add_flag(
+      "--shrink", options->shrink,
+      "When all runs are there: find the mildest values at which the first run that is not good still ends "
+      "so, by more runs");
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "distributers/campaign/run_all.h"
+#include "distributers/campaign/shrink.h"
 #include "distributers/campaign/summary.h"
 #include "distributers/distributers.h"
 #include "distributers/session/session.h"
@@ -218,6 +219,46 @@ TEST_SUITE("distributers/campaign") {
     CHECK(!fault.metrics[3].number);  // of a whole run
     CHECK(fault.simulated == 1s);
     CHECK(fault.faults == 1);
+  }
+
+  TEST_CASE("the mildest run that still fails is found: what need not be away from the middle is there") {
+    const Folder folder;
+    // a breaks the limit alone; b stands beside it, and seeds change nothing
+    Under under(
+        source_of(waves, {"high=max(a.out) < 2.5"}),
+        {.vary = {"tasks.b.parameters.gain=-0.5..0.5", "seed=3..4", "tasks.a.parameters.gain=-1..4"}, .runs = 9}, 5,
+        folder / "r");
+    under.run(2);
+    const std::vector<Result> all = under.all();
+    const auto first =
+        std::find_if(all.begin(), all.end(), [](const Result& r) { return r.outcome == campaign::Outcome::bad; });
+    REQUIRE(first != all.end());
+    const auto shrunk =
+        shrink(under.graphs, under.campaign, under.draws, first->index, campaign::Outcome::bad, under.stop);
+    REQUIRE(shrunk.has_value());
+    CHECK(shrunk->start.set[0] == "tasks.b.parameters.gain=0");
+    CHECK(shrunk->start.index == first->index);
+    CHECK(shrunk->result.outcome == campaign::Outcome::bad);
+    CHECK(!shrunk->at_the_middle);
+    CHECK(shrunk->tried == 14);
+    const auto ends = [&](double gain) {
+      Start start = shrunk->start;
+      start.set[1] = "tasks.a.parameters.gain=" + std::to_string(gain);
+      return run_one(under.graphs, start, under.campaign.length, under.stop)->outcome;
+    };
+    const double gain = std::stod(shrunk->start.values[2]);
+    CHECK(ends(gain) == campaign::Outcome::bad);
+    CHECK(ends(gain - (std::stod(under.draws.at(first->index).values[2]) - 1.5) / 1000) == campaign::Outcome::good);
+    // where the middle of all fails too, that is the mildest
+    Under worse(source_of(waves, {"high=max(a.out) < 0.1"}), {.vary = {"tasks.a.parameters.gain=1..4"}, .runs = 2}, 5,
+                folder / "worse");
+    worse.run(1);
+    const auto middle = shrink(worse.graphs, worse.campaign, worse.draws, 1, campaign::Outcome::bad, worse.stop);
+    REQUIRE(middle.has_value());
+    CHECK(middle->at_the_middle);
+    CHECK(middle->start.set[0] == "tasks.a.parameters.gain=2.5");
+    worse.stop = true;
+    CHECK(!shrink(worse.graphs, worse.campaign, worse.draws, 1, campaign::Outcome::bad, worse.stop));
   }
 
   TEST_CASE("results of another campaign are refused with the reason") {
