@@ -8,17 +8,18 @@ void ReplayRun::cover() {
     comparison.interrupted = executor_.now() < end;
     return !comparison.interrupted;
   };
-  for (const Checkpoint& checkpoint : log_.checkpoints()) {
-    const Duration settled(checkpoint.settled);
-    if (checkpoint.exact == 0 || comparison.diverged_until || settled > log_.covered()) continue;
+  for (const RunningDigest& digest : log_.digests()) {
+    const Duration settled(digest.settled);
+    if (!whole_ || digest.exact == 0 || comparison.diverged_until || settled > log_.covered()) continue;
     if (!go_to(settled)) return;
-    (executor_.report().digest == checkpoint.digest ? comparison.same_until : comparison.diverged_until) = settled;
+    (executor_.report().digest == digest.digest ? comparison.same_until : comparison.diverged_until) = settled;
   }
   if (!go_to(log_.covered())) return;
   const Report& report = executor_.report();
   const std::optional<LogEnd>& end = log_.end();
-  const bool same = !end || (report.digest == end->digest && report.activations == end->activations &&
-                             report.instants == end->instants && report.fault_count == end->faults);
+  const bool same = !whole_ || !end ||
+                    (report.digest == end->digest && report.activations == end->activations &&
+                     report.instants == end->instants && report.fault_count == end->faults);
   if (comparison.diverged_until || !same) {
     comparison.standing = Standing::diverged;
   } else if (end) {

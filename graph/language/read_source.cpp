@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "graph/language/inputs.h"
+#include "graph/language/source_set.h"
 #include "graph/language/yaml.h"
 
 namespace jarol {
@@ -49,11 +50,7 @@ std::string read(const File& file, const std::string& path, std::size_t most) {
   }
 }
 
-}  // namespace
-
-std::shared_ptr<const Source> read_source(const std::string& path) { return read_source(path, most_source_bytes); }
-
-std::shared_ptr<const Source> read_source(const std::string& path, std::size_t most) {
+std::shared_ptr<const Source> read_from_disk(const std::string& path, std::size_t most) {
   if (path == "-") {
     static std::shared_ptr<const Source> from_stdin;  // it can be read once
     if (!from_stdin) from_stdin = std::make_shared<Source>(Source{path, read({STDIN_FILENO}, path, most)});
@@ -63,6 +60,17 @@ std::shared_ptr<const Source> read_source(const std::string& path, std::size_t m
   const File file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
   if (file.number < 0) fail(path, std::strerror(errno));
   return std::make_shared<Source>(Source{path, read(file, path, most)});
+}
+
+}  // namespace
+
+std::shared_ptr<const Source> read_source(const std::string& path) { return read_source(path, most_source_bytes); }
+
+std::shared_ptr<const Source> read_source(const std::string& path, std::size_t most) {
+  std::shared_ptr<const Source> source = SourceSet::given_at(path);
+  if (!source) source = read_from_disk(path, most);
+  SourceSet::note(source);
+  return source;
 }
 
 }  // namespace jarol

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runtime/execute/executor.h"
-#include "runtime/record/log_format.h"
+#include "runtime/record/recording_format.h"
 
 namespace jarol {
 

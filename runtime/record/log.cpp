@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "graph/values/type_of.h"
+#include "runtime/record/recording_format.h"
 
 namespace jarol {
 namespace {
@@ -35,9 +36,9 @@ std::vector<Output> log_outputs(const Graph& graph) {
   std::vector<Output> outputs;
   for (const std::size_t i : logged_inputs(graph))
     outputs.push_back({graph.communicators[i].name, graph.communicators[i].type});
-  outputs.push_back({"misses", &type_of<Miss>()});
-  outputs.push_back({"checkpoints", &type_of<Checkpoint>()});
-  outputs.push_back({"rest", &type_of<RestBegin>()});
+  outputs.push_back({std::string(topics::misses), &type_of<Miss>()});
+  outputs.push_back({std::string(topics::digests), &type_of<RunningDigest>()});
+  outputs.push_back({std::string(topics::rest), &type_of<RestBegin>()});
   return outputs;
 }
 

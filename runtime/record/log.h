@@ -30,13 +30,13 @@ struct Miss {
 };
 
 /// About each second: how far a replay comes with what is logged until then, whatever becomes of the run.
-struct Checkpoint {
+struct RunningDigest {
   std::int64_t settled = 0;  // ns; all that was due at the instants before it is known
   std::uint64_t digest = 0;  // of the run so far
   std::uint64_t exact = 0;   // 1: that is of the instants before `settled`; 0: some that are later are in it
 
   static constexpr auto fields() {
-    return describe(field<&Checkpoint::settled>(), field<&Checkpoint::digest>(), field<&Checkpoint::exact>());
+    return describe(field<&RunningDigest::settled>(), field<&RunningDigest::digest>(), field<&RunningDigest::exact>());
   }
 };
 
@@ -50,7 +50,7 @@ struct RestBegin {
 /// The communicators whose values come from outside, in the order of the graph.
 std::vector<std::size_t> logged_inputs(const Graph& graph);
 
-/// What the Recorder of a log records: what each of `logged_inputs` took, then a Miss, then a Checkpoint, then a
+/// What the Recorder of a log records: what each of `logged_inputs` took, then a Miss, then a RunningDigest, then a
 /// RestBegin.
 std::vector<Output> log_outputs(const Graph& graph);
 

@@ -5,7 +5,7 @@
 namespace jarol {
 namespace {
 // in the order of log_outputs
-enum Kind : std::uint32_t { misses, checkpoints, rests };
+enum Kind : std::uint32_t { misses, digests, rests };
 }  // namespace
 
 InputLog::InputLog(const Graph& graph, Recorder* to) : graph_(graph), to_(to) {
@@ -41,7 +41,7 @@ void InputLog::rest(Duration begun) { append(rests, RestBegin{begun.count()}, be
 void InputLog::checkpoint(Duration instant, Duration settled, std::uint64_t digest, bool exact) {
   checkpoint_due_ = instant + std::chrono::seconds(1);
   if (to_->has_lost()) return;
-  append(checkpoints, Checkpoint{settled.count(), digest, exact ? 1U : 0U}, instant);
+  append(digests, RunningDigest{settled.count(), digest, exact ? 1U : 0U}, instant);
   to_->hand_on();
 }
 

@@ -198,7 +198,8 @@ connections: [i -> sum.in]
     const Result command = jarol("chek x");
     CHECK(command.exit_code == 2);
     CHECK(command.output ==
-          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, doctor, graph, help, "
+          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, campaign, check, doctor, graph, "
+          "help, log, "
           "messages, replay, run, schema, tasks, vehicle\n");
     const Result missing = jarol("run no/such.yaml");
     CHECK(missing.exit_code == 2);
@@ -215,8 +216,8 @@ connections: [i -> sum.in]
   }
 
   TEST_CASE("every command helps, by --help and after the word help") {
-    for (const std::string command :
-         {"", "bench", "check", "doctor", "graph", "messages", "replay", "run", "schema", "tasks", "vehicle"}) {
+    for (const std::string command : {"", "bench", "campaign", "check", "doctor", "graph", "log", "messages", "replay",
+                                      "run", "schema", "tasks", "vehicle"}) {
       CAPTURE(command);
       const Result help = jarol(command + " --help");
       CHECK(help.exit_code == 0);
@@ -225,7 +226,8 @@ connections: [i -> sum.in]
       CHECK(jarol("help " + command).exit_code == 0);
     }
     CHECK(jarol("help chek").output ==
-          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, check, doctor, graph, help, "
+          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, campaign, check, doctor, graph, "
+          "help, log, "
           "messages, replay, run, schema, tasks, vehicle\n");
   }
 

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
+#include <map>
 
 #include "graph/values/pack.h"
 #include "graph/values/seed.h"
 #include "graph/values/type_of.h"
 #include "runtime/execute/log_end.h"
-#include "runtime/record/log_reader.h"
-#include "runtime/record/log_writer.h"
+#include "runtime/record/recorded_run.h"
+#include "runtime/record/recording_writer.h"
 #include "tests/runtime/outside.h"
 #include "tests/runtime/trace_of.h"
 #include "tests/tools/run_command.h"
@@ -42,8 +42,7 @@ connections: [i -> r.in, r.out -> o, w -> m.in, m.out -> mean]
 }
 
 void write_log(const std::string& path) {
-  LogWriter log(path, {.graph = "t", .file = "/t.yaml", .file_sum = "", .overrides = {}, .clock = "virtual"},
-                the_graph());
+  RecordingWriter log(path, {.graph = "t", .file = "/t.yaml", .overrides = {}, .clock = "virtual"}, {}, the_graph());
   const std::vector<Miss> misses{{.activation = 12, .ended_after = 1'200'000, .task = 1, .left_out = 0}};
   log.open();
   Executor executor(the_graph(), tests::outside(), {.log = log.recorder(), .misses = misses});
@@ -52,41 +51,49 @@ void write_log(const std::string& path) {
 }
 
 struct Record {
-  LogRecord head;
+  std::uint16_t channel = 0;
+  std::int64_t time = 0;
   std::string bytes;
 };
 
 struct Log {
-  std::string line;
-  std::vector<Record> records;  // but for the one of the line
+  std::string header;
+  std::string descriptions;  // records of schemas and channels
+  std::map<std::string, std::uint16_t> channels{};
+  std::vector<Record> records{};
+
+  bool is_value(const Record& record) const {
+    return record.channel == channels.at("jarol/taken/i") || record.channel == channels.at("jarol/taken/w");
+  }
 };
 
 Log read(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
   Log log;
-  std::getline(file, log.line);
-  log.line += '\n';
-  Record record;
-  file.read(reinterpret_cast<char*>(&record.head), sizeof record.head);
-  while (file.read(reinterpret_cast<char*>(&record.head), sizeof record.head)) {
-    record.bytes.resize(record.head.size);
-    file.read(record.bytes.data(), record.head.size);
-    log.records.push_back(record);
+  const Recording recording(path, [&](const mcap::Message& message, const ReadTopic&, std::uint64_t) {
+    log.records.push_back({message.channel, message.time, std::string(message.data)});
+  });
+  log.header = to_json(recording.header());
+  for (const auto& [id, topic] : recording.topics()) {
+    log.channels[topic.channel.topic] = id;
+    log.descriptions += record_of(mcap::Schema{topic.channel.schema, topic.schema_name, "ros2msg", topic.schema}) +
+                        record_of(topic.channel);
   }
   return log;
 }
 
-// With the sums that belong to it.
+// With the sums that belong to it, all in one chunk.
 void write(const Log& log, const std::string& path) {
-  std::ofstream file(path, std::ios::binary);
-  const auto put = [&](LogRecord head, const std::string& bytes, const std::string& line) {
-    head.sum = LogRecord::sum_of(head, head.output == LogRecord::header ? line : bytes);
-    file.write(reinterpret_cast<const char*>(&head), sizeof head);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  };
-  file << log.line;
-  put({0, LogRecord::header, 0, 0}, "", log.line);
-  for (const Record& record : log.records) put(record.head, record.bytes, "");
+  std::FILE* const file = std::fopen(path.c_str(), "wb");
+  mcap::Writer writer(file, mcap::Compression::none, "jarol");
+  writer.write({RecordingHeader::attachment, "", log.header});
+  mcap::Chunk chunk;
+  chunk.add(log.descriptions);
+  for (const Record& record : log.records)
+    std::memcpy(chunk.add_message(record.channel, 0, record.time, record.bytes.size()), record.bytes.data(),
+                record.bytes.size());
+  writer.write(chunk);
+  writer.end({}, {});
+  std::fclose(file);
 }
 
 class Random {
@@ -108,10 +115,6 @@ constexpr std::uint64_t odd_numbers[] = {0,
                                          65536,
                                          0x7fffffff,
                                          0x80000000,
-                                         0xfffffff0,
-                                         0xfffffff1,
-                                         0xfffffff2,
-                                         0xfffffff3,
                                          0xffffffff,
                                          0x7fffffffffffffff,
                                          0x8000000000000000,
@@ -124,22 +127,23 @@ void mutate(Log& log, std::uint64_t seed) {
     // the few that are no values, as often as these
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < log.records.size(); ++i)
-      if (log.records[i].head.output >= LogRecord::header) others.push_back(i);
+      if (!log.is_value(log.records[i])) others.push_back(i);
     if (!others.empty() && random.below(2) == 0) return log.records[others[random.below(others.size())]];
     return log.records[random.below(log.records.size())];
   };
   const auto set_word = [&](std::string& bytes) {
-    if (bytes.size() < 8) return;
+    constexpr std::size_t head = 4;  // of CDR
+    if (bytes.size() < head + 8) return;
     const std::uint64_t word = odd();
-    std::memcpy(bytes.data() + random.below(bytes.size() / 8) * 8, &word, sizeof word);
+    std::memcpy(bytes.data() + head + random.below((bytes.size() - head) / 8) * 8, &word, sizeof word);
   };
   for (std::uint64_t changes = 1 + random.below(3); changes > 0; --changes) {
     Record& record = any();
-    switch (random.below(9)) {
-      case 0: log.line[random.below(log.line.size() - 1)] = static_cast<char>(random.below(256)); break;
-      case 1: record.head.instant = static_cast<std::int64_t>(odd()); break;
-      case 2: record.head.instant += static_cast<std::int64_t>(random.below(5)) - 2; break;
-      case 3: record.head.output = static_cast<std::uint32_t>(random.below(2) == 0 ? odd() : random.below(4)); break;
+    switch (random.below(10)) {
+      case 0: log.header[random.below(log.header.size())] = static_cast<char>(random.below(256)); break;
+      case 1: record.time = static_cast<std::int64_t>(odd()); break;
+      case 2: record.time += static_cast<std::int64_t>(random.below(5)) - 2; break;
+      case 3: record.channel = static_cast<std::uint16_t>(random.below(2) == 0 ? odd() : random.below(8)); break;
       case 4: record.bytes.resize(random.below(record.bytes.size() + 20)); break;
       case 5: set_word(record.bytes); break;
       case 6:
@@ -147,21 +151,20 @@ void mutate(Log& log, std::uint64_t seed) {
           record.bytes[random.below(record.bytes.size())] ^= static_cast<char>(1 + random.below(255));
         break;
       case 7: std::swap(record, any()); break;
+      case 8:
+        log.descriptions[random.below(log.descriptions.size())] ^= static_cast<char>(1 + random.below(255));
+        break;
       default:
-        record.head.size = static_cast<std::uint32_t>(record.bytes.size());
         log.records.insert(log.records.begin() + static_cast<std::ptrdiff_t>(random.below(log.records.size())),
                            Record(record));
-        continue;  // the record may be elsewhere now
     }
-    record.head.size = static_cast<std::uint32_t>(record.bytes.size());
   }
-  if (random.below(20) == 0) any().head.size = static_cast<std::uint32_t>(odd());
 }
 
 // What is said of it, or nothing: it was replayed.
 std::string report_on(const std::string& path) {
   try {
-    LogReader log(path);
+    RecordedRun log(path);
     const std::vector<Miss> misses = log.begin(the_graph());
     Executor executor(the_graph(), replayed_channels(the_graph(), log), {.misses = misses});
     executor.run_until(std::min<Duration>(log.covered(), 1500ms));
@@ -188,9 +191,8 @@ TEST_SUITE("tools/log_mutations") {
     const Log whole = read(path);
     REQUIRE(whole.records.size() > 1000);
     // so few that each can be hit
-    Log part{whole.line, {}};
-    for (const Record& record : whole.records)
-      if (record.head.instant < 30'000'000 || record.head.output >= LogRecord::header) part.records.push_back(record);
+    Log part = whole;
+    std::erase_if(part.records, [&](const Record& r) { return whole.is_value(r) && r.time >= 30'000'000; });
     write(whole, path);
     REQUIRE(report_on(path) == "");
     const std::uint64_t count = std::getenv("JAROL_FULL") != nullptr ? 200'000 : 20'000;
@@ -202,7 +204,7 @@ TEST_SUITE("tools/log_mutations") {
       write(log, path);
       const std::string report = report_on(path);
       ++(report.empty() ? replayed : refused);
-      in_record += report.find("; it is no log that jarol run --log has written") != std::string::npos;
+      in_record += report.find("; it is no recording that jarol run has written") != std::string::npos;
       if (!report.empty()) REQUIRE(report.starts_with("'" + path + "' "));
     }
     MESSAGE(replayed << " replayed, " << refused << " refused, " << in_record << " of these for a record");
@@ -215,52 +217,52 @@ TEST_SUITE("tools/log_mutations") {
     const std::string path = folder / "log";
     write_log(path);
     const Log whole = read(path);
-    const auto first = [&](std::uint32_t output) {
-      return static_cast<std::size_t>(std::find_if(whole.records.begin(), whole.records.end(),
-                                                   [&](const Record& r) { return r.head.output == output; }) -
-                                      whole.records.begin());
-    };
-    const auto report = [&](std::uint32_t output, auto change, std::size_t after = 0) {
+    write(whole, path);
+    const std::uint64_t first_chunk = Recording(path).chunks().at(0).offset;
+    REQUIRE(report_on(path) == "");
+    const auto report = [&](const std::string& topic, auto change) {
       Log log = whole;
-      const std::size_t at = first(output) + after;
-      change(log.records.at(at));
-      log.records[at].head.size = static_cast<std::uint32_t>(log.records[at].bytes.size());
+      change(*std::find_if(log.records.begin(), log.records.end(),
+                           [&](const Record& r) { return r.channel == log.channels.at(topic); }));
       write(log, path);
-      std::size_t byte = log.line.size() + sizeof(LogRecord);
-      for (std::size_t i = 0; i < at; ++i) byte += sizeof(LogRecord) + whole.records[i].bytes.size();
-      const std::string begin = "'" + path + "' has at byte " + std::to_string(byte) + " ",
-                        end = "; it is no log that jarol run --log has written", text = report_on(path);
+      const std::string begin = "'" + path + "' has in the chunk at byte " + std::to_string(first_chunk) + " ",
+                        end = "; it is no recording that jarol run has written", text = report_on(path);
       CAPTURE(text);
       REQUIRE(text.starts_with(begin));
       REQUIRE(text.ends_with(end));
       return text.substr(begin.size(), text.size() - begin.size() - end.size());
     };
-    const auto word = [](std::size_t at, std::uint64_t value) {
-      return [=](Record& record) { std::memcpy(record.bytes.data() + 8 * at, &value, sizeof value); };
+    const auto word = [](std::size_t byte, auto value) {
+      return [=](Record& record) { std::memcpy(record.bytes.data() + 4 + byte, &value, sizeof value); };
     };
-    CHECK(report(0, [](Record& r) { r.bytes += "x"; }) == "a value of 'i' that ends 1 bytes before they do");
-    CHECK(report(0, [](Record& r) { r.bytes.pop_back(); }) == "a value of 'i' that ends before its bytes do");
-    CHECK(report(1, [](Record& r) { r.bytes.resize(7); }) == "a value of 'w' that ends before its length");
-    CHECK(report(1, word(0, 1'000'000)) == "a value of 'w' that has a length of 1000000 and fewer bytes");
-    CHECK(report(1, word(0, 0x2000000000000001)) ==
-          "a value of 'w' that has a length of 2305843009213693953 and fewer bytes");
-    CHECK(report(0, [](Record& r) { r.head.output = 2; }) == "what is of no known kind");
-    CHECK(report(0, [](Record& r) { r.head.instant = -1; }) == "a value of 'i' before the one before it");
-    CHECK(report(LogRecord::miss, word(2, 9)) == "a miss of task 9, and there are 2");
-    CHECK(report(LogRecord::miss, word(2, 0x0000000200000001)) == "a miss that is neither late nor left out");
-    CHECK(report(LogRecord::miss, word(0, ~std::uint64_t{0})) == "a miss at a time below zero");
-    CHECK(report(LogRecord::miss, [](Record& r) { r.bytes += "x"; }) == "25 bytes where there are 24");
-    CHECK(report(LogRecord::checkpoint, word(2, 2)) == "a checkpoint that is neither exact nor not");
-    CHECK(report(LogRecord::checkpoint, word(0, ~std::uint64_t{0})) == "a checkpoint at no time of a run");
-    const auto rest = [](std::int64_t begun) {
-      return [=](Record& r) {
-        r.head.output = LogRecord::rest;
-        r.bytes.assign(reinterpret_cast<const char*>(&begun), sizeof begun);
+    const std::string i = "jarol/taken/i", w = "jarol/taken/w", miss = "jarol/misses", digest = "jarol/digests";
+    CHECK(report(i, [](Record& r) { r.bytes += "x"; }) == "a value of 'i' that ends 1 bytes before they do");
+    CHECK(report(i, [](Record& r) { r.bytes.pop_back(); }) == "a value of 'i' that ends before its bytes do");
+    CHECK(report(i, [](Record& r) { r.bytes[1] = 0; }) == "a value of 'i' that does not begin as little-endian CDR");
+    CHECK(report(w, [](Record& r) { r.bytes.resize(7); }) == "a value of 'w' that ends before its length");
+    CHECK(report(w, word(0, 1'000'000)) == "a value of 'w' that has a length of 1000000 and fewer bytes");
+    CHECK(report(w, word(0, 0x20000001)) == "a value of 'w' that has a length of 536870913 and fewer bytes");
+    CHECK(report(i, [](Record& r) { r.time = -1; }) == "a value of 'i' before the one before it");
+    CHECK(report(miss, word(20, 2)) == "a miss that is neither late nor left out");
+    CHECK(report(miss, word(0, std::int64_t{-1})) == "a miss at a time below zero");
+    CHECK(report(miss, [](Record& r) { r.bytes += "x"; }) ==
+          "a message of 'jarol/misses' that ends 1 bytes before they do");
+    CHECK(report(digest, word(16, std::int64_t{2})) == "a digest that is neither exact nor not");
+    CHECK(report(digest, word(0, std::int64_t{-1})) == "a digest at no time of a run");
+    const auto rest = [&](std::int64_t begun) {
+      return [&whole, begun](Record& r) {
+        r.channel = whole.channels.at("jarol/rest");
+        r.bytes = std::string("\0\1\0\0", 4) + std::string(reinterpret_cast<const char*>(&begun), sizeof begun);
       };
     };
-    CHECK(report(LogRecord::miss, rest(-1)) == "a way to rest from no time of a run on");
-    CHECK(report(LogRecord::end, word(0, 1)) == "an end before its last checkpoint");
-    CHECK(report(LogRecord::end, word(1, 0x7fffffffffffffff)) == "an end at no time of a run");
+    CHECK(report(miss, rest(-1)) == "a way to rest from no time of a run on");
+    CHECK(report("jarol/end", word(0, std::int64_t{1})) == "an end before its last digest");
+    CHECK(report("jarol/end", word(8, 0x7fffffffffffffff)) == "an end at no time of a run");
+    Log log = whole;
+    for (Record& r : log.records)
+      if (r.channel == log.channels.at(miss)) word(16, 9)(r);
+    write(log, path);
+    CHECK(report_on(path) == "'" + path + "' has a miss of task 9, and there are 2");
   }
 
   TEST_CASE("truth values are 0 or 1, in flat values and in sequences") {

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "runtime/files/whole_file.h"
-#include "runtime/record/log_reader.h"
-#include "runtime/record/log_writer.h"
+#include "runtime/record/recorded_run.h"
+#include "runtime/record/recording_writer.h"
 #include "tests/tools/default_signals.h"
 #include "tests/tools/run_command.h"
 #include "tools/run/load_graph.h"
@@ -203,7 +203,7 @@ TEST_SUITE("tools/output_files") {
       fs::create_hard_link(path, hard);
       fs::create_symlink(path, soft);
       for (const std::string& name : {path, hard, soft})
-        for (const std::string option : {"--trace", "--plot", "--log"}) {
+        for (const std::string option : {"--trace", "--plot", "--log", "--record"}) {
           CAPTURE(option + " " + name);
 #ifndef JAROL_VEHICLES
           if (true) continue;
@@ -223,7 +223,7 @@ distributers: {v: {type: JaviatorVehicle, link: {type: udp, peer: 9}}}
 tasks: {a: {type: Counter, period: 10ms}}
 )");
     fs::permissions(key, fs::perms(0600));
-    for (const std::string option : {"--trace", "--plot", "--log"}) {
+    for (const std::string option : {"--trace", "--plot", "--log", "--record"}) {
       const auto refused = command::jarol(
           "run " + spec + " --clock real --for 50ms --set distributers.v.link.key=" + key + " " + option + " " + key);
       CHECK(refused.exit_code == 2);
@@ -249,17 +249,16 @@ tasks: {a: {type: Counter, period: 10ms}}
   TEST_CASE("of two runs into one log the second is refused, and the first goes on") {
     const TemporaryFolder folder;
     const std::string log = folder / "run.log", fifo = folder / "fifo";
-    const auto header =
-        jarol::LogHeader{.graph = "counting", .file = "", .file_sum = "", .overrides = {}, .clock = "virtual"};
+    const jarol::RecordingHeader header{.graph = "counting", .file = "", .overrides = {}, .clock = "virtual"};
     const auto loaded = jarol::tools::load_graph("specs/counting.yaml", {});
-    jarol::LogWriter first(log, header, *loaded.graph);
+    jarol::RecordingWriter first(log, header, {}, *loaded.graph);
     first.open();
     const auto second = command::jarol("run specs/counting.yaml --for 1s --log " + log);
     CHECK(second.exit_code == 2);
     CHECK(second.output ==
           "error: can't write '" + log + "': another run writes it; choose another file, or wait until that ends\n");
     first.close({});
-    CHECK(jarol::LogReader(log).end());
+    CHECK(jarol::RecordedRun(log).end());
   }
 
   TEST_CASE("what is written does not take the place of the program that writes") {

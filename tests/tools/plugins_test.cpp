@@ -7,9 +7,10 @@
 
 #include "graph/floating_point.h"
 #include "graph/plugins/plugin.h"
-#include "runtime/record/log_format.h"
+#include "runtime/record/recording_writer.h"
 #include "tests/tools/run_command.h"
 #include "tools/library/built_in.h"
+#include "tools/run/load_graph.h"
 
 namespace {
 using namespace jarol;
@@ -28,6 +29,10 @@ std::string report_on(const std::string& name) {
 }
 
 const std::string again = "; build it again as graph/plugins/plugin.h says";
+std::string content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 }  // namespace
 
 TEST_SUITE("tools/plugins") {
@@ -179,38 +184,39 @@ connections: [a.out -> b.in]
                       note = "note: loads plugin '" + so + "'\n";
     const auto run = command::jarol("run --for 100ms " + graph + set + " --log " + log, "2>&1 >/dev/null");
     CHECK(run.exit_code == 0);
-    CHECK(run.output == note + "note: the log does not name the plugins of --set; give them again to jarol replay\n");
+    CHECK(run.output ==
+          note + "note: the recording does not name the plugins of --set; give them again to jarol replay\n");
     CHECK(command::jarol("replay " + log + set, "2>&1 >/dev/null").output == note);
     CHECK(command::jarol("replay " + log + " " + graph + set).exit_code == 0);
     CHECK(command::jarol("replay " + log).exit_code == 2);
 
-    // the file that the log names has come to name a plugin
-    std::ofstream(graph, std::ios::app) << "plugins: [" << so << "]\n";
+    // a graph that was recorded with the plugin that it names
+    const std::string naming = folder.write("naming.yaml", content(graph) + "plugins: [" + so + "]\n");
+    REQUIRE(command::jarol("run --for 100ms " + naming + " --log " + log).exit_code == 0);
     const auto named = command::jarol("replay " + log, "2>&1 >/dev/null");
     CHECK(named.exit_code == 2);
-    CHECK(named.output.find(graph + ":4:11: error: plugin '" + so +
-                            "' is not loaded: the log names this graph, and a log names no code; name it yourself: "
-                            "jarol replay LOG FILE\n") != std::string::npos);
+    CHECK(named.output.find(naming + ":4:11: error: plugin '" + so +
+                            "' is not loaded: the recording names this graph, and a recording names no code; name it "
+                            "yourself: jarol replay LOG FILE\n") != std::string::npos);
     CHECK(named.output.find(note) == std::string::npos);
-    CHECK(command::jarol("replay " + log + " " + graph).exit_code == 0);
+    CHECK(command::jarol("replay " + log + " " + naming).exit_code == 0);
 
     // whoever writes a log with plugins of its own, and mends its sums
     for (const std::string path : {"plugins", "plugins.x"}) {
-      const LogHeader header{.graph = "g",
-                             .file = graph,
-                             .file_sum = "",
-                             .overrides = {"", {"tasks.a.init.out=1", path + "=[" + so + "]"}},
-                             .clock = "virtual"};
-      const std::string line = to_line(header);
-      LogRecord record{0, LogRecord::header, 0, 0};
-      record.sum = LogRecord::sum_of(record, line);
-      const std::string made =
-          folder.write("made", line + std::string(reinterpret_cast<const char*>(&record), sizeof record));
+      const std::string made = folder / "made";
+      RecordingWriter writer(made,
+                             {.graph = "counting",
+                              .file = graph,
+                              .overrides = {"", {"tasks.a.init.out=1", path + "=[" + so + "]"}},
+                              .clock = "virtual"},
+                             {}, *tools::load_graph("specs/counting.yaml", {}).graph);
+      writer.open();
+      writer.close({});
       for (const std::string& words : {made, made + " " + graph}) {
         const auto refused = command::jarol("replay " + words, "2>&1 >/dev/null");
         CHECK(refused.exit_code == 2);
         CHECK(refused.output == "error: '" + made + "' sets '" + path + "=[" + so +
-                                    "]', and a log names no code to load; it is no log that jarol run --log has "
+                                    "]', and a recording names no code to load; it is none that jarol run has "
                                     "written\n");
       }
     }

@@ -1,22 +1,25 @@
-// jarol replay: a run again, from its log.
+// jarol replay: a run again, from its recording.
 #include <unistd.h>
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "distributers/session/graph_run.h"
+#include "distributers/session/only_tasks.h"
 #include "distributers/session/replay.h"
 #include "distributers/session/rest_verdict.h"
+#include "graph/language/source_set.h"
 #include "graph/text/escape.h"
-#include "runtime/record/log_reader.h"
+#include "runtime/record/replayed_values.h"
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
+#include "tools/report/differences_report.h"
 #include "tools/report/json_line.h"
 #include "tools/report/progress.h"
 #include "tools/report/rest_report.h"
@@ -37,44 +40,70 @@ struct Options {
   std::string log;
   std::string file;
   Overrides overrides;
+  std::vector<std::string> only;
   bool json = false;
   RunFileArguments files;
 };
 
-// The graph of the run, or FILE in its place, with the run's overrides and those given here. A log is no program: code
-// is loaded only where the user's own words name the file or the plugin that brings it.
-Loaded load(const Options& options, const LogHeader& header) {
-  Overrides overrides = header.overrides;
+// The graph of the run as it was then, or FILE in its place, with the run's overrides and those given here. A recording
+// is no program: code is loaded only where the user's own words name the file or the plugin that brings it.
+Loaded load(const Options& options, const Recording& recording) {
+  Overrides overrides = recording.header().overrides;
   overrides.no_plugins = options.overrides.no_plugins;
   const std::vector<std::string>& own = options.overrides.set;
   if (overrides.no_plugins.empty() && options.file.empty() && std::none_of(own.begin(), own.end(), names_plugins))
-    overrides.no_plugins = "the log names this graph, and a log names no code; name it yourself: jarol replay LOG FILE";
+    overrides.no_plugins =
+        "the recording names this graph, and a recording names no code; name it yourself: jarol replay LOG FILE";
   if (!options.overrides.profile.empty()) overrides.profile = options.overrides.profile;
   overrides.set.insert(overrides.set.end(), options.overrides.set.begin(), options.overrides.set.end());
   if (!options.file.empty()) return load_without_channels(options.file, overrides);
-  if (!std::filesystem::exists(header.file))
-    throw LogError("'" + header.file + "', the graph of the run, is not there; name it: jarol replay LOG FILE");
-  return load_without_channels(header.file, overrides);
+  SourceSet sources;
+  for (const RecordedFile& file : recording.files()) sources.give(file.path, file.text);
+  return load_without_channels(recording.header().file, overrides);
 }
 
-std::string text_of(const Comparison& comparison, const Report& report, const LogReader& log, bool is_other_text) {
+// Files that the run has read and that are not what they were, or are gone.
+std::vector<std::string> changed_files(const Recording& recording) {
+  std::vector<std::string> changed;
+  for (const RecordedFile& file : recording.files()) {
+    std::ifstream in(file.path, std::ios::binary);
+    if (file.path != "-" && (!in || std::string(std::istreambuf_iterator<char>(in), {}) != file.text))
+      changed.push_back(file.path);
+  }
+  return changed;
+}
+
+bool is_text_of_run(const std::string& file, const Recording& recording) {
+  const std::string text = read_source(file)->text;
+  return std::any_of(recording.files().begin(), recording.files().end(),
+                     [&](const RecordedFile& f) { return f.path == recording.header().file && f.text == text; });
+}
+
+std::string text_of(const Comparison& comparison, const Report& report, const RecordedRun& log,
+                    const Differences& differences, bool is_other_text, bool of_some) {
   if (comparison.interrupted) return "";
   const std::string run = "the run on the " + log.header().clock + " clock";
   std::string text;
   if (log.rest_begun())
     text += "  at end      from " + seconds_text(*log.rest_begun()) + " s on the run brought its vehicle to rest\n";
-  if (comparison.standing == Standing::same) text += "  same        as " + run + "\n";
+  if (comparison.standing == Standing::same) {
+    text += "  same        as " + run;
+    if (differences.compared() > 0) text += fmt::format(", {} values compared", differences.compared());
+    text += "\n";
+  }
   if (comparison.standing == Standing::diverged) {
     text += "  DIVERGED    from " + run;
     if (comparison.same_until && *comparison.same_until > Duration{})
       text += " after " + seconds_text(*comparison.same_until) + " s";
     if (comparison.diverged_until) text += ", before " + seconds_text(*comparison.diverged_until) + " s";
     text += "\n";
-    if (const std::optional<LogEnd>& end = log.end())
+    if (const std::optional<LogEnd>& end = log.end(); end && !of_some)
       text += fmt::format("  it had      activations {}, instants {}, faults {}, digest 0x{:016x}\n", end->activations,
                           end->instants, end->faults, end->digest);
+    text += tools::text_of(differences);
     if (report.stopped && (!log.end() || log.end()->faults == 0))
-      text += "              a fault that stops it did not happen there; the replay went on to the end of the log\n";
+      text +=
+          "              a fault that stops it did not happen there; the replay went on to the end of the recording\n";
     if (is_other_text) text += "              the file of the graph is not what it was\n";
   }
   if (!log.end())
@@ -84,8 +113,8 @@ std::string text_of(const Comparison& comparison, const Report& report, const Lo
   return text;
 }
 
-nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comparison, const LogReader& log,
-                               const Options& options, std::size_t misses) {
+nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comparison, const RecordedRun& log,
+                               const Differences& differences, const Options& options, std::size_t misses) {
   auto json = to_json(outcome);
   const auto or_null = [](bool known, const auto& value) {
     return known ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
@@ -103,31 +132,43 @@ nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comp
   json["verdict"] = comparison.standing == Standing::same       ? "same"
                     : comparison.standing == Standing::diverged ? "diverged"
                                                                 : "unknown";
+  json["changed_files"] = changed_files(log.recording());
+  json.update(tools::json_of(differences));
   json["same_until_ns"] =
       or_null(comparison.same_until.has_value(), comparison.same_until.value_or(Duration{}).count());
   return json;
 }
 
 int replay(const Options& options) {
-  LogReader log(options.log);
-  const std::string file = options.file.empty() ? log.header().file : options.file;
-  Loaded loaded = load(options, log.header());
-  const Graph& graph = *loaded.graph;
-  require_apart({{"LOG", options.log}, {"FILE", file}},
+  RecordedRun log(options.log);
+  Loaded whole = load(options, log.recording());
+  require_apart({{"LOG", options.log}, {"FILE", options.file.empty() ? log.header().file : options.file}},
                 {{"--trace", options.files.trace}, {"--plot", options.files.plot}});
-  const std::vector<Miss> misses = log.begin(graph);
+  std::vector<Miss> misses = log.begin(*whole.graph);
+  std::optional<OnlyTasks> only;
+  if (!options.only.empty()) {
+    only.emplace(*whole.graph, options.only, log.recording());
+    misses = only->misses_of(misses);
+  } else {
+    whole.channels = replayed_channels(*whole.graph, log);
+  }
+  Loaded loaded = only ? only->take() : std::move(whole);
+  const Graph& graph = *loaded.graph;
   const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
   Noted noted(graph);
-  loaded.channels = replayed_channels(graph, log);
   std::vector<RecordSink*> looking_on = files.sinks();
   noted.add_to(looking_on);
+  ReplayedValues values(log, outputs_of(graph), only ? &only->outputs() : nullptr);
+  if (only && !values.has_any())
+    throw std::invalid_argument("--only: the recording has no values of these tasks to compare with");
+  if (values.has_any()) looking_on.push_back(&values);
   GraphRun graph_run(std::move(loaded), {.sinks = looking_on, .misses = misses});
   RunSinks& sinks = graph_run.sinks();
   Executor& executor = graph_run.executor();
   if (log.rest_begun()) sinks.judge_before(*log.rest_begun());
   const auto start = std::chrono::steady_clock::now();
-  ReplayRun attended(executor, log);
+  ReplayRun attended(executor, log, !only);
   const CrashLine crash_line(graph);
   let_writing_fail();
   const Interruptible interruptible;
@@ -141,13 +182,15 @@ int replay(const Options& options) {
   comparison.interrupted = comparison.interrupted || run_end.hangs;
   const double seconds =
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  if (!comparison.interrupted) log.require_all_taken();
+  if (!comparison.interrupted && !only) log.require_all_taken();
   std::string unwritten;
   try {
     if (run_end.hangs && (!files.sinks().empty() || !graph.expectations.empty()))
       unwritten = "trace and picture are not written, as the replay has not ended";
     if (!run_end.hangs) sinks.close();
   } catch (const std::exception& error) { unwritten = error.what(); }
+  const Differences& differences = values.differences();
+  if (differences.first() && !comparison.interrupted) comparison.standing = Standing::diverged;
   const Report& report = executor.report();
   RunVerdict verdict;
   const Duration reached = comparison.interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated);
@@ -164,7 +207,7 @@ int replay(const Options& options) {
                            .simulated = reached,
                            .verdict = verdict};
   if (options.json) {
-    std::cout << json_line(json_of(outcome, comparison, log, options, misses.size()));
+    std::cout << json_line(json_of(outcome, comparison, log, differences, options, misses.size()));
   } else {
     std::cout << fmt::format("{}: replay of {} s in {:.2f} s, {:.0f} times real time{}\n", printable(graph.name),
                              seconds_text(outcome.simulated), seconds, real_time_factor(outcome),
@@ -173,7 +216,12 @@ int replay(const Options& options) {
               << fmt::format("  log         {} values from outside, {} activations late or left out\n", log.values(),
                              misses.size());
     if (unwritten.empty()) std::cout << to_text(options.files);
-    std::cout << text_of(comparison, report, log, sum_of_text(read_source(file)->text) != log.header().file_sum);
+    std::cout << text_of(comparison, report, log, differences,
+                         !options.file.empty() && !is_text_of_run(options.file, log.recording()), only.has_value());
+    for (const std::string& file : changed_files(log.recording()))
+      if (options.file.empty())
+        std::cout << "  changed     '" << printable(file)
+                  << "' is not what the run has read; it was replayed as it was then\n";
     std::cerr << told_faults(report);
   }
   std::cerr << failures_text(verdict);
@@ -195,20 +243,25 @@ void add_replay(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
   Command* command = line.add_subcommand(
       "replay",
-      "Run again what jarol run --log has logged: on the virtual clock, without vehicles or links, "
-      "with what came from\n"
-      "outside and what was late then. It is the same to the bit, or says that it is not.\n"
+      "Run again what jarol run --record or --log has recorded: on the virtual clock, without vehicles or links, "
+      "with what\n"
+      "came from outside and what was late then. Every recorded value is compared: it is the same to the bit, or the\n"
+      "first difference is shown, and of each signal by how much it differs.\n"
       "Exit code: 0 the same, 1 diverged, or the same and not what 'expect' says or too much left out by faults,\n"
-      "2 bad input, as a log with anything after its end, 3 a log that breaks off,\n"
+      "2 bad input, as a recording with anything after its end, 3 one that breaks off,\n"
       "129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
-  command->add_option("LOG", options->log, "The log of a run")->required();
-  command->add_option("FILE", options->file,
-                      "The graph, if it is elsewhere now or names plugins; default: that of the run");
+  command->add_option("LOG", options->log, "The recording of a run")->required();
+  command->add_option(
+      "FILE", options->file,
+      "Another graph than that of the run, or the same where it names plugins; default: as the run has read it");
   command
       ->add_option("--set", options->overrides.set,
                    "Change a value, beside those of the run: path=value, as in tasks.depth.parameters.kp=0.5")
       ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use another profile of the file than the run");
+  command->add_option("--only", options->only,
+                      "Only these tasks, with what the recording has of the outputs that they read: names, as in "
+                      "depth fins");
   add_no_plugins(*command, options->overrides);
   command->add_flag("--json", options->json, "One JSON object instead of text");
   add_run_file_options(*command, options->files);

@@ -15,7 +15,6 @@
 #include "graph/text/escape.h"
 #include "runtime/execute/executor_run.h"
 #include "runtime/execute/log_end.h"
-#include "runtime/record/log_writer.h"
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
@@ -31,6 +30,7 @@
 #include "tools/run/no_plugins.h"
 #include "tools/run/prompt_line.h"
 #include "tools/run/real_time.h"
+#include "tools/run/record_options.h"
 #include "tools/run/run_files.h"
 #include "tools/run/run_on_threads.h"
 #include "tools/run/run_report.h"
@@ -49,7 +49,7 @@ struct Options {
   RealTimeArguments real_time;
   bool json = false;
   RunFileArguments files;
-  std::string log;
+  RecordArguments recording;
 };
 
 void require_clock(const Options& options, const Loaded& loaded) {
@@ -92,7 +92,7 @@ void print(const Options& options, const RunOutcome& outcome, bool written) {
   }
   std::cout << to_text(outcome);
   if (written) std::cout << to_text(options.files);
-  if (written && !options.log.empty()) std::cout << "  log         " << options.log << "\n";
+  if (written) std::cout << to_text(options.recording);
   std::cerr << told_faults(report);
 }
 
@@ -104,17 +104,14 @@ void start_clock(RealClock& clock, const Executor& executor) {
   clock.start();
 }
 
-LogHeader header_of(const Options& options, const Graph& graph, Duration until, Duration mission) {
-  Overrides overrides = options.overrides;
-  if (std::erase_if(overrides.set, names_plugins) > 0)
-    std::cerr << "note: the log does not name the plugins of --set; give them again to jarol replay\n";
+RecordingHeader header_of(const Options& options, const Graph& graph, Duration until, Duration mission) {
   return {.graph = graph.name,
-          .file = std::filesystem::absolute(options.file).lexically_normal().string(),
-          .file_sum = sum_of_text(read_source(options.file)->text),
-          .overrides = std::move(overrides),
+          .file = SourceSet::full_path(options.file),
+          .overrides = options.overrides,
           .clock = options.clock,
           .until = until,
-          .mission = mission};
+          .mission = mission,
+          .seed = options.seed};
 }
 
 // Options that would have no effect.
@@ -122,17 +119,21 @@ void require_effect(const Command& command, const Options& options) {
   const std::vector<std::string> of_real_clock{"--rt-priority", "--cpus", "--spin", "--force", "--no-guardian"};
   if (options.clock != "real")
     command.refuse(of_real_clock, "belongs to the real clock; add --clock real, or leave it out");
-  if (options.log == "-") throw std::invalid_argument("--log: '-' is no file; replay reads a log by its name");
+  require_effect(command, options.recording);
   if (options.concurrency != "threads") return;
   if (options.clock != "real") throw std::invalid_argument("--concurrency threads needs --clock real");
-  command.refuse({"--trace", "--trace-fill", "--trace-words", "--plot", "--signals", "--log", "--workers", "--spin"},
-                 "belongs to --concurrency exotasks");
+  command.refuse(
+      {"--trace", "--trace-fill", "--trace-words", "--plot", "--signals", "--log", "--record", "--workers", "--spin"},
+      "belongs to --concurrency exotasks");
   command.refuse({"--force"}, "belongs to --concurrency exotasks; whether threads come in time is not checked before");
 }
 
 int run(const Options& options) {
-  require_apart({{"FILE", options.file}},
-                {{"--trace", options.files.trace}, {"--plot", options.files.plot}, {"--log", options.log}});
+  require_apart({{"FILE", options.file}}, {{"--trace", options.files.trace},
+                                           {"--plot", options.files.plot},
+                                           {"--log", options.recording.log},
+                                           {"--record", options.recording.record}});
+  const SourceSet sources;
   Loaded loaded = load_graph(options.file, options.overrides, options.seed);
   const Graph& graph = *loaded.graph;
   const Duration end = end_of_run(options, loaded);
@@ -140,10 +141,8 @@ int run(const Options& options) {
   if (options.concurrency == "threads") return run_on_threads(loaded, end, options.real_time, options.json);
   const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
-  std::unique_ptr<LogWriter> log;
-  if (!options.log.empty())
-    log = std::make_unique<LogWriter>(
-        options.log, header_of(options, graph, end, end_of_mission(pointers_to(loaded.channels))), graph);
+  const std::unique_ptr<RecordingWriter> log = make_recording(
+      options.recording, header_of(options, graph, end, end_of_mission(pointers_to(loaded.channels))), sources, graph);
   std::optional<RealClock> clock;
   std::optional<Guard> guard;
   std::vector<analysis::TaskThread> threads;
@@ -156,10 +155,11 @@ int run(const Options& options) {
     clock.emplace(graph.tasks.size(), real_time);
     guard.emplace(loaded, options.real_time.no_guardian ? "--no-guardian" : "", real_time.priority, print_note);
   }
-  const CrashLine crash_line(graph, guard ? guard->process() : nullptr, options.log);
+  const CrashLine crash_line(graph, guard ? guard->process() : nullptr, options.recording.file());
   Noted noted(graph);
   std::vector<RecordSink*> looking_on = files.sinks();
   noted.add_to(looking_on);
+  if (log && log->publications() != nullptr) looking_on.push_back(log->publications());
   GraphRun graph_run(std::move(loaded), {.sinks = looking_on,
                                          .workers = options.workers,
                                          .clock = clock ? &*clock : nullptr,
@@ -218,6 +218,7 @@ int run(const Options& options) {
     finish_writing([&] { graph_run.sinks().close(); });
     unseen = unwritten;
     if (log) finish_writing([&] { log->close(log_end_of(report)); });
+    if (log) std::cerr << text_of_dropped(options.recording, *log);
   }
   const RunVerdict verdict = graph_run.judge(end, run_end, unseen);
   print(options,
@@ -280,8 +281,7 @@ void add_run(CommandLine& line, int& exit_code) {
   add_real_time_options(*command, options->real_time);
   command->add_flag("--json", options->json, "One JSON object instead of text");
   add_run_file_options(*command, options->files);
-  command->add_option("--log", options->log,
-                      "Write what came from outside, and what was late, to this file: all that jarol replay needs");
+  add_record_options(*command, options->recording);
   command->callback([options, command, &exit_code] {
     require_effect(*command, *options);
     exit_code = run(*options);

@@ -186,7 +186,7 @@ void watch_exit() {
 CrashLine::CrashLine(const Graph& of, const distributers::Guardian* awake, const std::string& log) {
   about_log.clear();
   if (!log.empty())
-    about_log = "note: the log '" + printable(log) + "' is good up to its last checkpoint: jarol replay " +
+    about_log = "note: the recording '" + printable(log) + "' is good up to its last chunk: jarol replay " +
                 printable(log) + "\n";
   own_process = ::getpid();
   graph.store(&of);

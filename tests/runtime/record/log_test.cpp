@@ -25,7 +25,7 @@ class KeptLog : public RecordSink, public TakenValues {
     if (output + 1 == outputs_.size()) {
       FAIL("no vehicle is brought to rest here");
     } else if (output + 2 == outputs_.size()) {
-      checkpoints.push_back(*static_cast<const Checkpoint*>(value));
+      digests.push_back(*static_cast<const RunningDigest*>(value));
     } else if (output + 3 == outputs_.size()) {
       misses.push_back(*static_cast<const Miss*>(value));
     } else {
@@ -52,7 +52,7 @@ class KeptLog : public RecordSink, public TakenValues {
   };
   std::vector<Taken> taken;
   std::vector<Miss> misses;
-  std::vector<Checkpoint> checkpoints;
+  std::vector<RunningDigest> digests;
 
  private:
   std::vector<std::size_t> inputs_;
@@ -200,7 +200,7 @@ connections: [i -> flow.in, flow.out -> timed.in, timed.out -> reader.a, flow.ou
       }
   }
 
-  TEST_CASE("a checkpoint stands before the tasks on threads of which it is not known whether they are late") {
+  TEST_CASE("a running digest stands before the tasks on threads of which it is not known whether they are late") {
     // at 1 s `slow`, released at 0.8 s, still runs
     const std::string text = on(priorities_1, R"(graph: t
 timing: {period: 400ms}
@@ -210,16 +210,16 @@ tasks:
 connections: [fast.out -> slow.in]
 )");
     const Graph graph = graph_of(text);
-    Checkpoint second;
+    RunningDigest second;
     for (int attempt = 0; attempt < 10 && second.settled != 800'000'000; ++attempt) {  // again where it came too late
       KeptLog log(graph);
       Recorder recorder({&log});
       run(text, 1050ms, 1, {}, 1, {}, &recorder);
       recorder.close();
-      REQUIRE(log.checkpoints.size() == 2);
-      CHECK(log.checkpoints[0].settled == 0);
-      CHECK(log.checkpoints[0].exact == 1);
-      second = log.checkpoints[1];
+      REQUIRE(log.digests.size() == 2);
+      CHECK(log.digests[0].settled == 0);
+      CHECK(log.digests[0].exact == 1);
+      second = log.digests[1];
     }
     CHECK(second.settled == 800'000'000);
     CHECK(second.exact == 0);

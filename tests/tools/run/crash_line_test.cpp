@@ -85,7 +85,7 @@ TEST_SUITE("tools/crash_line") {
                                 "; the process ends\n") != std::string::npos);
   }
 
-  TEST_CASE("the log of a run that crashed is whole to its last checkpoint, and a replay goes as far") {
+  TEST_CASE("the log of a run that crashed is whole to its last chunk, and a replay goes as far") {
     const TemporaryFolder folder;
     struct Run {
       std::string log, way;
@@ -103,8 +103,8 @@ TEST_SUITE("tools/crash_line") {
       CAPTURE(run.way);
       run.process->end();
       CHECK(names_task(*run.process, "real", ""));
-      CHECK(run.process->errors().find("note: the log '" + run.log +
-                                       "' is good up to its last checkpoint: jarol replay " + run.log + "\n") !=
+      CHECK(run.process->errors().find("note: the recording '" + run.log +
+                                       "' is good up to its last chunk: jarol replay " + run.log + "\n") !=
             std::string::npos);
       const auto replay = command::jarol("replay --json " + run.log + " " + file, "2>/dev/null");
       CHECK(replay.exit_code == 3);

@@ -1,0 +1,40 @@
+// Which files a load reads: kept as they were then, or given in place of those on the disk.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "graph/language/yaml.h"
+
+namespace jarol {
+
+/// While it lives, it sees what its thread reads by read_source; of several the newest does.
+class SourceSet {
+ public:
+  SourceSet();
+  ~SourceSet();
+  SourceSet(const SourceSet&) = delete;
+  SourceSet& operator=(const SourceSet&) = delete;
+
+  /// From now on that is what is read there.
+  void give(const std::string& path, std::string text);
+
+  /// From the root; "-" is what comes on stdin.
+  static std::string full_path(const std::string& path);
+
+  /// By the full path, as it was read last.
+  const std::map<std::string, std::shared_ptr<const Source>>& read() const { return read_; }
+
+  /// What read_source asks and reports. Null: it was not given.
+  static std::shared_ptr<const Source> given_at(const std::string& path);
+  static void note(const std::shared_ptr<const Source>& source);
+
+ private:
+  SourceSet* const before_;
+  std::map<std::string, std::string> given_;
+  std::map<std::string, std::shared_ptr<const Source>> read_;
+};
+
+}  // namespace jarol

@@ -1,0 +1,78 @@
+// A chunk that is being filled: records in memory, with where the messages of each channel stand.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "runtime/mcap/records.h"
+
+namespace jarol::mcap {
+
+class Chunk {
+ public:
+  Chunk() = default;
+
+  /// A schema or a channel, before its first message.
+  void add(std::string_view record) { std::memcpy(room_for(record.size()), record.data(), record.size()); }
+
+  /// The caller writes its data there.
+  std::byte* add_message(std::uint16_t channel, std::uint32_t sequence, std::int64_t time, std::size_t size) {
+    const std::uint64_t offset = size_;
+    std::byte* const at = room_for(message_head + size);
+    const auto opcode = Opcode::message;
+    const std::uint64_t length = message_head - record_head + size;
+    std::memcpy(at, &opcode, 1);
+    std::memcpy(at + 1, &length, 8);
+    std::memcpy(at + 9, &channel, 2);
+    std::memcpy(at + 11, &sequence, 4);
+    std::memcpy(at + 15, &time, 8);
+    std::memcpy(at + 23, &time, 8);
+    if (channel >= entries_.size()) entries_.resize(channel + std::size_t{1});
+    entries_[channel].push_back({time, offset});
+    if (messages_++ == 0) start_ = end_ = time;
+    start_ = std::min(start_, time);
+    end_ = std::max(end_, time);
+    return at + message_head;
+  }
+
+  std::string_view records() const { return {reinterpret_cast<const char*>(memory_.get()), size_}; }
+  std::uint64_t messages() const { return messages_; }
+  std::int64_t start() const { return start_; }
+  std::int64_t end() const { return end_; }
+  /// By channel; those of most are empty.
+  const std::vector<std::vector<IndexEntry>>& entries() const { return entries_; }
+
+  /// Its memory stays.
+  void clear() {
+    size_ = 0;
+    messages_ = 0;
+    start_ = end_ = 0;
+    for (auto& of_channel : entries_) of_channel.clear();
+  }
+
+ private:
+  std::byte* room_for(std::size_t bytes) {
+    if (capacity_ - size_ < bytes) grow(bytes);
+    std::byte* const at = memory_.get() + size_;
+    size_ += bytes;
+    return at;
+  }
+  [[gnu::cold]] void grow(std::size_t bytes) {
+    const std::size_t capacity = std::max({2 * capacity_, size_ + bytes, std::size_t{1} << 16});
+    auto larger = std::make_unique_for_overwrite<std::byte[]>(capacity);
+    if (size_ > 0) std::memcpy(larger.get(), memory_.get(), size_);
+    memory_ = std::move(larger);
+    capacity_ = capacity;
+  }
+
+  std::unique_ptr<std::byte[]> memory_;
+  std::size_t capacity_ = 0, size_ = 0;
+  std::vector<std::vector<IndexEntry>> entries_;
+  std::uint64_t messages_ = 0;
+  std::int64_t start_ = 0, end_ = 0;  // ns
+};
+
+}  // namespace jarol::mcap

@@ -1,0 +1,194 @@
+#include "runtime/mcap/writer.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <numeric>
+#include <system_error>
+
+#include "runtime/mcap/crc32.h"
+
+namespace jarol::mcap {
+namespace {
+
+void put_head(std::string& to, Opcode opcode, std::uint64_t length) {
+  put(to, static_cast<std::uint8_t>(opcode));
+  put(to, length);
+}
+
+std::string index_record(const ChunkPlace& chunk) {
+  std::string content, indexes;
+  for (const std::int64_t time : {chunk.start, chunk.end}) put(content, time);
+  put(content, chunk.offset);
+  put(content, chunk.length);
+  for (const auto& [channel, offset] : chunk.indexes) {
+    put(indexes, channel);
+    put(indexes, offset);
+  }
+  put_text(content, indexes);
+  put(content, chunk.index_length);
+  put_text(content, chunk.compression);
+  put(content, chunk.compressed);
+  put(content, chunk.uncompressed);
+  return record_of(Opcode::chunk_index, content);
+}
+
+}  // namespace
+
+Writer::Writer(std::FILE* file, Compression compression, std::string_view library)
+    : file_(file), compression_(compression) {
+  std::string content;
+  put_text(content, "");  // no profile
+  put_text(content, library);
+  put_out(magic);
+  put_out(record_of(Opcode::header, content));
+  flush();
+}
+
+void Writer::write(const Attachment& attachment) {
+  const std::uint64_t offset = offset_;
+  std::string content;
+  for (int i = 0; i < 2; ++i) put(content, std::uint64_t{0});  // its times
+  put_text(content, attachment.name);
+  put_text(content, attachment.media_type);
+  put(content, static_cast<std::uint64_t>(attachment.data.size()));
+  content += attachment.data;
+  put(content, crc32(content));
+  const std::string record = record_of(Opcode::attachment, content);
+  put_out(record);
+  flush();
+  std::string index;
+  for (const std::uint64_t number : {offset, std::uint64_t{record.size()}, std::uint64_t{0}, std::uint64_t{0},
+                                     std::uint64_t{attachment.data.size()}})
+    put(index, number);
+  put_text(index, attachment.name);
+  put_text(index, attachment.media_type);
+  attachment_indexes_ += record_of(Opcode::attachment_index, index);
+  ++attachments_;
+}
+
+void Writer::write(const Chunk& chunk) {
+  const std::string_view records = chunk.records();
+  std::string_view stored = records;
+  Compression compression = compression_;
+  if (compression != Compression::none) {
+    compress(compression, records, compressed_);
+    if (compressed_.size() < records.size())
+      stored = compressed_;
+    else
+      compression = Compression::none;
+  }
+  ChunkPlace place{.start = chunk.start(),
+                   .end = chunk.end(),
+                   .offset = offset_,
+                   .compression = std::string(name_of(compression)),
+                   .compressed = stored.size(),
+                   .uncompressed = records.size(),
+                   .crc = crc32(records)};
+  const std::uint64_t length = 8 + 8 + 8 + 4 + (4 + place.compression.size()) + 8 + stored.size();
+  place.length = record_head + length;
+  head_.clear();
+  put_head(head_, Opcode::chunk, length);
+  put(head_, place.start);
+  put(head_, place.end);
+  put(head_, place.uncompressed);
+  put(head_, place.crc);
+  put_text(head_, place.compression);
+  put(head_, place.compressed);
+  put_out(head_);
+  if (compression == Compression::none)
+    put_out(stored, place.crc);
+  else
+    put_out(stored);
+  // all its indexes in one go
+  index_.clear();
+  const std::vector<std::vector<IndexEntry>>& entries = chunk.entries();
+  counts_.resize(std::max(counts_.size(), entries.size()));
+  for (std::size_t channel = 0; channel < entries.size(); ++channel) {
+    const std::vector<IndexEntry>& of_channel = entries[channel];
+    if (of_channel.empty()) continue;
+    counts_[channel] += of_channel.size();
+    place.indexes.emplace_back(static_cast<std::uint16_t>(channel), offset_ + index_.size());
+    const auto bytes = static_cast<std::uint32_t>(of_channel.size() * sizeof(IndexEntry));
+    put_head(index_, Opcode::message_index, 2 + 4 + bytes);
+    put(index_, static_cast<std::uint16_t>(channel));
+    put_text(index_, {reinterpret_cast<const char*>(of_channel.data()), bytes});
+  }
+  place.index_length = index_.size();
+  put_out(index_);
+  flush();
+  chunks_.push_back(std::move(place));
+}
+
+void Writer::end(const std::vector<Schema>& schemas, const std::vector<Channel>& channels) {
+  std::string data_end;
+  put(data_end, crc_);
+  put_out(record_of(Opcode::data_end, data_end));
+  const std::uint64_t summary = offset_;
+  crc_ = 0;
+  std::string offsets;
+  const auto put_group = [&](Opcode opcode, const std::string& records) {
+    if (records.empty()) return;
+    std::string content;
+    put(content, static_cast<std::uint8_t>(opcode));
+    put(content, offset_);
+    put(content, static_cast<std::uint64_t>(records.size()));
+    offsets += record_of(Opcode::summary_offset, content);
+    put_out(records);
+  };
+  std::string records;
+  for (const Schema& schema : schemas) records += record_of(schema);
+  put_group(Opcode::schema, records);
+  records.clear();
+  for (const Channel& channel : channels) records += record_of(channel);
+  put_group(Opcode::channel, records);
+  std::string counts, statistics;
+  for (std::size_t channel = 0; channel < counts_.size(); ++channel) {
+    if (counts_[channel] == 0) continue;
+    put(counts, static_cast<std::uint16_t>(channel));
+    put(counts, counts_[channel]);
+  }
+  std::int64_t start = chunks_.empty() ? 0 : chunks_.front().start, last = 0;
+  for (const ChunkPlace& chunk : chunks_) {
+    start = std::min(start, chunk.start);
+    last = std::max(last, chunk.end);
+  }
+  put(statistics, std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}));
+  put(statistics, static_cast<std::uint16_t>(schemas.size()));
+  put(statistics, static_cast<std::uint32_t>(channels.size()));
+  put(statistics, attachments_);
+  put(statistics, std::uint32_t{0});  // metadata
+  put(statistics, static_cast<std::uint32_t>(chunks_.size()));
+  put(statistics, start);
+  put(statistics, last);
+  put_text(statistics, counts);
+  put_group(Opcode::statistics, record_of(Opcode::statistics, statistics));
+  records.clear();
+  for (const ChunkPlace& chunk : chunks_) records += index_record(chunk);
+  put_group(Opcode::chunk_index, records);
+  put_group(Opcode::attachment_index, attachment_indexes_);
+  const std::uint64_t offsets_at = offset_;
+  put_out(offsets);
+  std::string footer;
+  put_head(footer, Opcode::footer, 8 + 8 + 4);
+  put(footer, summary);
+  put(footer, offsets_at);
+  put(footer, crc32(footer, crc_));
+  put_out(footer);
+  put_out(magic);
+  flush();
+}
+
+void Writer::put_out(std::string_view bytes) { put_out(bytes, crc32(bytes)); }
+
+void Writer::put_out(std::string_view bytes, std::uint32_t crc) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
+    throw std::system_error(errno, std::generic_category());
+  offset_ += bytes.size();
+  crc_ = joined_crc32(crc_, crc, bytes.size());
+}
+
+void Writer::flush() {
+  if (std::fflush(file_) != 0) throw std::system_error(errno, std::generic_category());
+}
+
+}  // namespace jarol::mcap

@@ -1,0 +1,43 @@
+// Writes an MCAP file from its begin to its end: attachments, chunks with their indexes, and the summary by which
+// readers seek. What is written is never changed: what a killed program leaves is readable up to its last chunk.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/mcap/chunk.h"
+#include "runtime/mcap/compression.h"
+
+namespace jarol::mcap {
+
+class Writer {
+ public:
+  /// The file stays the caller's. Throws std::system_error where it can't be written; so do the others.
+  Writer(std::FILE* file, Compression compression, std::string_view library);
+
+  void write(const Attachment& attachment);
+  void write(const Chunk& chunk);
+  /// The summary; `schemas` and `channels` are those of all chunks.
+  void end(const std::vector<Schema>& schemas, const std::vector<Channel>& channels);
+
+  std::uint64_t bytes() const { return offset_; }
+
+ private:
+  void put_out(std::string_view bytes);
+  void put_out(std::string_view bytes, std::uint32_t crc);
+  void flush();
+
+  std::FILE* file_;
+  Compression compression_;
+  std::uint64_t offset_ = 0;
+  std::uint32_t crc_ = 0;  // of all that was written
+  std::vector<ChunkPlace> chunks_;
+  std::vector<std::uint64_t> counts_;  // messages, per channel
+  std::string attachment_indexes_;     // records
+  std::uint32_t attachments_ = 0;
+  std::string head_, compressed_, index_;  // memory that is used again
+};
+
+}  // namespace jarol::mcap

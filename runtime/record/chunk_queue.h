@@ -1,0 +1,59 @@
+// Chunks on their way to the file: a thread of its own writes them, so that nobody else waits for the disk.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "runtime/mcap/chunk.h"
+
+namespace jarol {
+
+class ChunkQueue {
+ public:
+  using ChunkPointer = std::unique_ptr<mcap::Chunk>;
+
+  ChunkQueue() = default;
+  ~ChunkQueue();
+  ChunkQueue(const ChunkQueue&) = delete;
+  ChunkQueue& operator=(const ChunkQueue&) = delete;
+
+  /// From now on `write` gets the chunks, in the order in which they were pushed, on the thread of the queue. After
+  /// what it throws it is called no more.
+  void start(std::function<void(const mcap::Chunk&)> write);
+
+  /// An empty chunk, with the memory of one that was written if there is one.
+  ChunkPointer empty_chunk();
+
+  /// However many wait to be written.
+  void push(ChunkPointer chunk);
+  /// Waits until fewer than `room` wait.
+  void wait_and_push(ChunkPointer chunk);
+  /// False: so many wait already, and the chunk stays the caller's.
+  bool push_if_room(ChunkPointer& chunk);
+  /// Chunks that may wait, but for those that are pushed in any case.
+  static constexpr std::size_t room = 16;
+
+  /// Ends the thread once all is written; throws what `write` threw.
+  void close();
+
+ private:
+  void run();
+  void put(ChunkPointer chunk);
+
+  std::function<void(const mcap::Chunk&)> write_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<ChunkPointer> waiting_;
+  std::vector<ChunkPointer> spare_;
+  bool ended_ = false;
+  std::exception_ptr failure_;
+  std::thread thread_;
+};
+
+}  // namespace jarol

@@ -1,0 +1,74 @@
+#include "runtime/record/instants.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "graph/language/problems.h"
+
+namespace jarol {
+namespace {
+constexpr std::size_t channels = 65536;
+
+// What a replay needs is recorded apart from what is published and what happens beside that.
+bool is_of_inputs(const ReadTopic& topic) {
+  const std::string& name = topic.channel.topic;
+  return topic.is_own() && name != topics::events && name != topics::gaps;
+}
+}  // namespace
+
+RecordedInstants::RecordedInstants(const Recording& recording, const std::vector<bool>& wanted, Duration from)
+    : recording_(recording) {
+  cursors_.reserve(2);  // what a cursor shows lies in it
+  for (const bool of_inputs : {true, false}) {
+    std::vector<bool> some(channels);
+    bool any = false;
+    for (const auto& [id, topic] : recording.topics())
+      if (wanted[id] && is_of_inputs(topic) == of_inputs) some[id] = any = true;
+    if (any) cursors_.emplace_back(recording, std::move(some), from);
+  }
+}
+
+bool RecordedInstants::next() {
+  messages_.clear();
+  bool any = false;
+  for (const MessageCursor& cursor : cursors_) {
+    if (cursor.message() == nullptr) continue;
+    const Duration instant(cursor.message()->time);
+    instant_ = any ? std::min(instant_, instant) : instant;
+    any = true;
+  }
+  for (MessageCursor& cursor : cursors_)
+    for (const mcap::Message* m = cursor.message(); m != nullptr && Duration(m->time) <= instant_;
+         cursor.next(), m = cursor.message())
+      messages_.push_back({&recording_.topics().at(m->channel), std::string(m->data)});
+  std::stable_sort(messages_.begin(), messages_.end(),
+                   [](const Message& a, const Message& b) { return a.topic->channel.topic < b.topic->channel.topic; });
+  return any;
+}
+
+std::vector<bool> channels_named(const Recording& recording, const std::string& option, const std::string& patterns) {
+  std::vector<bool> named(channels);
+  std::istringstream words(patterns + ",");
+  for (std::string word; std::getline(words, word, ',');) {
+    bool fits = false;
+    for (const auto& [id, topic] : recording.topics())
+      if (fnmatch(word.c_str(), topic.channel.topic.c_str(), 0) == 0) named[id] = fits = true;
+    if (fits) continue;
+    std::vector<std::string> names;
+    for (const auto& [id, topic] : recording.topics()) names.push_back(topic.channel.topic);
+    throw std::invalid_argument(option + ": the recording has no topic '" + word + "'" + did_you_mean(word, names) +
+                                "; it has: " + list_of(names));
+  }
+  return named;
+}
+
+std::vector<bool> published_channels(const Recording& recording) {
+  std::vector<bool> published(channels);
+  for (const auto& [id, topic] : recording.topics()) published[id] = !topic.is_own();
+  return published;
+}
+
+}  // namespace jarol

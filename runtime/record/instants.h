@@ -1,0 +1,41 @@
+// The messages of a recording instant by instant, those of one instant by topic.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/record/recording.h"
+
+namespace jarol {
+
+class RecordedInstants {
+ public:
+  struct Message {
+    const ReadTopic* topic = nullptr;
+    std::string data;
+  };
+
+  /// The recording outlives it. By channel which topics; instants before `from` are left out.
+  RecordedInstants(const Recording& recording, const std::vector<bool>& wanted, Duration from = {});
+
+  /// False: there are no more.
+  bool next();
+  Duration instant() const { return instant_; }
+  /// Of that instant, in bytewise order of topics; of one that comes twice as it was recorded.
+  const std::vector<Message>& messages() const { return messages_; }
+
+ private:
+  const Recording& recording_;
+  std::vector<MessageCursor> cursors_;  // one for each of the streams that chunks are made of
+  Duration instant_{};
+  std::vector<Message> messages_;
+};
+
+/// Which channels have a topic that fits one of the patterns, with * for any part, separated by commas. Throws
+/// std::invalid_argument, "`option`: ...", where one fits none.
+std::vector<bool> channels_named(const Recording& recording, const std::string& option, const std::string& patterns);
+
+/// The channels of published values.
+std::vector<bool> published_channels(const Recording& recording);
+
+}  // namespace jarol

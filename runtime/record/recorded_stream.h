@@ -1,0 +1,92 @@
+// A sink that puts what it takes into chunks of a recording: a topic for each output, and the chunks handed to the
+// queue.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include "runtime/record/cdr.h"
+#include "runtime/record/chunk_queue.h"
+#include "runtime/record/recording_format.h"
+#include "runtime/record/sink.h"
+
+namespace jarol {
+
+/// A topic that is to stand in a recording.
+struct RecordedTopic {
+  mcap::Channel channel;
+  const Type* type = nullptr;
+};
+
+class RecordedStream : public RecordSink {
+ public:
+  /// What becomes of chunks where the disk is behind.
+  enum class Pressure { keeps, waits, drops };
+
+  /// By output the topic for it; none: it is not recorded. `beside`: the topics for events and gaps. `schemas`: of all.
+  RecordedStream(ChunkQueue& queue, Pressure pressure, const std::vector<mcap::Schema>& schemas,
+                 const std::vector<std::optional<RecordedTopic>>& topics, const std::vector<RecordedTopic>& beside);
+
+  bool wants(std::uint32_t output) const override { return output < lanes_.size() && lanes_[output].wanted; }
+  void take(Duration instant, std::uint32_t output, const void* value) override;
+  void take_event(const RunEvent& event) override;
+  void pause() override;
+  void finish() override;
+
+  /// A value of the i-th topic beside the outputs.
+  void append_beside(std::size_t i, Duration instant, const void* value);
+  /// Names of tasks, for events.
+  void name_tasks(std::vector<std::string> names) { task_names_ = std::move(names); }
+
+  /// Values that are not in the recording, as the disk was behind.
+  std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  struct Lane {
+    CdrEncoder encoder;
+    std::uint16_t channel = 0;
+    std::uint32_t next = 0;  // number of its message
+    bool wanted = true;
+  };
+  static constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
+  static constexpr std::size_t small_chunk_bytes = std::size_t{1} << 16;
+
+  void append(Lane& lane, Duration instant, const void* value);
+  void hand_on(bool last = false);
+  void add_to_gap(std::uint64_t values);
+
+  ChunkQueue& queue_;
+  const Pressure pressure_;
+  std::vector<Lane> lanes_;  // per output
+  std::vector<Lane> beside_;
+  std::vector<std::string> task_names_;
+  ChunkQueue::ChunkPointer chunk_;
+  std::chrono::steady_clock::time_point handed_on_{};
+  std::string descriptions_;  // records that stand before the first message
+  bool are_described_ = false;
+  bool is_first_ = true;    // no chunk was written yet
+  std::optional<Gap> gap_;  // since the newest chunk that was written
+  std::uint64_t dropped_ = 0;
+};
+
+/// What happens beside publications, as it is recorded.
+struct RecordedEvent {
+  RunEvent::Kind kind = RunEvent::Kind::fault;
+  std::int64_t activation = 0;  // of a fault
+  String task{};                // of a fault
+  String cause{};               // of a fault, in words
+
+  static constexpr auto fields() {
+    return describe(field<&RecordedEvent::kind>(), field<&RecordedEvent::activation>(), field<&RecordedEvent::task>(),
+                    field<&RecordedEvent::cause>());
+  }
+};
+
+constexpr std::array<Enumerator<RunEvent::Kind>, 3> enumerators(RunEvent::Kind) {
+  return {{{"fault", RunEvent::Kind::fault},
+           {"rest_begun", RunEvent::Kind::rest_begun},
+           {"at_rest", RunEvent::Kind::at_rest}}};
+}
+
+}  // namespace jarol

@@ -1,0 +1,178 @@
+#include "runtime/record/recording.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "graph/language/inputs.h"
+
+namespace jarol {
+namespace {
+
+constexpr std::string_view old_format = "{\"schema\":\"jarol.log/1\"";
+
+bool is_old_log(const std::string& path) {
+  std::string begin(old_format.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == old_format;
+}
+
+}  // namespace
+
+Recording::Recording(std::string path, const Visit& visit) : path_(std::move(path)) {
+  std::error_code none;
+  const auto status = std::filesystem::status(path_, none);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    fail("is no regular file, and a recording is read twice; give a file");
+  try {
+    mcap::Reader reader(path_);
+    note_input(path_);
+    size_ = reader.size();
+    read_begin(reader);
+    read_chunks(reader, visit);
+  } catch (const std::system_error& error) {
+    throw LogError("can't read '" + path_ + "': " + error.code().message());
+  } catch (const mcap::FormatError&) {
+    if (is_old_log(path_))
+      fail("is a log of jarol 0.1.0, before logs were MCAP recordings; replay it with that version, or run again");
+    fail("is no recording; one comes from jarol run --record or --log");
+  }
+}
+
+// The header of the file and the attachments, which a run writes first.
+void Recording::read_begin(mcap::Reader& reader) {
+  mcap::Record record;
+  if (!reader.next(record) || record.opcode != mcap::Opcode::header) throw mcap::FormatError("no header");
+  good_until_ = reader.offset();
+  bool is_first = true;
+  while (reader.next(record) && record.opcode == mcap::Opcode::attachment) {
+    mcap::Attachment attachment;
+    try {
+      attachment = mcap::read_attachment(record.content);
+    } catch (const mcap::FormatError&) {
+      fail("is damaged at byte " + std::to_string(record.offset) + ", before what was recorded, and can't be replayed");
+    }
+    if (is_first) {
+      if (attachment.name != RecordingHeader::attachment) throw mcap::FormatError("no recording");
+      try {
+        header_ = parse_header(attachment.data);
+      } catch (const LogError&) { throw mcap::FormatError("no recording"); }
+    } else {
+      files_.push_back({std::move(attachment.name), std::move(attachment.data)});
+    }
+    is_first = false;
+    good_until_ = reader.offset();
+  }
+  if (is_first) throw mcap::FormatError("no recording");
+  for (const std::string& set : header_.overrides.set)
+    if (names_plugins(set))
+      fail("sets '" + set + "', and a recording names no code to load; it is none that jarol run has written");
+  reader.seek(good_until_);
+}
+
+void Recording::read_chunks(mcap::Reader& reader, const Visit& visit) {
+  mcap::Record record;
+  bool ended = false;
+  while (reader.next(record)) {
+    if (record.opcode == mcap::Opcode::footer && ended) {
+      whole_ = reader.bytes(reader.offset(), mcap::magic.size()) == mcap::magic;
+      if (whole_) good_until_ = reader.offset() + mcap::magic.size();
+      if (!whole_) flaw_ = "an end without its mark";
+      return;
+    }
+    if (ended) continue;  // the summary
+    try {
+      if (record.opcode == mcap::Opcode::chunk)
+        read_chunk(record, visit);
+      else if (record.opcode == mcap::Opcode::data_end)
+        ended = true;
+      else
+        mcap::require_message_index(record);
+    } catch (const mcap::FormatError& error) {
+      flaw_ = error.what();
+      return;
+    }
+    if (!ended) good_until_ = reader.offset();
+  }
+  flaw_ = "a record that breaks off";
+}
+
+void Recording::read_chunk(const mcap::Record& record, const Visit& visit) {
+  const mcap::ReadChunk chunk = mcap::read_chunk(record.content);
+  ReadPlace place{record.offset, mcap::record_head + record.content.size(), chunk.start, chunk.end, 65535, 0};
+  mcap::for_each_record(chunk.records, [&](mcap::Opcode opcode, std::string_view content, std::size_t) {
+    if (opcode == mcap::Opcode::schema) {
+      mcap::Schema schema = mcap::read_schema(content);
+      schemas_[schema.id] = std::move(schema);
+    } else if (opcode == mcap::Opcode::channel) {
+      mcap::Channel channel = mcap::read_channel(content);
+      const auto schema = schemas_.find(channel.schema);
+      if (schema == schemas_.end()) throw mcap::FormatError("a channel without a schema");
+      topics_.emplace(channel.id, ReadTopic{channel, schema->second.name, schema->second.text});
+    } else if (opcode == mcap::Opcode::message) {
+      const mcap::Message message = mcap::read_message(content);
+      const auto topic = topics_.find(message.channel);
+      if (topic == topics_.end()) throw mcap::FormatError("a message of no channel");
+      place.least_channel = std::min(place.least_channel, message.channel);
+      place.most_channel = std::max(place.most_channel, message.channel);
+      ++topic->second.messages;
+      if (visit) visit(message, topic->second, record.offset);
+    }
+  });
+  chunks_.push_back(place);
+}
+
+const ReadTopic* Recording::find(std::string_view topic) const {
+  for (const auto& [id, t] : topics_)
+    if (t.channel.topic == topic) return &t;
+  return nullptr;
+}
+
+void Recording::fail(const std::string& what) const { throw LogError("'" + path_ + "' " + what); }
+
+MessageCursor::MessageCursor(const Recording& recording, std::vector<bool> wanted, Duration from)
+    : reader_(recording.path()), wanted_(std::move(wanted)), from_(from.count()) {
+  wanted_.resize(65536);
+  for (const ReadPlace& chunk : recording.chunks())
+    if (chunk.end >= from_ && wants(chunk)) chunks_.push_back(chunk);
+  next();
+}
+
+bool MessageCursor::wants(const ReadPlace& chunk) const {
+  for (std::size_t channel = chunk.least_channel; channel <= chunk.most_channel; ++channel)
+    if (wanted_[channel]) return true;
+  return false;
+}
+
+void MessageCursor::open_chunk() {
+  reader_.seek(chunks_[at_++].offset);
+  mcap::Record record;
+  if (!reader_.next(record)) throw mcap::FormatError("a chunk that is gone");
+  records_ = mcap::read_chunk(record.content).records;
+  place_ = 0;
+}
+
+void MessageCursor::next() {
+  message_.reset();
+  for (;;) {
+    if (place_ == records_.size()) {
+      if (at_ == chunks_.size()) return;
+      open_chunk();
+      continue;
+    }
+    std::uint64_t length = 0;  // checked when the recording was read
+    std::memcpy(&length, records_.data() + place_ + 1, sizeof length);
+    const std::string_view content = std::string_view(records_).substr(place_ + mcap::record_head, length);
+    const bool is_message = static_cast<mcap::Opcode>(records_[place_]) == mcap::Opcode::message;
+    place_ += mcap::record_head + length;
+    if (!is_message) continue;
+    const mcap::Message message = mcap::read_message(content);
+    if (!wanted_[message.channel] || message.time < from_) continue;
+    message_ = message;
+    return;
+  }
+}
+
+}  // namespace jarol

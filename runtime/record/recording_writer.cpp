@@ -1,0 +1,140 @@
+#include "runtime/record/recording_writer.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "graph/values/type_of.h"
+#include "runtime/files/sync.h"
+#include "runtime/files/whole_file.h"
+#include "runtime/record/ros2msg.h"
+#include "runtime/record/select_outputs.h"
+
+namespace jarol {
+namespace {
+
+constexpr std::string_view library = "jarol";
+
+// Nothing that somebody would miss: no regular file, an empty one, or a recording.
+bool may_be_replaced(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none) || std::filesystem::file_size(path, none) == 0) return true;
+  // magic, then the header: opcode, length, profile and library
+  std::string begin(mcap::magic.size() + mcap::record_head + 4 + 4 + library.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin.starts_with(mcap::magic) && begin.ends_with(library);
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(std::string path, RecordingHeader header, std::vector<RecordedFile> files,
+                                 const Graph& graph, mcap::Compression compression)
+    : path_(std::move(path)), header_(std::move(header)), files_(std::move(files)), compression_(compression) {
+  for (const std::size_t i : logged_inputs(graph))
+    header_.inputs.push_back({graph.communicators[i].name, signature_of(*graph.communicators[i].type)});
+  for (const Task& task : graph.tasks) header_.tasks.push_back(task.name);
+  add_inputs(graph);
+  if (header_.what != "inputs") add_publications(graph);
+  recorder_ = std::make_unique<Recorder>(std::vector<RecordSink*>{&*inputs_});
+}
+
+RecordingWriter::~RecordingWriter() {
+  recorder_.reset();
+  try {
+    queue_.close();
+  } catch (...) {
+    // whoever cares for a loss closes first
+  }
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+RecordedTopic RecordingWriter::topic(std::string name, const Type& type, mcap::Texts metadata) {
+  constexpr std::size_t most = 65535;
+  if (channels_.size() == most)
+    throw std::invalid_argument("the graph has more outputs than the " + std::to_string(most) +
+                                " that a recording has room for; record fewer by --record-what");
+  MessageSchema schema = schema_of(type);
+  // one for all types that look the same, and a name for each
+  std::uint16_t id = 0;
+  int of_that_name = 1;
+  for (const mcap::Schema& s : schemas_) {
+    if (s.text == schema.text && (s.name == schema.name || s.name.starts_with(schema.name + "_"))) id = s.id;
+    of_that_name += s.name == schema.name || s.name.starts_with(schema.name + "_") ? 1 : 0;
+  }
+  if (id == 0) {
+    id = static_cast<std::uint16_t>(schemas_.size() + 1);
+    if (of_that_name > 1) schema.name += "_" + std::to_string(of_that_name);
+    schemas_.push_back({id, schema.name, "ros2msg", schema.text});
+  }
+  if (type.kind != Kind::structure) metadata["wrapped"] = "yes";
+  metadata["type"] = type.name;
+  channels_.push_back({static_cast<std::uint16_t>(channels_.size() + 1), id, std::move(name), "cdr", metadata});
+  return {channels_.back(), &type};
+}
+
+void RecordingWriter::add_inputs(const Graph& graph) {
+  std::vector<std::optional<RecordedTopic>> topics;
+  for (const Output& output : log_outputs(graph)) {
+    const bool own = output.name.starts_with(topics::own);
+    topics.push_back(topic(own ? output.name : std::string(topics::taken) + output.name, *output.type));
+  }
+  const std::vector<RecordedTopic> beside{topic(std::string(topics::end), type_of<LogEnd>())};
+  inputs_.emplace(queue_, RecordedStream::Pressure::keeps, schemas_, topics, beside);
+}
+
+void RecordingWriter::add_publications(const Graph& graph) {
+  std::vector<std::optional<RecordedTopic>> topics;
+  const std::vector<SelectedOutput> outputs = select_outputs(graph, header_.what);
+  for (const SelectedOutput& output : outputs)
+    topics.push_back(output.selected ? std::optional(topic(output.name, *output.type,
+                                                           {{"period_ns", std::to_string(output.period.count())},
+                                                            {"phase_ns", std::to_string(output.phase.count())}}))
+                                     : std::nullopt);
+  const std::vector<RecordedTopic> beside{topic(std::string(topics::events), type_of<RecordedEvent>()),
+                                          topic(std::string(topics::gaps), type_of<Gap>())};
+  publications_.emplace(queue_,
+                        header_.clock == "real" ? RecordedStream::Pressure::drops : RecordedStream::Pressure::waits,
+                        schemas_, topics, beside);
+  publications_->name_tasks(header_.tasks);
+}
+
+void RecordingWriter::open() {
+  require_no_input(path_);
+  lock_ = OutputLock(target_of(path_));
+  if (!may_be_replaced(path_)) fail("it is there and no recording; choose another file, or remove it");
+  file_ = std::fopen(path_.c_str(), "wb");
+  if (file_ == nullptr) fail(std::strerror(errno));
+  try {
+    writer_.emplace(file_, compression_, library);
+    writer_->write({RecordingHeader::attachment, "application/json", to_json(header_)});
+    for (const RecordedFile& file : files_) writer_->write({file.path, "text/plain", file.text});
+  } catch (const std::system_error& error) { fail(error.code().message()); }
+  queue_.start([this](const mcap::Chunk& chunk) { writer_->write(chunk); });
+}
+
+void RecordingWriter::close(const LogEnd& end) {
+  finish(end);
+  // what is in buffers goes out here at the latest, so that a full disk shows
+  if (!sync(file_)) fail(std::strerror(errno));
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(std::strerror(errno));
+  sync_folder_of(path_);
+}
+
+void RecordingWriter::finish(const LogEnd& end) {
+  recorder_->close();
+  inputs_->append_beside(0, Duration(end.covered), &end);
+  inputs_->finish();
+  try {
+    queue_.close();
+    writer_->end(schemas_, channels_);
+  } catch (const std::system_error& error) { fail(error.code().message()); }
+}
+
+void RecordingWriter::fail(const std::string& reason) const {
+  throw std::runtime_error("can't write '" + path_ + "': " + reason);
+}
+
+}  // namespace jarol

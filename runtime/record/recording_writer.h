@@ -1,0 +1,71 @@
+// Writes the recording of a run while it goes on: what a replay needs and, as asked for, what is published.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/files/output_lock.h"
+#include "runtime/mcap/writer.h"
+#include "runtime/record/log.h"
+#include "runtime/record/recorded_stream.h"
+#include "runtime/record/recorder.h"
+
+namespace jarol {
+
+/// A file that a run has read, as it was then.
+struct RecordedFile {
+  std::string path;  // from the root
+  std::string text;
+};
+
+class RecordingWriter {
+ public:
+  /// `header` without inputs and tasks, which are the graph's; its `what` says which outputs are recorded. Throws
+  /// std::invalid_argument if that names nothing.
+  RecordingWriter(std::string path, RecordingHeader header, std::vector<RecordedFile> files, const Graph& graph,
+                  mcap::Compression compression = mcap::Compression::lz4);
+  ~RecordingWriter();
+  RecordingWriter(const RecordingWriter&) = delete;
+  RecordingWriter& operator=(const RecordingWriter&) = delete;
+
+  /// For ExecutorOptions::log.
+  Recorder* recorder() { return recorder_.get(); }
+  /// For the recorder of publications; null: none are recorded.
+  RecordSink* publications() { return publications_ ? &*publications_ : nullptr; }
+
+  /// Before the run, when nothing else stands against it: makes the file, or replaces a recording. Throws
+  /// std::runtime_error, "can't write 'path': reason".
+  void open();
+
+  /// After the run and after the recorder of publications. Throws std::runtime_error if anything could not be written.
+  void close(const LogEnd& end);
+  /// The same but for closing the file: the system has all of it, the disk need not.
+  void finish(const LogEnd& end);
+
+  /// Published values that came faster than the disk took them, on the real clock.
+  std::uint64_t dropped() const { return publications_ ? publications_->dropped() : 0; }
+
+ private:
+  void add_inputs(const Graph& graph);
+  void add_publications(const Graph& graph);
+  RecordedTopic topic(std::string name, const Type& type, mcap::Texts metadata = {});
+  [[noreturn]] void fail(const std::string& reason) const;
+
+  std::string path_;
+  RecordingHeader header_;
+  std::vector<RecordedFile> files_;
+  mcap::Compression compression_;
+  OutputLock lock_;
+  std::FILE* file_ = nullptr;
+  std::vector<mcap::Schema> schemas_;
+  std::vector<mcap::Channel> channels_;
+  std::optional<mcap::Writer> writer_;
+  ChunkQueue queue_;
+  std::optional<RecordedStream> inputs_, publications_;
+  std::unique_ptr<Recorder> recorder_;
+};
+
+}  // namespace jarol

@@ -1,0 +1,187 @@
+// Recordings as the command makes them, compares them and looks into them.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "runtime/record/recording.h"
+#include "tests/tools/run_command.h"
+
+namespace {
+using command::TemporaryFolder;
+
+std::string content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+
+const std::string counting = "run specs/counting.yaml --for 2s --record ";
+}  // namespace
+
+TEST_SUITE("tools/log") {
+  TEST_CASE("a recorded run is the same again in every value, by any workers, and on the real clock") {
+    const TemporaryFolder folder;
+    for (const std::string how : {"--for 2s", "--for 2s --workers 2", "--for 2s --record-compression none",
+                                  "--for 300ms --clock real --force --record-compression zstd"}) {
+      CAPTURE(how);
+      const std::string file = folder / "r.mcap";
+      const auto run = command::jarol("run specs/counting.yaml --record " + file + " " + how);
+      REQUIRE((run.exit_code == 0 || run.exit_code == 3));  // 3: the machine was late
+      CHECK(has(run.output, "  recording   " + file + "\n"));
+      const auto replay = command::jarol("replay " + file);
+      CHECK(replay.exit_code == 0);
+      CHECK(has(replay.output, "  same        as the run on the "));
+      CHECK(has(replay.output, " values compared\n"));
+      CHECK(command::jarol("log verify " + file).output == file + ": every byte is as it was written\n");
+    }
+  }
+
+  TEST_CASE("the first difference is named with output, field, both values and their bits, and each signal's largest") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", graph = folder.write("g.yaml", R"(graph: g
+tasks:
+  count: {type: Counter, period: 100ms}
+  sum: {type: Accumulate, period: 100ms}
+connections: [count.out -> sum.in]
+)");
+    REQUIRE(command::jarol("run " + graph + " --for 5s --record " + file).exit_code == 0);
+    CHECK(has(command::jarol("replay " + file).output,
+              "  same        as the run on the virtual clock, 100 values compared\n"));
+    const auto other = command::jarol("replay " + file + " --set tasks.sum.init.out=0 --set tasks.sum.period=200ms");
+    CAPTURE(other.output);
+    CHECK(other.exit_code == 1);
+    CHECK(has(other.output, "  first       sum.out at 0.1 s: was published, is nothing\n"));
+    const auto json = nlohmann::json::parse(
+        command::jarol("replay " + file + " --json --set tasks.sum.period=200ms", "2>/dev/null").output);
+    CHECK(json["first_difference"]["instant_ns"] == 100'000'000);
+    CHECK(json["first_difference"]["output"] == "sum.out");
+    CHECK(json["compared_values"] == 100);
+    CHECK(json["signals"][0]["name"] == "sum.out");
+  }
+
+  TEST_CASE(
+      "some tasks by themselves are the same on what they read then, and show what they alone would do otherwise") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", graph = folder.write("g.yaml", R"(graph: g
+tasks:
+  count: {type: Counter, period: 100ms, let: 100ms}
+  sum: {type: Accumulate, period: 50ms, let: 20ms}
+  flow: {type: Accumulate, period: 100ms, offset: 10ms}
+connections: [count.out -> sum.in, sum.out -> flow.in]
+)");
+    REQUIRE(command::jarol("run " + graph + " --for 5s --record " + file).exit_code == 0);
+    for (const auto& [tasks, values] :
+         {std::pair<std::string, std::string>("sum", "100"), {"flow", "50"}, {"sum flow", "150"}, {"count", "49"}}) {
+      CAPTURE(tasks);
+      const auto replay = command::jarol("replay " + file + " --only " + tasks);
+      CAPTURE(replay.output);
+      CHECK(replay.exit_code == 0);
+      CHECK(has(replay.output, "  same        as the run on the virtual clock, " + values + " values compared\n"));
+    }
+    // what feeds it is as it was, whatever is changed there
+    CHECK(command::jarol("replay " + file + " --only flow --set tasks.count.init.out=5").exit_code == 0);
+    CHECK(command::jarol("replay " + file + " --set tasks.count.init.out=5").exit_code == 1);
+    const auto changed = command::jarol("replay " + file + " --only sum --set tasks.count.init.out=5");
+    CAPTURE(changed.output);
+    CHECK(changed.exit_code == 1);
+    CHECK(has(changed.output,
+              "  first       sum.out at 0.02 s: was 0 (0x0000000000000000), is 5 (0x4014000000000000)\n"));
+    CHECK(!has(changed.output, "  signal      flow.out"));
+    CHECK(has(command::jarol("replay " + file + " --only smu").output,
+              "error: --only: the graph has no task 'smu'; did you mean 'sum'?; it has: count, flow, sum\n"));
+    const std::string part = folder / "part.mcap";
+    REQUIRE(command::jarol("run " + graph + " --for 1s --record-what sum.out --record " + part).exit_code == 0);
+    CHECK(command::jarol("replay " + part + " --only sum").output ==
+          "error: --only: the recording has no values of 'count.out', which they read; record all that is published: "
+          "jarol run --record\n");
+  }
+
+  TEST_CASE("one bit of one input is found by instant and field") {
+    const TemporaryFolder folder;
+    const std::string a = folder / "a.mcap", b = folder / "b.mcap";
+    const std::string run = "run specs/counting.yaml --for 1s --record-compression none --record ";
+    REQUIRE(command::jarol(run + a).exit_code == 0);
+    REQUIRE(command::jarol(run + b + " --set tasks.loop.init.out=1").exit_code == 0);
+    CHECK(command::jarol("log diff " + a + " " + a).exit_code == 0);
+    const auto diff = command::jarol("log diff " + a + " " + b);
+    CAPTURE(diff.output);
+    CHECK(diff.exit_code == 1);
+    CHECK(diff.output.starts_with("DIFFERENT, "));
+    CHECK(has(diff.output, "  first       add.out at 0.01 s: was 0 (0x0000000000000000), is 1 (0x3ff0000000000000)\n"));
+    CHECK(has(diff.output, "  signal      sum.out from 0.01 s on, by at most 2 at 0.03 s\n"));
+    const auto json = nlohmann::json::parse(command::jarol("log diff --json " + a + " " + b, "2>/dev/null").output);
+    CHECK(json["verdict"] == "different");
+    // with --record-what only what is chosen
+    const std::string part = folder / "part.mcap";
+    REQUIRE(command::jarol(run + part + " --record-what 'count.*'").exit_code == 0);
+    CHECK(has(command::jarol("log diff " + a + " " + part).output, "  apart       'add.out' is only in A\n"));
+    const auto nothing = command::jarol(run + part + " --record-what cuont.out");
+    CHECK(nothing.exit_code == 2);
+    CHECK(has(nothing.output,
+              "error: --record-what: nothing that is published has the name 'cuont.out'; did you mean 'count.out'?"));
+  }
+
+  TEST_CASE("the table of a recording is the trace of the run") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", trace = folder / "r.csv", rates = folder / "rates";
+    REQUIRE(command::jarol(counting + file + " --trace " + trace).exit_code == 0);
+    CHECK(command::jarol("log csv " + file).output == content(trace));
+    CHECK(command::jarol("log csv " + file + " --by-rate " + rates).exit_code == 0);
+    std::size_t files = 0, rows = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(rates)) {
+      const std::string text = content(entry.path());
+      CAPTURE(text);
+      ++files;
+      rows += static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
+      CHECK(!has(text, ",,"));
+      CHECK(!has(text, ",\n"));
+    }
+    CHECK(files > 1);
+    CHECK(rows > 0);
+    const auto cat = command::jarol("log cat " + file + " --topic count.out --from 500ms --until 520ms");
+    CHECK(has(cat.output, "0.5 count.out="));
+    CHECK(!has(cat.output, "0.52 "));
+    CHECK(!has(cat.output, "loop"));
+    const auto info = command::jarol("log info " + file);
+    CHECK(info.exit_code == 0);
+    CHECK(info.output.starts_with("counting: 2 s on the virtual clock, "));
+    CHECK(has(info.output, "  count.out "));
+  }
+
+  TEST_CASE("log verify finds each changed byte of a small recording") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", graph = folder.write("g.yaml", R"(graph: g
+tasks: {count: {type: Counter, period: 100ms}}
+)");
+    REQUIRE(command::jarol("run " + graph + " --for 1s --record " + file).exit_code == 0);
+    std::string bytes = content(file);
+    // by the command here and there; byte by byte in tests/runtime/record/mcap_test.cpp
+    for (std::size_t i = 0; i < bytes.size(); i += 211) {
+      CAPTURE(i);
+      bytes[i] = static_cast<char>(bytes[i] ^ 4);
+      folder.write("damaged", bytes);
+      bytes[i] = static_cast<char>(bytes[i] ^ 4);
+      CHECK(command::jarol("log verify " + (folder / "damaged")).exit_code != 0);
+    }
+  }
+
+  TEST_CASE("options that would have no effect are refused") {
+    const auto error = [](const std::string& words) { return command::jarol(words).output; };
+    const std::string run = "run specs/counting.yaml --for 1s ";
+    CHECK(error(run + "--record x --log y") ==
+          "error: --log writes what --record with --record-what inputs does; leave one of both out\n");
+    CHECK(error(run + "--record-what inputs") ==
+          "error: --record-what is about --record; add --record FILE, or leave it out\n");
+    CHECK(error(run + "--record-compression zstd") ==
+          "error: --record-compression is about --record and --log; add one of them, or leave it out\n");
+    CHECK(error(run + "--record -") == "error: --record: '-' is no file; a recording is read by its name\n");
+    CHECK(error("log diff a") == "error: jarol log diff compares two recordings; name both\n");
+    CHECK(error("log cat a b") == "error: jarol log cat looks at one recording; leave 'b' out\n");
+    CHECK(error("log info a --topic x") == "error: --topic belongs to cat, csv and diff\n");
+    CHECK(error("log cat specs/counting.yaml") ==
+          "error: 'specs/counting.yaml' is no recording; one comes from jarol run --record or --log\n");
+  }
+}

@@ -1,0 +1,75 @@
+// jarol log: looks into recordings.
+#include <memory>
+#include <stdexcept>
+
+#include "graph/language/quantities.h"
+#include "tools/commands/commands.h"
+#include "tools/log/log_commands.h"
+#include "tools/report/command_line.h"
+
+namespace jarol::tools {
+namespace {
+
+struct Words : LogOptions {
+  std::string what, from_text, until_text;
+};
+
+Duration time_of(const std::string& option, const std::string& text, Duration otherwise) {
+  if (text.empty()) return otherwise;
+  Duration time{};
+  const std::string wrong = parse_duration(text, time);
+  if (!wrong.empty()) throw std::invalid_argument(option + ": '" + text + "' " + wrong);
+  return time;
+}
+
+int look(const Command& command, Words& words) {
+  words.from = time_of("--from", words.from_text, {});
+  words.until = time_of("--until", words.until_text, Duration::max());
+  const std::string& what = words.what;
+  if (what == "diff" && words.other.empty())
+    throw std::invalid_argument("jarol log diff compares two recordings; name both");
+  if (what != "diff" && !words.other.empty())
+    throw std::invalid_argument("jarol log " + what + " looks at one recording; leave '" + words.other + "' out");
+  if (what == "info" || what == "verify")
+    command.refuse({"--topic", "--from", "--until"}, "belongs to cat, csv and diff");
+  if (what == "diff") command.refuse({"--topic"}, "belongs to cat and csv");
+  if (what != "csv") command.refuse({"--by-rate"}, "belongs to csv");
+  if (what == "cat" || what == "csv") command.refuse({"--json"}, "belongs to info, verify and diff");
+  if (what == "info") return log_info(words);
+  if (what == "cat") return log_cat(words);
+  if (what == "csv") return log_csv(words);
+  if (what == "verify") return log_verify(words);
+  return log_diff(words);
+}
+
+}  // namespace
+
+void add_log(CommandLine& line, int& exit_code) {
+  auto words = std::make_shared<Words>();
+  Command* command =
+      line.add_subcommand("log",
+                          "Look into a recording of jarol run --record or --log:\n"
+                          "  info    what run it is, its topics, whether it is whole\n"
+                          "  cat     a line for each message\n"
+                          "  csv     published values as a table, a row for each instant\n"
+                          "  verify  is every byte as it was written?\n"
+                          "  diff    the first difference of two, then of each signal the largest and when\n"
+                          "Exit code: 0 good, 1 damaged or different, 2 bad input");
+  command->add_option("WHAT", words->what, "info, cat, csv, verify or diff")
+      ->required()
+      ->one_of({"info", "cat", "csv", "verify", "diff"});
+  command->add_option("FILE", words->file, "The recording")->required();
+  command->add_option("OTHER", words->other, "Of diff: the one to compare it with");
+  command->add_option(
+      "--topic", words->topics,
+      "These topics: names with * for any part, as in depth.*,from_dune; default: of cat all, of csv all that "
+      "is published");
+  command->add_option("--from", words->from_text, "From that instant on, as in 3s");
+  command->add_option("--until", words->until_text, "Before that instant");
+  command->add_option("--by-rate", words->by_rate,
+                      "Of csv: into this folder, a file for each period and place in it, without empty cells");
+  command->add_flag("--json", words->json, "One JSON object instead of text");
+  command->callback([words, command, &exit_code] { exit_code = look(*command, *words); });
+}
+
+}  // namespace jarol::tools

@@ -1,0 +1,24 @@
+// What `jarol log` does with recordings; each prints, and returns an exit code.
+#pragma once
+
+#include <string>
+
+#include "runtime/plan/output.h"
+
+namespace jarol::tools {
+
+struct LogOptions {
+  std::string file, other;  // two of `diff`
+  std::string topics;       // patterns; empty: all
+  Duration from{}, until = Duration::max();
+  std::string by_rate;  // a folder
+  bool json = false;
+};
+
+int log_info(const LogOptions& options);
+int log_cat(const LogOptions& options);
+int log_csv(const LogOptions& options);
+int log_verify(const LogOptions& options);
+int log_diff(const LogOptions& options);
+
+}  // namespace jarol::tools

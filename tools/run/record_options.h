@@ -1,0 +1,37 @@
+// The recording that a run writes, as options ask for it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "graph/language/source_set.h"
+#include "runtime/record/recording_writer.h"
+
+namespace jarol::tools {
+
+class Command;
+
+struct RecordArguments {
+  std::string record, log;  // the file, by one of both
+  std::string what = "all";
+  std::string compression = "lz4";
+
+  const std::string& file() const { return record.empty() ? log : record; }
+};
+
+void add_record_options(Command& command, RecordArguments& arguments);
+
+/// Throws where an option would have no effect.
+void require_effect(const Command& command, const RecordArguments& arguments);
+
+/// Null: none is asked for. `header` as far as the options of the run say it; `sources`: what was read to load the
+/// graph.
+std::unique_ptr<RecordingWriter> make_recording(const RecordArguments& arguments, RecordingHeader header,
+                                                const SourceSet& sources, const Graph& graph);
+
+/// A line of the report that names it.
+std::string to_text(const RecordArguments& arguments);
+/// A line of what is not in it, or nothing.
+std::string text_of_dropped(const RecordArguments& arguments, const RecordingWriter& writer);
+
+}  // namespace jarol::tools
