@@ -61,7 +61,7 @@ std::vector<Verdict> judge(const std::vector<std::string>& conditions, Duration 
   graph.expectations =
       expect::read_expectations(spec.expect, graph, {{expect::TrueValues::Where::here, &type_of<Truth>()}}, problems);
   problems.throw_if_any();
-  Expectations expectations(graph, outputs_of(graph));
+  Expectations expectations(graph, outputs_of(graph), graph.expectations);
   Recorder recorder({&expectations});
   std::vector<std::unique_ptr<Channels>> channels;
   channels.push_back(std::make_unique<Going>());
