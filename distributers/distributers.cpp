@@ -37,18 +37,20 @@ void add_links(NamedList<LinkType>& links) {
 }
 
 std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph, const Registries& known, std::uint64_t seed,
-                                                     Problems& problems) {
-  return make_channels(graph, graph.distributers, known, seed, problems);
+                                                     Problems& problems,
+                                                     std::vector<std::shared_ptr<const Source>>* files) {
+  return make_channels(graph, graph.distributers, known, seed, problems, files);
 }
 
 std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph, const std::vector<Distributer>& distributers,
-                                                     const Registries& known, std::uint64_t seed, Problems& problems) {
+                                                     const Registries& known, std::uint64_t seed, Problems& problems,
+                                                     std::vector<std::shared_ptr<const Source>>* files) {
   std::vector<std::unique_ptr<Channels>> all;
   for (std::size_t i = 0; i < distributers.size(); ++i) {
     const Distributer& distributer = distributers[i];
     all.emplace_back();
     if (distributer.distributer_class == nullptr || distributer.link.kind != Yaml::Kind::mapping) continue;
-    const LinkRequest request{graph, distributer, i, known.vehicles, spread_seed(seed, distributer.name)};
+    const LinkRequest request{graph, distributer, i, known.vehicles, spread_seed(seed, distributer.name), files};
     const std::vector<std::string> links = links_of(*distributer.distributer_class, known.links);
     const std::string can = "; a " + distributer.distributer_class->name + " can have: " + list_of(links);
     const Yaml* type = distributer.link.find("type");

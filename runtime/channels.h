@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "graph/values/archive.h"
 #include "graph/values/type_of.h"
 
 namespace jarol {
@@ -74,6 +75,9 @@ class Channels {
 
   /// Sends what was handed over, where it would wait for the next instant. Throws std::runtime_error if it can't.
   virtual void flush() {}
+
+  /// What changes while a run goes on, on the virtual clock, between two instants. Throws NotSaveable.
+  virtual void serialize(Archive&) { throw NotSaveable("its link can't be saved"); }
 
   /// The instant at which the mission ends, for an external system that has one.
   virtual std::optional<Duration> end() const { return std::nullopt; }

@@ -89,8 +89,9 @@ TEST_SUITE("tree") {
     for (const auto& [folder, may] : allowed)
       for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         // what the one unit that knows Simbody shares within itself
-        const bool in_unit =
-            entry.path() == "vehicles/mechanics/frames.h" || entry.path() == "vehicles/mechanics/force_with_input.h";
+        const bool in_unit = entry.path() == "vehicles/mechanics/frames.h" ||
+                             entry.path() == "vehicles/mechanics/force_with_input.h" ||
+                             entry.path() == "vehicles/mechanics/integrator_archive.h";
         if (entry.path().extension() != ".h" || in_unit) continue;
         std::ifstream in(entry.path());
         for (std::string line; std::getline(in, line);)

@@ -58,6 +58,7 @@ int run_command(int argc, char** argv) {
   tools::add_check(line, exit_code);
   tools::add_doctor(line, exit_code);
   tools::add_graph(line, exit_code);
+  tools::add_isolation(line, exit_code);
   tools::add_log(line, exit_code);
   tools::add_messages(line, exit_code);
   tools::add_replay(line, exit_code);

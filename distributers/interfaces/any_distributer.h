@@ -9,6 +9,7 @@
 #include "distributers/messages/message.h"
 #include "distributers/messages/message_set.h"
 #include "graph/language/quantities.h"
+#include "graph/values/archive.h"
 
 namespace jarol::distributers {
 
@@ -42,6 +43,9 @@ class AnyDistributer : public messages::Receiver {
 
   /// Turns a value of an `out` channel into messages for the external system.
   virtual void hand_over(std::size_t channel, const void* value, messages::Receiver& system) = 0;
+
+  /// What changes while a run goes on, between two instants. Throws NotSaveable.
+  virtual void serialize(Archive& archive) = 0;
 
   /// What is handed over next follows what another has sent, which is not known.
   virtual void take_over() = 0;

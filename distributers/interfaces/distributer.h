@@ -27,7 +27,8 @@
 //
 // It may have further members, each called at its time, see any_distributer.h: reach(Duration, messages::Receiver&),
 // announce(Duration, messages::Receiver&), any_message(), peer_changed(), listen_at(const std::string&), finish(),
-// take_over(), non_finite_inputs() const.
+// take_over(), non_finite_inputs() const; and serialize(Archive&), which gives the archive all that changes while a run
+// goes on beside `in`: without it a run can be saved only where there is nothing of that sort.
 #pragma once
 
 #include <concepts>
@@ -36,6 +37,7 @@
 #include <tuple>
 
 #include "distributers/messages/message.h"
+#include "graph/values/archive.h"
 #include "graph/values/describe.h"
 
 namespace jarol::distributers {
@@ -57,6 +59,10 @@ struct Newest {
   }
   const T& operator*() const { return value; }
   const T* operator->() const { return &value; }
+  void serialize(Archive& archive) {
+    archive(is_new);
+    archive.value(type_of<T>(), &value);
+  }
 
   T value{};
   bool is_new = false;  // and not taken yet
@@ -66,6 +72,7 @@ struct Newest {
 template <class T>
 struct Computed {
   using Value = T;
+  void serialize(Archive&) {}
 };
 
 /// Describes a channel: a member of In or Out.

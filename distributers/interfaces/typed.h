@@ -96,6 +96,7 @@ JAROL_HOOK(non_finite_inputs, "()", static_cast<std::uint64_t>(d.non_finite_inpu
 JAROL_HOOK(listen_at, "(const std::string& address)", d.listen_at(std::declval<const std::string&>()))
 JAROL_HOOK(reach, "(Duration instant, messages::Receiver& system)",
            d.reach(Duration{}, std::declval<messages::Receiver&>()))
+JAROL_HOOK(serialize, "(Archive& archive)", d.serialize(std::declval<Archive&>()))
 JAROL_HOOK(announce, "(Duration instant, messages::Receiver& all)",
            d.announce(Duration{}, std::declval<messages::Receiver&>()))
 #undef JAROL_HOOK
@@ -140,6 +141,15 @@ class Typed final : public AnyDistributer {
   void take_over() override {
     if constexpr (detail::has_take_over<D>) distributer_.take_over();
   }
+  // of a distributer that does not say what it has beside `in`, it is looked whether there can be anything
+  void serialize(Archive& archive) override {
+    if constexpr (requires { distributer_.in; })
+      std::apply([&](auto... f) { archive((distributer_.in.*(f.pointer))...); }, In::fields());
+    if constexpr (detail::has_serialize<D>)
+      distributer_.serialize(archive);
+    else if constexpr (!has_nothing_beside_in())
+      throw NotSaveable(std::string(type_name<D>()) + " has members of its own, and no serialize(Archive&)");
+  }
   std::uint64_t non_finite_inputs() const override {
     if constexpr (detail::has_non_finite_inputs<D>) return distributer_.non_finite_inputs();
     return 0;
@@ -180,6 +190,13 @@ class Typed final : public AnyDistributer {
   static constexpr std::size_t entry_count = std::tuple_size_v<Handlers>;
   static constexpr std::size_t in_count = std::tuple_size_v<decltype(In::fields())>;
   static constexpr std::size_t out_count = std::tuple_size_v<decltype(Out::fields())>;
+
+  static constexpr bool has_nothing_beside_in() {
+    if constexpr (requires(D & d) { d.in; })
+      return sizeof(D) == sizeof(In);
+    else
+      return std::is_empty_v<D>;
+  }
 
   static D make([[maybe_unused]] const Param& parameters) {
     if constexpr (detail::WithParameters<D>)

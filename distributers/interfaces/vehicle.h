@@ -12,6 +12,7 @@
 #include "distributers/interfaces/no_state.h"
 #include "distributers/messages/message.h"
 #include "distributers/messages/message_set.h"
+#include "graph/values/archive.h"
 #include "graph/values/describe.h"
 #include "graph/values/type.h"
 
@@ -40,6 +41,8 @@ struct VehicleState {
 struct Mishap {
   std::chrono::nanoseconds instant{};
   std::string text;  // "crashed: a foot met the ground at 4.2 m/s"
+
+  void serialize(Archive& archive) { archive(instant, text); }
 };
 
 /// What stands at a whole number of its own grid steps since the start. Who looks, or how often, changes nothing.
@@ -62,6 +65,10 @@ class Stepped {
   /// Describes the true values, a struct of numbers; null: they are not known here.
   virtual const Type* true_type() const { return nullptr; }
   virtual const void* true_values() const { return nullptr; }
+
+  /// All that changes while it moves, between two steps; restored into one of the same parameters, it goes on to the
+  /// bit. Throws NotSaveable.
+  virtual void serialize(Archive&) { throw NotSaveable("its vehicle has no serialize(Archive&)"); }
 
   /// What has become of it that no mission wants; none: nothing, or it is not known here.
   virtual std::optional<Mishap> mishap() const { return std::nullopt; }

@@ -31,6 +31,7 @@ class JaviatorVehicle {
 
   /// A ShutDown too many does no harm; a SwitchState might.
   void take_over() { unlocked_ = true; }
+  void serialize(Archive& archive) { archive(unlocked_, id_); }
 
   In in;
 

@@ -8,6 +8,7 @@
 
 #include "distributers/messages/imc.h"
 #include "distributers/messages/message.h"
+#include "graph/values/archive.h"
 
 namespace jarol::distributers {
 
@@ -23,6 +24,8 @@ class Entities {
   void note(const messages::imc::EntityInfo& info);
   void note(const messages::imc::EntityList& list);
   void forget() { labels_ = {}; }
+
+  void serialize(Archive& archive) { archive(labels_); }
 
   bool has_label(std::uint8_t id) const { return !labels_[id].empty(); }
 

@@ -97,6 +97,10 @@ class LauvVehicle {
   void listen_at(const std::string& address) { address_ = address; }
   void peer_changed();
   std::uint64_t non_finite_inputs() const { return non_finite_inputs_; }
+  /// Without what concerns a link to elsewhere.
+  void serialize(Archive& archive) {
+    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, latitude_, longitude_);
+  }
 
   In in;
 
@@ -134,6 +138,7 @@ class LauvVehicle {
   struct LeakDetector {
     std::int64_t count = 0;
     bool failed = false;
+    void serialize(Archive& archive) { archive(count, failed); }
   };
 
   LauvVehicleParameters parameters_;

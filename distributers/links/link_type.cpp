@@ -16,7 +16,9 @@ std::shared_ptr<const Source> LinkRequest::read_beside(const Located<std::string
   const std::filesystem::path base =
       graph.where.source ? std::filesystem::path(graph.where.source->name).parent_path() : "";
   try {
-    return read_source((base / path.value).string());
+    auto source = read_source((base / path.value).string());
+    if (files != nullptr) files->push_back(source);
+    return source;
   } catch (const SpecError& error) {
     for (const Problem& problem : error.problems()) problems.add(path.where, problem.text);
     return nullptr;

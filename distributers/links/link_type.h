@@ -24,6 +24,7 @@ struct LinkRequest {
   std::size_t distributer = 0;                        // in the graph
   const NamedList<vehicles::VehicleClass>& vehicles;  // that can be simulated
   std::uint64_t seed = 0;                             // this distributer's share of the run's
+  std::vector<std::shared_ptr<const Source>>* files;  // gets what it reads; may be null
 
   const Distributer& whose() const { return of; }
   const Yaml& yaml() const { return whose().link; }

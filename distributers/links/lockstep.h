@@ -48,6 +48,7 @@ class LockstepChannels : public Channels {
   void reach(Duration instant) override { simulation_->reach(instant); }
   bool take(std::size_t channel, void* value) override { return simulation_->take(channel, value); }
   void hand_over(std::size_t channel, const void* value) override { simulation_->hand_over(channel, value); }
+  void serialize(Archive&) override { throw NotSaveable("its vehicle is in another process, which can't be saved"); }
 
  private:
   Address peer_;

@@ -70,8 +70,27 @@ ScriptChannels::ScriptChannels(const std::shared_ptr<const Source>& script, cons
 }
 
 void ScriptChannels::reach(Duration instant) {
-  for (; next_ < rows_.size() && rows_[next_].time <= instant; ++next_)
-    for (const auto& [channel, value] : rows_[next_].values) playing_[channel] = {value.data(), true};
+  while (next_ < rows_.size() && rows_[next_].time <= instant) play_next();
+}
+
+void ScriptChannels::play_next() {
+  for (const auto& [channel, value] : rows_[next_].values) playing_[channel] = {value.data(), true};
+  ++next_;
+}
+
+// What plays follows from the rows until then.
+void ScriptChannels::serialize(Archive& archive) {
+  std::uint64_t next = next_;
+  archive(next);
+  archive.require(next <= rows_.size(), "has a row that is not there");
+  if (archive.restores()) {
+    playing_.assign(playing_.size(), {});
+    for (next_ = 0; next_ < next;) play_next();
+  }
+  for (Playing& playing : playing_) {
+    archive(playing.fresh);
+    archive.require(playing.value != nullptr || !playing.fresh, "has a row before the first");
+  }
 }
 
 bool ScriptChannels::take(std::size_t channel, void* value) {

@@ -24,6 +24,7 @@ class ScriptChannels : public Channels {
   void reach(Duration instant) override;
   bool take(std::size_t channel, void* value) override;
   void hand_over(std::size_t, const void*) override {}
+  void serialize(Archive& archive) override;
   std::optional<Duration> end() const override { return end_; }
 
  private:
@@ -35,6 +36,8 @@ class ScriptChannels : public Channels {
     const void* value = nullptr;
     bool fresh = false;
   };
+
+  void play_next();
 
   std::vector<Row> rows_;
   std::size_t next_ = 0;

@@ -77,4 +77,11 @@ void SimulationChannels::hand_over(std::size_t channel, const void* value) {
   distributer_->hand_over(channel, value, to_vehicle_);
 }
 
+void SimulationChannels::serialize(Archive& archive) {
+  archive(at_, sensed_);
+  archive.require(at_ >= Duration{} && at_ <= longest_duration, "has a vehicle at no time of a run");
+  vehicle_->serialize(archive);
+  distributer_->serialize(archive);
+}
+
 }  // namespace jarol::distributers

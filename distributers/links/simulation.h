@@ -25,6 +25,7 @@ class SimulationChannels : public Channels {
   void reach(Duration instant) override;
   bool take(std::size_t channel, void* value) override;
   void hand_over(std::size_t channel, const void* value) override;
+  void serialize(Archive& archive) override;
 
  private:
   // What the distributer sends goes straight to the vehicle.

@@ -51,6 +51,11 @@ struct NotExecutable : SessionError {
   using SessionError::SessionError;
 };
 
+/// What can't be saved, or a checkpoint that is damaged or of something else.
+struct CheckpointRefused : SessionError {
+  using SessionError::SessionError;
+};
+
 /// A vehicle whose motion has left what numbers can tell, or one in another process that is gone.
 struct SystemLost : SessionError {
   using SessionError::SessionError;

@@ -21,4 +21,11 @@ bool FedChannels::take(std::size_t channel, void* value) {
   return true;
 }
 
+void FedChannels::serialize(Archive& archive) {
+  for (Fed& fed : fed_) {
+    archive(fed.is_new);
+    archive.value(*fed.value.type(), fed.value.data());
+  }
+}
+
 }  // namespace jarol

@@ -35,6 +35,32 @@ GraphRun::GraphRun(Loaded&& loaded, const Graph& graph, PlanOfRun plan, RunStart
     executor_.start_with(changed.task, changed.values.data());
 }
 
+RunOrigin origin_of(const Loaded& loaded, const Overrides& overrides, std::uint64_t seed,
+                    std::vector<std::string> fed) {
+  RunOrigin origin{{}, overrides.profile, overrides.set, seed, std::move(fed), find_program()};
+  for (const auto& file : loaded.files) origin.files.push_back(file_of(*file));
+  return origin;
+}
+
+Checkpoint GraphRun::checkpoint() {
+  sinks_.catch_up();
+  Checkpoint made(origin_, executor_.now());
+  made.save("run", executor_);
+  made.save("conditions", sinks_);
+  return made;
+}
+
+void GraphRun::require_same_origin(const Checkpoint& checkpoint) const {
+  if (const std::string wrong = find_difference(checkpoint.origin(), *origin_); !wrong.empty())
+    throw CheckpointError(wrong);
+}
+
+void GraphRun::restore(const Checkpoint& checkpoint) {
+  sinks_.catch_up();
+  if (!checkpoint.restore("run", executor_) || !checkpoint.restore("conditions", sinks_))
+    throw CheckpointError("is damaged: a part of it is missing");
+}
+
 RunVerdict GraphRun::judge(Duration until, const RunEnd& end, const std::string& unseen) const {
   return judge_run(graph(), executor_.report(), channels_, sinks_, executor_.rest(), until, end, unseen);
 }

@@ -10,6 +10,7 @@
 #include "distributers/session/planned_graph.h"
 #include "distributers/session/run_sinks.h"
 #include "distributers/session/verdict.h"
+#include "runtime/checkpoint/checkpoint.h"
 #include "runtime/execute/executor.h"
 
 namespace jarol {
@@ -43,6 +44,17 @@ class GraphRun {
   void disconnect() { linked_->finish(); }
   std::vector<LinkReport> link_reports() const { return linked_->reports(); }
 
+  /// Before it is saved or goes on from what was: what it is made of.
+  void set_origin(RunOrigin origin) { origin_ = std::make_shared<const RunOrigin>(std::move(origin)); }
+  /// What the run is, on the virtual clock, between two pieces of it; who looks on has got all that was published.
+  /// Throws CheckpointError.
+  Checkpoint checkpoint();
+  /// Throws CheckpointError where it is of another origin; parameters of tasks may differ.
+  void require_same_origin(const Checkpoint& checkpoint) const;
+  /// Goes on as what was saved, of the same origin. Throws CheckpointError where that is damaged, and is of no use
+  /// then.
+  void restore(const Checkpoint& checkpoint);
+
   /// Of a run that was to go on `until` and ended like that. `unseen`: why not all that was published has been seen.
   RunVerdict judge(Duration until, const RunEnd& end, const std::string& unseen = "") const;
   /// What was measured of it, likewise.
@@ -57,6 +69,11 @@ class GraphRun {
   RunSinks sinks_;
   Executor executor_;
   std::optional<Linked> linked_;
+  std::shared_ptr<const RunOrigin> origin_;
 };
+
+/// What a run of a loaded graph is made of.
+RunOrigin origin_of(const Loaded& loaded, const Overrides& overrides, std::uint64_t seed,
+                    std::vector<std::string> fed = {});
 
 }  // namespace jarol

@@ -78,7 +78,8 @@ Loaded load_graph(const std::shared_ptr<const Source>& source, const distributer
   Loaded loaded = load(load_spec(source, overrides, problems), known, note, problems);
   for (Distributer& distributer : loaded.graph->distributers)
     if (fits(distributer.name, without_link)) distributer.link = {};
-  loaded.channels = distributers::make_channels(*loaded.graph, known, seed, problems);
+  loaded.files = {source};
+  loaded.channels = distributers::make_channels(*loaded.graph, known, seed, problems, &loaded.files);
   add_conditions(loaded, known, problems);
   return loaded;
 }

@@ -19,9 +19,10 @@ struct Loaded {
   std::unique_ptr<Registry> registry;  // with the graph's plugins
   std::unique_ptr<Graph> graph;
   std::vector<std::unique_ptr<Channels>> channels;
-  campaign::Campaign campaign{};                  // of the key of that name
-  std::vector<expect::TrueValues> true_values{};  // what is known of the vehicle of each distributer
-  GraphSpec spec{};                               // what the file says, overrides included
+  std::vector<std::shared_ptr<const Source>> files{};  // the graph's, then what its links name
+  campaign::Campaign campaign{};                       // of the key of that name
+  std::vector<expect::TrueValues> true_values{};       // what is known of the vehicle of each distributer
+  GraphSpec spec{};                                    // what the file says, overrides included
 };
 
 /// Throws SpecError with everything that is wrong with the file, its overrides and its links. The seed is that of all

@@ -6,6 +6,7 @@
 
 #include "distributers/session/errors.h"
 #include "graph/language/problems.h"
+#include "graph/values/archive.h"
 
 namespace jarol {
 namespace {
@@ -48,7 +49,7 @@ Place find_within(Place place, std::string_view path, std::string name) {
 }  // namespace
 
 Observed::Observed(const Graph& graph, std::vector<Output> outputs)
-    : outputs_(std::move(outputs)), series_(outputs_.size()) {
+    : outputs_(std::move(outputs)), forgotten_(outputs_.size()), series_(outputs_.size()) {
   const auto put = [&](const std::string& name, const void* value) {
     // they are in bytewise order of name
     const auto found =
@@ -81,7 +82,24 @@ Place Observed::find(std::string_view name, const Type& type) const {
   throw WrongType("'" + std::string(name) + "' is a " + found.type->name + ", not a " + type.name);
 }
 
+void Observed::serialize(Archive& archive) {
+  archive.same(last_.size(), "is of other outputs");
+  for (Value& value : last_) archive.value(*value.type(), value.data());
+  archive(forgotten_);
+  archive.require(forgotten_.size() == last_.size(), "is of other outputs");
+  if (!archive.restores()) return;
+  for (Series& series : series_) series.values.clear();
+}
+
+void Observed::forget() {
+  forgotten_.assign(last_.size(), true);
+  for (Series& series : series_) series.values.clear();
+}
+
 const void* Observed::last(const Place& place) const {
+  if (forgotten_[place.output])
+    throw NotWatched("what '" + outputs_[place.output].name +
+                     "' was is not in the checkpoint of jarol run, and it was not published since");
   return static_cast<const std::byte*>(last_[place.output].data()) + place.offset;
 }
 
@@ -108,6 +126,7 @@ const std::deque<std::pair<Duration, Value>>& Observed::series(const Place& plac
 void Observed::take(Duration instant, std::uint32_t output, const void* value) {
   if (output >= outputs_.size()) return;  // a vehicle's true values
   copy_value(*outputs_[output].type, last_[output].data(), value);
+  forgotten_[output] = false;
   if (series_[output].watched) series_[output].values.emplace_back(instant, last_[output]);
 }
 

@@ -39,6 +39,11 @@ class Observed : public RecordSink {
   /// Those of an output that is watched, with their instants. Throws NotWatched.
   const std::deque<std::pair<Duration, Value>>& series(const Place& place) const;
 
+  /// The last values; what was kept of those that are watched is gone when they are restored.
+  void serialize(Archive& archive);
+  /// They are not known, as the run goes on from a checkpoint that does not have them.
+  void forget();
+
   void take(Duration instant, std::uint32_t output, const void* value) override;
   void finish() override {}
 
@@ -49,6 +54,7 @@ class Observed : public RecordSink {
   };
   std::vector<Output> outputs_;
   std::vector<Value> last_;  // per output
+  std::vector<bool> forgotten_;
   std::vector<Series> series_;
 };
 

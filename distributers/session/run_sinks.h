@@ -28,6 +28,11 @@ class RunSinks {
   }
   /// The sinks have got all that was published so far.
   void catch_up();
+  /// What the conditions of the graph know, while nothing is handed on.
+  void serialize(Archive& archive) {
+    if (expectations_) archive(*expectations_);
+    if (measured_) archive(*measured_);
+  }
   /// They have got all. Throws what a sink threw.
   void close();
   /// After `close`, of a run that covered the instants before `end`. `cut_short`: why it ended before what it was meant

@@ -16,6 +16,8 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
 void Session::run_until(Duration end) { run_->run_until(end); }
+Checkpoint Session::checkpoint() { return run_->checkpoint(); }
+void Session::restore(const Checkpoint& checkpoint) { run_->restore(checkpoint); }
 Duration Session::now() const { return run_->graph_run().executor().now(); }
 Duration Session::end_of_mission() const { return jarol::end_of_mission(run_->graph_run().channels()); }
 const Graph& Session::graph() const { return run_->graph_run().graph(); }

@@ -11,6 +11,7 @@
 #include "distributers/session/verdict.h"
 #include "graph/values/type_of.h"
 #include "graph/values/value.h"
+#include "runtime/checkpoint/checkpoint.h"
 #include "runtime/execute/executor.h"
 
 namespace jarol {
@@ -59,6 +60,14 @@ class Session {
   /// gets that at the end, also if the process dies; `at_end` of a graph is for jarol run.
   void run_until(Duration end);
   void run_for(Duration length) { run_until(now() + length); }
+
+  /// The run as it is now, on the virtual clock: tasks, their heaps, values under way, vehicles, noise, conditions. The
+  /// same session, or another of the same graph, overrides and seed, in this program or in another process of it, goes
+  /// on from it to the bit; parameters of tasks may differ, for the future. Throws CheckpointRefused.
+  Checkpoint checkpoint();
+  /// What was kept of outputs that are watched is gone, and so is an end by a fault or a lost vehicle. Throws
+  /// CheckpointRefused; after one that is damaged within, RunOver from then on.
+  void restore(const Checkpoint& checkpoint);
 
   /// The instant that is reached; the instants before it were run.
   Duration now() const;

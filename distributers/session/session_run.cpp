@@ -47,11 +47,13 @@ Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const S
     make_clock(source->name, loaded, options);
   else
     require_no_clock(loaded);
+  RunOrigin origin = origin_of(loaded, {options.profile, options.set, {}}, options.seed, options.fed);
   observed = std::make_unique<Observed>(*loaded.graph, outputs_of(*loaded.graph));
   graph_run_.emplace(std::move(loaded), GraphRunOptions{.sinks = {observed.get()},
                                                         .workers = options.workers,
                                                         .clock = clock_ ? &*clock_ : nullptr,
                                                         .threads = threads_});
+  graph_run_->set_origin(std::move(origin));
   graph_run_->connect(note_);
 }
 
@@ -135,6 +137,29 @@ void Session::Run::run_until(Duration end) {
   }
   graph_run_->sinks().catch_up();
   if (executor.report().stopped) over_ = to_text(executor.report().faults.back());
+}
+
+Checkpoint Session::Run::checkpoint() {
+  if (finished_ || (!over_.empty() && !graph_run_->executor().report().stopped))
+    throw RunOver("there is nothing to save, as the run is over: " + over_);
+  try {
+    Checkpoint made = graph_run_->checkpoint();
+    made.save("values", *observed);
+    return made;
+  } catch (const CheckpointError& error) { throw CheckpointRefused(error.what()); }
+}
+
+void Session::Run::restore(const Checkpoint& checkpoint) {
+  if (finished_) throw RunOver("the run was finished");
+  if (clock_) throw CheckpointRefused("a run on the real clock does not go on from a checkpoint");
+  try {
+    graph_run_->require_same_origin(checkpoint);
+    over_ = "what was to be restored is damaged";
+    graph_run_->restore(checkpoint);
+    if (!checkpoint.restore("values", *observed)) observed->forget();
+  } catch (const CheckpointError& error) { throw CheckpointRefused(std::string("the checkpoint ") + error.what()); }
+  const Report& report = graph_run_->executor().report();
+  over_ = !report.stopped ? "" : report.faults.empty() ? "a fault" : to_text(report.faults.back());
 }
 
 void Session::Run::feed(std::string_view name, const Type& type, const void* value) {

@@ -24,6 +24,8 @@ class Session::Run {
   void run_until(Duration end);
   void feed(std::string_view name, const Type& type, const void* value);
   RunVerdict finish();
+  Checkpoint checkpoint();
+  void restore(const Checkpoint& checkpoint);
 
   GraphRun& graph_run() { return *graph_run_; }
   const GraphRun& graph_run() const { return *graph_run_; }

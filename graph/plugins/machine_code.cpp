@@ -1,83 +1,18 @@
 #include "graph/plugins/machine_code.h"
 
-#include <elf.h>
-
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-#include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
+
+#include "graph/isolation/elf_file.h"
 
 namespace jarol {
 namespace {
 
 using namespace std::literals;
-using Bytes = std::span<const unsigned char>;
-
-// A file whose numbers may be anything; what lies outside of it is not there.
-class Elf {
- public:
-  explicit Elf(Bytes bytes) : bytes_(bytes) {
-    const auto head = read<Elf64_Ehdr>(0);
-    if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0 || head->e_ident[EI_CLASS] != ELFCLASS64 ||
-        head->e_machine != EM_X86_64)
-      return;
-    for (std::size_t i = 0; i < head->e_shnum; ++i) {
-      const auto section = read<Elf64_Shdr>(head->e_shoff + i * sizeof(Elf64_Shdr));
-      if (!section) {
-        sections_.clear();
-        return;
-      }
-      sections_.push_back(*section);
-    }
-  }
-
-  /// Empty: it is no ELF file of this kind, or a damaged one.
-  const std::vector<Elf64_Shdr>& sections() const { return sections_; }
-
-  Bytes content(const Elf64_Shdr& section) const {
-    if (section.sh_type == SHT_NOBITS || section.sh_offset > bytes_.size() ||
-        section.sh_size > bytes_.size() - section.sh_offset)
-      return {};
-    return bytes_.subspan(section.sh_offset, section.sh_size);
-  }
-
-  /// The text at an offset of the string table that belongs to a section.
-  std::string_view text(const Elf64_Shdr& section, std::size_t offset) const {
-    if (section.sh_link >= sections_.size()) return {};
-    const Bytes table = content(sections_[section.sh_link]);
-    if (offset >= table.size()) return {};
-    const auto begin = table.begin() + static_cast<std::ptrdiff_t>(offset);
-    const auto end = std::find(begin, table.end(), 0);
-    return {reinterpret_cast<const char*>(&*begin), static_cast<std::size_t>(end - begin)};
-  }
-
-  /// All entries of a table.
-  template <class Entry>
-  std::vector<Entry> entries(const Elf64_Shdr& section) const {
-    const Bytes table = content(section);
-    std::vector<Entry> all(table.size() / sizeof(Entry));
-    if (!all.empty()) std::memcpy(all.data(), table.data(), all.size() * sizeof(Entry));
-    return all;
-  }
-
- private:
-  template <class T>
-  std::optional<T> read(std::size_t offset) const {
-    if (offset > bytes_.size() || bytes_.size() - offset < sizeof(T)) return std::nullopt;
-    T value;
-    std::memcpy(&value, bytes_.data() + offset, sizeof value);
-    return value;
-  }
-
-  Bytes bytes_;
-  std::vector<Elf64_Shdr> sections_;
-};
+using isolation::Bytes;
+using Elf = isolation::ElfFile;
 
 // An instruction that loads MXCSR begins here, or bytes that look like one: LDMXCSR 0F AE /2, FXRSTOR /1, XRSTOR /5
 // with an operand in memory (Intel SDM volume 2), VLDMXCSR the same after a VEX prefix in place of 0F.
@@ -154,9 +89,7 @@ std::string find_library(const Elf& file, const Elf64_Shdr& dynamic) {
 }  // namespace
 
 std::string find_floating_point_change(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  const Elf file({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+  const Elf file(path);
   if (file.sections().empty()) return "is no object file that can be read here";
   for (const Elf64_Shdr& section : file.sections()) {
     std::string found;

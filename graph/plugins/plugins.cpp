@@ -9,6 +9,7 @@
 
 #include "graph/floating_point.h"
 #include "graph/language/inputs.h"
+#include "graph/plugins/isolated.h"
 #include "graph/plugins/machine_code.h"
 #include "graph/plugins/plugin_build.h"
 #include "graph/plugins/plugin_trial.h"
@@ -58,7 +59,10 @@ std::string open_plugin(const std::string& path, PluginLibrary& library) {
   return "";
 }
 
-std::string load_plugin(const std::string& path, Registry& registry) {
+namespace {
+
+// Appends the types that it adds.
+std::string add_plugin(const std::string& path, Registry& registry, std::vector<std::string>& types) {
   const std::string name = "'" + path + "' ";
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return "there is no file '" + path + "'";
@@ -79,9 +83,17 @@ std::string load_plugin(const std::string& path, Registry& registry) {
   const bool trusted = find_floating_point_change(place).empty();
   for (TaskClass task : added.tasks()) {
     if (trusted) task.trust_floating_point();
+    types.push_back(task.name);
     registry.add(std::move(task));
   }
   return "";
+}
+
+}  // namespace
+
+std::string load_plugin(const std::string& path, Registry& registry) {
+  std::vector<std::string> types;
+  return add_plugin(path, registry, types);
 }
 
 std::string plugin_path(const GraphSpec& spec, const std::string& plugin) {
@@ -91,8 +103,13 @@ std::string plugin_path(const GraphSpec& spec, const std::string& plugin) {
 
 void load_plugins(const GraphSpec& spec, Registry& registry, Problems& problems) {
   for (const Located<std::string>& plugin : spec.plugins) {
-    const std::string wrong = load_plugin(plugin_path(spec, plugin.value), registry);
-    if (wrong.empty()) continue;
+    std::vector<std::string> types;
+    const std::string path = plugin_path(spec, plugin.value);
+    const std::string wrong = add_plugin(path, registry, types);
+    if (wrong.empty()) {
+      check_isolation(spec, registry, types, path, problems);
+      continue;
+    }
     problems.add(plugin.where, wrong);
     registry.mark_incomplete();
   }

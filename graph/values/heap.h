@@ -7,8 +7,12 @@
 #include <cstddef>
 #include <memory_resource>
 #include <new>
+#include <utility>
+#include <vector>
 
 namespace jarol {
+
+class Archive;
 
 /// In bytes, of one task.
 inline constexpr std::size_t largest_heap = std::size_t{1} << 30;
@@ -49,6 +53,18 @@ class PrivateHeap {
 
   /// Bytes that a block for `bytes` takes.
   static std::size_t block_size(std::size_t bytes);
+
+  /// A block of values: where it begins in the region, and its bytes.
+  using Block = std::pair<std::size_t, std::size_t>;
+  /// What is in use and what is free, between activations; without the values. Adds the free blocks.
+  void serialize(Archive& archive, std::vector<Block>& free);
+  /// Of an address in it, and back.
+  std::size_t place_of(const void* in_region) const {
+    return static_cast<std::size_t>(static_cast<const std::byte*>(in_region) - region_);
+  }
+  std::byte* at(std::size_t place) const { return region_ + place; }
+  /// Where the values end.
+  std::size_t end_of_values() const { return book_.values; }
 
  private:
   struct Values : std::pmr::memory_resource {

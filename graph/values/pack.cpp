@@ -101,9 +101,14 @@ std::string wrong_from(const Type& type, std::span<const std::byte> packed, std:
 
 }  // namespace
 
+std::string wrong_packed_begin(const Type& type, std::span<const std::byte> packed, std::size_t& size) {
+  size = 0;
+  return wrong_from(type, packed, size);
+}
+
 std::string wrong_packed(const Type& type, std::span<const std::byte> packed) {
   std::size_t at = 0;
-  const std::string wrong = wrong_from(type, packed, at);
+  const std::string wrong = wrong_packed_begin(type, packed, at);
   if (!wrong.empty() || at == packed.size()) return wrong;
   return "ends " + std::to_string(packed.size() - at) + " bytes before they do";
 }

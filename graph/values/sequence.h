@@ -124,6 +124,14 @@ class Sequence {
     return std::equal(a.begin(), a.end(), b.begin(), b.end());
   }
 
+  /// Its elements are those that lie there, in `memory`; what it had is forgotten, and not given back.
+  void lie_in(std::pmr::memory_resource* memory, void* elements, std::size_t size, std::size_t capacity) {
+    memory_ = memory;
+    data_ = static_cast<T*>(elements);
+    size_ = static_cast<std::uint32_t>(size);
+    capacity_ = static_cast<std::uint32_t>(capacity);
+  }
+
   /// Lives in `memory` from now on.
   void adopt(std::pmr::memory_resource* memory) {
     if (memory_ == memory) return;
@@ -251,6 +259,10 @@ class String {
   friend bool operator==(const String& a, const char* b) { return a.view() == b; }
 
   void adopt(std::pmr::memory_resource* memory) { bytes_.adopt(memory); }
+  std::size_t capacity() const { return bytes_.capacity(); }
+  void lie_in(std::pmr::memory_resource* memory, void* bytes, std::size_t size, std::size_t capacity) {
+    bytes_.lie_in(memory, bytes, size, capacity);
+  }
 
  private:
   Sequence<char> bytes_;

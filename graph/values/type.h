@@ -61,6 +61,10 @@ struct Type {
   std::size_t (*length)(const void* value) = nullptr;
   const void* (*elements)(const void* value) = nullptr;
   void* (*resize)(void* value, std::size_t length) = nullptr;  // returns the elements
+  std::size_t (*capacity)(const void* value) = nullptr;        // of the room of its elements
+  // its elements are those that lie there from now on; what it had is forgotten
+  void (*lie_in)(void* value, std::pmr::memory_resource* memory, void* elements, std::size_t length,
+                 std::size_t capacity) = nullptr;
 
   bool is_deep() const { return assign != nullptr; }
 };

@@ -210,6 +210,9 @@ const T& example() {
 
 template <class T>
 void set_length_operations(Type& type) {
+  type.capacity = [](const void* value) { return static_cast<const T*>(value)->capacity(); };
+  type.lie_in = [](void* value, std::pmr::memory_resource* memory, void* elements, std::size_t length,
+                   std::size_t capacity) { static_cast<T*>(value)->lie_in(memory, elements, length, capacity); };
   type.length = [](const void* value) { return static_cast<const T*>(value)->size(); };
   if constexpr (SequenceOf<T>) {
     type.elements = [](const void* value) -> const void* { return static_cast<const T*>(value)->data(); };

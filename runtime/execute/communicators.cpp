@@ -145,6 +145,19 @@ void Communicators::close(Futex::Time patience, bool outliving, const std::funct
     safe_commands_.fail_at_end(channels_, time(), outliving, busy_link_text);
 }
 
+void Communicators::serialize(Archive& archive) {
+  const MemoryScope outside(nullptr);
+  archive(refused_);
+  safe_commands_.serialize(archive);
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    try {
+      channels_[i]->serialize(archive);
+    } catch (const NotSaveable& error) {
+      throw NotSaveable("distributer '" + run_.graph.distributers[i].name + "': " + error.what());
+    }
+  }
+}
+
 std::uint64_t Communicators::non_finite_inputs() const {
   std::uint64_t sum = refused_;
   for (const auto& channels : channels_) sum += channels->non_finite_inputs();

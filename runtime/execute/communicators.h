@@ -69,6 +69,9 @@ class Communicators {
   /// Values from outside that were not taken as they were not finite.
   std::uint64_t non_finite_inputs() const;
 
+  /// Between two instants, of a run that can't be brought to rest. Throws NotSaveable, with the distributer.
+  void serialize(Archive& archive);
+
  private:
   void begin(Turn& turn, const Now& now);
   void act(Turn& turn, const Now& now);

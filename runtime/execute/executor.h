@@ -69,6 +69,10 @@ class Executor {
   /// The same where it is the thread that keeps the time.
   std::optional<Holdup> holdup() const;
 
+  /// What the run is, between two pieces of it on the virtual clock. Restored, it is that of the same graph but for
+  /// parameters, and nobody runs it meanwhile. Throws NotSaveable.
+  void serialize(Archive& archive);
+
   /// The logical instant reached, for progress; may be read by another thread.
   Duration now() const { return Duration(now_.load(std::memory_order_relaxed)); }
 

@@ -3,6 +3,19 @@
 
 namespace jarol {
 
+void Executor::serialize(Archive& archive) {
+  if (clock_ != nullptr) throw NotSaveable("a run on the real clock can't be saved");
+  Report& report = run_.report;
+  report.non_finite_inputs = communicators_.non_finite_inputs();
+  archive(report);
+  archive.require(report.covered >= Duration{} && report.covered <= longest_duration &&
+                      report.simulated >= Duration{} && report.simulated <= report.covered,
+                  "has a time that there is not");
+  run_.state.serialize(archive, report.covered);
+  communicators_.serialize(archive);
+  if (archive.restores()) now_.store(report.simulated.count());
+}
+
 std::optional<Duration> Executor::begin_rest() {
   if (!communicators_.may_rest() || run_.report.stopped || interrupted_.load()) return std::nullopt;
   const Duration begun(run_.state.calendar.next());

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -46,6 +47,18 @@ void ConditionWatch::settle(Duration instant) {
   value_ = expect::calc_value(condition_.metric.value, signals_);
   since_ = instant;
   has_value_ = true;
+}
+
+void ConditionWatch::serialize(Archive& archive) {
+  for (double& signal : signals_) archive(signal);
+  archive.same(known_.size(), "is of other conditions");
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    bool known = known_[i];
+    archive(known);
+    known_[i] = known;
+  }
+  unknown_ = static_cast<std::size_t>(std::count(known_.begin(), known_.end(), false));
+  archive(changed_, has_value_, since_, value_, fold_, held_, broken_);
 }
 
 void ConditionWatch::hold(Duration to) {
@@ -154,6 +167,12 @@ void Expectations::take(Duration instant, std::uint32_t output, const void* valu
   instant_ = instant;
   for (const Target& target : targets_[output])
     watches_[target.watch].set(target.signal, expect::read_number(*target.leaf, value));
+}
+
+void Expectations::serialize(Archive& archive) {
+  archive.same(watches_.size(), "is of other conditions");
+  for (ConditionWatch& watch : watches_) archive(watch);
+  archive(instant_);
 }
 
 void Expectations::settle() {

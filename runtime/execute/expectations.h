@@ -36,6 +36,7 @@ class ConditionWatch {
   void settle(Duration instant);
   /// `cut_short`: why the run ended before what it was meant to do; else empty.
   Verdict judge(Duration end, const std::string& cut_short) const;
+  void serialize(Archive& archive);
 
  private:
   void hold(Duration to);
@@ -71,6 +72,9 @@ class Expectations : public RecordSink {
 
   /// After `finish`, of a run that covered the instants before `end`.
   std::vector<Verdict> judge(Duration end, const std::string& cut_short) const;
+
+  /// Of the same graph, while nothing is handed on.
+  void serialize(Archive& archive);
 
  private:
   struct Target {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "graph/model/condition.h"
+#include "graph/values/archive.h"
 
 namespace jarol {
 
@@ -21,6 +22,11 @@ class MetricFold {
   /// None: nothing was in the window, or what is asked for did not happen, and `why_none` says so.
   std::optional<double> result() const;
   std::string why_none() const;
+
+  void serialize(Archive& archive) {
+    archive(seconds_, first_, last_, min_, max_, sum_, sum_of_squares_, beyond_, at_tenth_, at_nine_tenths_, settled_);
+    archive.require(at_tenth_ || !at_nine_tenths_, "has a step that did not begin");
+  }
 
  private:
   void hold_step(Duration from, Duration to, double value);

@@ -36,6 +36,15 @@ const void* SafeCommands::in_place_of_input(std::size_t out, Duration instant) {
   return graph_.communicators[out].safe->data();
 }
 
+void SafeCommands::serialize(Archive& archive) {
+  for (Duration& newest : newest_) {
+    archive(newest);
+    archive.require(newest >= never && newest <= longest_duration, "has a time that there is not");
+  }
+  for (Watch& watch : watches_) archive(watch.in_force);
+  for (SafeCommandReport& report : reports_) archive(report);
+}
+
 template <class Do>
 void SafeCommands::at_end(std::span<const std::unique_ptr<Channels>> channels, Duration time, bool outliving, Do act) {
   for (SafeCommandReport& report : reports_) {

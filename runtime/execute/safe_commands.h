@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "graph/model/graph.h"
+#include "graph/values/archive.h"
 #include "runtime/channels.h"
 
 namespace jarol {
@@ -28,6 +29,9 @@ struct SafeCommandReport {
     std::string failure;  // why it could not be handed over; empty: it was
   };
   std::optional<AtEnd> at_end{};
+
+  /// Before the end.
+  void serialize(Archive& archive) { archive(heard, at_start, times, commands, first, last); }
 };
 
 /// Why a link may not be given a safe value at the end.
@@ -58,6 +62,8 @@ class SafeCommands {
   /// It can't: notes why.
   void fail_at_end(std::span<const std::unique_ptr<Channels>> channels, Duration time, bool outliving,
                    const std::string& why);
+
+  void serialize(Archive& archive);
 
   /// Per `out` communicator with a safe value, in their order.
   const std::vector<SafeCommandReport>& reports() const { return reports_; }

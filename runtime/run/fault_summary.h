@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "graph/language/quantities.h"
+#include "graph/values/archive.h"
 
 namespace jarol {
 
@@ -15,6 +16,8 @@ struct Fault {
   std::int64_t activation = 0;
   Duration instant{};  // at which it would have published
   std::string cause;
+
+  void serialize(Archive& archive) { archive(task, activation, instant, cause); }
 };
 
 /// Faults of one task whose causes differ in their numbers alone.
@@ -23,6 +26,8 @@ struct FaultGroup {
   std::int64_t last_activation = 0;
   Duration last_instant{};
   std::uint64_t count = 0;
+
+  void serialize(Archive& archive) { archive(first, last_activation, last_instant, count); }
 };
 
 class FaultSummary {
@@ -35,6 +40,8 @@ class FaultSummary {
   const std::vector<FaultGroup>& groups() const { return groups_; }
   /// Faults of causes that came when there were as many groups as are kept.
   std::uint64_t others() const { return others_; }
+
+  void serialize(Archive& archive) { archive(groups_, others_); }
 
  private:
   std::vector<FaultGroup> groups_;

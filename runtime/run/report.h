@@ -29,6 +29,13 @@ struct Report {
     if (faults.size() < faults_kept) faults.push_back(std::move(fault));
     ++fault_count;
   }
+
+  void serialize(Archive& archive) {
+    archive(digest, simulated, covered, activations, instants, faults, fault_count, non_finite_inputs, stopped,
+            fault_summary);
+    archive.same(left_out.size(), "is of other tasks");
+    for (std::uint64_t& each : left_out) archive(each);
+  }
 };
 
 }  // namespace jarol

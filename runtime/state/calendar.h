@@ -13,6 +13,14 @@ namespace jarol {
 
 class Calendar {
  public:
+  /// As before the first group was added.
+  void clear() {
+    times_.clear();
+    due_.clear();
+    many_ = CalendarQueue();
+    least_ = CalendarQueue::never;
+  }
+
   void reserve(std::size_t groups) {
     due_.reserve(few);
     times_.reserve(few);

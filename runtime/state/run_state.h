@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "graph/model/graph.h"
+#include "graph/values/archive.h"
 #include "graph/values/heap.h"
 #include "runtime/plan/plan.h"
 #include "runtime/state/actions.h"
@@ -28,6 +29,10 @@ class RunState {
 
   /// Before the first instant: other parameters of that task than the plan's graph has.
   void start_with(std::size_t task, const void* parameters);
+
+  /// What changes while the run goes on, between two instants; those before `covered` were run. Restored, the state
+  /// is that of the same plan but for parameters.
+  void serialize(Archive& archive, Duration covered);
 
   const Plan& plan;
 
@@ -68,6 +73,11 @@ class RunState {
   void make_owned(const Type& type, std::size_t place, std::pmr::memory_resource* memory);
   void make_deep_inputs();
   void make_taps();
+
+  // in an archive
+  void serialize_task(Archive& archive, std::size_t i);
+  void serialize_communicator(Archive& archive, std::size_t i);
+  void go_to(Duration covered);
 
   // actions
   void reserve_actions();

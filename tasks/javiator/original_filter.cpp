@@ -13,8 +13,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double gravity = 9810;  // mm/s^2
-// its constants of the lasers lead from these to the centre of gravity
-const Vector3d sonar_b(-95, -95, 55), laser_x_b(-70, 75, 80), laser_y_b(50, -77, 80);
 
 // one look-ahead of a period: the rate counts for two of them
 void filter_angle(double& angle, double measured, double rate, double dt) {
@@ -91,6 +89,8 @@ void OriginalFilter::run(const Param& p, const Tick& tick, const In& in, State& 
        Eigen::AngleAxisd(s.roll, Vector3d::UnitX()))
           .toRotationMatrix();
   const Vector3d a = R * (1e3 * Vector3d(s.a_x, s.a_y, s.a_z)) + Vector3d(0, 0, gravity);
+  // its constants of the lasers lead from these to the centre of gravity
+  const Vector3d sonar_b(-95, -95, 55), laser_x_b(-70, 75, 80), laser_y_b(50, -77, 80);
   const double z = (R * (sonar_b + Vector3d(0, 0, 1e3 * s.sonar))).z();
   const Eigen::Vector2d expected = 1e-3 * Eigen::Vector2d(state.zero_x + state.x.place, state.zero_y + state.y.place);
   const WallFix ahead = find_place(p.room, 1e-3 * (R * laser_x_b), R.col(0), s.laser_x, expected);

@@ -119,15 +119,16 @@ std::string guarded_run(const command::TemporaryFolder& folder, const GuardedVeh
   const std::string plugin = std::filesystem::absolute(JAROL_PLUGIN_FOLDER "/crash.so").string();
   const bool helicopter = vehicle.is_helicopter();
   const std::string file = folder.write(
-      name + ".yaml",
-      "graph: guarded\nplugins: [" + plugin + "]\ntiming: {period: 20ms}\ndistributers:\n  vehicle: {type: " +
-          (helicopter ? "JaviatorVehicle" : "LauvVehicle") + ", link: " + vehicle.link() +
-          "}\ncommunicators:\n  from: {channel: vehicle." + (helicopter ? "sensors" : "motion") +
-          ", timeout: 1min}\n  to: {channel: vehicle." + (helicopter ? "motors" : "actuation") + ", safe: {" +
-          (helicopter ? "unlocked: false" : "thruster: 0") +
-          "}}\ntasks:\n  pilot: {type: " + (helicopter ? "CrashingPilot" : "CrashingHelmsman") +
-          ", wcet: 5ms, on_fault: hold, parameters: {way: " + way + ", at: -1}}\nconnections:\n  - from -> pilot." +
-          (helicopter ? "sensors" : "motion") + "\n  - pilot." + (helicopter ? "motors" : "actuation") + " -> to\n");
+      name + ".yaml", "graph: guarded\nplugins: [" + plugin +
+                          "]\ntiming: {period: 20ms}\ndistributers:\n  vehicle: {type: " +
+                          (helicopter ? "JaviatorVehicle" : "LauvVehicle") + ", link: " + vehicle.link() +
+                          "}\ncommunicators:\n  from: {channel: vehicle." + (helicopter ? "sensors" : "motion") +
+                          ", timeout: 1min}\n  to: {channel: vehicle." + (helicopter ? "motors" : "actuation") +
+                          ", safe: {" + (helicopter ? "unlocked: false" : "thruster: 0") +
+                          "}}\ntasks:\n  pilot: {type: " + (helicopter ? "CrashingPilot" : "CrashingHelmsman") +
+                          ", isolation: weak, wcet: 5ms, on_fault: hold, parameters: {way: " + way +
+                          ", at: -1}}\nconnections:\n  - from -> pilot." + (helicopter ? "sensors" : "motion") +
+                          "\n  - pilot." + (helicopter ? "motors" : "actuation") + " -> to\n");
   const std::string words = "run " + file + " --json --clock real --for 1h ";
   if (model == "threads") return words + "--concurrency threads";
   return words + "--log " + (folder / (name + ".log")) +

@@ -84,7 +84,7 @@ TEST_SUITE("tools/machine_code") {
       CAPTURE(how);
       const std::string graph =
           folder.write("g.yaml", "graph: g\nplugins: [" + std::filesystem::absolute(rounds(how)).string() +
-                                     "]\ntiming: {period: 10ms}\ntasks: {a: {type: Rounds}}\n");
+                                     "]\ntiming: {period: 10ms}\ntasks: {a: {type: Rounds, isolation: weak}}\n");
       const auto done = command::jarol("run " + graph + " --for 100ms", "2>&1");
       CHECK(done.exit_code == (how == 0 ? 0 : 3));
       CHECK((done.output.find("task 'a' activation 1 at 0.01 s: threw: left another floating-point environment behind: "

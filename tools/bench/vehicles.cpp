@@ -93,12 +93,39 @@ Figure measure_hover(int repeats) {
                       });
 }
 
+Figure measure_checkpoint(int repeats) {
+  constexpr int in_a_row = 20;
+  Session session = open(flight);
+  session.run_until(std::chrono::seconds(8));
+  const Archive::Bytes bytes = session.checkpoint().to_bytes();
+  const auto save = [&] {
+    session.run_for(std::chrono::milliseconds(15));
+    return 1e6 / in_a_row * seconds_of([&] {
+             for (int i = 0; i < in_a_row; ++i) keep(static_cast<double>(session.checkpoint().instant().count()));
+           });
+  };
+  const auto copy = [&] {
+    return 1e6 / in_a_row * seconds_of([&] {
+             for (int i = 0; i < in_a_row; ++i) {
+               const Archive::Bytes copied = bytes;
+               keep(std::to_integer<int>(copied[bytes.size() / 2]));
+             }
+           });
+  };
+  Figure figure = compare("checkpoint", "checkpoint of the helicopter's run, in memory (50 us) / a copy of its bytes",
+                          0, std::min(repeats, 1000), save, copy);
+  figure.unit = "us";
+  figure.goal = 50 / figure.floor;
+  return figure;
+}
+
 #else
 
 bool has_vehicles() { return false; }
 
 Figure measure_dive(int) { throw std::logic_error("no vehicles are built"); }
 Figure measure_hover(int) { throw std::logic_error("no vehicles are built"); }
+Figure measure_checkpoint(int) { throw std::logic_error("no vehicles are built"); }
 
 #endif
 

@@ -18,4 +18,7 @@ Figure measure_dive_rigid(int repeats);
 /// Microseconds for 15 ms of the hover; 250 of them are 60 times real time.
 Figure measure_hover(int repeats);
 
+/// Microseconds for a checkpoint of the hover, in memory.
+Figure measure_checkpoint(int repeats);
+
 }  // namespace jarol::bench

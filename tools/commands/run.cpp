@@ -24,6 +24,7 @@
 #include "tools/report/run_end.h"
 #include "tools/report/told_faults.h"
 #include "tools/run/apart.h"
+#include "tools/run/checkpoints.h"
 #include "tools/run/crash_line.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/load_graph.h"
@@ -49,6 +50,7 @@ struct Options {
   RealTimeArguments real_time;
   bool json = false;
   RunFileArguments files;
+  CheckpointArguments checkpoints;
   RecordArguments recording;
 };
 
@@ -76,21 +78,36 @@ Duration end_of_run(const Options& options, const Loaded& loaded) {
   return end;
 }
 
-void print(const Options& options, const RunOutcome& outcome, bool written) {
+std::string text_of(const std::vector<Save>& saves) {
+  std::string text;
+  for (const Save& save : saves) text += "  saved       at " + seconds_text(save.at) + " s to " + save.file + "\n";
+  return text;
+}
+
+nlohmann::ordered_json json_of(const RunOutcome& outcome, const std::vector<Save>& saves) {
+  auto json = to_json(outcome);
+  if (outcome.begun > Duration{}) json["resumed_ns"] = outcome.begun.count();
+  for (const Save& save : saves) json["saved"].push_back({{"instant_ns", save.at.count()}, {"file", save.file}});
+  return json;
+}
+
+void print(const Options& options, const RunOutcome& outcome, const std::vector<Save>& saves, bool written) {
   const Report& report = outcome.executor.report();
   if (options.json) {
-    std::cout << json_line(to_json(outcome));
+    std::cout << json_line(json_of(outcome, saves));
     return;
   }
   if (outcome.clock != nullptr) {
     std::cout << fmt::format("{}: {} s in real time{}\n", printable(outcome.graph.name),
                              seconds_text(outcome.simulated), suffix_of(outcome.end));
   } else {
-    std::cout << fmt::format("{}: {} s on the virtual clock in {:.2f} s, {:.0f} times real time{}\n",
-                             printable(outcome.graph.name), seconds_text(outcome.simulated), outcome.seconds,
+    const std::string from = outcome.begun > Duration{} ? ", from " + seconds_text(outcome.begun) + " s on," : "";
+    std::cout << fmt::format("{}: {} s on the virtual clock{} in {:.2f} s, {:.0f} times real time{}\n",
+                             printable(outcome.graph.name), seconds_text(outcome.simulated), from, outcome.seconds,
                              real_time_factor(outcome), suffix_of(outcome.end));
   }
   std::cout << to_text(outcome);
+  std::cout << text_of(saves);
   if (written) std::cout << to_text(options.files);
   if (written) std::cout << to_text(options.recording);
   std::cerr << told_faults(report);
@@ -128,15 +145,29 @@ void require_effect(const Command& command, const Options& options) {
   command.refuse({"--force"}, "belongs to --concurrency exotasks; whether threads come in time is not checked before");
 }
 
-int run(const Options& options) {
-  require_apart({{"FILE", options.file}}, {{"--trace", options.files.trace},
-                                           {"--plot", options.files.plot},
-                                           {"--log", options.recording.log},
-                                           {"--record", options.recording.record}});
+// None of those that the command names replaces another.
+void require_files_apart(const Options& options, const std::vector<Save>& saves) {
+  std::vector<NamedFile> outputs{{"--trace", options.files.trace},
+                                 {"--plot", options.files.plot},
+                                 {"--log", options.recording.log},
+                                 {"--record", options.recording.record}};
+  for (const Save& save : saves) outputs.push_back({"--save", save.file});
+  require_apart({{"FILE", options.file}, {"--resume", options.checkpoints.resume}}, outputs);
+}
+
+int run(Options options) {
+  std::vector<Save> saves = parse_saves(options.checkpoints.saves);
+  require_files_apart(options, saves);
+  std::optional<Checkpoint> resumed;
+  if (!options.checkpoints.resume.empty())
+    resumed = read_checkpoint(options.checkpoints.resume, options.overrides, options.seed);
   const SourceSet sources;
   Loaded loaded = load_graph(options.file, options.overrides, options.seed);
   const Graph& graph = *loaded.graph;
-  const Duration end = end_of_run(options, loaded);
+  const Duration begin = resumed ? resumed->instant() : Duration{}, end = end_of_run(options, loaded);
+  if (end < begin)
+    throw std::invalid_argument("the run ends at " + seconds_text(end) + " s, and goes on from " + seconds_text(begin) +
+                                " s; say until when, as in --for 100s");
   require_clock(options, loaded);
   if (options.concurrency == "threads") return run_on_threads(loaded, end, options.real_time, options.json);
   const ReportsAside aside(options.files);
@@ -160,12 +191,17 @@ int run(const Options& options) {
   std::vector<RecordSink*> looking_on = files.sinks();
   noted.add_to(looking_on);
   if (log && log->publications() != nullptr) looking_on.push_back(log->publications());
+  RunOrigin origin = origin_of(loaded, options.overrides, options.seed);
   GraphRun graph_run(std::move(loaded), {.sinks = looking_on,
                                          .workers = options.workers,
                                          .clock = clock ? &*clock : nullptr,
                                          .threads = threads,
                                          .log = log ? log->recorder() : nullptr});
   Executor& executor = graph_run.executor();
+  graph_run.set_origin(std::move(origin));
+  SavedRun saved(graph_run, noted, end, std::move(saves));
+  if (resumed) restore(graph_run, noted, *resumed, options.checkpoints.resume);
+  saved.require_saveable(begin, end);
   const std::vector<Channels*>& channels = graph_run.channels();
   const bool steers =
       clock || std::any_of(channels.begin(), channels.end(), [](const Channels* c) { return c->outlives_run(); });
@@ -185,7 +221,7 @@ int run(const Options& options) {
   auto start = std::chrono::steady_clock::now();
   ExecutorRun attended(executor, end, rest, [&](Duration begun) { graph_run.sinks().judge_before(begun); });
   const RunEnd run_end = attend(
-      attended,
+      clock ? attended : saved,
       [&] {
         if (clock) start_clock(*clock, executor);
         if (guard) guard->arm();
@@ -220,6 +256,8 @@ int run(const Options& options) {
     if (log) finish_writing([&] { log->close(log_end_of(report)); });
     if (log) std::cerr << text_of_dropped(options.recording, *log);
   }
+  const bool written = unwritten.empty();
+  if (!saved.unwritten().empty()) unwritten += (unwritten.empty() ? "" : "; ") + saved.unwritten();
   const RunVerdict verdict = graph_run.judge(end, run_end, unseen);
   print(options,
         {.graph = graph,
@@ -231,10 +269,11 @@ int run(const Options& options) {
          .workers = options.workers,
          .links = graph_run.link_reports(),
          .seconds = seconds,
+         .begun = begin,
          .simulated = report.simulated,
          .verdict = verdict,
          .true_states = run_end.hangs ? std::vector<TrueState>{} : find_true_states(graph, channels)},
-        unwritten.empty());
+        saved.written(), written);
   std::cerr << errors_of(run_end, executor.now()) << failures_text(verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
   const int exit_code =
@@ -281,9 +320,11 @@ void add_run(CommandLine& line, int& exit_code) {
   add_real_time_options(*command, options->real_time);
   command->add_flag("--json", options->json, "One JSON object instead of text");
   add_run_file_options(*command, options->files);
+  add_checkpoint_options(*command, options->checkpoints);
   add_record_options(*command, options->recording);
   command->callback([options, command, &exit_code] {
     require_effect(*command, *options);
+    require_checkpoint_effect(*command, options->checkpoints, options->clock == "virtual");
     exit_code = run(*options);
   });
 }

@@ -37,6 +37,13 @@ void LoggedTexts::take(Duration instant, std::uint32_t index, const void* value)
   kept_.push_back({instant, output.name, output.last});
 }
 
+void LoggedTexts::serialize(Archive& archive) {
+  const std::lock_guard lock(mutex_);
+  archive.same(outputs_.size(), "is of other outputs");
+  for (Output& output : outputs_) archive(output.last, output.count, output.kept);
+  archive(kept_);
+}
+
 std::string LoggedTexts::to_text() const {
   const std::lock_guard lock(mutex_);
   std::string text;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "graph/model/graph.h"
+#include "graph/values/archive.h"
 #include "runtime/record/sink.h"
 
 namespace jarol::tools {
@@ -26,6 +27,9 @@ class LoggedTexts : public RecordSink {
   void take(Duration instant, std::uint32_t output, const void* value) override;
   void finish() override {}
 
+  /// What was noted so far, of the same graph, while nothing is handed on.
+  void serialize(Archive& archive);
+
   /// What was noted so far: a line per text, and an array of them.
   std::string to_text() const;
   nlohmann::ordered_json to_json() const;
@@ -41,6 +45,7 @@ class LoggedTexts : public RecordSink {
   struct Logged {
     Duration instant{};
     std::string output, text;
+    void serialize(Archive& archive) { archive(instant, output, text); }
   };
 
   const Output* find(std::uint32_t index) const;

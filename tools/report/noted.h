@@ -17,6 +17,8 @@ struct Noted {
     if (logged.can_be_any()) sinks.push_back(&logged);
   }
 
+  void serialize(Archive& archive) { archive(told, logged); }
+
   ToldChanges told;
   LoggedTexts logged;
 };

@@ -72,6 +72,16 @@ void ToldChanges::take(Duration instant, std::uint32_t output, const void* value
   watches_[*watch_of_[output]].note(instant, *watch_of_[output], value);
 }
 
+void ToldChanges::serialize(Archive& archive) {
+  const std::lock_guard lock(mutex_);
+  archive.same(watches_.size(), "is of other outputs");
+  for (Watch& watch : watches_) {
+    archive(watch.begun, watch.now, watch.count, watch.kept);
+    for (const Change& change : watch.kept)
+      archive.require(change.watch < watches_.size() && watch.kept.size() <= watch.count, "is of other outputs");
+  }
+}
+
 std::vector<ToldChanges::Change> ToldChanges::in_order() const {
   std::vector<Change> all;
   for (const Watch& watch : watches_) all.insert(all.end(), watch.kept.begin(), watch.kept.end());

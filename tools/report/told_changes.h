@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "graph/model/graph.h"
+#include "graph/values/archive.h"
 #include "graph/values/bind.h"
 #include "runtime/record/sink.h"
 
@@ -30,6 +31,9 @@ class ToldChanges : public RecordSink {
   void take(Duration instant, std::uint32_t output, const void* value) override;
   void finish() override {}
 
+  /// What was noted so far, of the same graph, while nothing is handed on.
+  void serialize(Archive& archive);
+
   /// What was noted so far: a line per change, and an array of them.
   std::string to_text() const;
   nlohmann::ordered_json to_json() const;
@@ -42,6 +46,7 @@ class ToldChanges : public RecordSink {
     Duration instant{};
     std::size_t watch = 0;
     Numbers before{}, after{};
+    void serialize(Archive& archive) { archive(instant, watch, before, after); }
   };
   // An `out` communicator whose value has such an enumeration.
   struct Watch {

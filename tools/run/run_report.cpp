@@ -23,7 +23,7 @@ bool has_weak_isolation(const Graph& graph) {
 }  // namespace
 
 double real_time_factor(const RunOutcome& outcome) {
-  return static_cast<double>(outcome.simulated.count()) * 1e-9 / outcome.seconds;
+  return static_cast<double>((outcome.simulated - outcome.begun).count()) * 1e-9 / outcome.seconds;
 }
 
 std::string to_text(const RunOutcome& outcome) {

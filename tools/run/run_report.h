@@ -24,6 +24,7 @@ struct RunOutcome {
   std::size_t workers = 1;           // that were asked for
   std::vector<LinkReport> links{};
   double seconds = 0;  // that it took, above zero
+  Duration begun{};    // from which instant on
   Duration simulated{};
   RunVerdict verdict{};
   std::vector<TrueState> true_states{};

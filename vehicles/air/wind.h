@@ -16,6 +16,8 @@ class Wind {
   /// NED, m/s, so high above the ground.
   fossen::Vector3 now(double height) const;
 
+  void serialize(Archive& archive) { archive(noise_, gust_, first_, lagged_, time_); }
+
  private:
   AirParameters parameters_;
   Noise noise_;

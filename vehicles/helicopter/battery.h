@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "graph/values/archive.h"
 #include "vehicles/helicopter/parameters.h"
 
 namespace jarol::vehicles {
@@ -19,6 +20,8 @@ class Battery {
 
   /// At the terminals, under a current; never below zero.
   double calc_voltage(double current) const;
+
+  void serialize(Archive& archive) { archive(used_); }
 
  private:
   BatteryParameters parameters_;

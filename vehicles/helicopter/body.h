@@ -15,6 +15,8 @@ struct HelicopterMotion {
   std::array<fossen::Vector3, 3> R_nb{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
   fossen::Vector3 v_b{};
   fossen::Vector3 omega_b{};
+
+  void serialize(Archive& archive) { archive(p_n, R_nb, v_b, omega_b); }
 };
 
 /// Rotors in the order front, right, rear, left.
@@ -52,6 +54,8 @@ struct HelicopterInput {
   fossen::Vector3 wind_n{};
   std::array<FootAnchor, contact_count> anchors{};
   double payload = 0.0;
+
+  void serialize(Archive& archive) { archive(from, to, begin, wind_n, anchors, payload); }
 };
 
 /// The part of a change of setting that is still to come after a time: first-order lag, solved exactly.

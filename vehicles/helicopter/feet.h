@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 
+#include "graph/values/archive.h"
 #include "vehicles/mechanics/fossen.h"
 
 namespace jarol::vehicles {
@@ -25,6 +26,8 @@ struct Feet {
 /// friction does not suffice.
 struct FootAnchor {
   double x = 0.0, y = 0.0;
+
+  void serialize(Archive& archive) { archive(x, y); }
 };
 
 /// A foot's place and velocity in NED.

@@ -112,6 +112,12 @@ void Helicopter::tell_outputs(double current) {
   outputs_.battery = {voltage_, current};
 }
 
+void Helicopter::serialize(Archive& archive) {
+  plant_->serialize(archive);
+  archive(robostix_, battery_, wind_, sensors_, voltage_, outputs_, judge_, motors_, nanoseconds_);
+  archive.bytes(&answer_, sizeof answer_);
+}
+
 VehicleState Helicopter::state() const {
   const HelicopterMotion m = plant_->motion();
   const auto& R = m.R_nb;

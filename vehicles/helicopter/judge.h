@@ -20,6 +20,8 @@ class HelicopterJudge {
   const HelicopterTruth& truth() const { return truth_; }
   std::optional<Mishap> mishap() const;
 
+  void serialize(Archive& archive) { archive(start_, last_, truth_, mishap_, has_flown_, last_instant_, driven_); }
+
  private:
   void tell_truth(const HelicopterMotion& motion);
   void meet_ground(std::chrono::nanoseconds instant, const HelicopterMotion& motion, std::size_t part);

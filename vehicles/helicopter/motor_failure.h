@@ -52,6 +52,8 @@ class FailingMotor {
     return held_;
   }
 
+  void serialize(Archive& archive) { archive(held_); }
+
  private:
   MotorFailure failure_{};
   double begin_ = 0.0;

@@ -6,6 +6,7 @@
 
 #include "vehicles/mechanics/force_with_input.h"
 #include "vehicles/mechanics/frames.h"
+#include "vehicles/mechanics/integrator_archive.h"
 
 namespace jarol::vehicles {
 namespace {
@@ -141,6 +142,13 @@ void HelicopterPlant::step(const HelicopterCommand& command) {
   s.input.payload = command.payload;
   const long parts = s.near_ground() ? 5 : 1;
   for (long i = 0; i < parts; ++i) s.advance_to(s.now + step_nanoseconds / parts);
+}
+
+void HelicopterPlant::serialize(Archive& archive) {
+  Simulation& s = *simulation_;
+  archive(s.input, s.motion, s.now, s.failure);
+  archive.require(s.now >= 0, "has a vehicle before the start");
+  serialize_state(archive, s.integrator, 1e-9 * static_cast<double>(s.now));
 }
 
 const HelicopterMotion& HelicopterPlant::motion() const { return simulation_->motion; }

@@ -34,6 +34,9 @@ class HelicopterPlant {
   /// What an accelerometer in the centre of gravity measures in body axes: all forces but the weight, per mass.
   fossen::Vector3 specific_force() const;
 
+  /// Between two steps. Restored into a plant of the same body it goes on to the bit.
+  void serialize(Archive& archive);
+
  private:
   struct Simulation;
   std::unique_ptr<Simulation> simulation_;

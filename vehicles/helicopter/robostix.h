@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "distributers/messages/message.h"
+#include "graph/values/archive.h"
 
 namespace jarol::vehicles {
 
@@ -24,6 +25,8 @@ class Robostix {
   /// MotorSignals came in the step that has just passed, to be answered now.
   bool answers() const { return answers_; }
   std::uint16_t id() const { return id_; }
+
+  void serialize(Archive& archive) { archive(signals_, unlocked_, asked_, answers_, id_, silent_steps_); }
 
  private:
   std::array<double, 4> signals_{};

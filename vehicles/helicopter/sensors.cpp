@@ -90,6 +90,12 @@ HelicopterSensors::HelicopterSensors(const HelicopterParameters& parameters, std
       rate_bias_(draw_bias(imu_noise_, deviations_.rate_bias)),
       force_bias_(draw_bias(imu_noise_, deviations_.force_bias)) {}
 
+void HelicopterSensors::serialize(Archive& archive) {
+  archive(imu_noise_, sonar_noise_, laser_noise_, bmu_noise_, drift_noise_, imu_, sonar_, laser_north_, laser_east_,
+          bmu_, rate_bias_, force_bias_, sampled_, wandered_, ground_z_);
+  archive.bytes(&data_, sizeof data_);
+}
+
 void HelicopterSensors::sample(std::int64_t nanoseconds, const Scene& scene) {
   if (sampled_ < 0) ground_z_ = scene.motion.p_n[2];
   const SensorParameters& p = parameters_;

@@ -33,6 +33,8 @@ class HelicopterSensors {
   /// The answer to motor signals; what was new is new no longer.
   messages::javiator::JaviatorData answer(std::uint16_t id);
 
+  void serialize(Archive& archive);
+
  private:
   using Error = FailingSensor::Error;
   void sample_pressure(const Scene& scene, const Error& error);

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <initializer_list>
 
+#include "graph/values/archive.h"
 #include "vehicles/mechanics/fossen.h"
 
 namespace jarol::vehicles {
@@ -17,6 +18,11 @@ struct RigidState {
   Eigen::Vector3d omega_n = Eigen::Vector3d::Zero();
 
   Eigen::Matrix3d R_nb() const { return q_nb.normalized().toRotationMatrix(); }
+
+  void serialize(Archive& archive) {
+    for (Eigen::Vector3d* part : {&p_n, &v_n, &omega_n}) archive.bytes(part->data(), 3 * sizeof(double));
+    archive.bytes(q_nb.coeffs().data(), 4 * sizeof(double));
+  }
 };
 
 /// Attitude of Euler angles ZYX: roll, pitch, yaw.

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "graph/values/archive.h"
+
 namespace jarol::vehicles {
 
 class Noise {
@@ -15,6 +17,8 @@ class Noise {
 
   /// Mean 0, standard deviation 1.
   double normal();
+
+  void serialize(Archive& archive) { archive(drawn_); }
 
  private:
   std::uint64_t seed_;

@@ -66,6 +66,8 @@ class FailingSensor {
     return {};
   }
 
+  void serialize(Archive& archive) { archive(noise_); }
+
  private:
   SensorFailure failure_{};
   double begin_ = 0.0;

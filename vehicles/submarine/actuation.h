@@ -24,6 +24,10 @@ class SubmarineActuation {
   double propeller() const { return propeller_; }  // rad/s
   const std::array<double, 4>& servos() const { return servos_; }
 
+  void serialize(Archive& archive) {
+    archive(thruster_command_, servo_commands_, thruster_silence_, servo_silence_, propeller_, servos_);
+  }
+
  private:
   ServoParameters servo_parameters_;
   ThrusterParameters thruster_;

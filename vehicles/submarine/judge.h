@@ -37,6 +37,8 @@ class SubmarineJudge {
   const SubmarineTruth& truth() const { return truth_; }
   const std::optional<Mishap>& mishap() const { return mishap_; }
 
+  void serialize(Archive& archive) { archive(truth_, mishap_); }
+
  private:
   void tell_truth(const VehicleState& state);
 

@@ -1,6 +1,7 @@
 // How the submarine moves, hidden from everything else: plain numbers in and out. C++17 suffices to include it.
 #pragma once
 
+#include "graph/values/archive.h"
 #include "vehicles/submarine/body.h"
 
 namespace jarol::vehicles {
@@ -11,6 +12,8 @@ struct PlantState {
   fossen::Vector6 eta{};
   fossen::Vector6 nu{};
   fossen::Vector6 nu_dot{};
+
+  void serialize(Archive& archive) { archive(eta, nu, nu_dot); }
 };
 
 class SubmarineMotion {
@@ -23,6 +26,9 @@ class SubmarineMotion {
   virtual void step(const SubmarineInput& input) = 0;
 
   virtual PlantState state() const = 0;
+
+  /// Between two steps. Restored into a motion of the same body it goes on to the bit.
+  virtual void serialize(Archive& archive) = 0;
 };
 
 }  // namespace jarol::vehicles

@@ -7,6 +7,7 @@
 #include "distributers/interfaces/no_state.h"
 #include "vehicles/mechanics/force_with_input.h"
 #include "vehicles/mechanics/frames.h"
+#include "vehicles/mechanics/integrator_archive.h"
 
 namespace jarol::vehicles {
 namespace {
@@ -109,6 +110,13 @@ void SubmarinePlant::step(const SubmarineInput& input) {
   Simulation& s = *simulation_;
   s.hydrodynamics->set_input(s.integrator.updAdvancedState(), input);
   s.advance();
+}
+
+void SubmarinePlant::serialize(Archive& archive) {
+  Simulation& s = *simulation_;
+  archive(s.steps, s.failure);
+  archive.require(s.steps >= 0, "has a vehicle before the start");
+  serialize_state(archive, s.integrator, static_cast<double>(s.steps) * SubmarineMotion::step_seconds);
 }
 
 PlantState SubmarinePlant::state() const {

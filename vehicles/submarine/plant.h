@@ -14,6 +14,7 @@ class SubmarinePlant : public SubmarineMotion {
   ~SubmarinePlant() override;
 
   void step(const SubmarineInput& input) override;
+  void serialize(Archive& archive) override;
   PlantState state() const override;
 
  private:

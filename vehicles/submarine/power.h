@@ -1,6 +1,7 @@
 // The submarine's battery and what heats its hull.
 #pragma once
 
+#include "graph/values/archive.h"
 #include "graph/values/describe.h"
 
 namespace jarol::vehicles {
@@ -38,6 +39,8 @@ class Power {
   double current() const { return current_; }
   double voltage() const;
   double warmth() const { return warmth_; }  // K above the water
+
+  void serialize(Archive& archive) { archive(current_, used_, warmth_); }
 
  private:
   PowerParameters parameters_;

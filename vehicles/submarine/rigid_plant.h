@@ -12,6 +12,7 @@ class RigidSubmarine : public SubmarineMotion {
   RigidSubmarine(const SubmarineBody& body, const Waves& waves, const PlantState& start);
 
   void step(const SubmarineInput& input) override;
+  void serialize(Archive& archive) override { archive(state_, input_.propeller, input_.fins, steps_); }
   PlantState state() const override;
 
  private:

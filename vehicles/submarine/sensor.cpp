@@ -46,6 +46,14 @@ void Sensor::measure(const Values& truth, const FailingSensor::Error& error) {
   measured_ = values;
 }
 
+// The ring from its first reading on.
+void Sensor::serialize(Archive& archive) {
+  archive(noise_, failing_, measured_, told_, values_, count_);
+  archive.require(count_ <= pending_.size(), "has more readings than a sensor keeps");
+  if (archive.restores()) first_ = 0;
+  for (std::size_t i = 0; i < count_; ++i) archive(pending_[(first_ + i) % pending_.size()]);
+}
+
 void Sensor::step(std::int64_t step, const std::optional<Values>& truth) {
   if (step % period_ == 0 && truth) {
     const double seconds = 1e-9 * static_cast<double>((step * grid).count());

@@ -31,6 +31,8 @@ class Sensor {
   const Values& values() const { return values_; }
   double value() const { return values_[0]; }
 
+  void serialize(Archive& archive);
+
  private:
   struct Errors {
     double noise = 0.0, bias = 0.0, resolution = 0.0;
@@ -39,6 +41,7 @@ class Sensor {
   struct Reading {
     std::int64_t step = 0;
     Values values{};
+    void serialize(Archive& archive) { archive(step, values); }
   };
 
   Sensor(const Errors& errors, Duration period, Duration delay, const std::string& name, std::uint64_t seed,

@@ -58,6 +58,11 @@ SubmarineSensors::SubmarineSensors(const SubmarineSensorParameters& p, const Sea
       voltage_(p.voltage, "voltage", seed),
       current_(p.current, "current", seed) {}
 
+void SubmarineSensors::serialize(Archive& archive) {
+  archive(seconds_, depth_, pressure_, conductivity_cell_, water_temperature_, attitude_, rates_, forces_, compass_,
+          speed_, rpm_, gps_, altitude_, leak_, hull_temperature_, voltage_, current_, readings_);
+}
+
 void SubmarineSensors::step(std::int64_t step, const SubmarineScene& scene) {
   using Values = Sensor::Values;
   const fossen::Vector6 &eta = scene.at.eta, &nu = scene.at.nu, &nu_dot = scene.at.nu_dot;

@@ -33,6 +33,8 @@ class SubmarineSensors {
 
   const SubmarineReadings& readings() const { return readings_; }
 
+  void serialize(Archive& archive);
+
   /// Sends the readings that came at this step.
   void tell(messages::Receiver& receiver) const;
 

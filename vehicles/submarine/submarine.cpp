@@ -65,6 +65,11 @@ void Submarine::accept(messages::MessageRef command) {
   }
 }
 
+void Submarine::serialize(Archive& archive) {
+  motion_->serialize(archive);
+  archive(actuation_, sensors_, power_, at_, steps_, outputs_, judge_);
+}
+
 void Submarine::command(const void* inputs) {
   const auto& in = *static_cast<const SubmarineInputs*>(inputs);
   actuation_.command_thruster(in.thruster);

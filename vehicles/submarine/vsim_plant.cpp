@@ -99,6 +99,8 @@ Vector6 VsimPlant::calc_forces(const SubmarineInput& input) const {
   return sum;
 }
 
+void VsimPlant::serialize(Archive& archive) { archive(state_, steps_); }
+
 void VsimPlant::step(const SubmarineInput& input) {
   // place and velocity from the same old state; the sea's surface is a lid
   const Vector6 force = calc_forces(input), eta_dot = calc_eta_dot(state_);

@@ -13,6 +13,7 @@ class VsimPlant : public SubmarineMotion {
   VsimPlant(const SubmarineParameters& parameters, const PlantState& start);
 
   void step(const SubmarineInput& input) override;
+  void serialize(Archive& archive) override;
   PlantState state() const override { return state_; }
 
  private:

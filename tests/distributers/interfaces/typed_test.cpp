@@ -69,6 +69,47 @@ class Sonde {
   std::int64_t count_ = 0;
 };
 
+// With nothing beside its channels that come in.
+class Ear {
+ public:
+  static constexpr std::string_view summary = "hears";
+  static constexpr bool is_vehicle = true;
+  struct In {
+    Newest<double> front;
+    static constexpr auto fields() { return describe(channel<&In::front>("signal in front")); }
+  };
+  static const messages::MessageSet& message_set() { return javiator::message_set(); }
+  static constexpr auto handlers() { return handle(on<javiator::MotorSignals>(&Ear::motors)); }
+  void motors(const javiator::MotorSignals& m) { in.front = m.front; }
+  In in;
+};
+
+// And with more, which it says.
+class Counting : public Ear {
+ public:
+  static constexpr auto handlers() { return handle(on<javiator::MotorSignals>(&Counting::count)); }
+  void count(const javiator::MotorSignals&) { in.front = ++count_; }
+  void serialize(Archive& archive) { archive(count_); }
+
+ private:
+  int count_ = 0;
+};
+
+template <class D>
+Archive::Bytes saved(Typed<D>& distributer) {
+  Archive::Bytes bytes;
+  Archive archive = Archive::to(bytes);
+  distributer.serialize(archive);
+  return bytes;
+}
+
+template <class D>
+void restore(Typed<D>& distributer, const Archive::Bytes& bytes) {
+  Archive archive = Archive::from(bytes);
+  distributer.serialize(archive);
+  archive.require_end();
+}
+
 using In = Sonde::In;
 using Out = Sonde::Out;
 
@@ -157,5 +198,27 @@ TEST_SUITE("distributers/interfaces/typed") {
   TEST_CASE("a distributer that can't be made of its parameters says why") {
     const SondeParam none{0};
     CHECK_THROWS_WITH_AS(distributer_class<Sonde>().make(&none), "a scale of 0 shows nothing", std::invalid_argument);
+  }
+
+  TEST_CASE("channels that come in are saved with whether they are new, and what else a distributer says") {
+    Typed<Ear> ear, other;
+    ear.receive(signals(3, 0));
+    restore(other, saved(ear));
+    double value = 0;
+    CHECK(other.take<&Ear::In::front>(value));
+    CHECK(value == 3);
+    restore(ear, saved(other));
+    CHECK_FALSE(ear.take<&Ear::In::front>(value));
+    Typed<Counting> counting, next;
+    counting.receive(signals(3, 0));
+    restore(next, saved(counting));
+    next.receive(signals(3, 0));
+    CHECK(next.take<&Ear::In::front>(value));
+    CHECK(value == 2);
+  }
+
+  TEST_CASE("a distributer that has members of its own and does not say so can't be saved") {
+    Typed<Sonde> sonde;
+    CHECK_THROWS_WITH_AS(saved(sonde), "Sonde has members of its own, and no serialize(Archive&)", NotSaveable);
   }
 }

@@ -16,17 +16,16 @@ using jarol::tests::Process;
 // Two pilots that feed nobody, of which one crashes in its fourth activation.
 std::string crashing(const TemporaryFolder& folder, const std::string& way) {
   const std::string plugin = std::filesystem::absolute(JAROL_PLUGIN_FOLDER "/crash.so").string();
-  return folder.write(
-      "crash.yaml",
-      "graph: g\nplugins: [" + plugin +
-          "]\ntiming: {period: 10ms}\n"
-          "communicators: {c: {type: JaviatorSensors, direction: in}}\n"
-          "tasks:\n  a: {type: CrashingPilot, on_fault: hold}\n  b: {type: CrashingPilot, on_fault: hold, parameters: "
-          "{way: " +
-          way +
-          ", at: 3}}\n"
-          "  d: {type: CrashingPilot, on_fault: hold, let: 5ms}\n"
-          "connections: [c -> a.sensors, c -> b.sensors, c -> d.sensors]\n");
+  return folder.write("crash.yaml", "graph: g\nplugins: [" + plugin +
+                                        "]\ntiming: {period: 10ms}\n"
+                                        "communicators: {c: {type: JaviatorSensors, direction: in}}\n"
+                                        "tasks:\n  a: {type: CrashingPilot, isolation: weak, on_fault: hold}\n  b: "
+                                        "{type: CrashingPilot, isolation: weak, on_fault: hold, parameters: "
+                                        "{way: " +
+                                        way +
+                                        ", at: 3}}\n"
+                                        "  d: {type: CrashingPilot, isolation: weak, on_fault: hold, let: 5ms}\n"
+                                        "connections: [c -> a.sensors, c -> b.sensors, c -> d.sensors]\n");
 }
 const std::string line = "crash: task 'b' activation 3 at 0.03 s: ";
 

@@ -1,0 +1,250 @@
+#include "graph/isolation/instruction.h"
+
+#include <capstone/capstone.h>
+
+#include <memory>
+#include <stdexcept>
+
+namespace jarol::isolation {
+namespace {
+
+// Debian's capstone frees what it gave by functions of its own.
+class Disassembler {
+ public:
+  Disassembler() {
+    if (cs_open(CS_ARCH_X86, CS_MODE_64, &handle_) != CS_ERR_OK) throw std::runtime_error("capstone can't be used");
+    cs_option(handle_, CS_OPT_DETAIL, CS_OPT_ON);
+    instruction_ = cs_malloc(handle_);
+  }
+  ~Disassembler() {
+    cs_free(instruction_, 1);
+    cs_close(&handle_);
+  }
+  Disassembler(const Disassembler&) = delete;
+  Disassembler& operator=(const Disassembler&) = delete;
+
+  /// The next instruction, or null.
+  const cs_insn* next(const unsigned char*& code, std::size_t& left, Address& at) {
+    return cs_disasm_iter(handle_, &code, &left, &at, instruction_) ? instruction_ : nullptr;
+  }
+
+ private:
+  csh handle_ = 0;
+  cs_insn* instruction_ = nullptr;
+};
+
+// The parts of a general register have its number.
+constexpr auto make_registers() {
+  std::array<Register, X86_REG_ENDING> numbers{};
+  numbers.fill(no_register);
+  constexpr x86_reg old[8][5] = {
+      {X86_REG_RAX, X86_REG_EAX, X86_REG_AX, X86_REG_AL, X86_REG_AH},
+      {X86_REG_RCX, X86_REG_ECX, X86_REG_CX, X86_REG_CL, X86_REG_CH},
+      {X86_REG_RDX, X86_REG_EDX, X86_REG_DX, X86_REG_DL, X86_REG_DH},
+      {X86_REG_RBX, X86_REG_EBX, X86_REG_BX, X86_REG_BL, X86_REG_BH},
+      {X86_REG_RSP, X86_REG_ESP, X86_REG_SP, X86_REG_SPL, X86_REG_SPL},
+      {X86_REG_RBP, X86_REG_EBP, X86_REG_BP, X86_REG_BPL, X86_REG_BPL},
+      {X86_REG_RSI, X86_REG_ESI, X86_REG_SI, X86_REG_SIL, X86_REG_SIL},
+      {X86_REG_RDI, X86_REG_EDI, X86_REG_DI, X86_REG_DIL, X86_REG_DIL},
+  };
+  for (Register r = 0; r < 8; ++r)
+    for (const x86_reg part : old[r]) numbers[part] = r;
+  // capstone numbers each kind of part of r8 to r15 in a row
+  for (Register r = 0; r < 8; ++r)
+    for (const x86_reg first : {X86_REG_R8, X86_REG_R8D, X86_REG_R8W, X86_REG_R8B})
+      numbers[static_cast<std::size_t>(first + r)] = static_cast<Register>(8 + r);
+  numbers[X86_REG_RIP] = instruction_pointer;
+  return numbers;
+}
+static_assert(X86_REG_R15 == X86_REG_R8 + 7 && X86_REG_R15D == X86_REG_R8D + 7 && X86_REG_R15W == X86_REG_R8W + 7 &&
+              X86_REG_R15B == X86_REG_R8B + 7);
+
+Register register_of(unsigned reg) {
+  static constexpr auto numbers = make_registers();
+  return reg < numbers.size() ? numbers[reg] : no_register;
+}
+
+// Why no task may hold an instruction; empty: it may.
+const char* reason_against(const cs_insn& instruction) {
+  switch (instruction.id) {
+    case X86_INS_SYSCALL:
+    case X86_INS_SYSENTER:
+    case X86_INS_INT:
+    case X86_INS_INT1:
+    case X86_INS_INTO: return "a system call";
+    case X86_INS_RDTSC:
+    case X86_INS_RDTSCP:
+    case X86_INS_RDPMC: return "which reads a counter of cycles";
+    case X86_INS_RDRAND:
+    case X86_INS_RDSEED: return "which makes random numbers";
+    case X86_INS_CPUID:
+    case X86_INS_XGETBV:
+    case X86_INS_SGDT:
+    case X86_INS_SIDT:
+    case X86_INS_SLDT:
+    case X86_INS_STR:
+    case X86_INS_SMSW:
+    case X86_INS_LSL:
+    case X86_INS_LAR: return "which asks what processor or core this is";
+    case X86_INS_LDMXCSR:
+    case X86_INS_VLDMXCSR:
+    case X86_INS_FXRSTOR:
+    case X86_INS_FXRSTOR64:
+    case X86_INS_XRSTOR:
+    case X86_INS_XRSTOR64:
+    case X86_INS_FLDCW:
+    case X86_INS_FLDENV:
+    case X86_INS_FRSTOR:
+    case X86_INS_FNINIT:
+    case X86_INS_EMMS: return "which changes the floating-point environment";
+    case X86_INS_STMXCSR:
+    case X86_INS_VSTMXCSR:
+    case X86_INS_FXSAVE:
+    case X86_INS_FXSAVE64:
+    case X86_INS_XSAVE:
+    case X86_INS_XSAVE64:
+    case X86_INS_XSAVEOPT:
+    case X86_INS_XSAVEC:
+    case X86_INS_FNSTENV:
+    case X86_INS_FNSAVE:
+    case X86_INS_FNSTSW: return "which reads the floating-point environment";
+    case X86_INS_RDFSBASE:
+    case X86_INS_RDGSBASE:
+    case X86_INS_WRFSBASE:
+    case X86_INS_WRGSBASE:
+    case X86_INS_SWAPGS: return "which reaches thread-local storage";
+    case X86_INS_IN:
+    case X86_INS_OUT:
+    case X86_INS_INSB:
+    case X86_INS_INSW:
+    case X86_INS_INSD:
+    case X86_INS_OUTSB:
+    case X86_INS_OUTSW:
+    case X86_INS_OUTSD: return "which talks to a device";
+    case X86_INS_POPF:
+    case X86_INS_POPFD:
+    case X86_INS_POPFQ:
+    case X86_INS_STD: return "which changes the processor's flags for others";
+    case X86_INS_XBEGIN:
+    case X86_INS_XABORT:
+    case X86_INS_XTEST:
+    case X86_INS_XEND: return "a memory transaction, which may fail at any time";
+    case X86_INS_LCALL:
+    case X86_INS_LJMP:
+    case X86_INS_RETF:
+    case X86_INS_RETFQ:
+    case X86_INS_IRET:
+    case X86_INS_IRETD:
+    case X86_INS_IRETQ: return "a jump to another segment";
+    default: break;
+  }
+  for (std::uint8_t i = 0; i < instruction.detail->groups_count; ++i) {
+    const std::uint8_t group = instruction.detail->groups[i];
+    // to end the process at once is no way out of it
+    const bool ends = instruction.id == X86_INS_HLT || instruction.id == X86_INS_INT3 || instruction.id == X86_INS_UD2;
+    if (group == CS_GRP_PRIVILEGE && !ends) return "which only a system may execute";
+  }
+  return "";
+}
+
+Instruction::Form form_of(const cs_insn& instruction) {
+  using Form = Instruction::Form;
+  switch (instruction.id) {
+    case X86_INS_MOV:
+    case X86_INS_MOVABS:
+    case X86_INS_MOVZX:
+    case X86_INS_MOVSX:
+    case X86_INS_MOVSXD: return Form::move;
+    case X86_INS_LEA: return Form::address;
+    case X86_INS_ADD:
+    case X86_INS_SUB: return Form::add;
+    case X86_INS_PUSH: return Form::push;
+    case X86_INS_POP: return Form::pop;
+    case X86_INS_CALL: return Form::call;
+    case X86_INS_JMP: return Form::jump;
+    case X86_INS_LEAVE: return Form::leave;
+    case X86_INS_RET:
+    case X86_INS_UD2:
+    case X86_INS_HLT:
+    case X86_INS_INT3: return Form::end;
+    default: break;
+  }
+  for (std::uint8_t i = 0; i < instruction.detail->groups_count; ++i)
+    if (instruction.detail->groups[i] == CS_GRP_JUMP) return Form::branch;
+  return Form::other;
+}
+
+Operand operand_of(const cs_x86_op& from) {
+  Operand made;
+  made.size = from.size;
+  made.written = (from.access & CS_AC_WRITE) != 0;
+  switch (from.type) {
+    case X86_OP_REG:
+      made.reg = register_of(from.reg);
+      made.kind = made.reg == no_register ? Operand::Kind::other : Operand::Kind::reg;
+      break;
+    case X86_OP_IMM:
+      made.kind = Operand::Kind::number;
+      made.number = from.imm;
+      break;
+    case X86_OP_MEM:
+      made.kind = Operand::Kind::memory;
+      made.reg = register_of(from.mem.base);
+      made.index = register_of(from.mem.index);
+      made.number = from.mem.disp;
+      if (from.mem.segment == X86_REG_FS || from.mem.segment == X86_REG_GS) {
+        const bool guard = from.mem.segment == X86_REG_FS && from.mem.base == X86_REG_INVALID &&
+                           from.mem.index == X86_REG_INVALID && from.mem.disp == 0x28;
+        made.thread_local_data = !guard;
+      }
+      break;
+    default: break;
+  }
+  return made;
+}
+
+Instruction made_of(const cs_insn& from) {
+  Instruction made;
+  made.at = from.address;
+  made.next = from.address + from.size;
+  made.form = form_of(from);
+  made.forbidden = reason_against(from);
+  made.subtracts = from.id == X86_INS_SUB;
+  if (*made.forbidden != '\0') made.text = from.mnemonic;
+  const cs_x86& x86 = from.detail->x86;
+  for (std::size_t i = 0; i < made.operands.size() && i < x86.op_count; ++i) {
+    made.operands[i] = operand_of(x86.operands[i]);
+    const Operand& operand = made.operands[i];
+    if (operand.kind == Operand::Kind::reg && operand.written && operand.reg >= 0)
+      made.writes = static_cast<std::uint16_t>(made.writes | 1U << operand.reg);
+  }
+  for (std::uint8_t i = 0; i < from.detail->regs_write_count; ++i)
+    if (const Register reg = register_of(from.detail->regs_write[i]); reg >= 0 && reg != rsp)
+      made.writes = static_cast<std::uint16_t>(made.writes | 1U << reg);
+  return made;
+}
+
+}  // namespace
+
+std::vector<Instruction> decode(const Object& object, Address begin, Address end) {
+  static thread_local Disassembler disassembler;
+  const Bytes bytes = object.bytes(begin, end);
+  const unsigned char* code = bytes.data();
+  std::size_t left = bytes.size();
+  Address at = begin;
+  std::vector<Instruction> all;
+  bool after_conversion = false;
+  while (left > 0) {
+    const cs_insn* const found = disassembler.next(code, left, at);
+    if (found == nullptr) break;
+    // compilers change the x87 control word around the conversion of a long double to an integer, and restore it
+    const bool converts = found->id == X86_INS_FISTP;
+    if (converts && !all.empty() && all.back().text == "fldcw") all.back().forbidden = "";
+    all.push_back(made_of(*found));
+    if (after_conversion && found->id == X86_INS_FLDCW) all.back().forbidden = "";
+    after_conversion = converts;
+  }
+  return all;
+}
+
+}  // namespace jarol::isolation

@@ -1,0 +1,13 @@
+// Names of functions as people read them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace jarol::isolation {
+
+/// A declaration without parameters, results and what compilers add: "Clock::run" of "void Clock::run(Tick const&)
+/// [clone .isra.0]".
+std::string bare_name(std::string_view declaration);
+
+}  // namespace jarol::isolation

@@ -1,0 +1,227 @@
+#include "graph/isolation/object.h"
+
+#include <cxxabi.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+
+namespace jarol::isolation {
+namespace {
+
+Place place_of_section(std::string_view name, const Elf64_Shdr& section) {
+  if ((section.sh_flags & SHF_ALLOC) == 0) return Place::nowhere;
+  if ((section.sh_flags & SHF_EXECINSTR) != 0) return Place::code;
+  if ((section.sh_flags & SHF_TLS) != 0) return Place::thread_local_data;
+  if (name.starts_with(".got")) return Place::offset_table;
+  // written by the loader, and by nobody after that
+  const bool constant = name.starts_with(".data.rel.ro") || name == ".dynamic" || name.starts_with(".init_array") ||
+                        name.starts_with(".fini_array");
+  return (section.sh_flags & SHF_WRITE) != 0 && !constant ? Place::writable : Place::constant;
+}
+
+std::string without_version(std::string_view name) { return std::string(name.substr(0, name.find('@'))); }
+
+// The last that begins at or before an address.
+const Symbol* last_before(const std::vector<Symbol>& symbols, Address address) {
+  const auto after = std::upper_bound(symbols.begin(), symbols.end(), address,
+                                      [](Address a, const Symbol& symbol) { return a < symbol.begin; });
+  return after == symbols.begin() ? nullptr : &*std::prev(after);
+}
+
+Address next_begin(const std::vector<Symbol>& symbols, Address address, Address limit) {
+  const auto after = std::upper_bound(symbols.begin(), symbols.end(), address,
+                                      [](Address a, const Symbol& symbol) { return a < symbol.begin; });
+  return after == symbols.end() ? limit : std::min(limit, after->begin);
+}
+
+// One for each address, the longest, and of several names the first.
+void order(std::vector<Symbol>& symbols) {
+  std::sort(symbols.begin(), symbols.end(), [](const Symbol& a, const Symbol& b) {
+    return std::tuple(a.begin, ~a.end, std::string_view(a.name)) <
+           std::tuple(b.begin, ~b.end, std::string_view(b.name));
+  });
+  symbols.erase(
+      std::unique(symbols.begin(), symbols.end(), [](const Symbol& a, const Symbol& b) { return a.begin == b.begin; }),
+      symbols.end());
+}
+
+}  // namespace
+
+Object::Object(const std::string& path) : file_(path) {
+  if (file_.sections().empty()) throw std::runtime_error("is no object file for x86-64 that can be read");
+  if (file_.type() != ET_DYN)
+    throw std::runtime_error("is no shared library; link it with -shared, as graph/plugins/plugin.h says");
+  const Elf64_Shdr* symbols = nullptr;
+  for (const Elf64_Shdr& section : file_.sections()) {
+    const std::string_view name = file_.name(section);
+    if (section.sh_type == SHT_SYMTAB) symbols = &section;
+    const Place place = place_of_section(name, section);
+    if (place == Place::nowhere || section.sh_size == 0) continue;
+    if (place == Place::thread_local_data && section.sh_type == SHT_NOBITS) continue;  // takes no addresses
+    if (section.sh_addr + section.sh_size < section.sh_addr) throw std::runtime_error("is damaged");
+    sections_.push_back(
+        {section.sh_addr, section.sh_addr + section.sh_size, place, file_.content(section), name.starts_with(".plt")});
+  }
+  std::sort(sections_.begin(), sections_.end(), [](const Section& a, const Section& b) { return a.begin < b.begin; });
+  if (symbols == nullptr)
+    throw std::runtime_error(
+        "has no table of symbols, so that its code has no names; link it without -s and don't strip it");
+  read_symbols(*symbols);
+  for (const Elf64_Shdr& section : file_.sections())
+    if (section.sh_type == SHT_RELA && (section.sh_flags & SHF_ALLOC) != 0) read_pointers(section);
+}
+
+void Object::read_symbols(const Elf64_Shdr& table) {
+  for (const auto& symbol : file_.entries<Elf64_Sym>(table)) {
+    if (symbol.st_shndx == SHN_UNDEF || symbol.st_shndx >= file_.sections().size()) continue;
+    const unsigned type = ELF64_ST_TYPE(symbol.st_info);
+    const std::string name = without_version(file_.text(table, symbol.st_name));
+    if (type == STT_TLS) {
+      thread_locals_.emplace(symbol.st_value, name);
+      continue;
+    }
+    if (type == STT_SECTION || type == STT_FILE || name.empty()) continue;
+    const Place place = place_of(symbol.st_value);
+    const Symbol found{symbol.st_value, symbol.st_value + symbol.st_size, name, type == STT_GNU_IFUNC};
+    if (place == Place::code && (type == STT_FUNC || type == STT_GNU_IFUNC || type == STT_NOTYPE))
+      functions_.push_back(found);
+    else if (type == STT_OBJECT)
+      data_.push_back(found);
+  }
+  order(functions_);
+  order(data_);
+  for (std::size_t i = 0; i < functions_.size(); ++i) by_name_[functions_[i].name].push_back(i);
+}
+
+std::string Object::thread_local_at(Address offset) const {
+  const auto found = thread_locals_.find(offset);
+  return found == thread_locals_.end() ? "" : found->second;
+}
+
+Pointer Object::pointer_of(const Elf64_Rela& relocation, const std::vector<Elf64_Sym>& symbols,
+                           const Elf64_Shdr& names) const {
+  const std::size_t index = ELF64_R_SYM(relocation.r_info);
+  const auto addend = static_cast<Address>(relocation.r_addend);
+  const Elf64_Sym* const symbol = index != 0 && index < symbols.size() ? &symbols[index] : nullptr;
+  const std::string name = symbol != nullptr ? without_version(file_.text(names, symbol->st_name)) : "";
+  switch (ELF64_R_TYPE(relocation.r_info)) {
+    case R_X86_64_DTPMOD64: {
+      // the offset within the module stands beside it
+      const Bytes offset = bytes(relocation.r_offset + 8, relocation.r_offset + 16);
+      Address value = 0;
+      if (!offset.empty()) std::memcpy(&value, offset.data(), sizeof value);
+      return {Pointer::To::thread_local_data, 0, symbol != nullptr ? name : thread_local_at(value)};
+    }
+    case R_X86_64_DTPOFF64:
+    case R_X86_64_TPOFF64:
+    case R_X86_64_TLSDESC:
+      return {Pointer::To::thread_local_data, 0, symbol != nullptr ? name : thread_local_at(addend)};
+    case R_X86_64_COPY: return {Pointer::To::import, 0, name};
+    default: break;
+  }
+  if (symbol == nullptr) return {Pointer::To::address, addend, ""};
+  if (symbol->st_shndx == SHN_UNDEF) return {Pointer::To::import, 0, name};
+  const bool exact = ELF64_R_TYPE(relocation.r_info) == R_X86_64_64;
+  return {Pointer::To::address, symbol->st_value + (exact ? addend : 0), ""};
+}
+
+void Object::read_pointers(const Elf64_Shdr& table) {
+  if (table.sh_link >= file_.sections().size()) return;
+  const Elf64_Shdr& names = file_.sections()[table.sh_link];
+  const auto symbols = file_.entries<Elf64_Sym>(names);
+  for (const auto& relocation : file_.entries<Elf64_Rela>(table)) {
+    if (place_of(relocation.r_offset) == Place::code)
+      throw std::runtime_error("has code that the loader changes; build it with -fPIC, as graph/plugins/plugin.h says");
+    pointers_.emplace(relocation.r_offset, pointer_of(relocation, symbols, names));
+  }
+}
+
+const Object::Section* Object::section_at(Address address) const {
+  const auto after = std::upper_bound(sections_.begin(), sections_.end(), address,
+                                      [](Address a, const Section& section) { return a < section.begin; });
+  if (after == sections_.begin()) return nullptr;
+  const Section& section = *std::prev(after);
+  return address < section.end ? &section : nullptr;
+}
+
+Place Object::place_of(Address address) const {
+  const Section* const section = section_at(address);
+  return section == nullptr ? Place::nowhere : section->place;
+}
+
+Bytes Object::bytes(Address begin, Address end) const {
+  const Section* const section = section_at(begin);
+  if (section == nullptr || end < begin || end > section->end || section->bytes.empty()) return {};
+  return section->bytes.subspan(begin - section->begin, end - begin);
+}
+
+Symbol Object::function_at(Address address) const {
+  const Section* const section = section_at(address);
+  const Address limit = section == nullptr ? address : section->end;
+  const Symbol* const found = last_before(functions_, address);
+  if (found != nullptr && (address == found->begin || address < found->end || found->end == found->begin) &&
+      section != nullptr && found->begin >= section->begin) {
+    Symbol whole = *found;
+    if (whole.end == whole.begin) whole.end = next_begin(functions_, address, limit);
+    whole.end = std::min(whole.end, limit);
+    return whole;
+  }
+  return {address, next_begin(functions_, address, limit), "", false};
+}
+
+Symbol Object::data_at(Address address) const {
+  const Section* const section = section_at(address);
+  const Address limit = section == nullptr ? address : section->end;
+  const Symbol* const found = last_before(data_, address);
+  if (found != nullptr && address < found->end) return *found;
+  return {address, next_begin(data_, address, limit), "", false};
+}
+
+std::vector<Symbol> Object::functions_named(std::string_view name) const {
+  std::vector<Symbol> found;
+  if (const auto at = by_name_.find(name); at != by_name_.end())
+    for (const std::size_t i : at->second) found.push_back(function_at(functions_[i].begin));
+  return found;
+}
+
+const Pointer* Object::pointer_at(Address address) const {
+  const auto found = pointers_.find(address);
+  return found == pointers_.end() ? nullptr : &found->second;
+}
+
+std::vector<std::pair<Address, const Pointer*>> Object::pointers_in(Address begin, Address end) const {
+  std::vector<std::pair<Address, const Pointer*>> found;
+  for (auto at = pointers_.lower_bound(begin); at != pointers_.end() && at->first < end; ++at)
+    found.emplace_back(at->first, &at->second);
+  return found;
+}
+
+const Pointer* Object::behind_stub(Address address) const {
+  const Section* const section = section_at(address);
+  if (section == nullptr || !section->stubs) return nullptr;
+  // an indirect jump relative to the place of the next instruction, FF 25 and four bytes, after at most ten others
+  const Bytes code = bytes(address, std::min(section->end, address + 16));
+  for (std::size_t i = 0; i + 6 <= code.size(); ++i) {
+    if (code[i] != 0xff || code[i + 1] != 0x25) continue;
+    std::int32_t distance = 0;
+    std::memcpy(&distance, code.data() + i + 2, sizeof distance);
+    return pointer_at(address + i + 6 + static_cast<Address>(static_cast<std::int64_t>(distance)));
+  }
+  return nullptr;
+}
+
+std::string demangled(const std::string& name) {
+  int status = 0;
+  const std::unique_ptr<char, void (*)(void*)> text(abi::__cxa_demangle(name.c_str(), nullptr, nullptr, &status),
+                                                    std::free);
+  if (status != 0 || text == nullptr) return name;
+  std::string readable = text.get();
+  constexpr std::string_view anonymous = "(anonymous namespace)::";
+  for (std::size_t at = 0; (at = readable.find(anonymous, at)) != std::string::npos;)
+    readable.erase(at, anonymous.size());
+  return readable;
+}
+
+}  // namespace jarol::isolation

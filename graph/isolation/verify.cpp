@@ -1,0 +1,153 @@
+#include "graph/isolation/verify.h"
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+#include "graph/isolation/closure.h"
+
+namespace jarol::isolation {
+namespace {
+
+using Kind = Origin::Kind;
+
+// The virtual functions of std::pmr::memory_resource that allocate, free and compare, and std::exception::what: all
+// that a task is handed from outside. Their places in a table of virtual functions, in bytes.
+bool is_of_interface(std::int64_t loaded) { return loaded == 0x10 || loaded == 0x18 || loaded == 0x20; }
+
+// What is wrong with a call through a pointer; empty: what it calls was looked at.
+const char* wrong_with(const Origin& target, bool has_candidates) {
+  // TaskMemory, one of its structs, the memory of a sequence in that, its table of virtual functions
+  const bool deep_enough = target.kind != Kind::task || target.depth >= 4;
+  if (is_of_interface(target.loaded) && target.kind != Kind::number && deep_enough) return "";
+  switch (target.kind) {
+    case Kind::number: return "calls a number, which is no address of code here";
+    case Kind::task: return "calls an address that it computes from its values";
+    case Kind::library: return "";
+    default: return has_candidates ? "" : "calls through a pointer that leads to nothing that it refers to";
+  }
+}
+
+bool is_cold(const Symbol& symbol) { return symbol.name.find(".cold") != std::string::npos; }
+
+// What can be reached from a task, with the way to it.
+class Search {
+ public:
+  Search(const Closure& closure, const Root& root) : closure_(closure) {
+    for (const Address entry : root.entries) visit(entry, 0, 0);
+    while (!open_.empty()) {
+      const Address begin = open_.front();
+      open_.pop_front();
+      order_.push_back(begin);
+      for (const Edge& edge : closure_.node(begin).edges) {
+        has_candidates_ = has_candidates_ || (closure_.node(edge.to).is_code && (edge.by_address || edge.at == 0));
+        visit(edge.to, begin, edge.at);
+      }
+    }
+  }
+
+  std::vector<Violation> violations() const {
+    std::vector<Violation> all;
+    std::set<std::string> known;
+    const auto add = [&](Address node, Address at, const Offence& offence) {
+      if (known.insert(offence.text).second)
+        all.push_back({offence.kind, offence.symbol, offence.text, path_to(node, at)});
+    };
+    for (const Address begin : order_) {
+      const Node& node = closure_.node(begin);
+      for (const Held& held : node.held) add(begin, held.at, held.offence);
+      for (const PointerCall& call : node.pointer_calls)
+        if (const char* const wrong = wrong_with(call.target, has_candidates_); *wrong != '\0')
+          add(begin, call.at, {"a call that can't be resolved", "", wrong});
+    }
+    return all;
+  }
+
+ private:
+  struct From {
+    Address node, at;  // 0: a root
+  };
+
+  void visit(Address begin, Address from, Address at) {
+    if (from_.emplace(begin, From{from, at}).second) open_.push_back(begin);
+  }
+
+  std::vector<Step> path_to(Address node, Address at) const {
+    std::vector<Step> path;
+    for (Address here = node; here != 0;) {
+      const Symbol& symbol = closure_.node(here).symbol;
+      path.push_back({symbol.name.empty() ? "code without a name" : demangled(symbol.name), at, is_cold(symbol)});
+      const From& from = from_.at(here);
+      at = from.at;
+      here = from.node;
+    }
+    std::reverse(path.begin(), path.end());
+    return path;
+  }
+
+  const Closure& closure_;
+  std::map<Address, From> from_;
+  std::deque<Address> open_;
+  std::vector<Address> order_;
+  bool has_candidates_ = false;
+};
+
+// "Clock" of "mine::Clock"
+std::string unqualified(const std::string& type) {
+  const std::size_t at = type.substr(0, type.find('<')).rfind("::");
+  return at == std::string::npos ? type : type.substr(at + 2);
+}
+
+// "Clock" of "jarol::Outcome jarol::detail::thunk<(anonymous namespace)::Clock, true>(...)"; empty: it is no such.
+std::string task_of(const std::string& mangled) {
+  const bool may_be = mangled.find("5jarol6detail5thunkI") != std::string::npos ||
+                      mangled.find("5jarol6detail4callI") != std::string::npos;
+  if (!may_be || !mangled.starts_with("_ZN5jarol6detail") || mangled.find('.') != std::string::npos) return "";
+  const std::string name = demangled(mangled);
+  const std::size_t begin = name.find('<');
+  int depth = 0;
+  for (std::size_t i = begin; i < name.size(); ++i) {
+    if (name[i] == '<') ++depth;
+    if (name[i] == '>') --depth;
+    if ((name[i] == ',' && depth == 1) || (name[i] == '>' && depth == 0))
+      return unqualified(name.substr(begin + 1, i - begin - 1));
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<Root> find_tasks(const Object& object) {
+  std::map<std::string, std::vector<Address>> found;
+  for (const Symbol& function : object.functions())
+    if (const std::string task = task_of(function.name); !task.empty()) found[task].push_back(function.begin);
+  if (found.empty())
+    throw std::runtime_error(
+        "has no tasks that can be found by their names; name them with JAROL_PLUGIN, and don't strip it");
+  std::vector<Root> roots;
+  for (auto& [task, entries] : found) roots.push_back({task, std::move(entries)});
+  return roots;
+}
+
+std::vector<Verdict> verify(const Object& object, const std::vector<Root>& roots, bool own) {
+  std::vector<Address> entries;
+  for (const Root& root : roots) entries.insert(entries.end(), root.entries.begin(), root.entries.end());
+  const Closure closure(object, entries, own);
+  std::vector<Verdict> verdicts;
+  for (const Root& root : roots) verdicts.push_back({root.task, Search(closure, root).violations()});
+  return verdicts;
+}
+
+const std::vector<std::string>& unseen() {
+  static const std::vector<std::string> all{
+      "writes through pointers that are out of bounds or were computed",
+      "code in other libraries, which is judged by its name alone",
+      "code that is made or changed while it runs",
+  };
+  return all;
+}
+
+}  // namespace jarol::isolation

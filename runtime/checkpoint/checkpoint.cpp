@@ -1,0 +1,106 @@
+#include "runtime/checkpoint/checkpoint.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "graph/language/inputs.h"
+#include "graph/values/digest.h"
+#include "runtime/files/whole_file.h"
+
+namespace jarol {
+namespace {
+
+// the version of the file; what it holds is that of the program
+constexpr std::string_view magic = "jarol.checkpoint/1\n";
+constexpr std::size_t head = magic.size() + 2 * sizeof(std::uint64_t);  // then how many bytes follow, and their sum
+
+constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 30;
+
+std::string_view text_of(const std::byte* bytes, std::size_t size) {
+  return {reinterpret_cast<const char*>(bytes), size};
+}
+
+}  // namespace
+
+const Archive::Bytes* Checkpoint::find(std::string_view part) const {
+  const auto found = std::find_if(parts_.begin(), parts_.end(), [&](const auto& each) { return each.first == part; });
+  return found == parts_.end() ? nullptr : &found->second;
+}
+
+Archive::Bytes Checkpoint::to_bytes() const {
+  Archive::Bytes bytes(head);
+  Archive archive = Archive::to(bytes);
+  RunOrigin origin = *origin_;
+  Duration instant = instant_;
+  auto parts = static_cast<std::uint64_t>(parts_.size());
+  archive(origin, instant, parts);
+  for (auto [name, state] : parts_) {
+    auto size = static_cast<std::uint64_t>(state.size());
+    archive(name, size);
+    archive.bytes(state.data(), state.size());
+  }
+  const std::uint64_t size = bytes.size() - head, sum = digest::name_hash(text_of(bytes.data() + head, size));
+  std::memcpy(bytes.data(), magic.data(), magic.size());
+  std::memcpy(bytes.data() + magic.size(), &size, sizeof size);
+  std::memcpy(bytes.data() + magic.size() + sizeof size, &sum, sizeof sum);
+  return bytes;
+}
+
+Checkpoint Checkpoint::from_bytes(const Archive::Bytes& bytes) {
+  if (text_of(bytes.data(), std::min(bytes.size(), magic.size())) != magic)
+    throw CheckpointError("is no checkpoint of this version, " + std::string(magic.substr(0, magic.size() - 1)));
+  if (bytes.size() < head) throw CheckpointError("is damaged: it is cut off");
+  std::uint64_t size = 0, sum = 0;
+  std::memcpy(&size, bytes.data() + magic.size(), sizeof size);
+  std::memcpy(&sum, bytes.data() + magic.size() + sizeof size, sizeof sum);
+  if (size != bytes.size() - head)
+    throw CheckpointError("is damaged: it should have " + std::to_string(size) + " bytes after its first " +
+                          std::to_string(head) + ", and has " + std::to_string(bytes.size() - head));
+  if (sum != digest::name_hash(text_of(bytes.data() + head, bytes.size() - head)))
+    throw CheckpointError("is damaged: its bytes do not have the sum that it says");
+  try {
+    Archive archive = Archive::from(bytes.data() + head, bytes.data() + bytes.size());
+    auto origin = std::make_shared<RunOrigin>();
+    Duration instant{};
+    std::uint64_t parts = 0;
+    archive(*origin, instant, parts);
+    Checkpoint made(std::move(origin), instant);
+    for (std::uint64_t i = 0; i < parts; ++i) {
+      std::string name;
+      std::uint64_t length = 0;
+      archive(name, length);
+      archive.require(length <= archive.left(), "has a part that is longer than it");
+      Archive::Bytes state(length);
+      archive.bytes(state.data(), length);
+      made.parts_.emplace_back(std::move(name), std::move(state));
+    }
+    archive.require_end();
+    return made;
+  } catch (const ArchiveError& error) { throw CheckpointError(std::string("is damaged: it ") + error.what()); }
+}
+
+void Checkpoint::write(const std::string& path) const {
+  const Archive::Bytes bytes = to_bytes();
+  WholeFile file(path);
+  file.write(text_of(bytes.data(), bytes.size()));
+  file.commit();
+}
+
+Checkpoint Checkpoint::read(const std::string& path) {
+  const std::string name = "'" + path + "' ";
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) throw CheckpointError("can't read '" + path + "': it is no file");
+  if (std::filesystem::file_size(path) > most_bytes) throw CheckpointError(name + "is larger than 4 GiB");
+  std::ifstream file(path, std::ios::binary);
+  Archive::Bytes bytes(std::filesystem::file_size(path));
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
+    throw CheckpointError("can't read '" + path + "'");
+  note_input(path);
+  try {
+    return from_bytes(bytes);
+  } catch (const CheckpointError& wrong) { throw CheckpointError(name + wrong.what()); }
+}
+
+}  // namespace jarol

@@ -1,0 +1,124 @@
+// Tasks with instructions that no task may hold, and calls that can't be resolved.
+#include "tests/isolation/task.h"
+
+namespace {
+
+using Function = double (*)(double);
+
+[[gnu::noinline]] std::uint64_t cycles() {
+  std::uint32_t low, high;
+  asm volatile("rdtsc" : "=a"(low), "=d"(high));
+  return std::uint64_t{high} << 32 | low;
+}
+[[gnu::noinline]] double call_address(std::int64_t address, double x) { return reinterpret_cast<Function>(address)(x); }
+[[gnu::noinline]] double half(double x) { return x / 2; }
+
+// offends: forbidden instruction: syscall: SystemCall::run
+TASK(SystemCall, {
+  long result;
+  asm volatile("syscall" : "=a"(result) : "a"(39) : "rcx", "r11", "memory");
+  out.out = static_cast<double>(result);
+})
+// offends: forbidden instruction: int: OldSystemCall::run
+TASK(OldSystemCall, {
+  long result;
+  asm volatile("int $0x80" : "=a"(result) : "a"(20) : "memory");
+  out.out = static_cast<double>(result);
+})
+// offends: forbidden instruction: rdtsc: Cycles::run > cycles
+TASK(Cycles, { out.out = static_cast<double>(cycles()); })
+// offends: forbidden instruction: rdtscp: CyclesAndCore::run
+TASK(CyclesAndCore, {
+  unsigned core;
+  out.out = static_cast<double>(__builtin_ia32_rdtscp(&core));
+})
+// offends: forbidden instruction: rdrand: HardwareRandom::run
+TASK(HardwareRandom, {
+  unsigned long random;
+  asm volatile("rdrand %0" : "=r"(random));
+  out.out = static_cast<double>(random);
+})
+// offends: forbidden instruction: rdseed: HardwareSeed::run
+TASK(HardwareSeed, {
+  unsigned long random;
+  asm volatile("rdseed %0" : "=r"(random));
+  out.out = static_cast<double>(random);
+})
+// offends: forbidden instruction: cpuid: AsksProcessor::run
+TASK(AsksProcessor, {
+  unsigned a = 0, b, c, d;
+  asm volatile("cpuid" : "+a"(a), "=b"(b), "=c"(c), "=d"(d));
+  out.out = a;
+})
+// offends: forbidden instruction: xgetbv: AsksState::run
+TASK(AsksState, {
+  unsigned a, d;
+  asm volatile("xgetbv" : "=a"(a), "=d"(d) : "c"(0));
+  out.out = a;
+})
+// offends: forbidden instruction: ldmxcsr: SetsRounding::run
+TASK(SetsRounding, {
+  const unsigned upward = 0x5f80;
+  asm volatile("ldmxcsr %0" : : "m"(upward));
+})
+// offends: forbidden instruction: stmxcsr: ReadsFlags::run
+TASK(ReadsFlags, {
+  unsigned flags;
+  asm volatile("stmxcsr %0" : "=m"(flags));
+  out.out = flags;
+})
+// offends: forbidden instruction: fldcw: SetsOldRounding::run
+TASK(SetsOldRounding, {
+  const unsigned short upward = 0xb3f;
+  asm volatile("fldcw %0" : : "m"(upward));
+})
+// offends: forbidden instruction: in: TalksToDevice::run
+TASK(TalksToDevice, {
+  unsigned char byte;
+  asm volatile("inb $0x60, %0" : "=a"(byte));
+  out.out = byte;
+})
+// offends: thread-local storage: : ReadsSegment::run
+TASK(ReadsSegment, {
+  long self;
+  asm volatile("mov %%fs:0x10, %0" : "=r"(self));
+  out.out = static_cast<double>(self);
+})
+// offends: unreadable code: : MiddleOfInstruction::run
+TASK(MiddleOfInstruction, {
+  asm volatile(
+      "jmp 1f + 2\n"
+      "1: movl $0x90050f90, %%eax\n" ::
+          : "eax");
+})
+// offends: a call that can't be resolved: : ForgedFromInput::run
+TASK(ForgedFromInput, { out.out = reinterpret_cast<Function>(in.address)(in.in); })
+// offends: a call that can't be resolved: : ForgedFromState::run
+TASK(ForgedFromState, {
+  state.address += 16;
+  out.out = reinterpret_cast<Function>(state.address)(in.in);
+})
+// offends: a call that can't be resolved: : ForgedBesideGood::run > call_address
+TASK(ForgedBesideGood, {
+  volatile Function good = half;
+  out.out = good(in.in) + call_address(in.address + 1, in.in);
+})
+// offends: a call that can't be resolved: : ForgedTailCall::run
+TASK(ForgedTailCall, {
+  volatile Function good = half;
+  out.out = good(in.in);
+  return reinterpret_cast<void (*)()>(in.address ^ 0x55)();
+})
+// offends: a call that can't be resolved: : ForgedObject::run
+TASK(ForgedObject, { out.out = (*reinterpret_cast<Function**>(in.address))[7](in.in); })
+// offends: a call that can't be resolved: : Numbers::run
+TASK(Numbers, {
+  volatile std::int64_t number = 4096;
+  out.out = reinterpret_cast<Function>(number)(in.in);
+})
+
+}  // namespace
+
+JAROL_PLUGIN(SystemCall, OldSystemCall, Cycles, CyclesAndCore, HardwareRandom, HardwareSeed, AsksProcessor, AsksState,
+             SetsRounding, ReadsFlags, SetsOldRounding, TalksToDevice, ReadsSegment, MiddleOfInstruction,
+             ForgedFromInput, ForgedFromState, ForgedBesideGood, ForgedTailCall, ForgedObject, Numbers)
