@@ -64,13 +64,13 @@ constexpr Function functions[] = {identity, counted};
 [[gnu::weak]] double weak_value = 1;
 [[gnu::weak]] double weak_function(double x) { return x + weak_value; }
 
-namespace {
 extern "C" {
-static double pick_a(double x) { return x + counter; }
-[[gnu::used]] static double (*resolve_picked())(double) { return pick_a; }
-[[gnu::ifunc("resolve_picked")]] double picked(double x);
+[[gnu::visibility("hidden")]] double pick_a(double x) { return x + counter; }
+[[gnu::visibility("hidden")]] double (*resolve_picked())(double) { return pick_a; }
+[[gnu::ifunc("resolve_picked"), gnu::visibility("hidden")]] double picked(double x);
 }
 
+namespace {
 // offends: a writable global: counter: Plain::run
 TASK(Plain, { out.out = counter += in.in; })
 // offends: a writable global: counter: Calls::run > add_twice > add_to_counter

@@ -25,6 +25,14 @@
 
 #include "tests/isolation/task.h"
 
+[[gnu::weak]] double weak(double x) { return x + 1; }
+
+extern "C" {
+[[gnu::visibility("hidden")]] double picked_always(double x) { return x + 1; }
+[[gnu::visibility("hidden")]] double (*resolve_innocent())(double) { return picked_always; }
+[[gnu::ifunc("resolve_innocent"), gnu::visibility("hidden")]] double picked_innocent(double x);
+}
+
 namespace {
 
 using namespace std::string_view_literals;
@@ -39,7 +47,6 @@ double twice(double x) { return x * 2; }
 constexpr Function functions[] = {half, twice, half};
 [[gnu::noinline]] double apply(Function function, double x) { return function(x); }
 [[gnu::noinline]] double apply_any(const std::function<double(double)>& function, double x) { return function(x); }
-[[gnu::weak]] double weak(double x) { return x + 1; }
 [[gnu::noinline]] double recursive(double x) { return x < 1 ? x : 1 + recursive(x / 2); }
 
 struct Shape {
@@ -79,12 +86,6 @@ struct Counter {
   explicit Counter(double& of) : count(of) {}
   ~Counter() { count += 1; }
 };
-
-extern "C" {
-[[gnu::used]] static double picked_always(double x) { return x + 1; }
-[[gnu::used]] static double (*resolve_innocent())(double) { return picked_always; }
-[[gnu::ifunc("resolve_innocent")]] double picked_innocent(double x);
-}
 
 TASK(Nothing, {})
 TASK(Adds, { out.out = in.in + 1; })

@@ -116,10 +116,8 @@ TEST_SUITE("isolation") {
                                 " shows the way there)\n") != std::string::npos);
       CHECK(refused.output.find("task 'b'") == std::string::npos);
     }
-    const auto weak = jarol("run --for 20ms " + file +
-                                " --set tasks.a.isolation=weak --set tasks.b.isolation=weak "
-                                "--set tasks.b.on_fault=hold --json",
-                            "2>/dev/null");
+    const std::string alone = folder.write("weak.yaml", graph_of(plugin, "  a: {type: ReadsTime, isolation: weak}\n"));
+    const auto weak = jarol("run --for 20ms " + alone + " --json", "2>/dev/null");
     CHECK(weak.exit_code == 0);
     CHECK(nlohmann::json::parse(weak.output)["digest_claimed"] == false);
   }

@@ -74,8 +74,8 @@ TEST_SUITE("distributers/links/packet_link") {
     CHECK(refused(", port: {in: {kind: plain, packets: 4}}") == 36);
   }
 
-  TEST_CASE("'port' chooses kind and size of the input port; it is push and holds 64 by default") {
-    CHECK(kept("") == std::vector<std::size_t>{36, 99, 64});
+  TEST_CASE("'port' chooses kind and size of the input port; it is push and holds 256 by default") {
+    CHECK(kept("") == std::vector<std::size_t>{0, 99, 100});
     CHECK(kept(", port: {in: {packets: 4}}") == std::vector<std::size_t>{96, 99, 4});
     CHECK(kept(", port: {in: {kind: plain, packets: 4}}") == std::vector<std::size_t>{0, 3, 4});
   }

@@ -93,7 +93,7 @@ TEST_SUITE("tools/campaign") {
     const command::DefaultSignals taken;
     const TemporaryFolder folder;
     const std::string of =
-        "campaign specs/counting.yaml --for 100s --vary tasks.slow.let='[5ms, 10ms, 15ms]' --vary "
+        "campaign specs/counting.yaml --for 3000s --vary tasks.slow.let='[5ms, 10ms, 15ms]' --vary "
         "seed=1..20 --metric 'last=final(sum.out)' --workers 2 ";
     const command::Result whole =
         command::jarol(of + "--results " + (folder / "whole") + " --csv " + (folder / "whole.csv"));

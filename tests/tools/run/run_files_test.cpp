@@ -123,6 +123,6 @@ TEST_SUITE("tools/run_files") {
     CHECK(!std::filesystem::exists("-"));
     CHECK(jarol(counting + "--trace - --plot -").output ==
           "error: --trace and --plot both name '-'; choose another file for one of them\n");
-    CHECK(jarol(counting + "--log -").output == "error: --log: '-' is no file; replay reads a log by its name\n");
+    CHECK(jarol(counting + "--log -").output == "error: --log: '-' is no file; a recording is read by its name\n");
   }
 }
