@@ -124,6 +124,7 @@ Figure measure_checkpoint(int repeats) {
 bool has_vehicles() { return false; }
 
 Figure measure_dive(int) { throw std::logic_error("no vehicles are built"); }
+Figure measure_dive_rigid(int) { throw std::logic_error("no vehicles are built"); }
 Figure measure_hover(int) { throw std::logic_error("no vehicles are built"); }
 Figure measure_checkpoint(int) { throw std::logic_error("no vehicles are built"); }
 
