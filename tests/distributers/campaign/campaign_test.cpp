@@ -213,7 +213,7 @@ TEST_SUITE("distributers/campaign") {
           "9 fault: task 'a' activation 50 at 0.5 s: output 'out' is inf\n"
           "10 fault: task 'a' activation 50 at 0.5 s: output 'out' is inf\n"
           "11 fault: task 'a' activation 50 at 0.5 s: output 'out' is inf\n");
-    const Result& fault = under.all()[6];
+    const Result fault = under.all()[6];
     CHECK(!fault.metrics[0].number);
     CHECK(fault.metrics[2].number);   // an instant before the fault
     CHECK(!fault.metrics[3].number);  // of a whole run

@@ -21,7 +21,7 @@ std::string content(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-json json_of(const std::string& arguments, int exit_code = 0) {
+[[maybe_unused]] json json_of(const std::string& arguments, int exit_code = 0) {
   const command::Result result = command::jarol(arguments + " --json", "");
   CAPTURE(arguments);
   CHECK(result.exit_code == exit_code);
@@ -35,7 +35,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
+[[maybe_unused]] std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
   for (const char c : line) c == ',' ? cells.emplace_back() : cells.back() += std::string{c};
   return cells;
