@@ -37,8 +37,10 @@ std::string why_bad(const RunVerdict& verdict) {
   return "";
 }
 
-Reached reached_of(const Metric& metric, const expect::Condition& condition, const Verdict& verdict) {
-  if (verdict.outcome == Verdict::Outcome::not_judged && !metric.is_instant) return {};
+// `whole`: the run came to its end; of another one there is what an instant or a broken limit decided.
+Reached reached_of(const Metric& metric, const expect::Condition& condition, const Verdict& verdict, bool whole) {
+  const bool decided = verdict.outcome != Verdict::Outcome::not_judged && (whole || metric.is_limit);
+  if (!decided && !metric.is_instant) return {};
   if (condition.kind != expect::Condition::Kind::metric) {
     if (!verdict.instant) return {};
     return {std::chrono::duration<double>(*verdict.instant).count(), ""};
@@ -51,9 +53,10 @@ Reached reached_of(const Metric& metric, const expect::Condition& condition, con
 
 void measure(const Measures& measures, const std::vector<Verdict>& verdicts, Result& result) {
   result.metrics.resize(measures.metrics.size());
+  const bool whole = result.outcome == Outcome::good || result.outcome == Outcome::bad;
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const Metric& metric = measures.metrics[i];
-    result.metrics[i] = reached_of(metric, measures.conditions[i], verdicts[i]);
+    result.metrics[i] = reached_of(metric, measures.conditions[i], verdicts[i], whole);
     const bool broken = metric.is_limit && verdicts[i].outcome == Verdict::Outcome::fails;
     if (!broken || result.outcome != Outcome::good) continue;
     result.outcome = Outcome::bad;

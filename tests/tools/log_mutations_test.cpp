@@ -142,7 +142,9 @@ void mutate(Log& log, std::uint64_t seed) {
     switch (random.below(10)) {
       case 0: log.header[random.below(log.header.size())] = static_cast<char>(random.below(256)); break;
       case 1: record.time = static_cast<std::int64_t>(odd()); break;
-      case 2: record.time += static_cast<std::int64_t>(random.below(5)) - 2; break;
+      case 2:
+        record.time = static_cast<std::int64_t>(static_cast<std::uint64_t>(record.time) + random.below(5) - 2);
+        break;
       case 3: record.channel = static_cast<std::uint16_t>(random.below(2) == 0 ? odd() : random.below(8)); break;
       case 4: record.bytes.resize(random.below(record.bytes.size() + 20)); break;
       case 5: set_word(record.bytes); break;
