@@ -73,8 +73,9 @@ tasks:
 connections: [count.out -> sum.in, sum.out -> flow.in]
 )");
     REQUIRE(command::jarol("run " + graph + " --for 5s --record " + file).exit_code == 0);
-    for (const auto& [tasks, values] :
+    for (const auto& [names, values] :
          {std::pair<std::string, std::string>("sum", "100"), {"flow", "50"}, {"sum flow", "150"}, {"count", "49"}}) {
+      const std::string tasks = names;
       CAPTURE(tasks);
       const auto replay = command::jarol("replay " + file + " --only " + tasks);
       CAPTURE(replay.output);

@@ -72,8 +72,8 @@ class Sonde {
 // With nothing beside its channels that come in.
 class Ear {
  public:
-  static constexpr std::string_view summary = "hears";
-  static constexpr bool is_vehicle = true;
+  [[maybe_unused]] static constexpr std::string_view summary = "hears";
+  [[maybe_unused]] static constexpr bool is_vehicle = true;
   struct In {
     Newest<double> front;
     static constexpr auto fields() { return describe(channel<&In::front>("signal in front")); }
