@@ -39,9 +39,13 @@ Identity identity_of(const GraphSource& of, const Graphs& graphs, const Campaign
                     {"seed", std::to_string(seed)}};
   // vehicles, missions, plugins: wherever the campaign is resumed from
   const std::filesystem::path folder = std::filesystem::absolute(of.source->name).parent_path();
-  for (const std::string& file : inputs_read())
+  std::error_code none;
+  const std::filesystem::path itself = std::filesystem::read_symlink("/proc/self/exe", none);
+  for (const std::string& file : inputs_read()) {
+    if (file == itself) continue;  // `program` says which it is
     identity.emplace_back("file " + std::filesystem::absolute(file).lexically_relative(folder).string(),
                           sum_of(read_source(file)->text));
+  }
   return identity;
 }
 
