@@ -93,7 +93,7 @@ TEST_SUITE("tools/campaign") {
     const command::DefaultSignals taken;
     const TemporaryFolder folder;
     const std::string of =
-        "campaign specs/counting.yaml --for 3000s --vary tasks.slow.let='[5ms, 10ms, 15ms]' --vary "
+        "campaign specs/counting.yaml --for 1000s --vary tasks.slow.let='[5ms, 10ms, 15ms]' --vary "
         "seed=1..20 --metric 'last=final(sum.out)' --workers 2 ";
     const command::Result whole =
         command::jarol(of + "--results " + (folder / "whole") + " --csv " + (folder / "whole.csv"));
@@ -105,9 +105,9 @@ TEST_SUITE("tools/campaign") {
       const std::string results = folder / signal, csv = folder / (signal + ".csv");
       int pieces = 0;
       for (bool done = false; !done && pieces < 200; ++pieces) {
-        const command::Result part =
-            command::jarol(of + "--results " + results + " --csv " + csv,
-                           "2>&1 & id=$!; sleep 0.15; kill -" + signal + " $id 2>&-; wait $id; echo code $?");
+        const command::Result part = command::jarol(of + "--results " + results + " --csv " + csv,
+                                                    "2>&1 & id=$!; sleep " + std::to_string(0.1 + 0.1 * pieces) +
+                                                        "; kill -" + signal + " $id 2>&-; wait $id; echo code $?");
         done = part.output.find("code 0\n") != std::string::npos;
         if (!done && signal == "INT" && part.output.find("code 130") != std::string::npos)
           CHECK(part.output.find("runs are left; the same command goes on where this one ended\n") !=
