@@ -32,7 +32,16 @@ void bind_number(sqlite3_stmt* to, int place, double number) {
   if (std::isfinite(number))
     sqlite3_bind_double(to, place, number);
   else
-    bind_text(to, place, number_text(number));
+    bind_text(to, place, std::isnan(number) ? "nan" : number_text(number));  // of either sign
+}
+
+// The largest as a text: SQL's whole numbers end at 2^63 - 1, and its others round.
+void bind_seed(sqlite3_stmt* to, int place, std::uint64_t seed) {
+  const auto whole = static_cast<std::int64_t>(seed);
+  if (whole >= 0)
+    sqlite3_bind_int64(to, place, whole);
+  else
+    bind_text(to, place, std::to_string(seed));
 }
 
 void bind_value(sqlite3_stmt* to, int place, const std::string& value) {
@@ -58,6 +67,15 @@ Reached reached_of(sqlite3_stmt* row, int column) {
   return {std::nullopt, word};
 }
 
+// Those that are not the same in every campaign: the values that vary, then the metrics.
+std::vector<std::string> columns_of(const Campaign& campaign) {
+  std::vector<std::string> names;
+  for (const Variation& variation : campaign.vary)
+    if (variation.path != "seed") names.push_back(variation.path);
+  for (const Metric& metric : campaign.measures.metrics) names.push_back(metric.name);
+  return names;
+}
+
 // Ends of lines in front of a change that is shown.
 std::string shown(const std::string& text) {
   std::string line = text.empty() ? "nothing" : "'";
@@ -71,22 +89,22 @@ std::string shown(const std::string& text) {
 void Results::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
 void Results::Close::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 
-Results::Results(const std::string& path, const Identity& identity, const std::vector<std::string>& vary,
-                 const std::vector<std::string>& metrics)
-    : path_(path), metrics_(metrics.size()) {
+Results::Results(const std::string& path, const Identity& identity, const Campaign& campaign)
+    : path_(path), metrics_(campaign.measures.metrics.size()) {
   sqlite3* database = nullptr;
   const int opened = sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
   database_.reset(database);
   if (opened != SQLITE_OK) fail();
   // two campaigns never write one file
   run("PRAGMA locking_mode = EXCLUSIVE");
+  run("BEGIN EXCLUSIVE");
+  is_new() ? create(identity, campaign) : require_same(identity);
+  run("COMMIT");
+  // after that: a file that is refused stays as it is
   run("PRAGMA journal_mode = WAL");
   run("PRAGMA synchronous = NORMAL");
-  run("BEGIN IMMEDIATE");
-  is_new() ? create(identity, vary, metrics) : require_same(identity);
-  run("COMMIT");
   std::string places = "?, ?, ?, ?, ?, ?, ?";
-  for (std::size_t i = 0; i < vary.size() + metrics.size(); ++i) places += ", ?";
+  for (std::size_t i = columns_of(campaign).size(); i > 0; --i) places += ", ?";
   insert_ = prepare("INSERT INTO runs VALUES (" + places + ")");
 }
 
@@ -97,10 +115,10 @@ Results::~Results() {
 }
 
 void Results::fail() const {
-  const std::string why = database_ ? sqlite3_errmsg(database_.get()) : "there is no memory";
-  if (why == "database is locked")
+  if (database_ && sqlite3_errcode(database_.get()) == SQLITE_BUSY)
     throw ResultsError("'" + path_ + "' is in use by another campaign; wait for its end, or name another file");
-  throw ResultsError("can't use '" + path_ + "' for results: " + why);
+  throw ResultsError("can't use '" + path_ +
+                     "' for results: " + (database_ ? sqlite3_errmsg(database_.get()) : "there is no memory"));
 }
 
 void Results::run(const std::string& sql) const {
@@ -133,15 +151,13 @@ bool Results::is_new() const {
   throw OtherCampaign("'" + path_ + "' is a database, but holds no results of a campaign; name another file");
 }
 
-void Results::create(const Identity& identity, const std::vector<std::string>& vary,
-                     const std::vector<std::string>& metrics) {
+void Results::create(const Identity& identity, const Campaign& campaign) {
   run("PRAGMA application_id = " + std::to_string(application_id));
   run("CREATE TABLE campaign (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
   std::string columns =
       "run INTEGER PRIMARY KEY, seed, outcome TEXT NOT NULL, why TEXT NOT NULL, simulated INTEGER NOT NULL, "
       "faults INTEGER NOT NULL, digest TEXT NOT NULL";
-  for (const auto* names : {&vary, &metrics})
-    for (const std::string& name : *names) columns += ", " + quoted(name);
+  for (const std::string& name : columns_of(campaign)) columns += ", " + quoted(name);
   run("CREATE TABLE runs (" + columns + ")");
   const Statement insert = prepare("INSERT INTO campaign VALUES (?, ?)");
   for (const auto& [key, value] : identity) {
@@ -184,7 +200,7 @@ std::vector<std::uint64_t> Results::done() const {
 void Results::add(const Start& start, const Result& result) {
   sqlite3_stmt* const row = insert_.get();
   sqlite3_bind_int64(row, 1, static_cast<std::int64_t>(result.index));
-  bind_value(row, 2, std::to_string(start.seed));
+  bind_seed(row, 2, start.seed);
   bind_text(row, 3, word_of(result.outcome));
   bind_text(row, 4, result.why);
   sqlite3_bind_int64(row, 5, result.simulated.count());

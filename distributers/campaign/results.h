@@ -28,10 +28,9 @@ struct OtherCampaign : std::invalid_argument {
 /// Used by one thread at a time.
 class Results {
  public:
-  /// Opens the file, or makes it. `vary` and `metrics`: what their columns are called. Throws ResultsError,
-  /// OtherCampaign.
-  Results(const std::string& path, const Identity& identity, const std::vector<std::string>& vary,
-          const std::vector<std::string>& metrics);
+  /// Opens the file, or makes it, with a column for each value that varies and each metric of the campaign. Throws
+  /// ResultsError, OtherCampaign.
+  Results(const std::string& path, const Identity& identity, const Campaign& campaign);
   ~Results();
   Results(const Results&) = delete;
   Results& operator=(const Results&) = delete;
@@ -54,7 +53,7 @@ class Results {
   bool step(const Statement& statement) const;
   [[noreturn]] void fail() const;
   bool is_new() const;
-  void create(const Identity& identity, const std::vector<std::string>& vary, const std::vector<std::string>& metrics);
+  void create(const Identity& identity, const Campaign& campaign);
   void require_same(const Identity& identity) const;
 
   std::string path_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "graph/text/escape.h"
 
@@ -29,6 +30,12 @@ std::optional<double> badness(const expect::Condition& condition, double number)
 // What is no number is worse than any.
 double rank_of(double badness) { return std::isnan(badness) ? HUGE_VAL : badness; }
 
+// What is no number lies at no end, where there are others.
+template <class Order>
+bool is_beyond(const std::optional<Case>& end, double number, Order order) {
+  return !end || order(number, end->value) || (std::isnan(end->value) && !std::isnan(number));
+}
+
 class MetricFolder {
  public:
   MetricFolder(const Metric& metric, const expect::Condition& condition) : metric_(metric), condition_(condition) {
@@ -44,10 +51,10 @@ class MetricFolder {
     }
     const double number = *reached.number;
     ++made_.count;
-    made_.numbers.push_back(number);
+    numbers_.push_back(number);
     // the first of equals
-    if (!made_.least || number < made_.least->value) made_.least = Case{index, number};
-    if (!made_.greatest || number > made_.greatest->value) made_.greatest = Case{index, number};
+    if (is_beyond(made_.least, number, std::less<>())) made_.least = Case{index, number};
+    if (is_beyond(made_.greatest, number, std::greater<>())) made_.greatest = Case{index, number};
     if (!metric_.is_limit || condition_.kind != expect::Condition::Kind::metric) return;
     const std::optional<double> bad = badness(condition_, number);
     if (!bad || (made_.worst && rank_of(*bad) <= worst_)) return;
@@ -59,16 +66,16 @@ class MetricFolder {
     if (made_.count == 0) return std::move(made_);
     const auto count = static_cast<double>(made_.count);
     double sum = 0, squares = 0;
-    for (const double number : made_.numbers) sum += number;
+    for (const double number : numbers_) sum += number;
     made_.mean = sum / count;
-    for (const double number : made_.numbers) squares += (number - made_.mean) * (number - made_.mean);
+    for (const double number : numbers_) squares += (number - made_.mean) * (number - made_.mean);
     made_.deviation = made_.count > 1 ? std::sqrt(squares / (count - 1)) : 0;
-    std::vector<double> sorted = made_.numbers;
     // what is no number comes last
-    std::sort(sorted.begin(), sorted.end(), [](double a, double b) { return std::isnan(b) ? !std::isnan(a) : a < b; });
+    std::sort(numbers_.begin(), numbers_.end(),
+              [](double a, double b) { return std::isnan(b) ? !std::isnan(a) : a < b; });
     for (std::size_t i = 0; i < percents.size(); ++i) {
       const std::uint64_t rank = (made_.count * static_cast<std::uint64_t>(percents[i]) + 99) / 100;  // from 1
-      made_.percentiles[i] = sorted[std::max<std::uint64_t>(rank, 1) - 1];
+      made_.percentiles[i] = numbers_[rank - 1];
     }
     return std::move(made_);
   }
@@ -77,6 +84,7 @@ class MetricFolder {
   const Metric& metric_;
   const expect::Condition& condition_;
   MetricSummary made_;
+  std::vector<double> numbers_;  // of the runs that have one, in their order
   double worst_ = 0;
 };
 

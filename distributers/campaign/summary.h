@@ -24,7 +24,6 @@ struct MetricSummary {
   std::optional<Case> least{}, greatest{};       // of all numbers
   std::optional<Case> worst{};                   // by its limit
   std::map<std::string, std::uint64_t> words{};  // of what is no number: runs that have each
-  std::vector<double> numbers{};                 // per run that has one, in the order of runs
 };
 
 struct Summary {

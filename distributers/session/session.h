@@ -63,10 +63,11 @@ class Session {
 
   /// The run as it is now, on the virtual clock: tasks, their heaps, values under way, vehicles, noise, conditions. The
   /// same session, or another of the same graph, overrides and seed, in this program or in another process of it, goes
-  /// on from it to the bit; parameters of tasks may differ, for the future. Throws CheckpointRefused.
+  /// on from it to the bit; parameters of tasks may differ, for the future. Throws CheckpointRefused; RunOver where the
+  /// run is over.
   Checkpoint checkpoint();
   /// What was kept of outputs that are watched is gone, and so is an end by a fault or a lost vehicle. Throws
-  /// CheckpointRefused; after one that is damaged within, RunOver from then on.
+  /// CheckpointRefused; RunOver after finish, and from then on after one that is damaged within.
   void restore(const Checkpoint& checkpoint);
 
   /// The instant that is reached; the instants before it were run.

@@ -158,6 +158,7 @@ void Session::Run::restore(const Checkpoint& checkpoint) {
     graph_run_->restore(checkpoint);
     if (!checkpoint.restore("values", *observed)) observed->forget();
   } catch (const CheckpointError& error) { throw CheckpointRefused(std::string("the checkpoint ") + error.what()); }
+  asked_ = checkpoint.instant();
   const Report& report = graph_run_->executor().report();
   over_ = !report.stopped ? "" : report.faults.empty() ? "a fault" : to_text(report.faults.back());
 }

@@ -1,5 +1,6 @@
 #include "graph/campaign/draws.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -49,11 +50,13 @@ Draws::Draws(const Campaign& campaign, std::uint64_t seed)
       runs_(campaign.runs ? static_cast<std::uint64_t>(*campaign.runs) : combinations(campaign).value_or(0)),
       every_(campaign.vary.size(), 1),
       strata_(campaign.vary.size()) {
+  constexpr auto most = static_cast<std::uint64_t>(most_runs);
   std::uint64_t every = 1;
   for (std::size_t i = campaign.vary.size(); i-- > 0;) {
     const Variation& variation = campaign.vary[i];
     every_[i] = every;
-    if (!variation.is_drawn() && every <= static_cast<std::uint64_t>(most_runs)) every *= variation.size();
+    // what changes after the last run that there can be changes never
+    if (!variation.is_drawn()) every = variation.size() > most / every ? most + 1 : every * variation.size();
     if (variation.is_drawn() && campaign.sampling == Sampling::latin)
       strata_[i] = shuffled(runs_, spread_seed(seed, "strata:" + variation.path));
   }
@@ -63,7 +66,8 @@ Draws::Draws(const Campaign& campaign, std::uint64_t seed)
 double Draws::part(std::size_t variation, std::uint64_t index) const {
   const double whole = part_of(random_bits(spread_seed(seed_, campaign_.vary[variation].path), index));
   if (strata_[variation].empty()) return whole;
-  return (static_cast<double>(strata_[variation][index]) + whole) / static_cast<double>(runs_);
+  // below 1, where the last of many strata rounds up to it
+  return std::min((static_cast<double>(strata_[variation][index]) + whole) / static_cast<double>(runs_), 1 - 0x1p-53);
 }
 
 double Draws::number_at(std::size_t variation, std::uint64_t index) const {

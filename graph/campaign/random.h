@@ -14,7 +14,7 @@ constexpr std::uint64_t random_bits(std::uint64_t seed, std::uint64_t place) {
   return z ^ (z >> 31U);
 }
 
-/// In the middle of one of 2^53 equal parts of 0 to 1: never 0, never 1.
+/// In the middle of one of 2^52 equal parts of 0 to 1: never 0, never 1.
 constexpr double part_of(std::uint64_t bits) { return (static_cast<double>(bits >> 12U) + 0.5) * 0x1p-52; }
 
 /// The standard normal deviate below which that part of all lies, 0 < part < 1.

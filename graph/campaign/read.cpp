@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "graph/campaign/variation.h"
 #include "graph/expect/parse.h"
@@ -14,6 +15,12 @@ namespace {
 // Columns of the results that are there in every campaign.
 constexpr std::array<std::string_view, 7> own_columns{"run", "seed", "outcome", "why", "simulated", "faults", "digest"};
 
+// SQL takes names that differ in case alone for one.
+bool is_same_column(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char left, unsigned char right) { return std::tolower(left) == std::tolower(right); });
+}
+
 }  // namespace
 
 void add_metric(Measures& measures, const std::string& name, const Location& where, const Yaml& text,
@@ -21,8 +28,11 @@ void add_metric(Measures& measures, const std::string& name, const Location& whe
   const std::string subject = "metric '" + name + "'";
   if (!is_name(name))
     return problems.add(where, subject + " has no good name; use letters, digits and _, no digit first");
-  if (std::find(own_columns.begin(), own_columns.end(), name) != own_columns.end())
+  if (std::any_of(own_columns.begin(), own_columns.end(), [&](auto column) { return is_same_column(column, name); }))
     return problems.add(where, subject + " has the name of a column that all results have; choose another");
+  for (const Metric& metric : measures.metrics)
+    if (metric.name != name && is_same_column(metric.name, name))
+      return problems.add(where, subject + " differs from metric '" + metric.name + "' in case alone; choose another");
   auto measured = expect::parse_measured(text, subject, graph, vehicles, problems);
   if (!measured) return;
   const auto same = std::find_if(measures.metrics.begin(), measures.metrics.end(),

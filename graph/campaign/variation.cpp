@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "graph/language/override.h"
 
@@ -157,6 +158,8 @@ class Reader {
     const auto last = dots == std::string_view::npos ? first : read_whole(text.substr(dots + 2));
     if (!first || !last || dots == std::string_view::npos) return fail("can't vary as '" + yaml_.text + "'" + how());
     if (*last <= *first) return fail("has a range that does not go up, '" + yaml_.text + "'");
+    if (*last - *first == std::numeric_limits<std::uint64_t>::max())
+      return fail("has more seeds than can be counted, '" + yaml_.text + "'");
     made_.kind = Variation::Kind::seeds;
     made_.first = *first;
     made_.count = *last - *first + 1;

@@ -138,7 +138,7 @@ void Closure::look_at(Node& node, const Arguments& arguments) {
     }
   }
   // rarely executed parts are functions of their own to the linker
-  if (!node.symbol.name.empty() && node.symbol.name.find(".cold") == std::string::npos)
+  if (!node.symbol.name.empty() && !node.symbol.is_cold())
     for (const Symbol& cold : object_.functions_named(node.symbol.name + ".cold"))
       refer(node, node.symbol.begin, cold.begin, true, unknown_arguments());
 }

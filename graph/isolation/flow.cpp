@@ -185,7 +185,7 @@ class Walk {
       const Address target = table + static_cast<Address>(static_cast<std::int64_t>(distance));
       const bool in_code = object_.place_of(target) == Place::code;
       if (!in_code || (is_inside(target) && index_of(target) == code_.size())) break;
-      if (!is_inside(target) && object_.function_at(target).name.find(".cold") == std::string::npos) break;
+      if (!is_inside(target) && !object_.function_at(target).is_cold()) break;
       targets.push_back(target);
     }
     return targets;

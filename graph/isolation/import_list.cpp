@@ -43,6 +43,9 @@ constexpr Entry functions[] = {
      "ends the process at once, and with it the run"},
 };
 
+// The first of them: there is one of each for float, double and long double.
+constexpr std::span mathematics = std::span(functions).first<2>();
+
 // C++ functions and objects as they stand in the source; with * whatever follows.
 constexpr Entry declarations[] = {
     {"|std::terminate()|std::__glibcxx_assert_fail*|std::__replacement_assert*|",
@@ -228,9 +231,15 @@ std::string reason_for(const std::string& name) {
   }
   for (const Entry& entry : functions)
     if (holds_word(entry.names, name)) return entry.why;
-  for (const Entry& entry : std::span(functions).first(2))
+  for (const Entry& entry : mathematics)
     if (holds_word(entry.names, for_double(name))) return entry.why;
   return "";
+}
+
+bool is_mathematics(const std::string& name) {
+  return std::any_of(mathematics.begin(), mathematics.end(), [&](const Entry& entry) {
+    return holds_word(entry.names, name) || holds_word(entry.names, for_double(name));
+  });
 }
 
 std::string kind_of_refused(const std::string& name) {

@@ -11,6 +11,9 @@ std::string reason_for(const std::string& name);
 /// A function of Jarol's own that is trusted where it is defined, too: in the program that holds it.
 bool is_own_library(const std::string& name);
 
+/// A function of the C library's mathematics, of real or complex numbers of any precision.
+bool is_mathematics(const std::string& name);
+
 /// What something that is refused is: "a clock"; empty: it is on no list.
 std::string kind_of_refused(const std::string& name);
 

@@ -84,7 +84,7 @@ void Object::read_symbols(const Elf64_Shdr& table) {
     }
     if (type == STT_SECTION || type == STT_FILE || name.empty()) continue;
     const Place place = place_of(symbol.st_value);
-    const Symbol found{symbol.st_value, symbol.st_value + symbol.st_size, name, type == STT_GNU_IFUNC};
+    const Symbol found{symbol.st_value, symbol.st_value + symbol.st_size, name};
     if (place == Place::code && (type == STT_FUNC || type == STT_GNU_IFUNC || type == STT_NOTYPE))
       functions_.push_back(found);
     else if (type == STT_OBJECT)
@@ -168,7 +168,7 @@ Symbol Object::function_at(Address address) const {
     whole.end = std::min(whole.end, limit);
     return whole;
   }
-  return {address, next_begin(functions_, address, limit), "", false};
+  return {address, next_begin(functions_, address, limit), ""};
 }
 
 Symbol Object::data_at(Address address) const {
@@ -176,7 +176,7 @@ Symbol Object::data_at(Address address) const {
   const Address limit = section == nullptr ? address : section->end;
   const Symbol* const found = last_before(data_, address);
   if (found != nullptr && address < found->end) return *found;
-  return {address, next_begin(data_, address, limit), "", false};
+  return {address, next_begin(data_, address, limit), ""};
 }
 
 std::vector<Symbol> Object::functions_named(std::string_view name) const {

@@ -16,7 +16,9 @@ using Address = std::uint64_t;
 struct Symbol {
   Address begin = 0, end = 0;  // end: of its code or data, where that is known
   std::string name;            // mangled, without version; empty: no symbol stands here
-  bool is_resolver = false;    // of an ifunc: picks a function when the library is loaded
+
+  /// The part of a function that compilers put elsewhere, as it hardly ever runs.
+  bool is_cold() const { return name.find(".cold") != std::string::npos; }
 };
 
 /// What the loader writes into a place of eight bytes.

@@ -31,8 +31,6 @@ const char* wrong_with(const Origin& target, bool has_candidates) {
   }
 }
 
-bool is_cold(const Symbol& symbol) { return symbol.name.find(".cold") != std::string::npos; }
-
 // What can be reached from a task, with the way to it.
 class Search {
  public:
@@ -79,7 +77,7 @@ class Search {
     std::vector<Step> path;
     for (Address here = node; here != 0;) {
       const Symbol& symbol = closure_.node(here).symbol;
-      path.push_back({symbol.name.empty() ? "code without a name" : demangled(symbol.name), at, is_cold(symbol)});
+      path.push_back({symbol.name.empty() ? "code without a name" : demangled(symbol.name), at, symbol.is_cold()});
       const From& from = from_.at(here);
       at = from.at;
       here = from.node;

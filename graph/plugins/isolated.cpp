@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "graph/isolation/way.h"
@@ -59,12 +60,13 @@ void check_isolation(const GraphSpec& spec, const Registry& registry, const std:
       promised.push_back(type);
   if (promised.empty()) return;
   std::map<std::string, std::string> wrong;  // by type
+  std::optional<isolation::SourceLines> lines;
   try {
     for (const isolation::Verdict& verdict : verify_tasks(registry, promised, plugin, false)) {
       if (verdict.violations.empty()) continue;
-      const isolation::SourceLines lines(plugin);
+      if (!lines) lines.emplace(plugin);
       const isolation::Violation& first = verdict.violations.front();
-      const auto way = isolation::way_of(first, lines);
+      const auto way = isolation::way_of(first, *lines);
       wrong[verdict.task] = first.text + (way.empty() ? "" : ", in " + isolation::text_of(way.back()));
     }
   } catch (const std::runtime_error& error) {

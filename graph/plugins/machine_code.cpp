@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "graph/isolation/elf_file.h"
+#include "graph/isolation/import_list.h"
 
 namespace jarol {
 namespace {
@@ -39,13 +40,8 @@ bool holds(std::string_view list, std::string_view word) {
 // What may be called: mathematics and memory of the C library, the C++ library, what compilers call by themselves, and
 // what Jarol's headers use. Whatever of these changes the environment for a moment gives it back.
 bool leaves_it_alone(std::string_view name) {
-  static constexpr std::string_view mathematics =
-      " acos acosh asin asinh atan atan2 atanh cabs carg cbrt ceil copysign cos cosh erf erfc "
-      "exp exp10 exp2 expm1 fabs fdim floor fma fmax fmin fmod frexp hypot ldexp lgamma log "
-      "log10 log1p log2 logb lrint lround llrint llround modf nearbyint nextafter pow "
-      "remainder rint round scalbn sin sincos sinh sqrt tan tanh tgamma trunc ";
   static constexpr std::string_view others =
-      " abort bcmp free malloc calloc realloc aligned_alloc posix_memalign memchr memcmp memcpy "
+      " lgamma lgammaf abort bcmp free malloc calloc realloc aligned_alloc posix_memalign memchr memcmp memcpy "
       "memmove memset strlen strcmp strncmp strchr strtod strtol strtoul snprintf qsort rand "
       "__errno_location __dso_handle _GLOBAL_OFFSET_TABLE_ __gmon_start__ "
       "_ITM_deregisterTMCloneTable _ITM_registerTMCloneTable __tls_get_addr __stack_chk_fail "
@@ -56,8 +52,7 @@ bool leaves_it_alone(std::string_view name) {
       "_ZTS"sv,   "_ZTTNSt"sv,           "_ZTTSt"sv,   "_Zn"sv,   "_Zd"sv,    "_ZN5jarol"sv, "_ZNK5jarol"sv};
   if (name.starts_with("_ZN5jarol26set_floating_point_control")) return false;
   if (holds(others, name) || begins_with_one_of(name, beginnings)) return true;
-  if (holds(mathematics, name)) return true;
-  return name.ends_with('f') && holds(mathematics, name.substr(0, name.size() - 1));
+  return isolation::is_mathematics(std::string(name));
 }
 
 std::string find_instruction(Bytes code) {

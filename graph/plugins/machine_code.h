@@ -1,4 +1,4 @@
-// What an object file tells about the code in it, before that runs.
+// What an object file shows of the code in it, before that runs.
 #pragma once
 
 #include <string>

@@ -36,10 +36,11 @@ Archive::Bytes Checkpoint::to_bytes() const {
   Duration instant = instant_;
   auto parts = static_cast<std::uint64_t>(parts_.size());
   archive(origin, instant, parts);
-  for (auto [name, state] : parts_) {
+  for (const auto& [part, state] : parts_) {
+    std::string name = part;
     auto size = static_cast<std::uint64_t>(state.size());
     archive(name, size);
-    archive.bytes(state.data(), state.size());
+    bytes.insert(bytes.end(), state.begin(), state.end());
   }
   const std::uint64_t size = bytes.size() - head, sum = digest::name_hash(text_of(bytes.data() + head, size));
   std::memcpy(bytes.data(), magic.data(), magic.size());

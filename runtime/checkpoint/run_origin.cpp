@@ -18,12 +18,12 @@ std::vector<std::string> fixed_part(std::vector<std::string> set) {
 std::string difference_of_programs(const RunOrigin& saved, const RunOrigin& here) {
   if (saved.program.empty() || saved.program.front().second != here.program.front().second)
     return "was saved by another build of this program";
-  for (const auto& part : saved.program) {
-    const auto same_name = [&](const auto& other) { return other.first == part.first; };
-    const auto found = std::find_if(here.program.begin() + 1, here.program.end(), same_name);
-    if (&part == &saved.program.front() || (found != here.program.end() && found->second == part.second)) continue;
-    return found == here.program.end() ? "was saved with '" + part.first + "', which is not loaded here"
-                                       : "was saved with another build of '" + part.first + "'";
+  // the program itself comes first
+  for (auto part = saved.program.begin() + 1; part != saved.program.end(); ++part) {
+    const auto found = std::find_if(here.program.begin() + 1, here.program.end(),
+                                    [&](const auto& other) { return other.first == part->first; });
+    if (found == here.program.end()) return "was saved with '" + part->first + "', which is not loaded here";
+    if (found->second != part->second) return "was saved with another build of '" + part->first + "'";
   }
   return "";
 }

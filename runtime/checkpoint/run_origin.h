@@ -34,7 +34,7 @@ RunOrigin::File file_of(const Source& source);
 /// Does "path=value" change nothing but parameters of a task?
 bool sets_parameters(const std::string& set);
 
-/// Why a run that was made so can't go on as one that is made like that, as in "is of another seed, 7"; empty: it can.
+/// Why a run that was made so can't go on as one that is made like that, as in "is of seed 7"; empty: it can.
 /// Parameters may differ.
 std::string find_difference(const RunOrigin& saved, const RunOrigin& here);
 

@@ -1,5 +1,6 @@
 #include "runtime/mcap/reader.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
@@ -47,11 +48,10 @@ ReadChunk read_chunk(std::string_view content) {
   chunk.end = in.number<std::int64_t>();
   const auto size = in.number<std::uint64_t>();
   const auto crc = in.number<std::uint32_t>();
-  chunk.compression = in.text();
+  const std::string_view compression = in.text();
   const std::string_view stored = in.long_bytes();
   if (!in.at_end()) throw FormatError("a chunk that goes on after its bytes");
-  chunk.compressed = stored.size();
-  chunk.records = uncompress(chunk.compression, stored, size);
+  chunk.records = uncompress(compression, stored, size);
   if (crc32(chunk.records) != crc) throw FormatError("a chunk whose check sum is another");
   return chunk;
 }

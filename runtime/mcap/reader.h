@@ -38,8 +38,6 @@ class Reader {
 /// A chunk that was read.
 struct ReadChunk {
   std::int64_t start = 0, end = 0;
-  std::string compression;
-  std::uint64_t compressed = 0;
   std::string records;  // uncompressed
 };
 

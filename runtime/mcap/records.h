@@ -76,9 +76,8 @@ struct ChunkPlace {
   std::uint64_t offset = 0, length = 0;                            // of its record in the file
   std::vector<std::pair<std::uint16_t, std::uint64_t>> indexes{};  // channel and offset of its message index
   std::uint64_t index_length = 0;                                  // of all of these
-  std::string compression;
+  std::string compression{};
   std::uint64_t compressed = 0, uncompressed = 0;
-  std::uint32_t crc = 0;  // of the uncompressed records
 };
 
 /// A whole record.

@@ -75,10 +75,7 @@ class Verifier {
     chunks_.push_back({.start = chunk.start,
                        .end = chunk.end,
                        .offset = record.offset,
-                       .length = record_head + record.content.size(),
-                       .compression = chunk.compression,
-                       .compressed = chunk.compressed,
-                       .uncompressed = chunk.records.size()});
+                       .length = record_head + record.content.size()});
   }
 
   void look_at_index(const Record& record) {

@@ -77,13 +77,13 @@ void Writer::write(const Chunk& chunk) {
     else
       compression = Compression::none;
   }
+  const std::uint32_t crc = crc32(records);
   ChunkPlace place{.start = chunk.start(),
                    .end = chunk.end(),
                    .offset = offset_,
                    .compression = std::string(name_of(compression)),
                    .compressed = stored.size(),
-                   .uncompressed = records.size(),
-                   .crc = crc32(records)};
+                   .uncompressed = records.size()};
   const std::uint64_t length = 8 + 8 + 8 + 4 + (4 + place.compression.size()) + 8 + stored.size();
   place.length = record_head + length;
   head_.clear();
@@ -91,12 +91,12 @@ void Writer::write(const Chunk& chunk) {
   put(head_, place.start);
   put(head_, place.end);
   put(head_, place.uncompressed);
-  put(head_, place.crc);
+  put(head_, crc);
   put_text(head_, place.compression);
   put(head_, place.compressed);
   put_out(head_);
   if (compression == Compression::none)
-    put_out(stored, place.crc);
+    put_out(stored, crc);
   else
     put_out(stored);
   // all its indexes in one go

@@ -22,8 +22,6 @@ class Writer {
   /// The summary; `schemas` and `channels` are those of all chunks.
   void end(const std::vector<Schema>& schemas, const std::vector<Channel>& channels);
 
-  std::uint64_t bytes() const { return offset_; }
-
  private:
   void put_out(std::string_view bytes);
   void put_out(std::string_view bytes, std::uint32_t crc);

@@ -85,7 +85,7 @@ void MessageLayout::parse(const std::string& schema) {
     if (line.starts_with("=====")) continue;
     if (line.starts_with("MSG: ")) {
       numbers[line.substr(5)] = static_cast<int>(definitions_.size());
-      definitions_.push_back({line.substr(5), {}});
+      definitions_.push_back({});
       continue;
     }
     if (line.starts_with("#")) definitions_.back().wraps = true;

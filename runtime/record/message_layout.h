@@ -44,7 +44,6 @@ class MessageLayout {
     std::uint32_t count = 0;  // of an array
   };
   struct Definition {
-    std::string name;
     std::vector<Field> fields;
     bool wraps = false;  // its one field is the value itself
   };

@@ -50,7 +50,6 @@ std::string wrong_with(const Gap& gap) {
 }  // namespace
 
 RecordedRun::RecordedRun(std::string path) : path_(std::move(path)) {
-  std::vector<std::pair<std::string, std::uint64_t>> wrong;
   recording_ = std::make_unique<Recording>(path_, [this](const mcap::Message& message, const ReadTopic& topic,
                                                          std::uint64_t offset) { keep(message, topic, offset); });
   if (!recording_->is_whole()) end_.reset();

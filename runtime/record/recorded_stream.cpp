@@ -32,6 +32,11 @@ void RecordedStream::take(Duration instant, std::uint32_t output, const void* va
 void RecordedStream::append(Lane& lane, Duration instant, const void* value) {
   const std::size_t size = lane.encoder.size(value);
   if (chunk_->records().size() + size > chunk_bytes && chunk_->messages() > 0) hand_on();
+  put(lane, instant, value, size);
+}
+
+// However full the chunk is.
+void RecordedStream::put(Lane& lane, Duration instant, const void* value, std::size_t size) {
   if (!std::exchange(are_described_, true)) chunk_->add(descriptions_);
   lane.encoder.encode(value, chunk_->add_message(lane.channel, lane.next++, instant.count(), size));
 }
@@ -65,7 +70,7 @@ void RecordedStream::finish() {
 void RecordedStream::hand_on(bool last) {
   handed_on_ = std::chrono::steady_clock::now();
   const std::uint64_t values = chunk_->messages();
-  if (gap_) append_beside(1, Duration(gap_->to), &*gap_);
+  if (gap_) put(beside_[1], Duration(gap_->to), &*gap_, beside_[1].encoder.size(&*gap_));
   if (pressure_ == Pressure::drops && !last && !queue_.push_if_room(chunk_)) return add_to_gap(values);
   if (pressure_ == Pressure::waits && chunk_) queue_.wait_and_push(std::move(chunk_));
   if (chunk_) queue_.push(std::move(chunk_));

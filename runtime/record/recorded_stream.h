@@ -2,6 +2,7 @@
 // queue.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <optional>
 #include <vector>
@@ -53,6 +54,7 @@ class RecordedStream : public RecordSink {
   static constexpr std::size_t small_chunk_bytes = std::size_t{1} << 16;
 
   void append(Lane& lane, Duration instant, const void* value);
+  void put(Lane& lane, Duration instant, const void* value, std::size_t size);
   void hand_on(bool last = false);
   void add_to_gap(std::uint64_t values);
 

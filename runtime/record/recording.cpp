@@ -79,7 +79,6 @@ void Recording::read_chunks(mcap::Reader& reader, const Visit& visit) {
     if (record.opcode == mcap::Opcode::footer && ended) {
       whole_ = reader.bytes(reader.offset(), mcap::magic.size()) == mcap::magic;
       if (whole_) good_until_ = reader.offset() + mcap::magic.size();
-      if (!whole_) flaw_ = "an end without its mark";
       return;
     }
     if (ended) continue;  // the summary
@@ -90,18 +89,16 @@ void Recording::read_chunks(mcap::Reader& reader, const Visit& visit) {
         ended = true;
       else
         mcap::require_message_index(record);
-    } catch (const mcap::FormatError& error) {
-      flaw_ = error.what();
-      return;
+    } catch (const mcap::FormatError&) {
+      return;  // what follows can't be trusted
     }
     if (!ended) good_until_ = reader.offset();
   }
-  flaw_ = "a record that breaks off";
 }
 
 void Recording::read_chunk(const mcap::Record& record, const Visit& visit) {
   const mcap::ReadChunk chunk = mcap::read_chunk(record.content);
-  ReadPlace place{record.offset, mcap::record_head + record.content.size(), chunk.start, chunk.end, 65535, 0};
+  ReadPlace place{record.offset, chunk.start, chunk.end, 65535, 0};
   mcap::for_each_record(chunk.records, [&](mcap::Opcode opcode, std::string_view content, std::size_t) {
     if (opcode == mcap::Opcode::schema) {
       mcap::Schema schema = mcap::read_schema(content);

@@ -25,7 +25,7 @@ struct ReadTopic {
 
 /// A chunk, and where it lies.
 struct ReadPlace {
-  std::uint64_t offset = 0, length = 0;
+  std::uint64_t offset = 0;
   std::int64_t start = 0, end = 0;  // ns
   std::uint16_t least_channel = 0, most_channel = 0;
 };
@@ -49,9 +49,8 @@ class Recording {
 
   /// Up to the mark at its end: the run has ended, and all was written.
   bool is_whole() const { return whole_; }
-  /// It is good up to that byte, and why no further, or nothing.
+  /// It is good up to that byte.
   std::uint64_t good_until() const { return good_until_; }
-  const std::string& flaw() const { return flaw_; }
   std::uint64_t size() const { return size_; }
 
  private:
@@ -68,7 +67,6 @@ class Recording {
   std::vector<ReadPlace> chunks_;
   bool whole_ = false;
   std::uint64_t good_until_ = 0, size_ = 0;
-  std::string flaw_;
 };
 
 /// The messages of some topics of a recording, chunk by chunk.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "graph/math/geometry.h"
 
@@ -97,7 +96,7 @@ void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   out.turn.roll = turn(p.lean, state.roll, in.goal.roll, e.roll, e.p, dt);
   out.turn.pitch = turn(p.lean, state.pitch, in.goal.pitch, e.pitch, e.q, dt);
   // the short way, however often it has turned round
-  const double ahead = std::remainder(in.goal.yaw - state.yaw.angle, 2 * std::numbers::pi);
+  const double ahead = wrapped(in.goal.yaw - state.yaw.angle);
   out.turn.yaw = turn(p.yaw, state.yaw, state.yaw.angle + ahead, e.yaw, e.r, dt);
 }
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "graph/math/geometry.h"
 
@@ -142,7 +141,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     state.roll = s.roll;
     state.pitch = s.pitch;
     if (!state.has_flown) state.zero_yaw = s.yaw;
-    state.yaw = std::remainder(s.yaw - state.zero_yaw, 2 * std::numbers::pi);
+    state.yaw = wrapped(s.yaw - state.zero_yaw);
     feel_weight(state, p, s);
   }
   const bool smooth = std::abs(s.roll - state.roll) < p.angle_jump && std::abs(s.pitch - state.pitch) < p.angle_jump;
@@ -150,7 +149,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   if (believe(state.angles, turns && smooth, p.imu_patience)) {
     state.roll += p.angle_gain * (s.roll - state.roll);
     state.pitch += p.angle_gain * (s.pitch - state.pitch);
-    state.yaw += p.angle_gain * std::remainder(s.yaw - state.zero_yaw - state.yaw, 2 * std::numbers::pi);
+    state.yaw += p.angle_gain * wrapped(s.yaw - state.zero_yaw - state.yaw);
   }
 
   const Vector3d rates = turns ? Vector3d(s.p, s.q, s.r) : Vector3d::Zero();

@@ -1,7 +1,6 @@
 #include "tasks/javiator/flight_logic.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "graph/math/geometry.h"
 
@@ -14,7 +13,7 @@ using Cause = LandingCause;
 Cause find_cause(const FlightLogic::Param& p, const FlightEstimate& e, bool wants_position, double unheard) {
   if (std::abs(e.roll) > p.roll_limit) return Cause::roll;
   if (std::abs(e.pitch) > p.pitch_limit) return Cause::pitch;
-  if (std::abs(std::remainder(e.yaw, 2 * std::numbers::pi)) > p.yaw_limit) return Cause::yaw;
+  if (std::abs(wrapped(e.yaw)) > p.yaw_limit) return Cause::yaw;
   if (e.altitude > p.altitude_limit) return Cause::altitude;
   if (unheard > p.patience) return Cause::operator_lost;
   if (!e.answers_known) return Cause::answers_late;

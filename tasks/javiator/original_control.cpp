@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "graph/math/geometry.h"
 
@@ -17,8 +16,6 @@ double calc_pidd(const PiddGains& g, double goal, double place, double velocity,
   state.goal = goal;
   return g.kp * error + g.ki * state.integral + g.kd * (goal_rate - velocity) + g.kdd * acceleration;
 }
-
-double short_way(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
 // the terminal's commands are smoothed as they come, one a period
 void smooth(double& value, double command) { value += 0.2 * (command - value); }
@@ -56,7 +53,7 @@ void OriginalLogic::run(const Param& p, const Tick& tick, const In& in, State& s
   smooth(d.roll, command.roll);
   smooth(d.pitch, command.pitch);
   // the terminal's yaw goes from one side of 180 degrees to the other; the short way is meant
-  smooth(d.yaw, d.yaw + short_way(command.yaw - d.yaw));
+  smooth(d.yaw, d.yaw + wrapped(command.yaw - d.yaw));
   smooth(d.altitude, command.altitude);
   smooth(d.x, command.x);
   smooth(d.y, command.y);
@@ -110,8 +107,8 @@ void OriginalAttitude::run(const Param& p, const Tick& tick, const In& in, State
   const double pitch =
       calc_pidd(lean, 1e3 * in.goal.pitch, 1e3 * e.pitch, rate_q, per_period * (rate_q - state.q), state.pitch, dt);
   // turned round, a goal and its rate are those of the nearest heading that is the same
-  const double goal = e.yaw + short_way(in.goal.yaw - e.yaw);
-  state.yaw.goal = 1e3 * (goal + short_way(1e-3 * state.yaw.goal - goal));
+  const double goal = e.yaw + wrapped(in.goal.yaw - e.yaw);
+  state.yaw.goal = 1e3 * (goal + wrapped(1e-3 * state.yaw.goal - goal));
   const double yaw = calc_pidd(in.gains.yaw.value_or(p.yaw), 1e3 * goal, 1e3 * e.yaw, rate_r,
                                per_period * (rate_r - state.r), state.yaw, dt);
   state.p = rate_p;

@@ -21,6 +21,7 @@
 #include "tools/commands/commands.h"
 #include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
+#include "tools/report/duration_option.h"
 #include "tools/report/json_line.h"
 #include "tools/report/progress.h"
 #include "tools/report/version.h"
@@ -49,15 +50,6 @@ struct Options {
   bool shrink = false;
   bool json = false;
 };
-
-std::optional<Duration> length_of(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  Duration length{};
-  const std::string wrong = parse_duration(text, length);
-  if (!wrong.empty() || length <= Duration{})
-    throw std::invalid_argument("--for: '" + text + "' " + (wrong.empty() ? "is not above zero" : wrong));
-  return length;
-}
 
 // "2/8": the second of eight.
 Shard shard_of(const std::string& text) {
@@ -124,7 +116,8 @@ int run(const Options& options) {
   const campaign::GraphSource source{read_source(options.file), built_in(), options.overrides, options.metrics,
                                      note_once};
   campaign::Graphs graphs(source);
-  campaign::Wishes wishes{.vary = options.vary, .length = length_of(options.duration)};
+  campaign::Wishes wishes{.vary = options.vary};
+  if (!options.duration.empty()) wishes.length = length_of("--for", options.duration);
   if (options.runs > 0) wishes.runs = options.runs;
   if (!options.sampling.empty()) wishes.sampling = options.sampling == "latin" ? Sampling::latin : Sampling::random;
   const campaign::Campaign campaign = state_campaign(graphs, wishes);
@@ -135,12 +128,8 @@ int run(const Options& options) {
                                 ", as in --runs 1000");
   const campaign::Draws draws(campaign, options.seed);
 
-  std::vector<std::string> varied, measured;
-  for (const campaign::Variation& v : campaign.vary)
-    if (v.path != "seed") varied.push_back(v.path);
-  for (const campaign::Metric& metric : campaign.measures.metrics) measured.push_back(metric.name);
-  campaign::Results results(results_file, identity_of(source, graphs, campaign, options.seed, version_text()), varied,
-                            measured);
+  campaign::Results results(results_file, identity_of(source, graphs, campaign, options.seed, version_text()),
+                            campaign);
   const std::vector<std::uint64_t> done = results.done();
   const std::vector<std::uint64_t> to_run = missing(done, shard, draws.runs());
   Pace pace(done.size(), draws.runs(), to_run.size());
@@ -157,10 +146,12 @@ int run(const Options& options) {
   const bool whole = pace.ran() == to_run.size();
   const campaign::Summary summary = summarise(results, campaign.measures);
   std::optional<campaign::Shrunk> shrunk;
+  bool gave_up = false;
   if (whole && options.shrink && !summary.not_good.empty()) {
     const campaign::Result& first = summary.not_good.front();
     const Interruptible interruptible;
     shrunk = shrink(graphs, campaign, draws, first.index, first.outcome, Interruptible::interrupted());
+    gave_up = !shrunk;
   }
   CampaignOutcome outcome{.graph = graphs.base().graph.graph().name,
                           .campaign = campaign,
@@ -182,6 +173,10 @@ int run(const Options& options) {
   if (!whole) {
     std::cerr << "interrupted: " << to_run.size() - pace.ran()
               << " runs are left; the same command goes on where this one ended\n";
+    return exit_of_signal(Interruptible::signal());
+  }
+  if (gave_up) {
+    std::cerr << "interrupted: the mildest values are not found; the same command searches again\n";
     return exit_of_signal(Interruptible::signal());
   }
   return summary.good() == summary.runs ? exit_good : exit_negative;
@@ -229,11 +224,12 @@ void add_campaign(CommandLine& line, int& exit_code) {
   command->add_option("--shard", options->shard, "Only this part of the runs, as in 2/8, the second of eight");
   command->add_option("--results", options->results,
                       "The SQLite database of the results; default: NAME.campaign.sqlite, here, of a graph NAME.yaml");
-  command->add_option("--csv", options->csv, "Write the results as a table when all are there; -: to stdout");
-  command->add_flag(
-      "--shrink", options->shrink,
-      "When all runs are there: find the mildest values at which the first run that is not good still ends "
-      "so, by more runs");
+  command->add_option("--csv", options->csv,
+                      "Write the results as a table when all, or those of --shard, are there; -: to stdout");
+  command->add_flag("--shrink", options->shrink,
+                    "When all runs, or those of --shard, are there: find the mildest values at which the first run "
+                    "that is not good still ends "
+                    "so, by more runs");
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -16,6 +16,7 @@
 #include "tools/check/measure_file.h"
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
+#include "tools/report/duration_option.h"
 #include "tools/report/failure.h"
 #include "tools/report/json_line.h"
 #include "tools/run/apart.h"
@@ -83,15 +84,6 @@ void require_effect(const Command& command, const Options& options) {
   if (options.measuring.write && std::find(options.files.begin(), options.files.end(), "-") != options.files.end())
     throw std::invalid_argument("--write: '-' is stdin, which can't be written; name the graph's file");
   if (options.files.size() > 1) command.refuse({"--svg"}, "names one picture for several files; check them one by one");
-}
-
-std::optional<Duration> measured_time(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  Duration time{};
-  const std::string wrong = parse_duration(text, time);
-  if (!wrong.empty() || time <= Duration{})
-    throw std::invalid_argument("--for: '" + text + "' " + (wrong.empty() ? "is not above zero" : wrong));
-  return time;
 }
 
 // What was asked for and is not there.
@@ -219,7 +211,7 @@ void add_check(CommandLine& line, int& exit_code) {
   command->add_flag("--json", options->json, "One JSON object per file and line instead of text");
   command->callback([options, command, &exit_code] {
     require_effect(*command, *options);
-    options->measuring.duration = measured_time(options->duration);
+    if (!options->duration.empty()) options->measuring.duration = length_of("--for", options->duration);
     if (options->generate.empty() && options->files.empty()) throw std::invalid_argument("check needs a FILE, a graph");
     exit_code = options->generate.empty() ? check_files(*options) : write_graphs(*options);
   });

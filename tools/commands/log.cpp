@@ -2,10 +2,10 @@
 #include <memory>
 #include <stdexcept>
 
-#include "graph/language/quantities.h"
 #include "tools/commands/commands.h"
 #include "tools/log/log_commands.h"
 #include "tools/report/command_line.h"
+#include "tools/report/duration_option.h"
 
 namespace jarol::tools {
 namespace {
@@ -14,17 +14,9 @@ struct Words : LogOptions {
   std::string what, from_text, until_text;
 };
 
-Duration time_of(const std::string& option, const std::string& text, Duration otherwise) {
-  if (text.empty()) return otherwise;
-  Duration time{};
-  const std::string wrong = parse_duration(text, time);
-  if (!wrong.empty()) throw std::invalid_argument(option + ": '" + text + "' " + wrong);
-  return time;
-}
-
 int look(const Command& command, Words& words) {
-  words.from = time_of("--from", words.from_text, {});
-  words.until = time_of("--until", words.until_text, Duration::max());
+  if (!words.from_text.empty()) words.from = duration_of("--from", words.from_text);
+  if (!words.until_text.empty()) words.until = duration_of("--until", words.until_text);
   const std::string& what = words.what;
   if (what == "diff" && words.other.empty())
     throw std::invalid_argument("jarol log diff compares two recordings; name both");

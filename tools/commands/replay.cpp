@@ -218,8 +218,8 @@ int replay(const Options& options) {
     if (unwritten.empty()) std::cout << to_text(options.files);
     std::cout << text_of(comparison, report, log, differences,
                          !options.file.empty() && !is_text_of_run(options.file, log.recording()), only.has_value());
-    for (const std::string& file : changed_files(log.recording()))
-      if (options.file.empty())
+    if (options.file.empty())
+      for (const std::string& file : changed_files(log.recording()))
         std::cout << "  changed     '" << printable(file)
                   << "' is not what the run has read; it was replayed as it was then\n";
     std::cerr << told_faults(report);

@@ -17,6 +17,7 @@
 #include "runtime/execute/log_end.h"
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
+#include "tools/report/duration_option.h"
 #include "tools/report/json_line.h"
 #include "tools/report/noted.h"
 #include "tools/report/progress.h"
@@ -63,14 +64,8 @@ void require_clock(const Options& options, const Loaded& loaded) {
 
 // --for, else the end of the longest mission; on the real clock a graph without one runs until it is interrupted.
 Duration end_of_run(const Options& options, const Loaded& loaded) {
-  Duration end{};
-  if (!options.duration.empty()) {
-    const std::string wrong = parse_duration(options.duration, end);
-    if (!wrong.empty()) throw std::invalid_argument("--for: '" + options.duration + "' " + wrong);
-    if (end <= Duration{}) throw std::invalid_argument("--for: '" + options.duration + "' is not above zero");
-    return end;
-  }
-  end = end_of_mission(pointers_to(loaded.channels));
+  if (!options.duration.empty()) return length_of("--for", options.duration);
+  const Duration end = end_of_mission(pointers_to(loaded.channels));
   if (end == Duration{} && options.clock == "real") return Duration::max();
   if (end == Duration{})
     throw std::invalid_argument("'" + options.file +
@@ -247,7 +242,7 @@ int run(Options options) {
     } catch (const std::exception& error) { unwritten = error.what(); }
   };
   if (run_end.hangs) {
-    // a log is whole up to its last checkpoint
+    // a recording is good up to its last chunk
     if (!files.sinks().empty() || !graph.expectations.empty())
       unwritten = "trace and picture are not written, as the run has not ended";
   } else {

@@ -10,6 +10,7 @@
 #include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/describe_vehicle.h"
+#include "tools/report/duration_option.h"
 #include "tools/run/apart.h"
 #include "tools/vehicle/made_vehicle.h"
 #include "tools/vehicle/open_loop.h"
@@ -53,8 +54,7 @@ Duration period_of(const Options& options, Duration grid, Duration end) {
 Duration end_of(const Options& options, const std::vector<Commands>& commands) {
   Duration end = commands.empty() ? Duration{} : commands.back().time;
   if (options.duration.empty()) return end;
-  const std::string wrong = parse_duration(options.duration, end);
-  if (!wrong.empty()) throw std::invalid_argument("--for: '" + options.duration + "' " + wrong);
+  end = duration_of("--for", options.duration);
   if (end < Duration{}) throw std::invalid_argument("--for: '" + options.duration + "' is below zero");
   return end;
 }
@@ -191,7 +191,7 @@ int vehicle(const Options& options) {
 void add_vehicle(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
   Command* command = line.add_subcommand("vehicle",
-                                         "Tell all about a simulated vehicle, drive it by a script, or let another\n"
+                                         "Describe a simulated vehicle, drive it by a script, or let another\n"
                                          "process steer it in real time over a link");
   command->add_option("NAME", options->name, "A vehicle, as in submarine")->required();
   command->add_flag("--describe", options->describe, "Print state, inputs, outputs and parameters, with units");
@@ -208,7 +208,7 @@ void add_vehicle(CommandLine& line, int& exit_code) {
   command->add_option("--rate", options->rate, "Rows per second of that file; default 100");
   command->add_option("--for", options->duration, "How long, as in 10s; default: to the last row of the script");
   command->add_option("--seed", options->made.seed, "Seed of the sensors' noise; default 0");
-  command->add_flag("--bare", options->bare, "Link: tell the true state only, as SimulatedState of a submarine");
+  command->add_flag("--bare", options->bare, "Link: send the true state only, as SimulatedState of a submarine");
   struct LinkKey {
     const char *key, *text;
   };

@@ -31,16 +31,13 @@ void LoggedTexts::take(Duration instant, std::uint32_t index, const void* value)
   if (text == output.last) return;
   output.last = text;
   if (text.empty()) return;
-  ++output.count;
-  if (output.kept == most_kept) return;
-  ++output.kept;
-  kept_.push_back({instant, output.name, output.last});
+  if (++output.count <= most_kept) kept_.push_back({instant, output.name, output.last});
 }
 
 void LoggedTexts::serialize(Archive& archive) {
   const std::lock_guard lock(mutex_);
   archive.same(outputs_.size(), "is of other outputs");
-  for (Output& output : outputs_) archive(output.last, output.count, output.kept);
+  for (Output& output : outputs_) archive(output.last, output.count);
   archive(kept_);
 }
 
@@ -51,8 +48,8 @@ std::string LoggedTexts::to_text() const {
     text += "  logged      " + logged.output + " at " + seconds_text(logged.instant) + " s: " + printable(logged.text) +
             "\n";
   for (const Output& output : outputs_)
-    if (output.count > output.kept)
-      text += "  logged      " + output.name + ": and " + std::to_string(output.count - output.kept) + " texts more\n";
+    if (output.count > most_kept)
+      text += "  logged      " + output.name + ": and " + std::to_string(output.count - most_kept) + " texts more\n";
   return text;
 }
 
@@ -60,8 +57,7 @@ nlohmann::ordered_json LoggedTexts::to_json() const {
   const std::lock_guard lock(mutex_);
   auto json = nlohmann::ordered_json::array();
   for (const Logged& logged : kept_)
-    json.push_back(
-        {{"output", logged.output}, {"instant_ns", logged.instant.count()}, {"text", printable(logged.text)}});
+    json.push_back({{"output", logged.output}, {"instant_ns", logged.instant.count()}, {"text", logged.text}});
   return json;
 }
 

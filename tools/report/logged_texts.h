@@ -40,7 +40,6 @@ class LoggedTexts : public RecordSink {
     std::string name;
     std::string last{};
     std::size_t count = 0;  // of texts; the first are kept
-    std::size_t kept = 0;
   };
   struct Logged {
     Duration instant{};

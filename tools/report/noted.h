@@ -1,4 +1,4 @@
-// What a run's report tells beside counts and verdicts: what operators were told, and what tasks logged.
+// What a run's report shows beside counts and verdicts: what operators were shown, and what tasks logged.
 #pragma once
 
 #include <vector>

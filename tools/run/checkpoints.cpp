@@ -6,6 +6,7 @@
 #include "graph/language/quantities.h"
 #include "runtime/record/recording_format.h"
 #include "tools/report/command_line.h"
+#include "tools/report/duration_option.h"
 
 namespace jarol::tools {
 
@@ -33,9 +34,7 @@ std::vector<Save> parse_saves(const std::vector<std::string>& words) {
     const std::size_t end = word.find('=');
     if (end == std::string::npos || end + 1 == word.size())
       throw std::invalid_argument("--save: '" + word + "' names no file; write it as in 30s=FILE");
-    const std::string instant = word.substr(0, end);
-    if (const std::string wrong = parse_duration(instant, save.at); !wrong.empty())
-      throw std::invalid_argument("--save: '" + instant + "' " + wrong);
+    save.at = duration_of("--save", word.substr(0, end));
     save.file = word.substr(end + 1);
     if (save.file == "-") throw std::invalid_argument("--save: '-' is no file; --resume reads one by its name");
     saves.push_back(std::move(save));

@@ -87,11 +87,7 @@ GraphSource source_of(const std::string& text, std::vector<std::string> metrics 
 struct Under {
   Under(const GraphSource& of, const Wishes& wishes, std::uint64_t seed, const std::string& file)
       : source(of), graphs(source), campaign(state_campaign(graphs, wishes)), draws(campaign, seed) {
-    std::vector<std::string> vary, metrics;
-    for (const Variation& v : campaign.vary)
-      if (v.path != "seed") vary.push_back(v.path);
-    for (const Metric& metric : campaign.measures.metrics) metrics.push_back(metric.name);
-    results.emplace(file, identity_of(source, graphs, campaign, seed, "test"), vary, metrics);
+    results.emplace(file, identity_of(source, graphs, campaign, seed, "test"), campaign);
   }
 
   void run(std::size_t workers, const Shard& shard = {}) {

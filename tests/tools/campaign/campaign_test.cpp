@@ -105,9 +105,11 @@ TEST_SUITE("tools/campaign") {
       const std::string results = folder / signal, csv = folder / (signal + ".csv");
       int pieces = 0;
       for (bool done = false; !done && pieces < 200; ++pieces) {
-        const command::Result part = command::jarol(of + "--results " + results + " --csv " + csv,
-                                                    "2>&1 & id=$!; sleep " + std::to_string(0.1 + 0.1 * pieces) +
-                                                        "; kill -" + signal + " $id 2>&-; wait $id; echo code $?");
+        // the signal comes once runs are being added
+        const command::Result part = command::jarol(
+            of + "--results " + results + " --csv " + csv,
+            "2>&1 & id=$!; until [ -s " + results + "-wal ] || ! kill -0 $id 2>&-; do sleep 0.01; done; sleep " +
+                std::to_string(0.1 * pieces) + "; kill -" + signal + " $id 2>&-; wait $id; echo code $?");
         done = part.output.find("code 0\n") != std::string::npos;
         if (!done && signal == "INT" && part.output.find("code 130") != std::string::npos)
           CHECK(part.output.find("runs are left; the same command goes on where this one ended\n") !=
