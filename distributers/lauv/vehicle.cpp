@@ -164,19 +164,18 @@ void LauvVehicle::current(const imc::Current& m, const messages::MessageRef& fro
   note(&Instruments::current, parameters_.current, from, m.value);
 }
 
-// Water anywhere is a leak, and a detector that falls silent is as good as none: the reading counts as far as all have.
+// Water anywhere is a leak, and a detector that falls silent is as good as none: a reading counts when all that are
+// known have reported since the last one did, however often each does.
 void LauvVehicle::entity(const imc::EntityState& m, const messages::MessageRef& from) {
   if (!is(parameters_.leak, from)) return;
-  LeakDetector& its = leaks_[Entities::sender_of(from)];
-  ++its.count;
-  its.failed = m.state == imc::EntityState::State::FAILURE;
-  tasks::Reading all{0, its.count};
-  for (const LeakDetector& each : leaks_) {
-    if (each.count == 0) continue;
-    all.count = std::min(all.count, each.count);
-    if (each.failed) all.value = 1;
-  }
-  in.instruments.renew().leak = all;
+  leaks_[Entities::sender_of(from)] = {true, true, m.state == imc::EntityState::State::FAILURE};
+  const bool all =
+      std::all_of(leaks_.begin(), leaks_.end(), [](const auto& each) { return !each.known || each.reported; });
+  tasks::Reading& leak = in.instruments.renew().leak;
+  leak.value = std::any_of(leaks_.begin(), leaks_.end(), [](const auto& each) { return each.failed; }) ? 1 : 0;
+  if (!all) return;
+  leak.count = std::max<std::int64_t>(leak.count, 0) + 1;
+  for (LeakDetector& each : leaks_) each.reported = false;
 }
 
 // offsets from the first fix along meridian and parallel, WGS-84

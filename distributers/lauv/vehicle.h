@@ -136,9 +136,10 @@ class LauvVehicle {
 
   // An entity that may be a leak detector.
   struct LeakDetector {
-    std::int64_t count = 0;
+    bool known = false;
+    bool reported = false;  // since the last reading that counted
     bool failed = false;
-    void serialize(Archive& archive) { archive(count, failed); }
+    void serialize(Archive& archive) { archive(known, reported, failed); }
   };
 
   LauvVehicleParameters parameters_;

@@ -25,16 +25,17 @@ struct FlightLogic {
     double touch_time = 0.3;
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::spin_up>("s", "for the rotors to reach idle"),
-                      field<&P::roll_limit>("rad", "beyond which it lands"),
-                      field<&P::pitch_limit>("rad", "beyond which it lands"),
-                      field<&P::yaw_limit>("rad", "from the take-off heading, the short way, beyond which it lands"),
-                      field<&P::altitude_limit>("m", "beyond which it lands"),
-                      field<&P::battery_limit>("V", "below which it lands"),
-                      field<&P::patience>("s", "without the operator, before it lands"),
-                      field<&P::still>("m/s", "rate of descent below which it may have touched down"),
-                      field<&P::light>("", "thrust below which the ground must carry"),
-                      field<&P::touch_time>("s", "for which it is still or light when it has touched down"));
+      return describe(
+          field<&P::spin_up>("s", "for the rotors to reach idle"),
+          field<&P::roll_limit>("rad", "beyond which it lands"), field<&P::pitch_limit>("rad", "beyond which it lands"),
+          field<&P::yaw_limit>("rad",
+                               "from the take-off heading, the short way, beyond which it lands; none at pi and more"),
+          field<&P::altitude_limit>("m", "beyond which it lands"),
+          field<&P::battery_limit>("V", "below which it lands"),
+          field<&P::patience>("s", "without the operator, before it lands"),
+          field<&P::still>("m/s", "rate of descent below which it may have touched down"),
+          field<&P::light>("", "thrust below which the ground must carry"),
+          field<&P::touch_time>("s", "for which it is still or light when it has touched down"));
     }
   };
   struct In {

@@ -90,6 +90,7 @@ TEST_SUITE("tools/javiator_room") {
     for (const std::string heading : {"0.4", "1.5", "3"}) {
       CAPTURE(heading);
       const Flight flight = hold_at(0.3, "", {"distributers.robostix.link.parameters.start.heading=" + heading});
+      CHECK(flight.last().state == tasks::FlightState::flying);
       CHECK(std::hypot(flight.path.back().x, flight.path.back().y) < 0.05);
       CHECK(circle(flight, 30) < 0.05);
     }

@@ -1,5 +1,6 @@
-// One rigid body that moves freely: place, attitude and velocity, integrated by the classical Runge-Kutta method
-// (Kutta, 1901) in steps of one length. The attitude is a unit quaternion, so that no attitude is singular.
+// One rigid body that moves freely: place, attitude and velocity, integrated by Merson's method (1957; fourth order,
+// five evaluations), which Simbody's integrator of the submarine uses too, in steps of one length. The attitude is a
+// unit quaternion, so that no attitude is singular.
 #pragma once
 
 #include <Eigen/Core>

@@ -21,7 +21,8 @@ BEYOND_A_SCHEMA = {
         cycle_without_let input_open safe_of_an_in safe_without_in safe_without_timeout
         timeout_of_an_out timeout_without_safe""",
     "sums and comparisons": """
-        campaign_seeds_down core_beyond_platform deadline_later_than_derived deadline_later_than_let let_longer_than_period
+        campaign_metrics_case campaign_seeds_all campaign_seeds_down core_beyond_platform deadline_later_than_derived
+        deadline_later_than_let let_longer_than_period
         offset_not_below_period period_missing period_no_part_of_the_graph timeout_shorter_than_period
         duration_beyond_ten_years duration_part_of_a_nanosecond duration_too_large heap_too_large heap_too_small
         heaps_too_large_together heap_initial_values heap_of_nothing size_part_of_a_byte link_announces_nowhere

@@ -77,6 +77,8 @@ TEST_SUITE("vehicles/rigid_plant") {
     submarine.place(start);
     CHECK_THROWS_WITH_AS(submarine.step(), "submarine: no state at t = 0.010000 s: a number in it is not finite",
                          NoState);
+    CHECK_THROWS_WITH_AS(submarine.step(), "submarine: no state at t = 0.020000 s: a number in it is not finite",
+                         NoState);
   }
 
   TEST_CASE("VSIM's plant has dynamics of its own") {
