@@ -20,17 +20,20 @@ int look(const Command& command, Words& words) {
   const std::string& what = words.what;
   if (what == "diff" && words.other.empty())
     throw std::invalid_argument("jarol log diff compares two recordings; name both");
-  if (what != "diff" && !words.other.empty())
+  const bool has_graph = what == "trace";
+  if (what != "diff" && !has_graph && !words.other.empty())
     throw std::invalid_argument("jarol log " + what + " looks at one recording; leave '" + words.other + "' out");
-  if (what == "info" || what == "verify")
+  if (what == "info" || what == "verify" || has_graph)
     command.refuse({"--topic", "--from", "--until"}, "belongs to cat, csv and diff");
   if (what == "diff") command.refuse({"--topic"}, "belongs to cat and csv");
   if (what != "csv") command.refuse({"--by-rate"}, "belongs to csv");
-  if (what == "cat" || what == "csv") command.refuse({"--json"}, "belongs to info, verify and diff");
+  if (!has_graph) command.refuse({"--out"}, "belongs to trace");
+  if (what == "cat" || what == "csv" || has_graph) command.refuse({"--json"}, "belongs to info, verify and diff");
   if (what == "info") return log_info(words);
   if (what == "cat") return log_cat(words);
   if (what == "csv") return log_csv(words);
   if (what == "verify") return log_verify(words);
+  if (what == "trace") return log_trace(words);
   return log_diff(words);
 }
 
@@ -46,12 +49,17 @@ void add_log(CommandLine& line, int& exit_code) {
                           "  csv     published values as a table, a row for each instant\n"
                           "  verify  is every byte as it was written?\n"
                           "  diff    the first difference of two, then of each signal the largest and when\n"
+                          "  trace   its releases, LETs, misses and faults as trace events, for ui.perfetto.dev or\n"
+                          "          chrome://tracing\n"
                           "Exit code: 0 good, 1 damaged or different, 2 bad input");
-  command->add_option("WHAT", words->what, "info, cat, csv, verify or diff")
+  command->add_option("WHAT", words->what, "info, cat, csv, verify, diff or trace")
       ->required()
-      ->one_of({"info", "cat", "csv", "verify", "diff"});
+      ->one_of({"info", "cat", "csv", "verify", "diff", "trace"});
   command->add_option("FILE", words->file, "The recording")->required();
-  command->add_option("OTHER", words->other, "Of diff: the one to compare it with");
+  command->add_option(
+      "OTHER", words->other,
+      "Of diff: the one to compare it with. Of trace: the graph's file in place of the recording's, where "
+      "it names plugins");
   command->add_option(
       "--topic", words->topics,
       "These topics: names with * for any part, as in depth.*,from_dune; default: of cat all, of csv all that "
@@ -60,6 +68,7 @@ void add_log(CommandLine& line, int& exit_code) {
   command->add_option("--until", words->until_text, "Before that instant");
   command->add_option("--by-rate", words->by_rate,
                       "Of csv: into this folder, a file for each period and place in it, without empty cells");
+  command->add_option("--out,-o", words->out, "Of trace: the file to write; default: stdout");
   command->add_flag("--json", words->json, "One JSON object instead of text");
   command->callback([words, command, &exit_code] { exit_code = look(*command, *words); });
 }

@@ -8,10 +8,11 @@
 namespace jarol::tools {
 
 struct LogOptions {
-  std::string file, other;  // two of `diff`
+  std::string file, other;  // two of `diff`; of `trace` and `report` a graph in place of the recording's
   std::string topics;       // patterns; empty: all
   Duration from{}, until = Duration::max();
   std::string by_rate;  // a folder
+  std::string out;      // a file
   bool json = false;
 };
 
@@ -20,5 +21,6 @@ int log_cat(const LogOptions& options);
 int log_csv(const LogOptions& options);
 int log_verify(const LogOptions& options);
 int log_diff(const LogOptions& options);
+int log_trace(const LogOptions& options);
 
 }  // namespace jarol::tools

@@ -32,7 +32,7 @@ void add_record_options(Command& command, RecordArguments& arguments) {
       "--record", arguments.record,
       "Record the run in this MCAP file: every published value, what came from outside and what was late. "
       "jarol replay\n"
-      "repeats it, jarol log looks into it, and so do PlotJuggler, Foxglove and Lichtblick");
+      "repeats it, jarol log looks into it; tools that read MCAP with ROS 2 messages can, too");
   command.add_option(
       "--record-what", arguments.what,
       "Which values --record takes: all (default), names with * for any part, as in depth.*,from_dune, or "

@@ -1,0 +1,51 @@
+#include "tools/log/recorded_graph.h"
+
+#include <span>
+
+#include "graph/language/source_set.h"
+#include "graph/values/type_of.h"
+#include "runtime/record/cdr.h"
+#include "runtime/record/instants.h"
+#include "tools/run/load_graph.h"
+
+namespace jarol::tools {
+
+Loaded load_recorded_graph(const Recording& recording, const std::string& file, const std::string& command) {
+  Overrides overrides = recording.header().overrides;
+  if (!file.empty()) return load_without_channels(file, overrides);
+  overrides.no_plugins =
+      "the recording names this graph, and a recording names no code; name it yourself: " + command + " FILE GRAPH";
+  SourceSet sources;
+  for (const RecordedFile& read : recording.files()) sources.give(read.path, read.text);
+  return load_without_channels(recording.header().file, overrides);
+}
+
+RecordedEvents read_events(const Recording& recording) {
+  RecordedEvents read;
+  const ReadTopic* const topic = recording.find(topics::events);
+  if (topic == nullptr) return read;
+  std::vector<bool> wanted(65536);
+  wanted[topic->channel.id] = true;
+  for (MessageCursor cursor(recording, std::move(wanted)); cursor.message() != nullptr; cursor.next()) {
+    if (read.events.size() == RecordedEvents::most) {
+      ++read.more;
+      continue;
+    }
+    RecordedEvent event;
+    const std::string_view data = cursor.message()->data;
+    if (const std::string wrong = decode_cdr(type_of<RecordedEvent>(),
+                                             {reinterpret_cast<const std::byte*>(data.data()), data.size()}, &event);
+        !wrong.empty())
+      throw LogError("'" + recording.path() + "' has an event that " + wrong +
+                     "; it is no recording that jarol run has written");
+    read.events.push_back({Duration(cursor.message()->time), event.kind, event.activation,
+                           std::string(event.task.view()), std::string(event.cause.view())});
+  }
+  return read;
+}
+
+std::int64_t releases_before(const Task& task, Duration end) {
+  return end <= task.offset ? 0 : (end - task.offset - Duration(1)) / task.period + 1;
+}
+
+}  // namespace jarol::tools

@@ -1,0 +1,40 @@
+// The graph of a recording, and what happened beside its publications.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "distributers/session/load.h"
+#include "runtime/record/recorded_stream.h"
+#include "runtime/record/recording.h"
+
+namespace jarol::tools {
+
+/// As the run has read it, or `file` in its place, with the run's overrides and without channels. A recording names no
+/// code: a graph that has plugins is refused unless `file` names it. `command`: what the user is to call then.
+Loaded load_recorded_graph(const Recording& recording, const std::string& file, const std::string& command);
+
+/// The instant of a fault is that at which it would have published.
+struct TimedEvent {
+  Duration instant{};
+  RunEvent::Kind kind = RunEvent::Kind::fault;
+  std::int64_t activation = 0;  // of a fault, as the others
+  std::string task{}, cause{};
+};
+
+/// At most so many; `more`: how many others there are.
+struct RecordedEvents {
+  static constexpr std::size_t most = 1'000'000;
+  std::vector<TimedEvent> events;
+  std::uint64_t more = 0;
+};
+
+/// In their order. Throws LogError.
+RecordedEvents read_events(const Recording& recording);
+
+/// The instant of the k-th release of a task.
+inline Duration release_of(const Task& task, std::int64_t k) { return task.offset + k * task.period; }
+/// Its releases before `end`.
+std::int64_t releases_before(const Task& task, Duration end);
+
+}  // namespace jarol::tools
