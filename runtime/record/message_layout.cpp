@@ -63,13 +63,15 @@ struct MessageLayout::Cursor {
   }
 };
 
-MessageLayout::MessageLayout(const ReadTopic& topic) {
+MessageLayout::MessageLayout(const ReadTopic& topic) : MessageLayout(topic.channel.topic, topic.schema) {}
+
+MessageLayout::MessageLayout(const std::string& topic, const std::string& schema) {
   try {
-    parse(topic.schema);
+    parse(schema);
     add_columns(definitions_.at(0), "");
   } catch (const LogError& error) {
-    fail("the schema of '" + topic.channel.topic + "' can't be read: " + error.what());
-  } catch (const std::out_of_range&) { fail("the schema of '" + topic.channel.topic + "' can't be read: it is empty"); }
+    fail("the schema of '" + topic + "' can't be read: " + error.what());
+  } catch (const std::out_of_range&) { fail("the schema of '" + topic + "' can't be read: it is empty"); }
 }
 
 void MessageLayout::parse(const std::string& schema) {

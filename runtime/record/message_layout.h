@@ -30,6 +30,7 @@ class MessageLayout {
  public:
   /// Throws LogError where the schema is none that Jarol writes.
   explicit MessageLayout(const ReadTopic& topic);
+  MessageLayout(const std::string& topic, const std::string& schema);
 
   const std::vector<MessageColumn>& columns() const { return columns_; }
   /// One for each column. Throws LogError where the bytes are not of that layout.

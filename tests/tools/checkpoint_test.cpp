@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "graph/values/seed.h"
+#include "tests/runtime/random_model.h"
 #include "tests/tools/run_command.h"
 #include "tools/library/session.h"
 
@@ -167,6 +168,38 @@ TEST_SUITE("tools/checkpoint") {
     const json before = report_of(window + "--save 1s=" + at);
     CHECK(report_of(window + "--resume " + at + " --set tasks.window.parameters.length=30")["digest"] !=
           before["digest"]);
+  }
+
+  TEST_CASE("random graphs and missions that are saved at random instants go on in a new process to their end") {
+    const TemporaryFolder folder;
+    std::vector<std::pair<std::string, Duration>> runs{{"specs/counting.yaml", 3s}, {"specs/window.yaml", 3s}};
+    for (std::uint64_t seed = 0; seed < (is_full() ? 2000U : 8U); ++seed) {
+      const std::string name = "graph" + std::to_string(seed) + ".yaml";
+      folder.write(name, oracle::to_yaml(oracle::random_model(seed), seed));
+      runs.emplace_back(folder / name, 60ms);
+    }
+    for (const Mission& mission : missions()) {
+      if (!is_full()) continue;
+      std::string words = mission.spec;
+      if (!mission.options.profile.empty()) words += " --profile " + mission.options.profile;
+      for (const std::string& set : mission.options.set) words += " --set '" + set + "'";
+      runs.emplace_back(words, mission.length);
+    }
+    std::uint64_t number = 0;
+    for (const auto& [run, length] : runs) {
+      CAPTURE(run);
+      const std::string end = " --for " + std::to_string(length.count()) + "ns", saved = folder / "saved";
+      const Duration at = random_instant(length, ++number);
+      CAPTURE(at.count());
+      const json whole = report_of(run + end);
+      const json first = report_of(run + end + " --workers " + std::to_string(1 + number % 4) + " --save " +
+                                   std::to_string(at.count()) + "ns=" + saved);
+      CHECK(lasting(first) == lasting(whole));
+      const std::string file = run.substr(0, run.find(' '));
+      const json resumed =
+          report_of(file + end + " --resume " + saved + " --workers " + std::to_string(1 + (number + 1) % 4));
+      CHECK(lasting(resumed) == lasting(whole));
+    }
   }
 
   TEST_CASE("what is no checkpoint of this graph and program is refused with the reason") {

@@ -36,6 +36,7 @@
 #include "tools/run/run_files.h"
 #include "tools/run/run_on_threads.h"
 #include "tools/run/run_report.h"
+#include "tools/run/what_if.h"
 
 namespace jarol::tools {
 namespace {
@@ -53,6 +54,7 @@ struct Options {
   RunFileArguments files;
   CheckpointArguments checkpoints;
   RecordArguments recording;
+  std::vector<std::string> what_if;
 };
 
 void require_clock(const Options& options, const Loaded& loaded) {
@@ -79,17 +81,19 @@ std::string text_of(const std::vector<Save>& saves) {
   return text;
 }
 
-nlohmann::ordered_json json_of(const RunOutcome& outcome, const std::vector<Save>& saves) {
+nlohmann::ordered_json json_of(const RunOutcome& outcome, const std::vector<Save>& saves, const WhatIfs& what_ifs) {
   auto json = to_json(outcome);
   if (outcome.begun > Duration{}) json["resumed_ns"] = outcome.begun.count();
   for (const Save& save : saves) json["saved"].push_back({{"instant_ns", save.at.count()}, {"file", save.file}});
+  if (!what_ifs.outcomes().empty()) json["what_if"] = to_json(what_ifs.outcomes());
   return json;
 }
 
-void print(const Options& options, const RunOutcome& outcome, const std::vector<Save>& saves, bool written) {
+void print(const Options& options, const RunOutcome& outcome, const std::vector<Save>& saves, const WhatIfs& what_ifs,
+           bool written) {
   const Report& report = outcome.executor.report();
   if (options.json) {
-    std::cout << json_line(json_of(outcome, saves));
+    std::cout << json_line(json_of(outcome, saves, what_ifs));
     return;
   }
   if (outcome.clock != nullptr) {
@@ -105,6 +109,7 @@ void print(const Options& options, const RunOutcome& outcome, const std::vector<
   std::cout << text_of(saves);
   if (written) std::cout << to_text(options.files);
   if (written) std::cout << to_text(options.recording);
+  std::cout << to_text(column_of(outcome.executor, outcome.true_states, outcome.verdict), what_ifs.outcomes());
   std::cerr << told_faults(report);
 }
 
@@ -151,7 +156,8 @@ void require_files_apart(const Options& options, const std::vector<Save>& saves)
 }
 
 int run(Options options) {
-  std::vector<Save> saves = parse_saves(options.checkpoints.saves);
+  WhatIfs what_ifs(options.what_if);
+  const std::vector<Save> saves = parse_saves(options.checkpoints.saves);
   require_files_apart(options, saves);
   std::optional<Checkpoint> resumed;
   if (!options.checkpoints.resume.empty())
@@ -164,6 +170,7 @@ int run(Options options) {
     throw std::invalid_argument("the run ends at " + seconds_text(end) + " s, and goes on from " + seconds_text(begin) +
                                 " s; say until when, as in --for 100s");
   require_clock(options, loaded);
+  what_ifs.prepare(graph, options.file, options.overrides, options.seed, options.workers, end);
   if (options.concurrency == "threads") return run_on_threads(loaded, end, options.real_time, options.json);
   const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
@@ -185,6 +192,7 @@ int run(Options options) {
   Noted noted(graph);
   std::vector<RecordSink*> looking_on = files.sinks();
   noted.add_to(looking_on);
+  what_ifs.add_to(looking_on);
   if (log && log->publications() != nullptr) looking_on.push_back(log->publications());
   RunOrigin origin = origin_of(loaded, options.overrides, options.seed);
   GraphRun graph_run(std::move(loaded), {.sinks = looking_on,
@@ -194,7 +202,16 @@ int run(Options options) {
                                          .log = log ? log->recorder() : nullptr});
   Executor& executor = graph_run.executor();
   graph_run.set_origin(std::move(origin));
-  SavedRun saved(graph_run, noted, end, std::move(saves));
+  SavedRun saved(graph_run, noted, end);
+  std::vector<Save> written_saves;
+  for (const Save& save : saves)
+    saved.add({"--save", save.at,
+               [&written_saves, &save](const Checkpoint& checkpoint) {
+                 checkpoint.write(save.file);
+                 written_saves.push_back(save);
+               },
+               "'" + save.file + "' is not written"});
+  what_ifs.add_to(saved);
   if (resumed) restore(graph_run, noted, *resumed, options.checkpoints.resume);
   saved.require_saveable(begin, end);
   const std::vector<Channels*>& channels = graph_run.channels();
@@ -236,23 +253,26 @@ int run(Options options) {
   const Report& report = executor.report();
   // the report is there whatever can't be written
   std::string unwritten, unseen;  // and why not all that was published has been seen
-  const auto finish_writing = [&](const std::function<void()>& close) {
+  std::string not_run;            // of what-ifs
+  const auto attempt = [](std::string& wrong, const std::function<void()>& to_do) {
     try {
-      close();
-    } catch (const std::exception& error) { unwritten = error.what(); }
+      to_do();
+    } catch (const std::exception& error) { wrong = error.what(); }
   };
   if (run_end.hangs) {
     // a recording is good up to its last chunk
     if (!files.sinks().empty() || !graph.expectations.empty())
       unwritten = "trace and picture are not written, as the run has not ended";
   } else {
-    finish_writing([&] { graph_run.sinks().close(); });
+    attempt(not_run, [&] { what_ifs.run(graph_run.sinks(), files); });
+    attempt(unwritten, [&] { graph_run.sinks().close(); });
     unseen = unwritten;
-    if (log) finish_writing([&] { log->close(log_end_of(report)); });
+    if (log) attempt(unwritten, [&] { log->close(log_end_of(report)); });
     if (log) std::cerr << text_of_dropped(options.recording, *log);
   }
   const bool written = unwritten.empty();
-  if (!saved.unwritten().empty()) unwritten += (unwritten.empty() ? "" : "; ") + saved.unwritten();
+  for (const std::string& lost : {saved.lost(), not_run})
+    if (!lost.empty()) unwritten += (unwritten.empty() ? "" : "; ") + lost;
   const RunVerdict verdict = graph_run.judge(end, run_end, unseen);
   print(options,
         {.graph = graph,
@@ -268,7 +288,7 @@ int run(Options options) {
          .simulated = report.simulated,
          .verdict = verdict,
          .true_states = run_end.hangs ? std::vector<TrueState>{} : find_true_states(graph, channels)},
-        saved.written(), written);
+        written_saves, what_ifs, written);
   std::cerr << errors_of(run_end, executor.now()) << failures_text(verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
   const int exit_code =
@@ -317,6 +337,12 @@ void add_run(CommandLine& line, int& exit_code) {
   add_run_file_options(*command, options->files);
   add_checkpoint_options(*command, options->checkpoints);
   add_record_options(*command, options->recording);
+  command
+      ->add_option("--what-if", options->what_if,
+                   "Go on from an instant with other parameters, too, and say from where and by how much that parts "
+                   "from the run: 'at=30s set=tasks.depth.parameters.kp=0.2', with any number of set; may be given "
+                   "more than once")
+      ->one_value();
   command->callback([options, command, &exit_code] {
     require_effect(*command, *options);
     require_checkpoint_effect(*command, options->checkpoints, options->clock == "virtual");

@@ -28,6 +28,11 @@ constexpr double time_labels = 48;
 constexpr std::string_view reached_stroke = R"(stroke="#0072B2" stroke-width="2")";
 constexpr std::string_view commanded_stroke = R"(stroke="#D55E00" stroke-width="1.6" stroke-dasharray="6 4")";
 
+// of other runs, in turn
+constexpr std::array<std::string_view, 4> other_strokes{
+    R"(stroke="#009E73" stroke-width="1.6")", R"(stroke="#CC79A7" stroke-width="1.6")",
+    R"(stroke="#E69F00" stroke-width="1.6")", R"(stroke="#56B4E9" stroke-width="1.6")"};
+
 constexpr std::string_view title_font = R"(font-size="14" font-weight="bold" fill="#1F2933")";
 
 constexpr double degrees = 180.0 / std::numbers::pi;
@@ -178,6 +183,40 @@ std::size_t PlotSvg::add_curve(std::uint32_t output, const Leaf& leaf, const Dra
   return curves_.size() - 1;
 }
 
+// Adds to the curves of another run.
+class PlotSvg::Beside : public RecordSink {
+ public:
+  explicit Beside(PlotSvg& picture) : picture_(picture) {
+    for (const Drawing& drawing : picture.drawings_) curves_.emplace_back(drawing.panel.output, drawing.others.back());
+  }
+  bool wants(std::uint32_t output) const override {
+    return std::any_of(curves_.begin(), curves_.end(), [&](const auto& curve) { return curve.first == output; });
+  }
+  void take(Duration instant, std::uint32_t output, const void* value) override {
+    picture_.end_ = std::max(picture_.end_, instant.count());
+    for (const auto& [of, curve] : curves_)
+      if (of == output) picture_.curves_[curve].add(instant.count(), value);
+  }
+  void finish() override {}
+
+ private:
+  PlotSvg& picture_;
+  std::vector<std::pair<std::uint32_t, std::size_t>> curves_;  // output and curve
+};
+
+std::unique_ptr<RecordSink> PlotSvg::beside(std::string name) {
+  others_.push_back(std::move(name));
+  for (Drawing& drawing : drawings_) {
+    PlotCurve curve = curves_[drawing.curves[0]];
+    curve.spans.clear();
+    curve.samples_per_span = 1;
+    curve.samples_in_last = 0;
+    drawing.others.push_back(curves_.size());
+    curves_.push_back(std::move(curve));
+  }
+  return std::make_unique<Beside>(*this);
+}
+
 void PlotSvg::take(Duration instant, std::uint32_t output, const void* value) {
   end_ = std::max(end_, instant.count());
   if (output >= curves_of_.size()) return;
@@ -192,7 +231,9 @@ void PlotSvg::draw(const Drawing& drawing, double top, Pen& pen) const {
   double least = PlotCurve::most_value;
   double most = -PlotCurve::most_value;
   std::vector<std::vector<PlotCurve::Point>> lines;
-  for (const std::size_t i : drawing.curves) {
+  std::vector<std::size_t> drawn = drawing.curves;
+  drawn.insert(drawn.end(), drawing.others.begin(), drawing.others.end());
+  for (const std::size_t i : drawn) {
     const PlotCurve& curve = curves_[i];
     lines.push_back(curve.points(end_));
     for (const PlotCurve::Point& p : lines.back()) {
@@ -242,10 +283,17 @@ void PlotSvg::draw(const Drawing& drawing, double top, Pen& pen) const {
   pen.svg += "<g text-anchor=\"end\">\n";
   y.for_each_tick([&](double at, const std::string& label) { pen.text(left - 8, at + 4, "", label); });
   pen.svg += "</g>\n";
-  constexpr std::array strokes{reached_stroke, commanded_stroke};
+  std::vector<std::string_view> strokes{reached_stroke, commanded_stroke};
+  strokes.resize(drawing.curves.size());
+  for (std::size_t i = 0; i < others_.size(); ++i) strokes.push_back(other_strokes[i % other_strokes.size()]);
   for (std::size_t i = 0; i < lines.size(); ++i)
-    if (!lines[i].empty()) pen.curve(curves_[drawing.curves[i]], lines[i], x, y, strokes[i]);
+    if (!lines[i].empty()) pen.curve(curves_[drawn[i]], lines[i], x, y, strokes[i]);
 
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    const double at = right - 216 - 84 * static_cast<double>(others_.size() - i);
+    pen.line(at, at + 26, top - 13, strokes[drawing.curves.size() + i]);
+    pen.text(at + 32, top - 9, "", others_[i]);
+  }
   if (!drawing.panel.commanded) return;
   pen.line(right - 216, right - 190, top - 13, commanded_stroke);
   pen.text(right - 184, top - 9, "", "commanded");

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,6 +30,9 @@ class PlotSvg : public RecordSink {
  public:
   PlotSvg(std::string path, std::string title, std::vector<Panel> panels);
 
+  /// What another run reached, as lines beside this one's; before `finish`. The picture outlives it.
+  std::unique_ptr<RecordSink> beside(std::string name);
+
   void take(Duration instant, std::uint32_t output, const void* value) override;
   /// Throws std::runtime_error if the file can't be written.
   void finish() override;
@@ -42,8 +46,10 @@ class PlotSvg : public RecordSink {
     std::string unit;  // shown
     bool downwards = false;
     std::vector<std::size_t> curves;  // reached, then commanded
+    std::vector<std::size_t> others;  // what other runs reached
   };
   class Pen;
+  class Beside;
 
   std::size_t add_curve(std::uint32_t output, const Leaf& leaf, const Drawing& drawing, bool held);
   void draw(const Drawing& drawing, double top, Pen& pen) const;
@@ -53,6 +59,7 @@ class PlotSvg : public RecordSink {
   std::vector<Drawing> drawings_;
   std::vector<PlotCurve> curves_;
   std::vector<std::vector<std::size_t>> curves_of_;  // per output
+  std::vector<std::string> others_;                  // other runs
   std::int64_t end_ = 0;                             // last instant of the run
 };
 

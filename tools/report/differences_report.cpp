@@ -8,11 +8,10 @@
 
 namespace jarol::tools {
 
-std::string text_of(const Differences& differences) {
+std::string text_of(const Differences& differences, std::size_t most) {
   const std::optional<FirstDifference>& first = differences.first();
   if (!first) return "";
   std::string text = "  first       " + text_of(*first) + "\n";
-  constexpr std::size_t most = 20;
   const std::vector<SignalDifference> signals = differences.signals();
   for (std::size_t i = 0; i < std::min(most, signals.size()); ++i)
     text += "  signal      " + signals[i].name + " " + text_of(signals[i]) + "\n";

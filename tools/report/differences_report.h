@@ -8,8 +8,8 @@
 
 namespace jarol::tools {
 
-/// The first difference, then the signals; nothing where there is none.
-std::string text_of(const Differences& differences);
+/// The first difference, then so many signals; nothing where there is none.
+std::string text_of(const Differences& differences, std::size_t most = 20);
 
 nlohmann::ordered_json json_of(const Differences& differences);
 

@@ -21,7 +21,7 @@ void add_checkpoint_options(Command& command, CheckpointArguments& arguments) {
 }
 
 void require_checkpoint_effect(const Command& command, const CheckpointArguments& arguments, bool virtual_clock) {
-  if (!virtual_clock) command.refuse({"--save", "--resume"}, "belongs to the virtual clock");
+  if (!virtual_clock) command.refuse({"--save", "--resume", "--what-if"}, "belongs to the virtual clock");
   if (arguments.resume.empty()) return;
   command.refuse({"--profile", "--seed"}, "is that of the run that was saved; leave it out");
   command.refuse({"--log", "--record"}, "has to begin at the start of a run, for the replay does; leave out --resume");
@@ -39,7 +39,6 @@ std::vector<Save> parse_saves(const std::vector<std::string>& words) {
     if (save.file == "-") throw std::invalid_argument("--save: '-' is no file; --resume reads one by its name");
     saves.push_back(std::move(save));
   }
-  std::stable_sort(saves.begin(), saves.end(), [](const Save& a, const Save& b) { return a.at < b.at; });
   return saves;
 }
 
@@ -68,43 +67,42 @@ void restore(GraphRun& run, Noted& noted, const Checkpoint& checkpoint, const st
   } catch (const CheckpointError& wrong) { throw CheckpointError("'" + file + "' " + wrong.what()); }
 }
 
-void SavedRun::require_saveable(Duration begin, Duration end) {
-  if (saves_.empty()) return;
-  for (const Save& save : saves_) {
-    if (save.at < begin)
-      throw std::invalid_argument("--save: the run goes on from " + seconds_text(begin) + " s, after " +
-                                  seconds_text(save.at) + " s");
-    if (save.at > end)
-      throw std::invalid_argument("--save: the run ends at " + seconds_text(end) + " s, before " +
-                                  seconds_text(save.at) + " s");
-  }
-  try {
-    checkpoint_of(run_, noted_);
-  } catch (const CheckpointError& wrong) { throw std::invalid_argument(std::string("--save: ") + wrong.what()); }
+void SavedRun::add(Stop stop) {
+  const auto later = [](Duration at, const Stop& other) { return at < other.at; };
+  stops_.insert(std::upper_bound(stops_.begin(), stops_.end(), stop.at, later), std::move(stop));
 }
 
+void SavedRun::require_saveable(Duration begin, Duration end) {
+  for (const Stop& stop : stops_) {
+    if (stop.at < begin)
+      throw std::invalid_argument(stop.option + ": the run goes on from " + seconds_text(begin) + " s, after " +
+                                  seconds_text(stop.at) + " s");
+    if (stop.at > end)
+      throw std::invalid_argument(stop.option + ": the run ends at " + seconds_text(end) + " s, before " +
+                                  seconds_text(stop.at) + " s");
+  }
+  if (stops_.empty()) return;
+  try {
+    checkpoint_of(run_, noted_);
+  } catch (const CheckpointError& wrong) { throw std::invalid_argument(stops_.front().option + ": " + wrong.what()); }
+}
+
+// What can't be written does not end the run.
 void SavedRun::cover() {
   const Report& report = run_.executor().report();
-  for (const Save& each : saves_) {
-    run_.executor().cover(each.at);
-    if (report.covered >= each.at && !report.stopped) {
-      save(each);
-    } else {
-      add_unwritten("'" + each.file + "' is not written, as the run has ended at " + seconds_text(report.simulated) +
-                    " s");
+  for (const Stop& stop : stops_) {
+    run_.executor().cover(stop.at);
+    if (report.covered < stop.at || report.stopped) {
+      add_lost(stop.lost + ", as the run has ended at " + seconds_text(report.simulated) + " s");
+      continue;
     }
+    try {
+      stop.take(checkpoint_of(run_, noted_));
+    } catch (const std::exception& error) { add_lost(error.what()); }
   }
   ExecutorRun::cover();
 }
 
-// What can't be written does not end the run.
-void SavedRun::save(const Save& save) {
-  try {
-    checkpoint_of(run_, noted_).write(save.file);
-    written_.push_back(save);
-  } catch (const std::exception& error) { add_unwritten(error.what()); }
-}
-
-void SavedRun::add_unwritten(const std::string& text) { unwritten_ += (unwritten_.empty() ? "" : "; ") + text; }
+void SavedRun::add_lost(const std::string& text) { lost_ += (lost_.empty() ? "" : "; ") + text; }
 
 }  // namespace jarol::tools

@@ -1,7 +1,7 @@
 // Runs that are saved, and that go on from what was saved.
 #pragma once
 
-#include <optional>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,34 +28,41 @@ struct Save {
   std::string file;
 };
 
-/// In order of time. Throws std::invalid_argument.
+/// Throws std::invalid_argument.
 std::vector<Save> parse_saves(const std::vector<std::string>& words);
 
 /// What a run goes on from; its profile, what it set, but for plugins, and its seed come before what is given here.
 Checkpoint read_checkpoint(const std::string& file, Overrides& overrides, std::uint64_t& seed);
 
+/// Where a run is saved on its way, and what becomes of that.
+struct Stop {
+  std::string option;  // that asks for it
+  Duration at{};
+  std::function<void(Checkpoint)> take;  // may throw
+  std::string lost;                      // what there is not if the run does not come there: "'FILE' is not written"
+};
+
 /// A run that is saved on its way.
 class SavedRun : public ExecutorRun {
  public:
-  SavedRun(GraphRun& run, Noted& noted, Duration end, std::vector<Save> saves)
-      : ExecutorRun(run.executor(), end), run_(run), noted_(noted), saves_(std::move(saves)) {}
+  SavedRun(GraphRun& run, Noted& noted, Duration end) : ExecutorRun(run.executor(), end), run_(run), noted_(noted) {}
 
-  /// Throws std::invalid_argument where the run can't be saved, or ends before it is to be.
+  /// Before it runs.
+  void add(Stop stop);
+  /// Throws std::invalid_argument where the run can't be saved, or does not come there.
   void require_saveable(Duration begin, Duration end);
   void cover() override;
 
-  /// What was written: a line each; and what was not, as errors.
-  const std::vector<Save>& written() const { return written_; }
-  const std::string& unwritten() const { return unwritten_; }
+  /// What was lost, and why; empty: nothing.
+  const std::string& lost() const { return lost_; }
 
  private:
-  void save(const Save& save);
-  void add_unwritten(const std::string& text);
+  void add_lost(const std::string& text);
 
   GraphRun& run_;
   Noted& noted_;
-  std::vector<Save> saves_, written_;
-  std::string unwritten_;
+  std::vector<Stop> stops_;  // in order of time
+  std::string lost_;
 };
 
 Checkpoint checkpoint_of(GraphRun& run, Noted& noted);

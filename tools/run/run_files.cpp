@@ -11,7 +11,6 @@
 #include "graph/language/problems.h"
 #include "runtime/files/whole_file.h"
 #include "runtime/record/trace_csv.h"
-#include "tools/plot/plot_svg.h"
 #include "tools/report/command_line.h"
 #include "tools/report/commanded.h"
 
@@ -141,10 +140,16 @@ RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments) {
   if (!trace.empty())
     sinks_.push_back(
         std::make_unique<TraceCsv>(trace, outputs, TraceOptions{.filled = arguments.fill, .words = arguments.words}));
-  if (!plot.empty())
-    sinks_.push_back(std::make_unique<PlotSvg>(
-        plot, graph.name,
-        arguments.signals.empty() ? panels_of(graph, outputs) : panels_named(arguments.signals, outputs)));
+  if (plot.empty()) return;
+  auto picture = std::make_unique<PlotSvg>(
+      plot, graph.name,
+      arguments.signals.empty() ? panels_of(graph, outputs) : panels_named(arguments.signals, outputs));
+  plot_ = picture.get();
+  sinks_.push_back(std::move(picture));
+}
+
+std::unique_ptr<RecordSink> RunFiles::beside(const std::string& name) {
+  return plot_ != nullptr ? plot_->beside(name) : nullptr;
 }
 
 RunFiles::~RunFiles() = default;

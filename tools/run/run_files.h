@@ -8,6 +8,7 @@
 
 #include "graph/model/graph.h"
 #include "runtime/record/recorder.h"
+#include "tools/plot/plot_svg.h"
 
 namespace jarol::tools {
 
@@ -46,9 +47,12 @@ class RunFiles {
   RunFiles& operator=(const RunFiles&) = delete;
 
   std::vector<RecordSink*> sinks() const;
+  /// Lines of another run in the picture; null: there is none.
+  std::unique_ptr<RecordSink> beside(const std::string& name);
 
  private:
   std::vector<std::unique_ptr<RecordSink>> sinks_;
+  PlotSvg* plot_ = nullptr;  // among them
 };
 
 }  // namespace jarol::tools
