@@ -53,7 +53,10 @@ std::vector<Mission> missions() {
       {"specs/passthrough.yaml", {}, 5s},
       {"specs/javiator.yaml", {}, hover},
       {"specs/javiator.yaml", {.profile = "original", .seed = 5}, hover},
-      {"specs/javiator.yaml", {.profile = "wind", .seed = 6}, hover}};
+      {"specs/javiator.yaml", {.profile = "wind", .seed = 6}, hover},
+      {"specs/javiator.yaml",
+       {.profile = "wind", .set = {"distributers.robostix.link.parameters.dynamics=rigid"}, .seed = 6},
+       hover}};
   all.insert(all.end(), flown.begin(), flown.end());
 #endif
   return all;

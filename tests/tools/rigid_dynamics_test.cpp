@@ -11,23 +11,38 @@
 namespace {
 using namespace std::chrono_literals;
 
-// The greatest difference of true places, over a mission, second by second.
-double apart(const std::string& mission, const std::string& profile) {
+// The greatest difference of true values, over a mission, second by second.
+double apart(jarol::Session simbody, jarol::Session rigid, const std::vector<std::string>& values) {
+  double most = 0;
+  while (simbody.now() < simbody.end_of_mission()) {
+    simbody.run_for(1s);
+    rigid.run_for(1s);
+    for (const std::string& value : values)
+      most = std::max(most, std::abs(simbody.true_value(value) - rigid.true_value(value)));
+  }
+  return most;
+}
+
+double dives_apart(const std::string& mission, const std::string& profile) {
   const auto opened = [&](const std::string& dynamics) {
     return jarol::open("specs/exolauv.yaml", {.profile = profile,
                                               .set = {"distributers.neptus.link.file=missions/" + mission,
                                                       "distributers.dune.link.parameters.dynamics=" + dynamics},
                                               .seed = 7});
   };
-  jarol::Session simbody = opened("simbody"), rigid = opened("rigid");
-  double most = 0;
-  while (simbody.now() < simbody.end_of_mission()) {
-    simbody.run_for(1s);
-    rigid.run_for(1s);
-    for (const std::string field : {"x", "y", "depth", "speed", "roll", "pitch"})
-      most = std::max(most, std::abs(simbody.true_value(field + " of dune") - rigid.true_value(field + " of dune")));
-  }
-  return most;
+  return apart(opened("simbody"), opened("rigid"),
+               {"x of dune", "y of dune", "depth of dune", "speed of dune", "roll of dune", "pitch of dune"});
+}
+
+double flights_apart(const std::string& mission, const std::string& profile) {
+  const auto opened = [&](const std::string& dynamics) {
+    std::vector<std::string> set{"distributers.robostix.link.parameters.dynamics=" + dynamics};
+    if (!mission.empty()) set.push_back("distributers.terminal.link.file=missions/" + mission);
+    return jarol::open("specs/javiator.yaml", {.profile = profile, .set = set, .seed = 7});
+  };
+  return apart(opened("simbody"), opened("rigid"),
+               {"x of robostix", "y of robostix", "altitude of robostix", "climb of robostix", "roll of robostix",
+                "pitch of robostix", "yaw of robostix"});
 }
 }  // namespace
 
@@ -38,10 +53,26 @@ TEST_SUITE("tools/rigid_dynamics") {
       for (const std::string profile : {"", "at_sea"}) {
         CAPTURE(mission);
         CAPTURE(profile);
-        const double here = apart(mission, profile);
+        const double here = dives_apart(mission, profile);
         CHECK(here < 1e-5);  // what sensors tell has 32 bits, and rounds small differences to none or to great ones
         most = std::max(most, here);
       }
+    MESSAGE("at most " << most << " m, m/s or rad apart");
+  }
+
+  TEST_CASE("every flight of the helicopter goes the same way with both dynamics") {
+    double most = 0;
+    const auto check = [&](const std::string& mission, const std::string& profile) {
+      CAPTURE(mission);
+      CAPTURE(profile);
+      const double here = flights_apart(mission, profile);
+      // what sensors measure is counted, and what falls between two counts goes to either
+      CHECK(here < 1e-3);
+      most = std::max(most, here);
+    };
+    for (const std::string profile : {"", "wind", "v2"})
+      for (const std::string mission : {"hover.csv", "failing.csv"}) check(mission, profile);
+    check("", "original");
     MESSAGE("at most " << most << " m, m/s or rad apart");
   }
 }

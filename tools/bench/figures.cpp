@@ -134,7 +134,7 @@ std::vector<std::string> figure_names() {
                                  "clock_1khz_p50",
                                  "clock_1khz_p99",
                                  "udp_echo"};
-  if (has_vehicles()) names.insert(names.end(), {"dive", "dive_rigid", "hover", "checkpoint"});
+  if (has_vehicles()) names.insert(names.end(), {"dive", "dive_rigid", "hover", "hover_rigid", "checkpoint"});
   return names;
 }
 
@@ -172,6 +172,7 @@ Figure measure(const std::string& name, int repeats) {
   if (name == "dive") return measure_dive(repeats);
   if (name == "dive_rigid") return measure_dive_rigid(repeats);
   if (name == "hover") return measure_hover(repeats);
+  if (name == "hover_rigid") return measure_hover_rigid(repeats);
   if (name == "checkpoint") return measure_checkpoint(repeats);
   throw std::invalid_argument("there is no figure '" + name + "'" + did_you_mean(name, figure_names()) +
                               "; there are: " + list_of(figure_names()));

@@ -51,6 +51,20 @@ Figure measure_loop(const std::string& name, const std::string& text, const Loop
   return figure;
 }
 
+Figure measure_rigid(const std::string& name, const std::string& text, const Loop& loop, const std::string& distributer,
+                     int repeats) {
+  const auto of = [&](const std::string& dynamics) {
+    SessionOptions options;
+    options.set = {"distributers." + distributer + ".link.parameters.dynamics=" + dynamics};
+    auto run = std::make_shared<Session>(open(loop.file, options));
+    run->run_for(loop.beginning);
+    return [run, loop] { return 1e6 * seconds_of([&] { run->run_for(loop.periods * loop.period); }) / loop.periods; };
+  };
+  Figure figure = compare(name, text, 1.0 / 15, repeats, of("rigid"), of("simbody"));
+  figure.unit = "us";
+  return figure;
+}
+
 }  // namespace
 
 bool has_vehicles() { return std::filesystem::exists(dive) && std::filesystem::exists(flight); }
@@ -67,17 +81,14 @@ Figure measure_dive(int repeats) {
 }
 
 Figure measure_dive_rigid(int repeats) {
-  const auto of = [](const std::string& dynamics) {
-    SessionOptions options;
-    options.set = {"distributers.dune.link.parameters.dynamics=" + dynamics};
-    auto run = std::make_shared<Session>(open(dive, options));
-    run->run_for(std::chrono::seconds(10));
-    return [run] { return 1e6 * seconds_of([&] { run->run_for(std::chrono::milliseconds(500)); }) / 50; };
-  };
-  Figure figure = compare("dive_rigid", "10 ms of the dive with dynamics: rigid / with Simbody", 1.0 / 15, repeats,
-                          of("rigid"), of("simbody"));
-  figure.unit = "us";
-  return figure;
+  return measure_rigid("dive_rigid", "10 ms of the dive with dynamics: rigid / with Simbody",
+                       {dive, std::chrono::seconds(10), std::chrono::milliseconds(10), 50, 0}, "dune", repeats);
+}
+
+Figure measure_hover_rigid(int repeats) {
+  return measure_rigid("hover_rigid", "15 ms in the air with dynamics: rigid / with Simbody",
+                       {flight, std::chrono::milliseconds(7995), std::chrono::milliseconds(15), 10, 0}, "robostix",
+                       std::min(repeats, 120));
 }
 
 Figure measure_hover(int repeats) {
@@ -125,6 +136,7 @@ bool has_vehicles() { return false; }
 
 Figure measure_dive(int) { throw std::logic_error("no vehicles are built"); }
 Figure measure_dive_rigid(int) { throw std::logic_error("no vehicles are built"); }
+Figure measure_hover_rigid(int) { throw std::logic_error("no vehicles are built"); }
 Figure measure_hover(int) { throw std::logic_error("no vehicles are built"); }
 Figure measure_checkpoint(int) { throw std::logic_error("no vehicles are built"); }
 

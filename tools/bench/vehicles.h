@@ -18,6 +18,9 @@ Figure measure_dive_rigid(int repeats);
 /// Microseconds for 15 ms of the hover; 250 of them are 60 times real time.
 Figure measure_hover(int repeats);
 
+/// The same 15 ms with `dynamics: rigid`, beside those with Simbody.
+Figure measure_hover_rigid(int repeats);
+
 /// Microseconds for a checkpoint of the hover, in memory.
 Figure measure_checkpoint(int repeats);
 

@@ -12,6 +12,11 @@ void need(bool good, const std::string& what) {
   if (!good) throw std::runtime_error(what);
 }
 
+// what is dropped by chance is carried at first, even if it may be dropped from the start
+double payload_at_start(const PayloadParameters& payload) {
+  return payload.at > 0.0 || payload.chance > 0.0 ? payload.mass : 0.0;
+}
+
 }  // namespace
 
 HelicopterBody make_body(const HelicopterParameters& parameters) {
@@ -41,7 +46,7 @@ HelicopterBody make_body(const HelicopterParameters& parameters) {
 
   HelicopterBody body;
   body.mass = frame.mass;
-  body.payload = parameters.payload.at > 0.0 ? parameters.payload.mass : 0.0;
+  body.payload = payload_at_start(parameters.payload);
   body.gravity = parameters.air.gravity;
   body.inertia = {frame.I_x, frame.I_y, frame.I_z};
   const double a = rotors.arm, h = -rotors.height;
@@ -79,8 +84,8 @@ HelicopterMotion make_start(const HelicopterParameters& parameters) {
   const LiftOffParameters& start = parameters.start;
   need(start.altitude >= 0.0, "its start can't be below the ground");
   need(start.signal >= 0.0 && start.signal <= 16000.0, "its motor signal at the start has to be from 0 to 16000");
-  const double payload = parameters.payload.at > 0.0 ? parameters.payload.mass : 0.0;
-  const double sunk = (parameters.frame.mass + payload) * parameters.air.gravity / (4.0 * parameters.feet.stiffness);
+  const double mass = parameters.frame.mass + payload_at_start(parameters.payload);
+  const double sunk = mass * parameters.air.gravity / (4.0 * parameters.feet.stiffness);
   HelicopterMotion motion;
   motion.p_n = {start.north, start.east, sunk - parameters.feet.height - start.altitude};
   const double c = std::cos(start.heading), s = std::sin(start.heading);

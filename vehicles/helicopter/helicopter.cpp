@@ -7,6 +7,7 @@
 #include "graph/values/seed.h"
 #include "vehicles/helicopter/coefficients.h"
 #include "vehicles/helicopter/plant.h"
+#include "vehicles/helicopter/rigid_plant.h"
 
 namespace jarol::vehicles {
 namespace {
@@ -17,10 +18,11 @@ double setting_of(const HelicopterParameters& p, double signal, double voltage) 
   return signal / most_signal * voltage / p.rotors.reference_voltage;
 }
 
-std::unique_ptr<HelicopterPlant> make_plant(const HelicopterParameters& p, const HelicopterMotion& start) {
+std::unique_ptr<HelicopterDynamics> make_plant(const HelicopterParameters& p, const HelicopterMotion& start) {
   const double setting = setting_of(p, p.start.signal, p.rotors.reference_voltage);
-  return std::make_unique<HelicopterPlant>(make_body(p), start,
-                                           std::array<double, 4>{setting, setting, setting, setting});
+  const std::array<double, 4> settings{setting, setting, setting, setting};
+  if (p.dynamics == Dynamics::rigid) return std::make_unique<RigidHelicopter>(make_body(p), start, settings);
+  return std::make_unique<HelicopterPlant>(make_body(p), start, settings);
 }
 
 HelicopterReadings readings_of(const messages::javiator::JaviatorData& data) {
@@ -54,6 +56,7 @@ Helicopter::Helicopter(const HelicopterParameters& parameters, std::uint64_t see
       sensors_(parameters, seed),
       voltage_(battery_.calc_voltage(0.0)),
       judge_(parameters, plant_->motion()),
+      seed_(seed),
       motors_{FailingMotor(parameters.failures.front, spread_seed(seed, "front.failure")),
               FailingMotor(parameters.failures.right, spread_seed(seed, "right.failure")),
               FailingMotor(parameters.failures.rear, spread_seed(seed, "rear.failure")),
@@ -67,7 +70,7 @@ Helicopter::Helicopter(const HelicopterParameters& parameters, std::uint64_t see
 Helicopter::~Helicopter() = default;
 
 std::chrono::nanoseconds Helicopter::grid() const {
-  return std::chrono::nanoseconds(HelicopterPlant::step_nanoseconds);
+  return std::chrono::nanoseconds(HelicopterDynamics::step_nanoseconds);
 }
 
 const HelicopterMotion& Helicopter::motion() const { return plant_->motion(); }
@@ -75,7 +78,7 @@ const HelicopterMotion& Helicopter::motion() const { return plant_->motion(); }
 HelicopterSensors::Scene Helicopter::scene() const { return {plant_->motion(), plant_->specific_force(), voltage_}; }
 
 void Helicopter::step() {
-  constexpr double seconds = 1e-9 * HelicopterPlant::step_nanoseconds;
+  constexpr double seconds = 1e-9 * HelicopterDynamics::step_nanoseconds;
   wind_.step(seconds);
   HelicopterCommand command;
   command.wind_n = wind_.now(-plant_->motion().p_n[2]);
@@ -86,7 +89,7 @@ void Helicopter::step() {
   }
   command.payload = time < payload_until_ ? parameters_.payload.mass : 0.0;
   plant_->step(command);
-  nanoseconds_ += HelicopterPlant::step_nanoseconds;
+  nanoseconds_ += HelicopterDynamics::step_nanoseconds;
   judge_.look(std::chrono::nanoseconds(nanoseconds_), plant_->motion(), plant_->settings());
 
   // a rotor's thrust as a part of its full thrust
@@ -148,6 +151,8 @@ void Helicopter::place(const VehicleState& s) {
   motion.omega_b = {s.p, s.q, s.r};
   plant_ = make_plant(parameters_, motion);
   judge_ = HelicopterJudge(parameters_, motion);
+  // what the sensors tell at the start; they begin anew
+  sensors_ = HelicopterSensors(parameters_, seed_);
   sensors_.sample(0, scene());
   sensors_.sample_imu(0, scene());
 }

@@ -16,7 +16,7 @@
 
 namespace jarol::vehicles {
 
-class HelicopterPlant;
+class HelicopterDynamics;
 
 /// Steps of 5 ms. Motor signals act at once and are answered a step later; the IMU values of an answer were measured
 /// when the answer before had been sent.
@@ -55,7 +55,7 @@ class Helicopter : public Vehicle {
   void tell_outputs(double current);
 
   HelicopterParameters parameters_;
-  std::unique_ptr<HelicopterPlant> plant_;
+  std::unique_ptr<HelicopterDynamics> plant_;
   Robostix robostix_;
   Battery battery_;
   Wind wind_;
@@ -65,6 +65,7 @@ class Helicopter : public Vehicle {
   HelicopterOutputs outputs_;
   HelicopterJudge judge_;
   std::int64_t nanoseconds_ = 0;
+  std::uint64_t seed_ = 0;
   std::array<FailingMotor, 4> motors_{};
   double payload_until_ = 0.0;  // s
 };

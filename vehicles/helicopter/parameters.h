@@ -7,6 +7,7 @@
 #include "graph/values/describe.h"
 #include "vehicles/air/parameters.h"
 #include "vehicles/helicopter/sensor_parameters.h"
+#include "vehicles/mechanics/dynamics.h"
 
 namespace jarol::vehicles {
 
@@ -153,6 +154,7 @@ struct LiftOffParameters {
 };
 
 struct HelicopterParameters {
+  Dynamics dynamics = Dynamics::simbody;
   FrameParameters frame{};
   RotorParameters rotors{};
   FeetParameters feet{};
@@ -167,10 +169,11 @@ struct HelicopterParameters {
 
   static constexpr auto fields() {
     using S = HelicopterParameters;
-    return describe(field<&S::frame>("", "the rigid body"), field<&S::rotors>("", "the four rotors"),
-                    field<&S::feet>("", "the four feet"), field<&S::battery>("", "the battery"),
-                    field<&S::air>("", "the air"), field<&S::sensors>("", "places of the sensors"),
-                    field<&S::noise>("", "of the sensors"), field<&S::failures>("", "of sensors and motors"),
+    return describe(field<&S::dynamics>("", "what integrates its motion"), field<&S::frame>("", "the rigid body"),
+                    field<&S::rotors>("", "the four rotors"), field<&S::feet>("", "the four feet"),
+                    field<&S::battery>("", "the battery"), field<&S::air>("", "the air"),
+                    field<&S::sensors>("", "places of the sensors"), field<&S::noise>("", "of the sensors"),
+                    field<&S::failures>("", "of sensors and motors"),
                     field<&S::payload>("", "what it carries and drops"),
                     field<&S::limits>("", "of a flight that ends well"), field<&S::start>("", "the start"));
   }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "graph/values/seed.h"
+#include "vehicles/helicopter/coefficients.h"
 
 namespace jarol::vehicles {
 namespace {
@@ -84,20 +85,20 @@ HelicopterSensors::HelicopterSensors(const HelicopterParameters& parameters, std
       bmu_(parameters.failures.bmu, spread_seed(seed, "bmu.failure")),
       imu_noise_(spread_seed(seed, "imu")),
       sonar_noise_(spread_seed(seed, "sonar")),
-      laser_noise_(spread_seed(seed, "laser")),
+      laser_noise_{Noise(spread_seed(seed, "laser_north")), Noise(spread_seed(seed, "laser_east"))},
       bmu_noise_(spread_seed(seed, "bmu")),
       drift_noise_(spread_seed(seed, "drift")),
       rate_bias_(draw_bias(imu_noise_, deviations_.rate_bias)),
-      force_bias_(draw_bias(imu_noise_, deviations_.force_bias)) {}
+      force_bias_(draw_bias(imu_noise_, deviations_.force_bias)),
+      ground_z_(make_start(parameters).p_n[2]) {}
 
 void HelicopterSensors::serialize(Archive& archive) {
   archive(imu_noise_, sonar_noise_, laser_noise_, bmu_noise_, drift_noise_, imu_, sonar_, laser_north_, laser_east_,
-          bmu_, rate_bias_, force_bias_, sampled_, wandered_, ground_z_);
+          bmu_, rate_bias_, force_bias_, sampled_, wandered_);
   archive.bytes(&data_, sizeof data_);
 }
 
 void HelicopterSensors::sample(std::int64_t nanoseconds, const Scene& scene) {
-  if (sampled_ < 0) ground_z_ = scene.motion.p_n[2];
   const SensorParameters& p = parameters_;
   if (due(sampled_, nanoseconds, bmu_half_hertz))
     sample_with(bmu_, nanoseconds, JaviatorData::Flags::BMU, data_,
@@ -152,7 +153,7 @@ std::array<std::uint8_t, 8> HelicopterSensors::range_of(const Scene& scene, std:
   along_b[axis] = 1.0;
   const double range = cast_ray(parameters_, {m.p_n[0] + lever_n[0], m.p_n[1] + lever_n[1], m.p_n[2] + lever_n[2]},
                                 to_ned(m.R_nb, along_b));
-  const double noise = error.noise * deviations_.laser * laser_noise_.normal();
+  const double noise = error.noise * deviations_.laser * laser_noise_[axis].normal();
   return to_digits(range > 0.0 ? range + error.bias + noise : 0.0);
 }
 

@@ -1,6 +1,7 @@
 // The helicopter's sensors, each at its own rate, as the Robostix gathers them for JAVIATOR_DATA.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "distributers/messages/javiator.h"
@@ -47,7 +48,9 @@ class HelicopterSensors {
   SensorParameters parameters_;
   NoiseParameters deviations_;
   FailingSensor imu_, sonar_, laser_north_, laser_east_, bmu_;
-  Noise imu_noise_, sonar_noise_, laser_noise_, bmu_noise_;
+  Noise imu_noise_, sonar_noise_;
+  std::array<Noise, 2> laser_noise_;  // of the one that looks forward, of the one that looks right
+  Noise bmu_noise_;
   Noise drift_noise_;
   fossen::Vector3 rate_bias_{}, force_bias_{};
   std::int64_t wandered_ = 0;  // ns

@@ -1,6 +1,6 @@
-// One rigid body that moves freely: place, attitude and velocity, integrated by Merson's method (1957; fourth order,
-// five evaluations), which Simbody's integrator of the submarine uses too, in steps of one length. The attitude is a
-// unit quaternion, so that no attitude is singular.
+// One rigid body that moves freely: place, attitude and velocity, integrated in steps of one length by the methods that
+// Simbody's integrators of the vehicles use: Merson's (1957; fourth order, five evaluations) and Kutta's (1901; third
+// order, three). The attitude is a unit quaternion, so that no attitude is singular.
 #pragma once
 
 #include <Eigen/Core>
@@ -64,16 +64,33 @@ inline Vector6d nu_of(const RigidState& s, const Eigen::Matrix3d& R_nb) {
   return nu;
 }
 
-/// One step from time t to t + h; `nu_dot(p_n, nu, R_nb, t)` gives the rate of nu in body axes.
+/// Rates under accelerations of the origin, in NED, and of the rotation, in body axes.
+inline RigidRates rates_of(const RigidState& at, const Eigen::Matrix3d& R_nb, const Eigen::Vector3d& v_dot_n,
+                           const Eigen::Vector3d& omega_dot_b) {
+  const Eigen::Quaterniond spin(0.0, at.omega_n[0], at.omega_n[1], at.omega_n[2]);
+  return {at.v_n, 0.5 * (spin * at.q_nb).coeffs(), v_dot_n, R_nb * omega_dot_b};
+}
+
+/// One step from time t to t + h by Kutta's method; `rates(state, t)` gives the rates.
+template <class Rates>
+RigidState kutta_step(const RigidState& s, double t, double h, const Rates& rates) {
+  const RigidRates k1 = rates(s, t);
+  const RigidRates k2 = rates(moved(s, h / 2.0, {{1.0, k1}}), t + h / 2.0);
+  const RigidRates k3 = rates(moved(s, h, {{-1.0, k1}, {2.0, k2}}), t + h);
+  RigidState end = moved(s, h / 6.0, {{1.0, k1}, {4.0, k2}, {1.0, k3}});
+  end.q_nb.normalize();
+  return end;
+}
+
+/// One step by Merson's method; `nu_dot(p_n, nu, R_nb, t)` gives the rate of nu in body axes.
 template <class Acceleration>
 RigidState merson_step(const RigidState& s, double t, double h, const Acceleration& nu_dot) {
   const auto rates = [&](const RigidState& at, double time) {
     const Eigen::Matrix3d R_nb = at.R_nb();
     const Vector6d nu = nu_of(at, R_nb), dot = nu_dot(at.p_n, nu, R_nb, time);
-    const Eigen::Quaterniond spin(0.0, at.omega_n[0], at.omega_n[1], at.omega_n[2]);
     // body axes turn themselves
     const Eigen::Vector3d v_dot_b = dot.head<3>() + nu.tail<3>().cross(nu.head<3>());
-    return RigidRates{at.v_n, 0.5 * (spin * at.q_nb).coeffs(), R_nb * v_dot_b, R_nb * dot.tail<3>()};
+    return rates_of(at, R_nb, R_nb * v_dot_b, dot.tail<3>());
   };
   const RigidRates k1 = rates(s, t);
   const RigidRates k2 = rates(moved(s, h / 3.0, {{1.0, k1}}), t + h / 3.0);

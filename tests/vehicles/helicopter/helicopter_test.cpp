@@ -205,4 +205,17 @@ TEST_SUITE("vehicles/helicopter") {
     REQUIRE(found != nullptr);
     CHECK(found->parameters == &type_of<HelicopterParameters>());
   }
+
+  TEST_CASE("placed elsewhere its sensors tell of there at once") {
+    Helicopter helicopter{HelicopterParameters{}};
+    helicopter.place({.x = 3, .y = -2, .z = -1.2});
+    const HelicopterInputs hover{8000, 8000, 8000, 8000};
+    helicopter.command(&hover);
+    helicopter.step();
+    const HelicopterReadings& told = static_cast<const HelicopterOutputs*>(helicopter.outputs())->sensors;
+    CHECK(told.x_laser == doctest::Approx(8 - (3 - 0.070)).epsilon(1e-3));
+    CHECK(told.y_laser == doctest::Approx(8 - (-2 - 0.077)).epsilon(1e-3));
+    CHECK(told.sonar == doctest::Approx(1.2 - 0.055).epsilon(0.01));
+    CHECK(told.pressure == doctest::Approx(101325 - 12).epsilon(1e-5));  // 1 m above where it stands
+  }
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "vehicles/helicopter/sensors.h"
 
@@ -72,5 +73,22 @@ TEST_SUITE("vehicles/helicopter_lasers") {
     CHECK(ranges(turned(8.1, 0, 0, 0)).first == 0);
     parameters.failures.laser_east = {FailureKind::biased, 0, 1};
     CHECK(ranges(turned(0, 0, 0, 0), parameters).second == 0);
+  }
+
+  TEST_CASE("each laser has noise of its own, which the other's failure does not change") {
+    const auto right_of = [](FailureKind kind) {
+      HelicopterParameters parameters;
+      parameters.noise.laser = 0.05;
+      parameters.failures.laser_north.kind = kind;
+      HelicopterSensors sensors(parameters, 1);
+      std::vector<std::string> all;
+      for (int i = 0; i < 20; ++i) {
+        sensors.sample(40'000'000LL * i, turned(0, 0, 0, 0));
+        const auto data = sensors.answer(0);
+        all.emplace_back(data.y_pos.begin(), data.y_pos.end() - 1);
+      }
+      return all;
+    };
+    CHECK(right_of(FailureKind::none) == right_of(FailureKind::lost));
   }
 }

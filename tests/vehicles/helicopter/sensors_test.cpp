@@ -52,6 +52,7 @@ TEST_SUITE("vehicles/helicopter_sensors") {
     HelicopterParameters parameters;
     parameters.sensors.sonars = 1;
     parameters.sensors.sonar_x = parameters.sensors.sonar_y = -0.095;
+    parameters.feet.stiffness = 1e9;
     const JaviatorData data = after_a_second(parameters, level(0, 0, -0.2));
     CHECK(data.maps == 14782186);
     CHECK(data.temp == 1311);
@@ -160,6 +161,51 @@ TEST_SUITE("vehicles/helicopter_sensors") {
     CHECK(readings(FailureKind::lost) == Readings{{true, 322}, {true, 356}, {false, 356}, {false, 356}});
     CHECK(readings(FailureKind::stuck) == Readings{{true, 322}, {true, 356}, {true, 356}, {true, 356}});
     CHECK(readings(FailureKind::biased) == Readings{{true, 322}, {true, 356}, {true, 493}, {true, 527}});
+  }
+
+  TEST_CASE(
+      "a drifting sensor is wrong by more each second, a jumping one in every second reading, a noisy one all around") {
+    const auto readings = [](const SensorFailure& failure) {
+      HelicopterParameters parameters;
+      parameters.noise.sonar = 0.01;
+      parameters.failures.sonar = failure;
+      HelicopterSensors sensors(parameters, 1);
+      std::vector<double> all;
+      for (int i = 0; i < 4000; ++i) {
+        sensors.sample(50 * i * ms, level(0, 0, -1.555));
+        all.push_back(sensors.answer(0).sonar * 3 / 1024.0 - 1.5);
+      }
+      return all;
+    };
+    const auto drifting = readings({FailureKind::drifting, 100, 0.01});
+    CHECK(std::abs(drifting[1999]) < 0.03);
+    CHECK(drifting[3999] == doctest::Approx(0.01 * 99.95).epsilon(0.03));
+    int up = 0, down = 0;
+    for (const double off : readings({FailureKind::jumping, 0, 0.5})) {
+      up += off > 0.4 ? 1 : 0;
+      down += off < -0.4 ? 1 : 0;
+    }
+    CHECK(up == doctest::Approx(1000).epsilon(0.1));
+    CHECK(down == doctest::Approx(1000).epsilon(0.1));
+    const auto spread = [&](const SensorFailure& failure) {
+      double squares = 0;
+      for (const double off : readings(failure)) squares += off * off / 4000;
+      return std::sqrt(squares);
+    };
+    CHECK(spread({FailureKind::noisy, 0, 10}) / spread({}) == doctest::Approx(10).epsilon(0.1));
+  }
+
+  TEST_CASE("biases wander as far in 100 s as they are said to") {
+    double squares = 0;
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+      HelicopterParameters parameters;
+      parameters.noise.rate_drift = 0.1;
+      HelicopterSensors sensors(parameters, seed);
+      for (int second = 0; second <= 100; ++second) sensors.sample_imu(second * 1000 * ms, level(0, 0, 0));
+      const double p = sensors.answer(0).droll * 8.5 / 32768;
+      squares += p * p / 400;
+    }
+    CHECK(std::sqrt(squares) == doctest::Approx(0.1).epsilon(0.1));
   }
 
   TEST_CASE("a helicopter that is driven tells what its sensors measure, in SI units") {

@@ -1,0 +1,102 @@
+// Wind: shear, one gust, and Dryden's gusts against the spectra of MIL-F-8785C (1980), section 3.7.
+#include "vehicles/air/wind.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+namespace {
+using namespace jarol::vehicles;
+
+constexpr double T = 1.0;      // s, scale length over airspeed
+constexpr double sigma = 0.8;  // m/s
+constexpr double dt = 0.02;    // s
+
+struct Gusts {
+  std::vector<double> along, across, down;
+};
+
+Gusts blow(std::size_t samples) {
+  AirParameters air;
+  air.north = 3;
+  air.gusts = sigma;
+  air.gust_time = T;
+  air.dryden = true;
+  Wind wind(air, 3);
+  Gusts gusts;
+  for (std::size_t i = 0; i < samples; ++i) {
+    wind.step(dt);
+    const fossen::Vector3 now = wind.now(1);
+    gusts.along.push_back(now[0] - 3);
+    gusts.across.push_back(now[1]);
+    gusts.down.push_back(now[2]);
+  }
+  return gusts;
+}
+
+// Two-sided density at omega = 2 pi bin / (length dt), so that its integral over omega / (2 pi) is the variance: the
+// mean over Hann-windowed segments (Welch, 1967).
+double density(const std::vector<double>& x, std::size_t length, std::size_t bin) {
+  double sum = 0;
+  std::size_t segments = 0;
+  for (std::size_t from = 0; from + length <= x.size(); from += length, ++segments) {
+    std::complex<double> part = 0;
+    for (std::size_t i = 0; i < length; ++i) {
+      const double turn = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(length);
+      part += x[from + i] * 0.5 * (1 - std::cos(turn)) * std::polar(1.0, -turn * static_cast<double>(bin));
+    }
+    sum += std::norm(part) * dt / (0.375 * static_cast<double>(length));
+  }
+  return sum / static_cast<double>(segments);
+}
+
+double mean_square(const std::vector<double>& x) {
+  double sum = 0;
+  for (const double each : x) sum += each * each;
+  return sum / static_cast<double>(x.size());
+}
+}  // namespace
+
+TEST_SUITE("vehicles/wind") {
+  TEST_CASE("a wind over rough ground grows with the logarithm of the height, a gust comes and goes") {
+    AirParameters air;
+    air.north = 10;
+    air.roughness = 0.1;
+    air.wind_height = 10;
+    air.gust = {.east = 4, .at = 1, .time = 2};
+    Wind wind(air, 1);
+    CHECK(wind.now(10)[0] == doctest::Approx(10));
+    CHECK(wind.now(1)[0] == doctest::Approx(5));
+    CHECK(wind.now(0.05)[0] == 0);
+    wind.step(1.5);
+    CHECK(wind.now(10)[1] == doctest::Approx(2));
+    wind.step(0.5);
+    CHECK(wind.now(10)[1] == doctest::Approx(4));
+    wind.step(1.1);
+    CHECK(wind.now(10)[1] == 0);
+  }
+
+  TEST_CASE("gusts of Dryden's model have the deviation that is asked for") {
+    const Gusts gusts = blow(1'000'000);
+    for (const auto* axis : {&gusts.along, &gusts.across, &gusts.down})
+      CHECK(std::sqrt(mean_square(*axis)) == doctest::Approx(sigma).epsilon(0.03));
+  }
+
+  TEST_CASE("and its spectra: of first order along the wind, of second order with a zero across it and vertically") {
+    const Gusts gusts = blow(1'000'000);
+    constexpr std::size_t length = 2500;  // 50 s
+    for (const std::size_t bin : {3, 8, 16, 40}) {
+      CAPTURE(bin);
+      const double wT = 2 * std::numbers::pi * static_cast<double>(bin) / (length * dt) * T, square = wT * wT;
+      const double first = 2 * sigma * sigma * T / (1 + square);
+      const double second = sigma * sigma * T * (1 + 3 * square) / ((1 + square) * (1 + square));
+      // 400 segments: 5 % of standard error
+      CHECK(density(gusts.along, length, bin) == doctest::Approx(first).epsilon(0.2));
+      CHECK(density(gusts.across, length, bin) == doctest::Approx(second).epsilon(0.2));
+      CHECK(density(gusts.down, length, bin) == doctest::Approx(second).epsilon(0.2));
+    }
+  }
+}

@@ -1,0 +1,78 @@
+#include "vehicles/helicopter/dynamics.h"
+
+#include <cmath>
+#include <exception>
+
+#include "distributers/interfaces/no_state.h"
+
+namespace jarol::vehicles {
+namespace {
+
+bool is_finite(const HelicopterMotion& m) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) sum += m.p_n[i] + m.v_b[i] + m.omega_b[i] + m.R_nb[i][0] + m.R_nb[i][1];
+  return std::isfinite(sum);
+}
+
+}  // namespace
+
+HelicopterDynamics::HelicopterDynamics(const HelicopterBody& body, const HelicopterMotion& start,
+                                       const std::array<double, 4>& settings)
+    : body_(body), motion_(start) {
+  input_.from = input_.to = settings;
+  input_.payload = body.payload;
+  for (std::size_t i = 0; i < contact_count; ++i) {
+    const FootMotion foot = foot_motion(motion_, body_.feet.r_b[i]);
+    input_.anchors[i] = {foot.p_n[0], foot.p_n[1]};
+  }
+}
+
+// could any part of it touch the ground within a step?
+bool HelicopterDynamics::near_ground() const {
+  for (const fossen::Vector3& r_b : body_.feet.r_b) {
+    const FootMotion foot = foot_motion(motion_, r_b);
+    if (foot.p_n[2] > -0.02 - 2e-9 * step_nanoseconds * std::abs(foot.v_n[2])) return true;
+  }
+  return false;
+}
+
+void HelicopterDynamics::step(const HelicopterCommand& command) {
+  if (!failure_.empty()) throw NoState(failure_);
+  input_.to = command.settings;
+  input_.wind_n = command.wind_n;
+  input_.payload = command.payload;
+  const long parts = near_ground() ? 5 : 1;
+  for (long i = 0; i < parts; ++i) advance_to(now_ + step_nanoseconds / parts);
+}
+
+// an integrator may notice a number that is not finite itself, or not at all; it must not be asked again after that
+void HelicopterDynamics::advance_to(long nanoseconds) {
+  const double t = seconds_of(nanoseconds);
+  try {
+    motion_ = advance(input_, input_.begin, t);
+    if (!is_finite(motion_)) failure_ = "a number in it is not finite";
+  } catch (const std::exception& e) { failure_ = e.what(); }
+  if (!failure_.empty()) {
+    failure_ = "helicopter: no state at t = " + std::to_string(t) + " s: " + failure_;
+    throw NoState(failure_);
+  }
+  now_ = nanoseconds;
+  const double remaining = calc_remaining(body_, t - input_.begin);
+  for (std::size_t i = 0; i < 4; ++i) input_.from[i] = input_.to[i] + (input_.from[i] - input_.to[i]) * remaining;
+  input_.begin = t;
+  for (std::size_t i = 0; i < contact_count; ++i)
+    input_.anchors[i] = drag_along(body_.feet, foot_motion(motion_, body_.feet.r_b[i]), input_.anchors[i]);
+}
+
+fossen::Vector3 HelicopterDynamics::specific_force() const {
+  const fossen::Vector6 loads = calc_loads(body_, motion_, input_, input_.begin);
+  return {loads[0] / body_.mass, loads[1] / body_.mass, loads[2] / body_.mass};
+}
+
+void HelicopterDynamics::serialize(Archive& archive) {
+  archive(input_, motion_, now_, failure_);
+  archive.require(now_ >= 0, "has a vehicle before the start");
+  serialize_state(archive, seconds_of(now_));
+}
+
+}  // namespace jarol::vehicles
