@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "graph/analysis/edf_responses.h"
 #include "graph/analysis/explore.h"
 #include "graph/analysis/extremes.h"
 #include "graph/analysis/fixed_priority.h"

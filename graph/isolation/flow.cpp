@@ -14,49 +14,6 @@ using Kind = Origin::Kind;
 using Form = Instruction::Form;
 
 constexpr Register argument_registers[] = {rdi, rsi, rdx, rcx, r8, r9};
-constexpr Origin unknown{Kind::any, 0, -1};
-
-// What registers and the stack hold.
-struct State {
-  std::array<Origin, 16> registers{};
-  std::map<std::int64_t, Origin> stack;
-};
-
-Origin address(Address at) { return {Kind::address, static_cast<std::int64_t>(at), -1}; }
-Origin number(std::int64_t value) { return {Kind::number, value, -1}; }
-
-Origin of_task(int depth) { return {Kind::task, 0, -1, depth}; }
-// Of what is computed with the task's values.
-int depth_of(const Origin& a, const Origin& b) {
-  if (a.kind != Kind::task) return b.depth;
-  return b.kind != Kind::task ? a.depth : std::min(a.depth, b.depth);
-}
-
-// Joins into `a`; true: it changed.
-bool join_into(State& a, const State& b) {
-  bool changed = false;
-  for (std::size_t i = 0; i < a.registers.size(); ++i) {
-    const Origin both = join(a.registers[i], b.registers[i]);
-    changed = changed || both != a.registers[i];
-    a.registers[i] = both;
-  }
-  for (auto at = a.stack.begin(); at != a.stack.end();) {
-    const auto other = b.stack.find(at->first);
-    const Origin both = other == b.stack.end() ? unknown : join(at->second, other->second);
-    if (both == at->second) {
-      ++at;
-      continue;
-    }
-    changed = true;
-    if (both.kind == Kind::any && both.loaded < 0) {
-      at = a.stack.erase(at);
-    } else {
-      at->second = both;
-      ++at;
-    }
-  }
-  return changed;
-}
 
 class Walk {
  public:
@@ -145,7 +102,8 @@ class Walk {
           if (!reports) jump(instruction, state);
           if (instruction.form == Form::jump) return;
           break;
-        default: apply(instruction, state); break;
+        case Form::call: values_.call(instruction, state, after_calls_); break;
+        default: values_.apply(instruction, state); break;
       }
     }
   }
@@ -157,7 +115,7 @@ class Walk {
         enter(target, state);
       return;
     }
-    const Origin target = value_of(instruction, to, state);
+    const Origin target = values_.value_of(instruction, to, state);
     if (target.kind != Kind::table) return;
     for (const Address at : targets_of_table(static_cast<Address>(target.at)))
       if (const std::size_t index = index_of(at); is_inside(at) && index < code_.size()) {
@@ -189,137 +147,6 @@ class Walk {
       targets.push_back(target);
     }
     return targets;
-  }
-
-  // What lies at an address that is known.
-  Origin loaded_from(Address at) const {
-    if (const Pointer* const pointer = object_.pointer_at(at))
-      return pointer->to == Pointer::To::address ? address(pointer->address) : Origin{Kind::library, 0, -1};
-    return object_.place_of(at) == Place::constant ? Origin{Kind::table, static_cast<std::int64_t>(at), -1} : unknown;
-  }
-
-  Origin address_of(const Instruction& instruction, const Operand& operand, const State& state) const {
-    if (operand.reg == instruction_pointer) return address(instruction.place(operand));
-    const Origin base = operand.reg >= 0 ? state.registers[static_cast<std::size_t>(operand.reg)] : number(0);
-    const Origin index = operand.index >= 0 ? state.registers[static_cast<std::size_t>(operand.index)] : number(0);
-    if (operand.index < 0 && (base.kind == Kind::number || base.kind == Kind::address || base.kind == Kind::frame))
-      return {base.kind, base.at + operand.number, -1};
-    // an element of a table: where that begins
-    for (const Origin& table : {base, index}) {
-      const std::int64_t begin = table.at + operand.number;
-      if (table.kind == Kind::address && object_.place_of(static_cast<Address>(begin)) == Place::constant)
-        return {Kind::table, begin, -1};
-    }
-    if (base.kind == Kind::task || index.kind == Kind::task) return of_task(depth_of(base, index));
-    return unknown;
-  }
-
-  Origin value_of(const Instruction& instruction, const Operand& operand, const State& state) const {
-    switch (operand.kind) {
-      case Operand::Kind::reg: return state.registers[static_cast<std::size_t>(operand.reg)];
-      case Operand::Kind::number: return number(operand.number);
-      case Operand::Kind::memory: break;
-      default: return unknown;
-    }
-    const Origin base = operand.reg >= 0 ? state.registers[static_cast<std::size_t>(operand.reg)] : unknown;
-    const Origin at = address_of(instruction, operand, state);
-    switch (at.kind) {
-      case Kind::address: return loaded_from(static_cast<Address>(at.at));
-      case Kind::table: return at;
-      case Kind::frame: {
-        const auto slot = state.stack.find(at.at);
-        return slot == state.stack.end() ? unknown : slot->second;
-      }
-      case Kind::task: return {Kind::task, 0, operand.index < 0 ? operand.number : -1, std::min(at.depth + 1, 8)};
-      default: break;
-    }
-    // what a library's object holds: its table of virtual functions, and those
-    const std::int64_t displacement = operand.index < 0 ? operand.number : -1;
-    return {base.kind == Kind::library ? Kind::library : Kind::any, 0, displacement};
-  }
-
-  void store(const Instruction& instruction, const Operand& to, const Origin& value, State& state) const {
-    if (to.kind == Operand::Kind::reg) {
-      state.registers[static_cast<std::size_t>(to.reg)] = value;
-      return;
-    }
-    if (to.kind != Operand::Kind::memory) return;
-    const Origin at = address_of(instruction, to, state);
-    if (at.kind != Kind::frame) return;
-    const std::int64_t size = std::max<std::int64_t>(to.size, 1);
-    state.stack.erase(state.stack.upper_bound(at.at - 8), state.stack.lower_bound(at.at + size));
-    if (size == 8 && !(value.kind == Kind::any && value.loaded < 0)) state.stack[at.at] = value;
-  }
-
-  static Origin sum(const Origin& a, const Origin& b, bool subtracts) {
-    if (a.kind == Kind::task || b.kind == Kind::task) return of_task(depth_of(a, b));
-    const bool fixed = a.kind == Kind::number || a.kind == Kind::address || a.kind == Kind::frame;
-    if (b.kind == Kind::number && fixed) return {a.kind, subtracts ? a.at - b.at : a.at + b.at, -1};
-    if (a.kind == Kind::number && b.kind == Kind::address && !subtracts)
-      return address(static_cast<Address>(a.at + b.at));
-    // an entry of a table of distances and the place that they count from
-    if (a.kind == Kind::table && b.kind == Kind::address) return a;
-    if (b.kind == Kind::table && a.kind == Kind::address) return b;
-    return unknown;
-  }
-
-  void apply(const Instruction& instruction, State& state) {
-    const Operand &to = instruction.operands[0], &from = instruction.operands[1];
-    switch (instruction.form) {
-      case Form::move: return store(instruction, to, value_of(instruction, from, state), state);
-      case Form::address: return store(instruction, to, address_of(instruction, from, state), state);
-      case Form::add: {
-        const Origin both =
-            sum(value_of(instruction, to, state), value_of(instruction, from, state), instruction.subtracts);
-        return store(instruction, to, both, state);
-      }
-      case Form::push:
-        state.registers[rsp].at -= 8;
-        if (state.registers[rsp].kind == Kind::frame)
-          state.stack[state.registers[rsp].at] = value_of(instruction, to, state);
-        return;
-      case Form::pop: {
-        Origin top = unknown;
-        if (state.registers[rsp].kind == Kind::frame)
-          if (const auto slot = state.stack.find(state.registers[rsp].at); slot != state.stack.end())
-            top = slot->second;
-        store(instruction, to, top, state);
-        state.registers[rsp].at += 8;
-        return;
-      }
-      case Form::leave:
-        state.registers[rsp] = state.registers[rbp];
-        state.registers[rsp].at += 8;
-        state.registers[rbp] = unknown;
-        return;
-      case Form::call: {
-        const Origin result = is_import(instruction, state) ? Origin{Kind::library, 0, -1} : unknown;
-        for (const Register r : {rax, rcx, rdx, rsi, rdi, Register{8}, Register{9}, Register{10}, Register{11}})
-          state.registers[static_cast<std::size_t>(r)] = unknown;
-        state.registers[rax] = {Kind::library, 0, -1};  // as what is thrown is
-        join_into(after_calls_, state);
-        state.registers[rax] = result;
-        return;
-      }
-      default: break;
-    }
-    // whatever else computes with a task's values makes a value of the task
-    bool with_task = false;
-    for (const Operand& operand : instruction.operands)
-      if (operand.kind == Operand::Kind::reg)
-        with_task = with_task || state.registers[static_cast<std::size_t>(operand.reg)].kind == Kind::task;
-    const bool clears = to.kind == Operand::Kind::reg && from.kind == Operand::Kind::reg && to.reg == from.reg;
-    for (std::size_t r = 0; r < 16; ++r)
-      if ((instruction.writes >> r & 1U) != 0 && r != rsp)
-        state.registers[r] = with_task && !clears ? of_task(0) : unknown;
-    if (to.kind == Operand::Kind::memory && to.written) store(instruction, to, unknown, state);
-  }
-
-  bool is_import(const Instruction& call, const State& state) const {
-    const Operand& to = call.operands[0];
-    if (to.kind != Operand::Kind::number) return value_of(call, to, state).kind == Kind::library;
-    const Pointer* const pointer = object_.behind_stub(static_cast<Address>(to.number));
-    return pointer != nullptr && pointer->to == Pointer::To::import;
   }
 
   void offend(Address at, Offence offence) {
@@ -407,7 +234,7 @@ class Walk {
         return follow_pointer(instruction.at, *pointer, Finding::What::call, state);
       add(Finding::What::reference, instruction.at, at);
     }
-    const Origin target = value_of(instruction, operand, state);
+    const Origin target = values_.value_of(instruction, operand, state);
     if (target.kind == Kind::address) {
       add(Finding::What::call, instruction.at, static_cast<Address>(target.at));
       found_.back().with = arguments_in(state);
@@ -423,6 +250,7 @@ class Walk {
   }
 
   const Object& object_;
+  const Values values_{object_};
   const Symbol function_;
   const std::vector<Instruction> code_;
   std::vector<bool> leaders_;             // begins of blocks
@@ -433,14 +261,6 @@ class Walk {
 };
 
 }  // namespace
-
-Origin join(const Origin& a, const Origin& b) {
-  if (a.kind == Kind::nothing || a == b) return b;
-  if (b.kind == Kind::nothing) return a;
-  const std::int64_t loaded = a.loaded == b.loaded ? a.loaded : -1;
-  if (a.kind == b.kind && a.at == b.at) return {a.kind, a.at, loaded, std::min(a.depth, b.depth)};
-  return {Kind::any, 0, loaded};
-}
 
 Arguments unknown_arguments() {
   Arguments all;

@@ -7,31 +7,9 @@
 
 #include "graph/isolation/instruction.h"
 #include "graph/isolation/object.h"
+#include "graph/isolation/values.h"
 
 namespace jarol::isolation {
-
-/// Where a value comes from, as far as that decides what a call through it may reach.
-struct Origin {
-  enum class Kind : std::uint8_t {
-    nothing,  // no path was followed that computes it
-    any,      // unknown, or of several origins
-    number,   // `at`
-    address,  // of code or data in the object, `at`
-    table,    // loaded from constant data; `at`: where the table begins
-    task,     // read from the memory of the task, its values and what they hold, or computed with that
-    library,  // returned by a function outside
-    frame,    // an address on the stack, `at` bytes from where the function began
-  };
-  Kind kind = Kind::nothing;
-  std::int64_t at = 0;
-  std::int64_t loaded = -1;  // the displacement of the load that it comes from
-  int depth = 0;             // of what is the task's: how many loads lead there from TaskMemory
-
-  friend bool operator==(const Origin&, const Origin&) = default;
-};
-
-/// Of both paths that meet.
-Origin join(const Origin& a, const Origin& b);
 
 /// Of rdi, rsi, rdx, rcx, r8, r9: what a function is called with.
 using Arguments = std::array<Origin, 6>;
