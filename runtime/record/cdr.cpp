@@ -29,8 +29,9 @@ bool is_empty(const Type& type) { return type.kind == Kind::structure && type.fi
 
 std::size_t aligned(std::size_t at, std::size_t to) { return (at + to - 1) / to * to; }
 
-// Goes through a value in the order of CDR: out.number(bytes, count) for numbers that lie one after the other in
-// memory, out.length(length) before those of a sequence, out.gap() for the byte of a struct without members.
+// Goes through a value in the order of CDR: out.numbers(bytes, size, count) for numbers of that size that lie one after
+// the other in memory, out.length(length) before those of a sequence, out.gap() for the byte of a struct without
+// members.
 template <class Out>
 void go_through(const Type& type, const std::byte* value, Out& out) {
   if (is_number(type)) return out.numbers(value, type.size, 1);

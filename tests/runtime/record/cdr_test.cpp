@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cstdint>
 #include <cstring>
 
 #include "graph/values/type_of.h"
@@ -51,6 +53,31 @@ TEST_SUITE("runtime/cdr") {
     const double plain = 2.5;
     CHECK(schema_of(type_of<double>()).text == "# the value itself\nfloat64 value\n");
     CHECK(bytes_of(type_of<double>(), &plain).size() == 12);
+  }
+
+  TEST_CASE("so do those of a value without sequences, whose places are the same for all values") {
+    struct Flat {
+      bool on = true;
+      double x = 1.0;
+      std::int16_t n = -2;
+      std::array<std::uint8_t, 3> few{1, 2, 3};
+      float last = 0.5F;
+      static constexpr auto fields() {
+        return describe(field<&Flat::on>(), field<&Flat::x>(), field<&Flat::n>(), field<&Flat::few>(),
+                        field<&Flat::last>());
+      }
+    };
+    const Flat flat;
+    const std::string bytes = bytes_of(type_of<Flat>(), &flat);
+    CHECK(bytes == std::string("\0\1\0\0"
+                               "\1\0\0\0\0\0\0\0"
+                               "\0\0\0\0\0\0\xf0\x3f"
+                               "\xfe\xff\1\2\3\0\0\0"
+                               "\0\0\0\x3f",
+                               4 + 8 + 8 + 8 + 4));
+    Flat back{false, 0, 0, {}, 0};
+    CHECK(decode(type_of<Flat>(), bytes, &back) == "");
+    CHECK(bytes_of(type_of<Flat>(), &back) == bytes);
   }
 
   TEST_CASE("values of every kind come back to the bit") {
