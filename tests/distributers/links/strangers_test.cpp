@@ -1,10 +1,9 @@
-// Others than the peer, on real sockets: whoever speaks first, comes between, floods, or has no key.
+// Others than the peer, over UDP: whoever speaks first, comes between, or floods.
 #include <doctest/doctest.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <random>
@@ -13,114 +12,19 @@
 #include "distributers/interfaces/typed.h"
 #include "distributers/javiator/operator.h"
 #include "distributers/links/linked.h"
-#include "distributers/links/tcp.h"
 #include "distributers/links/udp.h"
 #include "distributers/messages/imc.h"
 #include "distributers/messages/javiator.h"
 #include "distributers/messages/packet.h"
-#include "tests/distributers/links/raw_ends.h"
+#include "tests/distributers/links/open_link.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::distributers;
 using namespace std::chrono_literals;
-using jarol::tests::count_of;
-using jarol::tests::looked_at;
+using namespace jarol::tests;
 namespace imc = messages::imc;
 namespace javiator = messages::javiator;
-
-constexpr auto patience = 20s;  // a busy machine may take long
-const Address any = Address::parse("127.0.0.1:0");
-
-bool wait_for(const std::function<bool()>& done) {
-  const auto end = std::chrono::steady_clock::now() + patience;
-  while (!done()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(1ms);
-  }
-  return true;
-}
-
-std::vector<std::byte> packet_of(int id) {
-  const javiator::MotorSignals signals{0, 0, 0, 0, static_cast<std::uint16_t>(id)};
-  const javiator::Header header;
-  std::vector<std::byte> bytes;
-  REQUIRE(write_packet(messages::refer_to(header), messages::refer_to(signals), javiator::message_set().order, bytes));
-  return bytes;
-}
-
-struct Ids : messages::Receiver {
-  void receive(messages::MessageRef message) override { ids.push_back(message.as<javiator::MotorSignals>()->id); }
-  std::vector<int> ids;
-};
-
-template <class Listens>
-std::unique_ptr<Listens> listening(std::chrono::nanoseconds silence) {
-  if constexpr (std::is_same_v<Listens, UdpTransport>)
-    return std::make_unique<UdpTransport>(any, Address{}, std::vector<Address>{}, silence);
-  else
-    return std::make_unique<Listens>(any, silence);
-}
-
-// A link that names no peer.
-template <class Listens>
-struct Open {
-  explicit Open(std::chrono::nanoseconds silence = 1h, LinkOptions options = {}) {
-    options.input = {PortKind::plain, 4096};
-    auto transport = listening<Listens>(silence);
-    const Listens& at = *transport;
-    link = std::make_unique<Link>(std::move(transport), javiator::message_set(), options);
-    link->connect();
-    address = any.with_port(at.port());
-  }
-  std::uint64_t count(const std::string& name) const { return count_of(*link, name); }
-  std::unique_ptr<Link> link;
-  Address address;
-};
-
-// A socket that says what it is told to.
-class Speaker {
- public:
-  Speaker(const Address& to, int type) : socket_(::socket(AF_INET, type | SOCK_CLOEXEC, 0)) {
-    REQUIRE(connect(socket_.get(), to.get(), to.size()) == 0);
-    sockaddr_storage storage{};
-    socklen_t size = sizeof storage;
-    getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&storage), &size);
-    name = Address::of(storage, size).text();
-  }
-  void say(std::span<const std::byte> bytes) const { ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL); }
-  void say(int id) const { say(packet_of(id)); }
-  bool hears() const {
-    std::byte byte{};
-    return ::recv(socket_.get(), &byte, 1, MSG_DONTWAIT | MSG_PEEK) > 0;
-  }
-  bool is_ended() const {
-    char room[4096];
-    ssize_t length = 0;
-    while ((length = ::recv(socket_.get(), room, sizeof room, MSG_DONTWAIT)) > 0) {}
-    return length == 0;
-  }
-  std::string name;
-
- private:
-  Descriptor socket_;
-};
-
-// Its thread looks at nobody until it may.
-struct LateServer : TcpServer {
-  using TcpServer::TcpServer;
-  void receive(const Interrupter& interrupter, ByteSink& sink) override {
-    while (!may_look && interrupter.wait(-1, 1ms) != Interrupter::Woken::interrupted) {}
-    TcpServer::receive(interrupter, sink);
-  }
-  std::atomic<bool> may_look{false};
-};
-
-SecretKey key_of(int seed) {
-  SecretKey key{};
-  key.fill(static_cast<std::byte>(seed));
-  return key;
-}
 }  // namespace
 
 TEST_SUITE("distributers/links/strangers") {
@@ -302,171 +206,6 @@ TEST_SUITE("distributers/links/strangers") {
       CHECK(pilot_command.altitude == doctest::Approx(i));
     }
     channels.finish();
-  }
-
-  TEST_CASE("over TCP a stray connection neither blocks nor replaces the one that speaks validly") {
-    const Open<TcpServer> open;
-    const Speaker mute(open.address, SOCK_STREAM);
-    REQUIRE(wait_for([&] { return open.count("peers") == 1; }));
-    const Speaker babbler(open.address, SOCK_STREAM);
-    babbler.say(std::vector<std::byte>(100, std::byte{7}));
-    const Speaker real(open.address, SOCK_STREAM);
-    real.say(1);
-    REQUIRE(wait_for([&] { return open.count("packets in") == 1; }));
-    CHECK(wait_for([&] { return mute.is_ended() && babbler.is_ended(); }));
-    for (int id = 2; id < 20; ++id) {
-      const Speaker other(open.address, SOCK_STREAM);
-      other.say(60000);
-      CHECK(wait_for([&] { return other.is_ended(); }));
-      real.say(id);
-      REQUIRE(wait_for([&] { return open.count("packets in") == static_cast<std::uint64_t>(id); }));
-    }
-    CHECK_FALSE(real.is_ended());
-    Ids got;
-    open.link->receive(got);
-    CHECK(got.ids.size() == 19);
-    CHECK(std::count(got.ids.begin(), got.ids.end(), 60000) == 0);
-    CHECK(open.count("dropped: stranger") == 20);
-    CHECK(open.link->report().takeovers.empty());
-  }
-
-  TEST_CASE("of those who connect and speak before the link looks at any the first is heard, and keeps the link") {
-    // whoever comes after it, however many
-    for (const int others : {1, 7, 15}) {
-      CAPTURE(others);
-      auto transport = std::make_unique<LateServer>(any, 1h);
-      LateServer& server = *transport;
-      Link link(std::move(transport), javiator::message_set(), {});
-      link.connect();
-      const Address address = any.with_port(server.port());
-      const Speaker first(address, SOCK_STREAM);
-      first.say(1);
-      std::vector<Speaker> late;
-      for (int i = 0; i < others; ++i) late.emplace_back(address, SOCK_STREAM).say(60000);
-      server.may_look = true;
-      CHECK(wait_for([&] {
-        return std::all_of(late.begin(), late.end(), [](const Speaker& other) { return other.is_ended(); });
-      }));
-      first.say(2);
-      REQUIRE(wait_for([&] { return count_of(link, "packets in") == 2; }));
-      Ids got;
-      link.receive(got);
-      CHECK(got.ids == std::vector<int>{1, 2});
-      CHECK(count_of(link, "peers") == 1);
-      CHECK(count_of(link, "dropped: stranger") == static_cast<std::uint64_t>(others));
-    }
-  }
-
-  TEST_CASE("one that speaks validly is heard, however many have connected before and after it and say nothing") {
-    auto transport = std::make_unique<LateServer>(any, 1h);
-    LateServer& server = *transport;
-    Link link(std::move(transport), javiator::message_set(), {});
-    link.connect();
-    const Address address = any.with_port(server.port());
-    std::vector<Speaker> mute;
-    for (int i = 0; i < 5; ++i) mute.emplace_back(address, SOCK_STREAM);
-    const Speaker real(address, SOCK_STREAM);
-    real.say(1);
-    for (int i = 0; i < 10; ++i) mute.emplace_back(address, SOCK_STREAM);
-    server.may_look = true;
-    REQUIRE(wait_for([&] { return count_of(link, "packets in") == 1; }));
-    CHECK(wait_for(
-        [&] { return std::all_of(mute.begin(), mute.end(), [](const Speaker& other) { return other.is_ended(); }); }));
-    CHECK_FALSE(real.is_ended());
-  }
-
-  TEST_CASE("over TCP a peer that has spoken and fallen silent gives way to one that speaks validly") {
-    const Open<TcpServer> open(300ms);
-    const Speaker first(open.address, SOCK_STREAM);
-    first.say(1);
-    REQUIRE(wait_for([&] { return open.count("packets in") == 1; }));
-    std::this_thread::sleep_for(500ms);
-    const Speaker mute(open.address, SOCK_STREAM);
-    std::this_thread::sleep_for(500ms);
-    CHECK_FALSE(first.is_ended());
-    std::unique_ptr<Speaker> second;
-    REQUIRE(wait_for([&] {
-      // on a machine that halts a silence is longer, and the second is turned away
-      if (!second || second->is_ended()) {
-        second = std::make_unique<Speaker>(open.address, SOCK_STREAM);
-        second->say(2);
-        std::this_thread::sleep_for(200ms);
-      }
-      return open.count("packets in") == 2;
-    }));
-    CHECK(wait_for([&] { return first.is_ended(); }));
-    const LinkReport report = open.link->report();
-    REQUIRE(report.takeovers.size() == 1);
-    CHECK(report.takeovers[0].from == first.name);
-    CHECK(report.takeovers[0].to == second->name);
-  }
-
-  TEST_CASE("with a key both ends hear each other, and nobody else: UDP and TCP") {
-    for (const bool udp : {true, false}) {
-      CAPTURE(udp);
-      LinkOptions sealed;
-      sealed.key = key_of(1);
-      const auto check = [&](const auto& open) {
-        const auto dial = [&](std::optional<SecretKey> key) {
-          std::unique_ptr<Transport> transport = std::make_unique<TcpClient>(open.address);
-          if (udp) transport = std::make_unique<UdpTransport>(any, open.address);
-          auto link = std::make_unique<Link>(std::move(transport), javiator::message_set(), LinkOptions{.key = key});
-          link->connect();
-          return link;
-        };
-        const auto say = [](Link& link, int id) {
-          link.send(messages::refer_to(javiator::MotorSignals{0, 0, 0, 0, static_cast<std::uint16_t>(id)}));
-          link.flush();
-        };
-        // one after the other: over TCP the second may else be turned away before it has said anything
-        {
-          const auto wrong = dial(key_of(2));
-          CHECK(wait_for([&] { return say(*wrong, 60000), open.count("dropped: wrong key") > 0; }));
-        }
-        {
-          const auto none = dial(std::nullopt);
-          CHECK(wait_for([&] { return say(*none, 60001), open.count("dropped: without the key") > 0; }));
-        }
-        CHECK(open.link->report().heard == 0);
-        CHECK(open.count("takeovers") == 0);
-        for (int restart = 1; restart <= 3; ++restart) {
-          const auto peer = dial(key_of(1));
-          CHECK(wait_for([&] { return say(*peer, restart), open.count("packets in") >= 10U * restart; }));
-          CHECK(wait_for([&] { return say(*open.link, restart), count_of(*peer, "packets in") > 0; }));
-          peer->disconnect();
-          CHECK(wait_for([&] {
-            say(*open.link, 0);
-            return open.count(udp ? "closed ports" : "ends of stream") >= static_cast<std::uint64_t>(restart);
-          }));
-        }
-        Ids got;
-        open.link->receive(got);
-        CHECK(std::count(got.ids.begin(), got.ids.end(), 60000) == 0);
-        CHECK(std::count(got.ids.begin(), got.ids.end(), 60001) == 0);
-        // a packet that the greeting of its session overtook is as old as a replayed one: at most one each time
-        CHECK(open.count("dropped: replayed") <= 3);
-        CHECK(open.link->report().link.ends_with(" with a key"));
-      };
-      if (udp)
-        check(Open<UdpTransport>(1h, sealed));
-      else
-        check(Open<TcpServer>(1h, sealed));
-    }
-  }
-
-  TEST_CASE("a link without a key says of sealed packets that they are") {
-    const Open<UdpTransport> datagrams;
-    const Open<TcpServer> stream;
-    Seal seal(key_of(1), "javiator");
-    std::vector<std::byte> bytes;
-    seal.seal(packet_of(1), bytes);
-    Speaker(datagrams.address, SOCK_DGRAM).say(bytes);
-    const Speaker connection(stream.address, SOCK_STREAM);
-    connection.say(bytes);
-    CHECK(wait_for([&] { return datagrams.count("dropped: sealed with a key") == 1; }));
-    CHECK(wait_for([&] { return stream.count("dropped: sealed with a key") == 1; }));
-    CHECK(wait_for([&] { return connection.is_ended(); }));
-    CHECK(stream.count("packets in") == 0);
   }
 
   TEST_CASE("packets whose stamps can't be are dropped, each with its reason") {
