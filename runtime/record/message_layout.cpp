@@ -25,13 +25,6 @@ std::int64_t signed_of(NumberKind kind, std::uint64_t bits) {
   return static_cast<std::int64_t>(bits << unused) >> unused;
 }
 
-double number_of(NumberKind kind, std::uint64_t bits) {
-  if (kind == NumberKind::float64) return std::bit_cast<double>(bits);
-  if (kind == NumberKind::float32) return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
-  return kind_signs[static_cast<std::size_t>(kind)] ? static_cast<double>(signed_of(kind, bits))
-                                                    : static_cast<double>(bits);
-}
-
 [[noreturn]] void fail(const std::string& what) { throw LogError(what); }
 
 template <class T>
@@ -223,6 +216,13 @@ std::string text_of(NumberKind kind, std::uint64_t bits) {
 
 std::string text_of(const MessageColumn& column, const MessageCell& cell) {
   return column.is_sequence ? cell.text : text_of(column.kind, cell.bits);
+}
+
+double number_of(NumberKind kind, std::uint64_t bits) {
+  if (kind == NumberKind::float64) return std::bit_cast<double>(bits);
+  if (kind == NumberKind::float32) return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+  return kind_signs[static_cast<std::size_t>(kind)] ? static_cast<double>(signed_of(kind, bits))
+                                                    : static_cast<double>(bits);
 }
 
 double distance(NumberKind kind, std::uint64_t a, std::uint64_t b) {

@@ -63,6 +63,8 @@ class MessageLayout {
 std::string text_of(NumberKind kind, std::uint64_t bits);
 /// The same for a cell.
 std::string text_of(const MessageColumn& column, const MessageCell& cell);
+/// As near as a double comes to it.
+double number_of(NumberKind kind, std::uint64_t bits);
 /// How far two numbers are apart.
 double distance(NumberKind kind, std::uint64_t a, std::uint64_t b);
 /// As in 0x3ff0000000000000: as many digits as its size asks for.

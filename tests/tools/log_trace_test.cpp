@@ -157,7 +157,7 @@ connections: [a.out -> b.in]
     CHECK(command::jarol("log trace a --json", "2>&1 >/dev/null").output ==
           "error: --json belongs to info, verify and diff\n");
     CHECK(command::jarol("log trace a --topic x").output == "error: --topic belongs to cat, csv and diff\n");
-    CHECK(command::jarol("log cat a -o x").output == "error: --out belongs to trace\n");
+    CHECK(command::jarol("log cat a -o x").output == "error: --out belongs to trace and report\n");
     const TemporaryFolder folder;
     const std::string plugins = std::filesystem::absolute(JAROL_PLUGIN_FOLDER), file = folder / "r.mcap",
                       graph =

@@ -16,6 +16,7 @@
 #include "distributers/campaign/summary.h"
 #include "graph/text/escape.h"
 #include "runtime/files/whole_file.h"
+#include "tools/campaign/campaign_page.h"
 #include "tools/campaign/campaign_report.h"
 #include "tools/campaign/repeat.h"
 #include "tools/commands/commands.h"
@@ -47,6 +48,7 @@ struct Options {
   std::string shard;
   std::string results;
   std::string csv;
+  std::string report;
   bool shrink = false;
   bool json = false;
 };
@@ -111,7 +113,10 @@ void write_table(const std::string& path, const campaign::Results& results, cons
 
 int run(const Options& options) {
   const std::string results_file = results_of(options);
-  require_apart({{"FILE", options.file}}, {{"--results", results_file}, {"--csv", options.csv}});
+  require_apart({{"FILE", options.file}},
+                {{"--results", results_file}, {"--csv", options.csv}, {"--report", options.report}});
+  if (options.report == "-")
+    throw std::invalid_argument("--report: '-' is no file; a page is opened by its name, as in --report campaign.html");
   const Shard shard = shard_of(options.shard);
   const campaign::GraphSource source{read_source(options.file), built_in(), options.overrides, options.metrics,
                                      note_once};
@@ -168,8 +173,14 @@ int run(const Options& options) {
                           .shrunk = shrunk ? &*shrunk : nullptr};
   if (shrunk) outcome.repeat_shrunk = repeat_command(options.file, options.overrides, campaign.length, shrunk->start);
   if (whole && !options.csv.empty()) write_table(options.csv, results, campaign, draws);
+  if (whole && !options.report.empty()) {
+    WholeFile page(options.report);
+    page.write(campaign_page(outcome, to_json(outcome), results));
+    page.commit();
+  }
   std::ostream& out = options.csv == "-" ? std::cerr : std::cout;
   out << (options.json ? json_line(to_json(outcome)) : to_text(outcome));
+  if (whole && !options.report.empty() && !options.json) out << "  report      " << printable(options.report) << "\n";
   if (!whole) {
     std::cerr << "interrupted: " << to_run.size() - pace.ran()
               << " runs are left; the same command goes on where this one ended\n";
@@ -226,6 +237,9 @@ void add_campaign(CommandLine& line, int& exit_code) {
                       "The SQLite database of the results; default: NAME.campaign.sqlite, here, of a graph NAME.yaml");
   command->add_option("--csv", options->csv,
                       "Write the results as a table when all, or those of --shard, are there; -: to stdout");
+  command->add_option("--report", options->report,
+                      "Write a page for people when all runs, or those of --shard, are there: an HTML file with "
+                      "histograms and scatter plots, and the worst cases");
   command->add_flag("--shrink", options->shrink,
                     "When all runs, or those of --shard, are there: find the mildest values at which the first run "
                     "that is not good still ends "

@@ -20,20 +20,21 @@ int look(const Command& command, Words& words) {
   const std::string& what = words.what;
   if (what == "diff" && words.other.empty())
     throw std::invalid_argument("jarol log diff compares two recordings; name both");
-  const bool has_graph = what == "trace";
+  const bool has_graph = what == "trace" || what == "report";
   if (what != "diff" && !has_graph && !words.other.empty())
     throw std::invalid_argument("jarol log " + what + " looks at one recording; leave '" + words.other + "' out");
   if (what == "info" || what == "verify" || has_graph)
     command.refuse({"--topic", "--from", "--until"}, "belongs to cat, csv and diff");
   if (what == "diff") command.refuse({"--topic"}, "belongs to cat and csv");
   if (what != "csv") command.refuse({"--by-rate"}, "belongs to csv");
-  if (!has_graph) command.refuse({"--out"}, "belongs to trace");
+  if (!has_graph) command.refuse({"--out"}, "belongs to trace and report");
   if (what == "cat" || what == "csv" || has_graph) command.refuse({"--json"}, "belongs to info, verify and diff");
   if (what == "info") return log_info(words);
   if (what == "cat") return log_cat(words);
   if (what == "csv") return log_csv(words);
   if (what == "verify") return log_verify(words);
   if (what == "trace") return log_trace(words);
+  if (what == "report") return log_report(words);
   return log_diff(words);
 }
 
@@ -51,14 +52,16 @@ void add_log(CommandLine& line, int& exit_code) {
                           "  diff    the first difference of two, then of each signal the largest and when\n"
                           "  trace   its releases, LETs, misses and faults as trace events, for ui.perfetto.dev or\n"
                           "          chrome://tracing\n"
+                          "  report  a page for people, one HTML file: what run it is, whether it replays, its graph,\n"
+                          "          time lines, faults, plots, the vehicle's path\n"
                           "Exit code: 0 good, 1 damaged or different, 2 bad input");
-  command->add_option("WHAT", words->what, "info, cat, csv, verify, diff or trace")
+  command->add_option("WHAT", words->what, "info, cat, csv, verify, diff, trace or report")
       ->required()
-      ->one_of({"info", "cat", "csv", "verify", "diff", "trace"});
+      ->one_of({"info", "cat", "csv", "verify", "diff", "trace", "report"});
   command->add_option("FILE", words->file, "The recording")->required();
   command->add_option(
       "OTHER", words->other,
-      "Of diff: the one to compare it with. Of trace: the graph's file in place of the recording's, where "
+      "Of diff: the one to compare it with. Of trace and report: the graph's file in place of the recording's, where "
       "it names plugins");
   command->add_option(
       "--topic", words->topics,
@@ -68,7 +71,9 @@ void add_log(CommandLine& line, int& exit_code) {
   command->add_option("--until", words->until_text, "Before that instant");
   command->add_option("--by-rate", words->by_rate,
                       "Of csv: into this folder, a file for each period and place in it, without empty cells");
-  command->add_option("--out,-o", words->out, "Of trace: the file to write; default: stdout");
+  command->add_option(
+      "--out,-o", words->out,
+      "The file to write; default: of trace stdout, of report FILE with .html in place of .mcap; -: stdout");
   command->add_flag("--json", words->json, "One JSON object instead of text");
   command->callback([words, command, &exit_code] { exit_code = look(*command, *words); });
 }

@@ -22,5 +22,6 @@ int log_csv(const LogOptions& options);
 int log_verify(const LogOptions& options);
 int log_diff(const LogOptions& options);
 int log_trace(const LogOptions& options);
+int log_report(const LogOptions& options);
 
 }  // namespace jarol::tools

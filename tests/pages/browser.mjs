@@ -1,0 +1,134 @@
+// Chromium without a window, by its DevTools protocol over pipes: opens a page, and keeps what it complains of and what
+// it asks the network for.
+import {spawn} from 'node:child_process';
+import {mkdtempSync, rmSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join, resolve} from 'node:path';
+import {pathToFileURL} from 'node:url';
+
+export class Browser {
+  constructor(program = process.env.JAROL_CHROMIUM ?? 'chromium') {
+    this.folder = mkdtempSync(join(tmpdir(), 'jarol_page_'));
+    this.process = spawn(program, ['--headless', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--hide-scrollbars',
+      '--force-color-profile=srgb', '--no-first-run', '--remote-debugging-pipe', '--user-data-dir=' + this.folder, 'about:blank'],
+      {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
+    this.asked = new Map();
+    this.last = 0;
+    this.watchers = [];
+    let text = '';
+    this.process.stdio[4].setEncoding('utf8').on('data', (piece) => {
+      text += piece;
+      for (let end; (end = text.indexOf('\0')) >= 0; text = text.slice(end + 1)) this.take(JSON.parse(text.slice(0, end)));
+    });
+    this.process.on('exit', (code) => {
+      for (const {reject} of this.asked.values()) reject(new Error(`${program} ended with ${code}`));
+    });
+    this.process.on('error', (error) => {
+      for (const {reject} of this.asked.values()) reject(error);
+    });
+  }
+
+  take(message) {
+    const asked = this.asked.get(message.id);
+    if (asked) {
+      this.asked.delete(message.id);
+      if (message.error) asked.reject(new Error(message.error.message)); else asked.resolve(message.result);
+    }
+    for (const watch of this.watchers) watch(message);
+  }
+
+  send(method, params = {}, sessionId = undefined) {
+    const id = ++this.last;
+    return new Promise((resolve, reject) => {
+      this.asked.set(id, {resolve, reject});
+      this.process.stdio[3].write(JSON.stringify({id, method, params, sessionId}) + '\0');
+    });
+  }
+
+  /** A page of that width, in that of 'light' and 'dark'. */
+  async open(file, {width = 1280, height = 900, scheme = 'light', touch = false} = {}) {
+    const {targetId} = await this.send('Target.createTarget', {url: 'about:blank'});
+    const {sessionId} = await this.send('Target.attachToTarget', {targetId, flatten: true});
+    const page = new Page(this, sessionId, targetId);
+    for (const domain of ['Page', 'Runtime', 'Log', 'Network']) await page.send(domain + '.enable');
+    await page.send('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: 1, mobile: touch});
+    await page.send('Emulation.setTouchEmulationEnabled', {enabled: touch});
+    await page.send('Emulation.setEmulatedMedia', {features: [{name: 'prefers-color-scheme', value: scheme}, {name: 'prefers-reduced-motion', value: 'reduce'}]});
+    const loaded = page.event('Page.loadEventFired');
+    await page.send('Page.navigate', {url: pathToFileURL(resolve(file)).href});
+    await loaded;
+    await page.settle();
+    return page;
+  }
+
+  async close() {
+    await this.send('Browser.close').catch(() => {});
+    await new Promise((ended) => this.process.exitCode === null ? this.process.on('exit', ended) : ended());
+    rmSync(this.folder, {recursive: true, force: true});
+  }
+}
+
+class Page {
+  constructor(browser, session, target) {
+    Object.assign(this, {browser, session, target, complaints: [], requests: []});
+    browser.watchers.push(({method, params, sessionId}) => {
+      if (sessionId !== session) return;
+      if (method === 'Runtime.exceptionThrown') this.complaints.push(params.exceptionDetails.exception?.description ?? params.exceptionDetails.text);
+      if (method === 'Runtime.consoleAPICalled') this.complaints.push('console: ' + params.args.map((a) => a.value ?? a.description).join(' '));
+      if (method === 'Log.entryAdded') this.complaints.push('log: ' + params.entry.text);
+      if (method === 'Network.requestWillBeSent') this.requests.push(params.request.url);
+    });
+  }
+
+  send(method, params) { return this.browser.send(method, params, this.session); }
+
+  event(name) {
+    return new Promise((resolve) => {
+      const watch = ({method, sessionId}) => {
+        if (method !== name || sessionId !== this.session) return;
+        this.browser.watchers.splice(this.browser.watchers.indexOf(watch), 1);
+        resolve();
+      };
+      this.browser.watchers.push(watch);
+    });
+  }
+
+  /** What an expression comes to in the page. */
+  async evaluate(expression) {
+    const {result, exceptionDetails} = await this.send('Runtime.evaluate', {expression, awaitPromise: true, returnByValue: true});
+    if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
+    return result.value;
+  }
+
+  /** Until what was asked for is drawn. */
+  settle() { return this.evaluate('new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(() => done(true)))))'); }
+
+  async mouse(type, x, y, more = {}) {
+    await this.send('Input.dispatchMouseEvent', {type, x, y, button: type === 'mouseMoved' && !more.buttons ? 'none' : 'left', clickCount: type === 'mouseMoved' ? 0 : 1, ...more});
+  }
+
+  async drag(from, to) {
+    await this.mouse('mouseMoved', ...from);
+    await this.mouse('mousePressed', ...from);
+    for (let i = 1; i <= 4; ++i) await this.mouse('mouseMoved', from[0] + (to[0] - from[0]) * i / 4, from[1] + (to[1] - from[1]) * i / 4, {buttons: 1, button: 'left'});
+    await this.mouse('mouseReleased', ...to);
+    await this.settle();
+  }
+
+  async key(key) {
+    await this.send('Input.dispatchKeyEvent', {type: 'keyDown', key});
+    await this.send('Input.dispatchKeyEvent', {type: 'keyUp', key});
+    await this.settle();
+  }
+
+  /** PNG; the whole page, or an element's box. */
+  async picture(selector = null) {
+    const clip = await this.evaluate(selector === null
+      ? '({x: 0, y: 0, width: document.documentElement.scrollWidth, height: document.documentElement.scrollHeight, scale: 1})'
+      : `(() => { const b = document.querySelector(${JSON.stringify(selector)}).getBoundingClientRect(); return {x: b.x + scrollX, y: b.y + scrollY, width: b.width, height: b.height, scale: 1}; })()`);
+    const {data} = await this.send('Page.captureScreenshot', {format: 'png', captureBeyondViewport: true, clip});
+    return Buffer.from(data, 'base64');
+  }
+
+  close() { return this.browser.send('Target.closeTarget', {targetId: this.target}); }
+}
