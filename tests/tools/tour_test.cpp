@@ -1,0 +1,91 @@
+// The tour does what it says: each command of specs/tour.md prints what stands there.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "runtime/record/message_layout.h"
+#include "tests/tools/run_command.h"
+
+namespace {
+using command::TemporaryFolder;
+namespace fs = std::filesystem;
+
+std::string content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct Shown {
+  std::string command;
+  std::vector<std::string> pieces{""};  // of its output, one behind the other; "..." stands between them
+};
+
+std::vector<Shown> commands_of(const std::string& page) {
+  std::vector<Shown> commands;
+  bool in_block = false;
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```"))
+      in_block = !in_block;
+    else if (in_block && line.starts_with("$ "))
+      commands.push_back({line.substr(2)});
+    else if (in_block && line == "...")
+      commands.back().pieces.emplace_back();
+    else if (in_block)
+      commands.back().pieces.back() += line + "\n";
+  }
+  return commands;
+}
+}  // namespace
+
+TEST_SUITE("tools/tour") {
+  TEST_CASE("each command of the tour prints what the tour shows, and the layout for PlotJuggler fits its recording") {
+    const TemporaryFolder folder;
+    fs::create_directories(folder / "build/release");
+    fs::create_symlink(fs::absolute("specs"), folder / "specs");
+    fs::create_symlink(fs::absolute(JAROL_COMMAND), folder / "build/release/jarol");
+    const std::vector<Shown> commands = commands_of(content("specs/tour.md"));
+    CHECK(commands.size() == 10);
+    for (const Shown& shown : commands) {
+      REQUIRE(shown.command.starts_with("build/release/jarol "));
+      const std::string output =
+          command::jarol("", "2>/dev/null", "cd " + (folder / "") + " && " + shown.command).output;
+      CAPTURE(shown.command);
+      CAPTURE(output);
+      std::size_t at = 0;
+      for (std::size_t i = 0; i < shown.pieces.size(); ++i) {
+        const std::string& piece = shown.pieces[i];
+        const std::size_t found = output.find(piece, at);
+        REQUIRE(found != std::string::npos);
+        // what is not left out follows at once
+        if (i == 0) CHECK(found == 0);
+        at = found + piece.size();
+      }
+      if (!shown.pieces.back().empty()) CHECK(at == output.size());
+    }
+
+    const jarol::Recording recording(folder / "dive.mcap");
+    std::set<std::string> names;
+    for (const auto& [id, topic] : recording.topics()) {
+      const jarol::MessageLayout layout(topic);
+      for (const jarol::MessageColumn& column : layout.columns()) names.insert(topic.channel.topic + "/" + column.path);
+    }
+    const std::string layout = content("specs/exolauv.plotjuggler.xml");
+    const std::regex curve("<curve name=\"([^\"]+)\"");
+    std::size_t curves = 0;
+    for (std::sregex_iterator found(layout.begin(), layout.end(), curve), end; found != end; ++found, ++curves) {
+      CAPTURE((*found)[1].str());
+      CHECK(names.contains((*found)[1].str()));
+    }
+    CHECK(curves == 6);
+    // its pictures are there
+    const std::string page = content("specs/tour.md");
+    const std::regex picture("<img src=\"([^\"]+)\"");
+    for (std::sregex_iterator found(page.begin(), page.end(), picture), end; found != end; ++found)
+      CHECK(fs::exists("specs/" + (*found)[1].str()));
+  }
+}
