@@ -193,7 +193,9 @@ TEST_SUITE("tools/checkpoint") {
       runs.emplace_back(words, mission.length);
     }
     std::uint64_t number = 0;
-    for (const auto& [run, length] : runs) {
+    for (const auto& each : runs) {
+      const std::string& run = each.first;
+      const Duration length = each.second;
       CAPTURE(run);
       const std::string end = " --for " + std::to_string(length.count()) + "ns", saved = folder / "saved";
       const Duration at = random_instant(length, ++number);
