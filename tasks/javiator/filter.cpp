@@ -142,7 +142,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     state.pitch = s.pitch;
     if (!state.has_flown) state.zero_yaw = s.yaw;
     state.yaw = wrapped(s.yaw - state.zero_yaw);
-    feel_weight(state, p, s);
+    if (s.answers > 0) feel_weight(state, p, s);
   }
   const bool smooth = std::abs(s.roll - state.roll) < p.angle_jump && std::abs(s.pitch - state.pitch) < p.angle_jump;
   state.angles.silent += heard_dt;

@@ -177,4 +177,14 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     const double before = landed.state.z.place;
     CHECK(landed.run(1).altitude == doctest::Approx(0.9 * before).epsilon(1e-4));
   }
+
+  TEST_CASE("before the Robostix has answered there is no weight to compare with: its angles are not doubted") {
+    HeardHelicopter heard;
+    heard.sensors = {};
+    for (int i = 0; i < 5; ++i)
+      JaviatorFilter::run(heard.param, {.period = std::chrono::milliseconds(15)}, {heard.sensors, heard.directive},
+                          heard.state, heard.out);
+    CHECK(heard.state.slant_roll == 0);
+    CHECK(heard.out.estimate.attitude_known);
+  }
 }
