@@ -1,9 +1,20 @@
 #include "distributers/lauv/messages.h"
 
+#include <chrono>
 #include <cmath>
 
 namespace jarol::distributers {
 namespace imc = messages::imc;
+
+std::string_view name_of(tasks::Alarm alarm) {
+  for (const auto& e : enumerators(alarm))
+    if (e.value == alarm) return e.name;
+  return "";
+}
+
+double unix_time() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
 
 imc::EstimatedState estimate_state(const tasks::Motion& m, double latitude, double longitude) {
   imc::EstimatedState s;

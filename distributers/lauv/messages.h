@@ -1,6 +1,8 @@
 // Messages of IMC that are made from values of the core.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string_view>
 
 #include "distributers/messages/imc.h"
@@ -10,9 +12,15 @@
 namespace jarol::distributers {
 
 /// Entities of the vehicle as its operator knows them, by label and id.
-inline constexpr std::string_view operator_entity = "Operator";
-inline constexpr std::string_view supervisor_entity = "Supervisor";
-inline constexpr std::string_view entities_known = "Daemon=0;Operator=1;Supervisor=2";
+inline constexpr std::array<std::string_view, 5> entities_known{"Daemon", "Operator", "Supervisor", "Navigation",
+                                                                "Plan Engine"};
+inline constexpr std::uint8_t daemon_entity = 0, operator_entity = 1, supervisor_entity = 2, navigation_entity = 3,
+                              plan_entity = 4;
+
+std::string_view name_of(tasks::Alarm alarm);
+
+/// Now, in s since 1970: for the eyes of who reads it, never for what a run does.
+double unix_time();
 
 /// EstimatedState about an origin, latitude and longitude in rad; the altitude is not known.
 messages::imc::EstimatedState estimate_state(const tasks::Motion& motion, double latitude, double longitude);

@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "distributers/interfaces/distributer.h"
+#include "distributers/lauv/plan_run.h"
+#include "distributers/lauv/plan_store.h"
 #include "distributers/messages/imc.h"
 #include "graph/values/type_of.h"
+#include "tasks/values/guidance.h"
 #include "tasks/values/instruments.h"
 #include "tasks/values/lauv.h"
 
@@ -37,10 +40,11 @@ struct LauvOperatorParameters {
   }
 };
 
-/// The newest command wins: a Desired... has the autopilot steer, a RemoteActions the operator's hand, an Abort stops
-/// the propeller, so that the vehicle comes up. An Abort, and the stop of a plan or maneuver, also has an alarm of the
-/// vehicle forgotten whose cause is gone; until then its state is an error. What is asked is answered at the next
-/// instant.
+/// The newest command wins: a Desired... has the autopilot steer, a RemoteActions the operator's hand, a PlanControl a
+/// plan, an Abort stops the propeller, so that the vehicle comes up. An Abort, and the stop of a plan or maneuver, also
+/// has an alarm of the vehicle forgotten whose cause is gone; until then its state is an error. While a plan runs a
+/// stick that rests counts for nothing, as the vehicle's DUNE has it: only in its Teleoperation does a hand steer, and
+/// nobody has to be heard. What is asked is answered at the next instant.
 class LauvOperator {
  public:
   static constexpr std::string_view summary = "the submarine's operator, over IMC";
@@ -50,33 +54,40 @@ class LauvOperator {
   struct In {
     Newest<tasks::Setpoint> setpoint;
     Newest<tasks::Actuation> actuation;
+    Newest<tasks::Leg> leg;
     Computed<tasks::Contact> contact;
     static constexpr auto fields() {
       return describe(channel<&In::setpoint>("commanded depth, heading and speed"),
                       channel<&In::actuation>("propeller and fins, steered by hand"),
+                      channel<&In::leg>("what of its plan the vehicle is to follow"),
                       channel<&In::contact>("how long the operator was not heard, and demands of a stop"));
     }
   };
   struct Out {
     tasks::VehicleReport report;
     tasks::Motion motion;
+    tasks::Progress progress;
     static constexpr auto fields() {
       return describe(channel<&Out::report>("depth, pitch, heading and speed reached"),
-                      channel<&Out::motion>("the vehicle's motion as it came"));
+                      channel<&Out::motion>("the vehicle's motion as it came"),
+                      channel<&Out::progress>("how far it is on a leg of its plan"));
     }
   };
 
   static const messages::MessageSet& message_set() { return imc::message_set(); }
   static constexpr auto handlers() {
     using O = LauvOperator;
-    return handle(on<imc::DesiredZ>(&O::desired_z), on<imc::DesiredHeading>(&O::desired_heading),
-                  on<imc::DesiredHeadingRate>(&O::desired_heading_rate), on<imc::DesiredSpeed>(&O::desired_speed),
-                  on<imc::SetThrusterActuation>(&O::set_thruster), on<imc::SetServoPosition>(&O::set_servo),
-                  on<imc::RemoteActions>(&O::remote_actions), on<imc::Abort>(&O::abort),
-                  on<imc::PlanControl>(&O::plan_control), on<imc::VehicleCommand>(&O::vehicle_command),
-                  on<imc::RemoteActionsRequest>(&O::actions_request), on<imc::EntityList>(&O::entity_list),
-                  compute<&In::contact>(&O::contact), send<&Out::report>(&O::send_report),
-                  send<&Out::motion>(&O::send_motion));
+    return handle(
+        on<imc::DesiredZ>(&O::desired_z), on<imc::DesiredHeading>(&O::desired_heading),
+        on<imc::DesiredHeadingRate>(&O::desired_heading_rate), on<imc::DesiredSpeed>(&O::desired_speed),
+        on<imc::SetThrusterActuation>(&O::set_thruster), on<imc::SetServoPosition>(&O::set_servo),
+        on<imc::RemoteActions>(&O::remote_actions), on<imc::Abort>(&O::abort), on<imc::PlanControl>(&O::plan_control),
+        on<imc::PlanDB>(&O::plan_db), on<imc::VehicleCommand>(&O::vehicle_command), on<imc::Reference>(&O::reference),
+        on<imc::TeleoperationDone>(&O::teleoperation_done), on<imc::RemoteActionsRequest>(&O::actions_request),
+        on<imc::EntityList>(&O::entity_list), on<imc::QueryEntityState>(&O::query_entity_state),
+        on<imc::QueryEntityInfo>(&O::query_entity_info), on<imc::LogBookControl>(&O::log_book_control),
+        compute<&In::contact>(&O::contact), send<&Out::report>(&O::send_report), send<&Out::motion>(&O::send_motion),
+        send<&Out::progress>(&O::note_progress));
   }
 
   explicit LauvOperator(const Param& parameters) : parameters_(parameters) {}
@@ -90,7 +101,8 @@ class LauvOperator {
   In in;
 
  private:
-  enum class Mode { service, external, teleoperation, error };
+  enum class Mode { service, external, teleoperation, plan, error };
+  using From = messages::MessageRef;  // whose header says who asks
 
   void desired_z(const imc::DesiredZ& z);
   void desired_heading(const imc::DesiredHeading& heading);
@@ -100,13 +112,20 @@ class LauvOperator {
   void set_servo(const imc::SetServoPosition& servo);
   void remote_actions(const imc::RemoteActions& message);
   void abort(const imc::Abort&);
-  void plan_control(const imc::PlanControl& plan);
-  void vehicle_command(const imc::VehicleCommand& command);
-  void actions_request(const imc::RemoteActionsRequest& request);
-  void entity_list(const imc::EntityList& list);
+  void plan_control(const imc::PlanControl& plan, const From& from);
+  void plan_db(const imc::PlanDB& request, const From& from);
+  void vehicle_command(const imc::VehicleCommand& command, const From& from);
+  void reference(const imc::Reference& reference, const From& from);
+  void teleoperation_done(const imc::TeleoperationDone&);
+  void actions_request(const imc::RemoteActionsRequest& request, const From& from);
+  void entity_list(const imc::EntityList& list, const From& from);
+  void query_entity_state(const imc::QueryEntityState&, const From& from);
+  void query_entity_info(const imc::QueryEntityInfo& query, const From& from);
+  void log_book_control(const imc::LogBookControl& control, const From& from);
   tasks::Contact contact();
   void send_report(const tasks::VehicleReport& report, messages::Receiver& system);
   void send_motion(const tasks::Motion& motion, messages::Receiver& system);
+  void note_progress(const tasks::Progress& progress, messages::Receiver& system);
   void send_state(const tasks::Motion& motion, messages::Receiver& system) const;
 
   bool is_finite(double value);  // else that is counted
@@ -115,15 +134,36 @@ class LauvOperator {
   void demand_stop();
   void stop();
   void set_mode(Mode mode);
-  std::string execute(std::uint32_t maneuver);
-  void refuse(const std::string& text);
+  Origin origin() const { return {parameters_.latitude, parameters_.longitude}; }
+
+  // of plans; each returns why not, or nothing
+  std::string start_plan(const imc::PlanControl& request);
+  std::string load_plan(const imc::PlanControl& request, std::uint16_t who);
+  std::string execute(Plan plan);
+  void end_plan(const std::string& why);
+  void follow_plan();
+  void finish_teleoperation();
+
+  // what goes to the operator's log book, and stays in ours
+  void log(std::uint8_t type, const std::string& text);
+  void refuse(const std::string& text) { log(imc::LogBookEntry::Type::WARNING, text); }
+  // the same to all, or to who has asked
   template <class M>
-  void answer(const M& message) {
-    answers_.emplace_back(messages::refer_to(message));
+  void answer(const M& message, std::uint8_t entity) {
+    answers_.push_back({messages::Message(messages::refer_to(message)), {.src_ent = entity}});
+  }
+  template <class M>
+  void answer(const M& message, std::uint8_t entity, const From& to) {
+    answer(message, entity);
+    if (to.header == nullptr) return;
+    answers_.back().header.dst = static_cast<const imc::Header*>(to.header)->src;
+    answers_.back().header.dst_ent = static_cast<const imc::Header*>(to.header)->src_ent;
   }
 
   void steer_by_hand(Duration instant);
   void send_vehicle_state(messages::Receiver& system) const;
+  void send_plan_state(messages::Receiver& system) const;
+  imc::EntityState state_of(std::uint8_t entity) const;
 
   LauvOperatorParameters parameters_;
   std::string address_;
@@ -142,11 +182,23 @@ class LauvOperator {
   std::uint32_t stops_ = 0;  // demanded by the operator
   tasks::Alarm alarm_ = tasks::Alarm::none;
   double heading_ = 0;        // of the vehicle, as told last
+  tasks::Motion motion_;      // likewise
   bool motion_sent_ = false;  // by channel `motion`, which has more than `report`
   bool mode_changed_ = true;
   std::optional<std::int64_t> second_;  // told for it
   std::optional<Duration> announced_;
-  std::vector<messages::Message> answers_;
+  struct Answer {
+    messages::Message message;
+    imc::Header header;
+  };
+  std::vector<Answer> answers_;
+  std::vector<imc::LogBookEntry> log_book_;  // the newest, as many as are kept
+
+  PlanRun plan_;
+  PlanStore plans_;
+  std::optional<imc::PlanSpecification> loaded_;
+  double maneuver_start_ = 0, last_error_at_ = 0;  // s since 1970, for the operator's eyes
+  std::string last_error_;
 };
 
 }  // namespace jarol::distributers

@@ -2,6 +2,8 @@
 
 #include <signal.h>
 
+#include <cassert>
+#include <cstddef>
 #include <cstring>
 
 #include "distributers/links/timestamp.h"
@@ -9,6 +11,8 @@
 
 namespace jarol::distributers {
 namespace {
+
+constexpr std::size_t most_header = 64;  // bytes of a header's struct
 
 // Signals to the process go to its other threads.
 void take_no_signals() {
@@ -99,9 +103,23 @@ void Link::receive(messages::Receiver& receiver) {
   }
 }
 
+// What the header of a message leaves as it is by default, the link says.
 std::span<const std::byte> Link::encode(messages::MessageRef message) {
+  const messages::MessageForm& form = *set_.header;
+  alignas(std::max_align_t) std::byte ours[most_header], usual[most_header];
+  assert(form.size <= most_header);
+  std::memcpy(ours, header_.value(), form.size);
+  if (message.header != nullptr) {
+    form.construct(usual);
+    for (const messages::FieldForm& field : form.fields) {
+      const auto* its = static_cast<const std::byte*>(message.header) + field.offset;
+      if (std::memcmp(its, usual + field.offset, size_of(field.wire)) != 0)
+        std::memcpy(static_cast<std::byte*>(header_.value()) + field.offset, its, size_of(field.wire));
+    }
+  }
   set_timestamp(timestamp_, header_.value());
   write_packet(header_, message, set_.order, packet_);
+  std::memcpy(header_.value(), ours, form.size);
   return packet_;
 }
 

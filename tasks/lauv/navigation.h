@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/values/guidance.h"
 #include "tasks/values/instruments.h"
 #include "tasks/values/lauv.h"
 
@@ -41,7 +42,8 @@ struct LauvNavigation {
   };
   struct Out {
     Motion motion{};
-    static constexpr auto fields() { return describe(field<&Out::motion>()); }
+    Stream stream{};
+    static constexpr auto fields() { return describe(field<&Out::motion>(), field<&Out::stream>()); }
   };
   static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };

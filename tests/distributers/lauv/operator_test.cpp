@@ -62,7 +62,7 @@ TEST_SUITE("distributers/lauv_operator") {
           "Exit=Button;Accelerate=Button;Decelerate=Button;Stop=Button;Heading=Axis;Thrust=Axis;Ranges=Range127");
     const auto entities = c.to.last<imc::EntityList>();
     CHECK(entities.op == imc::EntityList::Op::REPORT);
-    CHECK(entities.list == "Daemon=0;Operator=1;Supervisor=2");
+    CHECK(entities.list == "Daemon=0;Operator=1;Supervisor=2;Navigation=3;Plan Engine=4");
     c.pass(50ms);
     CHECK(c.to.all<imc::EntityList>().size() == 1);
   }

@@ -1,0 +1,46 @@
+// IMC's maneuvers as legs that guidance follows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "distributers/messages/inline_message.h"
+#include "tasks/values/guidance.h"
+
+namespace jarol::distributers {
+
+/// Where north and east are measured from: latitude and longitude in rad, WGS-84.
+struct Origin {
+  double latitude = 0, longitude = 0;
+};
+
+struct PlannedLeg {
+  tasks::Leg leg{};
+  bool here = false;  // its place is where the vehicle is when it begins
+};
+
+struct Maneuver {
+  std::string name{};              // in its plan
+  std::uint32_t type = 0;          // id of its message
+  double timeout = 0;              // s; 0: none
+  std::vector<PlannedLeg> legs{};  // none: it is steered by who sends references or turns a stick
+
+  // of FollowReference
+  std::uint16_t control_source = 0;
+  std::uint8_t control_entity = 0;
+  double loiter_radius = 0;
+};
+
+/// Of a circle where the maneuver names none, in m.
+constexpr double default_radius = 10;
+
+/// In m from the origin. Throws std::invalid_argument for a place that is none, or too far away to be meant.
+void set_place(tasks::Leg& leg, double latitude, double longitude, const Origin& origin);
+/// Throw std::invalid_argument for what can't be commanded.
+void set_level(tasks::Leg& leg, double z, std::uint8_t units);
+void set_speed(tasks::Leg& leg, double speed, std::uint8_t units);
+
+/// Throws std::invalid_argument that says what can't be flown.
+Maneuver make_maneuver(const messages::InlineMessage& message, const Origin& origin);
+
+}  // namespace jarol::distributers

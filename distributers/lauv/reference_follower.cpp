@@ -1,0 +1,105 @@
+#include "distributers/lauv/reference_follower.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "distributers/messages/payload.h"
+#include "graph/math/geometry.h"
+
+namespace jarol::distributers {
+namespace imc = messages::imc;
+namespace {
+
+using tasks::Course;
+
+constexpr std::uint16_t any_system = 0xffff;
+constexpr std::uint8_t any_entity = 0xff;
+constexpr double same_place = 0.5;  // m
+constexpr double surface = 0.5;     // m, where it keeps its station with the propeller off
+
+// The message in that field, which has to be an M.
+template <class M>
+M read(const messages::InlineMessage& field, const char* name) {
+  messages::Message message;
+  if (!messages::take_inline(imc::message_set(), field, message) || message.as<M>() == nullptr)
+    throw std::invalid_argument(std::string("the reference's ") + name + " is no " + std::string(M::form.name));
+  return *message.as<M>();
+}
+
+}  // namespace
+
+ReferenceFollower::ReferenceFollower(const Maneuver& maneuver, Duration now)
+    : source_(maneuver.control_source),
+      entity_(maneuver.control_entity),
+      timeout_(maneuver.timeout),
+      radius_(maneuver.loiter_radius),
+      heard_(now),
+      leg_{.course = Course::rest} {}
+
+bool ReferenceFollower::take(const imc::Reference& reference, std::uint16_t source, std::uint8_t entity, Duration now,
+                             const Origin& origin) {
+  using Flags = imc::Reference::Flags;
+  const bool may = (source_ == any_system || source_ == source) && (entity_ == any_entity || entity_ == entity);
+  if (!may) return false;
+  tasks::Leg leg = leg_;
+  if ((reference.flags & Flags::LOCATION) != 0) {
+    set_place(leg, reference.lat, reference.lon, origin);
+    if (leg.course == Course::rest || std::hypot(leg.north - leg_.north, leg.east - leg_.east) > same_place)
+      leg.course = Course::line;
+    else
+      leg.north = leg_.north, leg.east = leg_.east;
+  }
+  if ((reference.flags & Flags::SPEED) != 0) {
+    const auto speed = read<imc::DesiredSpeed>(reference.speed, "speed");
+    set_speed(leg, speed.value, speed.speed_units);
+  }
+  if ((reference.flags & Flags::Z) != 0) {
+    const auto z = read<imc::DesiredZ>(reference.z, "z");
+    set_level(leg, static_cast<double>(z.value), z.z_units);
+  }
+  if ((reference.flags & Flags::RADIUS) != 0) {
+    const auto radius = static_cast<double>(reference.radius);
+    if (!(radius >= 0)) throw std::invalid_argument("the reference's radius is negative or no number");
+    radius_ = radius;
+    if (leg.course == Course::circle || leg.course == Course::station)
+      leg.radius = radius_ > 0 ? radius_ : default_radius;
+  }
+  done_ |= (reference.flags & Flags::MANDONE) != 0;
+  heard_ = now;
+  heard_any_ = true;
+  reference_ = reference;
+  leg_ = leg;
+  return true;
+}
+
+bool ReferenceFollower::note(const tasks::Progress& progress) {
+  progress_ = progress;
+  if (leg_.course != Course::line || !progress.done) return false;
+  leg_.course = leg_.vertical == tasks::Vertical::depth && leg_.level < surface ? Course::station : Course::circle;
+  leg_.radius = radius_ > 0 ? radius_ : default_radius;
+  return true;
+}
+
+bool ReferenceFollower::is_late(Duration now) const { return timeout_ > 0 && seconds(now - heard_) > timeout_; }
+
+imc::FollowRefState ReferenceFollower::state() const {
+  using State = imc::FollowRefState::State;
+  using Proximity = imc::FollowRefState::Proximity;
+  imc::FollowRefState told;
+  told.control_src = source_;
+  told.control_ent = entity_;
+  if (heard_any_ && !messages::put_inline(messages::refer_to(reference_), told.reference)) told.reference = {};
+  switch (leg_.course) {
+    case Course::line: told.state = State::GOTO; break;
+    case Course::circle: told.state = progress_.levelled ? State::LOITER : State::ELEVATOR; break;
+    case Course::station: told.state = State::HOVER; break;
+    case Course::rest:
+    case Course::none: told.state = State::WAIT; break;
+  }
+  const bool there = leg_.course == Course::circle || leg_.course == Course::station;
+  told.proximity = static_cast<std::uint8_t>((there ? Proximity::XY_NEAR : Proximity::FAR) |
+                                             (progress_.levelled ? Proximity::Z_NEAR : 0));
+  return told;
+}
+
+}  // namespace jarol::distributers

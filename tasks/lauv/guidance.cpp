@@ -1,0 +1,148 @@
+#include "tasks/lauv/guidance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jarol::tasks {
+namespace {
+
+using Param = LauvGuidance::Param;
+using In = LauvGuidance::In;
+using State = LauvGuidance::State;
+
+constexpr double slowest = 0.1;            // m/s, of which times and drift are reckoned
+constexpr double sharpest = 100 * degree;  // turn that is prepared
+
+void begin(const Param& p, const In& in, State& state) {
+  const bool joins = state.has_end && std::hypot(in.motion.x - state.end_x, in.motion.y - state.end_y) <
+                                          4 * p.reach + std::abs(in.leg.surge) / p.turn_rate;
+  const State before = state;
+  state = {.number = in.leg.number,
+           .begin_x = joins ? before.end_x : in.motion.x,
+           .begin_y = joins ? before.end_y : in.motion.y,
+           .depth = in.motion.z};
+  state.has_end = in.leg.course == Course::line;
+  state.end_x = in.leg.north;
+  state.end_y = in.leg.east;
+  state.descends = in.leg.vertical == Vertical::altitude || in.leg.level > in.motion.z;
+}
+
+double integrate(const Param& p, double dt, double e, State& state) {
+  if (std::abs(e) < p.reach) {
+    const double y = e + state.sigma;
+    state.sigma =
+        limited(state.sigma + dt * p.integral * p.lookahead * e / (p.lookahead * p.lookahead + y * y), p.lookahead);
+  }
+  return std::atan((e + state.sigma) / p.lookahead);
+}
+
+// The heading on which a course is kept in the stream; across it, as far as the speed allows.
+double crab(const In& in, double chi) {
+  const double across = in.stream.east * std::cos(chi) - in.stream.north * std::sin(chi);
+  const double through = std::max({in.motion.u, in.leg.drive == Drive::speed ? in.leg.surge : 0, slowest});
+  return wrapped(chi - std::asin(limited(across / through, 0.9)));
+}
+
+// Over ground, along that course.
+double speed_along(const In& in, double chi) {
+  return std::max(in.motion.u + in.stream.north * std::cos(chi) + in.stream.east * std::sin(chi), slowest);
+}
+
+double follow_line(const Param& p, const In& in, double dt, State& state, Progress& progress) {
+  const double dx = in.leg.north - state.begin_x, dy = in.leg.east - state.begin_y, length = std::hypot(dx, dy);
+  const double chi_p = length > 0 ? std::atan2(dy, dx) : in.motion.psi;
+  const double x = in.motion.x - state.begin_x, y = in.motion.y - state.begin_y;
+  const double left = length - (x * std::cos(chi_p) + y * std::sin(chi_p));
+  progress.cross_track = y * std::cos(chi_p) - x * std::sin(chi_p);
+  progress.distance = std::hypot(in.leg.north - in.motion.x, in.leg.east - in.motion.y);
+  const double radius = in.motion.u / p.turn_rate;
+  const double lead = in.leg.turn == 0 ? 0 : radius * std::tan(std::min(std::abs(in.leg.turn), sharpest) / 2);
+  progress.near = left <= std::max(lead, 0.0) || progress.distance < p.reach;
+  progress.left = std::max(left, 0.0) / speed_along(in, chi_p);
+  return chi_p - integrate(p, dt, progress.cross_track, state);
+}
+
+double follow_circle(const Param& p, const In& in, double dt, State& state, Progress& progress) {
+  const double x = in.motion.x - in.leg.north, y = in.motion.y - in.leg.east, radius = std::abs(in.leg.radius);
+  const double side = in.leg.radius < 0 ? -1 : 1, gamma = std::atan2(y, x);
+  progress.distance = std::hypot(x, y);
+  progress.cross_track = progress.distance - radius;
+  progress.near = std::abs(progress.cross_track) < p.reach;
+  const double chi = gamma + side * (pi / 2 + integrate(p, dt, progress.cross_track, state));
+  if (!progress.near) return chi;
+  const double slip = std::atan2(in.motion.v, std::max(in.motion.u, slowest));
+  return chi + side * p.heading_time * speed_along(in, chi) / std::max(radius, p.reach) - slip;
+}
+
+// Towards its centre from the edge on, until half of the radius is left.
+double keep_station(const Param& p, const In& in, State& state, Progress& progress) {
+  const double x = in.leg.north - in.motion.x, y = in.leg.east - in.motion.y, radius = std::max(in.leg.radius, p.reach);
+  progress.distance = std::hypot(x, y);
+  progress.near = progress.distance < radius;
+  if (!progress.near || !state.arrived) state.drifted = true;
+  if (progress.distance < radius / 2) state.drifted = false;
+  return std::atan2(y, x);
+}
+
+double depth_of(const In& in, double z) {
+  if (in.leg.vertical == Vertical::depth) return z;
+  const Motion& m = in.motion;
+  if (in.instruments.altitude.count < 1) return m.z;
+  return std::max(m.z + in.instruments.altitude.value * std::cos(m.theta) * std::cos(m.phi) - z, 0.0);
+}
+
+// The depth goes up and down as fast as that pitch lets it; it turns where the vehicle has come to.
+double go_up_and_down(const Param& p, const In& in, double dt, State& state) {
+  const double up = in.leg.vertical == Vertical::altitude ? 1 : -1;
+  const double top = std::max(depth_of(in, in.leg.level + up * in.leg.amplitude), 0.0),
+               bottom = depth_of(in, in.leg.level - up * in.leg.amplitude);
+  if (state.descends ? in.motion.z > bottom - p.level : in.motion.z < top + p.level) state.descends = !state.descends;
+  const double rate = std::max(in.motion.u, slowest) * std::sin(in.leg.slope);
+  state.depth = std::clamp(state.depth + (state.descends ? dt : -dt) * rate, top, std::max(top, bottom));
+  return state.depth;
+}
+
+}  // namespace
+
+void LauvGuidance::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const Leg& leg = in.leg;
+  if (leg.course == Course::none) {
+    state = {};
+    out = {in.setpoint, {}};
+    return;
+  }
+  if (leg.number != state.number) begin(p, in, state);
+  const double dt = seconds(tick.period);
+  Progress& progress = out.progress = {.on_leg = leg.number};
+  Setpoint& to = out.setpoint = {.heading = in.motion.psi, .drive = leg.drive};
+  const bool yoyo = leg.course == Course::line && leg.amplitude > 0 && leg.slope > 0;
+  const double depth = depth_of(in, leg.level);
+  to.depth = yoyo ? go_up_and_down(p, in, dt, state) : depth;
+  bool drives = true;
+  switch (leg.course) {
+    case Course::line: to.heading = crab(in, follow_line(p, in, dt, state, progress)); break;
+    case Course::circle: to.heading = crab(in, follow_circle(p, in, dt, state, progress)); break;
+    case Course::station:
+      to.heading = crab(in, keep_station(p, in, state, progress));
+      drives = state.drifted;
+      break;
+    case Course::rest:
+    case Course::none:
+      progress.near = true;
+      drives = false;
+      break;
+  }
+  to.speed = drives ? leg.surge : 0;
+  to.thrust = drives ? leg.thrust : 0;
+  progress.levelled = std::abs(depth - in.motion.z) < p.level;
+
+  state.arrived |= progress.near;
+  const bool lasts = leg.course != Course::line;
+  if (state.arrived) state.since += dt;
+  if (lasts) progress.left = leg.duration > 0 ? std::max(leg.duration - state.since, 0.0) : -1;
+  const bool over = lasts ? leg.duration > 0 && state.since >= leg.duration : progress.near;
+  state.done |= leg.until_level ? progress.levelled : over;
+  progress.done = state.done;
+}
+
+}  // namespace jarol::tasks

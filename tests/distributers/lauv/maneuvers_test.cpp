@@ -1,0 +1,260 @@
+// IMC's maneuvers as legs, and what can't be flown in words.
+#include "distributers/lauv/maneuvers.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "distributers/lauv/plan.h"
+#include "distributers/messages/imc.h"
+#include "distributers/messages/payload.h"
+#include "graph/math/geometry.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+namespace imc = messages::imc;
+using tasks::Course;
+
+const Origin origin{41.185 * degree, -8.7062 * degree};
+
+template <class M>
+messages::InlineMessage packed(const M& m) {
+  messages::InlineMessage to;
+  REQUIRE(messages::put_inline(messages::refer_to(m), to));
+  return to;
+}
+
+template <class M>
+Maneuver made(const M& m) {
+  return make_maneuver(packed(m), origin);
+}
+
+// At that place, 3 m deep, at 1.2 m/s.
+template <class M>
+M at(double north, double east) {
+  const EarthRadii radii = earth_radii(origin.latitude);
+  M m;
+  m.lat = origin.latitude + north / radii.north;
+  m.lon = origin.longitude + east / radii.east;
+  if constexpr (requires { m.z; }) {
+    m.z = 3;
+    m.z_units = imc::ZUnits::DEPTH;
+  }
+  m.speed = 1.2F;
+  return m;
+}
+
+void check(const PlannedLeg& is, Course course, double north, double east) {
+  CHECK(is.leg.course == course);
+  CHECK(is.leg.north == doctest::Approx(north));
+  CHECK(is.leg.east == doctest::Approx(east));
+  CHECK(is.leg.surge == doctest::Approx(1.2));
+}
+}  // namespace
+
+TEST_SUITE("distributers/lauv_maneuvers") {
+  TEST_CASE("a goto is a line to its place, at its depth or altitude, at its speed or thrust") {
+    auto m = at<imc::Goto>(100, -50);
+    m.timeout = 90;
+    auto maneuver = made(m);
+    CHECK(maneuver.type == 450);
+    CHECK(maneuver.timeout == 90);
+    REQUIRE(maneuver.legs.size() == 1);
+    check(maneuver.legs[0], Course::line, 100, -50);
+    CHECK(maneuver.legs[0].leg.level == 3);
+    CHECK(maneuver.legs[0].leg.vertical == tasks::Vertical::depth);
+    m.z_units = imc::ZUnits::ALTITUDE;
+    m.speed = 60;
+    m.speed_units = imc::SpeedUnits::PERCENTAGE;
+    maneuver = made(m);
+    CHECK(maneuver.legs[0].leg.vertical == tasks::Vertical::altitude);
+    CHECK(maneuver.legs[0].leg.drive == tasks::Drive::thrust);
+    CHECK(maneuver.legs[0].leg.thrust == doctest::Approx(0.6));
+  }
+
+  TEST_CASE("a path is a line to each of its points, from where it begins") {
+    auto m = at<imc::FollowPath>(10, 20);
+    m.points.push_back(packed(imc::PathPoint{0, 5, 0}));
+    m.points.push_back(packed(imc::PathPoint{30, 5, 1}));
+    const auto legs = made(m).legs;
+    REQUIRE(legs.size() == 2);
+    check(legs[0], Course::line, 10, 25);
+    check(legs[1], Course::line, 40, 25);
+    CHECK(legs[1].leg.level == 4);
+  }
+
+  TEST_CASE("rows go to and fro along their bearing, and across as far as they are wide") {
+    auto m = at<imc::Rows>(0, 0);
+    m.length = 50;
+    m.width = 20;
+    m.hstep = 10;
+    m.coff = 4;
+    m.alternation = 50;
+    m.flags = imc::Rows::Flags::SQUARE_CURVE | imc::Rows::Flags::CURVE_RIGHT;
+    const double square[][2] = {{0, 0}, {54, 0}, {54, 10}, {-4, 10}, {-4, 20}, {50, 20}};
+    auto legs = made(m).legs;
+    REQUIRE(legs.size() == 6);
+    for (std::size_t k = 0; k < 6; ++k) check(legs[k], Course::line, square[k][0], square[k][1]);
+    m.flags = 0;
+    m.bearing = 90 * degree;
+    m.alternation = 75;
+    const double slanted[][2] = {{0, 0}, {0, 54}, {15, 50}, {15, -4}, {20, 0}, {20, 50}};
+    legs = made(m).legs;
+    REQUIRE(legs.size() == 6);
+    for (std::size_t k = 0; k < 6; ++k) {
+      CHECK(legs[k].leg.north == doctest::Approx(slanted[k][0]).epsilon(1e-6));
+      CHECK(legs[k].leg.east == doctest::Approx(slanted[k][1]).epsilon(1e-6));
+    }
+  }
+
+  TEST_CASE("a loiter is a circle, clockwise but where it says otherwise") {
+    auto m = at<imc::Loiter>(5, 6);
+    m.radius = 25;
+    m.duration = 100;
+    auto maneuver = made(m);
+    REQUIRE(maneuver.legs.size() == 1);
+    check(maneuver.legs[0], Course::circle, 5, 6);
+    CHECK(maneuver.legs[0].leg.radius == 25);
+    CHECK(maneuver.legs[0].leg.duration == 100);
+    m.direction = imc::Loiter::Direction::CCLOCKW;
+    CHECK(made(m).legs[0].leg.radius == -25);
+    m.radius = 0;
+    CHECK(made(m).legs[0].leg.radius == -default_radius);
+    m.type = imc::Loiter::Type::EIGHT;
+    CHECK_THROWS_WITH_AS(made(m), "a loiter is flown as a circle, types 0 and 1, not 3", std::invalid_argument);
+  }
+
+  TEST_CASE("a station is kept by drifting at the surface, and on a circle below it") {
+    auto m = at<imc::StationKeeping>(5, 6);
+    m.radius = 12;
+    m.duration = 40;
+    CHECK(made(m).legs[0].leg.course == Course::circle);
+    m.z = 0;
+    CHECK(made(m).legs[0].leg.course == Course::station);
+    CHECK(made(m).legs[0].leg.duration == 40);
+  }
+
+  TEST_CASE("an elevator goes to its place, then up or down on a spiral there, or where the vehicle is") {
+    auto m = at<imc::Elevator>(5, 6);
+    m.start_z = 2;
+    m.end_z = 8;
+    m.start_z_units = m.end_z_units = imc::ZUnits::DEPTH;
+    m.radius = 15;
+    auto legs = made(m).legs;
+    REQUIRE(legs.size() == 2);
+    check(legs[0], Course::line, 5, 6);
+    CHECK(legs[0].leg.level == 2);
+    check(legs[1], Course::circle, 5, 6);
+    CHECK(legs[1].leg.level == 8);
+    CHECK(legs[1].leg.until_level);
+    CHECK_FALSE(legs[1].here);
+    m.flags = imc::Elevator::Flags::CURR_POS;
+    legs = made(m).legs;
+    REQUIRE(legs.size() == 1);
+    CHECK(legs[0].here);
+  }
+
+  TEST_CASE("a pop-up goes to its place, comes up, and waits if it says so: at rest, or keeping its station") {
+    auto m = at<imc::PopUp>(5, 6);
+    m.duration = 30;
+    m.radius = 20;
+    CHECK(made(m).legs.size() == 2);
+    m.flags = imc::PopUp::Flags::WAIT_AT_SURFACE;
+    auto legs = made(m).legs;
+    REQUIRE(legs.size() == 3);
+    CHECK(legs[1].leg.until_level);
+    CHECK(legs[1].leg.level == 0);
+    CHECK(legs[2].leg.course == Course::rest);
+    CHECK(legs[2].leg.duration == 30);
+    m.flags |= imc::PopUp::Flags::STATION_KEEP | imc::PopUp::Flags::CURR_POS;
+    legs = made(m).legs;
+    REQUIRE(legs.size() == 2);
+    CHECK(legs[0].here);
+    CHECK(legs[1].leg.course == Course::station);
+    CHECK(legs[1].leg.radius == 20);
+  }
+
+  TEST_CASE("what can't be flown is refused in words") {
+    const auto refuses = [](const auto& m, const char* why) {
+      CHECK_THROWS_WITH_AS(made(m), why, std::invalid_argument);
+    };
+    auto m = at<imc::Goto>(1, 2);
+    m.z = -1;
+    refuses(m, "z is -1 m; depths and altitudes are not negative");
+    m.z = 3;
+    m.z_units = imc::ZUnits::HEIGHT;
+    refuses(m, "z is taken as DEPTH or ALTITUDE, 1 or 2, not 3");
+    m.z_units = imc::ZUnits::DEPTH;
+    m.speed = 0;
+    refuses(m, "speed is 0; it is positive");
+    m.speed = 1000;
+    m.speed_units = imc::SpeedUnits::RPM;
+    refuses(m, "speed is taken in m/s or %, 0 or 2, not 1");
+    m.speed_units = imc::SpeedUnits::METERS_PS;
+    m.lat = std::numeric_limits<double>::quiet_NaN();
+    refuses(m, "lat is no number");
+    m.lat = 0;
+    refuses(m, "its place is 4563 km from the origin; places within 100 km are gone to");
+    refuses(imc::StopManeuver{}, "StopManeuver is not flown here");
+    refuses(at<imc::FollowPath>(0, 0), "a path has at least one point");
+    refuses(at<imc::Rows>(0, 0), "rows of 0 m, 0 m apart over 0 m; lengths are positive");
+    auto rows = at<imc::Rows>(0, 0);
+    rows.length = rows.width = 1e9F;
+    rows.hstep = 1e-3F;
+    refuses(rows, "more than 1000 lines");
+    refuses(at<imc::YoYo>(0, 0), "up and down by 0 m at 0 rad; these are positive, and no more than 0.785 rad");
+    CHECK_THROWS_WITH_AS(make_maneuver({}, origin), "there is no maneuver in it", std::invalid_argument);
+  }
+
+  TEST_CASE("a plan goes from maneuver to maneuver by its transitions, and names what is wrong with it") {
+    imc::PlanSpecification plan;
+    plan.plan_id = "p";
+    plan.start_man_id = "b";
+    const auto add = [&](const char* name) {
+      imc::PlanManeuver named;
+      named.maneuver_id = name;
+      named.data = packed(at<imc::Goto>(10, 0));
+      plan.maneuvers.push_back(packed(named));
+    };
+    const auto join = [&](const char* from, const char* to, const char* when = "ManeuverIsDone") {
+      imc::PlanTransition transition;
+      transition.source_man = from;
+      transition.dest_man = to;
+      transition.conditions = when;
+      plan.transitions.clear();
+      plan.transitions.push_back(packed(transition));
+    };
+    const auto refuses = [&](const char* why) {
+      CHECK_THROWS_WITH_AS(make_plan(plan, origin), why, std::invalid_argument);
+    };
+    refuses("the plan has no maneuver");
+    add("a");
+    refuses("the start 'b' is none of its maneuvers: a");
+    add("b");
+    join("b", "a");
+    const Plan good = make_plan(plan, origin);
+    CHECK(good.start == 1);
+    CHECK(good.next[1] == 0);
+    CHECK_FALSE(good.next[0].has_value());
+    join("a,b", "_done_");
+    CHECK_FALSE(make_plan(plan, origin).next[1].has_value());
+    join("c", "a");
+    refuses("source of a transition 'c' is none of its maneuvers: a, b");
+    join("a", "c");
+    refuses("destination of a transition 'c' is none of its maneuvers: a, b");
+    join("a", "b", "BatteryIsLow");
+    refuses("the condition of a transition is ManeuverIsDone, not 'BatteryIsLow'");
+    add("a");
+    refuses("two maneuvers are named 'a'");
+    plan.maneuvers.clear();
+    imc::PlanManeuver named;
+    named.maneuver_id = "x";
+    plan.maneuvers.push_back(packed(named));
+    refuses("maneuver 'x': there is no maneuver in it");
+    plan.maneuvers[0].payload.resize(1);
+    refuses("maneuver 1 can't be read: payload of 1 bytes");
+  }
+}

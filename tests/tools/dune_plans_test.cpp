@@ -1,0 +1,323 @@
+// Plans as a console of DUNE's sends them, flown by the shipped graph in the simulated vehicle.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "distributers/messages/payload.h"
+#include "graph/math/geometry.h"
+#include "tests/distributers/lauv_console.h"
+#include "tools/library/session.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::tests;
+
+// The vehicle and its tasks, with a console in place of the script; both meet each 100 ms, as by a link.
+class Mission {
+ public:
+  explicit Mission(std::vector<std::string> set = {}) : session_(open(std::move(set))) {}
+
+  template <class M>
+  void say(const M& message) {
+    console.say(message);
+  }
+  // Until that is so, and at most for that time. False: it never was.
+  bool fly(
+      Duration longest, const std::function<bool()>& until = [] { return false; }) {
+    for (const Duration end = session_.now() + longest; session_.now() < end;) {
+      step();
+      if (until()) return true;
+    }
+    return false;
+  }
+  double truth(const char* field) const { return session_.true_value(std::string(field) + " of dune"); }
+  tasks::Progress progress() const { return session_.value<tasks::Progress>("guidance.progress"); }
+  imc::PlanControlState plan() const { return console.to.last<imc::PlanControlState>(); }
+  bool is_over() const { return plan().state != imc::PlanControlState::State::EXECUTING; }
+  Duration now() const { return session_.now(); }
+
+  Conversation console;
+
+ private:
+  static Session open(std::vector<std::string> set) {
+    set.emplace_back("distributers.dune.link.parameters.dynamics=rigid");
+    set.emplace_back("expect=null");
+    return jarol::open("specs/exolauv.yaml", {.set = std::move(set), .seed = 3, .fed = {"neptus"}});
+  }
+  void step() {
+    auto& adapter = console.adapter;
+    console.pass(100ms);
+    feed<&LauvOperator::In::setpoint>("neptus.setpoint", setpoint_);
+    feed<&LauvOperator::In::leg>("neptus.leg", leg_);
+    session_.feed("neptus.contact", console.contact());
+    session_.run_for(100ms);
+    adapter.hand_over<&LauvOperator::Out::report>(session_.value<tasks::VehicleReport>("report.report"), console.to);
+    adapter.hand_over<&LauvOperator::Out::motion>(session_.value<tasks::Motion>("navigation.motion"), console.to);
+    adapter.hand_over<&LauvOperator::Out::progress>(progress(), console.to);
+  }
+  template <auto Channel, class T>
+  void feed(const char* name, T& value) {
+    if (console.adapter.take<Channel>(value)) session_.feed(name, value);
+  }
+
+  Session session_;
+  tasks::Setpoint setpoint_;
+  tasks::Leg leg_;
+};
+
+constexpr double latitude = 41.1850 * degree, longitude = -8.7062 * degree;
+
+// Where that is, in m north and east of the origin.
+template <class M>
+M at(double x, double y) {
+  const EarthRadii radii = earth_radii(latitude);
+  M m;
+  m.lat = latitude + x / radii.north;
+  m.lon = longitude + y / radii.east;
+  return m;
+}
+
+template <class M>
+M maneuver(double x, double y, double depth = 3, double speed = 1.2) {
+  M m = at<M>(x, y);
+  m.speed = static_cast<float>(speed);
+  if constexpr (requires { m.z; }) {
+    m.z = static_cast<float>(depth);
+    m.z_units = imc::ZUnits::DEPTH;
+  }
+  if constexpr (requires { m.timeout; }) m.timeout = 10000;
+  return m;
+}
+
+// One after the other, with transitions as Neptus writes them.
+struct PlanOf {
+  imc::PlanSpecification plan;
+
+  explicit PlanOf(const char* name) { plan.plan_id = name; }
+  template <class M>
+  PlanOf& then(const char* name, const M& m) {
+    imc::PlanManeuver named;
+    named.maneuver_id = name;
+    REQUIRE(messages::put_inline(messages::refer_to(m), named.data));
+    messages::InlineMessage packed;
+    REQUIRE(messages::put_inline(messages::refer_to(named), packed));
+    plan.maneuvers.push_back(packed);
+    if (plan.start_man_id.empty()) {
+      plan.start_man_id = name;
+    } else {
+      imc::PlanTransition transition;
+      transition.source_man = last;
+      transition.dest_man = name;
+      transition.conditions = "ManeuverIsDone";
+      REQUIRE(messages::put_inline(messages::refer_to(transition), packed));
+      plan.transitions.push_back(packed);
+    }
+    last = name;
+    return *this;
+  }
+  imc::PlanControl start() const {
+    imc::PlanControl control;
+    control.op = imc::PlanControl::Op::START;
+    control.request_id = 21;
+    control.plan_id = plan.plan_id;
+    REQUIRE(messages::put_inline(messages::refer_to(plan), control.arg));
+    return control;
+  }
+
+  std::string last;
+};
+
+template <class M>
+imc::PlanControl start(const char* name, const M& m) {
+  imc::PlanControl control;
+  control.plan_id = name;
+  REQUIRE(messages::put_inline(messages::refer_to(m), control.arg));
+  return control;
+}
+
+void fly_square(const std::vector<std::string>& set, double settled_after, double widest) {
+  Mission mission(set);
+  const double corners[][2] = {{60, 0}, {60, 60}, {0, 60}, {0, 0}};
+  PlanOf plan("square");
+  const char* names[] = {"Goto1", "Goto2", "Goto3", "Goto4"};
+  for (int k = 0; k < 4; ++k) plan.then(names[k], maneuver<imc::Goto>(corners[k][0], corners[k][1]));
+  mission.say(plan.start());
+  mission.fly(100ms);
+  const auto reply = mission.console.to.last<imc::PlanControl>();
+  CHECK(reply.info == "");
+  CHECK(reply.type == imc::PlanControl::Type::SUCCESS);
+  CHECK(reply.request_id == 21);
+  std::map<std::string, double> worst;
+  std::string leg;
+  double since = 0, outside = 0, depth_error = 0;
+  const bool done = mission.fly(400s, [&] {
+    const auto state = mission.plan();
+    if (mission.is_over()) return true;
+    if (std::string(state.man_id.view()) != leg) since = 0, leg = state.man_id.view();
+    since += 0.1;
+    // the true distance from the side of the square, and out of the square
+    const double x = mission.truth("x"), y = mission.truth("y");
+    const double off = leg == "Goto1" ? y : leg == "Goto2" ? x - 60 : leg == "Goto3" ? y - 60 : x;
+    if (since > settled_after) worst[leg] = std::max(worst[leg], std::abs(off));
+    outside = std::max({outside, -x, x - 60, -y, y - 60});
+    if (mission.now() > 40s) depth_error = std::max(depth_error, std::abs(mission.truth("depth") - 3));
+    return false;
+  });
+  CHECK(done);
+  CHECK(mission.plan().last_outcome == imc::PlanControlState::LastOutcome::SUCCESS);
+  CHECK(worst.size() == 4);
+  for (const auto& [name, off] : worst) {
+    CAPTURE(name);
+    CHECK(off < widest);
+    MESSAGE(name << ": " << off << " m off its side, " << settled_after << " s after the turn began");
+  }
+  MESSAGE("out of the square by " << outside << " m, depth within " << depth_error << " m, " << seconds(mission.now())
+                                  << " s");
+  CHECK(outside < 2 * widest);
+  CHECK(depth_error < 0.1);
+  CHECK(std::hypot(mission.truth("x"), mission.truth("y")) < 2 + widest);
+}
+}  // namespace
+
+TEST_SUITE("tools/dune_plans") {
+  TEST_CASE("on a square of 60 m it is within 1 m of each side from 15 s after a turn began") { fly_square({}, 15, 1); }
+
+  TEST_CASE("a loiter holds its radius, both ways round, and ends after its time") {
+    for (const std::uint8_t way : {imc::Loiter::Direction::CLOCKW, imc::Loiter::Direction::CCLOCKW}) {
+      CAPTURE(int(way));
+      Mission mission;
+      auto loiter = maneuver<imc::Loiter>(40, 0);
+      loiter.radius = 15;
+      loiter.duration = 150;
+      loiter.direction = way;
+      mission.say(start("round", loiter));
+      CHECK(mission.fly(120s, [&] { return mission.progress().near; }));
+      mission.fly(30s);
+      double worst = 0, turned = 0, last = mission.truth("heading");
+      CHECK(mission.fly(200s, [&] {
+        if (mission.is_over()) return true;
+        worst = std::max(worst, std::abs(std::hypot(mission.truth("x") - 40, mission.truth("y")) - 15));
+        turned += wrapped(mission.truth("heading") - last);
+        last = mission.truth("heading");
+        return false;
+      }));
+      MESSAGE("radius within " << worst << " m");
+      CHECK(worst < 0.5);
+      CHECK((way == imc::Loiter::Direction::CLOCKW ? turned : -turned) > 2 * pi);
+      CHECK(mission.plan().last_outcome == imc::PlanControlState::LastOutcome::SUCCESS);
+    }
+  }
+
+  TEST_CASE("a plan of five maneuvers is flown in their order, each reported by its name and type") {
+    Mission mission;
+    imc::Rows rows = maneuver<imc::Rows>(30, 0);
+    rows.length = 40;
+    rows.width = 20;
+    rows.hstep = 20;
+    rows.coff = 5;
+    rows.alternation = 50;
+    rows.flags = imc::Rows::Flags::SQUARE_CURVE | imc::Rows::Flags::CURVE_RIGHT;
+    auto yoyo = maneuver<imc::YoYo>(0, 20);
+    yoyo.z = 4;
+    yoyo.amplitude = 1.5F;
+    yoyo.pitch = static_cast<float>(15 * degree);
+    auto elevator = maneuver<imc::Elevator>(0, 0);
+    elevator.start_z = 2;
+    elevator.end_z = 6;
+    elevator.start_z_units = elevator.end_z_units = imc::ZUnits::DEPTH;
+    elevator.radius = 8;
+    auto station = maneuver<imc::StationKeeping>(0, 0, 0);
+    station.radius = 10;
+    station.duration = 30;
+    mission.say(PlanOf("five")
+                    .then("Goto1", maneuver<imc::Goto>(30, 0))
+                    .then("Rows2", rows)
+                    .then("YoYo3", yoyo)
+                    .then("Elevator4", elevator)
+                    .then("StationKeeping5", station)
+                    .start());
+    std::vector<std::string> flown;
+    std::map<std::string, std::pair<double, double>> depths;  // least and greatest
+    double progress = 0, rows_east = 0;
+    const bool done = mission.fly(900s, [&] {
+      const auto state = mission.plan();
+      if (mission.is_over() && mission.now() > 1s) return true;
+      const std::string name(state.man_id.view());
+      if (flown.empty() || flown.back() != name) {
+        if (!name.empty()) flown.push_back(name);
+        depths[name] = {1e9, -1e9};
+      }
+      if (name.empty()) return false;
+      CHECK(name.starts_with(imc::message_set().find(state.man_type, 0)->name));
+      CHECK(state.plan_progress >= static_cast<float>(progress));
+      progress = static_cast<double>(state.plan_progress);
+      const double depth = mission.truth("depth");
+      auto& [least, greatest] = depths[name];
+      if (mission.progress().distance < 45) least = std::min(least, depth), greatest = std::max(greatest, depth);
+      if (name == "Rows2") rows_east = std::max(rows_east, mission.truth("y"));
+      return false;
+    });
+    CHECK(done);
+    CHECK(flown == std::vector<std::string>{"Goto1", "Rows2", "YoYo3", "Elevator4", "StationKeeping5"});
+    CHECK(mission.plan().last_outcome == imc::PlanControlState::LastOutcome::SUCCESS);
+    CHECK(rows_east == doctest::Approx(20).epsilon(0.15));
+    CHECK(depths["YoYo3"].first == doctest::Approx(2.5).epsilon(0.2));
+    CHECK(depths["YoYo3"].second == doctest::Approx(5.5).epsilon(0.1));
+    CHECK(depths["Elevator4"].second == doctest::Approx(6).epsilon(0.1));
+    CHECK(mission.truth("depth") < 0.2);
+    CHECK(std::hypot(mission.truth("x"), mission.truth("y")) < 12);
+  }
+
+  TEST_CASE("it comes up where a pop-up says, stays there for its time, and goes on") {
+    Mission mission;
+    auto up = maneuver<imc::PopUp>(40, 10);
+    up.flags = imc::PopUp::Flags::WAIT_AT_SURFACE;
+    up.duration = 20;
+    mission.say(PlanOf("look").then("PopUp1", up).then("Goto2", maneuver<imc::Goto>(0, 0)).start());
+    double deepest = 0, at_surface = 0;
+    CHECK(mission.fly(300s, [&] {
+      const double depth = mission.truth("depth");
+      deepest = std::max(deepest, depth);
+      if (deepest > 2.5 && depth < 0.3) at_surface += 0.1;
+      return mission.plan().man_id == "Goto2";
+    }));
+    CHECK(deepest > 2.5);
+    CHECK(at_surface > 18);
+    CHECK(std::hypot(mission.truth("x") - 40, mission.truth("y") - 10) < 25);
+  }
+
+  TEST_CASE("it follows references while they come, circles where they end, and fails when they do") {
+    Mission mission;
+    imc::FollowReference follow;
+    follow.control_src = 0xffff;
+    follow.control_ent = 0xff;
+    follow.timeout = 10;
+    follow.loiter_radius = 12;
+    mission.say(start("lead", follow));
+    mission.fly(100ms);
+    CHECK(mission.console.to.last<imc::FollowRefState>().state == imc::FollowRefState::State::WAIT);
+    imc::Reference reference = at<imc::Reference>(40, 20);
+    reference.flags = imc::Reference::Flags::LOCATION | imc::Reference::Flags::SPEED | imc::Reference::Flags::Z;
+    REQUIRE(
+        messages::put_inline(messages::refer_to(imc::DesiredSpeed{1.2, imc::SpeedUnits::METERS_PS}), reference.speed));
+    REQUIRE(messages::put_inline(messages::refer_to(imc::DesiredZ{2, imc::ZUnits::DEPTH}), reference.z));
+    const auto state = [&] { return mission.console.to.last<imc::FollowRefState>().state; };
+    for (int k = 0; k < 20; ++k) {
+      mission.say(reference);
+      mission.fly(5s);
+      if (k == 1) CHECK(state() == imc::FollowRefState::State::GOTO);
+    }
+    CHECK(state() == imc::FollowRefState::State::LOITER);
+    CHECK(mission.truth("depth") == doctest::Approx(2).epsilon(0.05));
+    CHECK(std::hypot(mission.truth("x") - 40, mission.truth("y") - 20) == doctest::Approx(12).epsilon(0.05));
+    CHECK(mission.fly(12s, [&] { return mission.is_over(); }));
+    CHECK(mission.plan().last_outcome == imc::PlanControlState::LastOutcome::FAILURE);
+    CHECK(mission.console.to.last<imc::VehicleState>().last_error == "maneuver '1': no reference for 10 s");
+    mission.fly(60s);
+    CHECK(mission.truth("depth") < 0.3);  // it has come up
+  }
+}
