@@ -1,6 +1,7 @@
 // The operator's hand: RemoteActions of a stick, as in Neptus.
 #include <algorithm>
 
+#include "distributers/lauv/messages.h"
 #include "distributers/lauv/operator.h"
 #include "distributers/lauv/tuple_list.h"
 #include "graph/math/geometry.h"
@@ -44,6 +45,7 @@ void LauvOperator::start_teleoperation() {
   heading_axis_ = thrust_axis_ = 0;
   button_ = 0;
   let_go_ = true;
+  maneuver_start_ = unix_time();
   set_mode(Mode::teleoperation);
 }
 

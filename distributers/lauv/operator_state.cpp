@@ -14,7 +14,7 @@ using tasks::Turn;
 
 constexpr std::string_view actions_known =
     "Exit=Button;Accelerate=Button;Decelerate=Button;Stop=Button;Heading=Axis;Thrust=Axis;Ranges=Range127";
-constexpr std::size_t most_kept = 100;  // lines of the log book
+constexpr std::size_t most_kept = 100, longest_line = 500;  // of the log book: all fit into one answer
 
 // From an entity, to all.
 template <class M>
@@ -32,7 +32,7 @@ void LauvOperator::log(std::uint8_t type, const std::string& text) {
   entry.type = type;
   entry.htime = unix_time();
   entry.context = "operator";
-  entry.text = text;
+  entry.text = std::string_view(text).substr(0, longest_line);
   answer(entry, operator_entity);
   if (log_book_.size() == most_kept) log_book_.erase(log_book_.begin());
   log_book_.push_back(entry);
@@ -164,6 +164,10 @@ void LauvOperator::send_plan_state(messages::Receiver& system) const {
     state.man_type = static_cast<std::uint16_t>(plan_.maneuver().type);
     state.man_eta = static_cast<std::int32_t>(std::min(plan_.maneuver_left(), 2e9));
     if (plan_.follower() != nullptr) send_from(plan_entity, plan_.follower()->state(), system);
+  } else if (mode_ == Mode::teleoperation && !blocked) {  // by the stick alone
+    state.state = State::EXECUTING;
+    state.plan_id = "";
+    state.man_type = imc::Teleoperation::message_id;
   }
   send_from(plan_entity, state, system);
 }

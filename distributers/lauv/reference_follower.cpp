@@ -14,6 +14,7 @@ using tasks::Course;
 
 constexpr std::uint16_t any_system = 0xffff;
 constexpr std::uint8_t any_entity = 0xff;
+constexpr double usual_speed = 1;   // m/s, until a reference has one
 constexpr double same_place = 0.5;  // m
 constexpr double surface = 0.5;     // m, where it keeps its station with the propeller off
 
@@ -34,7 +35,7 @@ ReferenceFollower::ReferenceFollower(const Maneuver& maneuver, Duration now)
       timeout_(maneuver.timeout),
       radius_(maneuver.loiter_radius),
       heard_(now),
-      leg_{.course = Course::rest} {}
+      leg_{.course = Course::rest, .surge = usual_speed} {}
 
 bool ReferenceFollower::take(const imc::Reference& reference, std::uint16_t source, std::uint8_t entity, Duration now,
                              const Origin& origin) {

@@ -170,10 +170,10 @@ void fly_square(const std::vector<std::string>& set, double settled_after, doubl
   CHECK(done);
   CHECK(mission.plan().last_outcome == imc::PlanControlState::LastOutcome::SUCCESS);
   CHECK(worst.size() == 4);
-  for (const auto& [name, off] : worst) {
-    CAPTURE(name);
-    CHECK(off < widest);
-    MESSAGE(name << ": " << off << " m off its side, " << settled_after << " s after the turn began");
+  for (const auto& each : worst) {
+    CAPTURE(each.first);
+    CHECK(each.second < widest);
+    MESSAGE(each.second << " m off its side, from " << settled_after << " s after the turn began");
   }
   MESSAGE("out of the square by " << outside << " m, depth within " << depth_error << " m, " << seconds(mission.now())
                                   << " s");
@@ -196,7 +196,7 @@ TEST_SUITE("tools/dune_plans") {
       loiter.direction = way;
       mission.say(start("round", loiter));
       CHECK(mission.fly(120s, [&] { return mission.progress().near; }));
-      mission.fly(30s);
+      mission.fly(60s);
       double worst = 0, turned = 0, last = mission.truth("heading");
       CHECK(mission.fly(200s, [&] {
         if (mission.is_over()) return true;

@@ -112,12 +112,18 @@ TEST_SUITE("tools/submarine_recordings") {
     CHECK(submarine.state().z == doctest::Approx(0.0541).epsilon(0.001));
   }
 
-  TEST_CASE("submarine_vsim.yaml and submarine_dune.yaml differ in one word") {
+  TEST_CASE(
+      "submarine_vsim.yaml and submarine_dune.yaml differ in physics, in the hull's shape and in what fins roll") {
     SubmarineParameters vsim = parameters_of("specs/vehicles/submarine_vsim.yaml");
     const SubmarineParameters dune = parameters_of("specs/vehicles/submarine_dune.yaml");
     CHECK(vsim.vsim_compatible);
     CHECK(!dune.vsim_compatible);
     vsim.vsim_compatible = false;
+    CHECK(dune.hull.length < vsim.hull.length);
+    vsim.hull.length = dune.hull.length;
+    vsim.hull.diameter = dune.hull.diameter;
+    CHECK(dune.fins.radius == 0);
+    vsim.fins.radius = 0;
     const Type& type = type_of<SubmarineParameters>();
     CHECK(type.hash_words(&vsim) == type.hash_words(&dune));
   }

@@ -197,10 +197,10 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     m.lat = std::numeric_limits<double>::quiet_NaN();
     refuses(m, "lat is no number");
     m.lat = 0;
-    refuses(m, "its place is 4563 km from the origin; places within 100 km are gone to");
+    refuses(m, "its place is 4574 km from the origin; places within 100 km are gone to");
     refuses(imc::StopManeuver{}, "StopManeuver is not flown here");
     refuses(at<imc::FollowPath>(0, 0), "a path has at least one point");
-    refuses(at<imc::Rows>(0, 0), "rows of 0 m, 0 m apart over 0 m; lengths are positive");
+    refuses(at<imc::Rows>(0, 0), "rows of 0 m, 30 m apart over 0 m; lengths are positive");
     auto rows = at<imc::Rows>(0, 0);
     rows.length = rows.width = 1e9F;
     rows.hstep = 1e-3F;
@@ -255,6 +255,6 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     plan.maneuvers.push_back(packed(named));
     refuses("maneuver 'x': there is no maneuver in it");
     plan.maneuvers[0].payload.resize(1);
-    refuses("maneuver 1 can't be read: payload of 1 bytes");
+    refuses("maneuver 1 can't be read: field 'maneuver_id' of PlanManeuver needs 2 bytes where 1 are left");
   }
 }

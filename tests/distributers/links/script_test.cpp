@@ -82,7 +82,9 @@ TEST_SUITE("distributers/links/script") {
           "there are: setpoint.depth, setpoint.heading, setpoint.speed, setpoint.turn, setpoint.rate, "
           "setpoint.drive, setpoint.thrust, actuation.thruster, actuation.fins.0, "
           "actuation.fins.1, "
-          "actuation.fins.2, actuation.fins.3, contact.silence, contact.stops\n"
+          "actuation.fins.2, actuation.fins.3, leg.number, leg.course, leg.north, leg.east, leg.turn, leg.radius, "
+          "leg.duration, leg.until_level, leg.vertical, leg.level, leg.amplitude, leg.slope, leg.drive, leg.surge, "
+          "leg.thrust, contact.silence, contact.stops\n"
           "  time,setpoint.deep\n"
           "       ^");
     CHECK(report_on("t,setpoint.depth\n0,x\n0,1\n1,1,1\n-1,2\n") ==
