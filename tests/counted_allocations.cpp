@@ -7,9 +7,11 @@
 
 namespace {
 std::atomic<std::uint64_t> made{0};
+thread_local std::uint64_t made_here = 0;
 
 void* counted(std::size_t size, std::size_t alignment) {
   made.fetch_add(1, std::memory_order_relaxed);
+  ++made_here;
   void* memory = alignment > alignof(std::max_align_t)
                      ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
                      : std::malloc(size);
@@ -33,3 +35,4 @@ void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 std::uint64_t jarol::tests::allocations() { return made.load(); }
+std::uint64_t jarol::tests::allocations_of_this_thread() { return made_here; }

@@ -1,6 +1,32 @@
 #include "distributers/session/replay.h"
 
+#include <utility>
+
 namespace jarol {
+namespace {
+
+class ReplayedFromState : public Channels {
+ public:
+  ReplayedFromState(std::unique_ptr<Channels> system, std::unique_ptr<Channels> replayed)
+      : system_(std::move(system)), replayed_(std::move(replayed)) {}
+  void reach(Duration instant) override { replayed_->reach(instant); }
+  bool take(std::size_t channel, void* value) override { return replayed_->take(channel, value); }
+  void hand_over(std::size_t channel, const void* value) override { replayed_->hand_over(channel, value); }
+  void serialize(Archive& archive) override { system_->serialize(archive); }
+
+ private:
+  std::unique_ptr<Channels> system_, replayed_;
+};
+
+}  // namespace
+
+std::vector<std::unique_ptr<Channels>> with_state_of(std::vector<std::unique_ptr<Channels>> systems,
+                                                     std::vector<std::unique_ptr<Channels>> replayed) {
+  std::vector<std::unique_ptr<Channels>> both;
+  for (std::size_t i = 0; i < systems.size(); ++i)
+    both.push_back(std::make_unique<ReplayedFromState>(std::move(systems[i]), std::move(replayed[i])));
+  return both;
+}
 
 void ReplayRun::cover() {
   const auto go_to = [&](Duration end) {
@@ -11,6 +37,7 @@ void ReplayRun::cover() {
   for (const RunningDigest& digest : log_.digests()) {
     const Duration settled(digest.settled);
     if (!whole_ || digest.exact == 0 || comparison.diverged_until || settled > log_.covered()) continue;
+    if (settled < executor_.now()) continue;  // before where it begins
     if (!go_to(settled)) return;
     (executor_.report().digest == digest.digest ? comparison.same_until : comparison.diverged_until) = settled;
   }

@@ -1,7 +1,9 @@
 // A run again, from its recording, beside what that says of it.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "runtime/execute/executor_run.h"
 #include "runtime/record/recorded_run.h"
@@ -17,6 +19,11 @@ struct Comparison {
   std::optional<Duration> diverged_until;  // the first one up to which it was not
   bool interrupted = false;
 };
+
+/// Replayed channels of a run that goes on from what was saved of it: the state of its external systems is restored
+/// with all else, and nobody looks at it. One for one.
+std::vector<std::unique_ptr<Channels>> with_state_of(std::vector<std::unique_ptr<Channels>> systems,
+                                                     std::vector<std::unique_ptr<Channels>> replayed);
 
 /// To the end of what the recording covers, from digest to digest, so that it shows where the two diverge.
 class ReplayRun : public ExecutorRun {

@@ -87,6 +87,10 @@ void RecordedRun::keep(const mcap::Message& message, const ReadTopic& topic, std
     end_ = read(LogEnd{}, digests_, end_.has_value());
   } else if (name == topics::gaps) {
     gaps_.push_back(read(Gap{}));
+  } else if (name == topics::checkpoints) {
+    if (!is_time(message.time) || (!saved_.empty() && Duration(message.time) <= saved_.back()))
+      fail_at(offset, "a checkpoint that is not after the one before it");
+    saved_.emplace_back(message.time);
   }
   if (misses_.size() > most_kept || digests_.size() > most_kept || gaps_.size() > most_kept)
     fail("has more than " + std::to_string(most_kept) + " misses, digests or gaps; record a shorter run");
@@ -99,7 +103,25 @@ Duration RecordedRun::covered() const {
   return covered;
 }
 
-std::vector<Miss> RecordedRun::begin(const Graph& graph) {
+std::optional<Duration> RecordedRun::saved_before(Duration instant) const {
+  const auto after = std::upper_bound(saved_.begin(), saved_.end(), instant);
+  return after == saved_.begin() ? std::nullopt : std::optional(*(after - 1));
+}
+
+std::string RecordedRun::saved_at(Duration instant) const {
+  const ReadTopic* const topic = recording_->find(topics::checkpoints);
+  std::vector<bool> wanted(65536);
+  if (topic != nullptr) wanted[topic->channel.id] = true;
+  const MessageCursor cursor(*recording_, std::move(wanted), instant);
+  SavedState state;
+  if (cursor.message() == nullptr || Duration(cursor.message()->time) != instant)
+    fail("has no checkpoint at " + seconds_text(instant) + " s");
+  if (const std::string wrong = decode_cdr(type_of<SavedState>(), bytes_of(*cursor.message()), &state); !wrong.empty())
+    fail_at(cursor.chunk_offset(), "a checkpoint that " + wrong);
+  return std::string(state.bytes);
+}
+
+std::vector<Miss> RecordedRun::begin(const Graph& graph, Duration from) {
   graph_ = &graph;
   const std::vector<std::size_t> inputs = logged_inputs(graph);
   std::map<std::string, std::size_t> communicator_of;
@@ -135,7 +157,7 @@ std::vector<Miss> RecordedRun::begin(const Graph& graph) {
     if (task == tasks.end()) fail_for_graph("says that task '" + name + "' was late, which is not in");
     miss.task = task->second;
   }
-  next_.emplace(*recording_, std::move(wanted));
+  next_.emplace(*recording_, std::move(wanted), from);
   return misses;
 }
 

@@ -32,9 +32,14 @@ class RecordedRun : public TakenValues {
   /// The instants before it can be replayed.
   Duration covered() const;
 
-  /// The values are for that graph from now on; returns the misses of its tasks. Throws LogError if the recording is of
-  /// another graph.
-  std::vector<Miss> begin(const Graph& graph);
+  /// The newest instant, none that is later, at which the run was saved on its way; none: there is no such.
+  std::optional<Duration> saved_before(Duration instant) const;
+  /// What it was at one of those instants. Throws LogError.
+  std::string saved_at(Duration instant) const;
+
+  /// The values are for that graph from now on, those of the instants from `from` on; returns the misses of its tasks.
+  /// Throws LogError if the recording is of another graph.
+  std::vector<Miss> begin(const Graph& graph, Duration from = {});
 
   bool take(Duration instant, std::size_t communicator, void* value) override;
 
@@ -58,6 +63,7 @@ class RecordedRun : public TakenValues {
   std::vector<Miss> misses_;     // by the header's tasks
   std::vector<RunningDigest> digests_;
   std::vector<Gap> gaps_;
+  std::vector<Duration> saved_;
   const Graph* graph_ = nullptr;
   std::vector<std::size_t> communicators_;  // per channel
   std::optional<MessageCursor> next_;       // what was taken

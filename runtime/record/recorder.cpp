@@ -5,10 +5,14 @@
 #include <stdexcept>
 
 #include "graph/values/pack.h"
+#include "runtime/machine/futex.h"
 
 namespace jarol {
 namespace {
 constexpr std::uint64_t ended = std::uint64_t{1} << 63;
+
+// So long the thread that drains sleeps between two looks where nobody wakes it: at first, and where nothing comes.
+constexpr std::chrono::microseconds shortest_sleep{50}, longest_sleep{1000};
 
 // What stands before the cause of an event.
 struct EventHeader {
@@ -66,6 +70,7 @@ void Recorder::append_deep(std::int64_t instant, std::uint32_t output, const voi
 void Recorder::catch_up() {
   if (used_ > 0) next_chunk();
   const std::uint64_t written = written_.load(std::memory_order_relaxed);
+  if (read_.load(std::memory_order_acquire) < written) wake();
   for (std::uint64_t read = read_.load(std::memory_order_acquire); read < written;
        read = read_.load(std::memory_order_acquire))
     read_.wait(read, std::memory_order_acquire);
@@ -84,9 +89,8 @@ void Recorder::append_event(const RunEvent& event) {
 void Recorder::close() {
   if (!thread_.joinable()) return;
   if (used_ > 0 && !is_cut_off_) publish_chunk();
-  // the end is part of the awaited word: a flag of its own could be set between test and wait
   written_.fetch_or(ended, std::memory_order_release);
-  written_.notify_one();
+  wake();
   thread_.join();
   if (failure_) std::rethrow_exception(failure_);
   if (!lost_.empty()) throw std::length_error(lost_);
@@ -96,8 +100,19 @@ void Recorder::publish_chunk() {
   const std::uint64_t index = written_.load(std::memory_order_relaxed);
   bytes_[index % chunks] = used_;
   written_.store(index + 1, std::memory_order_release);
-  written_.notify_one();
   used_ = 0;
+}
+
+void Recorder::wake() {
+  bell_.fetch_add(1, std::memory_order_release);
+  Futex::wake_all(bell_);
+}
+
+// Until the bell has another value than that; nobody has to ring it for what can wait.
+void Recorder::sleep(std::uint32_t bell, std::chrono::microseconds longest) {
+  is_asleep_.store(true, std::memory_order_relaxed);
+  Futex::wait(bell_, bell, Futex::now() + longest);
+  is_asleep_.store(false, std::memory_order_relaxed);
 }
 
 void Recorder::next_chunk() {
@@ -109,8 +124,9 @@ void Recorder::next_chunk() {
   }
   publish_chunk();
   const std::uint64_t next = written_.load(std::memory_order_relaxed);
-  for (std::uint64_t read = read_.load(std::memory_order_acquire); next - read >= chunks;
-       read = read_.load(std::memory_order_acquire))
+  std::uint64_t read = read_.load(std::memory_order_acquire);
+  if (next - read >= chunks / 2 && is_asleep_.load(std::memory_order_relaxed)) wake();
+  for (; next - read >= chunks; read = read_.load(std::memory_order_acquire))
     read_.wait(read, std::memory_order_acquire);
   now_ = memory_.get() + (next % chunks) * chunk_bytes;
 }
@@ -126,13 +142,17 @@ void Recorder::cut_off() {
 
 void Recorder::run() {
   std::uint64_t read = 0;
+  std::chrono::microseconds pause = shortest_sleep;
   while (true) {
+    const std::uint32_t bell = bell_.load(std::memory_order_acquire);
     const std::uint64_t written = written_.load(std::memory_order_acquire);
     if ((written & ~ended) == read) {
       if ((written & ended) != 0) break;
-      written_.wait(written, std::memory_order_acquire);
+      sleep(bell, pause);
+      pause = std::min(2 * pause, longest_sleep);
       continue;
     }
+    pause = shortest_sleep;
     drain(memory_.get() + (read % chunks) * chunk_bytes, bytes_[read % chunks]);
     read_.store(++read, std::memory_order_release);
     read_.notify_one();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -46,7 +47,8 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Appends one value. Waits if the sinks are a whole ring behind.
+  /// Appends one value. Calls the system only where the sinks are half a ring behind, and waits if they are a whole
+  /// one.
   void append(std::int64_t instant, std::uint32_t output, const void* value, std::uint32_t size) {
     const std::size_t padded = (size + 7U) & ~std::size_t{7};
     if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk();
@@ -88,6 +90,8 @@ class Recorder {
   void next_chunk();
   [[gnu::cold]] void cut_off();
   void publish_chunk();
+  [[gnu::cold]] void wake();
+  void sleep(std::uint32_t bell, std::chrono::microseconds longest);
   void run();
   void drain(const std::byte* chunk, std::size_t bytes);
   void hold(const RecordHeader& header, const std::byte* packed);
@@ -116,6 +120,8 @@ class Recorder {
   bool is_cut_off_ = false;                // nothing is handed on any more
   std::atomic<std::uint64_t> written_{0};  // chunks handed on; the top bit says that no more will come
   std::atomic<std::uint64_t> read_{0};     // chunks drained
+  std::atomic<std::uint32_t> bell_{0};     // changes where the thread that drains is to be woken
+  std::atomic<bool> is_asleep_{false};     // that thread
   std::exception_ptr failure_;             // of a sink; read when all is drained
   std::thread thread_;
 };

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "graph/language/inputs.h"
+#include "runtime/mcap/crc32.h"
 
 namespace jarol {
 namespace {
@@ -31,7 +32,7 @@ Recording::Recording(std::string path, const Visit& visit) : path_(std::move(pat
     note_input(path_);
     size_ = reader.size();
     read_begin(reader);
-    read_chunks(reader, visit);
+    if (visit || !read_summary(reader)) read_chunks(reader, visit);
   } catch (const std::system_error& error) {
     throw LogError("can't read '" + path_ + "': " + error.code().message());
   } catch (const mcap::FormatError&) {
@@ -70,6 +71,67 @@ void Recording::read_begin(mcap::Reader& reader) {
     if (names_plugins(set))
       fail("sets '" + set + "', and a recording names no code to load; it is none that jarol run has written");
   reader.seek(good_until_);
+}
+
+// False: there is none that is whole, and the file has to be gone through. Nothing has changed then.
+bool Recording::read_summary(mcap::Reader& reader) {
+  constexpr std::size_t footer_bytes = mcap::record_head + 8 + 8 + 4;
+  if (size_ < good_until_ + footer_bytes + mcap::magic.size()) return false;
+  const std::uint64_t footer_at = size_ - mcap::magic.size() - footer_bytes;
+  const std::string end = reader.bytes(footer_at, footer_bytes + mcap::magic.size());
+  if (!end.ends_with(mcap::magic) || static_cast<mcap::Opcode>(end[0]) != mcap::Opcode::footer) return false;
+  std::map<std::uint16_t, mcap::Schema> schemas;
+  std::map<std::uint16_t, ReadTopic> found;
+  std::vector<ReadPlace> chunks;
+  try {
+    mcap::ByteCursor footer(std::string_view(end).substr(mcap::record_head));
+    const auto begin = footer.number<std::uint64_t>();
+    footer.number<std::uint64_t>();
+    const auto crc = footer.number<std::uint32_t>();
+    if (begin < good_until_ || begin > footer_at) return false;
+    const std::string summary = reader.bytes(begin, footer_at - begin + footer_bytes - sizeof crc);
+    if (mcap::crc32(summary) != crc) return false;
+    const auto read = [&](mcap::Opcode opcode, std::string_view content, std::size_t) {
+      mcap::ByteCursor in(content);
+      if (opcode == mcap::Opcode::schema) {
+        mcap::Schema schema = mcap::read_schema(content);
+        schemas[schema.id] = std::move(schema);
+      } else if (opcode == mcap::Opcode::channel) {
+        mcap::Channel channel = mcap::read_channel(content);
+        const auto schema = schemas.find(channel.schema);
+        if (schema == schemas.end()) throw mcap::FormatError("a channel without a schema");
+        found.emplace(channel.id, ReadTopic{channel, schema->second.name, schema->second.text});
+      } else if (opcode == mcap::Opcode::statistics) {
+        in.number<std::uint64_t>();
+        in.number<std::uint16_t>();
+        for (int i = 0; i < 4; ++i) in.number<std::uint32_t>();
+        for (int i = 0; i < 2; ++i) in.number<std::int64_t>();
+        for (mcap::ByteCursor counts(in.text()); !counts.at_end();) {
+          const auto topic = found.find(counts.number<std::uint16_t>());
+          if (topic == found.end()) throw mcap::FormatError("messages of no channel");
+          topic->second.messages = counts.number<std::uint64_t>();
+        }
+      } else if (opcode == mcap::Opcode::chunk_index) {
+        ReadPlace place{0, 0, 0, 65535, 0};
+        place.start = in.number<std::int64_t>();
+        place.end = in.number<std::int64_t>();
+        place.offset = in.number<std::uint64_t>();
+        in.number<std::uint64_t>();
+        for (mcap::ByteCursor indexes(in.text()); !indexes.at_end(); indexes.number<std::uint64_t>()) {
+          const auto channel = indexes.number<std::uint16_t>();
+          place.least_channel = std::min(place.least_channel, channel);
+          place.most_channel = std::max(place.most_channel, channel);
+        }
+        chunks.push_back(place);
+      }
+    };
+    mcap::for_each_record(std::string_view(summary).substr(0, footer_at - begin), read);
+  } catch (const mcap::FormatError&) { return false; }
+  schemas_ = std::move(schemas);
+  topics_ = std::move(found);
+  chunks_ = std::move(chunks);
+  good_until_ = size_;
+  return whole_ = true;
 }
 
 void Recording::read_chunks(mcap::Reader& reader, const Visit& visit) {
@@ -130,7 +192,7 @@ const ReadTopic* Recording::find(std::string_view topic) const {
 void Recording::fail(const std::string& what) const { throw LogError("'" + path_ + "' " + what); }
 
 MessageCursor::MessageCursor(const Recording& recording, std::vector<bool> wanted, Duration from)
-    : reader_(recording.path()), wanted_(std::move(wanted)), from_(from.count()) {
+    : recording_(recording), reader_(recording.path()), wanted_(std::move(wanted)), from_(from.count()) {
   wanted_.resize(65536);
   for (const ReadPlace& chunk : recording.chunks())
     if (chunk.end >= from_ && wants(chunk)) chunks_.push_back(chunk);
@@ -144,11 +206,26 @@ bool MessageCursor::wants(const ReadPlace& chunk) const {
 }
 
 void MessageCursor::open_chunk() {
-  reader_.seek(chunks_[at_++].offset);
+  const std::uint64_t offset = chunks_[at_++].offset;
+  reader_.seek(offset);
   mcap::Record record;
-  if (!reader_.next(record)) throw mcap::FormatError("a chunk that is gone");
-  records_ = mcap::read_chunk(record.content).records;
-  place_ = 0;
+  try {
+    if (!reader_.next(record) || record.opcode != mcap::Opcode::chunk) throw mcap::FormatError("no chunk");
+    records_ = mcap::read_chunk(record.content).records;
+    place_ = 0;
+    require_whole();
+  } catch (const mcap::FormatError& error) {
+    throw LogError("'" + recording_.path() + "' is damaged: at byte " + std::to_string(offset) + " there is " +
+                   error.what());
+  }
+}
+
+// From here on it is believed.
+void MessageCursor::require_whole() const {
+  mcap::for_each_record(records_, [&](mcap::Opcode opcode, std::string_view content, std::size_t) {
+    if (opcode == mcap::Opcode::message && !recording_.topics().contains(mcap::read_message(content).channel))
+      throw mcap::FormatError("a message of no channel");
+  });
 }
 
 void MessageCursor::next() {
@@ -159,7 +236,7 @@ void MessageCursor::next() {
       open_chunk();
       continue;
     }
-    std::uint64_t length = 0;  // checked when the recording was read
+    std::uint64_t length = 0;
     std::memcpy(&length, records_.data() + place_ + 1, sizeof length);
     const std::string_view content = std::string_view(records_).substr(place_ + mcap::record_head, length);
     const bool is_message = static_cast<mcap::Opcode>(records_[place_]) == mcap::Opcode::message;

@@ -35,7 +35,8 @@ class Recording {
   /// With the offset of its chunk.
   using Visit = std::function<void(const mcap::Message& message, const ReadTopic& topic, std::uint64_t offset)>;
 
-  /// Goes through the whole file, and shows `visit` each message. Throws LogError, "'path' ...", if it is no recording.
+  /// With `visit` it goes through the whole file, and shows it each message; else, of a file that is whole, only
+  /// through the index at its end. Throws LogError, "'path' ...", if it is no recording.
   explicit Recording(std::string path, const Visit& visit = {});
 
   const std::string& path() const { return path_; }
@@ -55,6 +56,7 @@ class Recording {
 
  private:
   void read_begin(mcap::Reader& reader);
+  bool read_summary(mcap::Reader& reader);
   void read_chunks(mcap::Reader& reader, const Visit& visit);
   void read_chunk(const mcap::Record& record, const Visit& visit);
   [[noreturn]] void fail(const std::string& what) const;
@@ -69,7 +71,7 @@ class Recording {
   std::uint64_t good_until_ = 0, size_ = 0;
 };
 
-/// The messages of some topics of a recording, chunk by chunk.
+/// The messages of some topics of a recording, chunk by chunk. Throws LogError where a chunk is damaged.
 class MessageCursor {
  public:
   /// The recording outlives it. `wanted`: by channel; those from `from` on.
@@ -83,8 +85,10 @@ class MessageCursor {
 
  private:
   bool wants(const ReadPlace& chunk) const;
+  void require_whole() const;
   void open_chunk();
 
+  const Recording& recording_;
   mcap::Reader reader_;
   std::vector<ReadPlace> chunks_;  // that may hold some
   std::vector<bool> wanted_;

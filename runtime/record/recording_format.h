@@ -11,6 +11,7 @@
 #include "graph/language/load.h"
 #include "graph/model/graph.h"
 #include "graph/values/describe.h"
+#include "graph/values/sequence.h"
 
 namespace jarol {
 
@@ -33,6 +34,7 @@ struct RecordingHeader {
   std::string file;  // of the graph, from the root
   Overrides overrides;
   std::string clock;   // of the run: virtual or real
+  Duration begin{};    // from which on it is recorded; above zero it went on there from what was saved
   Duration until{};    // what the run was to reach; the greatest there is: until it was ended
   Duration mission{};  // the end of the mission; zero: there was none, or it is not known
   std::uint64_t seed = 0;
@@ -50,6 +52,7 @@ inline constexpr std::string_view taken = "jarol/taken/";
 inline constexpr std::string_view misses = "jarol/misses";
 inline constexpr std::string_view digests = "jarol/digests";
 inline constexpr std::string_view rest = "jarol/rest";
+inline constexpr std::string_view checkpoints = "jarol/checkpoints";
 inline constexpr std::string_view end = "jarol/end";
 inline constexpr std::string_view events = "jarol/events";
 inline constexpr std::string_view gaps = "jarol/gaps";
@@ -68,6 +71,13 @@ struct LogEnd {
     return describe(field<&LogEnd::covered>("ns"), field<&LogEnd::simulated>("ns"), field<&LogEnd::digest>(),
                     field<&LogEnd::activations>(), field<&LogEnd::instants>(), field<&LogEnd::faults>());
   }
+};
+
+/// The whole run between two instants, as a checkpoint has it.
+struct SavedState {
+  String bytes{};
+
+  static constexpr auto fields() { return describe(field<&SavedState::bytes>()); }
 };
 
 /// Published values that came faster than the disk took them, on the real clock: those of these instants are not all in

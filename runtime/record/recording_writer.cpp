@@ -81,7 +81,8 @@ void RecordingWriter::add_inputs(const Graph& graph) {
     const bool own = output.name.starts_with(topics::own);
     topics.push_back(topic(own ? output.name : std::string(topics::taken) + output.name, *output.type));
   }
-  const std::vector<RecordedTopic> beside{topic(std::string(topics::end), type_of<LogEnd>())};
+  const std::vector<RecordedTopic> beside{topic(std::string(topics::end), type_of<LogEnd>()),
+                                          topic(std::string(topics::checkpoints), type_of<SavedState>())};
   inputs_.emplace(queue_, RecordedStream::Pressure::keeps, schemas_, topics, beside);
 }
 
@@ -115,6 +116,12 @@ void RecordingWriter::open() {
   queue_.start([this](const mcap::Chunk& chunk) { writer_->write(chunk); });
 }
 
+void RecordingWriter::add_checkpoint(Duration instant, std::string_view bytes) {
+  recorder_->catch_up();
+  const SavedState state{String(bytes)};
+  inputs_->append_beside(checkpoint_topic, instant, &state);
+}
+
 void RecordingWriter::close(const LogEnd& end) {
   finish(end);
   // what is in buffers goes out here at the latest, so that a full disk shows
@@ -125,7 +132,7 @@ void RecordingWriter::close(const LogEnd& end) {
 
 void RecordingWriter::finish(const LogEnd& end) {
   recorder_->close();
-  inputs_->append_beside(0, Duration(end.covered), &end);
+  inputs_->append_beside(end_topic, Duration(end.covered), &end);
   inputs_->finish();
   try {
     queue_.close();

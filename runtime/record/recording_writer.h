@@ -40,6 +40,10 @@ class RecordingWriter {
   /// std::runtime_error, "can't write 'path': reason".
   void open();
 
+  /// The run as it is between two instants: by the thread that covers them, while the recorder stands still. A replay
+  /// can begin there.
+  void add_checkpoint(Duration instant, std::string_view bytes);
+
   /// After the run and after the recorder of publications. Throws std::runtime_error if anything could not be written.
   void close(const LogEnd& end);
   /// The same but for closing the file: the system has all of it, the disk need not.
@@ -49,6 +53,7 @@ class RecordingWriter {
   std::uint64_t dropped() const { return publications_ ? publications_->dropped() : 0; }
 
  private:
+  enum BesideInputs : std::size_t { end_topic, checkpoint_topic };
   void add_inputs(const Graph& graph);
   void add_publications(const Graph& graph);
   RecordedTopic topic(std::string name, const Type& type, mcap::Texts metadata = {});

@@ -11,7 +11,7 @@ constexpr std::size_t none = static_cast<std::size_t>(-1);
 }
 
 ReplayedValues::ReplayedValues(const RecordedRun& run, const std::vector<Output>& outputs,
-                               const std::vector<std::string>* only)
+                               const std::vector<std::string>* only, Duration from)
     : run_(run), lane_of_(65536, none) {
   std::vector<bool> wanted(65536);
   for (const Output& output : outputs) {
@@ -29,7 +29,7 @@ ReplayedValues::ReplayedValues(const RecordedRun& run, const std::vector<Output>
     lanes_.push_back(std::move(lane));
   }
   if (!has_any_) return;
-  recorded_.emplace(run.recording(), std::move(wanted));
+  recorded_.emplace(run.recording(), std::move(wanted), from);
   end_ = run.covered();
   if (run.recording().is_whole()) return;
   // of the last instant that is there some may be missing

@@ -14,9 +14,9 @@ namespace jarol {
 class ReplayedValues : public RecordSink {
  public:
   /// The run outlives it. `outputs`: those of the graph that is replayed; `only`: names of those that are compared,
-  /// null: all.
+  /// null: all; the instants from `from` on.
   ReplayedValues(const RecordedRun& run, const std::vector<Output>& outputs,
-                 const std::vector<std::string>* only = nullptr);
+                 const std::vector<std::string>* only = nullptr, Duration from = {});
 
   /// False: the recording has nothing that could be compared.
   bool has_any() const { return has_any_; }

@@ -1,6 +1,13 @@
 // Counts every call of the global allocator: running makes none.
 #include <doctest/doctest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <filesystem>
+
+#include "runtime/execute/log_end.h"
+#include "runtime/record/recording_writer.h"
+#include "tests/caught_system_calls.h"
 #include "tests/counted_allocations.h"
 #include "tests/runtime/at_some_speed.h"
 #include "tests/runtime/trace_of.h"
@@ -79,6 +86,49 @@ connections: [c.out -> w.in, c.out -> v.in, w.out -> m.in, v.out -> n.in, w.out 
     CHECK(executor.report().activations > 1'000'000);
     CHECK(executor.report().fault_count == 0);
     CHECK(during == 0);
+  }
+
+  TEST_CASE("what calls the system is caught") {
+    const std::optional<long> first = tests::first_system_call_of([] { (void)::getppid(); });
+    if (!first) MESSAGE("left out: this kernel does not catch system calls");
+    if (first) CHECK(*first == SYS_getppid);
+    if (first) CHECK(tests::first_system_call_of([] {}) == -1);
+  }
+
+  TEST_CASE("the thread that runs tasks neither allocates nor calls the system while all is recorded") {
+    const Graph graph = tests::graph_of(R"(graph: t
+timing: {period: 1ms}
+communicators:
+  o: {type: 'double[]', direction: out}
+tasks:
+  c: {type: Counter}
+  w: {type: Window, parameters: {length: 4}}
+  v: {type: Window, let: 1ms, parameters: {length: 3}}
+  m: {type: Mean}
+connections: [c.out -> w.in, c.out -> v.in, w.out -> m.in, w.out -> o]
+)");
+    const std::string file = std::filesystem::temp_directory_path() / ("allocation_" + std::to_string(::getpid()));
+    RecordingWriter writer(file, {.graph = "t", .file = "", .overrides = {}, .clock = "virtual", .what = "all"}, {},
+                           graph);
+    writer.open();
+    Recorder recorder({writer.publications()});
+    Executor executor(graph, {}, {.recorder = &recorder, .log = writer.recorder()});
+    executor.run_until(1s);
+    recorder.catch_up();
+    std::uint64_t during = 0;
+    // some 700 KiB, so that pieces are handed on, and those who write may sleep all the while
+    const std::optional<long> first = tests::first_system_call_of([&] {
+      const std::uint64_t before = tests::allocations_of_this_thread();
+      executor.run_until(4s);
+      recorder.hand_on();
+      during = tests::allocations_of_this_thread() - before;
+    });
+    CHECK(during == 0);
+    if (first) CHECK(*first == -1);
+    recorder.close();
+    writer.close(log_end_of(executor.report()));
+    CHECK(std::filesystem::file_size(file) > 100'000);
+    std::filesystem::remove(file);
   }
 
   TEST_CASE("nor do threads that run tasks in real time") {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "graph/values/seed.h"
+
 namespace jarol::oracle {
 namespace {
 
@@ -165,6 +167,14 @@ std::string coarse_random_graph(std::uint64_t seed, std::int64_t step,
     text.insert(text.find(begin) + begin.size(), keys(task) + ", ");
   }
   return text;
+}
+
+std::string hurried_random_graph(std::uint64_t seed) {
+  constexpr std::int64_t step = 20'000;
+  return coarse_random_graph(seed, step, [&](const TaskModel& task) {
+    const char* const on_fault[] = {"hold", "skip", "stop"};
+    return std::string("core: ANY, on_fault: ") + on_fault[spread_seed(seed, task.name) % (seed % 4 == 0 ? 3 : 2)];
+  });
 }
 
 }  // namespace jarol::oracle

@@ -18,4 +18,7 @@ std::string to_yaml(const Model& model, std::uint64_t shuffle);
 std::string coarse_random_graph(std::uint64_t seed, std::int64_t step,
                                 const std::function<std::string(const TaskModel&)>& keys);
 
+/// One of steps so short that a machine can't always be in time; each ANY in it stands for a core.
+std::string hurried_random_graph(std::uint64_t seed);
+
 }  // namespace jarol::oracle

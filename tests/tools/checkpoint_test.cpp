@@ -166,8 +166,6 @@ TEST_SUITE("tools/checkpoint") {
           "error: --seed is that of the run that was saved; leave it out\n");
     CHECK(error_of(counting + "--resume " + file + " --profile x") ==
           "error: --profile is that of the run that was saved; leave it out\n");
-    CHECK(error_of(counting + "--resume " + file + " --log " + (folder / "log")) ==
-          "error: --log has to begin at the start of a run, for the replay does; leave out --resume\n");
     CHECK(error_of("specs/counting.yaml --for 500ms --resume " + file) ==
           "error: the run ends at 0.5 s, and goes on from 1 s; say until when, as in --for 100s\n");
     // a window that grows on from there

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,7 +13,6 @@
 #include "distributers/session/only_tasks.h"
 #include "distributers/session/replay.h"
 #include "distributers/session/rest_verdict.h"
-#include "graph/language/source_set.h"
 #include "graph/text/escape.h"
 #include "runtime/record/replayed_values.h"
 #include "tools/commands/commands.h"
@@ -28,8 +26,8 @@
 #include "tools/run/apart.h"
 #include "tools/run/crash_line.h"
 #include "tools/run/interrupt.h"
-#include "tools/run/load_graph.h"
 #include "tools/run/no_plugins.h"
+#include "tools/run/replay_start.h"
 #include "tools/run/run_files.h"
 #include "tools/run/run_report.h"
 
@@ -41,43 +39,10 @@ struct Options {
   std::string file;
   Overrides overrides;
   std::vector<std::string> only;
+  std::string from;  // as in 30s; empty: from where the recording begins
   bool json = false;
   RunFileArguments files;
 };
-
-// The graph of the run as it was then, or FILE in its place, with the run's overrides and those given here. A recording
-// is no program: code is loaded only where the user's own words name the file or the plugin that brings it.
-Loaded load(const Options& options, const Recording& recording) {
-  Overrides overrides = recording.header().overrides;
-  overrides.no_plugins = options.overrides.no_plugins;
-  const std::vector<std::string>& own = options.overrides.set;
-  if (overrides.no_plugins.empty() && options.file.empty() && std::none_of(own.begin(), own.end(), names_plugins))
-    overrides.no_plugins =
-        "the recording names this graph, and a recording names no code; name it yourself: jarol replay LOG FILE";
-  if (!options.overrides.profile.empty()) overrides.profile = options.overrides.profile;
-  overrides.set.insert(overrides.set.end(), options.overrides.set.begin(), options.overrides.set.end());
-  if (!options.file.empty()) return load_without_channels(options.file, overrides);
-  SourceSet sources;
-  for (const RecordedFile& file : recording.files()) sources.give(file.path, file.text);
-  return load_without_channels(recording.header().file, overrides);
-}
-
-// Files that the run has read and that are not what they were, or are gone.
-std::vector<std::string> changed_files(const Recording& recording) {
-  std::vector<std::string> changed;
-  for (const RecordedFile& file : recording.files()) {
-    std::ifstream in(file.path, std::ios::binary);
-    if (file.path != "-" && (!in || std::string(std::istreambuf_iterator<char>(in), {}) != file.text))
-      changed.push_back(file.path);
-  }
-  return changed;
-}
-
-bool is_text_of_run(const std::string& file, const Recording& recording) {
-  const std::string text = read_source(file)->text;
-  return std::any_of(recording.files().begin(), recording.files().end(),
-                     [&](const RecordedFile& f) { return f.path == recording.header().file && f.text == text; });
-}
 
 std::string text_of(const Comparison& comparison, const Report& report, const RecordedRun& log,
                     const Differences& differences, bool is_other_text, bool of_some) {
@@ -128,6 +93,7 @@ nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comp
       {"misses", misses},
       {"digest", or_null(log.end().has_value(), fmt::format("0x{:016x}", log.end() ? log.end()->digest : 0))}};
   if (log.rest_begun()) json["log"]["rest_begun_ns"] = log.rest_begun()->count();
+  if (outcome.begun > Duration{}) json["begun_ns"] = outcome.begun.count();
   json["interrupted"] = comparison.interrupted;
   json["verdict"] = comparison.standing == Standing::same       ? "same"
                     : comparison.standing == Standing::diverged ? "diverged"
@@ -141,29 +107,41 @@ nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comp
 
 int replay(const Options& options) {
   RecordedRun log(options.log);
-  Loaded whole = load(options, log.recording());
+  const Duration begin = replay_begin(options.from, log);
+  const Overrides overrides = overrides_of(log.recording(), options.file, options.overrides);
+  Loaded whole = load_recorded(log.recording(), options.file, overrides, begin > Duration{});
   require_apart({{"LOG", options.log}, {"FILE", options.file.empty() ? log.header().file : options.file}},
                 {{"--trace", options.files.trace}, {"--plot", options.files.plot}});
-  std::vector<Miss> misses = log.begin(*whole.graph);
+  if (begin > Duration{} && !options.only.empty())
+    throw std::invalid_argument("--only begins at the start of a run; leave out --from, or replay a recording of that");
+  std::vector<Miss> misses = log.begin(*whole.graph, begin);
   std::optional<OnlyTasks> only;
   if (!options.only.empty()) {
     only.emplace(*whole.graph, options.only, log.recording());
     misses = only->misses_of(misses);
   } else {
-    whole.channels = replayed_channels(*whole.graph, log);
+    std::vector<std::unique_ptr<Channels>> replayed = replayed_channels(*whole.graph, log);
+    whole.channels =
+        begin > Duration{} ? with_state_of(std::move(whole.channels), std::move(replayed)) : std::move(replayed);
   }
+  // conditions are about whole runs
+  const bool judges = begin == Duration{} || whole.graph->expectations.empty();
+  if (!judges) whole.graph->expectations.clear();
   Loaded loaded = only ? only->take() : std::move(whole);
+  RunOrigin origin;
+  if (begin > Duration{}) origin = origin_of(loaded, overrides, log.header().seed);
   const Graph& graph = *loaded.graph;
   const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
   Noted noted(graph);
   std::vector<RecordSink*> looking_on = files.sinks();
   noted.add_to(looking_on);
-  ReplayedValues values(log, outputs_of(graph), only ? &only->outputs() : nullptr);
+  ReplayedValues values(log, outputs_of(graph), only ? &only->outputs() : nullptr, begin);
   if (only && !values.has_any())
     throw std::invalid_argument("--only: the recording has no values of these tasks to compare with");
   if (values.has_any()) looking_on.push_back(&values);
   GraphRun graph_run(std::move(loaded), {.sinks = looking_on, .misses = misses});
+  if (begin > Duration{}) restore_recorded(graph_run, log, begin, std::move(origin));
   RunSinks& sinks = graph_run.sinks();
   Executor& executor = graph_run.executor();
   if (log.rest_begun()) sinks.judge_before(*log.rest_begun());
@@ -204,18 +182,21 @@ int replay(const Options& options) {
                            .noted = noted,
                            .end = run_end,
                            .seconds = seconds,
+                           .begun = begin,
                            .simulated = reached,
                            .verdict = verdict};
   if (options.json) {
     std::cout << json_line(json_of(outcome, comparison, log, differences, options, misses.size()));
   } else {
-    std::cout << fmt::format("{}: replay of {} s in {:.2f} s, {:.0f} times real time{}\n", printable(graph.name),
-                             seconds_text(outcome.simulated), seconds, real_time_factor(outcome),
+    const std::string from = begin > Duration{} ? ", from " + seconds_text(begin) + " s on," : "";
+    std::cout << fmt::format("{}: replay of {} s{} in {:.2f} s, {:.0f} times real time{}\n", printable(graph.name),
+                             seconds_text(outcome.simulated), from, seconds, real_time_factor(outcome),
                              comparison.interrupted ? " (interrupted)" : "")
               << to_text(outcome)
               << fmt::format("  log         {} values from outside, {} activations late or left out\n", log.values(),
                              misses.size());
     if (unwritten.empty()) std::cout << to_text(options.files);
+    if (!judges) std::cout << "  expected    not judged, as the replay begins on the way\n";
     std::cout << text_of(comparison, report, log, differences,
                          !options.file.empty() && !is_text_of_run(options.file, log.recording()), only.has_value());
     if (options.file.empty())
@@ -262,6 +243,8 @@ void add_replay(CommandLine& line, int& exit_code) {
   command->add_option("--only", options->only,
                       "Only these tasks, with what the recording has of the outputs that they read: names, as in "
                       "depth fins");
+  command->add_option("--from", options->from,
+                      "Begin at the newest checkpoint of the recording that is not later, as in 30s");
   add_no_plugins(*command, options->overrides);
   command->add_flag("--json", options->json, "One JSON object instead of text");
   add_run_file_options(*command, options->files);

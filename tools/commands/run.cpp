@@ -121,11 +121,13 @@ void start_clock(RealClock& clock, const Executor& executor) {
   clock.start();
 }
 
-RecordingHeader header_of(const Options& options, const Graph& graph, Duration until, Duration mission) {
+RecordingHeader header_of(const Options& options, const Graph& graph, Duration begin, Duration until,
+                          Duration mission) {
   return {.graph = graph.name,
           .file = SourceSet::full_path(options.file),
           .overrides = options.overrides,
           .clock = options.clock,
+          .begin = begin,
           .until = until,
           .mission = mission,
           .seed = options.seed};
@@ -175,7 +177,8 @@ int run(Options options) {
   const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
   const std::unique_ptr<RecordingWriter> log = make_recording(
-      options.recording, header_of(options, graph, end, end_of_mission(pointers_to(loaded.channels))), sources, graph);
+      options.recording, header_of(options, graph, begin, end, end_of_mission(pointers_to(loaded.channels))), sources,
+      graph);
   std::optional<RealClock> clock;
   std::optional<Guard> guard;
   std::vector<analysis::TaskThread> threads;
@@ -213,6 +216,12 @@ int run(Options options) {
                "'" + save.file + "' is not written"});
   what_ifs.add_to(saved);
   if (resumed) restore(graph_run, noted, *resumed, options.checkpoints.resume);
+  const auto save_in_recording = [&](const Checkpoint& checkpoint) {
+    const Archive::Bytes state = checkpoint.to_bytes();
+    log->add_checkpoint(checkpoint.instant(), {reinterpret_cast<const char*>(state.data()), state.size()});
+  };
+  if (!options.recording.checkpoints.empty())
+    saved.take_each(length_of("--record-checkpoints", options.recording.checkpoints), save_in_recording);
   saved.require_saveable(begin, end);
   const std::vector<Channels*>& channels = graph_run.channels();
   const bool steers =
@@ -229,6 +238,7 @@ int run(Options options) {
   if (clock) take_priority(priority);
   graph_run.connect(print_note);
   if (log) log->open();
+  if (log && resumed) save_in_recording(*resumed);
   take_priority_above(priority);
   auto start = std::chrono::steady_clock::now();
   ExecutorRun attended(executor, end, rest, [&](Duration begun) { graph_run.sinks().judge_before(begun); });

@@ -13,8 +13,11 @@ namespace jarol::tools {
 
 int log_cat(const LogOptions& options) {
   const Recording recording(options.file);
-  RecordedInstants instants(
-      recording, channels_named(recording, "--topic", options.topics.empty() ? "*" : options.topics), options.from);
+  std::vector<bool> wanted = channels_named(recording, "--topic", options.topics.empty() ? "*" : options.topics);
+  // whole runs, which are not for people
+  if (const ReadTopic* saved = recording.find(topics::checkpoints); saved != nullptr && options.topics.empty())
+    wanted[saved->channel.id] = false;
+  RecordedInstants instants(recording, wanted, options.from);
   std::map<std::uint16_t, MessageLayout> layouts;
   for (const auto& [id, topic] : recording.topics()) layouts.emplace(id, MessageLayout(topic));
   while (std::cout && instants.next() && instants.instant() < options.until) {

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "graph/language/problems.h"
 #include "graph/text/escape.h"
@@ -139,6 +140,9 @@ Json pairs_json(const Graph& graph) {
 
 int log_report(const LogOptions& options) {
   RecordedRun run(options.file);
+  if (run.header().begin > Duration{})
+    throw std::invalid_argument("'" + options.file + "' is of a run that went on from " +
+                                seconds_text(run.header().begin) + " s; jarol log report shows whole runs");
   const std::string out =
       options.out.empty() ? std::filesystem::path(options.file).replace_extension(".html").string() : options.out;
   require_apart({{"FILE", options.file}, {"GRAPH", options.other}}, {{"--out", out}});

@@ -84,11 +84,11 @@ void name_tracks(Events& events, const Graph& graph, int pid, const std::string&
 }
 
 // Each release, with its LET where it has one.
-void add_releases(Events& events, const Graph& graph, Duration end) {
+void add_releases(Events& events, const Graph& graph, Duration begin, Duration end) {
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Task& task = graph.tasks[i];
     const std::int64_t count = releases_before(task, end);
-    for (std::int64_t k = 0; k < count; ++k) {
+    for (std::int64_t k = releases_before(task, begin); k < count; ++k) {
       const std::string name = fmt::format("{} {}", task.name, k);
       if (task.let)
         events.span(logical, i + 1, "let", name, release_of(task, k), *task.let);
@@ -149,7 +149,7 @@ int log_trace(const LogOptions& options) {
   Events events(options.out.empty() ? "-" : options.out);
   name_tracks(events, graph, logical, "logical time");
   if (real) name_tracks(events, graph, physical, "physical time, of activations that missed their deadline");
-  add_releases(events, graph, run.covered());
+  add_releases(events, graph, run.header().begin, run.covered());
   add_misses(events, graph, misses);
   add_events(events, graph, recorded);
   for (const Gap& gap : run.gaps())

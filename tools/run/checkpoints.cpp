@@ -21,10 +21,10 @@ void add_checkpoint_options(Command& command, CheckpointArguments& arguments) {
 }
 
 void require_checkpoint_effect(const Command& command, const CheckpointArguments& arguments, bool virtual_clock) {
-  if (!virtual_clock) command.refuse({"--save", "--resume", "--what-if"}, "belongs to the virtual clock");
+  if (!virtual_clock)
+    command.refuse({"--save", "--resume", "--what-if", "--record-checkpoints"}, "belongs to the virtual clock");
   if (arguments.resume.empty()) return;
   command.refuse({"--profile", "--seed"}, "is that of the run that was saved; leave it out");
-  command.refuse({"--log", "--record"}, "has to begin at the start of a run, for the replay does; leave out --resume");
 }
 
 std::vector<Save> parse_saves(const std::vector<std::string>& words) {
@@ -81,17 +81,21 @@ void SavedRun::require_saveable(Duration begin, Duration end) {
       throw std::invalid_argument(stop.option + ": the run ends at " + seconds_text(end) + " s, before " +
                                   seconds_text(stop.at) + " s");
   }
-  if (stops_.empty()) return;
+  if (stops_.empty() && !take_each_) return;
+  if (take_each_) next_ = begin - begin % every_ + every_;
   try {
     checkpoint_of(run_, noted_);
-  } catch (const CheckpointError& wrong) { throw std::invalid_argument(stops_.front().option + ": " + wrong.what()); }
+  } catch (const CheckpointError& wrong) {
+    const std::string option = stops_.empty() ? "--record-checkpoints" : stops_.front().option;
+    throw std::invalid_argument(option + ": " + wrong.what());
+  }
 }
 
 // What can't be written does not end the run.
 void SavedRun::cover() {
   const Report& report = run_.executor().report();
   for (const Stop& stop : stops_) {
-    run_.executor().cover(stop.at);
+    cover_until(stop.at);
     if (report.covered < stop.at || report.stopped) {
       add_lost(stop.lost + ", as the run has ended at " + seconds_text(report.simulated) + " s");
       continue;
@@ -100,7 +104,24 @@ void SavedRun::cover() {
       stop.take(checkpoint_of(run_, noted_));
     } catch (const std::exception& error) { add_lost(error.what()); }
   }
+  cover_until(end_);
   ExecutorRun::cover();
+}
+
+// By way of the instants at which each one is taken.
+void SavedRun::cover_until(Duration end) {
+  const Report& report = run_.executor().report();
+  for (; take_each_ && next_ < end; next_ += every_) {
+    run_.executor().cover(next_);
+    if (report.covered < next_ || report.stopped) return;
+    try {
+      take_each_(checkpoint_of(run_, noted_));
+    } catch (const std::exception& error) {
+      add_lost(error.what());
+      take_each_ = {};
+    }
+  }
+  run_.executor().cover(end);
 }
 
 void SavedRun::add_lost(const std::string& text) { lost_ += (lost_.empty() ? "" : "; ") + text; }

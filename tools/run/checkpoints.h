@@ -45,10 +45,16 @@ struct Stop {
 /// A run that is saved on its way.
 class SavedRun : public ExecutorRun {
  public:
-  SavedRun(GraphRun& run, Noted& noted, Duration end) : ExecutorRun(run.executor(), end), run_(run), noted_(noted) {}
+  SavedRun(GraphRun& run, Noted& noted, Duration end)
+      : ExecutorRun(run.executor(), end), run_(run), noted_(noted), end_(end) {}
 
   /// Before it runs.
   void add(Stop stop);
+  /// Besides, before it runs: at each multiple of `every` it is taken.
+  void take_each(Duration every, std::function<void(const Checkpoint&)> take) {
+    every_ = every;
+    take_each_ = std::move(take);
+  }
   /// Throws std::invalid_argument where the run can't be saved, or does not come there.
   void require_saveable(Duration begin, Duration end);
   void cover() override;
@@ -57,11 +63,15 @@ class SavedRun : public ExecutorRun {
   const std::string& lost() const { return lost_; }
 
  private:
+  void cover_until(Duration end);
   void add_lost(const std::string& text);
 
   GraphRun& run_;
   Noted& noted_;
   std::vector<Stop> stops_;  // in order of time
+  Duration end_;
+  std::function<void(const Checkpoint&)> take_each_;  // empty: none
+  Duration every_{}, next_{};                         // when
   std::string lost_;
 };
 

@@ -41,6 +41,9 @@ void add_record_options(Command& command, RecordArguments& arguments) {
   command
       .add_option("--record-compression", arguments.compression, "Of --record and --log: lz4 (default), zstd or none")
       ->one_of({"lz4", "zstd", "none"});
+  command.add_option("--record-checkpoints", arguments.checkpoints,
+                     "Save the run in its recording this often in logical time, as in 10s, so that jarol replay --from "
+                     "need not begin at the start");
   command.add_option("--log", arguments.log, "The same as --record with --record-what inputs");
 }
 
@@ -53,7 +56,8 @@ void require_effect(const Command& command, const RecordArguments& arguments) {
   if (arguments.record.empty())
     command.refuse({"--record-what"}, "is about --record; add --record FILE, or leave it out");
   if (arguments.file().empty())
-    command.refuse({"--record-compression"}, "is about --record and --log; add one of them, or leave it out");
+    command.refuse({"--record-compression", "--record-checkpoints"},
+                   "is about --record and --log; add one of them, or leave it out");
 }
 
 std::unique_ptr<RecordingWriter> make_recording(const RecordArguments& arguments, RecordingHeader header,

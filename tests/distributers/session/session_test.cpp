@@ -190,6 +190,37 @@ TEST_SUITE("distributers/session") {
                          "the run is over at 0.03 s: task 'fails' activation 3 at 0.03 s: threw: three", RunOver);
   }
 
+  TEST_CASE("a session that only goes back to a checkpoint is judged as one that has run until then") {
+    const std::string judged = counting + "expect: [count.out < 49.5, final(count.out) within 0.5 of 49]\n";
+    Session first = session_of(judged);
+    first.run_until(500ms);
+    const Checkpoint here = first.checkpoint();
+    first.run_until(1s);
+    Session second = session_of(judged), third = session_of(judged);
+    second.restore(here);
+    third.restore(here);
+    CHECK(second.now() == 500ms);
+    const auto lines = [](const RunVerdict& verdict) {
+      std::string text;
+      for (const Verdict& v : verdict.expectations)
+        text += v.condition + ": " + std::to_string(static_cast<int>(v.outcome)) + " " + v.reached_text + " " + v.why +
+                "\n";
+      return text;
+    };
+    Session until = session_of(judged);
+    until.run_until(500ms);
+    const RunVerdict should = until.finish(), is = second.finish();
+    CHECK(lines(is) == lines(should));
+    CHECK(!is.is_negative());
+    CHECK(second.report().digest == until.report().digest);
+    // a session back at an instant after it has been further is judged until there, too
+    first.restore(here);
+    CHECK(lines(first.finish()) == lines(should));
+    // and one that goes on, to where it went
+    third.run_until(1s);
+    CHECK(third.finish().is_negative());
+  }
+
   TEST_CASE("on the real clock it takes the time that it says, and what it reached is what it would have reached") {
     std::vector<std::string> notes;
     Session real = session_of(

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "graph/values/seed.h"
 #include "tests/runtime/outside.h"
 #include "tests/runtime/random_model.h"
 #include "tests/runtime/run_on_threads.h"
@@ -103,15 +102,6 @@ std::size_t check_replay(const std::string& text, Duration end, bool has_outside
   CHECK(again.report.instants == real.report.instants);
   CHECK(log.is_at_end());
   return log.misses.size();
-}
-
-// Steps so short that a machine can't always be in time.
-std::string hurried_random_graph(std::uint64_t seed) {
-  constexpr std::int64_t step = 20'000;
-  return oracle::coarse_random_graph(seed, step, [&](const oracle::TaskModel& task) {
-    const char* const on_fault[] = {"hold", "skip", "stop"};
-    return std::string("core: ANY, on_fault: ") + on_fault[spread_seed(seed, task.name) % (seed % 4 == 0 ? 3 : 2)];
-  });
 }
 
 const Mode every_mode[] = {table_1, table_2, priorities_1, priorities_2};
@@ -277,7 +267,7 @@ connections: [i -> a.in, a.out -> b.in, b.out -> o, a.out -> under_way.in]
         CAPTURE(seed);
         const std::string mode_name = mode.name;
         CAPTURE(mode_name);
-        const std::string text = hurried_random_graph(seed);
+        const std::string text = oracle::hurried_random_graph(seed);
         CAPTURE(text);
         misses += check_replay(on(mode, text), 2ms, false);
       }

@@ -30,9 +30,12 @@ TEST_SUITE("tools/report/logged_texts") {
           "  logged      t.log at 0.02 s: two\\x1b[31m\n"
           "  logged      t.log at 0.06 s: two\\x1b[31m\n"
           "  logged      t.log at 0.08 s: even\n");
-    const auto json =
-        nlohmann::json::parse(command::jarol("run " + graph + " --for 90ms --json", "2>/dev/null").output);
-    CHECK(json["logged"].size() == 3);
+    const std::string printed = command::jarol("run " + graph + " --for 90ms --json", "2>/dev/null").output;
+    const auto json = nlohmann::json::parse(printed);
+    REQUIRE(json["logged"].size() == 3);
+    // escaped once, as JSON does it
+    CHECK(printed.find("\"text\":\"two\\u001b[31m\"") != std::string::npos);
+    CHECK(json["logged"][0]["text"] == "two\x1b[31m");
     CHECK(json["logged"][2] == nlohmann::json{{"output", "t.log"}, {"instant_ns", 80'000'000}, {"text", "even"}});
   }
 

@@ -1,0 +1,153 @@
+// A recording that is looked into by the index at its end is the one that is gone through from its begin.
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "runtime/execute/log_end.h"
+#include "runtime/record/recording.h"
+#include "tests/runtime/trace_of.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+class File {
+ public:
+  File() : path_(fs::temp_directory_path() / ("recording_index_" + std::to_string(::getpid()))) {}
+  ~File() { fs::remove(path_); }
+  std::string path() const { return path_.string(); }
+  std::string content() const {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void write(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
+
+ private:
+  fs::path path_;
+};
+
+void record(const std::string& path, mcap::Compression compression = mcap::Compression::lz4) {
+  const Graph graph = tests::graph_of(R"(graph: t
+tasks:
+  a: {type: Counter, period: 1ms}
+  b: {type: Relay, period: 2ms, let: 1ms}
+connections: [a.out -> b.in]
+)");
+  RecordingWriter writer(path, {.graph = "t", .file = "", .overrides = {}, .clock = "virtual", .what = "all"},
+                         {{"/t.yaml", "a text"}}, graph, compression);
+  writer.open();
+  Recorder recorder({writer.publications()});
+  Executor executor(graph, {}, {.recorder = &recorder, .log = writer.recorder()});
+  executor.run_until(60s);
+  recorder.close();
+  writer.close(log_end_of(executor.report()));
+}
+
+// All that is known of it.
+std::string text_of(const Recording& recording) {
+  std::string text = recording.header().graph + " " + std::to_string(recording.is_whole()) + " " +
+                     std::to_string(recording.good_until()) + " " + recording.files().at(0).text;
+  for (const auto& [id, topic] : recording.topics())
+    text += "\n" + std::to_string(id) + " " + topic.channel.topic + " " + topic.schema_name + " " + topic.schema + " " +
+            std::to_string(topic.messages);
+  for (const ReadPlace& chunk : recording.chunks())
+    text += "\n" + std::to_string(chunk.offset) + " " + std::to_string(chunk.start) + " " + std::to_string(chunk.end) +
+            " " + std::to_string(chunk.least_channel) + " " + std::to_string(chunk.most_channel);
+  return text;
+}
+
+const Recording::Visit nobody = [](const mcap::Message&, const ReadTopic&, std::uint64_t) {};
+
+std::vector<bool> topic_of(const Recording& recording, const std::string& name) {
+  std::vector<bool> wanted(65536);
+  wanted[recording.find(name)->channel.id] = true;
+  return wanted;
+}
+}  // namespace
+
+TEST_SUITE("runtime/recording_index") {
+  TEST_CASE("what the index says is what the whole file says") {
+    const File file;
+    record(file.path());
+    const Recording by_index(file.path());
+    CHECK(by_index.is_whole());
+    CHECK(by_index.chunks().size() > 2);
+    CHECK(text_of(by_index) == text_of(Recording(file.path(), nobody)));
+  }
+
+  TEST_CASE("an instant is found by the index, and only the chunks that have it are read") {
+    const File file;
+    record(file.path());
+    std::string bytes = file.content();
+    const Recording whole(file.path());
+    // what is damaged in front is not seen by who looks behind
+    const std::uint16_t channel = whole.find("a.out")->channel.id;
+    const auto first = std::find_if(whole.chunks().begin(), whole.chunks().end(), [&](const ReadPlace& chunk) {
+      return chunk.least_channel <= channel && channel <= chunk.most_channel;
+    });
+    bytes[first->offset + 100] ^= 1;
+    file.write(bytes);
+    const Recording recording(file.path());
+    MessageCursor cursor(recording, topic_of(recording, "a.out"), 59s);
+    REQUIRE(cursor.message() != nullptr);
+    CHECK(Duration(cursor.message()->time) == 59s);
+    CHECK_THROWS_WITH_AS(MessageCursor(recording, topic_of(recording, "a.out")),
+                         ("'" + file.path() + "' is damaged: at byte " + std::to_string(first->offset) +
+                          " there is a chunk whose check sum is another")
+                             .c_str(),
+                         LogError);
+    CHECK(!Recording(file.path(), nobody).is_whole());
+  }
+
+  TEST_CASE("an index that is damaged anywhere, or lacks, is not believed") {
+    const File file;
+    record(file.path());
+    const std::string bytes = file.content(), should = text_of(Recording(file.path()));
+    const std::size_t data_end = Recording(file.path(), nobody).chunks().back().offset;
+    std::size_t gone_through = 0;
+    for (std::size_t at = bytes.size() - 1; at > data_end; at -= std::min<std::size_t>(at, 13)) {
+      std::string damaged = bytes;
+      damaged[at] ^= 0x10;
+      file.write(damaged);
+      // either it is not in the index, or the file is gone through, which finds the same
+      const Recording recording(file.path());
+      if (recording.is_whole()) {
+        REQUIRE(text_of(recording) == should);
+        ++gone_through;
+      }
+    }
+    CHECK(gone_through > 10);
+    file.write(bytes.substr(0, bytes.size() - 1));
+    CHECK(!Recording(file.path()).is_whole());
+    CHECK(Recording(file.path()).topics().size() == Recording(file.path(), nobody).topics().size());
+  }
+
+  TEST_CASE("a chunk that was made with a right check sum, and breaks off within, is refused") {
+    const File file;
+    std::FILE* const out = std::fopen(file.path().c_str(), "wb");
+    mcap::Writer writer(out, mcap::Compression::none, "jarol");
+    writer.write(
+        {RecordingHeader::attachment, "", to_json({.graph = "t", .file = "", .overrides = {}, .clock = "virtual"})});
+    const mcap::Schema schema{1, "s", "ros2msg", "float64 value\n"};
+    const mcap::Channel channel{1, 1, "a", "cdr"};
+    mcap::Chunk chunk;
+    chunk.add(record_of(schema));
+    chunk.add(record_of(channel));
+    chunk.add_message(1, 0, 5, 12);
+    chunk.add("\x05half");
+    writer.write(chunk);
+    writer.end({schema}, {channel});
+    std::fclose(out);
+    const Recording recording(file.path());
+    CHECK(recording.is_whole());
+    CHECK_THROWS_WITH_AS(MessageCursor(recording, topic_of(recording, "a")),
+                         ("'" + file.path() + "' is damaged: at byte " + std::to_string(recording.chunks()[0].offset) +
+                          " there is a record that breaks off")
+                             .c_str(),
+                         LogError);
+  }
+}

@@ -1,0 +1,108 @@
+// One bit of one value that came from outside is changed in a recording: both who replays it and who compares it with
+// the one that it was find it, by instant and field.
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cstring>
+
+#include "runtime/mcap/writer.h"
+#include "runtime/record/recording.h"
+#include "tests/tools/run_command.h"
+
+namespace {
+using namespace jarol;
+using command::TemporaryFolder;
+
+bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+
+// A message of a topic, counted from 0, and a bit of its data.
+struct Place {
+  std::string topic;
+  std::uint64_t message = 0;
+  std::size_t byte = 0;
+  int bit = 0;
+};
+
+struct Changed {
+  std::int64_t instant = 0;
+  double before = 0, after = 0;  // of the eight bytes around that bit
+};
+
+// Copies a recording with that one bit changed; all its check sums are right.
+Changed change(const std::string& from, const std::string& to, const Place& place) {
+  const Recording recording(from);
+  const std::uint16_t channel = recording.find(place.topic)->channel.id;
+  std::FILE* const file = std::fopen(to.c_str(), "wb");
+  mcap::Writer writer(file, mcap::Compression::lz4, "jarol");
+  std::vector<mcap::Schema> schemas;
+  std::vector<mcap::Channel> channels;
+  Changed changed;
+  std::uint64_t seen = 0;
+  mcap::Reader reader(from);
+  for (mcap::Record record; reader.next(record) && record.opcode != mcap::Opcode::data_end;) {
+    if (record.opcode == mcap::Opcode::attachment) writer.write(mcap::read_attachment(record.content));
+    if (record.opcode != mcap::Opcode::chunk) continue;
+    const mcap::ReadChunk read = mcap::read_chunk(record.content);
+    mcap::Chunk chunk;
+    mcap::for_each_record(read.records, [&](mcap::Opcode opcode, std::string_view content, std::size_t at) {
+      if (opcode == mcap::Opcode::message) {
+        const mcap::Message message = mcap::read_message(content);
+        std::byte* const data = chunk.add_message(message.channel, message.sequence, message.time, message.data.size());
+        std::memcpy(data, message.data.data(), message.data.size());
+        if (message.channel != channel || seen++ != place.message) return;
+        std::byte* const number = data + 4 + (place.byte - 4) / 8 * 8;
+        std::memcpy(&changed.before, number, sizeof(double));
+        data[place.byte] ^= std::byte{1} << place.bit;
+        std::memcpy(&changed.after, number, sizeof(double));
+        changed.instant = message.time;
+        return;
+      }
+      chunk.add(std::string_view(read.records).substr(at, mcap::record_head + content.size()));
+      if (opcode == mcap::Opcode::schema) schemas.push_back(mcap::read_schema(content));
+      if (opcode == mcap::Opcode::channel) channels.push_back(mcap::read_channel(content));
+    });
+    writer.write(chunk);
+  }
+  writer.end(schemas, channels);
+  std::fclose(file);
+  return changed;
+}
+
+std::string bits_of(double number) {
+  char text[20];
+  std::snprintf(text, sizeof text, "0x%016lx", std::bit_cast<std::uint64_t>(number));
+  return text;
+}
+}  // namespace
+
+TEST_SUITE("tools/changed_input") {
+  TEST_CASE("one changed bit of one input is found and named by instant and field") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", other = folder / "changed.mcap";
+    REQUIRE(command::jarol("run specs/exolauv.yaml --for 10s --set expect=null --record " + file).exit_code == 0);
+    CHECK(command::jarol("replay " + file).exit_code == 0);
+    // the third number of what the submarine reported, after four bytes in front
+    const std::size_t third = 4 + 2 * 8;
+    const std::string topic = "jarol/taken/from_dune";
+    for (const Place& place : {Place{topic, 0, third, 0}, Place{topic, 100, third + 3, 5},
+                               Place{topic, 57, third + 6, 7}, Place{topic, 199, third + 5, 2}}) {
+      const Changed changed = change(file, other, place);
+      CAPTURE(place.message);
+      CHECK(command::jarol("log verify " + other).exit_code == 0);
+      char instant[32];
+      std::snprintf(instant, sizeof instant, "%g s", static_cast<double>(changed.instant) * 1e-9);
+      const std::string values = " at " + std::string(instant) + ": was ";
+      const auto replay = command::jarol("replay " + other);
+      CAPTURE(replay.output);
+      CHECK(replay.exit_code == 1);
+      CHECK(has(replay.output, "  first       from_dune.pressure.value" + values));
+      CHECK(has(replay.output, "(" + bits_of(changed.before) + "), is "));
+      CHECK(has(replay.output, "(" + bits_of(changed.after) + ")\n"));
+      const auto diff = command::jarol("log diff " + file + " " + other);
+      CAPTURE(diff.output);
+      CHECK(diff.exit_code == 1);
+      CHECK(has(diff.output, "  first       jarol/taken/from_dune.pressure.value" + values));
+      CHECK(has(diff.output, "(" + bits_of(changed.after) + ")\n"));
+    }
+  }
+}

@@ -1,0 +1,32 @@
+// What a replay starts from: the graph of a recording, and a checkpoint in it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "distributers/session/graph_run.h"
+#include "distributers/session/load.h"
+#include "runtime/record/recorded_run.h"
+
+namespace jarol::tools {
+
+/// Those of the run and those given here. A recording is no program: code is loaded only where the user's own words
+/// name the file or the plugin that brings it. `file`: in place of the graph of the run; empty: that.
+Overrides overrides_of(const Recording& recording, const std::string& file, const Overrides& given);
+
+/// The graph of the run as it was then, or `file` in its place. `with_systems`: its external systems, too.
+Loaded load_recorded(const Recording& recording, const std::string& file, const Overrides& overrides,
+                     bool with_systems);
+
+/// Files that the run has read and that are not what they were, or are gone.
+std::vector<std::string> changed_files(const Recording& recording);
+bool is_text_of_run(const std::string& file, const Recording& recording);
+
+/// Where a replay begins: at the newest checkpoint not after what --from asks for, or where the recording does. Throws
+/// std::invalid_argument.
+Duration replay_begin(const std::string& option, const RecordedRun& log);
+
+/// The run goes on in this process from its checkpoint at that instant. Throws std::invalid_argument.
+void restore_recorded(GraphRun& run, const RecordedRun& log, Duration at, RunOrigin origin);
+
+}  // namespace jarol::tools
