@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "distributers/campaign/run_all.h"
+#include "distributers/campaign/ranks.h"
 #include "distributers/campaign/statement.h"
 #include "distributers/campaign/summary.h"
 #include "graph/text/escape.h"
@@ -111,42 +111,105 @@ void write_table(const std::string& path, const campaign::Results& results, cons
   file.commit();
 }
 
+campaign::Wishes wishes_of(const Options& options) {
+  campaign::Wishes wishes{.vary = options.vary};
+  if (!options.duration.empty()) wishes.length = length_of("--for", options.duration);
+  if (options.runs > 0) wishes.runs = options.runs;
+  if (!options.sampling.empty()) wishes.sampling = options.sampling == "latin" ? Sampling::latin : Sampling::random;
+  return wishes;
+}
+
+// Ready to be run. Throws where it can't be.
+struct Stated {
+  explicit Stated(const Options& options)
+      : source{read_source(options.file), built_in(), options.overrides, options.metrics, note_once},
+        graphs(source),
+        campaign(state_campaign(graphs, wishes_of(options))) {
+    if (const std::string wrong = campaign::why_not_in_campaign(graphs.base().graph, campaign.length); !wrong.empty())
+      throw std::invalid_argument("'" + options.file + "' is not for a campaign: " + wrong);
+    if (const std::string wrong = campaign::wrong_runs(campaign); !wrong.empty())
+      throw std::invalid_argument("'" + options.file + "' and its options make no campaign: " + wrong +
+                                  ", as in --runs 1000");
+    identity = identity_of(source, graphs, campaign, options.seed, version_text());
+    draws.emplace(campaign, options.seed);
+  }
+
+  const campaign::GraphSource source;
+  campaign::Graphs graphs;
+  const campaign::Campaign campaign;
+  campaign::Identity identity;
+  std::optional<campaign::Draws> draws;
+};
+
+std::size_t workers_of(const Options& options) {
+  return options.workers > 0 ? static_cast<std::size_t>(options.workers)
+                             : std::max(1U, std::thread::hardware_concurrency());
+}
+
+// What the ranks have to agree on.
+std::string text_of(const campaign::Identity& identity) {
+  std::string text;
+  for (const auto& [key, value] : identity) text += key + "\n" + value + "\n";
+  return text;
+}
+
+// Of a rank that is not the first: it does what that gives it, and has nothing to report.
+int take_part(const Options& options, campaign::Messages& messages) {
+  std::optional<Stated> stated;
+  std::string wrong;
+  try {
+    stated.emplace(options);
+  } catch (const std::exception& error) { wrong = error.what(); }
+  campaign::AskedWork work(messages);
+  if (!work.join(stated ? text_of(stated->identity) : "", wrong)) return exit_input;
+  const Interruptible interruptible;
+  run_work(stated->graphs, stated->campaign, *stated->draws, work, workers_of(options), Interruptible::interrupted());
+  work.finish();
+  return Interruptible::interrupted() ? exit_of_signal(Interruptible::signal()) : exit_good;
+}
+
+// The others may ask as long as there is work.
+struct Finish {
+  std::optional<campaign::FirstRank>& ranks;
+  ~Finish() {
+    if (ranks) ranks->finish();
+  }
+};
+
 int run(const Options& options) {
+  std::unique_ptr<campaign::Messages> messages = campaign::messages_of_mpirun();
+  if (messages && messages->rank() > 0) return take_part(options, *messages);
+  std::optional<campaign::FirstRank> ranks;
+  if (messages) ranks.emplace(*messages);
   const std::string results_file = results_of(options);
   require_apart({{"FILE", options.file}},
                 {{"--results", results_file}, {"--csv", options.csv}, {"--report", options.report}});
   if (options.report == "-")
     throw std::invalid_argument("--report: '-' is no file; a page is opened by its name, as in --report campaign.html");
   const Shard shard = shard_of(options.shard);
-  const campaign::GraphSource source{read_source(options.file), built_in(), options.overrides, options.metrics,
-                                     note_once};
-  campaign::Graphs graphs(source);
-  campaign::Wishes wishes{.vary = options.vary};
-  if (!options.duration.empty()) wishes.length = length_of("--for", options.duration);
-  if (options.runs > 0) wishes.runs = options.runs;
-  if (!options.sampling.empty()) wishes.sampling = options.sampling == "latin" ? Sampling::latin : Sampling::random;
-  const campaign::Campaign campaign = state_campaign(graphs, wishes);
-  if (const std::string wrong = campaign::why_not_in_campaign(graphs.base().graph, campaign.length); !wrong.empty())
-    throw std::invalid_argument("'" + options.file + "' is not for a campaign: " + wrong);
-  if (const std::string wrong = campaign::wrong_runs(campaign); !wrong.empty())
-    throw std::invalid_argument("'" + options.file + "' and its options make no campaign: " + wrong +
-                                ", as in --runs 1000");
-  const campaign::Draws draws(campaign, options.seed);
-
-  campaign::Results results(results_file, identity_of(source, graphs, campaign, options.seed, version_text()),
-                            campaign);
+  Stated stated(options);
+  campaign::Graphs& graphs = stated.graphs;
+  const campaign::Campaign& campaign = stated.campaign;
+  const campaign::Draws& draws = *stated.draws;
+  if (ranks) ranks->gather(text_of(stated.identity));
+  campaign::Results results(results_file, stated.identity, campaign);
   const std::vector<std::uint64_t> done = results.done();
   const std::vector<std::uint64_t> to_run = missing(done, shard, draws.runs());
   Pace pace(done.size(), draws.runs(), to_run.size());
-  const std::size_t workers = options.workers > 0 ? static_cast<std::size_t>(options.workers)
-                                                  : std::max(1U, std::thread::hardware_concurrency());
   {
     const Interruptible interruptible;
     const Progress progress(!options.json && isatty(STDERR_FILENO) != 0, [&] { return pace.line(); });
-    run_all(
-        graphs, campaign, draws, to_run, workers, results, [&](const campaign::Result& r) { pace.count(r); },
-        Interruptible::interrupted());
+    const std::function<void(const campaign::Result&)> count = [&](const campaign::Result& r) { pace.count(r); };
+    campaign::OwnWork work(to_run, draws, results, count, Interruptible::interrupted());
+    {
+      const Finish finish{ranks};
+      if (ranks) ranks->serve(work);
+      run_work(graphs, campaign, draws, work, workers_of(options), Interruptible::interrupted());
+    }
+    work.throw_if_failed();
   }
+  ranks.reset();
+  messages.reset();  // the others go
   const double seconds = pace.seconds();
   const bool whole = pace.ran() == to_run.size();
   const campaign::Summary summary = summarise(results, campaign.measures);

@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "distributers/campaign/run_all.h"
 #include "distributers/campaign/shrink.h"
@@ -290,6 +291,35 @@ TEST_SUITE("distributers/campaign") {
         Under(source_of(waves), gains, 1, folder / "other"),
         ("'" + folder / "other' is a database, but holds no results of a campaign; name another file").c_str(),
         OtherCampaign);
+  }
+
+  TEST_CASE("a file that is refused stays byte for byte as it was, and nothing is left beside it") {
+    const Folder folder;
+    const auto content = [](const std::string& path) {
+      std::ifstream file(path, std::ios::binary);
+      return std::string{std::istreambuf_iterator<char>(file), {}};
+    };
+    const auto refused = [&](const std::string& name, const Wishes& wishes) {
+      const std::string before = content(folder / name);
+      CHECK(!before.empty());
+      CHECK_THROWS_AS(Under(source_of(waves), wishes, 1, folder / name), std::exception);
+      CHECK(content(folder / name) == before);
+      CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
+      fs::remove(folder / name);
+    };
+    {
+      Under under(source_of(waves), gains, 1, folder / "another");
+      under.stop_after = 3;
+      under.run(1);
+    }
+    refused("another", {.vary = {"seed=1..3"}});
+    sqlite3* other = nullptr;
+    REQUIRE(sqlite3_open((folder / "database").c_str(), &other) == SQLITE_OK);
+    CHECK(sqlite3_exec(other, "CREATE TABLE t (a); INSERT INTO t VALUES (1)", nullptr, nullptr, nullptr) == SQLITE_OK);
+    sqlite3_close(other);
+    refused("database", gains);
+    std::ofstream(folder / "text") << "what somebody has written, and no database";
+    refused("text", gains);
   }
 
   TEST_CASE("what can't vary so is an error at its place, before anything runs") {

@@ -102,6 +102,20 @@ TEST_SUITE("graph/campaign/draws") {
     CHECK(numbers(campaign, 9, 0)[0] * 100 != doctest::Approx(numbers(campaign, 9, 1)[0]).epsilon(0.02));
   }
 
+  TEST_CASE("what goes round more slowly than there can be runs keeps its first value") {
+    // the product of what follows [x, y] is beyond 64 bits
+    const Campaign campaign = varying({"a=[x, y]", "seed=0..9223372036854775807", "b=[c, d]", "e=[f, g]"}, 1000);
+    const Draws draws(campaign, 1);
+    for (const std::uint64_t i : {0UL, 1UL, 2UL, 3UL, 4UL, 998UL, 999UL}) {
+      const Start start = draws.at(i);
+      CHECK(start.values ==
+            std::vector<std::string>{"x", std::to_string(i / 4), i / 2 % 2 == 0 ? "c" : "d", i % 2 == 0 ? "f" : "g"});
+      CHECK(start.seed == i / 4);
+    }
+    const Campaign widest = varying({"a=[x, y]", "seed=1..18446744073709551615"}, 2);
+    CHECK(Draws(widest, 1).at(1).values == std::vector<std::string>{"x", "2"});
+  }
+
   TEST_CASE("a campaign has a number of runs, or it is said why not") {
     CHECK(wrong_runs(varying({"a=0..1"}, 3)) == "");
     CHECK(wrong_runs(varying({"a=[1]", "b=0..1"})) == "");

@@ -121,6 +121,36 @@ TEST_SUITE("tools/campaign") {
     }
   }
 
+  TEST_CASE("a search for the mildest values that is interrupted says so, and the results stay") {
+    const command::DefaultSignals taken;
+    const TemporaryFolder folder;
+    const std::string results = folder / "r";
+    const std::string of =
+        "campaign specs/counting.yaml --for 20000s --vary tasks.slow.let='[5ms, 10ms]' --metric "
+        "'last=final(sum.out) < 1' --results " +
+        results;
+    REQUIRE(command::jarol(of).exit_code == 1);
+    bool interrupted = false;
+    for (int piece = 0; piece < 100 && !interrupted; ++piece) {
+      // the search begins at once, as all runs are there; a signal before it ends the program as ever
+      const command::Result part =
+          command::jarol(of + " --shrink", "2>&1 & id=$!; sleep " + std::to_string(0.02 * piece) +
+                                               "; kill -INT $id 2>&-; wait $id; echo code $?");
+      interrupted = part.output.find("interrupted: ") != std::string::npos;
+      if (!interrupted) continue;
+      CHECK(part.output.find("2 of 2 runs, 0 good, 2 bad") != std::string::npos);
+      CHECK(
+          part.output.ends_with("interrupted: the mildest values are not found; the same command searches again\n"
+                                "code 130\n"));
+    }
+    CHECK(interrupted);
+    CHECK(!std::filesystem::exists(results + "-wal"));
+    const command::Result whole = command::jarol(of + " --shrink");
+    CHECK(whole.exit_code == 1);
+    CHECK(whole.output.find("  run 0 is no worse than one in the middle of all ranges: metric 'last'") !=
+          std::string::npos);
+  }
+
 #ifdef JAROL_VEHICLES
   TEST_CASE("dives are the same to the bit as runs of their own, for 1, 2 and 4 workers") {
     const TemporaryFolder folder;

@@ -1,0 +1,126 @@
+// Percentiles, means and worst cases against numbers that were found by hand.
+#include "distributers/campaign/summary.h"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace {
+using namespace jarol;
+using namespace jarol::campaign;
+namespace fs = std::filesystem;
+
+const double nan_number = std::nan("");
+
+// A metric with that limit.
+Campaign measuring(const std::optional<expect::Comparison>& limit) {
+  Campaign campaign;
+  campaign.measures.metrics.push_back({"m", limit.has_value(), false});
+  expect::Condition condition;
+  condition.metric.unit = "m";
+  if (limit) condition.comparison = *limit;
+  campaign.measures.conditions.push_back(condition);
+  return campaign;
+}
+
+class File {
+ public:
+  File() : path_(fs::temp_directory_path() / ("summary_test_" + std::to_string(::getpid()))) { fs::remove(path_); }
+  ~File() { fs::remove(path_); }
+  std::string path() const { return path_.string(); }
+
+ private:
+  fs::path path_;
+};
+
+struct Summed {
+  MetricSummary metric;
+  std::string csv;
+};
+
+// What runs with those numbers come to, in that order.
+Summed summed(const std::vector<double>& numbers, const std::optional<expect::Comparison>& limit = {}) {
+  const File file;
+  Campaign campaign = measuring(limit);
+  campaign.runs = static_cast<std::int64_t>(numbers.size());
+  Results results(file.path(), {{"key", "value"}}, campaign);
+  for (std::size_t i = 0; i < numbers.size(); ++i) results.add({}, {.index = i, .metrics = {Reached{numbers[i], ""}}});
+  Summed made{summarise(results, campaign.measures).metrics.at(0), ""};
+  write_csv(results, campaign, Draws(campaign, 0), [&](std::string_view text) { made.csv += text; });
+  return made;
+}
+
+expect::Comparison limit(expect::Comparison::Kind kind, double of = 0) { return {.kind = kind, .limit = 1, .of = of}; }
+using Is = expect::Comparison::Kind;
+}  // namespace
+
+TEST_SUITE("distributers/campaign/summary") {
+  TEST_CASE("percentiles are numbers that runs have, by nearest rank; mean and deviation are those of the sample") {
+    const MetricSummary ten = summed({7, 1, 10, 4, 2, 9, 3, 8, 6, 5}).metric;
+    CHECK(ten.count == 10);
+    CHECK(ten.missing == 0);
+    CHECK(ten.mean == 5.5);
+    CHECK(ten.deviation == doctest::Approx(3.0276503540974917).epsilon(1e-15));  // sqrt(82.5 / 9)
+    CHECK(ten.percentiles == std::array<double, 5>{1, 3, 5, 8, 10});             // ranks 0.5, 2.5, 5, 7.5, 9.5, up
+    CHECK(ten.least->index == 1);
+    CHECK(ten.least->value == 1);
+    CHECK(ten.greatest->index == 2);
+    CHECK(ten.greatest->value == 10);
+    CHECK(!ten.worst);
+
+    std::vector<double> hundred;
+    for (int i = 0; i < 100; ++i) hundred.push_back((i * 37) % 100 + 1);  // 1 to 100, each once
+    CHECK(summed(hundred).metric.percentiles == std::array<double, 5>{5, 25, 50, 75, 95});
+    hundred.push_back(101);
+    CHECK(summed(hundred).metric.percentiles == std::array<double, 5>{6, 26, 51, 76, 96});  // 5.05, 25.25, ..., up
+
+    const MetricSummary one = summed({-2.5}).metric;
+    CHECK(one.percentiles == std::array<double, 5>{-2.5, -2.5, -2.5, -2.5, -2.5});
+    CHECK(one.mean == -2.5);
+    CHECK(one.deviation == 0);
+    CHECK(summed({}).metric.count == 0);
+    CHECK(!summed({}).metric.least);
+  }
+
+  TEST_CASE("the worst is the one nearest to what the limit forbids, or farthest beyond it; the first of equals") {
+    const std::vector<double> numbers{3, -8, 9, 2, 9, -8};
+    CHECK(summed(numbers, limit(Is::less)).metric.worst->index == 2);
+    CHECK(summed(numbers, limit(Is::at_most)).metric.worst->index == 2);
+    CHECK(summed(numbers, limit(Is::greater)).metric.worst->index == 1);
+    CHECK(summed(numbers, limit(Is::at_least)).metric.worst->index == 1);
+    CHECK(summed(numbers, limit(Is::within, 2)).metric.worst->index == 1);   // 10 away
+    CHECK(summed(numbers, limit(Is::within, -4)).metric.worst->index == 2);  // 13 away
+    CHECK(!summed(numbers, limit(Is::is)).metric.worst);
+  }
+
+  TEST_CASE("what is no number, of either sign, is in the results, last of all, at no end, and the worst") {
+    for (const double sign : {1.0, -1.0}) {
+      CAPTURE(sign);
+      const Summed all = summed({2, std::copysign(nan_number, sign), 1, 3}, limit(Is::less));
+      CHECK(all.metric.count == 4);
+      CHECK(all.metric.missing == 0);
+      CHECK(all.metric.least->value == 1);
+      CHECK(all.metric.greatest->value == 3);
+      CHECK(all.metric.worst->index == 1);
+      CHECK(std::isnan(all.metric.worst->value));
+      CHECK(std::isnan(all.metric.percentiles[4]));
+      CHECK(all.metric.percentiles[2] == 2);
+      CHECK(std::isnan(all.metric.mean));
+      CHECK(all.csv ==
+            "run,seed,m,outcome,faults,simulated,digest,why\n"
+            "0,0,2,good,0,0,0x0000000000000000,\n"
+            "1,0,nan,good,0,0,0x0000000000000000,\n"
+            "2,0,1,good,0,0,0x0000000000000000,\n"
+            "3,0,3,good,0,0,0x0000000000000000,\n");
+    }
+    const MetricSummary none = summed({nan_number, -nan_number}).metric;
+    CHECK(none.count == 2);
+    CHECK(std::isnan(none.least->value));
+    const MetricSummary infinite = summed({HUGE_VAL, 1, -HUGE_VAL}, limit(Is::less)).metric;
+    CHECK(infinite.greatest->value == HUGE_VAL);
+    CHECK(infinite.least->value == -HUGE_VAL);
+    CHECK(infinite.worst->index == 0);
+  }
+}
