@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "graph/isolation/way.h"
+#include "graph/plugins/judged_files.h"
 #include "graph/plugins/plugin_build.h"
 
 namespace jarol {
@@ -36,6 +37,25 @@ isolation::Root root_of(const TaskClass& task, const std::string& file) {
   return root;
 }
 
+using Wrong = std::map<std::string, std::string>;  // by type: why it is not isolated
+
+Wrong find_wrong(const Registry& registry, const std::vector<std::string>& types, const std::string& plugin) {
+  Wrong wrong;
+  std::optional<isolation::SourceLines> lines;
+  try {
+    for (const isolation::Verdict& verdict : verify_tasks(registry, types, plugin, false)) {
+      if (verdict.violations.empty()) continue;
+      if (!lines) lines.emplace(plugin);
+      const isolation::Violation& first = verdict.violations.front();
+      const auto way = isolation::way_of(first, *lines);
+      wrong[verdict.task] = first.text + (way.empty() ? "" : ", in " + isolation::text_of(way.back()));
+    }
+  } catch (const std::runtime_error& error) {
+    for (const std::string& type : types) wrong[type] = "'" + plugin + "' " + error.what();
+  }
+  return wrong;
+}
+
 bool promises_isolation(const TaskSpec& task) {
   return task.type && !(task.isolation && task.isolation->value == Isolation::weak);
 }
@@ -59,23 +79,14 @@ void check_isolation(const GraphSpec& spec, const Registry& registry, const std:
                     [&](const TaskSpec& task) { return promises_isolation(task) && task.type->value == type; }))
       promised.push_back(type);
   if (promised.empty()) return;
-  std::map<std::string, std::string> wrong;  // by type
-  std::optional<isolation::SourceLines> lines;
-  try {
-    for (const isolation::Verdict& verdict : verify_tasks(registry, promised, plugin, false)) {
-      if (verdict.violations.empty()) continue;
-      if (!lines) lines.emplace(plugin);
-      const isolation::Violation& first = verdict.violations.front();
-      const auto way = isolation::way_of(first, *lines);
-      wrong[verdict.task] = first.text + (way.empty() ? "" : ", in " + isolation::text_of(way.back()));
-    }
-  } catch (const std::runtime_error& error) {
-    for (const std::string& type : promised) wrong[type] = "'" + plugin + "' " + error.what();
-  }
+  static JudgedFiles<Wrong> judged;
+  std::string names;
+  for (const std::string& type : promised) names += type + " ";
+  const Wrong wrong = judged.find(plugin, names, [&] { return find_wrong(registry, promised, plugin); });
   for (const TaskSpec& task : spec.tasks)
     if (promises_isolation(task) && wrong.contains(task.type->value))
       problems.add(task.type->where, "task '" + task.name + "' (" + task.type->value +
-                                         ") is not isolated: " + wrong[task.type->value] +
+                                         ") is not isolated: " + wrong.at(task.type->value) +
                                          "; leave that out, or declare it with 'isolation: weak' (jarol isolation " +
                                          plugin + " shows the way there)");
 }

@@ -10,6 +10,7 @@
 #include "graph/floating_point.h"
 #include "graph/language/inputs.h"
 #include "graph/plugins/isolated.h"
+#include "graph/plugins/judged_files.h"
 #include "graph/plugins/machine_code.h"
 #include "graph/plugins/plugin_build.h"
 #include "graph/plugins/plugin_trial.h"
@@ -37,6 +38,20 @@ std::string find_wrong(const std::string& path) {
   if (const std::string difference = find_difference(*build, ours); !difference.empty())
     return "was built " + difference + "; build it again as graph/plugins/plugin.h says";
   return try_plugin(path);
+}
+
+struct Judgement {
+  std::string wrong;
+  bool trusted = false;  // it leaves the floating-point environment as it is
+};
+
+// It takes a process of its own and a look at all its code, and a campaign loads a plugin for many of its runs.
+Judgement judge(const std::string& path) {
+  static JudgedFiles<Judgement> judged;
+  return judged.find(path, "", [&]() -> Judgement {
+    if (std::string wrong = find_wrong(path); !wrong.empty()) return {std::move(wrong), false};
+    return {"", find_floating_point_change(path).empty()};
+  });
 }
 
 }  // namespace
@@ -69,20 +84,19 @@ std::string add_plugin(const std::string& path, Registry& registry, std::vector<
   note_input(path);
   // without a slash dlopen would search elsewhere
   const std::string place = path.find('/') == std::string::npos ? "./" + path : path;
-  std::string wrong = find_wrong(place);
-  if (!wrong.empty()) return name + wrong;
+  const Judgement judgement = judge(place);
+  if (!judgement.wrong.empty()) return name + judgement.wrong;
   const DefaultFloatingPoint scope;
   PluginLibrary library;
-  wrong = open_plugin(place, library);
+  const std::string wrong = open_plugin(place, library);
   if (!wrong.empty()) return name + wrong;
   Registry added;
   library.add(added);
   for (const TaskClass& task : added.tasks())
     if (registry.find_task(task.name) != nullptr)
       return name + "brings a task type '" + task.name + "', which there is already";
-  const bool trusted = find_floating_point_change(place).empty();
   for (TaskClass task : added.tasks()) {
-    if (trusted) task.trust_floating_point();
+    if (judgement.trusted) task.trust_floating_point();
     types.push_back(task.name);
     registry.add(std::move(task));
   }

@@ -1,6 +1,7 @@
 // jarol check as people use it: verdicts, reasons, margins, and how it exits.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -272,5 +273,25 @@ connections: [a.out -> b.in]
     CHECK(problems["problems"].size() == 2);
     CHECK(nlohmann::json::parse(result.output.substr(second))["file"] == "specs/counting.yaml");
     CHECK(jarol("check " + bad).output.ends_with(bad + ": 2 errors\n"));
+  }
+
+  TEST_CASE("many files are reported in their order, each as it is by itself, however long each takes") {
+    const TemporaryFolder folder;
+    const std::string bad = folder.write("bad.yaml", "{graph: t, tasks: {a: {type: Countr, period: 1ms}}}\n");
+    REQUIRE(jarol("check --generate uunifast --count 24 --tasks 40 -o " + (folder / "made")).exit_code == 0);
+    std::string files, reports;
+    for (int i = 0; i < 24; ++i) {
+      // the long ones first, and one that is wrong between
+      const std::string file = i == 7       ? bad
+                               : i % 8 == 5 ? "specs/counting.yaml"
+                                            : folder / "made/uunifast_" + std::to_string(i) + ".yaml";
+      files += " " + file;
+      reports += jarol("check " + file).output;
+    }
+    const Result all = jarol("check" + files);
+    CHECK(all.exit_code == 2);
+    CHECK((all.output == reports));
+    const std::string json = jarol("check --json" + files, "2>/dev/null").output;
+    CHECK(std::count(json.begin(), json.end(), '\n') == 24);
   }
 }

@@ -1,11 +1,15 @@
 // jarol check: is the graph right, and can it be scheduled.
 #include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <thread>
 
 #include "graph/language/key.h"
 #include "graph/language/quantities.h"
@@ -86,18 +90,26 @@ void require_effect(const Command& command, const Options& options) {
   if (options.files.size() > 1) command.refuse({"--svg"}, "names one picture for several files; check them one by one");
 }
 
+// What is to be printed of a file.
+struct Checked {
+  std::vector<std::string> notes;
+  std::string text;
+  int exit_code = exit_good;
+  std::exception_ptr failure;  // in place of a report
+};
+
 // What was asked for and is not there.
-void tell_what_lacks(const CheckReport& report, const Options& options) {
+void note_what_lacks(const CheckReport& report, const Options& options, std::vector<std::string>& notes) {
   if (!options.svg.empty() && gantt_svg(*report.graph, report.result).empty())
-    std::cerr << "note: no picture in '" << options.svg << "', as it needs a 'wcet' of every task\n";
+    notes.push_back("no picture in '" + options.svg + "', as it needs a 'wcet' of every task");
   if (options.sensitivity && !report.sensitivity)
-    std::cerr << "note: --sensitivity tells nothing, as it needs a 'wcet' of every task\n";
+    notes.emplace_back("--sensitivity tells nothing, as it needs a 'wcet' of every task");
   if (options.all_chains && report.chains.size() == report.graph->chains.size())
-    std::cerr << "note: --chains tells nothing, as no path leads from an 'in' to an 'out'\n";
-  if (report.more_paths) std::cerr << "note: --chains tells " << most_paths << " paths, there are more\n";
+    notes.emplace_back("--chains tells nothing, as no path leads from an 'in' to an 'out'");
+  if (report.more_paths) notes.push_back("--chains tells " + std::to_string(most_paths) + " paths, there are more");
 }
 
-int check_file(const std::string& file, const Options& options) {
+void check_file(const std::string& file, const Options& options, Checked& checked) {
   std::optional<Measurement> measured;
   if (options.measuring.measure || options.measuring.write)
     measured = measure_file(file, options.overrides, options.measuring);
@@ -110,30 +122,65 @@ int check_file(const std::string& file, const Options& options) {
   report.remedies = find_remedies(read_source(file), overrides, *loaded.registry, report, effort);
   // what was written holds by now
   if (!options.measuring.write) report.measured = std::move(measured);
-  tell_what_lacks(report, options);
+  note_what_lacks(report, options, checked.notes);
   if (const std::string drawn = gantt_svg(*loaded.graph, report.result); !options.svg.empty() && !drawn.empty()) {
     WholeFile picture(options.svg);
     picture.write(drawn);
     picture.commit();
   }
-  if (options.json)
-    std::cout << json_line(to_json(report));
-  else
-    std::cout << to_text(report);
-  return exit_code_of(report);
+  checked.text = options.json ? json_line(to_json(report)) : to_text(report);
+  checked.exit_code = exit_code_of(report);
 }
 
 // One bad file does not hide the others.
-int check_files(const Options& options) {
+Checked check_or_fail(const std::string& file, const Options& options) {
+  Checked checked;
+  try {
+    check_file(file, options, checked);
+  } catch (...) { checked.failure = std::current_exception(); }
+  return checked;
+}
+
+int print(const std::string& file, const Checked& checked, const Options& options) {
+  for (const std::string& note : checked.notes) print_note(note);
+  if (checked.failure) return report(failure_of(checked.failure, file), options.json, file);
+  std::cout << checked.text << std::flush;
+  return checked.exit_code;
+}
+
+// On all processors at once, and reported in the order of the files.
+int check_at_once(const Options& options) {
   int exit_code = exit_good;
-  for (const std::string& file : options.files) require_apart({{"FILE", file}}, {{"--svg", options.svg}});
-  for (const std::string& file : options.files) {
-    try {
-      exit_code = worst(exit_code, check_file(file, options));
-    } catch (...) {
-      exit_code = worst(exit_code, report(failure_of(std::current_exception(), file), options.json, file));
+  // as deep as that of the main thread
+  const tbb::global_control stack(tbb::global_control::thread_stack_size, std::size_t{8} << 20);
+  using File = std::pair<std::string, Checked>;
+  std::size_t next = 0;
+  const auto begin = [&](tbb::flow_control& flow) {
+    if (next == options.files.size()) {
+      flow.stop();
+      return File();
     }
-  }
+    return File(options.files[next++], {});
+  };
+  const auto check = [&](File file) {
+    file.second = check_or_fail(file.first, options);
+    return file;
+  };
+  const auto end = [&](const File& file) { exit_code = worst(exit_code, print(file.first, file.second, options)); };
+  tbb::parallel_pipeline(2 * std::max(1U, std::thread::hardware_concurrency()),
+                         tbb::make_filter<void, File>(tbb::filter_mode::serial_in_order, begin) &
+                             tbb::make_filter<File, File>(tbb::filter_mode::parallel, check) &
+                             tbb::make_filter<File, void>(tbb::filter_mode::serial_in_order, end));
+  return exit_code;
+}
+
+int check_files(const Options& options) {
+  for (const std::string& file : options.files) require_apart({{"FILE", file}}, {{"--svg", options.svg}});
+  // what is measured would be disturbed by others
+  if (options.files.size() > 1 && !options.measuring.measure && !options.measuring.write) return check_at_once(options);
+  int exit_code = exit_good;
+  for (const std::string& file : options.files)
+    exit_code = worst(exit_code, print(file, check_or_fail(file, options), options));
   return exit_code;
 }
 
@@ -168,7 +215,8 @@ void add_check(CommandLine& line, int& exit_code) {
                           "Check structure, types and timing of graphs, and whether they can be scheduled.\n"
                           "Exit code: 0 schedulable, 1 not schedulable, a limit of a chain is broken, or with "
                           "--measure a 'wcet',\n3 not decided, 2 bad input");
-  command->add_option("FILE", options->files, "Graphs, YAML files");
+  command->add_option("FILE", options->files,
+                      "Graphs, YAML files; several are checked on all processors at once, and reported in their order");
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.wcet=2ms")
       ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
