@@ -37,6 +37,8 @@ ReplayedValues::ReplayedValues(const RecordedRun& run, const std::vector<Output>
   for (const ReadPlace& chunk : run.recording().chunks())
     for (std::size_t channel = chunk.least_channel; channel <= chunk.most_channel; ++channel)
       if (lane_of_[channel] != none) end_ = std::max(end_, Duration(chunk.end));
+  // and the replay goes no further than the inputs are known
+  end_ = std::min(end_, run.covered());
 }
 
 void ReplayedValues::take(Duration instant, std::uint32_t output, const void* value) {
