@@ -166,8 +166,8 @@ test('the report of a dive draws graph, time lines, plots and path, and answers 
   for (const colours of canvases) assert.ok(colours > 10, canvases.join());
   for (const pixels of (await drawn(page, 'series-0')).slice(2, 5)) assert.ok(pixels > 300, 'a commanded signal is drawn');
   for (const pixels of (await drawn(page, 'series-1')).slice(2, 5)) assert.ok(pixels > 300, 'what it reached is drawn');
-  assert.equal(await page.evaluate(`document.querySelectorAll('.graph .node.task').length`), 7);
-  assert.equal(await page.evaluate(`document.querySelectorAll('#tasks tbody tr').length`), 7);
+  assert.equal(await page.evaluate(`document.querySelectorAll('.graph .node.task').length`), 8);
+  assert.equal(await page.evaluate(`document.querySelectorAll('#tasks tbody tr').length`), 8);
 
   // dragging across a plot comes closer, and all plots with it; a key shows all again
   assert.equal(await shows(page), '0 to 100 s');

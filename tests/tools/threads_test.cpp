@@ -31,7 +31,7 @@ TEST_SUITE("tools/threads") {
           command::jarol("run specs/exolauv.yaml --for 1s --json --clock real" + concurrency, "2>/dev/null").output);
     };
     const auto threads = told_of(" --concurrency threads"), exotasks = told_of("");
-    CHECK(threads["outputs"].size() == 3);
+    CHECK(threads["outputs"].size() == 4);
     for (const auto& [output, value] : exotasks["outputs"].items()) {
       CAPTURE(output);
       REQUIRE(threads["outputs"].contains(output));
@@ -42,7 +42,7 @@ TEST_SUITE("tools/threads") {
     CHECK(time["lateness_50_ns"] <= time["lateness_99_ns"]);
     CHECK(time["lateness_99_ns"] <= time["lateness_most_ns"]);
     CHECK(threads["outputs_50_ns"] > time["lateness_50_ns"]);  // both from the tick on
-    CHECK(time["tasks"].size() == 7);
+    CHECK(time["tasks"].size() == 8);
     std::uint64_t activations = 0;
     for (const auto& [task, timing] : time["tasks"].items()) {
       CAPTURE(task);

@@ -45,8 +45,9 @@ connections:
   - count.out -> slow.inn
 )") == "t.yaml:3:17: error: task 'count' has unknown type 'Countre'; did you mean 'Counter'?; there are: Accumulate, "
        "AltitudeControl, AttitudeControl, Counter, DepthControl, FinAllocator, FlightLogic, HeadingControl, "
-       "HelicopterReporter, JaviatorFilter, LauvForward, LauvNavigation, LauvReport, LauvSupervisor, Mean, MotorMixer, "
-       "OriginalAltitude, "
+       "HelicopterReporter, JaviatorFilter, LauvForward, LauvGuidance, LauvNavigation, LauvReport, LauvSupervisor, "
+       "Mean, "
+       "MotorMixer, OriginalAltitude, "
        "OriginalAttitude, OriginalFilter, OriginalLogic, OriginalMixer, OriginalPosition, PositionControl, Relay, "
        "SpeedControl, Sum, Window, Work\n"
        "    count: {type: Countre, period: 10ms}\n"
