@@ -2,8 +2,6 @@
 
 #include <signal.h>
 
-#include <cassert>
-#include <cstddef>
 #include <cstring>
 
 #include "distributers/links/timestamp.h"
@@ -11,8 +9,6 @@
 
 namespace jarol::distributers {
 namespace {
-
-constexpr std::size_t most_header = 64;  // bytes of a header's struct
 
 // Signals to the process go to its other threads.
 void take_no_signals() {
@@ -38,6 +34,8 @@ Link::Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set
       translator_(set, options, seal_.get(), input_),
       reader_(set),
       header_(*set.header),
+      default_header_(*set.header),
+      own_header_(*set.header),
       timestamp_(find_timestamp(set)) {
   if (auto to = transport_->announces_to(); !to.empty()) {
     constexpr std::size_t announcements = 4;
@@ -104,22 +102,22 @@ void Link::receive(messages::Receiver& receiver) {
 }
 
 // What the header of a message leaves as it is by default, the link says.
-std::span<const std::byte> Link::encode(messages::MessageRef message) {
-  const messages::MessageForm& form = *set_.header;
-  alignas(std::max_align_t) std::byte ours[most_header], usual[most_header];
-  assert(form.size <= most_header);
-  std::memcpy(ours, header_.value(), form.size);
-  if (message.header != nullptr) {
-    form.construct(usual);
-    for (const messages::FieldForm& field : form.fields) {
-      const auto* its = static_cast<const std::byte*>(message.header) + field.offset;
-      if (std::memcmp(its, usual + field.offset, size_of(field.wire)) != 0)
-        std::memcpy(static_cast<std::byte*>(header_.value()) + field.offset, its, size_of(field.wire));
-    }
+messages::Message& Link::header_of(messages::MessageRef message) {
+  if (message.header == nullptr) return header_;
+  for (const messages::FieldForm& field : set_.header->fields) {
+    const auto at = [&](const void* header) { return static_cast<const std::byte*>(header) + field.offset; };
+    const std::size_t size = size_of(field.wire);
+    const bool its_own = std::memcmp(at(message.header), at(default_header_.value()), size) != 0;
+    std::memcpy(static_cast<std::byte*>(own_header_.value()) + field.offset,
+                at(its_own ? message.header : header_.value()), size);
   }
-  set_timestamp(timestamp_, header_.value());
-  write_packet(header_, message, set_.order, packet_);
-  std::memcpy(header_.value(), ours, form.size);
+  return own_header_;
+}
+
+std::span<const std::byte> Link::encode(messages::MessageRef message) {
+  messages::Message& header = header_of(message);
+  set_timestamp(timestamp_, header.value());
+  write_packet(header, message, set_.order, packet_);
   return packet_;
 }
 

@@ -55,6 +55,7 @@ class Link {
   LinkReport report() const;
 
  private:
+  messages::Message& header_of(messages::MessageRef message);
   static PacketPorts make_port(const PortOptions& options, std::size_t longest);
   void run_sender();
   void send_pending(std::vector<std::byte>& room, std::vector<std::byte>& sealed);
@@ -74,7 +75,9 @@ class Link {
 
   // of the thread that sends and receives
   messages::PacketReader reader_;
-  messages::Message header_;
+  messages::Message header_;              // what the link says of all that it sends
+  messages::Message default_header_;      // of the set
+  messages::Message own_header_;          // of a message that says something itself
   const messages::FieldForm* timestamp_;  // of the header
   std::vector<std::byte> packet_, room_;
   std::uint32_t peer_ = 0;
