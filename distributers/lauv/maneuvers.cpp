@@ -81,8 +81,9 @@ Legs legs_of(const imc::FollowPath& m, const Origin& origin) {
   return legs;
 }
 
-// From a corner along `bearing`, across it to the side of the first curve, and back; every second step across is
-// `alternation` of two. With square curves a row begins where the last one turned, `coff` beyond the area.
+// From a corner along `bearing`, across it to the side of the first curve, and back; the first step across and every
+// second one after it is `alternation` percent of `hstep`, the others what two steps leave: as DUNE flies them, evenly
+// at 100. With square curves a row begins where the last one turned, `coff` beyond the area.
 Legs legs_of(const imc::Rows& m, const Origin& origin) {
   const Leg corner = line_to(m, origin);
   const auto length = finite(static_cast<double>(m.length), "length"),
@@ -94,7 +95,7 @@ Legs legs_of(const imc::Rows& m, const Origin& origin) {
   const double side = (m.flags & imc::Rows::Flags::CURVE_RIGHT) != 0 ? 1 : -1;
   const double along = finite(m.bearing, "bearing"),
                across = along + side * pi / 2 + finite(m.cross_angle, "cross_angle");
-  const double share = 0.02 * std::min<int>(m.alternation, 100);
+  const double share = 0.01 * std::min<int>(m.alternation, 200);
   Legs legs;
   const auto go_to = [&](double a, double b) {
     if (legs.size() == most_legs) refuse(fmt::format("more than {} lines", most_legs));
@@ -108,7 +109,7 @@ Legs legs_of(const imc::Rows& m, const Origin& origin) {
   for (double b = 0; b <= width;) {
     const double far = away ? length : 0, out = away ? m.coff : -static_cast<double>(m.coff);
     const double next = b + step * (first ? share : 2 - share);
-    const bool last = next > width || next <= b;
+    const bool last = next > width;
     go_to(last ? far : far + out, b);
     if (last) break;
     go_to(square ? far + out : far, next);

@@ -1,4 +1,4 @@
-// What the operator is told, asked or not.
+// What is reported to the operator, asked or not.
 #include <algorithm>
 
 #include "distributers/lauv/messages.h"

@@ -83,8 +83,7 @@ Plan make_plan(const imc::PlanSpecification& plan, const Origin& origin) {
     refuse(fmt::format("the plan has more than {} maneuvers", most_maneuvers));
   for (const auto& each : read_all<imc::PlanManeuver>(plan.maneuvers, "maneuver")) {
     const std::string name(each.maneuver_id.view());
-    const std::vector<std::string> before = names_of(made.maneuvers);
-    if (std::find(before.begin(), before.end(), name) != before.end())
+    if (std::any_of(made.maneuvers.begin(), made.maneuvers.end(), [&](const Maneuver& m) { return m.name == name; }))
       refuse(fmt::format("two maneuvers are named '{}'", name));
     try {
       made.maneuvers.push_back(make_maneuver(each.data, origin));

@@ -86,21 +86,21 @@ bool ReferenceFollower::is_late(Duration now) const { return timeout_ > 0 && sec
 imc::FollowRefState ReferenceFollower::state() const {
   using State = imc::FollowRefState::State;
   using Proximity = imc::FollowRefState::Proximity;
-  imc::FollowRefState told;
-  told.control_src = source_;
-  told.control_ent = entity_;
-  if (heard_any_ && !messages::put_inline(messages::refer_to(reference_), told.reference)) told.reference = {};
+  imc::FollowRefState report;
+  report.control_src = source_;
+  report.control_ent = entity_;
+  if (heard_any_ && !messages::put_inline(messages::refer_to(reference_), report.reference)) report.reference = {};
   switch (leg_.course) {
-    case Course::line: told.state = State::GOTO; break;
-    case Course::circle: told.state = progress_.levelled ? State::LOITER : State::ELEVATOR; break;
-    case Course::station: told.state = State::HOVER; break;
+    case Course::line: report.state = State::GOTO; break;
+    case Course::circle: report.state = progress_.levelled ? State::LOITER : State::ELEVATOR; break;
+    case Course::station: report.state = State::HOVER; break;
     case Course::rest:
-    case Course::none: told.state = State::WAIT; break;
+    case Course::none: report.state = State::WAIT; break;
   }
   const bool there = leg_.course == Course::circle || leg_.course == Course::station;
-  told.proximity = static_cast<std::uint8_t>((there ? Proximity::XY_NEAR : Proximity::FAR) |
-                                             (progress_.levelled ? Proximity::Z_NEAR : 0));
-  return told;
+  report.proximity = static_cast<std::uint8_t>((there ? Proximity::XY_NEAR : Proximity::FAR) |
+                                               (progress_.levelled ? Proximity::Z_NEAR : 0));
+  return report;
 }
 
 }  // namespace jarol::distributers

@@ -1,4 +1,4 @@
-// The maneuver FollowReference: a system tells where to go, again and again.
+// The maneuver FollowReference: a system sends where to go, again and again.
 #pragma once
 
 #include <cstdint>

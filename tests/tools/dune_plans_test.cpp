@@ -219,7 +219,7 @@ TEST_SUITE("tools/dune_plans") {
     rows.width = 20;
     rows.hstep = 20;
     rows.coff = 5;
-    rows.alternation = 50;
+    rows.alternation = 100;
     rows.flags = imc::Rows::Flags::SQUARE_CURVE | imc::Rows::Flags::CURVE_RIGHT;
     auto yoyo = maneuver<imc::YoYo>(0, 20);
     yoyo.z = 4;

@@ -5,8 +5,8 @@
 
 namespace jarol::tools {
 
-/// `report`: to_json of the outcome. Of very many runs the page's scatter plots have every so-manieth, and those that
-/// the report names; its histograms count all.
+/// `report`: to_json of the outcome. Of very many runs the page's scatter plots have one in so many, and those that the
+/// report names; its histograms count all.
 std::string campaign_page(const CampaignOutcome& outcome, const nlohmann::ordered_json& report,
                           const campaign::Results& results);
 

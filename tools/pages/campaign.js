@@ -49,20 +49,20 @@ function scatters() {
   const axes = [...varied, ...metrics.filter((m) => m.least !== undefined)];
   const ups = metrics.filter((m) => m.least !== undefined);
   if (varied.length === 0 || ups.length === 0) return null;
-  const told = el('div', {class: 'told', role: 'status'});
-  const tell = (point) => {
+  const shown = el('div', {class: 'shown', role: 'status'});
+  const show = (point) => {
     if (point < 0) return;
     const values = [...varied.map((v) => `${v.path} = ${v.words ? v.words[v.values[point]] : number(v.values[point]) + (v.unit ? ' ' + v.unit : '')}`),
       ...ups.map((m) => `${m.name} ${reached(m.values[point], m.unit)}`)];
-    told.textContent = `Run ${index[point]}, ${outcomeWords[outcomes[point]]}: ${values.join(', ')}`;
+    shown.textContent = `Run ${index[point]}, ${outcomeWords[outcomes[point]]}: ${values.join(', ')}`;
   };
   const thinned = data.every > 1 ? ` One run of each ${data.every}, and those that this page names; all are in the results.` : '';
   const area = el('div', {class: 'grid'});
-  const add = (across, up) => area.append(el('div', {class: 'card'}, scatterOf(across, up, good, tell)));
+  const add = (across, up) => area.append(el('div', {class: 'card'}, scatterOf(across, up, good, show)));
   for (const up of ups) for (const across of varied) if (area.children.length < 12) add(across, up);
   const choose = (label, some) => el('select', {'aria-label': label}, some.map((axis, i) => el('option', {value: i}, axis.name)));
   const x = choose('across', axes), y = choose('up', ups);
-  return section('scatter', 'Metrics against what varied', 'Each dot is a run, each cross one that is not good.' + thinned, area, told,
+  return section('scatter', 'Metrics against what varied', 'Each dot is a run, each cross one that is not good.' + thinned, area, shown,
     el('div', {class: 'buttons'}, el('span', {class: 'hint'}, 'One more:'), y, ' against ', x, el('button', {type: 'button', onclick: () => add(axes[x.value], ups[y.value])}, 'Draw')));
 }
 

@@ -154,7 +154,7 @@ export function pathOf(paths, time) {
   time.watch(picture.redraw);
   describe();
   const button = (text, to) => el('button', {type: 'button', onclick: () => view(to)}, text);
-  const choice = paths.length < 2 ? null : el('label', {class: 'choice'}, 'Place as told by ',
+  const choice = paths.length < 2 ? null : el('label', {class: 'choice'}, 'Place as published by ',
     el('select', {onchange: (event) => { load(Number(event.target.value)); describe(); }},
       paths.map((each, i) => el('option', {value: i}, each.name))));
   return el('div', {class: 'card'}, el('div', {class: 'buttons'}, choice, button('Aslant', [-0.9, 0.5, 1]), button('From above', [0, 1.57, 1]), button('From the side', [0, 0.02, 1])),

@@ -11,21 +11,16 @@
 #include "distributers/messages/imc.h"
 #include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
+#include "tests/distributers/lauv/inline_messages.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::distributers;
 namespace imc = messages::imc;
+using jarol::tests::packed;
 using tasks::Course;
 
 const Origin origin{41.185 * degree, -8.7062 * degree};
-
-template <class M>
-messages::InlineMessage packed(const M& m) {
-  messages::InlineMessage to;
-  REQUIRE(messages::put_inline(messages::refer_to(m), to));
-  return to;
-}
 
 template <class M>
 Maneuver made(const M& m) {
@@ -92,7 +87,7 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     m.width = 20;
     m.hstep = 10;
     m.coff = 4;
-    m.alternation = 50;
+    m.alternation = 100;
     m.flags = imc::Rows::Flags::SQUARE_CURVE | imc::Rows::Flags::CURVE_RIGHT;
     const double square[][2] = {{0, 0}, {54, 0}, {54, 10}, {-4, 10}, {-4, 20}, {50, 20}};
     auto legs = made(m).legs;
@@ -100,14 +95,23 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     for (std::size_t k = 0; k < 6; ++k) check(legs[k], Course::line, square[k][0], square[k][1]);
     m.flags = 0;
     m.bearing = 90 * degree;
-    m.alternation = 75;
-    const double slanted[][2] = {{0, 0}, {0, 54}, {15, 50}, {15, -4}, {20, 0}, {20, 50}};
+    m.alternation = 50;
+    const double slanted[][2] = {{0, 0}, {0, 54}, {5, 50}, {5, -4}, {20, 0}, {20, 50}};
     legs = made(m).legs;
     REQUIRE(legs.size() == 6);
     for (std::size_t k = 0; k < 6; ++k) {
       CHECK(legs[k].leg.north == doctest::Approx(slanted[k][0]).epsilon(1e-6));
       CHECK(legs[k].leg.east == doctest::Approx(slanted[k][1]).epsilon(1e-6));
     }
+    // there and back on one row, then two steps across
+    m.alternation = 0;
+    legs = made(m).legs;
+    REQUIRE(legs.size() == 8);
+    CHECK(legs[2].leg.north == doctest::Approx(0));
+    CHECK(legs[4].leg.north == doctest::Approx(20).epsilon(1e-6));
+    m.hstep = 1e-30F;
+    m.alternation = 100;
+    CHECK_THROWS_WITH_AS(made(m), "more than 1000 lines", std::invalid_argument);
   }
 
   TEST_CASE("a loiter is a circle, clockwise but where it says otherwise") {

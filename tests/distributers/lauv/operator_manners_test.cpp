@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "distributers/messages/payload.h"
+#include "tests/distributers/lauv/inline_messages.h"
 #include "tests/distributers/lauv_console.h"
 
 namespace {
@@ -26,13 +27,6 @@ struct Addressed : messages::Receiver {
   }
   std::vector<Sent> sent;
 };
-
-template <class M>
-messages::InlineMessage packed(const M& m) {
-  messages::InlineMessage to;
-  REQUIRE(messages::put_inline(messages::refer_to(m), to));
-  return to;
-}
 
 template <class M>
 M opened(const messages::InlineMessage& from) {

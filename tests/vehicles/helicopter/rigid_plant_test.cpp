@@ -41,8 +41,33 @@ HelicopterInputs any_command(std::mt19937_64& random, double least, double great
   return {signal(), signal(), signal(), signal()};
 }
 
+// How far a flight is from the same one in Simbody.
 struct Apart {
   double place = 0, angle = 0, rate = 0;
+
+  void print() const { MESSAGE("at most " << place << " m, " << angle << " rad, " << rate << " m/s or rad/s apart"); }
+
+  // So many steps, with another command every so many.
+  template <class Command>
+  void fly(HelicopterParameters parameters, std::uint64_t seed, const VehicleState& start, int steps, int every,
+           const Command& command) {
+    CAPTURE(seed);
+    Helicopter simbody(parameters, seed);
+    parameters.dynamics = Dynamics::rigid;
+    Helicopter rigid(parameters, seed);
+    simbody.place(start);
+    rigid.place(start);
+    for (int i = 0; i < steps; ++i) {
+      if (i % every == 0) {
+        const HelicopterInputs inputs = command();
+        simbody.command(&inputs);
+        rigid.command(&inputs);
+      }
+      simbody.step();
+      rigid.step();
+      compare(simbody.motion(), rigid.motion());
+    }
+  }
 
   void compare(const HelicopterMotion& a, const HelicopterMotion& b) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -58,27 +83,12 @@ TEST_SUITE("vehicles/helicopter_rigid_plant") {
   TEST_CASE("twenty seconds of any commands in any air go as Simbody's do, but for rounding") {
     Apart apart;
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
-      CAPTURE(seed);
       std::mt19937_64 random(seed);
-      HelicopterParameters parameters = any_parameters(random);
-      Helicopter simbody(parameters, seed);
-      parameters.dynamics = Dynamics::rigid;
-      Helicopter rigid(parameters, seed);
+      const HelicopterParameters parameters = any_parameters(random);
       const VehicleState start = any_start(random, 3000, 3, 3);
-      simbody.place(start);
-      rigid.place(start);
-      for (int i = 0; i < 4000; ++i) {
-        if (i % 40 == 0) {
-          const HelicopterInputs inputs = any_command(random, 0, 16000);
-          simbody.command(&inputs);
-          rigid.command(&inputs);
-        }
-        simbody.step();
-        rigid.step();
-        apart.compare(simbody.motion(), rigid.motion());
-      }
+      apart.fly(parameters, seed, start, 4000, 40, [&] { return any_command(random, 0, 16000); });
     }
-    MESSAGE("at most " << apart.place << " m, " << apart.angle << " rad, " << apart.rate << " m/s or rad/s apart");
+    apart.print();
     CHECK(apart.place < 1e-9);
     CHECK(apart.angle < 1e-9);
     CHECK(apart.rate < 1e-8);
@@ -87,28 +97,13 @@ TEST_SUITE("vehicles/helicopter_rigid_plant") {
   TEST_CASE("dropped, driven along and lifted off again it goes as in Simbody, but for rounding") {
     Apart apart;
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
-      CAPTURE(seed);
       std::mt19937_64 random(seed);
       HelicopterParameters parameters = any_parameters(random);
       parameters.failures.right = {};
-      Helicopter simbody(parameters, seed);
-      parameters.dynamics = Dynamics::rigid;
-      Helicopter rigid(parameters, seed);
       const VehicleState start = any_start(random, 0.7, 0.3, 0.3);
-      simbody.place(start);
-      rigid.place(start);
-      for (int i = 0; i < 1000; ++i) {
-        if (i % 100 == 0) {
-          const HelicopterInputs inputs = any_command(random, 3000, 8300);
-          simbody.command(&inputs);
-          rigid.command(&inputs);
-        }
-        simbody.step();
-        rigid.step();
-        apart.compare(simbody.motion(), rigid.motion());
-      }
+      apart.fly(parameters, seed, start, 1000, 100, [&] { return any_command(random, 3000, 8300); });
     }
-    MESSAGE("at most " << apart.place << " m, " << apart.angle << " rad, " << apart.rate << " m/s or rad/s apart");
+    apart.print();
     CHECK(apart.place < 1e-8);
     CHECK(apart.angle < 1e-8);
     CHECK(apart.rate < 1e-6);
