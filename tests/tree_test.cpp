@@ -31,6 +31,11 @@ std::vector<std::string> project_includes(const fs::path& file) {
   return includes;
 }
 
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 bool is_allowed(const std::string& folder, const std::string& include) {
   if (include.starts_with(folder + "/")) return true;
   for (const std::string& prefix : allowed.at(folder))
@@ -105,8 +110,7 @@ TEST_SUITE("tree") {
   TEST_CASE("the page of each folder names its rooms, and what it links to is there") {
     std::string wrong;
     for (const std::string folder : {"graph", "runtime", "tasks", "distributers", "vehicles", "tools"}) {
-      std::ifstream in(folder + "/README.md");
-      const std::string page{std::istreambuf_iterator<char>(in), {}};
+      const std::string page = text_of(folder + "/README.md");
       for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string room = entry.path().filename();
         if (entry.is_directory() && !fs::is_empty(entry) && room[0] != '_' &&
@@ -119,6 +123,21 @@ TEST_SUITE("tree") {
           wrong += folder + "/README.md links to " + (*found)[1].str() + ", which is not there\n";
     }
     CHECK(wrong == "");
+  }
+
+  TEST_CASE("each test is in the list of its suite") {
+    std::string lists, missing;
+    std::size_t tests = 0;
+    for (const auto& entry : fs::recursive_directory_iterator("tests"))
+      if (entry.path().filename() == "CMakeLists.txt") lists += text_of(entry.path());
+    for (const auto& entry : fs::recursive_directory_iterator("tests")) {
+      const std::string name = entry.path().filename();
+      if (!name.ends_with("_test.cpp")) continue;
+      ++tests;
+      if (lists.find(name) == std::string::npos) missing += entry.path().string() + "\n";
+    }
+    CHECK(missing == "");
+    CHECK(tests > 200);
   }
 
   TEST_CASE("at the top stand the eight folders and a few files") {

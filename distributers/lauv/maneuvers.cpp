@@ -16,8 +16,8 @@ namespace {
 using tasks::Course;
 using tasks::Leg;
 
-constexpr double furthest = 100e3;  // m, from the origin: the ground is flat there
-constexpr double surface = 0.5;     // m, where a station is kept with the propeller off
+constexpr double furthest = 100e3;   // m, from the origin: the ground is flat there
+constexpr double least_step = 1e-3;  // m across, of a curve of rows
 constexpr std::size_t most_legs = 1000;
 
 [[noreturn]] void refuse(const std::string& text) { throw std::invalid_argument(text); }
@@ -27,6 +27,14 @@ double finite(double value, const char* name) {
   return value;
 }
 
+// The vehicle can't follow a smaller circle than the usual one; DUNE widens them, too.
+Leg circle_of(Leg leg, Course course, double radius, double duration) {
+  leg.course = course;
+  leg.radius = std::max(radius, default_radius);
+  leg.duration = duration;
+  return leg;
+}
+
 // What most maneuvers have: a line to a place.
 template <class M>
 Leg line_to(const M& m, const Origin& origin) {
@@ -34,20 +42,6 @@ Leg line_to(const M& m, const Origin& origin) {
   set_place(leg, m.lat, m.lon, origin);
   set_level(leg, static_cast<double>(m.z), m.z_units);
   set_speed(leg, static_cast<double>(m.speed), m.speed_units);
-  return leg;
-}
-
-Leg circle_of(Leg leg, double radius, double duration) {
-  leg.course = Course::circle;
-  leg.radius = radius == 0 ? default_radius : radius;
-  leg.duration = duration;
-  return leg;
-}
-
-// At the surface the vehicle floats; below it has to go on, for it is a little lighter than water.
-Leg station_of(Leg leg, double radius, double duration) {
-  leg = circle_of(leg, radius, duration);
-  if (leg.vertical == tasks::Vertical::depth && leg.level < surface) leg.course = Course::station;
   return leg;
 }
 
@@ -81,9 +75,10 @@ Legs legs_of(const imc::FollowPath& m, const Origin& origin) {
   return legs;
 }
 
-// From a corner along `bearing`, across it to the side of the first curve, and back; the first step across and every
-// second one after it is `alternation` percent of `hstep`, the others what two steps leave: as DUNE flies them, evenly
-// at 100. With square curves a row begins where the last one turned, `coff` beyond the area.
+// As DUNE flies them: from `coff` before a corner along `bearing`, across to the side of the first curve, and back.
+// Each row goes on `coff` beyond the area; with square curves it turns there, else at the area. The first step across
+// and every second one after it is `alternation` percent of `hstep`, the others what two steps leave; there are as many
+// as even ones have room.
 Legs legs_of(const imc::Rows& m, const Origin& origin) {
   const Leg corner = line_to(m, origin);
   const auto length = finite(static_cast<double>(m.length), "length"),
@@ -94,8 +89,7 @@ Legs legs_of(const imc::Rows& m, const Origin& origin) {
   const bool square = (m.flags & imc::Rows::Flags::SQUARE_CURVE) != 0;
   const double side = (m.flags & imc::Rows::Flags::CURVE_RIGHT) != 0 ? 1 : -1;
   const double along = finite(m.bearing, "bearing"),
-               across = along + side * pi / 2 + finite(m.cross_angle, "cross_angle");
-  const double share = 0.01 * std::min<int>(m.alternation, 200);
+               across = along + side * (pi / 2 + finite(m.cross_angle, "cross_angle"));
   Legs legs;
   const auto go_to = [&](double a, double b) {
     if (legs.size() == most_legs) refuse(fmt::format("more than {} lines", most_legs));
@@ -104,20 +98,20 @@ Legs legs_of(const imc::Rows& m, const Origin& origin) {
     leg.east += a * std::sin(along) + b * std::sin(across);
     legs.push_back({leg});
   };
+  const double out = m.coff, share = 0.01 * m.alternation;
+  if (out > 0) go_to(-out, 0);
   go_to(0, 0);
-  bool away = true, first = true;
-  for (double b = 0; b <= width;) {
-    const double far = away ? length : 0, out = away ? m.coff : -static_cast<double>(m.coff);
-    const double next = b + step * (first ? share : 2 - share);
-    const bool last = next > width;
-    go_to(last ? far : far + out, b);
-    if (last) break;
-    go_to(square ? far + out : far, next);
-    b = next;
-    away = !away;
-    first = !first;
+  float curves = std::floor(m.width / m.hstep);
+  double b = 0;
+  for (bool away = true;; away = !away) {
+    const double far = away ? length : 0, beyond = away ? length + out : -out;
+    go_to(beyond, b);
+    const double across_by = step * (away ? share : 2 - share);
+    const bool is_curve = std::abs(across_by) > least_step;
+    if (is_curve && curves-- < 1) return legs;
+    b += across_by;
+    if (is_curve || !square) go_to(square ? beyond : far, b);
   }
-  return legs;
 }
 
 Legs legs_of(const imc::Loiter& m, const Origin& origin) {
@@ -125,12 +119,13 @@ Legs legs_of(const imc::Loiter& m, const Origin& origin) {
   if (m.type != Type::DEFAULT && m.type != Type::CIRCULAR)
     refuse(fmt::format("a loiter is flown as a circle, types 0 and 1, not {}", m.type));
   const double side = m.direction == imc::Loiter::Direction::CCLOCKW ? -1 : 1;
-  const double radius = radius_of(static_cast<double>(m.radius));
-  return {{circle_of(line_to(m, origin), side * (radius == 0 ? default_radius : radius), m.duration)}};
+  Leg leg = circle_of(line_to(m, origin), Course::circle, radius_of(static_cast<double>(m.radius)), m.duration);
+  leg.radius *= side;
+  return {{leg}};
 }
 
 Legs legs_of(const imc::StationKeeping& m, const Origin& origin) {
-  return {{station_of(line_to(m, origin), radius_of(static_cast<double>(m.radius)), m.duration)}};
+  return {{circle_of(line_to(m, origin), Course::station, radius_of(static_cast<double>(m.radius)), m.duration)}};
 }
 
 Legs legs_of(const imc::YoYo& m, const Origin& origin) {
@@ -148,7 +143,7 @@ Legs legs_of(const imc::Elevator& m, const Origin& origin) {
   Leg there{.course = Course::line};
   if (!here) set_place(there, m.lat, m.lon, origin);
   set_speed(there, static_cast<double>(m.speed), m.speed_units);
-  Leg up_or_down = circle_of(there, radius_of(static_cast<double>(m.radius)), 0);
+  Leg up_or_down = circle_of(there, Course::circle, radius_of(static_cast<double>(m.radius)), 0);
   up_or_down.until_level = true;
   set_level(up_or_down, static_cast<double>(m.end_z), m.end_z_units);
   if (here) return {{up_or_down, true}};
@@ -156,24 +151,28 @@ Legs legs_of(const imc::Elevator& m, const Origin& origin) {
   return {{there}, {up_or_down}};
 }
 
+// As DUNE flies it: there, up on a spiral, at the surface a station where it came up, or until GPS has found it, and
+// down again.
 Legs legs_of(const imc::PopUp& m, const Origin& origin) {
   using Flags = imc::PopUp::Flags;
-  const bool here = (m.flags & Flags::CURR_POS) != 0;
+  const bool here = (m.flags & Flags::CURR_POS) != 0,
+             stays = (m.flags & (Flags::WAIT_AT_SURFACE | Flags::STATION_KEEP)) != 0;
+  const double radius = radius_of(static_cast<double>(m.radius));
   Leg there{.course = Course::line};
   if (!here) set_place(there, m.lat, m.lon, origin);
   set_level(there, static_cast<double>(m.z), m.z_units);
   set_speed(there, static_cast<double>(m.speed), m.speed_units);
-  Leg up = circle_of(there, default_radius, 0);
+  Leg down = circle_of(there, Course::circle, 0, 0);
+  down.until_level = true;
+  Leg up = down;
   set_level(up, 0, imc::ZUnits::DEPTH);
-  up.until_level = true;
   Legs legs;
   if (!here) legs.push_back({there});
   legs.push_back({up, here});
-  if ((m.flags & Flags::WAIT_AT_SURFACE) == 0) return legs;
-  Leg wait = station_of(up, radius_of(static_cast<double>(m.radius)), m.duration);
-  wait.until_level = false;
-  if ((m.flags & Flags::STATION_KEEP) == 0) wait.course = Course::rest;
-  if (m.duration > 0) legs.push_back({wait, here && wait.course == Course::station});
+  Leg at_surface = circle_of(up, stays ? Course::station : Course::fix, radius, stays ? m.duration : 0);
+  at_surface.until_level = false;
+  if (!stays || m.duration > 0) legs.push_back({at_surface, true});
+  legs.push_back({down, true});
   return legs;
 }
 
@@ -194,7 +193,7 @@ bool take(const messages::Message& message, const Origin& origin, Maneuver& to) 
   if constexpr (requires { m->control_src; }) {
     to.control_source = m->control_src;
     to.control_entity = m->control_ent;
-    to.loiter_radius = radius_of(static_cast<double>(m->loiter_radius));
+    to.loiter_radius = finite(static_cast<double>(m->loiter_radius), "loiter_radius");
   }
   return true;
 }

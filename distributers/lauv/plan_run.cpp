@@ -122,7 +122,7 @@ bool PlanRun::pass(Duration now) {
 
 bool PlanRun::follow(const messages::imc::Reference& reference, std::uint16_t source, std::uint8_t entity, Duration now,
                      const Origin& origin, const tasks::Motion& motion) {
-  if (!runs_ || !follower_ || !follower_->take(reference, source, entity, now, origin)) return false;
+  if (!runs_ || !follower_ || !follower_->take(reference, source, entity, now, origin, motion)) return false;
   if (follower_->is_done()) return finish_maneuver(motion, now);
   const std::uint32_t number = leg_.number;
   const bool same = same_path(leg_, follower_->leg());

@@ -27,6 +27,12 @@ M read(const messages::InlineMessage& field, const char* name) {
   return *message.as<M>();
 }
 
+// Below 0: counterclockwise. A station has no side.
+double radius_on(Course course, double radius) {
+  const double size = std::max(std::abs(radius), default_radius);
+  return course == Course::circle && radius < 0 ? -size : size;
+}
+
 }  // namespace
 
 ReferenceFollower::ReferenceFollower(const Maneuver& maneuver, Duration now)
@@ -38,7 +44,7 @@ ReferenceFollower::ReferenceFollower(const Maneuver& maneuver, Duration now)
       leg_{.course = Course::rest, .surge = usual_speed} {}
 
 bool ReferenceFollower::take(const imc::Reference& reference, std::uint16_t source, std::uint8_t entity, Duration now,
-                             const Origin& origin) {
+                             const Origin& origin, const tasks::Motion& motion) {
   using Flags = imc::Reference::Flags;
   const bool may = (source_ == any_system || source_ == source) && (entity_ == any_entity || entity_ == entity);
   if (!may) return false;
@@ -49,21 +55,25 @@ bool ReferenceFollower::take(const imc::Reference& reference, std::uint16_t sour
       leg.course = Course::line;
     else
       leg.north = leg_.north, leg.east = leg_.east;
+  } else if (leg.course == Course::rest) {  // without a place it is where the vehicle is
+    leg.course = Course::line;
+    leg.north = motion.x, leg.east = motion.y;
   }
   if ((reference.flags & Flags::SPEED) != 0) {
     const auto speed = read<imc::DesiredSpeed>(reference.speed, "speed");
-    set_speed(leg, speed.value, speed.speed_units);
+    if (speed.value == 0)
+      leg.drive = tasks::Drive::thrust, leg.thrust = 0;
+    else
+      set_speed(leg, speed.value, speed.speed_units);
   }
   if ((reference.flags & Flags::Z) != 0) {
     const auto z = read<imc::DesiredZ>(reference.z, "z");
     set_level(leg, static_cast<double>(z.value), z.z_units);
   }
   if ((reference.flags & Flags::RADIUS) != 0) {
-    const auto radius = static_cast<double>(reference.radius);
-    if (!(radius >= 0)) throw std::invalid_argument("the reference's radius is negative or no number");
-    radius_ = radius;
-    if (leg.course == Course::circle || leg.course == Course::station)
-      leg.radius = radius_ > 0 ? radius_ : default_radius;
+    if (!std::isfinite(reference.radius)) throw std::invalid_argument("the reference's radius is no number");
+    radius_ = static_cast<double>(reference.radius);
+    if (leg.course == Course::circle || leg.course == Course::station) leg.radius = radius_on(leg.course, radius_);
   }
   done_ |= (reference.flags & Flags::MANDONE) != 0;
   heard_ = now;
@@ -77,7 +87,7 @@ bool ReferenceFollower::note(const tasks::Progress& progress) {
   progress_ = progress;
   if (leg_.course != Course::line || !progress.done) return false;
   leg_.course = leg_.vertical == tasks::Vertical::depth && leg_.level < surface ? Course::station : Course::circle;
-  leg_.radius = radius_ > 0 ? radius_ : default_radius;
+  leg_.radius = radius_on(leg_.course, radius_);
   return true;
 }
 
@@ -95,6 +105,7 @@ imc::FollowRefState ReferenceFollower::state() const {
     case Course::circle: report.state = progress_.levelled ? State::LOITER : State::ELEVATOR; break;
     case Course::station: report.state = State::HOVER; break;
     case Course::rest:
+    case Course::fix:
     case Course::none: report.state = State::WAIT; break;
   }
   const bool there = leg_.course == Course::circle || leg_.course == Course::station;

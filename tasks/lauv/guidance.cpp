@@ -12,6 +12,7 @@ using State = LauvGuidance::State;
 
 constexpr double slowest = 0.1;            // m/s, of which times and drift are reckoned
 constexpr double sharpest = 100 * degree;  // turn that is prepared
+constexpr double surface_share = 2.5;      // of a station's radius, within which it is come back to at the surface
 
 void begin(const Param& p, const In& in, State& state) {
   const bool joins = state.has_end && std::hypot(in.motion.x - state.end_x, in.motion.y - state.end_y) <
@@ -20,6 +21,7 @@ void begin(const Param& p, const In& in, State& state) {
   state = {.number = in.leg.number,
            .begin_x = joins ? before.end_x : in.motion.x,
            .begin_y = joins ? before.end_y : in.motion.y,
+           .fixes = in.instruments.place.count,
            .depth = in.motion.z};
   state.has_end = in.leg.course == Course::line;
   state.end_x = in.leg.north;
@@ -125,7 +127,9 @@ void LauvGuidance::run(const Param& p, const Tick& tick, const In& in, State& st
     case Course::station:
       to.heading = crab(in, keep_station(p, in, state, progress));
       drives = state.drifted;
+      if ((state.arrived || progress.near) && progress.distance < surface_share * leg.radius) to.depth = 0;
       break;
+    case Course::fix:
     case Course::rest:
     case Course::none:
       progress.near = true;
@@ -140,7 +144,10 @@ void LauvGuidance::run(const Param& p, const Tick& tick, const In& in, State& st
   const bool lasts = leg.course != Course::line;
   if (state.arrived) state.since += dt;
   if (lasts) progress.left = leg.duration > 0 ? std::max(leg.duration - state.since, 0.0) : -1;
-  const bool over = lasts ? leg.duration > 0 && state.since >= leg.duration : progress.near;
+  const std::int64_t fixes = in.instruments.place.count;
+  const bool over = leg.course == Course::fix ? fixes < 0 || fixes > state.fixes
+                    : lasts                   ? leg.duration > 0 && state.since >= leg.duration
+                                              : progress.near;
   state.done |= leg.until_level ? progress.levelled : over;
   progress.done = state.done;
 }

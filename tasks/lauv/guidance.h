@@ -22,7 +22,9 @@ namespace jarol::tasks {
 /// and the heading is that course less the drift, asin(stream across chi / speed through the water). On a circle it is
 /// ahead by what the heading lags, turn rate times heading_time, and by the slip of the hull, -atan(v / u). A line
 /// begins where the last one ended if the vehicle is near there, else where the vehicle is. It ends before its end
-/// where the course turns: by radius tan(turn / 2), of the circle on which the vehicle turns.
+/// where the course turns: by radius tan(turn / 2), of the circle on which the vehicle turns. A station is driven to at
+/// its depth, and where the vehicle has been there back to at the surface, on which it floats, within 2.5 radii, as
+/// DUNE does.
 struct LauvGuidance {
   static constexpr std::string_view summary = "follows the legs of a plan: lines, circles, stations";
   struct Param {
@@ -61,6 +63,7 @@ struct LauvGuidance {
     double sigma = 0;
     double since = 0;
     bool arrived = false, drifted = false, done = false;
+    std::int64_t fixes = 0;
     double depth = 0;
     bool descends = true;
     static constexpr auto fields() {
@@ -70,6 +73,7 @@ struct LauvGuidance {
                       field<&S::begin_x>("m", "of the line"), field<&S::begin_y>("m", "of the line"),
                       field<&S::sigma>("m", "integral of the cross-track error"), field<&S::since>("s", "it is there"),
                       field<&S::arrived>(), field<&S::drifted>("", "away from its station"), field<&S::done>(),
+                      field<&S::fixes>("", "of GPS when the leg began"),
                       field<&S::depth>("m", "commanded on the way up and down"), field<&S::descends>());
     }
   };

@@ -11,17 +11,19 @@
 namespace jarol::tasks {
 
 /// What the vehicle does on a leg.
-enum class Course : std::uint8_t { none, line, circle, station, rest };
+enum class Course : std::uint8_t { none, line, circle, station, rest, fix };
 /// What depth and altitude are measured from.
 enum class Vertical : std::uint8_t { depth, altitude };
 
 constexpr auto enumerators(Course) {
   using enum Course;
-  return std::array<Enumerator<Course>, 5>{{{"none", none, "the operator's setpoint counts"},
-                                            {"line", line, "straight to a place"},
-                                            {"circle", circle, "around a place"},
-                                            {"station", station, "near a place, propeller off while it is"},
-                                            {"rest", rest, "propeller off"}}};
+  return std::array<Enumerator<Course>, 6>{
+      {{"none", none, "the operator's setpoint counts"},
+       {"line", line, "straight to a place"},
+       {"circle", circle, "around a place"},
+       {"station", station, "near a place at the surface, propeller off while it is"},
+       {"rest", rest, "propeller off"},
+       {"fix", fix, "propeller off until GPS has found it"}}};
 }
 constexpr auto enumerators(Vertical) {
   return std::array<Enumerator<Vertical>, 2>{{{"depth", Vertical::depth}, {"altitude", Vertical::altitude}}};

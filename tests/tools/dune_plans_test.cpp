@@ -272,22 +272,27 @@ TEST_SUITE("tools/dune_plans") {
     CHECK(std::hypot(mission.truth("x"), mission.truth("y")) < 12);
   }
 
-  TEST_CASE("it comes up where a pop-up says, stays there for its time, and goes on") {
-    Mission mission;
-    auto up = maneuver<imc::PopUp>(40, 10);
-    up.flags = imc::PopUp::Flags::WAIT_AT_SURFACE;
-    up.duration = 20;
-    mission.say(PlanOf("look").then("PopUp1", up).then("Goto2", maneuver<imc::Goto>(0, 0)).start());
-    double deepest = 0, at_surface = 0;
-    CHECK(mission.fly(300s, [&] {
-      const double depth = mission.truth("depth");
-      deepest = std::max(deepest, depth);
-      if (deepest > 2.5 && depth < 0.3) at_surface += 0.1;
-      return mission.plan().man_id == "Goto2";
-    }));
-    CHECK(deepest > 2.5);
-    CHECK(at_surface > 18);
-    CHECK(std::hypot(mission.truth("x") - 40, mission.truth("y") - 10) < 25);
+  TEST_CASE("it comes up where a pop-up says, stays there for its time or until GPS has found it, dives and goes on") {
+    for (const bool stays : {true, false}) {
+      CAPTURE(stays);
+      Mission mission;
+      auto up = maneuver<imc::PopUp>(40, 10);
+      up.flags = stays ? imc::PopUp::Flags::WAIT_AT_SURFACE : 0;
+      up.duration = 20;
+      mission.say(PlanOf("look").then("PopUp1", up).then("Goto2", maneuver<imc::Goto>(0, 0)).start());
+      double deepest = 0, at_surface = 0, again = 0;
+      CHECK(mission.fly(400s, [&] {
+        const double depth = mission.truth("depth");
+        deepest = std::max(deepest, depth);
+        if (deepest > 2.5 && depth < 0.3) at_surface += 0.1;
+        if (at_surface > 0) again = depth;
+        return mission.plan().man_id == "Goto2";
+      }));
+      CHECK(deepest > 2.5);
+      CHECK(again > 2.5);
+      CHECK((at_surface > 18) == stays);
+      CHECK(std::hypot(mission.truth("x") - 40, mission.truth("y") - 10) < 35);
+    }
   }
 
   TEST_CASE("it follows references while they come, circles where they end, and fails when they do") {

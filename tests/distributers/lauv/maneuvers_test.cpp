@@ -81,7 +81,8 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     CHECK(legs[1].leg.level == 4);
   }
 
-  TEST_CASE("rows go to and fro along their bearing, and across as far as they are wide") {
+  // By the stages that DUNE's RowsStages goes through.
+  TEST_CASE("rows begin before their corner, go to and fro beyond the area, and across as often as it is wide") {
     auto m = at<imc::Rows>(0, 0);
     m.length = 50;
     m.width = 20;
@@ -89,28 +90,51 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     m.coff = 4;
     m.alternation = 100;
     m.flags = imc::Rows::Flags::SQUARE_CURVE | imc::Rows::Flags::CURVE_RIGHT;
-    const double square[][2] = {{0, 0}, {54, 0}, {54, 10}, {-4, 10}, {-4, 20}, {50, 20}};
-    auto legs = made(m).legs;
-    REQUIRE(legs.size() == 6);
-    for (std::size_t k = 0; k < 6; ++k) check(legs[k], Course::line, square[k][0], square[k][1]);
+    using Places = std::vector<std::pair<double, double>>;  // along and across the bearing
+    const auto is = [&](const Places& places, double bearing, double across) {
+      m.bearing = bearing;
+      const auto legs = made(m).legs;
+      REQUIRE(legs.size() == places.size());
+      for (std::size_t k = 0; k < legs.size(); ++k) {
+        const auto [a, b] = places[k];
+        CAPTURE(k);
+        CHECK(legs[k].leg.course == Course::line);
+        CHECK(std::abs(legs[k].leg.north - (a * std::cos(bearing) + b * std::cos(across))) < 1e-6);
+        CHECK(std::abs(legs[k].leg.east - (a * std::sin(bearing) + b * std::sin(across))) < 1e-6);
+      }
+    };
+    is({{-4, 0}, {0, 0}, {54, 0}, {54, 10}, {-4, 10}, {-4, 20}, {54, 20}}, 0, 90 * degree);
     m.flags = 0;
-    m.bearing = 90 * degree;
     m.alternation = 50;
-    const double slanted[][2] = {{0, 0}, {0, 54}, {5, 50}, {5, -4}, {20, 0}, {20, 50}};
-    legs = made(m).legs;
-    REQUIRE(legs.size() == 6);
-    for (std::size_t k = 0; k < 6; ++k) {
-      CHECK(legs[k].leg.north == doctest::Approx(slanted[k][0]).epsilon(1e-6));
-      CHECK(legs[k].leg.east == doctest::Approx(slanted[k][1]).epsilon(1e-6));
-    }
-    // there and back on one row, then two steps across
+    is({{-4, 0}, {0, 0}, {54, 0}, {50, 5}, {-4, 5}, {0, 20}, {54, 20}}, 90 * degree, 0);
+    // a third curve has no room as an even one, though a short one had
+    m.width = 29;
+    is({{-4, 0}, {0, 0}, {54, 0}, {50, 5}, {-4, 5}, {0, 20}, {54, 20}}, 90 * degree, 0);
+    // there and back on one row, then two steps across: a row that is not left is no curve
+    m.width = 20;
     m.alternation = 0;
-    legs = made(m).legs;
-    REQUIRE(legs.size() == 8);
-    CHECK(legs[2].leg.north == doctest::Approx(0));
-    CHECK(legs[4].leg.north == doctest::Approx(20).epsilon(1e-6));
-    m.hstep = 1e-30F;
+    is({{-4, 0},
+        {0, 0},
+        {54, 0},
+        {50, 0},
+        {-4, 0},
+        {0, 20},
+        {54, 20},
+        {50, 20},
+        {-4, 20},
+        {0, 40},
+        {54, 40},
+        {50, 40},
+        {-4, 40}},
+       0, -90 * degree);
+    m.coff = 0;
+    m.width = 10;
     m.alternation = 100;
+    m.cross_angle = 30 * degree;
+    is({{0, 0}, {50, 0}, {50, 10}, {0, 10}}, 0, -120 * degree);
+    m.flags = imc::Rows::Flags::CURVE_RIGHT;
+    is({{0, 0}, {50, 0}, {50, 10}, {0, 10}}, 0, 120 * degree);
+    m.hstep = 1e-30F;
     CHECK_THROWS_WITH_AS(made(m), "more than 1000 lines", std::invalid_argument);
   }
 
@@ -126,19 +150,23 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     m.direction = imc::Loiter::Direction::CCLOCKW;
     CHECK(made(m).legs[0].leg.radius == -25);
     m.radius = 0;
-    CHECK(made(m).legs[0].leg.radius == -default_radius);
+    CHECK(made(m).legs[0].leg.radius == -10);
+    m.radius = 9;  // too small for the vehicle
+    CHECK(made(m).legs[0].leg.radius == -10);
     m.type = imc::Loiter::Type::EIGHT;
     CHECK_THROWS_WITH_AS(made(m), "a loiter is flown as a circle, types 0 and 1, not 3", std::invalid_argument);
   }
 
-  TEST_CASE("a station is kept by drifting at the surface, and on a circle below it") {
+  TEST_CASE("a station is kept by drifting at its place, to which the vehicle goes at its depth") {
     auto m = at<imc::StationKeeping>(5, 6);
     m.radius = 12;
     m.duration = 40;
-    CHECK(made(m).legs[0].leg.course == Course::circle);
-    m.z = 0;
-    CHECK(made(m).legs[0].leg.course == Course::station);
-    CHECK(made(m).legs[0].leg.duration == 40);
+    const auto legs = made(m).legs;
+    REQUIRE(legs.size() == 1);
+    check(legs[0], Course::station, 5, 6);
+    CHECK(legs[0].leg.level == 3);
+    CHECK(legs[0].leg.radius == 12);
+    CHECK(legs[0].leg.duration == 40);
   }
 
   TEST_CASE("an elevator goes to its place, then up or down on a spiral there, or where the vehicle is") {
@@ -161,24 +189,42 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     CHECK(legs[0].here);
   }
 
-  TEST_CASE("a pop-up goes to its place, comes up, and waits if it says so: at rest, or keeping its station") {
+  TEST_CASE(
+      "a pop-up goes to its place, comes up, stays as long as it says or until GPS has found it, and dives again") {
     auto m = at<imc::PopUp>(5, 6);
     m.duration = 30;
     m.radius = 20;
-    CHECK(made(m).legs.size() == 2);
-    m.flags = imc::PopUp::Flags::WAIT_AT_SURFACE;
     auto legs = made(m).legs;
-    REQUIRE(legs.size() == 3);
+    REQUIRE(legs.size() == 4);
+    check(legs[0], Course::line, 5, 6);
+    CHECK(legs[0].leg.level == 3);
+    check(legs[1], Course::circle, 5, 6);
     CHECK(legs[1].leg.until_level);
     CHECK(legs[1].leg.level == 0);
-    CHECK(legs[2].leg.course == Course::rest);
-    CHECK(legs[2].leg.duration == 30);
-    m.flags |= imc::PopUp::Flags::STATION_KEEP | imc::PopUp::Flags::CURR_POS;
+    CHECK(legs[2].leg.course == Course::fix);
+    CHECK(legs[2].leg.duration == 0);
+    CHECK(legs[3].leg.course == Course::circle);
+    CHECK(legs[3].leg.until_level);
+    CHECK(legs[3].leg.level == 3);
+    CHECK(legs[3].here);
+    const auto flags = {imc::PopUp::Flags::WAIT_AT_SURFACE, imc::PopUp::Flags::STATION_KEEP};
+    for (const auto flag : flags) {
+      m.flags = static_cast<std::uint8_t>(flag);
+      legs = made(m).legs;
+      REQUIRE(legs.size() == 4);
+      CHECK(legs[2].leg.course == Course::station);
+      CHECK(legs[2].leg.duration == 30);
+      CHECK(legs[2].leg.radius == 20);
+      CHECK(legs[2].leg.level == 0);
+      CHECK(legs[2].here);
+    }
+    m.flags |= imc::PopUp::Flags::CURR_POS;
+    m.duration = 0;
     legs = made(m).legs;
     REQUIRE(legs.size() == 2);
     CHECK(legs[0].here);
-    CHECK(legs[1].leg.course == Course::station);
-    CHECK(legs[1].leg.radius == 20);
+    CHECK(legs[0].leg.level == 0);
+    CHECK(legs[1].leg.level == 3);
   }
 
   TEST_CASE("what can't be flown is refused in words") {

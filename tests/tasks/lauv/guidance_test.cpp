@@ -200,6 +200,39 @@ TEST_SUITE("tasks/lauv_guidance") {
     CHECK(v.out.setpoint.speed == 1);
   }
 
+  TEST_CASE("a station is driven to at its depth, and back to at the surface within 2.5 of its radii") {
+    Vehicle v;
+    v.in.leg = {.number = 1, .course = Course::station, .north = 30, .radius = 10, .level = 3, .surge = 1};
+    v.in.motion.x = 9;
+    v.step();
+    CHECK(v.out.setpoint.depth == 3);
+    v.in.motion.x = 26;
+    v.step();
+    CHECK(v.out.setpoint.depth == 0);
+    v.in.motion.x = 5.1;
+    v.step();
+    CHECK(v.out.setpoint.depth == 0);
+    v.in.motion.x = 4.9;
+    v.step();
+    CHECK(v.out.setpoint.depth == 3);
+  }
+
+  TEST_CASE("for a fix the propeller is off until GPS has found it once more; without GPS it does not wait") {
+    Vehicle v;
+    v.in.instruments.place.count = 7;
+    v.in.leg = {.number = 1, .course = Course::fix, .duration = 1, .surge = 1};
+    for (int k = 0; k < 100; ++k) v.step();
+    CHECK(v.out.setpoint.speed == 0);
+    CHECK_FALSE(v.out.progress.done);
+    v.in.instruments.place.count = 8;
+    v.step();
+    CHECK(v.out.progress.done);
+    v.in.instruments.place.count = -1;
+    v.in.leg.number = 2;
+    v.step();
+    CHECK(v.out.progress.done);
+  }
+
   TEST_CASE("a leg that ends at its depth is over as soon as that is reached") {
     Vehicle v;
     v.in.leg = {.number = 1, .course = Course::circle, .radius = 10, .until_level = true, .level = 4, .surge = 1};
