@@ -36,6 +36,8 @@ bool passes_gfb(std::span<const Load> loads, std::int64_t cores) {
 std::vector<std::optional<std::int64_t>> global_edf_responses(std::span<const Load> loads, std::int64_t cores) {
   constexpr int most_rounds = 100, plain_steps = 100;
   std::vector<std::optional<std::int64_t>> responses(loads.size());
+  for (const Load& l : loads)
+    if (l.wcet > l.deadline - l.jitter) return responses;
   std::vector<std::int64_t> slack(loads.size(), 0);
   bool changed = true;
   for (int round = 0; changed && round < most_rounds; ++round) {

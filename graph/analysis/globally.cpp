@@ -104,7 +104,6 @@ Result check_globally(const System& system, bool whole, Effort& effort) {
     result.verdict = Verdict::not_schedulable;
     result.standing = Standing::proof;
     result.reason = "the tasks need more than all cores";
-    if (!whole) return result;
   } else if (bounded || (system.follows.empty() && passes_gfb(loads, system.cores))) {
     result.verdict = Verdict::schedulable;
     result.standing = Standing::safe;
@@ -114,6 +113,9 @@ Result check_globally(const System& system, bool whole, Effort& effort) {
   } else {
     result.reason = "the tests of global_edf are sufficient only, and none of them holds";
   }
+  // each bound takes for granted that the other tasks end in time
+  result.response.assign(loads.size(), std::nullopt);
+  if (result.verdict == Verdict::not_schedulable && !whole) return result;
   for (std::size_t i = 0; i < loads.size(); ++i)
     if (loads[i].jitter + loads[i].wcet > loads[i].deadline && result.verdict != Verdict::not_schedulable) {
       result.verdict = Verdict::not_schedulable;

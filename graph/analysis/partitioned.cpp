@@ -54,6 +54,15 @@ class Cores {
 
   bool waits() const { return !waiting_.empty(); }
 
+  // Without the waits these are no bounds, for whoever shares a core with one that waits.
+  void forget_responses_with_waits(Result& result) const {
+    for (const auto& tasks : tasks_) {
+      const auto is_here = [&](std::size_t task) { return std::find(tasks.begin(), tasks.end(), task) != tasks.end(); };
+      if (std::none_of(waiting_.begin(), waiting_.end(), [&](const Follow& f) { return is_here(f.second); })) continue;
+      for (const std::size_t task : tasks) result.response[task].reset();
+    }
+  }
+
   Result check(const std::vector<std::int64_t>& waits, Detail detail, Effort& effort) const {
     Result result;
     result.response.resize(system_.loads.size());
@@ -160,6 +169,7 @@ Result run_with_waits(const System& system, const std::vector<std::size_t>& core
 Result check_assigned(const System& system, const std::vector<std::size_t>& core, Detail detail, Effort& effort) {
   const Cores cores(system, core);
   Result result = cores.check(std::vector<std::int64_t>(system.loads.size(), 0), detail, effort);
+  if (result.verdict == Verdict::not_schedulable) cores.forget_responses_with_waits(result);
   if (!cores.waits() || result.verdict == Verdict::not_schedulable) return result;
   Result with_waits = cores.check_holistically(effort);
   if (with_waits.verdict == Verdict::schedulable) return with_waits;

@@ -91,8 +91,8 @@ tasks:
               R"(: UNKNOWN on 2 cores (global_edf): the tests of global_edf are sufficient only, and none of them holds
   task     period     offset   deadline       wcet     use   response      slack  core
   a          10ms        0ns       10ms       10ms  100.00%          -          -     -
-  b          10ms        0ns       10ms        5ms  50.00%       10ms        0ns     -
-  c          10ms        0ns       10ms        5ms  50.00%       10ms        0ns     -
+  b          10ms        0ns       10ms        5ms  50.00%          -          -     -
+  c          10ms        0ns       10ms        5ms  50.00%          -          -     -
   all 2 cores: utilisation 200.00% of 200%
   utilisation 200.00%; a task's response is its longest time from release to end when each takes its wcet;
   assumed: the earliest deadlines run, on any core; 'run' does not execute this, without overhead; whatever the offsets

@@ -1,0 +1,161 @@
+// Responses that are told of sets that are not schedulable, against trials that count single units of time, let what is
+// late end, and share no code with graph/analysis.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <deque>
+#include <numeric>
+#include <random>
+#include <tuple>
+
+#include "tests/graph/analysis/judged.h"
+
+namespace {
+using namespace jarol;
+using analysis::Verdict;
+using truth::Judged;
+using truth::Set;
+
+struct Job {
+  std::size_t task;
+  int arrival, ready, left;
+};
+
+bool is_nonpreemptive(Policy policy) {
+  return policy == Policy::edf_nonpreemptive || policy == Policy::fixed_priority_nonpreemptive;
+}
+
+bool is_by_priority(Policy policy) {
+  return policy == Policy::fixed_priority || policy == Policy::fixed_priority_nonpreemptive;
+}
+
+// Each task on its core, or all on all cores under global EDF, with every WCET, shifts and jitter as drawn: the longest
+// response of each task.
+class Trial {
+ public:
+  Trial(const Set& set, const std::vector<std::optional<std::size_t>>& core, std::uint64_t seed)
+      : set_(set), core_(core), random_(seed), order_(truth::places_in(graph_of(set)).order) {}
+
+  std::vector<int> run() {
+    const std::size_t n = set_.tasks.size();
+    std::vector<int> longest(n, 0), offset(n), next(n);
+    int repetition = 1;
+    for (std::size_t i = 0; i < n; ++i) {
+      const truth::Task& t = set_.tasks[i];
+      repetition = std::lcm(repetition, t.period);
+      // what is connected moves together
+      const int shift = set_.offsets_hold              ? 0
+                        : set_.feeds.empty() || i == 0 ? below(t.period)
+                                                       : offset[0] - set_.tasks[0].offset;
+      next[i] = offset[i] = ((t.offset + shift) % t.period + t.period) % t.period;
+    }
+    std::vector<Job> jobs;
+    for (int now = 0; now < 6 * repetition; ++now) {
+      for (std::size_t i = 0; i < n; ++i) {
+        const truth::Task& t = set_.tasks[i];
+        if (now != next[i]) continue;
+        jobs.push_back({i, now, now + (t.jitter > 0 ? below(t.jitter + 1) : 0), t.wcet});
+        next[i] += t.period;
+      }
+      for (const std::size_t j : running(jobs, now)) {
+        if (--jobs[j].left > 0) continue;
+        int& response = longest[jobs[j].task];
+        response = std::max(response, now + 1 - jobs[j].arrival);
+      }
+      std::erase_if(jobs, [](const Job& job) { return job.left == 0; });
+    }
+    return longest;
+  }
+
+ private:
+  int below(int limit) { return static_cast<int>(random_() % static_cast<std::uint64_t>(limit)); }
+
+  // Waits for the activation of a producer at its own instant, as readers of data flow do.
+  bool waits(const std::vector<Job>& jobs, const Job& job) const {
+    return std::any_of(set_.feeds.begin(), set_.feeds.end(), [&](const auto& feed) {
+      return feed.second == job.task && !set_.tasks[feed.first].let &&
+             std::any_of(jobs.begin(), jobs.end(),
+                         [&](const Job& other) { return other.task == feed.first && other.arrival == job.arrival; });
+    });
+  }
+
+  // The most urgent that are ready; of one task the earliest alone, and what has begun first where nothing preempts.
+  std::vector<std::size_t> running(const std::vector<Job>& jobs, int now) const {
+    std::vector<std::size_t> ready, runs;
+    for (std::size_t j = 0; j < jobs.size(); ++j) {
+      const bool is_next = std::none_of(jobs.begin(), jobs.begin() + static_cast<std::ptrdiff_t>(j),
+                                        [&](const Job& other) { return other.task == jobs[j].task; });
+      if (is_next && jobs[j].ready <= now && !waits(jobs, jobs[j])) ready.push_back(j);
+    }
+    const auto urgency = [&](std::size_t j) {
+      const Job& job = jobs[j];
+      const truth::Task& t = set_.tasks[job.task];
+      const bool begun = is_nonpreemptive(set_.policy) && job.left < t.wcet;
+      if (is_by_priority(set_.policy))
+        return std::make_tuple(!begun, t.priority ? 0 : 1, t.priority.value_or(t.deadline), order_[job.task]);
+      const std::size_t equal = set_.policy == Policy::global_edf ? job.task : order_[job.task];
+      return std::make_tuple(!begun, 0, job.arrival + t.deadline, equal);
+    };
+    std::sort(ready.begin(), ready.end(), [&](std::size_t a, std::size_t b) { return urgency(a) < urgency(b); });
+    const bool global = set_.policy == Policy::global_edf;
+    std::vector<bool> taken(static_cast<std::size_t>(set_.cores), false);
+    for (const std::size_t j : ready) {
+      const auto free = global ? std::find(taken.begin(), taken.end(), false)
+                               : taken.begin() + static_cast<std::ptrdiff_t>(core_[jobs[j].task].value());
+      if (free == taken.end() || *free) continue;
+      *free = true;
+      runs.push_back(j);
+    }
+    return runs;
+  }
+
+  const Set& set_;
+  const std::vector<std::optional<std::size_t>>& core_;
+  std::mt19937_64 random_;
+  std::vector<std::size_t> order_;
+};
+
+struct Tally {
+  std::uint64_t sets = 0, told = 0, reached = 0, short_ones = 0;
+  std::string first;
+
+  void add(const Set& set, std::uint64_t seed) {
+    const analysis::Result said = analysis::check(graph_of(set));
+    const bool global = set.policy == Policy::global_edf;
+    const bool placed = std::all_of(said.core.begin(), said.core.end(), [](const auto& c) { return c.has_value(); });
+    if (said.verdict == Verdict::schedulable || (!global && !placed)) return;
+    ++sets;
+    std::vector<int> longest(set.tasks.size(), 0);
+    for (std::uint64_t trial = 0; trial < 8; ++trial) {
+      const std::vector<int> run = Trial(set, said.core, 8 * seed + trial).run();
+      for (std::size_t i = 0; i < run.size(); ++i) longest[i] = std::max(longest[i], run[i]);
+    }
+    for (std::size_t i = 0; i < longest.size(); ++i) {
+      if (!said.response[i]) continue;
+      ++told;
+      reached += *said.response[i] == longest[i] ? 1U : 0U;
+      if (*said.response[i] >= longest[i]) continue;
+      ++short_ones;
+      if (first.empty())
+        first = Judged{set, said, {}}.text() + "\nbut task " + std::string(1, static_cast<char>('a' + i)) + " took " +
+                std::to_string(longest[i]);
+    }
+  }
+};
+}  // namespace
+
+TEST_SUITE("graph/analysis/late_responses") {
+  TEST_CASE("no activation takes longer than the response that is told, though others are late") {
+    for (const Policy policy : {Policy::fixed_priority, Policy::edf, Policy::fixed_priority_nonpreemptive,
+                                Policy::edf_nonpreemptive, Policy::global_edf}) {
+      const truth::Features features{
+          .jitter = true, .blocking = false, .data_flow = true, .any_phasing = true, .cores = 2};
+      Tally tally;
+      for (std::uint64_t seed = 0; seed < 3000; ++seed) tally.add(truth::random_set(seed, policy, features), seed);
+      CAPTURE(std::string(truth::name_of(policy)));
+      MESSAGE(tally.sets << " sets, " << tally.told << " responses, " << tally.reached << " of these reached");
+      CHECK(tally.sets > 100);
+      CHECK_MESSAGE(tally.short_ones == 0, tally.first);
+    }
+  }
+}
