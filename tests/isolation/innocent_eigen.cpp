@@ -21,6 +21,7 @@ TASK(Inverse, { out.out = (Matrix3::Identity() * (1 + in.in)).inverse().trace();
 TASK(Inverse4, { out.out = (Eigen::Matrix4d::Identity() * (1 + in.in)).inverse().determinant(); })
 TASK(Cross, { out.out = Vector3(in.in, 1, 2).cross(Vector3(3, in.in, 1)).normalized().norm(); })
 TASK(Solve, { out.out = (Matrix3::Identity() * (1 + in.in)).ldlt().solve(Vector3(1, 2, 3)).sum(); })
+// may be rejected at -O0: the way of large matrices, which allocates, is still in the code
 TASK(Cholesky, { out.out = (Matrix3::Identity() * (1 + in.in)).llt().solve(Vector3(1, 2, 3)).sum(); })
 TASK(Arrays, { out.out = (Eigen::Array4d(in.in, 1, 2, 3).square() + 1).log().maxCoeff(); })
 TASK(Blocks, {
