@@ -4,7 +4,7 @@
 #include "distributers/interfaces/vehicle.h"
 #include "distributers/links/link_type.h"
 #include "graph/named_list.h"
-#include "graph/registry.h"
+#include "graph/plugins/parts.h"
 
 namespace jarol::distributers {
 
@@ -15,5 +15,11 @@ struct Registries {
   NamedList<LinkType> links;
   NamedList<vehicles::VehicleClass> vehicles;
 };
+
+/// Is one of that kind and name among what is known beside the graph's registry?
+bool has(const Registries& known, const Extension& extension);
+
+/// The same with another registry of graphs, and the vehicles that plugins have brought.
+Registries with_plugins(const Registries& known, PluginParts parts);
 
 }  // namespace jarol::distributers

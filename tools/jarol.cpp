@@ -15,7 +15,6 @@
 #include "tools/report/command_line.h"
 #include "tools/report/failure.h"
 #include "tools/report/printable_stream.h"
-#include "tools/report/version.h"
 
 namespace {
 using namespace jarol;
@@ -44,28 +43,8 @@ void expect_command(const std::string& word, std::vector<std::string> names) {
 }
 
 int run_command(int argc, char** argv) {
-  tools::CommandLine line(
-      "jarol",
-      "Jarol runs control programs that are graphs of isolated tasks: checked for schedulability, the same to the bit "
-      "every time.\n\n  jarol check specs/exolauv.yaml     can it be scheduled, and if not, why\n"
-      "  jarol run specs/exolauv.yaml       run it on the virtual clock\n"
-      "  jarol tasks                        what a graph can be made of\n"
-      "  jarol help run                     all about a command\n",
-      tools::version_text());
   int exit_code = tools::exit_good;
-  tools::add_bench(line, exit_code);
-  tools::add_campaign(line, exit_code);
-  tools::add_check(line, exit_code);
-  tools::add_doctor(line, exit_code);
-  tools::add_graph(line, exit_code);
-  tools::add_isolation(line, exit_code);
-  tools::add_log(line, exit_code);
-  tools::add_messages(line, exit_code);
-  tools::add_replay(line, exit_code);
-  tools::add_run(line, exit_code);
-  tools::add_schema(line, exit_code);
-  tools::add_tasks(line, exit_code);
-  tools::add_vehicle(line, exit_code);
+  tools::CommandLine line = tools::make_command_line(exit_code);
   try {
     if (argc == 1) {
       std::cout << line.help();

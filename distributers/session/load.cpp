@@ -17,13 +17,13 @@ namespace jarol {
 namespace {
 
 // Where the vehicle of each distributer is.
-std::vector<expect::TrueValues> true_values_of(const Loaded& loaded, const distributers::Registries& known) {
+std::vector<expect::TrueValues> true_values_of(const Loaded& loaded) {
   using Where = expect::TrueValues::Where;
   std::vector<expect::TrueValues> all;
   for (std::size_t i = 0; i < loaded.graph->distributers.size(); ++i) {
     const Distributer& distributer = loaded.graph->distributers[i];
     const Yaml* name = distributer.link.kind == Yaml::Kind::mapping ? distributer.link.find("type") : nullptr;
-    const distributers::LinkType* link = name == nullptr ? nullptr : known.links.find(name->text);
+    const distributers::LinkType* link = name == nullptr ? nullptr : loaded.known->links.find(name->text);
     const Type* type = i < loaded.channels.size() && loaded.channels[i] ? loaded.channels[i]->true_type() : nullptr;
     const bool is_vehicle = distributer.distributer_class == nullptr || distributer.distributer_class->is_vehicle;
     all.push_back({type != nullptr                                              ? Where::here
@@ -35,8 +35,8 @@ std::vector<expect::TrueValues> true_values_of(const Loaded& loaded, const distr
 }
 
 // What hangs on where the vehicles are.
-void add_conditions(Loaded& loaded, const distributers::Registries& known, Problems& problems) {
-  loaded.true_values = true_values_of(loaded, known);
+void add_conditions(Loaded& loaded, Problems& problems) {
+  loaded.true_values = true_values_of(loaded);
   loaded.graph->expectations =
       expect::read_expectations(loaded.spec.expect, *loaded.graph, loaded.true_values, problems);
   loaded.campaign = campaign::read_campaign(loaded.spec.campaign, *loaded.graph, loaded.true_values, problems);
@@ -47,11 +47,13 @@ void add_conditions(Loaded& loaded, const distributers::Registries& known, Probl
 Loaded load(GraphSpec read, const distributers::Registries& known, const NoteSink& note, Problems& problems) {
   Loaded loaded;
   const GraphSpec& spec = loaded.spec = std::move(read);
-  loaded.registry = std::make_unique<Registry>(known.graph);
   for (const Located<std::string>& plugin : spec.plugins)
     note("loads plugin '" + printable(plugin_path(spec, plugin.value)) + "'");
-  load_plugins(spec, *loaded.registry, problems);
-  loaded.graph = std::make_unique<Graph>(build_graph(spec, *loaded.registry, problems));
+  PluginParts parts{known.graph, {}};
+  load_plugins(
+      spec, parts, [&](const Extension& extension) { return distributers::has(known, extension); }, problems);
+  loaded.known = std::make_unique<distributers::Registries>(distributers::with_plugins(known, std::move(parts)));
+  loaded.graph = std::make_unique<Graph>(build_graph(spec, loaded.known->graph, problems));
   expect::add_at_end(spec, *loaded.graph, problems);
   return loaded;
 }
@@ -62,7 +64,7 @@ Loaded load_without_channels(const std::shared_ptr<const Source>& source, const 
                              const Overrides& overrides, const NoteSink& note) {
   Problems problems;
   Loaded loaded = load(load_spec(source, overrides, problems), known, note, problems);
-  add_conditions(loaded, known, problems);
+  add_conditions(loaded, problems);
   return loaded;
 }
 
@@ -79,8 +81,8 @@ Loaded load_graph(const std::shared_ptr<const Source>& source, const distributer
   for (Distributer& distributer : loaded.graph->distributers)
     if (fits(distributer.name, without_link)) distributer.link = {};
   loaded.files = {source};
-  loaded.channels = distributers::make_channels(*loaded.graph, known, seed, problems, &loaded.files);
-  add_conditions(loaded, known, problems);
+  loaded.channels = distributers::make_channels(*loaded.graph, *loaded.known, seed, problems, &loaded.files);
+  add_conditions(loaded, problems);
   return loaded;
 }
 

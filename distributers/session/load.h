@@ -16,7 +16,7 @@
 namespace jarol {
 
 struct Loaded {
-  std::unique_ptr<Registry> registry;  // with the graph's plugins
+  std::unique_ptr<distributers::Registries> known;  // with what the graph's plugins bring
   std::unique_ptr<Graph> graph;
   std::vector<std::unique_ptr<Channels>> channels;
   std::vector<std::shared_ptr<const Source>> files{};  // the graph's, then what its links name

@@ -80,7 +80,7 @@ const Entry* find(const std::vector<Entry>& entries, const std::string& name) {
 
 PlannedGraph::PlannedGraph(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
                            const Overrides& overrides, const NoteSink& note)
-    : known_(known), loaded_(load_graph(source, known, overrides, 0, note)), plan_(*loaded_.graph) {
+    : loaded_(load_graph(source, known, overrides, 0, note)), plan_(*loaded_.graph) {
   loaded_.channels.clear();
 }
 
@@ -96,7 +96,8 @@ RunStart PlannedGraph::start(const std::vector<std::string>& set, std::uint64_t 
   Problems problems;
   change_tasks(set, start, problems);
   const std::vector<Distributer> distributers = change_distributers(set, problems);
-  if (problems.empty()) start.channels = distributers::make_channels(graph(), distributers, known_, seed, problems);
+  if (problems.empty())
+    start.channels = distributers::make_channels(graph(), distributers, *loaded_.known, seed, problems);
   problems.throw_if_any();
   return start;
 }

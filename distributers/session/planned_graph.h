@@ -45,7 +45,6 @@ class PlannedGraph {
   void change_tasks(const std::vector<std::string>& set, RunStart& start, Problems& problems) const;
   std::vector<Distributer> change_distributers(const std::vector<std::string>& set, Problems& problems) const;
 
-  const distributers::Registries& known_;
   Loaded loaded_;  // its channels were made to see that they can be, and are gone
   Plan plan_;
 };

@@ -1,4 +1,5 @@
-// What a shared library with tasks of its own includes; its whole interface to Jarol:
+// What a shared library with tasks of its own includes; its whole interface to Jarol (with distributers and vehicles:
+// distributers/interfaces/plugin_distributer.h, plugin_vehicle.h):
 //
 //   #include "graph/plugins/plugin.h"
 //   struct Twice { static constexpr std::string_view summary = "doubles"; struct In { ... }; ... };
@@ -18,13 +19,20 @@ static_assert(sizeof(JarolUnpacked) == 2 * sizeof(double), "a plugin can't be bu
 // first, so that the compiler's lines around an error in a description are few
 #include "graph/values/describe.h"
 
+#include "graph/plugins/parts.h"
 #include "graph/plugins/plugin_build.h"
 
 namespace jarol {
 
+/// How what a plugin names is added: a task. The headers of distributers and vehicles say how those are.
+template <class T>
+struct PluginPart {
+  static void add(PluginParts& parts) { parts.graph.add(task_class<T>()); }
+};
+
 template <class... T>
-void add_tasks_of_plugin(Registry& registry) {
-  (registry.add(task_class<T>()), ...);
+void add_parts_of_plugin(PluginParts& parts) {
+  (PluginPart<T>::add(parts), ...);
 }
 
 }  // namespace jarol
@@ -32,10 +40,10 @@ void add_tasks_of_plugin(Registry& registry) {
 /// Visible also in a library that is built with -fvisibility=hidden.
 #define JAROL_VISIBLE extern "C" [[gnu::used, gnu::visibility("default")]]
 
-/// Names the tasks that the library brings, once in a library.
+/// Names what the library brings, tasks, distributers and vehicles, once in a library.
 #define JAROL_PLUGIN(...)                                                                                    \
   JAROL_VISIBLE const jarol::PluginBuild jarol_plugin_build = jarol::build_of_this_file();                   \
   JAROL_VISIBLE bool jarol_plugin_rounds_products(const volatile double& x, const volatile double& square) { \
     return jarol::rounds_products(x, square);                                                                \
   }                                                                                                          \
-  JAROL_VISIBLE void jarol_plugin_add(jarol::Registry& registry) { jarol::add_tasks_of_plugin<__VA_ARGS__>(registry); }
+  JAROL_VISIBLE void jarol_plugin_add(jarol::PluginParts& parts) { jarol::add_parts_of_plugin<__VA_ARGS__>(parts); }

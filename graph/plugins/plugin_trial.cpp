@@ -54,7 +54,7 @@ int report_to = -1;  // in the trial's process
     if (const std::string difference = describe_difference(floating_point_control()); !difference.empty())
       end_trial("leaves another floating-point environment behind when it is loaded (" + difference +
                 "), as what is linked with -ffast-math does; link it without");
-    Registry added;
+    PluginParts added;
     library.add(added);
   } catch (const std::exception& error) {
     end_trial(std::string("throws when it is loaded: ") + error.what());

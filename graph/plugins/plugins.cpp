@@ -62,7 +62,7 @@ std::string open_plugin(const std::string& path, PluginLibrary& library) {
     const char* const why = dlerror();
     return std::string("is no shared library that can be used here: ") + (why != nullptr ? why : "unknown reason");
   }
-  library.add = reinterpret_cast<void (*)(Registry&)>(dlsym(loaded, "jarol_plugin_add"));
+  library.add = reinterpret_cast<void (*)(PluginParts&)>(dlsym(loaded, "jarol_plugin_add"));
   const auto rounds_products = reinterpret_cast<bool (*)(const volatile double&, const volatile double&)>(
       dlsym(loaded, "jarol_plugin_rounds_products"));
   if (library.add == nullptr || rounds_products == nullptr)
@@ -76,8 +76,24 @@ std::string open_plugin(const std::string& path, PluginLibrary& library) {
 
 namespace {
 
-// Appends the types that it adds.
-std::string add_plugin(const std::string& path, Registry& registry, std::vector<std::string>& types) {
+// What of a plugin there is already; empty: nothing.
+std::string find_clash(const PluginParts& added, const PluginParts& known, const IsThere& is_there) {
+  for (const TaskClass& task : added.graph.tasks())
+    if (known.graph.find_task(task.name) != nullptr) return "a task type '" + task.name + "'";
+  for (const DistributerClass& distributer : added.graph.distributers())
+    if (known.graph.find_distributer(distributer.name) != nullptr) return "a distributer '" + distributer.name + "'";
+  for (const Extension& extension : added.extensions) {
+    const bool added_before = std::any_of(
+        known.extensions.begin(), known.extensions.end(),
+        [&](const Extension& other) { return other.kind == extension.kind && other.name == extension.name; });
+    if (added_before || is_there(extension)) return "a " + extension.kind + " '" + extension.name + "'";
+  }
+  return "";
+}
+
+// Appends the types of tasks that it adds.
+std::string add_plugin(const std::string& path, PluginParts& known, const IsThere& is_there,
+                       std::vector<std::string>& types) {
   const std::string name = "'" + path + "' ";
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return "there is no file '" + path + "'";
@@ -90,24 +106,32 @@ std::string add_plugin(const std::string& path, Registry& registry, std::vector<
   PluginLibrary library;
   const std::string wrong = open_plugin(place, library);
   if (!wrong.empty()) return name + wrong;
-  Registry added;
+  PluginParts added;
   library.add(added);
-  for (const TaskClass& task : added.tasks())
-    if (registry.find_task(task.name) != nullptr)
-      return name + "brings a task type '" + task.name + "', which there is already";
-  for (TaskClass task : added.tasks()) {
+  if (const std::string clash = find_clash(added, known, is_there); !clash.empty())
+    return name + "brings " + clash + ", which there is already";
+  for (TaskClass task : added.graph.tasks()) {
     if (judgement.trusted) task.trust_floating_point();
     types.push_back(task.name);
-    registry.add(std::move(task));
+    known.graph.add(std::move(task));
   }
+  for (const DistributerClass& distributer : added.graph.distributers()) known.graph.add(distributer);
+  known.extensions.insert(known.extensions.end(), added.extensions.begin(), added.extensions.end());
   return "";
 }
 
 }  // namespace
 
-std::string load_plugin(const std::string& path, Registry& registry) {
+std::string load_plugin(const std::string& path, PluginParts& known, const IsThere& is_there) {
   std::vector<std::string> types;
-  return add_plugin(path, registry, types);
+  return add_plugin(path, known, is_there, types);
+}
+
+std::string load_plugin(const std::string& path, Registry& registry) {
+  PluginParts known{registry, {}};
+  std::string wrong = load_plugin(path, known, [](const Extension&) { return false; });
+  registry = std::move(known.graph);
+  return wrong;
 }
 
 std::string plugin_path(const GraphSpec& spec, const std::string& plugin) {
@@ -115,17 +139,17 @@ std::string plugin_path(const GraphSpec& spec, const std::string& plugin) {
   return (folder / plugin).string();
 }
 
-void load_plugins(const GraphSpec& spec, Registry& registry, Problems& problems) {
+void load_plugins(const GraphSpec& spec, PluginParts& known, const IsThere& is_there, Problems& problems) {
   for (const Located<std::string>& plugin : spec.plugins) {
     std::vector<std::string> types;
     const std::string path = plugin_path(spec, plugin.value);
-    const std::string wrong = add_plugin(path, registry, types);
+    const std::string wrong = add_plugin(path, known, is_there, types);
     if (wrong.empty()) {
-      check_isolation(spec, registry, types, path, problems);
+      check_isolation(spec, known.graph, types, path, problems);
       continue;
     }
     problems.add(plugin.where, wrong);
-    registry.mark_incomplete();
+    known.graph.mark_incomplete();
   }
 }
 

@@ -1,25 +1,30 @@
-// Task types from shared libraries.
+// Task types and distributers from shared libraries, and on their way what layers above keep.
 #pragma once
 
+#include <functional>
 #include <string>
 
-#include "graph/registry.h"
+#include "graph/plugins/parts.h"
 
 namespace jarol {
 
-/// Adds the tasks of a library that uses JAROL_PLUGIN. Returns what is wrong, or nothing; then nothing was added.
-/// The library stays loaded.
+/// Adds what a library names by JAROL_PLUGIN to what is known already. Returns what is wrong, or nothing; if something,
+/// then nothing was added. `is_there`: do the layers above have one of that kind and name? The library stays loaded.
+using IsThere = std::function<bool(const Extension& extension)>;
+std::string load_plugin(const std::string& path, PluginParts& known, const IsThere& is_there);
+
+/// The same of task types and distributers alone.
 std::string load_plugin(const std::string& path, Registry& registry);
 
 /// Where a plugin stands that a graph names: paths are relative to its file.
 std::string plugin_path(const GraphSpec& spec, const std::string& plugin);
 
-/// Adds the tasks of all plugins that a graph names, and reports what is wrong.
-void load_plugins(const GraphSpec& spec, Registry& registry, Problems& problems);
+/// Adds what all plugins that a graph names bring, and reports what is wrong.
+void load_plugins(const GraphSpec& spec, PluginParts& known, const IsThere& is_there, Problems& problems);
 
 /// What a library with tasks exports.
 struct PluginLibrary {
-  void (*add)(Registry& registry) = nullptr;
+  void (*add)(PluginParts& parts) = nullptr;
 };
 
 /// Loads it and looks how it computes; returns what is wrong, as words that follow its name. Runs its static

@@ -199,7 +199,7 @@ connections: [i -> sum.in]
     CHECK(command.exit_code == 2);
     CHECK(command.output ==
           "error: there is no command 'chek'; did you mean 'check'?; there are: bench, campaign, check, doctor, graph, "
-          "help, isolation, log, messages, replay, run, schema, tasks, vehicle\n");
+          "help, isolation, log, messages, new, replay, run, schema, tasks, vehicle\n");
     const Result missing = jarol("run no/such.yaml");
     CHECK(missing.exit_code == 2);
     CHECK(missing.output == "error: can't read 'no/such.yaml': No such file or directory\n1 error\n");
@@ -216,7 +216,7 @@ connections: [i -> sum.in]
 
   TEST_CASE("every command helps, by --help and after the word help") {
     for (const std::string command : {"", "bench", "campaign", "check", "doctor", "graph", "isolation", "log",
-                                      "messages", "replay", "run", "schema", "tasks", "vehicle"}) {
+                                      "messages", "new", "replay", "run", "schema", "tasks", "vehicle"}) {
       CAPTURE(command);
       const Result help = jarol(command + " --help");
       CHECK(help.exit_code == 0);
@@ -226,7 +226,7 @@ connections: [i -> sum.in]
     }
     CHECK(jarol("help chek").output ==
           "error: there is no command 'chek'; did you mean 'check'?; there are: bench, campaign, check, doctor, graph, "
-          "help, isolation, log, messages, replay, run, schema, tasks, vehicle\n");
+          "help, isolation, log, messages, new, replay, run, schema, tasks, vehicle\n");
   }
 
   TEST_CASE("without a word it shows its help, and that nothing was done") {

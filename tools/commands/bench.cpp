@@ -64,7 +64,8 @@ void add_bench(CommandLine& line, int& exit_code) {
       line.add_subcommand("bench",
                           "Measure what running costs, each figure beside the best plain code for the same work.\n"
                           "Least of interleaved repeats. Exit code: 0 all goals met, 1 not all");
-  command->add_option("FIGURE", options->names, "Figures to measure; default all: " + list_of(bench::figure_names()));
+  command->add_option("FIGURE", options->names, "Figures to measure; default all: " + list_of(bench::figure_names()))
+      ->suggests(bench::figure_names());
   command->add_option("--repeats", options->repeats, "Interleaved repeats per figure; default 60")->in_range(1, 100000);
   command->add_flag("--json", options->json, "One JSON object instead of a table");
   command->callback([options, &exit_code] { exit_code = run_bench(*options); });

@@ -269,6 +269,7 @@ void add_campaign(CommandLine& line, int& exit_code) {
       "Exit code: 0 all runs are good, 1 some are not, 2 bad input, or results of another campaign, 3 results can't\n"
       "be written, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
   command->add_option("FILE", options->file, "The graph, a YAML file; its key 'campaign' says what options add to")
+      ->file({"yaml"})
       ->required();
   command
       ->add_option(
@@ -296,13 +297,19 @@ void add_campaign(CommandLine& line, int& exit_code) {
                       "Seed of what is drawn, and of all runs where the seed does not vary; default 0");
   command->add_option("--workers", options->workers, "Runs at once; default: one per CPU")->in_range(1, 1024);
   command->add_option("--shard", options->shard, "Only this part of the runs, as in 2/8, the second of eight");
-  command->add_option("--results", options->results,
-                      "The SQLite database of the results; default: NAME.campaign.sqlite, here, of a graph NAME.yaml");
-  command->add_option("--csv", options->csv,
-                      "Write the results as a table when all, or those of --shard, are there; -: to stdout");
-  command->add_option("--report", options->report,
-                      "Write a page for people when all runs, or those of --shard, are there: an HTML file with "
-                      "histograms and scatter plots, and the worst cases");
+  command
+      ->add_option("--results", options->results,
+                   "The SQLite database of the results; default: NAME.campaign.sqlite, here, of a graph NAME.yaml")
+      ->file({"sqlite"});
+  command
+      ->add_option("--csv", options->csv,
+                   "Write the results as a table when all, or those of --shard, are there; -: to stdout")
+      ->file({"csv"});
+  command
+      ->add_option("--report", options->report,
+                   "Write a page for people when all runs, or those of --shard, are there: an HTML file with "
+                   "histograms and scatter plots, and the worst cases")
+      ->file({"html"});
   command->add_flag("--shrink", options->shrink,
                     "When all runs, or those of --shard, are there: find the mildest values at which the first run "
                     "that is not good still ends "

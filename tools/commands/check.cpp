@@ -119,7 +119,7 @@ void check_file(const std::string& file, const Options& options, Checked& checke
   CheckReport report = check_graph(file, *loaded.graph, options.sensitivity, options.all_chains);
   analysis::Effort effort;
   if (!options.sensitivity) effort.left = 30'000'000;
-  report.remedies = find_remedies(read_source(file), overrides, *loaded.registry, report, effort);
+  report.remedies = find_remedies(read_source(file), overrides, loaded.known->graph, report, effort);
   // what was written holds by now
   if (!options.measuring.write) report.measured = std::move(measured);
   note_what_lacks(report, options, checked.notes);
@@ -215,8 +215,10 @@ void add_check(CommandLine& line, int& exit_code) {
                           "Check structure, types and timing of graphs, and whether they can be scheduled.\n"
                           "Exit code: 0 schedulable, 1 not schedulable, a limit of a chain is broken, or with "
                           "--measure a 'wcet',\n3 not decided, 2 bad input");
-  command->add_option("FILE", options->files,
-                      "Graphs, YAML files; several are checked on all processors at once, and reported in their order");
+  command
+      ->add_option("FILE", options->files,
+                   "Graphs, YAML files; several are checked on all processors at once, and reported in their order")
+      ->file({"yaml"});
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.wcet=2ms")
       ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
@@ -239,14 +241,15 @@ void add_check(CommandLine& line, int& exit_code) {
       ->add_option("--margin", options->measuring.margin,
                    "With --write: percent on top of what was measured; default 20")
       ->in_range(0.0, 10'000.0);
-  command->add_option(
-      "--svg", options->svg,
-      "Draw who runs when into this SVG file: around the first late activation, else over a hyperperiod");
+  command
+      ->add_option("--svg", options->svg,
+                   "Draw who runs when into this SVG file: around the first late activation, else over a hyperperiod")
+      ->file({"svg"});
   command
       ->add_option("--generate", options->generate,
                    "Instead of checking, write random graphs: waters (automotive periods) or uunifast")
       ->one_of({"waters", "uunifast"});
-  command->add_option("-o", options->folder, "Folder of the graphs that --generate writes");
+  command->add_option("-o", options->folder, "Folder of the graphs that --generate writes")->folder();
   command->add_option("--count", options->count, "How many graphs, of consecutive seeds; default 1")
       ->in_range(1, 1'000'000);
   command->add_option("--seed", options->generation.seed, "Seed of the first graph; default 0");

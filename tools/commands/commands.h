@@ -18,10 +18,14 @@ void add_graph(CommandLine& line, int& exit_code);
 void add_isolation(CommandLine& line, int& exit_code);
 void add_log(CommandLine& line, int& exit_code);
 void add_messages(CommandLine& line, int& exit_code);
+void add_new(CommandLine& line, int& exit_code);
 void add_replay(CommandLine& line, int& exit_code);
 void add_run(CommandLine& line, int& exit_code);
 void add_schema(CommandLine& line, int& exit_code);
 void add_tasks(CommandLine& line, int& exit_code);
 void add_vehicle(CommandLine& line, int& exit_code);
+
+/// All of them.
+CommandLine make_command_line(int& exit_code);
 
 }  // namespace jarol::tools

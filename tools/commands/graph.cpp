@@ -175,7 +175,7 @@ void print_dot(const Graph& graph) {
 void add_graph(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
   Command* command = line.add_subcommand("graph", "Print a graph as text, or as a drawing for Graphviz");
-  command->add_option("FILE", options->file, "The graph, a YAML file")->required();
+  command->add_option("FILE", options->file, "The graph, a YAML file")->file({"yaml"})->required();
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.period=100ms")
       ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");

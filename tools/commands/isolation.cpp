@@ -113,7 +113,8 @@ void add_isolation(CommandLine& line, int& exit_code) {
   Command* command = line.add_subcommand(
       "isolation",
       "Do tasks reach nothing but their own? Follows their machine code; without a file, of those built in");
-  command->add_option("FILE", options->files, "Shared libraries with tasks; -g when they are built names source lines");
+  command->add_option("FILE", options->files, "Shared libraries with tasks; -g when they are built names source lines")
+      ->file({"so"});
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->footer(
       "A task may use its parameters, inputs, state, heap and logical time. What it can reach beside them offends: "

@@ -58,22 +58,28 @@ void add_log(CommandLine& line, int& exit_code) {
   command->add_option("WHAT", words->what, "info, cat, csv, verify, diff, trace or report")
       ->required()
       ->one_of({"info", "cat", "csv", "verify", "diff", "trace", "report"});
-  command->add_option("FILE", words->file, "The recording")->required();
-  command->add_option(
-      "OTHER", words->other,
-      "Of diff: the one to compare it with. Of trace and report: the graph's file in place of the recording's, where "
-      "it names plugins");
+  command->add_option("FILE", words->file, "The recording")->file({"mcap"})->required();
+  command
+      ->add_option("OTHER", words->other,
+                   "Of diff: the one to compare it with. Of trace and report: the graph's file in place of the "
+                   "recording's, where "
+                   "it names plugins")
+      ->file({"mcap", "yaml"});
   command->add_option(
       "--topic", words->topics,
       "These topics: names with * for any part, as in depth.*,from_dune; default: of cat all, of csv all that "
       "is published");
   command->add_option("--from", words->from_text, "From that instant on, as in 3s");
   command->add_option("--until", words->until_text, "Before that instant");
-  command->add_option("--by-rate", words->by_rate,
-                      "Of csv: into this folder, a file for each period and place in it, without empty cells");
-  command->add_option(
-      "--out,-o", words->out,
-      "The file to write; default: of trace stdout, of report FILE with .html in place of .mcap; -: stdout");
+  command
+      ->add_option("--by-rate", words->by_rate,
+                   "Of csv: into this folder, a file for each period and place in it, without empty cells")
+      ->folder();
+  command
+      ->add_option(
+          "--out,-o", words->out,
+          "The file to write; default: of trace stdout, of report FILE with .html in place of .mcap; -: stdout")
+      ->file();
   command->add_flag("--json", words->json, "One JSON object instead of text");
   command->callback([words, command, &exit_code] { exit_code = look(*command, *words); });
 }

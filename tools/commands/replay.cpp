@@ -231,10 +231,12 @@ void add_replay(CommandLine& line, int& exit_code) {
       "Exit code: 0 the same, 1 diverged, or the same and not what 'expect' says or too much left out by faults,\n"
       "2 bad input, as a recording with anything after its end, 3 one that breaks off,\n"
       "129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
-  command->add_option("LOG", options->log, "The recording of a run")->required();
-  command->add_option(
-      "FILE", options->file,
-      "Another graph than that of the run, or the same where it names plugins; default: as the run has read it");
+  command->add_option("LOG", options->log, "The recording of a run")->file({"mcap"})->required();
+  command
+      ->add_option(
+          "FILE", options->file,
+          "Another graph than that of the run, or the same where it names plugins; default: as the run has read it")
+      ->file({"yaml"});
   command
       ->add_option("--set", options->overrides.set,
                    "Change a value, beside those of the run: path=value, as in tasks.depth.parameters.kp=0.5")

@@ -321,7 +321,7 @@ void add_run(CommandLine& line, int& exit_code) {
       "fault,\n"
       "a lost vehicle, a task that does not end or a full disk, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), "
       "SIGTERM");
-  command->add_option("FILE", options->file, "The graph, a YAML file")->required();
+  command->add_option("FILE", options->file, "The graph, a YAML file")->file({"yaml"})->required();
   command->add_option("--for", options->duration,
                       "How long, in logical time, as in 10s; default: until the mission ends");
   command

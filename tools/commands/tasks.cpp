@@ -158,6 +158,12 @@ void print_all(const Registry& known) {
   std::cout << "\njarol tasks NAME tells parameters, inputs, outputs and channels\n";
 }
 
+std::vector<std::string> names_in(const Registry& known) {
+  std::vector<std::string> names = names_of(known.tasks());
+  for (const auto& name : names_of(known.distributers())) names.push_back(name);
+  return names;
+}
+
 int list_tasks(const Options& options) {
   Registry known = built_in().graph;
   for (const std::string& plugin : options.plugins) {
@@ -176,8 +182,7 @@ int list_tasks(const Options& options) {
     options.json ? print_json({}, {*distributer}) : print_distributer(*distributer);
     return exit_good;
   }
-  std::vector<std::string> names = names_of(known.tasks());
-  for (const auto& name : names_of(known.distributers())) names.push_back(name);
+  const std::vector<std::string> names = names_in(known);
   throw std::invalid_argument("there is no task or distributer '" + options.name + "'" +
                               did_you_mean(options.name, names) + "; there are: " + list_of(names));
 }
@@ -187,8 +192,9 @@ int list_tasks(const Options& options) {
 void add_tasks(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
   Command* command = line.add_subcommand("tasks", "List task types and distributers, or tell all about one");
-  command->add_option("NAME", options->name, "A task type or distributer, as in DepthControl");
-  command->add_option("--plugin", options->plugins, "Also those of this shared library")->one_value();
+  command->add_option("NAME", options->name, "A task type or distributer, as in DepthControl")
+      ->suggests(names_in(built_in().graph));
+  command->add_option("--plugin", options->plugins, "Also those of this shared library")->file({"so"})->one_value();
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->callback([options, &exit_code] { exit_code = list_tasks(*options); });
 }

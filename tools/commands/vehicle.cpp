@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "graph/language/quantities.h"
+#include "graph/plugins/plugins.h"
 #include "graph/registry.h"
 #include "tools/commands/commands.h"
 #include "tools/library/built_in.h"
@@ -21,6 +22,7 @@ namespace {
 
 struct Options {
   std::string name;
+  std::vector<std::string> plugins;
   bool describe = false;
   bool json = false;
   bool bare = false;
@@ -165,8 +167,19 @@ void require_effect(const Command& command, const Options& options) {
     command.refuse({"--initial", "--for", "--seed"}, "needs --script or --link: --describe does not move it");
 }
 
+// What is built in, and what plugins bring.
+NamedList<vehicles::VehicleClass> known_vehicles(const std::vector<std::string>& plugins) {
+  PluginParts parts{built_in().graph, {}};
+  for (const std::string& plugin : plugins) {
+    const std::string wrong =
+        load_plugin(plugin, parts, [](const Extension& extension) { return distributers::has(built_in(), extension); });
+    if (!wrong.empty()) throw std::invalid_argument(wrong);
+  }
+  return distributers::with_plugins(built_in(), std::move(parts)).vehicles;
+}
+
 int vehicle(const Options& options) {
-  const auto& known = built_in().vehicles;
+  const auto known = known_vehicles(options.plugins);
   const vehicles::VehicleClass* const found = known.find(options.name);
   if (found == nullptr) {
     const std::vector<std::string> names = known.names();
@@ -176,7 +189,7 @@ int vehicle(const Options& options) {
   if (options.bare && found->true_state == nullptr)
     throw std::invalid_argument("--bare: there is no message of a " + found->name + "'s true state");
   Problems problems;
-  const Value parameters = read_parameters(options.made, *found, problems);
+  const Value parameters = read_parameters(options.made, *found, known, problems);
   require_apart({{"--script", options.script}, {"--parameters", options.made.parameters}}, {{"--csv", options.csv}});
   if (options.describe) {
     problems.throw_if_any();
@@ -193,18 +206,22 @@ void add_vehicle(CommandLine& line, int& exit_code) {
   Command* command = line.add_subcommand("vehicle",
                                          "Describe a simulated vehicle, drive it by a script, or let another\n"
                                          "process steer it in real time over a link");
-  command->add_option("NAME", options->name, "A vehicle, as in submarine")->required();
+  command->add_option("NAME", options->name, "A vehicle, as in submarine")
+      ->suggests(built_in().vehicles.names())
+      ->required();
+  command->add_option("--plugin", options->plugins, "Also those of this shared library")->file({"so"})->one_value();
   command->add_flag("--describe", options->describe, "Print state, inputs, outputs and parameters, with units");
   command->add_flag("--json", options->json,
                     "With --describe, or --link in real time: one JSON object instead of text");
-  command->add_option("--parameters", options->made.parameters,
-                      "A parameter file, as in specs/vehicles/submarine.yaml");
+  command->add_option("--parameters", options->made.parameters, "A parameter file, as in specs/vehicles/submarine.yaml")
+      ->file({"yaml"});
   command->add_option("--set", options->made.set, "Change a parameter: path=value, as in sea.density=1025")
       ->one_value();
   command->add_option("--initial", options->made.initial, "Change the state at the start, as in z=4,theta=0.1");
-  command->add_option("--script", options->script,
-                      "A CSV of commands: time (s), then inputs; a row holds until the next");
-  command->add_option("--csv", options->csv, "Write time, state and outputs to this CSV file");
+  command
+      ->add_option("--script", options->script, "A CSV of commands: time (s), then inputs; a row holds until the next")
+      ->file({"csv"});
+  command->add_option("--csv", options->csv, "Write time, state and outputs to this CSV file")->file({"csv"});
   command->add_option("--rate", options->rate, "Rows per second of that file; default 100");
   command->add_option("--for", options->duration, "How long, as in 10s; default: to the last row of the script");
   command->add_option("--seed", options->made.seed, "Seed of the sensors' noise; default 0");

@@ -15,13 +15,16 @@ target_compile_features(jarol_graph INTERFACE cxx_std_20)
 target_compile_options(jarol_graph INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
 
 install(TARGETS ${libraries} jarol EXPORT jarol)
+# projects make message sets of their own by it
+set_target_properties(jarol_message_generator PROPERTIES EXPORT_NAME message_generator)
+install(TARGETS jarol_message_generator EXPORT jarol DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/jarol)
 install(EXPORT jarol NAMESPACE jarol:: FILE targets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/jarol)
 configure_package_config_file(tools/library/jarol-config.cmake.in ${PROJECT_BINARY_DIR}/jarol-config.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/jarol PATH_VARS CMAKE_INSTALL_DATADIR)
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/jarol PATH_VARS CMAKE_INSTALL_DATADIR CMAKE_INSTALL_INCLUDEDIR)
 # the binary interface is that of one version
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/jarol-config-version.cmake COMPATIBILITY ExactVersion)
 install(FILES ${PROJECT_BINARY_DIR}/jarol-config.cmake ${PROJECT_BINARY_DIR}/jarol-config-version.cmake
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/jarol)
+  tools/library/jarol-functions.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/jarol)
 
 # headers as in the tree, those that are made among them
 foreach(folder graph runtime tasks distributers vehicles tools/library)
@@ -31,6 +34,8 @@ install(DIRECTORY ${PROJECT_BINARY_DIR}/made/distributers ${PROJECT_BINARY_DIR}/
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/jarol FILES_MATCHING PATTERN *.h)
 install(DIRECTORY specs DESTINATION ${CMAKE_INSTALL_DATADIR}/jarol PATTERN broken EXCLUDE)
 install(FILES graph/math/names.list DESTINATION ${CMAKE_INSTALL_DATADIR}/jarol/math)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/tools/made/manual/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN *.1)
+install(FILES ${PROJECT_BINARY_DIR}/tools/made/manual/jarol DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # for the target uninstall

@@ -121,7 +121,37 @@ Option* Option::in_range(double least, double most) {
 
 Option* Option::one_of(const std::vector<std::string>& words) {
   option_.check(CLI::IsMember(words));
+  return suggests(words);
+}
+
+Option* Option::suggests(const std::vector<std::string>& words) {
+  words_ = words;
   return this;
+}
+
+Option* Option::file(const std::vector<std::string>& extensions) {
+  is_file_ = true;
+  extensions_ = extensions;
+  return this;
+}
+
+Option* Option::folder() {
+  is_folder_ = true;
+  return this;
+}
+
+OptionText Option::describe() const {
+  const bool is_argument = option_.get_positional();
+  return {.names = is_argument ? option_.get_name(true) : option_.get_name(false, true),
+          .text = option_.get_description(),
+          .is_argument = is_argument,
+          .is_required = option_.get_required(),
+          .takes_value = option_.get_items_expected_max() > 0,
+          .repeats = option_.get_items_expected_max() > 1,
+          .words = words_,
+          .is_file = is_file_,
+          .extensions = extensions_,
+          .is_folder = is_folder_};
 }
 
 Option* Option::excludes(const Option* other) {
@@ -169,6 +199,18 @@ void Command::footer(const std::string& text) { app_.footer(text); }
 
 void Command::callback(const std::function<void()>& action) { app_.callback(action); }
 
+CommandText Command::describe() const {
+  CommandText made{app_.get_name(), app_.get_description(), app_.get_footer(), {}};
+  for (const bool arguments : {true, false}) {
+    if (!arguments)
+      if (const CLI::Option* help = app_.get_help_ptr())
+        made.options.push_back(Option(*app_.get_option(help->get_name())).describe());
+    for (const Option& option : options_)
+      if (OptionText text = option.describe(); text.is_argument == arguments) made.options.push_back(std::move(text));
+  }
+  return made;
+}
+
 CommandLine::CommandLine(const std::string& name, const std::string& text, const std::string& version)
     : app_(std::make_unique<CLI::App>(text, name)) {
   app_->require_subcommand(1);
@@ -176,6 +218,7 @@ CommandLine::CommandLine(const std::string& name, const std::string& text, const
 }
 
 CommandLine::~CommandLine() = default;
+CommandLine::CommandLine(CommandLine&&) noexcept = default;
 
 Command* CommandLine::add_subcommand(const std::string& name, const std::string& text) {
   return &commands_.emplace_back(*app_->add_subcommand(name, text));
@@ -188,6 +231,14 @@ std::vector<std::string> CommandLine::names() const {
 }
 
 std::string CommandLine::help() const { return app_->help(); }
+
+std::string CommandLine::text() const { return app_->get_description(); }
+
+std::vector<CommandText> CommandLine::describe() const {
+  std::vector<CommandText> made;
+  for (const Command& command : commands_) made.push_back(command.describe());
+  return made;
+}
 
 // The command, and the words behind its name.
 struct CommandLine::Words {

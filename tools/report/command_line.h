@@ -16,6 +16,28 @@ class Option;
 
 namespace jarol::tools {
 
+/// An option or an argument, as man pages and completion show it.
+struct OptionText {
+  std::string names;  // "-o,--out", or of an argument "FILE"
+  std::string text;
+  bool is_argument = false;
+  bool is_required = false;
+  bool takes_value = false;  // else it is a flag
+  bool repeats = false;
+  std::vector<std::string> words;       // of its value: all there are, or some
+  bool is_file = false;                 // its value is one
+  std::vector<std::string> extensions;  // that such a file has; none: any
+  bool is_folder = false;
+};
+
+/// A subcommand, likewise.
+struct CommandText {
+  std::string name;
+  std::string text;
+  std::string footer;
+  std::vector<OptionText> options;  // in the order of --help
+};
+
 /// What may be said about an option once it is added.
 class Option {
  public:
@@ -27,9 +49,18 @@ class Option {
   Option* in_range(double least, double most);
   Option* one_of(const std::vector<std::string>& words);
   Option* excludes(const Option* other);
+  /// For completion alone: words that make sense, beside others.
+  Option* suggests(const std::vector<std::string>& words);
+  /// For completion alone: the name of a file, which ends with one of these if any are given.
+  Option* file(const std::vector<std::string>& extensions = {});
+  /// For completion alone: the name of a folder.
+  Option* folder();
+  OptionText describe() const;
 
  private:
   CLI::Option& option_;
+  std::vector<std::string> words_, extensions_;
+  bool is_file_ = false, is_folder_ = false;
 };
 
 /// A subcommand.
@@ -53,6 +84,7 @@ class Command {
   void footer(const std::string& text);
   /// What the command does, once all its words are understood.
   void callback(const std::function<void()>& action);
+  CommandText describe() const;
 
  private:
   CLI::App& app_;
@@ -63,10 +95,14 @@ class CommandLine {
  public:
   CommandLine(const std::string& name, const std::string& text, const std::string& version);
   ~CommandLine();
+  CommandLine(CommandLine&&) noexcept;
   Command* add_subcommand(const std::string& name, const std::string& text);
   std::vector<std::string> names() const;
   /// What --help prints.
   std::string help() const;
+  /// What it is, above the commands of --help.
+  std::string text() const;
+  std::vector<CommandText> describe() const;
   /// Does what the words say, or prints the help asked for. Throws UsageError if they are not understood.
   void parse(int argc, char** argv);
   /// Is --json among the words, as an option of the command? Also where others of them are not understood.

@@ -15,9 +15,11 @@ void add_checkpoint_options(Command& command, CheckpointArguments& arguments) {
       .add_option("--save", arguments.saves,
                   "Save the run when it has reached an instant, as in 30s=FILE; may be given more than once")
       ->one_value();
-  command.add_option("--resume", arguments.resume,
-                     "Go on from what was saved of this graph, with its profile, --set and seed; --set may change "
-                     "parameters of tasks from there on");
+  command
+      .add_option("--resume", arguments.resume,
+                  "Go on from what was saved of this graph, with its profile, --set and seed; --set may change "
+                  "parameters of tasks from there on")
+      ->file();
 }
 
 void require_checkpoint_effect(const Command& command, const CheckpointArguments& arguments, bool virtual_clock) {

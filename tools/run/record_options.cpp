@@ -28,11 +28,12 @@ mcap::Compression compression_of(const std::string& name) {
 }  // namespace
 
 void add_record_options(Command& command, RecordArguments& arguments) {
-  command.add_option(
-      "--record", arguments.record,
-      "Record the run in this MCAP file: every published value, what came from outside and what was late. "
-      "jarol replay\n"
-      "repeats it, jarol log looks into it; tools that read MCAP with ROS 2 messages can, too");
+  command
+      .add_option("--record", arguments.record,
+                  "Record the run in this MCAP file: every published value, what came from outside and what was late. "
+                  "jarol replay\n"
+                  "repeats it, jarol log looks into it; tools that read MCAP with ROS 2 messages can, too")
+      ->file({"mcap"});
   command.add_option(
       "--record-what", arguments.what,
       "Which values --record takes: all (default), names with * for any part, as in depth.*,from_dune, or "
@@ -44,7 +45,7 @@ void add_record_options(Command& command, RecordArguments& arguments) {
   command.add_option("--record-checkpoints", arguments.checkpoints,
                      "Save the run in its recording this often in logical time, as in 10s, so that jarol replay --from "
                      "need not begin at the start");
-  command.add_option("--log", arguments.log, "The same as --record with --record-what inputs");
+  command.add_option("--log", arguments.log, "The same as --record with --record-what inputs")->file({"mcap"});
 }
 
 void require_effect(const Command& command, const RecordArguments& arguments) {

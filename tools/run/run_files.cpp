@@ -99,13 +99,15 @@ std::vector<Panel> panels_of(const Graph& graph, const std::vector<Output>& outp
 }  // namespace
 
 void add_run_file_options(Command& command, RunFileArguments& arguments) {
-  command.add_option("--trace", arguments.trace, "Write every published value to this CSV file; -: to stdout");
+  command.add_option("--trace", arguments.trace, "Write every published value to this CSV file; -: to stdout")
+      ->file({"csv"});
   command.add_flag("--trace-fill", arguments.fill,
                    "Repeat in each row of the trace what was published last, in place of empty cells");
   command.add_flag(
       "--trace-words", arguments.words,
       "In the trace a second row with the units, and words for truth values and enumerators, as in 'landing'");
-  command.add_option("--plot", arguments.plot, "Draw what was commanded and reached into this SVG file; -: to stdout");
+  command.add_option("--plot", arguments.plot, "Draw what was commanded and reached into this SVG file; -: to stdout")
+      ->file({"svg"});
   command.add_option("--signals", arguments.signals,
                      "Draw these published fields instead: names with * for any part, as in depth.*,fins.*");
 }

@@ -8,7 +8,6 @@
 #include "graph/language/quantities.h"
 #include "graph/values/bind.h"
 #include "graph/values/seed.h"
-#include "tools/library/built_in.h"
 
 namespace jarol::tools {
 namespace {
@@ -57,11 +56,12 @@ void read_initial(const std::string& text, vehicles::VehicleState& state, Proble
 
 }  // namespace
 
-Value read_parameters(const VehicleOptions& options, const vehicles::VehicleClass& vehicle, Problems& problems) {
+Value read_parameters(const VehicleOptions& options, const vehicles::VehicleClass& vehicle,
+                      const NamedList<vehicles::VehicleClass>& known, Problems& problems) {
   Value parameters(*vehicle.parameters);
   if (!options.parameters.empty()) {
     const auto source = read_source(options.parameters);
-    if (auto file = distributers::read_vehicle_file(source, built_in().vehicles, problems)) {
+    if (auto file = distributers::read_vehicle_file(source, known, problems)) {
       if (file->vehicle->name == vehicle.name)
         parameters = std::move(file->parameters);
       else

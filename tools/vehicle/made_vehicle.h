@@ -8,6 +8,7 @@
 
 #include "distributers/interfaces/vehicle.h"
 #include "graph/language/problems.h"
+#include "graph/named_list.h"
 #include "graph/values/value.h"
 
 namespace jarol::tools {
@@ -19,8 +20,10 @@ struct VehicleOptions {
   std::uint64_t seed = 0;        // of the sensors' noise
 };
 
-/// A value of the class' type of parameters; what is wrong goes to `problems`.
-Value read_parameters(const VehicleOptions& options, const vehicles::VehicleClass& vehicle, Problems& problems);
+/// A value of the class' type of parameters; its file is one of the vehicles that are known. What is wrong goes to
+/// `problems`.
+Value read_parameters(const VehicleOptions& options, const vehicles::VehicleClass& vehicle,
+                      const NamedList<vehicles::VehicleClass>& known, Problems& problems);
 
 /// In its initial state. Throws SpecError with all problems if there are any; std::invalid_argument if there can be no
 /// such vehicle.

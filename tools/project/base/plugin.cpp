@@ -1,0 +1,6 @@
+// What the library brings.
+#include <jarol/plugin.h>
+
+#include "tasks/hold_level.h"
+
+JAROL_PLUGIN(HoldLevel)
