@@ -79,11 +79,15 @@ expect: [light of lamp within 0.1 of 291]
   }
 
   TEST_CASE("a plugin with a vehicle or distributer that there is already is refused, and nothing of it is added") {
+    distributers::Registries there = built_in();
+    vehicles::VehicleClass submarine;  // which is not there in a build without Simbody
+    submarine.name = "submarine";
+    if (there.vehicles.find("submarine") == nullptr) there.vehicles.add(submarine);
     for (const auto& [name, what] : {std::pair{"clash_of_vehicles", "a vehicle 'submarine'"},
                                      {"clash_of_distributers", "a distributer 'LauvOperator'"}}) {
       PluginParts known{built_in().graph, {}};
       const std::string wrong = load_plugin(
-          library(name), known, [](const Extension& extension) { return distributers::has(built_in(), extension); });
+          library(name), known, [&](const Extension& extension) { return distributers::has(there, extension); });
       CHECK(wrong == "'" + library(name) + "' brings " + what + ", which there is already");
       CHECK(known.extensions.empty());
       CHECK(known.graph.distributers().size() == built_in().graph.distributers().size());

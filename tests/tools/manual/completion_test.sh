@@ -50,7 +50,6 @@ offers "lz4|" run dive.yaml --record-compression l
 offers "dive.yaml|hover.yaml|specs|" run --json ""
 offers "|" run --profile ""
 offers "DepthControl|" tasks DepthC
-offers "submarine|" vehicle s
 offers "specs|" new s
 offers "|" nothing ""
 exit $wrong
