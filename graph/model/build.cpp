@@ -1,9 +1,9 @@
 #include "graph/model/build.h"
 
 #include <algorithm>
-#include <map>
 
 #include "graph/model/chains.h"
+#include "graph/model/channels.h"
 #include "graph/model/connect.h"
 #include "graph/model/deadlines.h"
 #include "graph/model/heaps.h"
@@ -120,7 +120,7 @@ class Builder {
       communicator.period = timing.period;
       communicator.offset = timing.offset;
       if (spec.channel) {
-        resolve_channel(spec, subject, communicator);
+        resolve_channel(spec, subject, graph_, communicator, problems_);
       } else {
         resolve_type(spec, subject, communicator);
       }
@@ -135,43 +135,8 @@ class Builder {
       }
       graph_.communicators.push_back(std::move(communicator));
     }
-    check_channels();
+    check_channels(graph_, problems_);
     add_safe_commands(spec_, graph_, problems_);
-  }
-
-  void resolve_channel(const CommunicatorSpec& spec, const std::string& subject, Communicator& communicator) {
-    for (const bool given : {spec.type.has_value(), spec.direction.has_value()})
-      if (given) {
-        problems_.add(spec.where,
-                      subject + " has a channel and so its type and direction; leave 'type' and 'direction' out");
-        break;
-      }
-    const std::string& text = spec.channel->value;
-    const std::size_t dot = text.find('.');
-    const std::string name = text.substr(0, dot);
-    const auto found = std::find_if(graph_.distributers.begin(), graph_.distributers.end(),
-                                    [&](const Distributer& d) { return d.name == name; });
-    if (dot == std::string::npos || found == graph_.distributers.end()) {
-      const auto names = names_of(graph_.distributers);
-      problems_.add(spec.channel->where, subject + " has channel '" + text + "', but there is no distributer '" + name +
-                                             "'" + did_you_mean(name, names) +
-                                             "; write distributer.channel, with one of: " + list_of(names));
-      return;
-    }
-    if (found->distributer_class == nullptr) return;  // reported there
-    const auto& channels = found->distributer_class->channels;
-    const std::string wanted = text.substr(dot + 1);
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-      if (channels[i].name != wanted) continue;
-      communicator.distributer = static_cast<std::size_t>(found - graph_.distributers.begin());
-      communicator.channel = i;
-      communicator.type = channels[i].type;
-      communicator.direction = channels[i].direction;
-      return;
-    }
-    problems_.add(spec.channel->where,
-                  "distributer '" + name + "' (" + found->distributer_class->name + ") has no channel '" + wanted +
-                      "'" + did_you_mean(wanted, names_of(channels)) + "; it has: " + list_of(names_of(channels)));
   }
 
   void resolve_type(const CommunicatorSpec& spec, const std::string& subject, Communicator& communicator) {
@@ -187,23 +152,6 @@ class Builder {
       problems_.add(spec.type->where, subject + " has unknown type '" + spec.type->value + "'" +
                                           did_you_mean(spec.type->value, registry_.type_names()) +
                                           "; there are: " + list_of(registry_.type_names()));
-  }
-
-  // What two communicators handed to one channel at one instant would depend on their order alone; and of two that take
-  // from one, only the first would see what is new.
-  void check_channels() {
-    std::map<std::pair<std::size_t, std::size_t>, const Communicator*> users;
-    for (const Communicator& c : graph_.communicators) {
-      if (!c.distributer) continue;
-      const auto [at, first] = users.emplace(std::pair(*c.distributer, c.channel), &c);
-      if (first) continue;
-      const std::string other = "the same channel as '" + at->second->name + "'; ";
-      problems_.add(c.where,
-                    "communicator '" + c.name + "' " +
-                        (c.direction == Direction::out ? "hands over to " + other + "a channel has one writer"
-                                                       : "takes from " + other + "connect that one to all who read it"),
-                    {{at->second->where, "the other one"}});
-    }
   }
 
   void add_tasks() {

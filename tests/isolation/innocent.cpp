@@ -1,4 +1,5 @@
 // Tasks that reach nothing but their own, in all the ways that look as if they did.
+// In one file: a list, compiled as one library.
 #include <algorithm>
 #include <array>
 #include <atomic>

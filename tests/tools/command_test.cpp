@@ -1,4 +1,5 @@
 // The command as people use it: what it prints, where, and how it exits.
+// In one file: a list of what people type.
 #include <doctest/doctest.h>
 
 #include <cstdio>

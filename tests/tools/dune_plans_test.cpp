@@ -1,4 +1,5 @@
 // Plans as a console of DUNE's sends them, flown by the shipped graph in the simulated vehicle.
+// In one file: all cases fly one mission with one console.
 #include <doctest/doctest.h>
 
 #include <cmath>

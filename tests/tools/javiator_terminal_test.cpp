@@ -1,4 +1,5 @@
 // The helicopter's graph and a control terminal of the JAviator: over real sockets, in logical time.
+// In one file: all cases fly with one terminal.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // Where the command's outputs go: what stands at a path, and what it means when nothing can be written.
+// In one file: a list of what can stand at a path.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/file.h>

@@ -1,4 +1,5 @@
 // Logs and their replays: what is in the file, what is the same, and what is wrong with a log.
+// In one file: all cases damage or repeat the recordings of one graph.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 

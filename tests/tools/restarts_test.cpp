@@ -1,5 +1,6 @@
 // Peers that are killed, come again, or vanish while the others go on: real processes on real sockets. All scenarios
 // run at the same time, each test looks at the outcome of one.
+// In one file: all scenarios start and kill the same processes.
 #include <doctest/doctest.h>
 #include <sys/socket.h>
 

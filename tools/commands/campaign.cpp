@@ -1,10 +1,8 @@
 // jarol campaign: a graph run many times, with other values and seeds each time.
 #include <unistd.h>
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -18,6 +16,7 @@
 #include "runtime/files/whole_file.h"
 #include "tools/campaign/campaign_page.h"
 #include "tools/campaign/campaign_report.h"
+#include "tools/campaign/pace.h"
 #include "tools/campaign/repeat.h"
 #include "tools/commands/commands.h"
 #include "tools/library/built_in.h"
@@ -72,33 +71,6 @@ std::string results_of(const Options& options) {
   const std::string stem = std::filesystem::path(options.file).stem().string();
   return (options.file == "-" ? "graph" : stem) + ".campaign.sqlite";
 }
-
-// What is shown while it goes on.
-class Pace {
- public:
-  Pace(std::uint64_t done, std::uint64_t all, std::uint64_t to_run) : done_(done), all_(all), to_run_(to_run) {}
-
-  void count(const campaign::Result& result) {
-    ran_.fetch_add(1, std::memory_order_relaxed);
-    if (result.outcome != campaign::Outcome::good) not_good_.fetch_add(1, std::memory_order_relaxed);
-  }
-  std::uint64_t ran() const { return ran_.load(); }
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
-  std::string line() const {
-    const std::uint64_t ran = this->ran();
-    std::string text = fmt::format("  {} of {} runs", done_ + ran, all_);
-    if (not_good_.load() > 0) text += fmt::format(", {} not good", not_good_.load());
-    if (ran == 0) return text;
-    const double left = seconds() / static_cast<double>(ran) * static_cast<double>(to_run_ - ran);
-    return text + ", " + clock_text(left) + " left";
-  }
-
- private:
-  std::uint64_t done_, all_, to_run_;
-  std::atomic<std::uint64_t> ran_{0}, not_good_{0};
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void write_table(const std::string& path, const campaign::Results& results, const campaign::Campaign& campaign,
                  const campaign::Draws& draws) {

@@ -9,6 +9,7 @@
 #include "graph/text/escape.h"
 #include "runtime/files/whole_file.h"
 #include "tools/plot/plot_axis.h"
+#include "tools/plot/plot_pen.h"
 #include "tools/plot/svg_text.h"
 
 namespace jarol::tools {
@@ -54,104 +55,6 @@ std::string name_of(const Panel& panel) {
 bool is_angle(std::string_view unit) { return unit == "rad" || unit.starts_with("rad/") || unit.starts_with("rad "); }
 
 }  // namespace
-
-// Writes shapes and texts.
-class PlotSvg::Pen {
- public:
-  std::string svg;
-
-  void text(double x, double y, std::string_view attributes, std::string_view words) {
-    svg += "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\"";
-    if (!attributes.empty()) svg.append(" ").append(attributes);
-    svg.append(">").append(xml_text(words)).append("</text>\n");
-  }
-
-  // horizontal
-  void line(double x1, double x2, double y, std::string_view stroke) {
-    svg.append("<path ").append(stroke).append(" d=\"M" + px(x1) + "," + px(y) + "H" + px(x2) + "\"/>\n");
-  }
-
-  void curve(const PlotCurve& curve, const std::vector<PlotCurve::Point>& points, const Axis& x, const Axis& y,
-             std::string_view stroke) {
-    path_.clear();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const PlotCurve::Point& b = points[i];
-      const double x_b = x.place(static_cast<double>(b.instant) * 1e-9);
-      const double y_b = y.place(b.value);
-      if (i == 0) {
-        start(x_b, y_b);
-        continue;
-      }
-      const PlotCurve::Point& a = points[i - 1];
-      if (curve.held) go_on(x_b, y.place(a.value));
-      if (a.turn == b.turn) {
-        go_on(x_b, y_b);
-        continue;
-      }
-      if (curve.heading && !curve.held) {
-        // leave at one edge of the circle and come back at the other
-        const double edge = b.turn > a.turn ? 180.0 : -180.0;
-        const double way = b.value - a.value + 2 * edge;
-        const double part = way == 0 ? 0.0 : std::clamp((edge - a.value) / way, 0.0, 1.0);
-        const double x_a = x.place(static_cast<double>(a.instant) * 1e-9);
-        const double x_edge = x_a + part * (x_b - x_a);
-        go_on(x_edge, y.place(edge));
-        start(x_edge, y.place(-edge));
-        go_on(x_b, y_b);
-      } else {
-        start(x_b, y_b);
-      }
-    }
-    if (curve.held) go_on(right, y.place(points.back().value));
-    end_stroke();
-    svg.append("<path fill=\"none\" ").append(stroke).append(" d=\"" + path_ + "\"/>\n");
-  }
-
- private:
-  void start(double x, double y) {
-    end_stroke();
-    path_ += "M" + px(x) + "," + px(y);
-    x_ = px(x);
-    y_ = px(y);
-    moved_ = false;
-  }
-
-  // runs along an axis are merged: steps and settled values cost few bytes
-  void go_on(double x, double y) {
-    const std::string to_x = px(x);
-    const std::string to_y = px(y);
-    if (to_x == x_ && to_y == y_) return;
-    if (to_y != y_ && level_) end_level();
-    if (to_y == y_) {
-      level_ = true;
-    } else if (to_x == x_) {
-      path_ += "V" + to_y;
-    } else {
-      path_ += "L" + to_x + "," + to_y;
-    }
-    x_ = to_x;
-    y_ = to_y;
-    moved_ = true;
-  }
-
-  void end_level() {
-    path_ += "H" + x_;
-    level_ = false;
-  }
-
-  // a stroke without length is a dot, thanks to its round ends
-  void end_stroke() {
-    if (level_) end_level();
-    if (!moved_ && !path_.empty()) path_ += "h0";
-    moved_ = true;
-  }
-
-  std::string path_;
-  std::string x_;  // where the pen is
-  std::string y_;
-  bool level_ = false;  // a horizontal run is still to be written
-  bool moved_ = true;
-};
 
 PlotSvg::PlotSvg(std::string path, std::string title, std::vector<Panel> panels)
     : path_(std::move(path)), title_(std::move(title)) {
@@ -223,7 +126,7 @@ void PlotSvg::take(Duration instant, std::uint32_t output, const void* value) {
   for (const std::size_t i : curves_of_[output]) { curves_[i].add(instant.count(), value); }
 }
 
-void PlotSvg::draw(const Drawing& drawing, double top, Pen& pen) const {
+void PlotSvg::draw(const Drawing& drawing, double top, PlotPen& pen) const {
   const double bottom = top + panel_height;
   const bool angle = curves_[drawing.curves[0]].angle;
   bool whole_numbers = true;
@@ -287,7 +190,7 @@ void PlotSvg::draw(const Drawing& drawing, double top, Pen& pen) const {
   strokes.resize(drawing.curves.size());
   for (std::size_t i = 0; i < others_.size(); ++i) strokes.push_back(other_strokes[i % other_strokes.size()]);
   for (std::size_t i = 0; i < lines.size(); ++i)
-    if (!lines[i].empty()) pen.curve(curves_[drawn[i]], lines[i], x, y, strokes[i]);
+    if (!lines[i].empty()) pen.curve(curves_[drawn[i]], lines[i], x, y, strokes[i], right);
 
   for (std::size_t i = 0; i < others_.size(); ++i) {
     const double at = right - 216 - 84 * static_cast<double>(others_.size() - i);
@@ -305,7 +208,7 @@ std::string PlotSvg::text() const {
   constexpr double pitch = heading_line + panel_height + panel_gap;
   const double bottom = first_panel + pitch * static_cast<double>(drawings_.size()) - panel_gap;
   const double height = drawings_.empty() ? first_panel + 40 : bottom + time_labels;
-  Pen pen;
+  PlotPen pen;
   pen.svg =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"" +
       px(width) + "\" height=\"" + px(height) + "\" viewBox=\"0 0 " + px(width) + " " + px(height) +

@@ -15,6 +15,8 @@
 
 namespace jarol::tools {
 
+class PlotPen;
+
 /// One panel of the picture: a line of what was reached and, where there is one, a step line of what was commanded.
 /// Angles are shown in degrees, depths grow downwards, headings go from -180 to 180 degrees.
 struct Panel {
@@ -48,11 +50,10 @@ class PlotSvg : public RecordSink {
     std::vector<std::size_t> curves;  // reached, then commanded
     std::vector<std::size_t> others;  // what other runs reached
   };
-  class Pen;
   class Beside;
 
   std::size_t add_curve(std::uint32_t output, const Leaf& leaf, const Drawing& drawing, bool held);
-  void draw(const Drawing& drawing, double top, Pen& pen) const;
+  void draw(const Drawing& drawing, double top, PlotPen& pen) const;
 
   std::string path_;
   std::string title_;

@@ -1,5 +1,6 @@
 // Campaigns of graphs without vehicles: each run is that of a graph of its own, whatever shares threads and plan with
 // it.
+// In one file: all cases run the campaigns of one graph.
 #include <doctest/doctest.h>
 #include <sqlite3.h>
 

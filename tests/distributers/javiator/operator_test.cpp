@@ -1,3 +1,4 @@
+// In one file: all cases speak with one operator.
 #include "distributers/javiator/operator.h"
 
 #include <doctest/doctest.h>

@@ -7,7 +7,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "distributers/lauv/plan.h"
 #include "distributers/messages/imc.h"
 #include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
@@ -257,54 +256,5 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     refuses(rows, "more than 1000 lines");
     refuses(at<imc::YoYo>(0, 0), "up and down by 0 m at 0 rad; these are positive, and no more than 0.785 rad");
     CHECK_THROWS_WITH_AS(make_maneuver({}, origin), "there is no maneuver in it", std::invalid_argument);
-  }
-
-  TEST_CASE("a plan goes from maneuver to maneuver by its transitions, and names what is wrong with it") {
-    imc::PlanSpecification plan;
-    plan.plan_id = "p";
-    plan.start_man_id = "b";
-    const auto add = [&](const char* name) {
-      imc::PlanManeuver named;
-      named.maneuver_id = name;
-      named.data = packed(at<imc::Goto>(10, 0));
-      plan.maneuvers.push_back(packed(named));
-    };
-    const auto join = [&](const char* from, const char* to, const char* when = "ManeuverIsDone") {
-      imc::PlanTransition transition;
-      transition.source_man = from;
-      transition.dest_man = to;
-      transition.conditions = when;
-      plan.transitions.clear();
-      plan.transitions.push_back(packed(transition));
-    };
-    const auto refuses = [&](const char* why) {
-      CHECK_THROWS_WITH_AS(make_plan(plan, origin), why, std::invalid_argument);
-    };
-    refuses("the plan has no maneuver");
-    add("a");
-    refuses("the start 'b' is none of its maneuvers: a");
-    add("b");
-    join("b", "a");
-    const Plan good = make_plan(plan, origin);
-    CHECK(good.start == 1);
-    CHECK(good.next[1] == 0);
-    CHECK_FALSE(good.next[0].has_value());
-    join("a,b", "_done_");
-    CHECK_FALSE(make_plan(plan, origin).next[1].has_value());
-    join("c", "a");
-    refuses("source of a transition 'c' is none of its maneuvers: a, b");
-    join("a", "c");
-    refuses("destination of a transition 'c' is none of its maneuvers: a, b");
-    join("a", "b", "BatteryIsLow");
-    refuses("the condition of a transition is ManeuverIsDone, not 'BatteryIsLow'");
-    add("a");
-    refuses("two maneuvers are named 'a'");
-    plan.maneuvers.clear();
-    imc::PlanManeuver named;
-    named.maneuver_id = "x";
-    plan.maneuvers.push_back(packed(named));
-    refuses("maneuver 'x': there is no maneuver in it");
-    plan.maneuvers[0].payload.resize(1);
-    refuses("maneuver 1 can't be read: field 'maneuver_id' of PlanManeuver needs 2 bytes where 1 are left");
   }
 }

@@ -1,4 +1,5 @@
 // How a vehicle answers its consoles, as DUNE does.
+// In one file: all cases speak with one vehicle.
 #include <doctest/doctest.h>
 
 #include "distributers/messages/payload.h"

@@ -1,4 +1,5 @@
 // Vehicles and runners in lockstep that are mute, talk without end, or come when there is one already.
+// In one file: all cases try the patience of one pair.
 #include <doctest/doctest.h>
 
 #include <sys/socket.h>

@@ -1,3 +1,4 @@
+// In one file: all cases attack one pair of seals.
 #include "distributers/links/seal.h"
 
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// In one file: one search, whose steps share the state.
 #include "tests/graph/analysis/truth.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// In one file: sentences of the semantics, on the same few tasks.
 #include "runtime/execute/executor.h"
 
 #include <doctest/doctest.h>

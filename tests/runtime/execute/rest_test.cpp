@@ -1,4 +1,5 @@
 // The vehicle of a run is brought to rest at its end, in real time, whoever runs the tasks.
+// In one file: all cases bring one vehicle to rest.
 #include "runtime/execute/rest.h"
 
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// In one file: all cases run one core on threads.
 #include "runtime/jarol/threads_core.h"
 
 #include <doctest/doctest.h>

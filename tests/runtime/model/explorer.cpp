@@ -1,3 +1,4 @@
+// In one file: one search, whose steps share the state.
 #include "tests/runtime/model/explorer.h"
 
 #include <stdexcept>

@@ -1,3 +1,4 @@
+// In one file: all cases measure the same tasks.
 #include "tools/check/measure.h"
 
 #include <doctest/doctest.h>

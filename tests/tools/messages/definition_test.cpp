@@ -1,4 +1,5 @@
 // Every error in a definition, with its place and what would be right, word for word.
+// In one file: a list of errors.
 #include "tools/messages/definition.h"
 
 #include <doctest/doctest.h>
