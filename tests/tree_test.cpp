@@ -125,6 +125,21 @@ TEST_SUITE("tree") {
     CHECK(wrong == "");
   }
 
+  // doctest adds 1 to the value of which epsilon is a share, so that 0.01 within 5 % would hold of 0, too.
+  TEST_CASE("an Approx that is a share of its value has no scale beside it") {
+    const std::regex share(R"(\)\.epsilon\((0\.\d|\de-[1-4]\)))");
+    std::string wrong;
+    for (const auto& entry : fs::recursive_directory_iterator("tests")) {
+      if (entry.path().extension() != ".cpp" || entry.path().string().starts_with("tests/library/")) continue;
+      std::ifstream in(entry.path());
+      std::size_t number = 1;
+      for (std::string line; std::getline(in, line); ++number)
+        if (std::regex_search(line, share) && line.find(".scale(0)") == std::string::npos)
+          wrong += entry.path().string() + ":" + std::to_string(number) + ": " + line + "\n";
+    }
+    CHECK(wrong == "");
+  }
+
   TEST_CASE("each test is in the list of its suite") {
     std::string lists, missing;
     std::size_t tests = 0;

@@ -10,7 +10,7 @@ void resolve_channel(const CommunicatorSpec& spec, const std::string& subject, c
   for (const bool given : {spec.type.has_value(), spec.direction.has_value()})
     if (given) {
       problems.add(spec.where,
-                    subject + " has a channel and so its type and direction; leave 'type' and 'direction' out");
+                   subject + " has a channel and so its type and direction; leave 'type' and 'direction' out");
       break;
     }
   const std::string& text = spec.channel->value;
@@ -21,8 +21,8 @@ void resolve_channel(const CommunicatorSpec& spec, const std::string& subject, c
   if (dot == std::string::npos || found == graph.distributers.end()) {
     const auto names = names_of(graph.distributers);
     problems.add(spec.channel->where, subject + " has channel '" + text + "', but there is no distributer '" + name +
-                                           "'" + did_you_mean(name, names) +
-                                           "; write distributer.channel, with one of: " + list_of(names));
+                                          "'" + did_you_mean(name, names) +
+                                          "; write distributer.channel, with one of: " + list_of(names));
     return;
   }
   if (found->distributer_class == nullptr) return;  // reported there
@@ -36,9 +36,9 @@ void resolve_channel(const CommunicatorSpec& spec, const std::string& subject, c
     communicator.direction = channels[i].direction;
     return;
   }
-  problems.add(spec.channel->where,
-                "distributer '" + name + "' (" + found->distributer_class->name + ") has no channel '" + wanted +
-                    "'" + did_you_mean(wanted, names_of(channels)) + "; it has: " + list_of(names_of(channels)));
+  problems.add(spec.channel->where, "distributer '" + name + "' (" + found->distributer_class->name +
+                                        ") has no channel '" + wanted + "'" + did_you_mean(wanted, names_of(channels)) +
+                                        "; it has: " + list_of(names_of(channels)));
 }
 
 void check_channels(const Graph& graph, Problems& problems) {
@@ -49,10 +49,10 @@ void check_channels(const Graph& graph, Problems& problems) {
     if (first) continue;
     const std::string other = "the same channel as '" + at->second->name + "'; ";
     problems.add(c.where,
-                  "communicator '" + c.name + "' " +
-                      (c.direction == Direction::out ? "hands over to " + other + "a channel has one writer"
-                                                     : "takes from " + other + "connect that one to all who read it"),
-                  {{at->second->where, "the other one"}});
+                 "communicator '" + c.name + "' " +
+                     (c.direction == Direction::out ? "hands over to " + other + "a channel has one writer"
+                                                    : "takes from " + other + "connect that one to all who read it"),
+                 {{at->second->where, "the other one"}});
   }
 }
 

@@ -195,11 +195,11 @@ void check_flight(Terminal::Over over, const std::string& profile, double settle
   Terminal terminal = lab.connect();
   CHECK(lab.fly(terminal, 0.5).state == halted);  // a hello is no switch
   const Terminal::Report hovers = take_off(lab, terminal, settles);
-  CHECK(hovers.z == doctest::Approx(500).epsilon(0.05));
+  CHECK(hovers.z == doctest::Approx(500).scale(0).epsilon(0.05));
   CHECK(hovers.front > 6000);
   CHECK(hovers.mode == 1);
   terminal.needles.roll = 60;
-  CHECK(lab.fly(terminal, 1).roll == doctest::Approx(60).epsilon(0.3));
+  CHECK(lab.fly(terminal, 1).roll == doctest::Approx(60).scale(0).epsilon(0.3));
   terminal.needles.roll = 0;
   lab.fly(terminal, 1);
   lab.go_to(terminal, 0, 2);
@@ -295,7 +295,7 @@ TEST_SUITE("tools/javiator_terminal") {
       terminal->needles.altitude = 500;
       const Terminal::Report again = lab.fly(*terminal, 2);
       CHECK(again.state == flying);
-      CHECK(again.z == doctest::Approx(500).epsilon(0.05));
+      CHECK(again.z == doctest::Approx(500).scale(0).epsilon(0.05));
       lab.press(*terminal, Terminal::switch_state);  // this one does
       CHECK(lab.fly(*terminal, 4).state == ground);
       CHECK(terminal->bad == 0);
@@ -312,8 +312,8 @@ TEST_SUITE("tools/javiator_terminal") {
     terminal.needles.pitch = -200;
     const Terminal::Report there = lab.fly(terminal, 5);
     CHECK(there.mode == 2);
-    CHECK(there.y == doctest::Approx(300).epsilon(0.1));
-    CHECK(there.x == doctest::Approx(-200).epsilon(0.15));
+    CHECK(there.y == doctest::Approx(300).scale(0).epsilon(0.1));
+    CHECK(there.x == doctest::Approx(-200).scale(0).epsilon(0.15));
   }
 
   TEST_CASE("a stored trim is the level from then on, until it is cleared") {
@@ -332,7 +332,7 @@ TEST_SUITE("tools/javiator_terminal") {
       CHECK(before > 0.02);
       lab.fly(terminal, 0.6);
       CHECK(std::abs(lab.reports.back().roll) < 25);
-      CHECK(lab.true_roll() == doctest::Approx(1e-3 * leant).epsilon(0.4));
+      CHECK(lab.true_roll() == doctest::Approx(1e-3 * leant).scale(0).epsilon(0.4));
       lab.press(terminal, Terminal::clear_trim);
       lab.fly(terminal, 0.8);
       CHECK(std::abs(lab.reports.back().roll) < 25);

@@ -228,8 +228,8 @@ TEST_SUITE("tools/lossy") {
     MESSAGE("ended at " << state.dump());
     const double depth = state["z"];
     if (full()) {
-      CHECK(depth == doctest::Approx(3).epsilon(0.05));
-      CHECK(state["u"].get<double>() == doctest::Approx(1.2).epsilon(0.05));
+      CHECK(depth == doctest::Approx(3).scale(0).epsilon(0.05));
+      CHECK(state["u"].get<double>() == doctest::Approx(1.2).scale(0).epsilon(0.05));
     } else {
       CHECK(depth > 1);
     }

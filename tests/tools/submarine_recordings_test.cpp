@@ -82,7 +82,7 @@ TEST_SUITE("tools/submarine_recordings") {
       const SubmarineParameters parameters = parameters_of(file);
       for (const auto& [actuation, u] :
            {std::pair{0.2, 0.610}, {0.3, 0.9245}, {0.4, 1.238}, {0.5, 1.551}, {0.7, 1.791}, {1.0, 1.791}})
-        CHECK(steady(parameters, actuation, 0).u == doctest::Approx(u).epsilon(0.01));
+        CHECK(steady(parameters, actuation, 0).u == doctest::Approx(u).scale(0).epsilon(0.01));
     }
   }
 
@@ -90,9 +90,9 @@ TEST_SUITE("tools/submarine_recordings") {
     const SubmarineParameters parameters = parameters_of("specs/vehicles/submarine_vsim.yaml");
     for (const Turn& turn : turns) {
       const VehicleState state = steady(parameters, 0.5, turn.rudders);
-      CHECK(state.r == doctest::Approx(turn.r).epsilon(0.01));
-      CHECK(state.u == doctest::Approx(turn.u).epsilon(0.01));
-      CHECK(state.v == doctest::Approx(turn.v).epsilon(0.01));
+      CHECK(state.r == doctest::Approx(turn.r).scale(0).epsilon(0.01));
+      CHECK(state.u == doctest::Approx(turn.u).scale(0).epsilon(0.01));
+      CHECK(state.v == doctest::Approx(turn.v).scale(0).epsilon(0.01));
       CHECK(std::abs(std::abs(state.phi) - 0.05) < 0.01);
     }
   }
@@ -101,15 +101,15 @@ TEST_SUITE("tools/submarine_recordings") {
     const SubmarineParameters parameters = parameters_of("specs/vehicles/submarine_dune.yaml");
     for (const Turn& turn : turns) {
       const VehicleState state = steady(parameters, 0.5, turn.rudders);
-      CHECK(state.r == doctest::Approx(turn.r).epsilon(0.03));
-      CHECK(state.u == doctest::Approx(turn.u).epsilon(0.03));
+      CHECK(state.r == doctest::Approx(turn.r).scale(0).epsilon(0.03));
+      CHECK(state.u == doctest::Approx(turn.u).scale(0).epsilon(0.03));
     }
   }
 
   TEST_CASE("with vsim_compatible it floats at rest where the simulator does") {
     Submarine submarine(parameters_of("specs/vehicles/submarine_vsim.yaml"));
     for (int i = 0; i < 12000; ++i) submarine.step();
-    CHECK(submarine.state().z == doctest::Approx(0.0541).epsilon(0.001));
+    CHECK(submarine.state().z == doctest::Approx(0.0541).scale(0).epsilon(0.001));
   }
 
   TEST_CASE(

@@ -188,7 +188,7 @@ TEST_SUITE("graph/math") {
       CHECK(s == -sin(x));
       CHECK(c == cos(x));
     }
-    CHECK(cos(0x1.6ac5b262ca1ffp849) == doctest::Approx(-4.687165924254624e-19).epsilon(1e-15));
+    CHECK(cos(0x1.6ac5b262ca1ffp849) == doctest::Approx(-4.687165924254624e-19).scale(0).epsilon(1e-15));
     CHECK(cos(1.5707963267948966) == 6.123233995736766e-17);
     CHECK(sin(3.141592653589793) == 1.2246467991473532e-16);
     double s = 1, c = 1;

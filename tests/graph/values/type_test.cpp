@@ -107,7 +107,7 @@ TEST_SUITE("graph/values/type") {
     Outer value;
     CHECK(bind_text("{angle: 90deg, position: [4, 5cm, 6 m], inner: [{depth: 3}, {mode: off}], time: 2ms}", value) ==
           "");
-    CHECK(value.angle == doctest::Approx(1.5707963267948966).epsilon(1e-15));
+    CHECK(value.angle == doctest::Approx(1.5707963267948966).scale(0).epsilon(1e-15));
     CHECK(value.position == Eigen::Vector3d(4, 0.05, 6));
     CHECK(value.inner[0].depth == 3.0F);
     CHECK(value.inner[0].mode == Mode::on);

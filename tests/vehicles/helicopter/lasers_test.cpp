@@ -54,7 +54,7 @@ TEST_SUITE("vehicles/helicopter_lasers") {
       const double yaw = 0.7 * i, down = 0.8 * std::sin(1.3 * i), level = std::cos(down);
       const fossen::Vector3 from = {6 * std::sin(2.1 * i), 4 * std::cos(3.7 * i), -1};
       const fossen::Vector3 direction = {level * std::cos(yaw), level * std::sin(yaw), std::sin(down)};
-      CHECK(cast_ray(room, from, direction) == doctest::Approx(march(room, from, direction)).epsilon(1e-3));
+      CHECK(cast_ray(room, from, direction) == doctest::Approx(march(room, from, direction)).scale(0).epsilon(1e-3));
     }
   }
 

@@ -112,7 +112,7 @@ TEST_SUITE("vehicles/helicopter_sensors") {
       wrong_of_four += std::abs(four.answer(0).sonar - 341) > 3 ? 1 : 0;
       wrong_of_one += std::abs(one.answer(0).sonar - 341) > 3 ? 1 : 0;
     }
-    CHECK(wrong_of_one == doctest::Approx(2000).epsilon(0.1));
+    CHECK(wrong_of_one == doctest::Approx(2000).scale(0).epsilon(0.1));
     CHECK(wrong_of_four < 800);  // two have to be wrong at once, 5 % of the time, and on the same side
   }
 
@@ -138,8 +138,8 @@ TEST_SUITE("vehicles/helicopter_sensors") {
       different += a.droll != b.droll ? 1 : 0;
     }
     CHECK(std::abs(sum / n) < 3e-4);
-    CHECK(std::sqrt(squares / n) == doctest::Approx(0.01).epsilon(0.02));
-    CHECK(std::sqrt(laser_squares / n) == doctest::Approx(0.01).epsilon(0.02));
+    CHECK(std::sqrt(squares / n) == doctest::Approx(0.01).scale(0).epsilon(0.02));
+    CHECK(std::sqrt(laser_squares / n) == doctest::Approx(0.01).scale(0).epsilon(0.02));
     CHECK(different > n / 2);
   }
 
@@ -179,20 +179,20 @@ TEST_SUITE("vehicles/helicopter_sensors") {
     };
     const auto drifting = readings({FailureKind::drifting, 100, 0.01});
     CHECK(std::abs(drifting[1999]) < 0.03);
-    CHECK(drifting[3999] == doctest::Approx(0.01 * 99.95).epsilon(0.03));
+    CHECK(drifting[3999] == doctest::Approx(0.01 * 99.95).scale(0).epsilon(0.03));
     int up = 0, down = 0;
     for (const double off : readings({FailureKind::jumping, 0, 0.5})) {
       up += off > 0.4 ? 1 : 0;
       down += off < -0.4 ? 1 : 0;
     }
-    CHECK(up == doctest::Approx(1000).epsilon(0.1));
-    CHECK(down == doctest::Approx(1000).epsilon(0.1));
+    CHECK(up == doctest::Approx(1000).scale(0).epsilon(0.1));
+    CHECK(down == doctest::Approx(1000).scale(0).epsilon(0.1));
     const auto spread = [&](const SensorFailure& failure) {
       double squares = 0;
       for (const double off : readings(failure)) squares += off * off / 4000;
       return std::sqrt(squares);
     };
-    CHECK(spread({FailureKind::noisy, 0, 10}) / spread({}) == doctest::Approx(10).epsilon(0.1));
+    CHECK(spread({FailureKind::noisy, 0, 10}) / spread({}) == doctest::Approx(10).scale(0).epsilon(0.1));
   }
 
   TEST_CASE("biases wander as far in 100 s as they are said to") {
@@ -205,7 +205,7 @@ TEST_SUITE("vehicles/helicopter_sensors") {
       const double p = sensors.answer(0).droll * 8.5 / 32768;
       squares += p * p / 400;
     }
-    CHECK(std::sqrt(squares) == doctest::Approx(0.1).epsilon(0.1));
+    CHECK(std::sqrt(squares) == doctest::Approx(0.1).scale(0).epsilon(0.1));
   }
 
   TEST_CASE("a helicopter that is driven tells what its sensors measure, in SI units") {
@@ -217,11 +217,11 @@ TEST_SUITE("vehicles/helicopter_sensors") {
       helicopter.command(&still);
       helicopter.step();
     }
-    CHECK(sensors.ddz == doctest::Approx(-9.81).epsilon(0.02));
-    CHECK(sensors.pressure == doctest::Approx(101325).epsilon(0.001));
-    CHECK(sensors.temperature == doctest::Approx(25).epsilon(0.01));
-    CHECK(sensors.voltage == doctest::Approx(helicopter.voltage()).epsilon(0.01));
-    CHECK(sensors.x_laser == doctest::Approx(8).epsilon(0.05));
+    CHECK(sensors.ddz == doctest::Approx(-9.81).scale(0).epsilon(0.02));
+    CHECK(sensors.pressure == doctest::Approx(101325).scale(0).epsilon(0.001));
+    CHECK(sensors.temperature == doctest::Approx(25).scale(0).epsilon(0.01));
+    CHECK(sensors.voltage == doctest::Approx(helicopter.voltage()).scale(0).epsilon(0.01));
+    CHECK(sensors.x_laser == doctest::Approx(8).scale(0).epsilon(0.05));
     CHECK(std::abs(sensors.roll) < 0.02);
   }
 }

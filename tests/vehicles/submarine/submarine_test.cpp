@@ -61,9 +61,9 @@ TEST_SUITE("vehicles/submarine") {
 
   TEST_CASE("port and starboard are mirror images") {
     const auto port = after_ten_seconds({0.2F, 0, 0, 0.2F}), starboard = after_ten_seconds({-0.2F, 0, 0, -0.2F});
-    CHECK(port.psi == doctest::Approx(-starboard.psi).epsilon(1e-5));
-    CHECK(port.y == doctest::Approx(-starboard.y).epsilon(1e-5));
-    CHECK(port.z == doctest::Approx(starboard.z).epsilon(1e-6));
+    CHECK(port.psi == doctest::Approx(-starboard.psi).scale(0).epsilon(1e-5));
+    CHECK(port.y == doctest::Approx(-starboard.y).scale(0).epsilon(1e-5));
+    CHECK(port.z == doctest::Approx(starboard.z).scale(0).epsilon(1e-6));
   }
 
   TEST_CASE("a command is held until the next, and what is not finite or not its own is not taken") {
@@ -95,7 +95,7 @@ TEST_SUITE("vehicles/submarine") {
     command(submarine, 0.5F, {0.2F, 0.1F, 0.1F, 0.2F});
     for (int i = 0; i < 50; ++i) submarine.step();
     CHECK(out->actuators.fin0 == doctest::Approx(0.2));
-    CHECK(out->actuators.propeller == doctest::Approx(130.9).epsilon(0.001));
+    CHECK(out->actuators.propeller == doctest::Approx(130.9).scale(0).epsilon(0.001));
     submarine.accept(messages::refer_to(imc::SetServoPosition{1, 0.1F}));
     for (int i = 0; i < 40; ++i) submarine.step();
     CHECK(out->actuators.fin0 == 0);
