@@ -102,7 +102,7 @@ TEST_SUITE("distributers/links/strangers") {
     }
     open.link->send(messages::refer_to(javiator::MotorSignals{}));
     open.link->flush();
-    REQUIRE(wait_for([&] { return open.count("closed ports") == 1; }));
+    REQUIRE(wait_for([&] { return open.count("closed ports") == 1 && open.count("packets out") == 1; }));
     const std::uint64_t sent = open.count("packets out"), unsent = open.count("unsent: no peer");
     for (int i = 0; i < 10; ++i) open.link->send(messages::refer_to(javiator::MotorSignals{}));
     open.link->flush();
