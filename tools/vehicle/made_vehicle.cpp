@@ -8,6 +8,7 @@
 #include "graph/language/quantities.h"
 #include "graph/values/bind.h"
 #include "graph/values/seed.h"
+#include "graph/values/type_of.h"
 
 namespace jarol::tools {
 namespace {
