@@ -133,7 +133,8 @@ int take_part(const Options& options, campaign::Messages& messages) {
     stated.emplace(options);
   } catch (const std::exception& error) { wrong = error.what(); }
   campaign::AskedWork work(messages);
-  if (!work.join(stated ? text_of(stated->identity) : "", wrong)) return exit_input;
+  // the first says what is wrong; mpirun would end it before that, were this not good
+  if (!work.join(stated ? text_of(stated->identity) : "", wrong)) return exit_good;
   const Interruptible interruptible;
   run_work(stated->graphs, stated->campaign, *stated->draws, work, workers_of(options), Interruptible::interrupted());
   work.finish();
