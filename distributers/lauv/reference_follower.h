@@ -14,9 +14,9 @@ class ReferenceFollower {
  public:
   ReferenceFollower(const Maneuver& maneuver, Duration now);
 
-  /// Takes a reference; what it leaves out is as before, a place where the vehicle is. At speed 0 the propeller is off.
-  /// False: who sent it may not. Throws std::invalid_argument for
-  /// what can't be commanded, and nothing of it counts.
+  /// Takes a reference; what it leaves out is as before, and the place at first that of the vehicle. At speed 0 the
+  /// propeller is off. False: who sent it may not. Throws std::invalid_argument for what can't be commanded, and
+  /// nothing of it counts.
   bool take(const messages::imc::Reference& reference, std::uint16_t source, std::uint8_t entity, Duration now,
             const Origin& origin, const tasks::Motion& motion);
   /// The vehicle is there: it circles or keeps its station from now on. True: the leg is another one.

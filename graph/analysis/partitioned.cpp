@@ -46,7 +46,9 @@ std::vector<std::vector<std::size_t>> by_core(const System& system, const std::v
 // Each core with these waits as jitter.
 class Cores {
  public:
-  Cores(const System& system, const std::vector<std::size_t>& core) : system_(system), tasks_(by_core(system, core)) {
+  /// All outlive it.
+  Cores(const System& system, const std::vector<std::size_t>& core)
+      : system_(system), core_(core), tasks_(by_core(system, core)) {
     for (const Follow& follow : system.follows)
       if (core[follow.first] != core[follow.second] || !goes_before(system, follow.first, follow.second))
         waiting_.push_back(follow);
@@ -56,11 +58,8 @@ class Cores {
 
   // Without the waits these are no bounds, for whoever shares a core with one that waits.
   void forget_responses_with_waits(Result& result) const {
-    for (const auto& tasks : tasks_) {
-      const auto is_here = [&](std::size_t task) { return std::find(tasks.begin(), tasks.end(), task) != tasks.end(); };
-      if (std::none_of(waiting_.begin(), waiting_.end(), [&](const Follow& f) { return is_here(f.second); })) continue;
-      for (const std::size_t task : tasks) result.response[task].reset();
-    }
+    for (const Follow& follow : waiting_)
+      for (const std::size_t task : tasks_[core_[follow.second]]) result.response[task].reset();
   }
 
   Result check(const std::vector<std::int64_t>& waits, Detail detail, Effort& effort) const {
@@ -129,6 +128,7 @@ class Cores {
   }
 
   const System& system_;
+  const std::vector<std::size_t>& core_;
   std::vector<std::vector<std::size_t>> tasks_;
   std::vector<Follow> waiting_;
 };
@@ -169,8 +169,11 @@ Result run_with_waits(const System& system, const std::vector<std::size_t>& core
 Result check_assigned(const System& system, const std::vector<std::size_t>& core, Detail detail, Effort& effort) {
   const Cores cores(system, core);
   Result result = cores.check(std::vector<std::int64_t>(system.loads.size(), 0), detail, effort);
-  if (result.verdict == Verdict::not_schedulable) cores.forget_responses_with_waits(result);
-  if (!cores.waits() || result.verdict == Verdict::not_schedulable) return result;
+  if (!cores.waits()) return result;
+  if (result.verdict == Verdict::not_schedulable) {
+    if (detail != Detail::verdict) cores.forget_responses_with_waits(result);
+    return result;
+  }
   Result with_waits = cores.check_holistically(effort);
   if (with_waits.verdict == Verdict::schedulable) return with_waits;
   result = run_with_waits(system, core, effort);

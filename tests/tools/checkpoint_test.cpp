@@ -23,6 +23,7 @@ struct Mission {
   Duration length;
 };
 
+using command::content;
 using command::TemporaryFolder;
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -79,11 +80,6 @@ std::string error_of(const std::string& arguments, int exit_code = 2) {
   const command::Result result = command::jarol("run " + arguments);
   CHECK(result.exit_code == exit_code);
   return result.output;
-}
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 const std::string counting = "specs/counting.yaml --for 3s ";

@@ -9,12 +9,8 @@
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::content;
 using command::TemporaryFolder;
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
 

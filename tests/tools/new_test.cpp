@@ -10,6 +10,7 @@
 
 namespace {
 namespace fs = std::filesystem;
+using command::content;
 using command::TemporaryFolder;
 
 std::vector<std::string> names_in(const std::string& folder) {
@@ -19,10 +20,6 @@ std::vector<std::string> names_in(const std::string& folder) {
   return names;
 }
 
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 }  // namespace
 
 TEST_SUITE("tools/new") {

@@ -20,12 +20,8 @@
 
 namespace {
 namespace fs = std::filesystem;
+using command::content;
 using command::TemporaryFolder;
-
-std::string content(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 int partials_in(const TemporaryFolder& folder) {
   int count = 0;

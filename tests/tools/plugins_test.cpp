@@ -14,6 +14,7 @@
 #include "tools/run/load_graph.h"
 
 namespace {
+using command::content;
 using namespace jarol;
 
 std::string library(const std::string& name) { return std::string(JAROL_PLUGIN_FOLDER) + "/" + name + ".so"; }
@@ -30,10 +31,6 @@ std::string report_on(const std::string& name) {
 }
 
 const std::string again = "; build it again as graph/plugins/plugin.h says";
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 }  // namespace
 
 TEST_SUITE("tools/plugins") {

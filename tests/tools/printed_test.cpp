@@ -13,6 +13,7 @@ namespace {
 command::Result run_command(const std::string& arguments, const std::string& errors = "2>&1") {
   return command::jarol(arguments, errors);
 }
+using command::content;
 using command::TemporaryFolder;
 
 // No byte of it is more to a terminal than a character to show, and it is UTF-8.
@@ -21,11 +22,6 @@ bool is_harmless(const std::string& text) { return jarol::printable_lines(text) 
 bool is_xml(const std::string& path) {
   return std::system(("python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' " + path + " 2>/dev/null")
                          .c_str()) == 0;
-}
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 // In double quotes of YAML: escapes of a terminal, a C1, a right-to-left override, an end of the line.

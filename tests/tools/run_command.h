@@ -31,6 +31,12 @@ inline Result jarol(const std::string& arguments, const std::string& errors = "2
   return result;
 }
 
+/// All bytes of a file; none if it can't be read.
+inline std::string content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 class TemporaryFolder {
  public:
   // of its own, also while others of this process live

@@ -11,13 +11,9 @@
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::content;
 using command::TemporaryFolder;
 namespace fs = std::filesystem;
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 struct Shown {
   std::string command;

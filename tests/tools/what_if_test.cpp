@@ -8,6 +8,7 @@
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::content;
 using command::TemporaryFolder;
 using nlohmann::json;
 
@@ -22,11 +23,6 @@ std::string error_of(const std::string& arguments, int exit_code = 2) {
   const command::Result result = command::jarol("run " + arguments);
   CHECK(result.exit_code == exit_code);
   return result.output;
-}
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::string line_with(const std::string& text, const std::string& begin) {

@@ -61,7 +61,7 @@ function(_jarol_message_sets target)
     list(APPEND made ${folder}/distributers/messages/${set}.cpp ${folder}/distributers/messages/${set}.h)
   endforeach()
   file(MAKE_DIRECTORY ${folder}/distributers/messages)
-  # what has not changed is left alone, so a stamp tells that it was looked at
+  # what has not changed is left alone, so a stamp records that it was looked at
   add_custom_command(OUTPUT ${folder}/stamp BYPRODUCTS ${made} DEPENDS ${definitions} jarol::message_generator
     COMMAND jarol::message_generator ${folder}/distributers/messages ${definitions}
     COMMAND ${CMAKE_COMMAND} -E touch ${folder}/stamp COMMENT "Making message sets of ${target}" VERBATIM)

@@ -102,7 +102,7 @@ TEST_SUITE("distributers/lauv_reference_follower") {
     CHECK(at_surface.follower.leg().radius == 14);
   }
 
-  TEST_CASE("at speed 0 the propeller is off, until another speed is told") {
+  TEST_CASE("at speed 0 the propeller is off, until another speed comes") {
     Follows f;
     f.take(reference_at_speed(1.4));
     CHECK(f.follower.leg().drive == tasks::Drive::speed);

@@ -1,5 +1,5 @@
-// Responses that are told of sets that are not schedulable, against trials that count single units of time, let what is
-// late end, and share no code with graph/analysis.
+// Responses that are reported of sets that are not schedulable, against trials that count single units of time, let
+// what is late end, and share no code with graph/analysis.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -117,7 +117,7 @@ class Trial {
 };
 
 struct Tally {
-  std::uint64_t sets = 0, told = 0, reached = 0, short_ones = 0;
+  std::uint64_t sets = 0, reported = 0, reached = 0, short_ones = 0;
   std::string first;
 
   void add(const Set& set, std::uint64_t seed) {
@@ -133,7 +133,7 @@ struct Tally {
     }
     for (std::size_t i = 0; i < longest.size(); ++i) {
       if (!said.response[i]) continue;
-      ++told;
+      ++reported;
       reached += *said.response[i] == longest[i] ? 1U : 0U;
       if (*said.response[i] >= longest[i]) continue;
       ++short_ones;
@@ -146,7 +146,7 @@ struct Tally {
 }  // namespace
 
 TEST_SUITE("graph/analysis/late_responses") {
-  TEST_CASE("no activation takes longer than the response that is told, though others are late") {
+  TEST_CASE("no activation takes longer than the response that is reported, though others are late") {
     for (const Policy policy : {Policy::fixed_priority, Policy::edf, Policy::fixed_priority_nonpreemptive,
                                 Policy::edf_nonpreemptive, Policy::global_edf}) {
       const truth::Features features{
@@ -154,14 +154,14 @@ TEST_SUITE("graph/analysis/late_responses") {
       Tally tally;
       for (std::uint64_t seed = 0; seed < 3000; ++seed) tally.add(truth::random_set(seed, policy, features), seed);
       CAPTURE(std::string(truth::name_of(policy)));
-      MESSAGE(tally.sets << " sets, " << tally.told << " responses, " << tally.reached << " of these reached");
+      MESSAGE(tally.sets << " sets, " << tally.reported << " responses, " << tally.reached << " of these reached");
       CHECK(tally.sets > 100);
       CHECK_MESSAGE(tally.short_ones == 0, tally.first);
     }
   }
 
   // Its bounds take for granted that the others end in time: 'e' had one of 6 ns and took 7, one in 50,000 random sets.
-  TEST_CASE("under global EDF no response is told where a task may be late") {
+  TEST_CASE("under global EDF no response is reported where a task may be late") {
     const analysis::Result said = analysis::check(tests::graph_of(R"(graph: t
 platform: {cores: 2, policy: global_edf}
 tasks:

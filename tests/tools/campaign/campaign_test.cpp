@@ -11,15 +11,11 @@
 #include "tools/campaign/repeat.h"
 
 namespace {
+using command::content;
 using command::TemporaryFolder;
 using nlohmann::json;
 namespace tools = jarol::tools;
 namespace campaign = jarol::campaign;
-
-std::string content(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 [[maybe_unused]] json json_of(const std::string& arguments, int exit_code = 0) {
   const command::Result result = command::jarol(arguments + " --json", "");

@@ -7,12 +7,8 @@
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::content;
 using command::TemporaryFolder;
-
-std::string content(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // So many ranks on this machine, however few processors it has.
 command::Result ranks(int count, const std::string& arguments, const std::string& after = "2>&1") {

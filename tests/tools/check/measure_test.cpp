@@ -14,12 +14,8 @@ namespace {
 using namespace jarol;
 using namespace std::chrono_literals;
 
+using command::content;
 using command::TemporaryFolder;
-
-std::string content(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // One task each: without a WCET, with one that is too short, with one that is long, one that is not released soon, and
 // one with less than a disturbance takes.

@@ -12,17 +12,13 @@
 
 namespace {
 using namespace jarol::tools;
+using command::content;
 using command::TemporaryFolder;
 using nlohmann::json;
 
 std::string between(const std::string& text, const std::string& begin, const std::string& end) {
   const std::size_t first = text.find(begin) + begin.size();
   return text.substr(first, text.find(end, first) - first);
-}
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 json data_of(const std::string& page) { return json::parse(between(page, "id=\"data\">", "</script>")); }

@@ -10,6 +10,7 @@
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::content;
 using command::jarol;
 using command::TemporaryFolder;
 
@@ -17,10 +18,6 @@ using command::TemporaryFolder;
 const std::string until_taken =
     "until grep -Eq '^SigCgt:.*[4-7c-f]..[37bf]$|^State:.Z' /proc/$id/status; do sleep 0.01; done; ";
 
-std::string content(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 }  // namespace
 
 TEST_SUITE("tools/interrupt") {

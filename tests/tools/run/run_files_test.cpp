@@ -11,6 +11,7 @@
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::content;
 using command::jarol;
 using command::TemporaryFolder;
 using Titles = std::vector<std::string>;
@@ -21,11 +22,6 @@ Titles titles_of(const std::string& svg) {
   const std::regex title("<tspan[^>]*>([^<]*)</tspan>");
   for (std::sregex_iterator at(svg.begin(), svg.end(), title), end; at != end; ++at) titles.push_back((*at)[1]);
   return titles;
-}
-
-std::string content(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 const std::string counting = "run specs/counting.yaml --for 100ms ";

@@ -1,4 +1,4 @@
-// A rover with two driven wheels, on even ground: its motors follow what they are told with a lag, wheels don't slip.
+// A rover with two driven wheels, on even ground: its motors follow their commands with a lag, wheels don't slip.
 #pragma once
 
 #include <jarol/vehicle.h>
