@@ -5,6 +5,7 @@
 #include "distributers/javiator/vehicle.h"
 #include "distributers/lauv/operator.h"
 #include "distributers/lauv/vehicle.h"
+#include "distributers/links/console.h"
 #include "distributers/links/lockstep.h"
 #include "distributers/links/script.h"
 #include "distributers/links/serial.h"
@@ -17,7 +18,7 @@ namespace jarol::distributers {
 std::vector<std::string> links_of(const DistributerClass& distributer, const NamedList<LinkType>& all) {
   std::vector<std::string> names;
   for (const LinkType& type : all.entries()) {
-    if (type.for_vehicles && !distributer.is_vehicle) continue;
+    if (distributer.is_vehicle ? type.for_operators : type.for_vehicles) continue;
     if (type.without_messages || distributer.make != nullptr) names.push_back(type.name);
   }
   return names;
@@ -31,8 +32,8 @@ void add_distributers(Registry& registry) {
 }
 
 void add_links(NamedList<LinkType>& links) {
-  for (auto* const type :
-       {simulation_link, lockstep_link, script_link, udp_link, tcp_client_link, tcp_server_link, serial_link})
+  for (auto* const type : {simulation_link, lockstep_link, script_link, console_link, udp_link, tcp_client_link,
+                           tcp_server_link, serial_link})
     links.add(type());
 }
 

@@ -19,7 +19,7 @@ struct Registries {
 /// Is one of that kind and name among what is known beside the graph's registry?
 bool has(const Registries& known, const Extension& extension);
 
-/// The same with another registry of graphs, and the vehicles that plugins have brought.
+/// The same with another registry of graphs, and the vehicles and link types that plugins have brought.
 Registries with_plugins(const Registries& known, PluginParts parts);
 
 }  // namespace jarol::distributers

@@ -14,6 +14,9 @@ namespace jarol {
 namespace distributers {
 class AnyDistributer;
 }
+namespace messages {
+struct MessageSet;
+}
 
 /// A channel that a distributer class defines: `in` brings values into the graph, `out` takes them to the outside.
 struct ChannelClass {
@@ -34,6 +37,8 @@ struct DistributerClass {
   /// From a value of the type of parameters. Throws std::invalid_argument if there can be none with them. Null: it
   /// speaks no messages, and can be played from a script only.
   std::unique_ptr<distributers::AnyDistributer> (*make)(const void* parameters) = nullptr;
+  /// That it speaks; null as `make`.
+  const messages::MessageSet& (*message_set)() = nullptr;
 };
 
 class Registry {

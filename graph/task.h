@@ -20,7 +20,7 @@ struct Tick {
 
 /// How an activation ended; `left_out`: it never ran, as one before it was faulty; `overrun`: as one before it still
 /// ran.
-enum class Outcome : std::uint8_t { good, threw, heap_exhausted, non_finite, left_out, late, overrun };
+enum class Outcome : std::uint8_t { good, threw, heap_exhausted, non_finite, left_out, late, overrun, out_of_range };
 
 /// First characters of what a task threw.
 struct FaultText {
@@ -65,7 +65,7 @@ struct TaskMemory {
   FaultText* fault = nullptr;
 };
 
-/// Runs an activation, contains what it throws and looks whether its outputs are finite.
+/// Runs an activation, contains what it throws and looks whether its outputs are finite and in their ranges.
 using Thunk = Outcome (*)(const TaskMemory& memory, const Tick& tick);
 
 /// Runs an activation, and nothing else.
@@ -163,7 +163,9 @@ Outcome thunk(const TaskMemory& memory, const Tick& tick) {
   const Outcome outcome =
       contain([&] { call<T, Checked>(memory, tick); }, [&]() -> FaultText& { return *memory.fault; });
   if (outcome != Outcome::good) return outcome;
-  return has_non_finite(*static_cast<const Out*>(memory.out)) ? Outcome::non_finite : Outcome::good;
+  const Out& out = *static_cast<const Out*>(memory.out);
+  if (has_non_finite(out)) return Outcome::non_finite;
+  return is_in_range(out) ? Outcome::good : Outcome::out_of_range;
 }
 
 }  // namespace detail

@@ -166,4 +166,22 @@ TEST_SUITE("tree") {
     }
     CHECK(wrong == "");
   }
+
+  TEST_CASE("a file of more than 300 lines says in its head why it is one") {
+    std::string wrong;
+    std::size_t seen = 0;
+    for (const char* top : {"graph", "runtime", "tasks", "distributers", "vehicles", "tools", "tests"})
+      for (const auto& entry : fs::recursive_directory_iterator(top)) {
+        const std::string extension = entry.path().extension();
+        if (extension != ".h" && extension != ".cpp") continue;
+        const std::string text = text_of(entry.path());
+        ++seen;
+        const auto lines = std::count(text.begin(), text.end(), '\n');
+        const std::string head = text.substr(0, std::min(text.find("#include"), text.find("#pragma")));
+        if (lines > 300 && head.find("In one file: ") == std::string::npos)
+          wrong += entry.path().string() + " has " + std::to_string(lines) + " lines\n";
+      }
+    CHECK(wrong == "");
+    CHECK(seen > 500);
+  }
 }

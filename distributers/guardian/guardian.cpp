@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "distributers/guardian/guardian_process.h"
+#include "distributers/guardian/stamped_packet.h"
 #include "distributers/guardian/words.h"
 
 namespace jarol::distributers {
@@ -81,8 +82,11 @@ Guardian::~Guardian() { end(); }
 Holder* Guardian::add(const messages::MessageSet& set, const std::string& text,
                       std::span<const std::vector<std::byte>> packets, const GuardianKey* key) {
   const auto link = static_cast<std::uint32_t>(holders_.size());
-  const std::string known_as = std::string(set.name) + " " + text;
-  said_all_ &= say(socket_.get(), {Word::link, link}, std::as_bytes(std::span(known_as)));
+  const Stamping stamping = stamping_of(set);
+  const auto form = bytes_of(stamping), name = std::as_bytes(std::span(text));
+  std::vector<std::byte> words(form.begin(), form.end());
+  words.insert(words.end(), name.begin(), name.end());
+  said_all_ &= say(socket_.get(), {Word::link, link}, words);
   if (key != nullptr) said_all_ &= say(socket_.get(), {Word::key, link}, bytes_of(*key));
   for (const std::vector<std::byte>& packet : packets) said_all_ &= say(socket_.get(), {Word::packet, link}, packet);
   return &holders_.emplace_back(*this, link);

@@ -83,12 +83,13 @@ class Watch {
     wards_[link].hold(std::move(heard.fd), Address::of(peer, static_cast<socklen_t>(heard.bytes.size())));
   }
 
-  // "set link"
+  // Each link is a ward, so that their numbers are those of the program.
   void add_ward(const Heard& heard) {
-    const std::string_view text(reinterpret_cast<const char*>(heard.bytes.data()), heard.bytes.size());
-    const std::size_t end = text.find(' ');
-    if (const messages::MessageSet* set = messages::find_message_set(text.substr(0, end)))
-      wards_.emplace_back(*set, std::string(text.substr(end + 1)));
+    Stamping stamping;
+    const std::size_t size = std::min(heard.bytes.size(), sizeof stamping);
+    std::memcpy(&stamping, heard.bytes.data(), size);
+    const std::span<const std::byte> text = heard.bytes.subspan(size);
+    wards_.emplace_back(stamping, std::string(reinterpret_cast<const char*>(text.data()), text.size()));
   }
 
   static void seal(Ward& ward, std::span<const std::byte> bytes) {

@@ -17,8 +17,9 @@ void Ward::hold(Descriptor fd, const Address& peer) {
 
 void Ward::send() {
   if (!fd_ || !rest_.empty() || (datagrams_ && !peer_)) return;
-  for (StampedPacket& packet : packets_) {
-    std::span<const std::byte> bytes = packet.bytes();
+  for (std::vector<std::byte>& packet : packets_) {
+    stamp(stamping_, packet);
+    std::span<const std::byte> bytes = packet;
     if (seal_) {
       seal_->seal(bytes, sealed_);
       bytes = sealed_;

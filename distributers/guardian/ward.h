@@ -16,9 +16,9 @@ namespace jarol::distributers {
 class Ward {
  public:
   /// The link's text, as people read it.
-  Ward(const messages::MessageSet& set, std::string text) : set_(set), text_(std::move(text)) {}
+  Ward(const Stamping& stamping, std::string text) : stamping_(stamping), text_(std::move(text)) {}
 
-  void add(std::span<const std::byte> packet) { packets_.emplace_back(set_, packet); }
+  void add(std::span<const std::byte> packet) { packets_.emplace_back(packet.begin(), packet.end()); }
   void seal_with(const GuardianKey& key) { seal_.emplace(key); }
   void hold(Descriptor fd, const Address& peer);
   void let_go() { fd_.close(); }
@@ -34,9 +34,9 @@ class Ward {
  private:
   void write(std::span<const std::byte> bytes);
 
-  const messages::MessageSet& set_;
+  Stamping stamping_;
   std::string text_;
-  std::vector<StampedPacket> packets_;
+  std::vector<std::vector<std::byte>> packets_;
   std::optional<GuardianSeal> seal_;
   std::vector<std::byte> sealed_;
   Descriptor fd_;

@@ -13,7 +13,7 @@
 namespace jarol::distributers {
 
 enum class Word : std::uint32_t {
-  link,     // the next link; bytes: name of its message set, a space, text
+  link,     // the next link; bytes: Stamping, then its text
   packet,   // of a link: one of those that bring its system to rest; bytes: the packet
   key,      // of a link whose packets are sealed; bytes: GuardianKey
   ready,    // all that was said is understood: asked by the program, answered by the guardian; bytes: Urgency

@@ -276,6 +276,7 @@ DistributerClass distributer_class() {
       },
       T::Out::fields());
   if constexpr (detail::WithParameters<D>) made.parameters = &type_of<typename D::Param>();
+  made.message_set = &D::message_set;
   made.make = []([[maybe_unused]] const void* parameters) -> std::unique_ptr<AnyDistributer> {
     if constexpr (detail::WithParameters<D>)
       return std::make_unique<T>(*static_cast<const typename D::Param*>(parameters));

@@ -46,8 +46,8 @@ struct LinkType {
 
   /// Keys of which it needs one at least.
   std::vector<std::string> needs_one_of{};
-  /// Joins vehicles only.
-  bool for_vehicles = false;
+  /// Joins vehicles only, or operators.
+  bool for_vehicles = false, for_operators = false;
   /// Carries no messages, so that the distributer needs no code.
   bool without_messages = false;
 

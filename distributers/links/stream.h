@@ -15,6 +15,7 @@ class StreamTransport : public Transport {
  public:
   void receive(const Interrupter& interrupter, ByteSink& sink) override;
   bool send(std::span<const std::byte> packet) override;
+  bool can_be_held() const override { return true; }
   void close() override;
 
  protected:

@@ -5,6 +5,9 @@
 
 namespace jarol::distributers {
 
+/// By the system's clock.
+double seconds_since_1970();
+
 /// The field of a set's header that is the time, in s since 1970; null: there is none.
 const messages::FieldForm* find_timestamp(const messages::MessageSet& set);
 

@@ -67,6 +67,9 @@ class Transport {
   /// Lets go of everything; after that it can be opened again.
   virtual void close() = 0;
 
+  /// It shows its way to the peer to `holder`; else nobody can hand over `safe` there once the program is gone.
+  virtual bool can_be_held() const { return false; }
+
   /// Whose it is; none: whoever is at the other end of a line, or of a connection that this end has made.
   virtual const Ownership* ownership() const { return nullptr; }
 

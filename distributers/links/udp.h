@@ -31,6 +31,7 @@ class UdpTransport : public Transport {
   void receive(const Interrupter& interrupter, ByteSink& sink) override;
   bool send(std::span<const std::byte> packet) override;
   void close() override;
+  bool can_be_held() const override { return true; }
   const Ownership* ownership() const override { return &ownership_; }
 
   /// The port that it listens at; of "0" the one that the system chose.

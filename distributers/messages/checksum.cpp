@@ -41,14 +41,17 @@ std::uint16_t sum16(std::span<const std::byte> bytes) {
   return static_cast<std::uint16_t>(sum);
 }
 
-std::uint16_t checksum_of(const MessageSet& set, std::span<const std::byte> header_and_payload) {
-  const auto summed = header_and_payload.subspan(set.checksum_from);
-  switch (set.checksum) {
+std::uint16_t checksum_of(Checksum kind, std::span<const std::byte> bytes) {
+  switch (kind) {
     case Checksum::none: break;
-    case Checksum::crc16_ibm: return crc16_ibm(summed);
-    case Checksum::sum16: return sum16(summed);
+    case Checksum::crc16_ibm: return crc16_ibm(bytes);
+    case Checksum::sum16: return sum16(bytes);
   }
   return 0;
+}
+
+std::uint16_t checksum_of(const MessageSet& set, std::span<const std::byte> header_and_payload) {
+  return checksum_of(set.checksum, header_and_payload.subspan(set.checksum_from));
 }
 
 }  // namespace jarol::messages

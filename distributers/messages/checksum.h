@@ -15,6 +15,9 @@ std::uint16_t crc16_ibm(std::span<const std::byte> bytes);
 /// Sum of the bytes modulo 65536.
 std::uint16_t sum16(std::span<const std::byte> bytes);
 
+/// Of that kind; 0 of none.
+std::uint16_t checksum_of(Checksum kind, std::span<const std::byte> bytes);
+
 /// The checksum of header and payload as the set wants it.
 std::uint16_t checksum_of(const MessageSet& set, std::span<const std::byte> header_and_payload);
 

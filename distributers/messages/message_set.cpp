@@ -38,10 +38,4 @@ const MessageForm* MessageSet::find_nested(std::uint32_t id) const {
   return !form->fields.empty() && form->fields.back().wire == Wire::rest ? nullptr : form;
 }
 
-const MessageSet* find_message_set(std::string_view name) {
-  for (const MessageSet* set : message_sets())
-    if (set->name == name) return set;
-  return nullptr;
-}
-
 }  // namespace jarol::messages

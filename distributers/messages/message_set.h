@@ -57,7 +57,4 @@ struct MessageSet {
 /// All sets, by name.
 std::span<const MessageSet* const> message_sets();
 
-/// The set of that name, or null.
-const MessageSet* find_message_set(std::string_view name);
-
 }  // namespace jarol::messages

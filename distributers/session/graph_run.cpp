@@ -6,12 +6,22 @@
 namespace jarol {
 namespace {
 
+// On the real clock people see at once what little there is; on the virtual one whoever paces the run hands it on.
+Duration hand_on_period_of(const GraphRunOptions& options) {
+  if (options.watched && options.clock != nullptr) return std::chrono::milliseconds(20);
+  return std::chrono::seconds(1);
+}
+
 RunStart start_of(Loaded& loaded) { return {{}, std::move(loaded.channels)}; }
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace
 
 GraphRun::GraphRun(Loaded loaded, const GraphRunOptions& options)
-    : GraphRun(std::move(loaded), *loaded.graph, *loaded.graph, start_of(loaded), options) {}
+    : GraphRun(std::move(loaded), *loaded.graph,
+               PlanOfRun(*loaded.graph, options.guard == nullptr ? Spacing::lines : Spacing::pages), start_of(loaded),
+               options) {}
 
 GraphRun::GraphRun(const PlannedGraph& of, RunStart start, const GraphRunOptions& options)
     : GraphRun({}, of.graph(), of.plan(), std::move(start), options) {}
@@ -20,17 +30,21 @@ GraphRun::GraphRun(Loaded&& loaded, const Graph& graph, PlanOfRun plan, RunStart
     : loaded_(std::move(loaded)),
       graph_(graph),
       channels_(pointers_to(start.channels)),
-      sinks_(graph, options.sinks, options.measured),
+      sinks_(graph, options.sinks, options.measured, hand_on_period_of(options)),
       executor_(std::move(plan), std::move(start.channels),
                 {.digest = true,
                  .recorder = sinks_.recorder(),
-                 .record_truth = !options.misses,
+                 .record_truth = true,
+                 .record_all_truth = options.truth,
                  .measured = options.measured,
                  .workers = options.workers,
                  .clock = options.clock,
                  .threads = options.threads,
                  .log = options.log,
-                 .misses = options.misses}) {
+                 .misses = options.misses,
+                 .schedule = options.schedule,
+                 .guard = options.guard}),
+      times_(options.times) {
   for (const RunStart::Parameters& changed : start.parameters)
     executor_.start_with(changed.task, changed.values.data());
 }
@@ -47,6 +61,7 @@ Checkpoint GraphRun::checkpoint() {
   Checkpoint made(origin_, executor_.now());
   made.save("run", executor_);
   made.save("conditions", sinks_);
+  if (!times_.empty()) made.save("execution", times_);
   return made;
 }
 
@@ -57,6 +72,11 @@ void GraphRun::require_same_origin(const Checkpoint& checkpoint) const {
 
 void GraphRun::restore(const Checkpoint& checkpoint) {
   sinks_.catch_up();
+  std::string times;
+  checkpoint.restore("execution", times);
+  if (times != times_)
+    throw CheckpointError(times.empty() ? "is of a run without --execution"
+                                        : "is of a run with other execution times: --execution " + first_line(times));
   if (!checkpoint.restore("run", executor_) || !checkpoint.restore("conditions", sinks_))
     throw CheckpointError("is damaged: a part of it is missing");
 }

@@ -22,7 +22,12 @@ struct GraphRunOptions {
   std::span<const analysis::TaskThread> threads{};  // on the real clock: who runs the tasks
   Recorder* log = nullptr;                          // gets what a replay needs
   std::optional<std::span<const Miss>> misses{};    // of a replay
+  analysis::Schedule* schedule = nullptr;           // on the virtual clock: what is late, and left out
+  std::string times{};                              // what that was made of: a run goes on with the same
+  TaskGuard* guard = nullptr;                       // likewise: tasks write nowhere but into their own memory
   std::span<const expect::Condition> measured{};    // beside what the graph expects
+  bool truth = false;    // the sinks get where all vehicles truly are, not only what conditions ask for
+  bool watched = false;  // the sinks show people what goes on: soon
 };
 
 class GraphRun {
@@ -70,6 +75,7 @@ class GraphRun {
   Executor executor_;
   std::optional<Linked> linked_;
   std::shared_ptr<const RunOrigin> origin_;
+  std::string times_;  // of its schedule; empty: there is none
 };
 
 /// What a run of a loaded graph is made of.

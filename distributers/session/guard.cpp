@@ -13,15 +13,22 @@ struct Guarded {
   distributers::Link* link = nullptr;
 };
 
-std::vector<Guarded> find_guarded(const Loaded& loaded, std::vector<std::string>& safe) {
+std::vector<Guarded> find_guarded(const Loaded& loaded, std::vector<std::string>& safe,
+                                  std::vector<std::string>& unreached) {
   std::vector<Guarded> guarded;
   for (std::size_t i = 0; i < loaded.channels.size(); ++i) {
     auto* const linked = dynamic_cast<distributers::LinkedChannels*>(loaded.channels[i].get());
     if (linked == nullptr) continue;
-    const std::size_t before = safe.size();
+    std::vector<std::string> names;
     for (const Communicator& c : loaded.graph->communicators)
-      if (c.distributer == i && c.safe) safe.push_back(c.name);
-    if (safe.size() > before) guarded.push_back({i, &linked->link()});
+      if (c.distributer == i && c.safe) names.push_back(c.name);
+    if (names.empty()) continue;
+    if (const auto& transport = linked->link().transport(); !transport.can_be_held()) {
+      unreached.push_back(transport.text());
+      continue;
+    }
+    safe.insert(safe.end(), names.begin(), names.end());
+    guarded.push_back({i, &linked->link()});
   }
   return guarded;
 }
@@ -30,8 +37,11 @@ std::vector<Guarded> find_guarded(const Loaded& loaded, std::vector<std::string>
 
 Guard::Guard(const Loaded& loaded, const std::string& unwanted, std::optional<int> priority, const NoteSink& note)
     : missing_(unwanted) {
-  const std::vector<Guarded> guarded = find_guarded(loaded, safe_);
-  if (guarded.empty() || !unwanted.empty()) return;
+  const std::vector<Guarded> guarded = find_guarded(loaded, safe_, unreached_);
+  if (!unwanted.empty()) return;
+  for (const std::string& link : unreached_)
+    note("the guardian has no way over " + link + ", and a crash leaves the last commands in force there");
+  if (guarded.empty()) return;
   try {
     auto guardian = std::make_unique<distributers::Guardian>();
     std::vector<distributers::Holder*> holders;

@@ -27,13 +27,15 @@ class Guard {
   /// Null: there is none.
   const distributers::Guardian* process() const { return guardian_.get(); }
 
-  /// The communicators that it could hand over.
+  /// The communicators that it could hand over, or could if it were there.
   const std::vector<std::string>& safe() const { return safe_; }
+  /// Links with a `safe` that it can't hold, as people read them.
+  const std::vector<std::string>& unreached() const { return unreached_; }
   /// Why there is none, or was none at the end; empty: there was.
   const std::string& missing() const { return missing_; }
 
  private:
-  std::vector<std::string> safe_;
+  std::vector<std::string> safe_, unreached_;
   std::unique_ptr<distributers::Guardian> guardian_;
   std::string missing_;
 };

@@ -16,15 +16,28 @@
 namespace jarol {
 namespace {
 
+// Of true values that were recorded; null: there are none, or no vehicle that is known here has such.
+const Type* recorded_type(const Loaded& loaded, const std::string& distributer, const RecordingHeader* recorded) {
+  if (recorded == nullptr) return nullptr;
+  for (const RecordingHeader::Truth& truth : recorded->truths)
+    for (const vehicles::VehicleClass& vehicle : loaded.known->vehicles.entries())
+      if (truth.distributer == distributer && vehicle.truth != nullptr &&
+          signature_of(*vehicle.truth) == truth.signature)
+        return vehicle.truth;
+  return nullptr;
+}
+
 // Where the vehicle of each distributer is.
-std::vector<expect::TrueValues> true_values_of(const Loaded& loaded) {
+std::vector<expect::TrueValues> true_values_of(const Loaded& loaded, const RecordingHeader* recorded) {
   using Where = expect::TrueValues::Where;
   std::vector<expect::TrueValues> all;
   for (std::size_t i = 0; i < loaded.graph->distributers.size(); ++i) {
     const Distributer& distributer = loaded.graph->distributers[i];
     const Yaml* name = distributer.link.kind == Yaml::Kind::mapping ? distributer.link.find("type") : nullptr;
     const distributers::LinkType* link = name == nullptr ? nullptr : loaded.known->links.find(name->text);
-    const Type* type = i < loaded.channels.size() && loaded.channels[i] ? loaded.channels[i]->true_type() : nullptr;
+    const Type* type = i < loaded.channels.size() && loaded.channels[i]
+                           ? loaded.channels[i]->true_type()
+                           : recorded_type(loaded, distributer.name, recorded);
     const bool is_vehicle = distributer.distributer_class == nullptr || distributer.distributer_class->is_vehicle;
     all.push_back({type != nullptr                                              ? Where::here
                    : !is_vehicle || (link != nullptr && link->without_messages) ? Where::nowhere
@@ -35,8 +48,8 @@ std::vector<expect::TrueValues> true_values_of(const Loaded& loaded) {
 }
 
 // What hangs on where the vehicles are.
-void add_conditions(Loaded& loaded, Problems& problems) {
-  loaded.true_values = true_values_of(loaded);
+void add_conditions(Loaded& loaded, Problems& problems, const RecordingHeader* recorded = nullptr) {
+  loaded.true_values = true_values_of(loaded, recorded);
   loaded.graph->expectations =
       expect::read_expectations(loaded.spec.expect, *loaded.graph, loaded.true_values, problems);
   loaded.campaign = campaign::read_campaign(loaded.spec.campaign, *loaded.graph, loaded.true_values, problems);
@@ -61,10 +74,10 @@ Loaded load(GraphSpec read, const distributers::Registries& known, const NoteSin
 }  // namespace
 
 Loaded load_without_channels(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
-                             const Overrides& overrides, const NoteSink& note) {
+                             const Overrides& overrides, const NoteSink& note, const RecordingHeader* recorded) {
   Problems problems;
   Loaded loaded = load(load_spec(source, overrides, problems), known, note, problems);
-  add_conditions(loaded, problems);
+  add_conditions(loaded, problems, recorded);
   return loaded;
 }
 

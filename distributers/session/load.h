@@ -12,6 +12,7 @@
 #include "graph/language/load.h"
 #include "graph/model/graph.h"
 #include "runtime/channels.h"
+#include "runtime/record/recording_format.h"
 
 namespace jarol {
 
@@ -35,9 +36,11 @@ Loaded load_graph(const std::shared_ptr<const Source>& source, const distributer
 /// Does the name fit one of the patterns, with * for any part?
 bool fits(const std::string& name, const std::vector<std::string>& patterns);
 
-/// The same without channels: of the files that links name, none is needed.
+/// The same without channels: of the files that links name, none is needed. `recorded`: the true values of vehicles
+/// that this recording holds are known; null: none.
 Loaded load_without_channels(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
-                             const Overrides& overrides, const NoteSink& note = no_notes);
+                             const Overrides& overrides, const NoteSink& note = no_notes,
+                             const RecordingHeader* recorded = nullptr);
 
 /// A distributer whose external system goes on by itself, whatever the logical clock says; null: none does.
 const Distributer* find_in_real_time(const Loaded& loaded);

@@ -19,9 +19,7 @@ class PublishedChannels : public Channels {
   PublishedChannels(const Recording& recording, const std::vector<ChannelClass>& channels) {
     for (const ChannelClass& channel : channels) {
       const ReadTopic& topic = *recording.find(channel.name);
-      std::vector<bool> wanted(65536);
-      wanted[topic.channel.id] = true;
-      sources_.push_back({MessageCursor(recording, std::move(wanted)), channel.type});
+      sources_.push_back({MessageCursor(recording, topic), channel.type});
     }
   }
 

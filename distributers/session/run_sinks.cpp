@@ -4,13 +4,14 @@
 
 namespace jarol {
 
-RunSinks::RunSinks(const Graph& graph, std::vector<RecordSink*> sinks, std::span<const expect::Condition> measured) {
+RunSinks::RunSinks(const Graph& graph, std::vector<RecordSink*> sinks, std::span<const expect::Condition> measured,
+                   Duration hand_on_period) {
   const auto watch = [&](std::optional<Expectations>& by, std::span<const expect::Condition> conditions) {
     if (!conditions.empty()) sinks.insert(sinks.begin(), &by.emplace(graph, outputs_of(graph), conditions));
   };
   watch(measured_, measured);
   watch(expectations_, graph.expectations);
-  if (!sinks.empty()) recorder_ = std::make_unique<Recorder>(std::move(sinks));
+  if (!sinks.empty()) recorder_ = std::make_unique<Recorder>(std::move(sinks), hand_on_period);
 }
 
 void RunSinks::catch_up() {

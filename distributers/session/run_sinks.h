@@ -16,8 +16,9 @@ namespace jarol {
 
 class RunSinks {
  public:
-  /// The sinks, the graph and what is measured outlive it.
-  RunSinks(const Graph& graph, std::vector<RecordSink*> sinks, std::span<const expect::Condition> measured = {});
+  /// The sinks, the graph and what is measured outlive it; `hand_on_period`: see Recorder.
+  RunSinks(const Graph& graph, std::vector<RecordSink*> sinks, std::span<const expect::Condition> measured = {},
+           Duration hand_on_period = std::chrono::seconds(1));
 
   /// For ExecutorOptions; null if nobody looks on.
   Recorder* recorder() { return recorder_.get(); }

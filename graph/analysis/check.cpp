@@ -14,6 +14,15 @@ Result check_system(const System& system, bool whole, Effort& effort) {
 
 }  // namespace
 
+const char* word_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::schedulable: return "schedulable";
+    case Verdict::not_schedulable: return "not_schedulable";
+    case Verdict::unknown: return "unknown";
+  }
+  return "";
+}
+
 Result check(const System& system) {
   Effort effort;
   Result result = check_system(system, true, effort);

@@ -25,6 +25,9 @@ struct Result {
   std::optional<Demand> demand;
 };
 
+/// "schedulable", "not_schedulable" or "unknown", as programs read it.
+const char* word_of(Verdict verdict);
+
 Result check(const System& system);
 
 /// The verdict alone; unknown where it would take more effort.

@@ -75,6 +75,8 @@ constexpr Entry declarations[] = {
 constexpr Entry own[] = {
     {"|jarol::reject_floating_point()|jarol::restore_floating_point()|jarol::keep_text(*|",
      "how the runtime contains what a task throws"},
+    {"|__cxa_allocate_exception|__cxa_end_catch|", "exceptions, as the command passes them on to the C++ library"},
+    {"|jarol::detail::throw_no_element(*|", "throws a standard exception, which keeps its text in memory of its own"},
     {"|jarol::memory_of_now()|jarol::no_heap()|jarol::PrivateHeap::block_size(*|jarol::HeapExhausted::*|"
      "vtable for jarol::HeapExhausted|jarol::PrivateHeap::Values::*|jarol::PrivateHeap::Scratch::*|",
      "the task's own heap and scratch"},

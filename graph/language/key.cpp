@@ -64,6 +64,20 @@ bool read_share(const Yaml& yaml, double& to, const std::string& subject, Proble
   return passes(yaml, to >= 0 && to <= 1 ? "" : "is not from 0% to 100%", subject, problems);
 }
 
+bool read_fault_limit(const Yaml& yaml, FaultLimit& to, const std::string& subject, Problems& problems) {
+  constexpr std::int64_t most_faults = 1000, most_releases = 1'000'000;
+  constexpr std::string_view of = " of ";
+  if (!is_scalar(yaml, "a limit, as in '3 of 10'", subject, problems)) return false;
+  const std::size_t middle = yaml.text.find(of);
+  if (middle == std::string::npos)
+    return passes(yaml, "is no limit; write it as in '3 of 10': the third fault in ten releases", subject, problems);
+  const std::string faults = yaml.text.substr(0, middle), releases = yaml.text.substr(middle + of.size());
+  if (!passes(yaml, parse_integer(faults, 1, most_faults, to.faults), subject, problems)) return false;
+  if (!passes(yaml, parse_integer(releases, 1, most_releases, to.releases), subject, problems)) return false;
+  return passes(yaml, to.faults <= to.releases ? "" : "is never reached: a release has one fault at most", subject,
+                problems);
+}
+
 bool read_choice(const Yaml& yaml, const std::vector<std::string>& choices, std::size_t& to, const std::string& subject,
                  Problems& problems) {
   if (!is_scalar(yaml, "one of " + list_of(choices), subject, problems)) return false;

@@ -25,6 +25,7 @@ enum class Form {
   bytes,
   frequency,
   share,
+  fault_limit,
   choice,
   mapping,
   any,
@@ -75,7 +76,7 @@ template <class E>
 struct Words;
 template <>
 struct Words<OnFault> {
-  static std::vector<std::string> list() { return {"stop", "hold", "skip"}; }
+  static std::vector<std::string> list() { return {"stop", "hold", "skip", "restart"}; }
 };
 template <>
 struct Words<Direction> {
@@ -115,6 +116,7 @@ bool read_id(const Yaml& yaml, std::int64_t& to, const std::string& subject, Pro
 bool read_bytes(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems);
 bool read_frequency(const Yaml& yaml, double& to, const std::string& subject, Problems& problems);  // rad/s
 bool read_share(const Yaml& yaml, double& to, const std::string& subject, Problems& problems);      // of 1
+bool read_fault_limit(const Yaml& yaml, FaultLimit& to, const std::string& subject, Problems& problems);
 bool read_choice(const Yaml& yaml, const std::vector<std::string>& choices, std::size_t& to, const std::string& subject,
                  Problems& problems);
 bool read_mapping_value(const Yaml& yaml, const std::string& subject, Problems& problems);
@@ -136,6 +138,8 @@ void read_member(const Key<S>& key, const Yaml& yaml, S& to, const std::string& 
   } else if constexpr (std::is_same_v<T, double>) {
     good = key.form == Form::share ? read_share(yaml, value.value, what, problems)
                                    : read_frequency(yaml, value.value, what, problems);
+  } else if constexpr (std::is_same_v<T, FaultLimit>) {
+    good = read_fault_limit(yaml, value.value, what, problems);
   } else if constexpr (std::is_same_v<T, Yaml>) {
     good = key.form == Form::any || read_mapping_value(yaml, what, problems);
     value.value = yaml;

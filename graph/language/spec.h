@@ -28,7 +28,11 @@ struct Maybe : std::optional<Located<T>> {
 };
 
 /// What follows a fault: specs/README.md, "Faults".
-enum class OnFault { stop, hold, skip };
+enum class OnFault { stop, hold, skip, restart };
+/// So many faults in so many releases end the run.
+struct FaultLimit {
+  std::int64_t faults = 0, releases = 0;
+};
 enum class Direction { in, out };
 enum class Isolation { strong, weak };
 
@@ -53,6 +57,7 @@ struct TaskSpec {
   Maybe<Duration> jitter, blocking;
   Maybe<std::int64_t> priority, core, heap;
   Maybe<OnFault> on_fault;
+  Maybe<FaultLimit> fault_limit;
   Maybe<Isolation> isolation;
   Maybe<Yaml> parameters, init;
 };

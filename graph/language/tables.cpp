@@ -86,6 +86,8 @@ const std::vector<Key<TaskSpec>>& task_keys() {
       key<&TaskSpec::core>("core", Form::integer, "the core that runs it, from 0"),
       key<&TaskSpec::heap>("heap", Form::bytes, "size of the private heap, for values of changing size"),
       key<&TaskSpec::on_fault>("on_fault", Form::choice, "what follows a fault, default stop"),
+      key<&TaskSpec::fault_limit>("fault_limit", Form::fault_limit,
+                                  "so many faults in so many releases stop the run all the same, as in '3 of 10'"),
       key<&TaskSpec::isolation>("isolation", Form::choice, "default strong"),
       key<&TaskSpec::parameters>("parameters", Form::mapping, "parameters of the task type"),
       key<&TaskSpec::init>("init", Form::mapping, "what each output reads as until first published"),

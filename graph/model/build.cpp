@@ -170,6 +170,12 @@ class Builder {
       task.priority = value_of(spec.priority);
       task.core = value_of(spec.core);
       if (spec.on_fault) task.on_fault = spec.on_fault->value;
+      if (spec.fault_limit) task.fault_limit = spec.fault_limit->value;
+      if (spec.fault_limit && task.on_fault == OnFault::stop && !spec.on_fault.bad)
+        problems_.add(spec.fault_limit->where,
+                      subject +
+                          " has a 'fault_limit', but its first fault stops the run; with it belongs 'on_fault: "
+                          "hold', 'skip' or 'restart'");
       if (spec.isolation) task.isolation = spec.isolation->value;
       if (task.let && !spec.period.bad && *task.let > task.period)
         problems_.add(spec.let->where, subject + " has LET " + duration_text(*task.let) + " longer than its period " +

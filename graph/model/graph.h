@@ -29,6 +29,7 @@ struct Task {
   std::optional<std::int64_t> core;
   std::size_t heap = 0;  // bytes; of a task that needs one and does not say how large, `default_heap`
   OnFault on_fault = OnFault::stop;
+  std::optional<FaultLimit> fault_limit;  // with which a fault stops the run, whatever else follows one
   Isolation isolation = Isolation::strong;
   Value parameters;
   Value out;  // what its outputs read as until first published

@@ -9,9 +9,9 @@
 
 namespace jarol {
 
-/// Of what a layer above the graph keeps: a kind of vehicle.
+/// Of what a layer above the graph keeps: a kind of vehicle, a type of link.
 struct Extension {
-  std::string kind;  // "vehicle"
+  std::string kind;  // "vehicle", "link type"
   std::string name;
   std::shared_ptr<const void> what;  // of the class that the kind has
 };

@@ -10,15 +10,16 @@ namespace {
 
 std::byte* at(void* value, std::size_t offset) { return static_cast<std::byte*>(value) + offset; }
 
-// What a message calls the type: "double [rad/m]".
-std::string wanted(const Type& type, const std::string& unit) {
+// What a message calls the type: "double [rad/m]", "double [rad] from -0.6 to 0.6".
+std::string wanted(const Type& type, const std::string& unit, const FieldRange& range) {
   std::string text = type.name;
   if (type.kind == Kind::enumeration) {
     std::vector<std::string> names;
     for (const auto& [name, number] : type.enumerators) names.push_back(name);
     text = "one of " + list_of(names);
   }
-  return unit.empty() ? text : text + " [" + unit + "]";
+  if (!unit.empty()) text += " [" + unit + "]";
+  return range.is_stated() ? text + " " + range_text(type, range) : text;
 }
 
 std::string article(const std::string& noun) {
@@ -26,8 +27,8 @@ std::string article(const std::string& noun) {
   return (std::string("aeiou").find(noun[0]) == std::string::npos || noun.starts_with("uint") ? "a " : "an ") + noun;
 }
 
-void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
-             Problems& problems);
+void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, const FieldRange& range, void* value,
+             const std::string& subject, Problems& problems);
 
 void bind_structure(const Yaml& yaml, const Type& type, void* value, const std::string& subject,
                     const std::string& noun, Problems& problems) {
@@ -40,32 +41,33 @@ void bind_structure(const Yaml& yaml, const Type& type, void* value, const std::
                                         did_you_mean(child.key, names) + "; it has: " + list_of(names));
       continue;
     }
-    bind_as(child, *f->type, f->unit, at(value, f->offset), subject + " " + noun + " '" + child.key + "'", problems);
+    bind_as(child, *f->type, f->unit, f->range, at(value, f->offset), subject + " " + noun + " '" + child.key + "'",
+            problems);
   }
 }
 
-void bind_array(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
-                Problems& problems) {
+void bind_array(const Yaml& yaml, const Type& type, const std::string& unit, const FieldRange& range, void* value,
+                const std::string& subject, Problems& problems) {
   if (yaml.children.size() != type.count) {
     problems.add(yaml.where, subject + " has " + std::to_string(yaml.children.size()) + " elements; it needs " +
                                  std::to_string(type.count));
     return;
   }
   for (std::size_t i = 0; i < type.count; ++i)
-    bind_as(yaml.children[i], *type.element, unit, at(value, i * type.element->size),
+    bind_as(yaml.children[i], *type.element, unit, range, at(value, i * type.element->size),
             subject + " element " + std::to_string(i), problems);
 }
 
-void bind_sequence(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
-                   Problems& problems) {
+void bind_sequence(const Yaml& yaml, const Type& type, const std::string& unit, const FieldRange& range, void* value,
+                   const std::string& subject, Problems& problems) {
   void* const elements = type.resize(value, yaml.children.size());
   for (std::size_t i = 0; i < yaml.children.size(); ++i)
-    bind_as(yaml.children[i], *type.element, unit, at(elements, i * type.element->size),
+    bind_as(yaml.children[i], *type.element, unit, range, at(elements, i * type.element->size),
             subject + " element " + std::to_string(i), problems);
 }
 
-void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
-             Problems& problems) {
+void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, const FieldRange& range, void* value,
+             const std::string& subject, Problems& problems) {
   const auto expected = type.kind == Kind::structure                              ? Yaml::Kind::mapping
                         : type.kind == Kind::array || type.kind == Kind::sequence ? Yaml::Kind::sequence
                                                                                   : Yaml::Kind::scalar;
@@ -74,19 +76,20 @@ void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, void* 
                              : type.kind == Kind::sequence   ? "a list of elements of type " + type.element->name
                              : expected == Yaml::Kind::sequence
                                  ? "a list of " + std::to_string(type.count) + " elements"
-                                 : article(wanted(type, unit));
+                                 : article(wanted(type, unit, range));
     problems.add(yaml.where, subject + " needs " + need + ", not " + std::string(kind_name(yaml)));
     return;
   }
   if (type.kind == Kind::structure) return bind_structure(yaml, type, value, subject, "field", problems);
-  if (type.kind == Kind::array) return bind_array(yaml, type, unit, value, subject, problems);
-  if (type.kind == Kind::sequence) return bind_sequence(yaml, type, unit, value, subject, problems);
+  if (type.kind == Kind::array) return bind_array(yaml, type, unit, range, value, subject, problems);
+  if (type.kind == Kind::sequence) return bind_sequence(yaml, type, unit, range, value, subject, problems);
   const bool text = type.kind == Kind::enumeration || type.kind == Kind::string;
-  const std::string wrong =
+  std::string wrong =
       yaml.quoted && !text ? "is in quotes and so a string" : parse_scalar(type, yaml.text, unit, value);
+  if (wrong.empty() && range.is_stated() && !range.has(read_ranged(type, value))) wrong = "is outside";
   if (wrong.empty()) return;
   problems.add(yaml.where,
-               subject + " needs " + article(wanted(type, unit)) + ", not '" + yaml.text + "'; that " + wrong);
+               subject + " needs " + article(wanted(type, unit, range)) + ", not '" + yaml.text + "'; that " + wrong);
 }
 
 void add_leaves(const Type& type, const std::string& path, const std::string& unit, std::size_t offset,
@@ -141,7 +144,7 @@ std::int64_t most_of(const Type& type) {
 
 void bind_value(const Yaml& yaml, const Type& type, const std::string& unit, void* value, const std::string& subject,
                 Problems& problems) {
-  bind_as(yaml, type, unit, value, subject, problems);
+  bind_as(yaml, type, unit, {}, value, subject, problems);
 }
 
 void bind_fields(const Yaml& yaml, const Type& type, void* value, const std::string& subject, const std::string& noun,
@@ -222,6 +225,17 @@ std::string scalar_text(const Type& type, const void* value) {
     case Kind::structure: break;
   }
   return "";
+}
+
+std::string range_text(const Type& type, const FieldRange& range) {
+  const Type* number = &type;
+  while (number->element != nullptr) number = number->element;
+  const auto text = [&](double end) {
+    const auto nearest = static_cast<float>(end);
+    if (number->kind == Kind::floating && number->size == sizeof nearest) return scalar_text(*number, &nearest);
+    return number->kind == Kind::duration ? duration_text(Duration(static_cast<std::int64_t>(end))) : number_text(end);
+  };
+  return "from " + text(range.min) + " to " + text(range.max);
 }
 
 std::vector<Leaf> leaves_of(const Type& type) {

@@ -20,6 +20,9 @@ void bind_fields(const Yaml& yaml, const Type& type, void* value, const std::str
 /// elements in brackets.
 std::string scalar_text(const Type& type, const void* value);
 
+/// "from -0.6 to 0.6".
+std::string range_text(const Type& type, const FieldRange& range);
+
 /// A single number, duration, truth value or enumerator from text; returns what is wrong, or nothing.
 std::string parse_scalar(const Type& type, const std::string& text, const std::string& unit, void* value);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "graph/values/members.h"
+#include "graph/values/ranged.h"
 #include "graph/values/substitutes.h"
 
 namespace jarol {
@@ -68,7 +69,7 @@ constexpr std::string_view type_name() {
   return detail::last_identifier(detail::argument_of(detail::pretty_type<T>()));
 }
 
-/// One described member: its name is the compiler's, its unit and meaning are the author's.
+/// One described member: its name is the compiler's, its unit, meaning and range are the author's.
 template <auto Member>
 struct Field {
   using Owner = typename detail::MemberPointer<decltype(Member)>::Owner;
@@ -77,6 +78,13 @@ struct Field {
   static constexpr std::string_view name = member_name<Member>();
   std::string_view unit;
   std::string_view text;
+  FieldRange range{};
+
+  /// With both ends; of arrays and sequences each element. A parameter or `init` outside is an error with its place, an
+  /// output outside a fault. Of integers and durations whole numbers up to 2^53.
+  consteval Field in(detail::BoundOf<Value> min, detail::BoundOf<Value> max) const {
+    return {unit, text, detail::range_of<Value>(min, max)};
+  }
 };
 
 namespace detail {
@@ -127,7 +135,7 @@ struct OwnerOf {
 template <auto Member>
 constexpr Field<Member> field(std::string_view unit = "", std::string_view text = "") {
   detail::require_value<Member>();
-  return {unit, text};
+  return {unit, text, {}};
 }
 
 /// The description of a struct: its fields in the order of their declaration. One that is missing, twice or misplaced

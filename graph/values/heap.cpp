@@ -57,6 +57,12 @@ HeapExhausted::HeapExhausted(std::size_t wanted, std::size_t used, std::size_t s
                 large ? enough / 1024 : enough, large ? "KiB" : "B");
 }
 
+void detail::throw_no_element(std::size_t index, std::size_t length) {
+  char text[80];
+  std::snprintf(text, sizeof text, "element %zu of a sequence of %zu", index, length);
+  throw std::out_of_range(text);
+}
+
 PrivateHeap::PrivateHeap(std::byte* region, std::size_t size)
     : region_(region), size_(size / least * least) {  // scratch is handed out from the end
   book_.scratch = size_;

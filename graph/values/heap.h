@@ -28,6 +28,11 @@ class HeapExhausted : public std::bad_alloc {
   char text_[160] = "";
 };
 
+namespace detail {
+/// Of a sequence. Out of line: a text that is made in a task would be memory of the global allocator.
+[[noreturn]] void throw_no_element(std::size_t index, std::size_t length);
+}  // namespace detail
+
 /// Values grow from the bottom of the region, in blocks of some 120 sizes of which freed ones are used again; scratch
 /// grows from its top and is released as a whole. All in constant time.
 class PrivateHeap {

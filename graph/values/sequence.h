@@ -160,8 +160,7 @@ class Sequence {
   std::size_t grown(std::size_t needed) const { return std::max<std::size_t>(needed, std::size_t{2} * capacity_); }
 
   std::size_t checked(std::size_t i) const {
-    if (i >= size_)
-      throw std::out_of_range("element " + std::to_string(i) + " of a sequence of " + std::to_string(size_));
+    if (i >= size_) detail::throw_no_element(i, size_);
     return i;
   }
 

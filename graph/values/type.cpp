@@ -59,11 +59,11 @@ void copy_value(const Type& type, void* to, const void* from) {
   std::memcpy(to, from, type.size);
 }
 
-void add_field(Type& structure, std::string_view name, std::string_view unit, std::string_view text, const void* value,
-               const void* member, const Type& type) {
+void add_field(Type& structure, std::string_view name, std::string_view unit, std::string_view text,
+               const FieldRange& range, const void* value, const void* member, const Type& type) {
   const auto offset = static_cast<const std::byte*>(member) - static_cast<const std::byte*>(value);
   structure.fields.push_back(
-      {std::string(name), std::string(unit), std::string(text), static_cast<std::size_t>(offset), &type});
+      {std::string(name), std::string(unit), std::string(text), static_cast<std::size_t>(offset), &type, range});
 }
 
 const TypeField* find_field(const Type& type, std::string_view name) {
@@ -97,6 +97,13 @@ std::string_view read_string(const Type& type, const void* value) {
 void write_string(const Type& type, void* value, std::string_view text) {
   void* const bytes = type.resize(value, text.size());
   if (!text.empty()) std::memcpy(bytes, text.data(), text.size());
+}
+
+double read_ranged(const Type& type, const void* value) {
+  if (type.kind == Kind::floating) return read_floating(type, value);
+  const std::int64_t integer = read_integer(type, value);
+  return type.kind == Kind::unsigned_integer ? static_cast<double>(static_cast<std::uint64_t>(integer))
+                                             : static_cast<double>(integer);
 }
 
 double read_floating(const Type& type, const void* value) {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "graph/values/field_range.h"
+
 namespace jarol {
 
 struct Type;
@@ -19,6 +21,7 @@ struct TypeField {
   std::string text;
   std::size_t offset = 0;
   const Type* type = nullptr;
+  FieldRange range{};  // of its number or numbers
 };
 
 enum class Kind {
@@ -50,6 +53,7 @@ struct Type {
 
   void (*construct)(void* to) = nullptr;                     // default value into raw memory
   bool (*finite)(const void* value) = nullptr;               // no infinity, no NaN in it
+  bool (*in_range)(const void* value) = nullptr;             // of all that it declares; null: it declares none
   std::uint64_t (*hash_words)(const void* value) = nullptr;  // the digest's sum over the value's words
 
   // deep values only
@@ -83,8 +87,8 @@ void copy_value(const Type& type, void* to, const void* from);
 
 /// Adds the description of a member of the struct at `value`. Apart from the templates that describe types: there it
 /// would be compiled again for each member.
-void add_field(Type& structure, std::string_view name, std::string_view unit, std::string_view text, const void* value,
-               const void* member, const Type& type);
+void add_field(Type& structure, std::string_view name, std::string_view unit, std::string_view text,
+               const FieldRange& range, const void* value, const void* member, const Type& type);
 
 /// The field of that name, or null.
 const TypeField* find_field(const Type& type, std::string_view name);
@@ -96,6 +100,9 @@ void write_integer(const Type& type, void* value, std::int64_t integer);
 /// Bytes of a value of kind string.
 std::string_view read_string(const Type& type, const void* value);
 void write_string(const Type& type, void* value, std::string_view text);
+
+/// Number of any value of which there are ranges, as these have it.
+double read_ranged(const Type& type, const void* value);
 
 /// Number of a value of kind floating.
 double read_floating(const Type& type, const void* value);

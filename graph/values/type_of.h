@@ -1,75 +1,18 @@
 // type_of<T>(): the runtime description of a C++ value type, made once from its static description.
 #pragma once
 
-#include <Eigen/Core>
-#include <bit>
-#include <chrono>
-#include <cmath>
-#include <concepts>
 #include <cstring>
+#include <memory_resource>
 #include <new>
 #include <type_traits>
 
-#include "graph/values/describe.h"
-#include "graph/values/digest.h"
-#include "graph/values/sequence.h"
+#include "graph/values/parts.h"
+#include "graph/values/sound.h"
 #include "graph/values/type.h"
+#include "graph/values/words.h"
 
 namespace jarol {
-
-using Duration = std::chrono::nanoseconds;
-
 namespace detail {
-
-template <class T>
-struct ArrayTraits {
-  static constexpr bool is_array = false;
-};
-template <class E, std::size_t N>
-struct ArrayTraits<std::array<E, N>> {
-  static constexpr bool is_array = true;
-  static constexpr std::size_t count = N;
-  using Element = E;
-};
-template <class E, int Rows, int Options>
-struct ArrayTraits<Eigen::Matrix<E, Rows, 1, Options, Rows, 1>> {
-  static constexpr bool is_array = Rows > 0;
-  static constexpr std::size_t count = Rows > 0 ? Rows : 0;
-  using Element = E;
-};
-
-template <class T>
-struct SequenceTraits {
-  static constexpr bool is_sequence = false;
-};
-template <class E>
-struct SequenceTraits<Sequence<E>> {
-  static constexpr bool is_sequence = true;
-  using Element = E;
-};
-
-template <class T>
-concept Integer = std::integral<T> && !std::same_as<T, bool> && !std::same_as<T, char>;
-
-template <class T>
-concept Array = ArrayTraits<T>::is_array;
-
-template <class T>
-concept SequenceOf = SequenceTraits<T>::is_sequence;
-
-// Does it hold anything of changing size?
-template <class T>
-constexpr bool is_deep() {
-  if constexpr (SequenceOf<T> || std::same_as<T, String>) {
-    return true;
-  } else if constexpr (Array<T>) {
-    return is_deep<typename ArrayTraits<T>::Element>();
-  } else if constexpr (Described<T>) {
-    return std::apply([](auto... f) { return (is_deep<typename decltype(f)::Value>() || ...); }, T::fields());
-  } else {
-    return false;
-  }
-}
 
 template <class T>
 void adopt(T& value, std::pmr::memory_resource* memory) {
@@ -84,93 +27,10 @@ void adopt(T& value, std::pmr::memory_resource* memory) {
   }
 }
 
-// Eight bytes a word, the first in the lowest place.
-template <class Visit>
-inline void for_each_packed_word(std::string_view text, Visit&& visit) {
-  for (std::size_t i = 0; i < text.size(); i += 8) {
-    std::uint64_t word = 0;
-    for (std::size_t b = 0; b < 8 && i + b < text.size(); ++b)
-      word |= std::uint64_t{static_cast<unsigned char>(text[i + b])} << (8 * b);
-    visit(word);
-  }
-}
-
-// Calls visit(word) for each word of the value, in the order of its description.
-template <class T, class Visit>
-inline void for_each_word(const T& value, Visit&& visit) {
-  if constexpr (std::same_as<T, double>) {
-    visit(std::bit_cast<std::uint64_t>(value));
-  } else if constexpr (std::same_as<T, float>) {
-    visit(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(value)));
-  } else if constexpr (std::same_as<T, bool>) {
-    visit(static_cast<std::uint64_t>(value));
-  } else if constexpr (std::is_enum_v<T>) {
-    visit(static_cast<std::uint64_t>(static_cast<std::int64_t>(value)));
-  } else if constexpr (Integer<T>) {
-    visit(static_cast<std::uint64_t>(value));  // sign extension gives two's complement of 64 bits
-  } else if constexpr (std::same_as<T, Duration>) {
-    visit(static_cast<std::uint64_t>(value.count()));
-  } else if constexpr (Array<T>) {
-    for (std::size_t i = 0; i < ArrayTraits<T>::count; ++i) for_each_word(value[i], visit);
-  } else if constexpr (SequenceOf<T>) {
-    visit(static_cast<std::uint64_t>(value.size()));
-    for (const auto& element : value) for_each_word(element, visit);
-  } else if constexpr (std::same_as<T, String>) {
-    visit(static_cast<std::uint64_t>(value.size()));
-    for_each_packed_word(value.view(), visit);
-  } else {
-    std::apply([&](auto... f) { (for_each_word(value.*(f.pointer), visit), ...); }, T::fields());
-  }
-}
-
-// Top bit set for an exponent of all ones, which is an infinity or a NaN: one more carries into the sign. On integers,
-// one by one: a vector load over what a task has just stored word by word would wait for the stores.
-inline std::uint64_t non_finite(double x) {
-  auto bits = std::bit_cast<std::uint64_t>(x);
-  asm("" : "+r"(bits));
-  return (bits & 0x7ff0000000000000ULL) + 0x0010000000000000ULL;
-}
-inline std::uint64_t non_finite(float x) {
-  return std::uint64_t{(std::bit_cast<std::uint32_t>(x) & 0x7f800000U) + 0x00800000U} << 32;
-}
-
 template <class T>
-inline std::uint64_t any_non_finite(const T& value) {
-  if constexpr (std::floating_point<T>) {
-    return non_finite(value);
-  } else if constexpr (Array<T>) {
-    std::uint64_t any = 0;
-    for (std::size_t i = 0; i < ArrayTraits<T>::count; ++i) any |= any_non_finite(value[i]);
-    return any;
-  } else if constexpr (SequenceOf<T>) {
-    std::uint64_t any = 0;
-    if constexpr (std::same_as<T, Sequence<double>>) {
-      // long enough that vectors pay
-      for (const double x : value)
-        any |= (std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000ULL) + 0x0010000000000000ULL;
-    } else {
-      for (const auto& element : value) any |= any_non_finite(element);
-    }
-    return any;
-  } else if constexpr (Described<T>) {
-    return std::apply([&](auto... f) { return (std::uint64_t{0} | ... | any_non_finite(value.*(f.pointer))); },
-                      T::fields());
-  } else {
-    return 0;
-  }
-}
-
-template <class T>
-inline bool has_non_finite(const T& value) {
-  return (any_non_finite(value) >> 63) != 0;
-}
-
-template <class T>
-inline std::uint64_t hash_words(const T& value) {
-  digest::Words words;
-  for_each_word(value, [&](std::uint64_t word) { words.add(word); });
-  return words.sum();
-}
+concept has_constant_default = requires {
+  typename std::bool_constant<(static_cast<void>(T{}), true)>;
+};
 
 template <class T>
 Type make_type();
@@ -266,6 +126,8 @@ void fill_type(Type& type) {
     new (to) T{};
   };
   type.finite = [](const void* value) { return !has_non_finite(*static_cast<const T*>(value)); };
+  if constexpr (has_ranges<T>())
+    type.in_range = [](const void* value) { return is_in_range(*static_cast<const T*>(value)); };
   type.hash_words = [](const void* value) { return hash_words(*static_cast<const T*>(value)); };
   if constexpr (is_deep<T>()) {
     type.adopt = [](void* value, std::pmr::memory_resource* memory) { adopt(*static_cast<T*>(value), memory); };
@@ -305,12 +167,14 @@ void fill_type(Type& type) {
     static_assert(std::is_aggregate_v<T>, "a value is a plain struct without constructors or private members");
     static_assert(std::tuple_size_v<decltype(T::fields())> > 0 || member_count<T>() == 0,
                   "fields() must describe every member of the struct; it describes none");
+    if constexpr (has_ranges<T>() && has_constant_default<T>)
+      static_assert(is_in_range(T{}), "a default value is outside the range of its field");
     type.name = type_name<T>();
     type.kind = Kind::structure;
     const T& value = example<T>();
     std::apply(
         [&](auto... f) {
-          (add_field(type, f.name, f.unit, f.text, &value, &(value.*(f.pointer)),
+          (add_field(type, f.name, f.unit, f.text, f.range, &value, &(value.*(f.pointer)),
                      type_of<typename decltype(f)::Value>()),
            ...);
         },

@@ -31,6 +31,9 @@ class Dispatcher {
 
   // where tasks may still run when the instant of their release is over
 
+  /// The one that was released first of those that have not ended and wait for no other. Any thread may ask.
+  virtual std::optional<HangingTask> first_under_way() const { return std::nullopt; }
+
   /// Before an instant: publishes what has ended since.
   virtual void settle(Duration) {}
   /// At the beginning of an instant: all that was due before this one is known.

@@ -79,7 +79,7 @@ void OnThreads::on_bad(std::uint32_t task, Outcome outcome, Duration instant) {
     run_.log.late(task, bad.activation, bad.ended_after, instant);
   }
   run_.faults.add(task, bad, threads_.out(task));
-  if (outcome != Outcome::overrun) threads_.undo(task, run_.graph.tasks[task].on_fault == OnFault::skip);
+  if (outcome != Outcome::overrun) threads_.undo(task, run_.graph.tasks[task].on_fault);
 }
 
 }  // namespace jarol

@@ -23,6 +23,7 @@ class OnThreads : public Dispatcher {
   /// instant.
   void settle(Duration instant) override;
   Duration settled(Duration instant) const override;
+  std::optional<HangingTask> first_under_way() const override { return threads_.first_under_way(); }
   std::vector<HangingTask> drain(std::optional<Futex::Time> patience) override;
   std::vector<std::string> refusals() const override { return threads_.refusals(); }
 

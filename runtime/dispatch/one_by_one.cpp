@@ -41,4 +41,24 @@ BadActivation AsLogged::operator()(const Activation& activation, const Tick& tic
   return went;
 }
 
+std::optional<BadActivation> find_miss(analysis::Schedule& schedule, std::uint32_t task, const Tick& tick) {
+  const analysis::Fate& fate = schedule.fate(task, tick.activation);
+  BadActivation missed{.activation = tick.activation, .instant = tick.now};
+  switch (fate.kind) {
+    case analysis::Fate::Kind::in_time: return std::nullopt;
+    case analysis::Fate::Kind::left_out: missed.outcome = Outcome::overrun; break;
+    case analysis::Fate::Kind::late:
+      missed.outcome = Outcome::late;
+      missed.ran = false;
+      if (fate.response) missed.ended_after = Duration(*fate.response);
+      break;
+  }
+  return missed;
+}
+
+BadActivation AsScheduled::operator()(const Activation& activation, const Tick& tick) {
+  if (const auto missed = find_miss(schedule_, activation.task, tick)) return *missed;
+  return {activation.run(activation.memory, tick), tick.activation, tick.now};
+}
+
 }  // namespace jarol

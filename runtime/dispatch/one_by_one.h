@@ -1,6 +1,7 @@
 // Tasks run one after the other on the thread that calls, each looked at before the next begins.
 #pragma once
 
+#include "graph/analysis/schedule.h"
 #include "runtime/dispatch/dispatcher.h"
 #include "runtime/dispatch/let_ends.h"
 #include "runtime/dispatch/releases.h"
@@ -68,6 +69,20 @@ class AsLogged {
 
  private:
   MissedActivations missed_;
+};
+
+/// How an activation is missed as a schedule has it; none: it is in time.
+std::optional<BadActivation> find_miss(analysis::Schedule& schedule, std::uint32_t task, const Tick& tick);
+
+/// By the schedule of a platform: activations come late or are left out as it has them.
+class AsScheduled {
+ public:
+  /// The schedule outlives it.
+  explicit AsScheduled(analysis::Schedule& schedule) : schedule_(schedule) {}
+  BadActivation operator()(const Activation& activation, const Tick& tick);
+
+ private:
+  analysis::Schedule& schedule_;
 };
 
 }  // namespace jarol

@@ -15,8 +15,13 @@ std::size_t useful_workers(std::size_t wanted, Sharing sharing) {
 
 }  // namespace
 
-SharedStages::SharedStages(Run& run, std::size_t workers, Sharing sharing, std::unique_ptr<Dispatcher> alone)
-    : run_(run), releases_(run), team_(useful_workers(workers, sharing), sharing, run.plan), alone_(std::move(alone)) {
+SharedStages::SharedStages(Run& run, std::size_t workers, Sharing sharing, std::unique_ptr<Dispatcher> alone,
+                           analysis::Schedule* schedule)
+    : run_(run),
+      releases_(run),
+      team_(useful_workers(workers, sharing), sharing, run.plan),
+      alone_(std::move(alone)),
+      schedule_(schedule) {
   bad_.reserve(run.graph.tasks.size());
 }
 
@@ -38,7 +43,8 @@ void SharedStages::release(const Now& now) {
 
 void SharedStages::run_in_order(const Stage& stage, const Now& now) {
   for (const Releases::Released& released : stage)
-    run_one_by_one(run_, *released.segment, *released.tick, now, [](const Activation& activation, const Tick& tick) {
+    run_one_by_one(run_, *released.segment, *released.tick, now, [&](const Activation& activation, const Tick& tick) {
+      if (schedule_ != nullptr) return AsScheduled(*schedule_)(activation, tick);
       return BadActivation{activation.run(activation.memory, tick), tick.activation, tick.now};
     });
 }
@@ -49,12 +55,18 @@ void SharedStages::run_level(const Stage& stage, std::uint32_t level, const Now&
   for (const auto& [segment, tick] : stage) {
     if (level >= segment->levels.count) continue;
     const Indices& tasks = run_.plan.levels[segment->levels.first + level];
-    for (const Activation& activation : tasks.of(run_.state.activations)) team_.add(activation, *tick);
+    for (const Activation& activation : tasks.of(run_.state.activations)) {
+      const auto missed = schedule_ == nullptr ? std::nullopt : find_miss(*schedule_, activation.task, *tick);
+      if (missed)
+        bad_.push_back({&activation, *missed});
+      else
+        team_.add(activation, *tick);
+    }
   }
   run_.publisher.add_to_digest(team_.run(run_.publisher.with_digest(), now.digest_term));
   for (const StageTeam::Item& item : team_.items()) {
     if (item.outcome != Outcome::good) {
-      bad_.push_back(item);
+      bad_.push_back({item.activation, {item.outcome, item.tick->activation, item.tick->now}});
     } else if (item.activation->publishes_deep) {
       run_.publisher.publish(item.activation->publish, now);
     } else {
@@ -65,10 +77,8 @@ void SharedStages::run_level(const Stage& stage, std::uint32_t level, const Now&
 
 // In the order in which one worker would have seen them, which is that of the plan.
 void SharedStages::report_bad() {
-  std::sort(bad_.begin(), bad_.end(),
-            [](const StageTeam::Item& a, const StageTeam::Item& b) { return a.activation < b.activation; });
-  for (const StageTeam::Item& item : bad_)
-    run_.faults.on_bad(*item.activation, {item.outcome, item.tick->activation, item.tick->now});
+  std::sort(bad_.begin(), bad_.end(), [](const Bad& a, const Bad& b) { return a.activation < b.activation; });
+  for (const Bad& bad : bad_) run_.faults.on_bad(*bad.activation, bad.went);
   bad_.clear();
 }
 

@@ -9,11 +9,16 @@
 #include "runtime/dispatch/stage_team.h"
 
 namespace jarol {
+namespace analysis {
+class Schedule;
+}
 
 class SharedStages : public Dispatcher {
  public:
-  /// `alone`: one worker's, for where sharing does not pay. The run outlives it.
-  SharedStages(Run& run, std::size_t workers, Sharing sharing, std::unique_ptr<Dispatcher> alone);
+  /// `alone`: one worker's, for where sharing does not pay. `schedule`: what is late and left out, by which that worker
+  /// goes too, or null. All outlive it.
+  SharedStages(Run& run, std::size_t workers, Sharing sharing, std::unique_ptr<Dispatcher> alone,
+               analysis::Schedule* schedule = nullptr);
 
   void end_lets(const Now& now) override { alone_->end_lets(now); }
   void release(const Now& now) override;
@@ -23,6 +28,10 @@ class SharedStages : public Dispatcher {
 
  private:
   using Stage = std::vector<Releases::Released>;
+  struct Bad {
+    const Activation* activation = nullptr;
+    BadActivation went;
+  };
   void run_in_order(const Stage& stage, const Now& now);
   void run_level(const Stage& stage, std::uint32_t level, const Now& now);
   void report_bad();
@@ -31,7 +40,8 @@ class SharedStages : public Dispatcher {
   Releases releases_;
   StageTeam team_;
   std::unique_ptr<Dispatcher> alone_;
-  std::vector<StageTeam::Item> bad_;  // of the stage under way
+  analysis::Schedule* const schedule_;
+  std::vector<Bad> bad_;  // of the stage under way
 };
 
 }  // namespace jarol

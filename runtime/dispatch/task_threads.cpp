@@ -6,6 +6,7 @@
 #include <future>
 #include <stdexcept>
 #include <system_error>
+#include <tuple>
 
 #include "graph/floating_point.h"
 #include "graph/model/stages.h"
@@ -133,6 +134,7 @@ Outcome TaskThreads::add(std::size_t task, const Tick& tick) {
     return job.left_out = Outcome::overrun;
   }
   if (std::exchange(job.to_undo, false) && job.began) state_.status[task].put_back(job.memory.state);
+  if (std::exchange(job.to_restart, false)) state_.status[task].begins_anew = true;
   if (std::exchange(job.to_skip, false)) return job.left_out = Outcome::left_out;
   job.tick = tick;
   job.left_out = Outcome::good;
@@ -187,9 +189,27 @@ std::optional<Duration> TaskThreads::ended_after(std::size_t task) const {
   return Duration(job.end) - job.newest.now;
 }
 
-void TaskThreads::undo(std::size_t task, bool skip) {
+void TaskThreads::undo(std::size_t task, OnFault on_fault) {
   jobs_[task].to_undo = state_.status[task].undoable;
-  jobs_[task].to_skip = skip;
+  jobs_[task].to_skip = on_fault == OnFault::skip;
+  jobs_[task].to_restart = on_fault == OnFault::restart;
+}
+
+std::optional<HangingTask> TaskThreads::first_under_way() const {
+  const Job* first = nullptr;
+  std::int64_t released = 0;
+  for (const Job& job : jobs_) {
+    const State state = job.state.load(std::memory_order_relaxed);
+    if (state != State::released && state != State::abandoned) continue;
+    if (job.awaited.load(std::memory_order_relaxed) != 0) continue;
+    const std::int64_t instant = job.instant.load(std::memory_order_relaxed);
+    if (first != nullptr && std::tie(released, first->turn) <= std::tie(instant, job.turn)) continue;
+    first = &job;
+    released = instant;
+  }
+  if (first == nullptr) return std::nullopt;
+  const Task& task = graph_.tasks[first->task];
+  return HangingTask{task.name, (Duration(released) - task.offset) / task.period, Duration(released)};
 }
 
 std::vector<HangingTask> TaskThreads::drain(std::optional<Futex::Time> patience) {

@@ -48,9 +48,12 @@ class TaskThreads {
   const Tick& tick(std::size_t task) const { return jobs_[task].newest; }
   std::optional<Duration> ended_after(std::size_t task) const;
   const void* out(std::size_t task) const { return jobs_[task].memory.out; }
-  /// Before its next activation the task is put back to before the newest, and with `skip` that one is left out too.
-  void undo(std::size_t task, bool skip);
+  /// Before its next activation the task is put back to before the newest; `skip` leaves that one out too, `restart`
+  /// has it begin anew.
+  void undo(std::size_t task, OnFault on_fault);
 
+  /// The one that was released first of those that have not ended and wait for no other; any thread may ask.
+  std::optional<HangingTask> first_under_way() const;
   /// Waits until nothing runs any more; what still runs at that time.
   std::vector<HangingTask> drain(std::optional<Futex::Time> patience = {});
 
@@ -83,7 +86,7 @@ class TaskThreads {
     Tick newest;
     Outcome left_out = Outcome::good;
     bool abandoned = false;
-    bool to_undo = false, to_skip = false;
+    bool to_undo = false, to_skip = false, to_restart = false;
 
     Tick tick;                              // of the activation that runs
     std::atomic<std::int64_t> instant{-1};  // of its release

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 #include <thread>
 
 #include "runtime/execute/expectations.h"
@@ -16,18 +17,24 @@ void sort_by_name(std::vector<const CommunicatorAction*>& actions) {
             [](const auto* a, const auto* b) { return a->communicator < b->communicator; });
 }
 
+std::vector<std::size_t> all_of(std::size_t count) {
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
 }  // namespace
 
-Communicators::Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, bool record_truth,
+Communicators::Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, Truth truth,
                              std::span<const expect::Condition> measured)
     : run_(run), channels_(std::move(channels)), safe_commands_(run.graph), are_any_(!run.graph.communicators.empty()) {
   assert(channels_.size() == run.graph.distributers.size());
   outs_.reserve(run.plan.outs.size());
   ins_.reserve(run.plan.ins.size());
-  for (const std::size_t distributer : watched_vehicles(run.graph, measured))
-    if (const Type* type = channels_[distributer]->true_type();
-        type != nullptr && record_truth && run.publisher.recorder() != nullptr)
-      watched_.push_back({distributer, Value(*type)});
+  if (truth != Truth::none && run.publisher.recorder() != nullptr)
+    for (const std::size_t distributer :
+         truth == Truth::all ? all_of(channels_.size()) : watched_vehicles(run.graph, measured))
+      if (const Type* type = channels_[distributer]->true_type()) watched_.push_back({distributer, Value(*type)});
   if (run.may_rest) rest_ = std::make_unique<Rest>(run.state, channels_);
 }
 

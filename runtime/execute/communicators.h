@@ -16,11 +16,14 @@
 
 namespace jarol {
 
+/// Of which vehicles the run's recorder gets true values, too: of those that the conditions of the graph, and those
+/// that are measured, ask for; or of all.
+enum class Truth { none, of_conditions, all };
+
 class Communicators {
  public:
-  /// One Channels per distributer, in the order of the graph. With `record_truth` the run's recorder gets true values
-  /// too, for the conditions of the graph and for those that are measured. The run outlives it.
-  Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, bool record_truth,
+  /// One Channels per distributer, in the order of the graph. The run outlives it.
+  Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, Truth truth,
                 std::span<const expect::Condition> measured = {});
 
   /// An instant, from its begin until `act` has been called.

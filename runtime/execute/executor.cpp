@@ -6,6 +6,7 @@
 #include "runtime/dispatch/in_line.h"
 #include "runtime/dispatch/on_threads.h"
 #include "runtime/dispatch/one_by_one.h"
+#include "runtime/dispatch/task_guard.h"
 
 namespace jarol {
 namespace {
@@ -16,6 +17,11 @@ Run::Options options_of_run(const ExecutorOptions& options) {
           .recorder = options.recorder,
           .log = options.log,
           .may_rest = options.clock != nullptr};
+}
+
+Truth truth_of(const ExecutorOptions& options) {
+  if (!options.record_truth) return Truth::none;
+  return options.record_all_truth ? Truth::all : Truth::of_conditions;
 }
 
 // The calling thread covers instants while this lives.
@@ -29,7 +35,7 @@ struct RunningHere {
 
 Executor::Executor(PlanOfRun plan, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options)
     : run_(std::move(plan), options_of_run(options)),
-      communicators_(run_, std::move(channels), options.record_truth, options.measured),
+      communicators_(run_, std::move(channels), truth_of(options), options.measured),
       clock_(options.clock),
       stops_(!options.misses),
       dispatcher_(make_dispatcher(options)) {
@@ -40,11 +46,18 @@ Executor::Executor(PlanOfRun plan, std::vector<std::unique_ptr<Channels>> channe
 
 std::unique_ptr<Dispatcher> Executor::make_dispatcher(const ExecutorOptions& options) {
   assert(!options.misses || (options.clock == nullptr && options.workers == 1));
+  assert(options.schedule == nullptr || (options.clock == nullptr && !options.misses));
+  assert(options.guard == nullptr || (options.clock == nullptr && options.workers == 1));
+  if (options.guard != nullptr) options.guard->take(run_.state);
   if (options.misses) return std::make_unique<OneByOne<AsLogged>>(run_, AsLogged(run_.graph, *options.misses));
   if (!options.threads.empty()) return std::make_unique<OnThreads>(run_, *options.clock, options.threads);
   if (options.clock != nullptr) return std::make_unique<OneByOne<InTime>>(run_, InTime(run_.graph, *options.clock));
-  if (options.workers == 1 && options.sharing != Sharing::measure) return make_in_line(run_);
-  auto shared = std::make_unique<SharedStages>(run_, options.workers, options.sharing, make_in_line(run_));
+  std::unique_ptr<Dispatcher> alone = make_in_line(run_);
+  if (options.schedule != nullptr)
+    alone = std::make_unique<OneByOne<AsScheduled>>(run_, AsScheduled(*options.schedule));
+  if (options.workers == 1 && options.sharing != Sharing::measure) return alone;
+  auto shared =
+      std::make_unique<SharedStages>(run_, options.workers, options.sharing, std::move(alone), options.schedule);
   team_ = &shared->team();
   return shared;
 }
@@ -98,10 +111,11 @@ bool Executor::wait_until(Duration instant) {
   return !has_stopped();
 }
 
-// About each second those who look on see all that was published, however little it is.
+// Now and then those who look on see all that was published, however little it is.
 void Executor::hand_on(Duration instant) {
-  hand_on_due_ = instant + std::chrono::seconds(1);
-  if (Recorder* const recorder = run_.publisher.recorder()) recorder->hand_on();
+  Recorder* const recorder = run_.publisher.recorder();
+  hand_on_due_ = instant + (recorder != nullptr ? recorder->hand_on_period() : Duration(std::chrono::seconds(1)));
+  if (recorder != nullptr) recorder->hand_on();
 }
 
 // False: the run was closed before anything of the instant took place.

@@ -17,11 +17,16 @@
 #include "runtime/machine/running_task.h"
 
 namespace jarol {
+namespace analysis {
+class Schedule;
+}
+class TaskGuard;
 
 struct ExecutorOptions {
   bool digest = true;
   Recorder* recorder = nullptr;
   bool record_truth = false;  // the recorder gets true values too, for the conditions of the graph: see Expectations
+  bool record_all_truth = false;                  // and of all vehicles, whatever the conditions ask for
   std::span<const expect::Condition> measured{};  // conditions beside those of the graph, likewise
   std::size_t workers = 1;  // threads that run tasks, the caller's among them; the outcome is the same for any number
   Sharing sharing = Sharing::if_it_pays;
@@ -31,6 +36,10 @@ struct ExecutorOptions {
   // A replay on the virtual clock by a single worker: these come late or not at all. It goes as far as it is let, for
   // the run that it repeats may have known of a fault that stops it only at a later instant.
   std::optional<std::span<const Miss>> misses{};
+  // On the virtual clock: what is late and left out there is so in the run; it outlives it.
+  analysis::Schedule* schedule = nullptr;
+  // On the virtual clock by a single worker, of a plan with Spacing::pages: tasks run under it; it outlives the run.
+  TaskGuard* guard = nullptr;
 };
 
 class Executor {
@@ -66,7 +75,7 @@ class Executor {
   Finish finish(std::optional<Futex::Time> patience = {});
   /// What the thread that covers instants runs now, and what workers beside it do.
   std::vector<HangingTask> running() const;
-  /// The same where it is the thread that keeps the time.
+  /// What it holds up: the thread that keeps the time, or one of several.
   std::optional<Holdup> holdup() const;
 
   /// What the run is, between two pieces of it on the virtual clock. Restored, it is that of the same graph but for
@@ -78,6 +87,9 @@ class Executor {
 
   /// Ends run_until after the instant under way; may be called from another thread or a signal handler.
   void interrupt() { interrupted_.store(true, std::memory_order_relaxed); }
+
+  /// The instant that is covered next, between two pieces of the run.
+  Duration next_instant() const { return Duration(run_.state.calendar.next()); }
 
   const Report& report() const { return run_.report; }
   const std::vector<SafeCommandReport>& safe_commands() const { return communicators_.safe_commands(); }
@@ -103,6 +115,7 @@ class Executor {
   }
   [[gnu::cold]] void log_checkpoint(Duration instant);
   [[gnu::cold]] void hand_on(Duration instant);
+  std::optional<Holdup> holdup_of_thread() const;
   const Task* task_of(const RunningTask* running) const;
   HangingTask hanging(const Task& task) const;
 

@@ -1,6 +1,8 @@
 // The executor at the end of a run.
 #include "runtime/execute/executor.h"
 
+#include <algorithm>
+
 namespace jarol {
 
 void Executor::serialize(Archive& archive) {
@@ -57,8 +59,20 @@ std::vector<HangingTask> Executor::running() const {
   return all;
 }
 
+// Others go on beside it, and keep its last values: being late by itself ends nothing.
+std::optional<Holdup> Executor::holdup_of_thread() const {
+  std::optional<HangingTask> first = dispatcher_->first_under_way();
+  if (!first) return std::nullopt;
+  const auto task = std::lower_bound(run_.graph.tasks.begin(), run_.graph.tasks.end(), first->task,
+                                     [](const Task& each, const std::string& name) { return each.name < name; });
+  if (!task->wcet) return std::nullopt;
+  const Duration late = Duration(clock_->now()) - first->instant - task->deadline;
+  return Holdup{.task = std::move(*first), .late = late};
+}
+
 std::optional<Holdup> Executor::holdup() const {
-  if (clock_ == nullptr || !dispatcher_->runs_on_caller()) return std::nullopt;
+  if (clock_ == nullptr) return std::nullopt;
+  if (!dispatcher_->runs_on_caller()) return holdup_of_thread();
   const Task* const task = task_of(running_.load(std::memory_order_acquire));
   if (task == nullptr) return std::nullopt;
   const Duration time(clock_->now());

@@ -2,11 +2,17 @@
 
 #include <map>
 
+#include "graph/values/heap.h"
+
 namespace jarol {
 
-Layout::Layout(const Graph& graph, const std::vector<std::uint32_t>& order)
-    : tasks(graph.tasks.size()), communicators(graph.communicators.size()) {
+Layout::Layout(const Graph& graph, const std::vector<std::uint32_t>& order, Spacing of)
+    : spacing(of), tasks(graph.tasks.size()), communicators(graph.communicators.size()) {
   for (const std::uint32_t i : order) {
+    if (spacing == Spacing::pages) {
+      place_apart(graph, i);
+      continue;
+    }
     const TaskClass& c = *graph.tasks[i].task_class;
     place(0, line);
     tasks[i].in = place(*c.in);
@@ -22,11 +28,34 @@ Layout::Layout(const Graph& graph, const std::vector<std::uint32_t>& order)
     communicators[i].input = place(type);
     communicators[i].taken = place(type);
   }
-  // apart from what every activation touches
-  for (const std::uint32_t i : order) tasks[i].heap = place(graph.tasks[i].heap, line);
-  for (const std::uint32_t i : order)
-    if (is_undoable(graph.tasks[i])) tasks[i].kept = place(undoable_size(graph, i) + graph.tasks[i].heap, line);
   place(0, line);
+  if (spacing == Spacing::pages) return;
+  // apart from what every activation touches
+  for (const std::uint32_t i : order) place_heap(graph, i);
+  for (const std::uint32_t i : order) place_kept(graph, i);
+  place(0, line);
+}
+
+void Layout::place_apart(const Graph& graph, std::uint32_t i) {
+  const TaskClass& c = *graph.tasks[i].task_class;
+  tasks[i].begin = place(0, page);
+  tasks[i].in = place(*c.in);
+  tasks[i].parameters = place(*c.parameters);
+  tasks[i].state = place(*c.state);
+  tasks[i].out = place(*c.out);
+  place_heap(graph, i);
+  place_kept(graph, i);
+  tasks[i].end = place(0, page);
+}
+
+void Layout::place_heap(const Graph& graph, std::uint32_t i) {
+  if (!has_heap(graph.tasks[i])) return;
+  tasks[i].book = place(sizeof(PrivateHeap), line);
+  tasks[i].heap = place(graph.tasks[i].heap, line);
+}
+
+void Layout::place_kept(const Graph& graph, std::uint32_t i) {
+  if (is_undoable(graph.tasks[i])) tasks[i].kept = place(undoable_size(graph, i) + graph.tasks[i].heap, line);
 }
 
 std::size_t Layout::undoable_size(const Graph& graph, std::size_t task) const {
@@ -37,7 +66,7 @@ void Layout::place_let_doubles(const Graph& graph, const std::vector<std::uint32
   std::map<std::pair<Duration, Duration>, std::vector<std::uint32_t>> at_end;  // by period and first end
   for (const std::uint32_t i : order) {
     const Task& task = graph.tasks[i];
-    if (has_let_doubles(task)) at_end[{task.period, task.offset + *task.let}].push_back(i);
+    if (spacing == Spacing::lines && has_let_doubles(task)) at_end[{task.period, task.offset + *task.let}].push_back(i);
   }
   for (const auto& [end, members] : at_end)
     for (const std::uint32_t i : members) tasks[i].out = place(graph.tasks[i].task_class->out->size, line);

@@ -142,13 +142,13 @@ void make_groups(Plan& plan, const GroupDeadlines& deadlines) {
 
 }  // namespace
 
-Plan::Plan(const Graph& of) : Plan(of, group_deadlines(of)) {}
+Plan::Plan(const Graph& of, Spacing spacing) : Plan(of, group_deadlines(of), spacing) {}
 
-Plan::Plan(const Graph& of, const GroupDeadlines& deadlines)
+Plan::Plan(const Graph& of, const GroupDeadlines& deadlines, Spacing spacing)
     : graph(of),
       outputs(outputs_of(of)),
       order(execution_order(of, deadlines)),
-      layout(of, order),
+      layout(of, order, spacing),
       tasks(of.tasks.size()),
       communicators(of.communicators.size()) {
   name_published(*this);

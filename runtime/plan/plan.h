@@ -34,7 +34,7 @@ struct Indices {
 
 struct Plan {
   /// The graph outlives the plan.
-  explicit Plan(const Graph& graph);
+  explicit Plan(const Graph& graph, Spacing spacing = Spacing::lines);
   Plan(const Plan&) = delete;
   Plan& operator=(const Plan&) = delete;
 
@@ -87,7 +87,7 @@ struct Plan {
   std::vector<std::uint32_t> readers;    // of all publishers: connections
 
  private:
-  Plan(const Graph& graph, const GroupDeadlines& deadlines);
+  Plan(const Graph& graph, const GroupDeadlines& deadlines, Spacing spacing);
 };
 
 /// The plan of a run: one that others share and that outlives it, or one of its own, of a graph that is run once.
@@ -95,7 +95,8 @@ class PlanOfRun {
  public:
   PlanOfRun(const Plan& shared) : plan_(&shared) {}
   PlanOfRun(const Plan&&) = delete;
-  PlanOfRun(const Graph& graph) : own_(std::make_unique<const Plan>(graph)), plan_(own_.get()) {}
+  PlanOfRun(const Graph& graph, Spacing spacing = Spacing::lines)
+      : own_(std::make_unique<const Plan>(graph, spacing)), plan_(own_.get()) {}
 
   const Plan& operator*() const { return *plan_; }
   const Plan* operator->() const { return plan_; }

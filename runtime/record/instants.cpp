@@ -15,7 +15,7 @@ constexpr std::size_t channels = 65536;
 // What a replay needs is recorded apart from what is published and what happens beside that.
 bool is_of_inputs(const ReadTopic& topic) {
   const std::string& name = topic.channel.topic;
-  return topic.is_own() && name != topics::events && name != topics::gaps;
+  return topic.is_own() && name != topics::events && name != topics::gaps && !name.starts_with(topics::truth);
 }
 }  // namespace
 

@@ -49,6 +49,20 @@ std::string wrong_with(const Gap& gap) {
 
 }  // namespace
 
+std::optional<LogEnd> find_end(const Recording& recording) {
+  const ReadTopic* const topic = recording.find(topics::end);
+  if (!recording.is_whole() || recording.good_until() != recording.size() || topic == nullptr) return std::nullopt;
+  MessageCursor cursor(recording, *topic);
+  if (cursor.message() == nullptr) return std::nullopt;
+  LogEnd end;
+  std::string wrong = decode_cdr(type_of<LogEnd>(), bytes_of(*cursor.message()), &end);
+  const std::uint64_t offset = cursor.chunk_offset();
+  cursor.next();
+  wrong = wrong.empty() ? wrong_with(end, {}, cursor.message() != nullptr) : "an end that " + wrong;
+  if (!wrong.empty()) fail_in_chunk(recording.path(), offset, wrong);
+  return end;
+}
+
 RecordedRun::RecordedRun(std::string path) : path_(std::move(path)) {
   recording_ = std::make_unique<Recording>(path_, [this](const mcap::Message& message, const ReadTopic& topic,
                                                          std::uint64_t offset) { keep(message, topic, offset); });
@@ -67,13 +81,13 @@ void RecordedRun::keep(const mcap::Message& message, const ReadTopic& topic, std
   if (!topic.is_own()) return;
   const auto read = [&]<class T>(T value, const auto&... context) {
     if (const std::string wrong = decode_cdr(type_of<T>(), bytes_of(message), &value); !wrong.empty())
-      fail_at(offset, "a message of '" + name + "' that " + wrong);
-    if (const std::string wrong = wrong_with(value, context...); !wrong.empty()) fail_at(offset, wrong);
+      fail_in_chunk(path_, offset, "a message of '" + name + "' that " + wrong);
+    if (const std::string wrong = wrong_with(value, context...); !wrong.empty()) fail_in_chunk(path_, offset, wrong);
     return value;
   };
   if (name.starts_with(topics::taken)) {
     if (!is_time(message.time) || message.time < last_value_)
-      fail_at(offset, "a value of '" + name.substr(topics::taken.size()) + "' before the one before it");
+      fail_in_chunk(path_, offset, "a value of '" + name.substr(topics::taken.size()) + "' before the one before it");
     last_value_ = message.time;
     ++values_;
   } else if (name == topics::misses) {
@@ -89,7 +103,7 @@ void RecordedRun::keep(const mcap::Message& message, const ReadTopic& topic, std
     gaps_.push_back(read(Gap{}));
   } else if (name == topics::checkpoints) {
     if (!is_time(message.time) || (!saved_.empty() && Duration(message.time) <= saved_.back()))
-      fail_at(offset, "a checkpoint that is not after the one before it");
+      fail_in_chunk(path_, offset, "a checkpoint that is not after the one before it");
     saved_.emplace_back(message.time);
   }
   if (misses_.size() > most_kept || digests_.size() > most_kept || gaps_.size() > most_kept)
@@ -110,14 +124,13 @@ std::optional<Duration> RecordedRun::saved_before(Duration instant) const {
 
 std::string RecordedRun::saved_at(Duration instant) const {
   const ReadTopic* const topic = recording_->find(topics::checkpoints);
-  std::vector<bool> wanted(65536);
-  if (topic != nullptr) wanted[topic->channel.id] = true;
-  const MessageCursor cursor(*recording_, std::move(wanted), instant);
+  std::optional<MessageCursor> cursor;
+  if (topic != nullptr) cursor.emplace(*recording_, *topic, instant);
   SavedState state;
-  if (cursor.message() == nullptr || Duration(cursor.message()->time) != instant)
+  if (!cursor || cursor->message() == nullptr || Duration(cursor->message()->time) != instant)
     fail("has no checkpoint at " + seconds_text(instant) + " s");
-  if (const std::string wrong = decode_cdr(type_of<SavedState>(), bytes_of(*cursor.message()), &state); !wrong.empty())
-    fail_at(cursor.chunk_offset(), "a checkpoint that " + wrong);
+  if (const std::string wrong = decode_cdr(type_of<SavedState>(), bytes_of(*cursor->message()), &state); !wrong.empty())
+    fail_in_chunk(path_, cursor->chunk_offset(), "a checkpoint that " + wrong);
   return std::string(state.bytes);
 }
 
@@ -168,7 +181,7 @@ bool RecordedRun::take(Duration instant, std::size_t communicator, void* value) 
     return false;
   const Type& type = *graph_->communicators[communicator].type;
   if (const std::string wrong = decode_cdr(type, bytes_of(*message), value); !wrong.empty())
-    fail_at(next_->chunk_offset(), "a value of '" + name_of_next() + "' that " + wrong);
+    fail_in_chunk(path_, next_->chunk_offset(), "a value of '" + name_of_next() + "' that " + wrong);
   next_->next();
   return true;
 }
@@ -188,11 +201,6 @@ void RecordedRun::require_not_before(Duration instant) const {
 
 void RecordedRun::fail_for_graph(const std::string& what) const {
   fail(what + " graph '" + graph_->name + "'; replay the graph of the run");
-}
-
-void RecordedRun::fail_at(std::uint64_t offset, const std::string& what) const {
-  fail("has in the chunk at byte " + std::to_string(offset) + " " + what +
-       "; it is no recording that jarol run has written");
 }
 
 void RecordedRun::fail(const std::string& what) const { throw LogError("'" + path_ + "' " + what); }

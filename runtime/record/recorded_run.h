@@ -11,6 +11,10 @@
 
 namespace jarol {
 
+/// How the run ended, by the index of a recording that is whole: of a large one only little is read. None: there is no
+/// such index, and it has to be gone through. Throws LogError.
+std::optional<LogEnd> find_end(const Recording& recording);
+
 class RecordedRun : public TakenValues {
  public:
   /// Looks at the whole recording. Throws LogError, "'path' ...", if it is none.
@@ -51,7 +55,6 @@ class RecordedRun : public TakenValues {
   void require_not_before(Duration instant) const;
   const std::string& name_of_next() const;
   [[noreturn]] void fail(const std::string& what) const;
-  [[noreturn]] void fail_at(std::uint64_t offset, const std::string& what) const;
   [[noreturn]] void fail_for_graph(const std::string& what) const;
 
   std::string path_;

@@ -22,8 +22,11 @@ struct EventHeader {
 };
 }  // namespace
 
-Recorder::Recorder(std::vector<RecordSink*> sinks)
-    : sinks_(std::move(sinks)), memory_(std::make_unique<std::byte[]>(chunk_bytes * chunks)), now_(memory_.get()) {
+Recorder::Recorder(std::vector<RecordSink*> sinks, Duration hand_on_period)
+    : sinks_(std::move(sinks)),
+      hand_on_period_(hand_on_period),
+      memory_(std::make_unique<std::byte[]>(chunk_bytes * chunks)),
+      now_(memory_.get()) {
   thread_ = std::thread([this] { run(); });
 }
 

@@ -31,7 +31,7 @@ struct RecordHeader {
 class Recorder {
  public:
   /// The sinks outlive the recorder.
-  explicit Recorder(std::vector<RecordSink*> sinks);
+  explicit Recorder(std::vector<RecordSink*> sinks, Duration hand_on_period = std::chrono::seconds(1));
 
   /// What will be recorded, before the first of it. Throws std::length_error for flat values beyond most_bytes.
   void expect(const std::vector<Output>& outputs);
@@ -73,6 +73,8 @@ class Recorder {
   void hand_on() {
     if (used_ > 0 && read_.load(std::memory_order_acquire) == written_.load(std::memory_order_relaxed)) next_chunk();
   }
+  /// How much time may go by until what little there is, is handed on.
+  Duration hand_on_period() const { return hand_on_period_; }
   /// Hands on what was appended so far and waits until the sinks have it, but for what is held for its order; throws
   /// what a sink threw.
   void catch_up();
@@ -101,6 +103,7 @@ class Recorder {
   const void* value_of(const RecordHeader& header, const std::byte* packed);
 
   std::vector<RecordSink*> sinks_;
+  const Duration hand_on_period_;
   std::vector<Output> outputs_;
   std::vector<std::uint8_t> wanted_;  // per output
   std::vector<Value> deep_values_;    // per output: what the sinks see, empty for flat ones

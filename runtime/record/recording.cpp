@@ -191,6 +191,22 @@ const ReadTopic* Recording::find(std::string_view topic) const {
 
 void Recording::fail(const std::string& what) const { throw LogError("'" + path_ + "' " + what); }
 
+namespace {
+std::vector<bool> only(const ReadTopic& topic) {
+  std::vector<bool> wanted(topic.channel.id + std::size_t{1});
+  wanted.back() = true;
+  return wanted;
+}
+}  // namespace
+
+void fail_in_chunk(const std::string& path, std::uint64_t offset, const std::string& what) {
+  throw LogError("'" + path + "' has in the chunk at byte " + std::to_string(offset) + " " + what +
+                 "; it is no recording that jarol run has written");
+}
+
+MessageCursor::MessageCursor(const Recording& recording, const ReadTopic& topic, Duration from)
+    : MessageCursor(recording, only(topic), from) {}
+
 MessageCursor::MessageCursor(const Recording& recording, std::vector<bool> wanted, Duration from)
     : recording_(recording), reader_(recording.path()), wanted_(std::move(wanted)), from_(from.count()) {
   wanted_.resize(65536);

@@ -71,11 +71,16 @@ class Recording {
   std::uint64_t good_until_ = 0, size_ = 0;
 };
 
+/// Throws LogError: what stands in that chunk can't be there.
+[[noreturn]] void fail_in_chunk(const std::string& path, std::uint64_t offset, const std::string& what);
+
 /// The messages of some topics of a recording, chunk by chunk. Throws LogError where a chunk is damaged.
 class MessageCursor {
  public:
   /// The recording outlives it. `wanted`: by channel; those from `from` on.
   MessageCursor(const Recording& recording, std::vector<bool> wanted, Duration from = {});
+  /// Of that topic alone.
+  MessageCursor(const Recording& recording, const ReadTopic& topic, Duration from = {});
 
   /// Null: there are no more. What it points to holds until `next`.
   const mcap::Message* message() const { return message_ ? &*message_ : nullptr; }

@@ -41,9 +41,12 @@ std::string to_json(const RecordingHeader& header) {
                               {"version", header.version},
                               {"platform", header.platform},
                               {"inputs", nlohmann::ordered_json::array()},
+                              {"truths", nlohmann::ordered_json::array()},
                               {"tasks", header.tasks}};
   for (const RecordingHeader::Input& input : header.inputs)
     json["inputs"].push_back({{"name", input.name}, {"type", input.signature}});
+  for (const RecordingHeader::Truth& truth : header.truths)
+    json["truths"].push_back({{"distributer", truth.distributer}, {"type", truth.signature}});
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
@@ -69,6 +72,8 @@ RecordingHeader parse_header(const std::string& text) {
                            .platform = json.at("platform"),
                            .tasks = json.at("tasks")};
     for (const auto& input : json.at("inputs")) header.inputs.push_back({input.at("name"), input.at("type")});
+    for (const auto& truth : json.value("truths", nlohmann::json::array()))
+      header.truths.push_back({truth.at("distributer"), truth.at("type")});
     return header;
   } catch (const nlohmann::json::exception&) { throw LogError("is no recording"); }
 }

@@ -29,6 +29,10 @@ struct RecordingHeader {
     std::string name;       // of an `in` communicator
     std::string signature;  // of its type
   };
+  struct Truth {
+    std::string distributer;  // whose vehicle it is
+    std::string signature;    // of the type of its true values
+  };
 
   std::string graph;
   std::string file;  // of the graph, from the root
@@ -42,6 +46,7 @@ struct RecordingHeader {
   std::string version{};        // of the program, a line each
   std::string platform{};       // on which it ran
   std::vector<Input> inputs{};
+  std::vector<Truth> truths{};       // of vehicles that were simulated in the run
   std::vector<std::string> tasks{};  // a miss names one by its index here
 };
 
@@ -49,6 +54,7 @@ struct RecordingHeader {
 namespace topics {
 inline constexpr std::string_view own = "jarol/";  // what all others begin with
 inline constexpr std::string_view taken = "jarol/taken/";
+inline constexpr std::string_view truth = "jarol/truth/";
 inline constexpr std::string_view misses = "jarol/misses";
 inline constexpr std::string_view digests = "jarol/digests";
 inline constexpr std::string_view rest = "jarol/rest";

@@ -31,13 +31,14 @@ bool may_be_replaced(const std::string& path) {
 }  // namespace
 
 RecordingWriter::RecordingWriter(std::string path, RecordingHeader header, std::vector<RecordedFile> files,
-                                 const Graph& graph, mcap::Compression compression)
+                                 const Graph& graph, mcap::Compression compression,
+                                 const std::vector<const Type*>& truths)
     : path_(std::move(path)), header_(std::move(header)), files_(std::move(files)), compression_(compression) {
   for (const std::size_t i : logged_inputs(graph))
     header_.inputs.push_back({graph.communicators[i].name, signature_of(*graph.communicators[i].type)});
   for (const Task& task : graph.tasks) header_.tasks.push_back(task.name);
   add_inputs(graph);
-  if (header_.what != "inputs") add_publications(graph);
+  if (header_.what != "inputs") add_publications(graph, truths);
   recorder_ = std::make_unique<Recorder>(std::vector<RecordSink*>{&*inputs_});
 }
 
@@ -86,7 +87,7 @@ void RecordingWriter::add_inputs(const Graph& graph) {
   inputs_.emplace(queue_, RecordedStream::Pressure::keeps, schemas_, topics, beside);
 }
 
-void RecordingWriter::add_publications(const Graph& graph) {
+void RecordingWriter::add_publications(const Graph& graph, const std::vector<const Type*>& truths) {
   std::vector<std::optional<RecordedTopic>> topics;
   const std::vector<SelectedOutput> outputs = select_outputs(graph, header_.what);
   for (const SelectedOutput& output : outputs)
@@ -94,6 +95,12 @@ void RecordingWriter::add_publications(const Graph& graph) {
                                                            {{"period_ns", std::to_string(output.period.count())},
                                                             {"phase_ns", std::to_string(output.phase.count())}}))
                                      : std::nullopt);
+  for (std::size_t i = 0; i < truths.size() && header_.what == "all"; ++i) {
+    const std::string& distributer = graph.distributers[i].name;
+    if (truths[i] != nullptr) header_.truths.push_back({distributer, signature_of(*truths[i])});
+    topics.push_back(truths[i] != nullptr ? std::optional(topic(std::string(topics::truth) + distributer, *truths[i]))
+                                          : std::nullopt);
+  }
   const std::vector<RecordedTopic> beside{topic(std::string(topics::events), type_of<RecordedEvent>()),
                                           topic(std::string(topics::gaps), type_of<Gap>())};
   publications_.emplace(queue_,

@@ -23,13 +23,17 @@ struct RecordedFile {
 
 class RecordingWriter {
  public:
-  /// `header` without inputs and tasks, which are the graph's; its `what` says which outputs are recorded. Throws
-  /// std::invalid_argument if that names nothing.
+  /// `header` without inputs, truths and tasks, which are the graph's; its `what` says which outputs are recorded.
+  /// `truths`: by distributer the type of what is known of its vehicle, or null; recorded where all is. Throws
+  /// std::invalid_argument if `what` names nothing.
   RecordingWriter(std::string path, RecordingHeader header, std::vector<RecordedFile> files, const Graph& graph,
-                  mcap::Compression compression = mcap::Compression::lz4);
+                  mcap::Compression compression = mcap::Compression::lz4, const std::vector<const Type*>& truths = {});
   ~RecordingWriter();
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
+
+  /// As it stands in the file.
+  const RecordingHeader& header() const { return header_; }
 
   /// For ExecutorOptions::log.
   Recorder* recorder() { return recorder_.get(); }
@@ -55,7 +59,7 @@ class RecordingWriter {
  private:
   enum BesideInputs : std::size_t { end_topic, checkpoint_topic };
   void add_inputs(const Graph& graph);
-  void add_publications(const Graph& graph);
+  void add_publications(const Graph& graph, const std::vector<const Type*>& truths);
   RecordedTopic topic(std::string name, const Type& type, mcap::Texts metadata = {});
   [[noreturn]] void fail(const std::string& reason) const;
 

@@ -14,6 +14,7 @@ std::string Faults::cause_of(std::uint32_t task, const BadActivation& bad, const
     case Outcome::overrun: return overrun_text;
     case Outcome::late: return late_text(bad.ended_after, t.deadline);
     case Outcome::non_finite: return find_non_finite(*t.task_class->out, out);
+    case Outcome::out_of_range: return find_out_of_range(*t.task_class->out, out);
     case Outcome::good:
     case Outcome::left_out:
     case Outcome::threw:
@@ -53,6 +54,7 @@ void Faults::restore(const Activation& activation, bool ran) {
   TaskStatus& status = state_.status[activation.task];
   if (ran) status.put_back(activation.memory.state);
   status.skip_next = on_fault == OnFault::skip;
+  status.begins_anew = on_fault == OnFault::restart;
 }
 
 bool Faults::end_let(const LetEnd& let_end, Duration instant) {
@@ -88,11 +90,25 @@ void Faults::add_noted(std::uint32_t task, Duration instant) {
   add(task, state_.status[task].activation, instant, state_.status[task].text);
 }
 
-void Faults::add(std::uint32_t task, std::int64_t activation, Duration instant, const std::string& cause) {
+void Faults::add(std::uint32_t task, std::int64_t activation, Duration instant, std::string cause) {
+  const Task& of = graph_.tasks[task];
   ++report_.left_out[task];
-  report_.add({graph_.tasks[task].name, activation, instant, cause});
+  const bool by_limit = of.fault_limit && reaches_limit(task, activation);
+  if (by_limit) cause += limit_text(*of.fault_limit);
+  report_.add({of.name, activation, instant, cause});
   publisher_.show({RunEvent::Kind::fault, instant, task, activation, cause});
-  if (graph_.tasks[task].on_fault == OnFault::stop) report_.stopped = true;
+  if (of.on_fault == OnFault::stop || by_limit) report_.stopped = true;
+}
+
+// Remembers the fault; those that are too old to count with it are forgotten.
+bool Faults::reaches_limit(std::uint32_t task, std::int64_t activation) {
+  const FaultLimit& limit = *graph_.tasks[task].fault_limit;
+  std::vector<std::int64_t>& recent = state_.recent_faults[task];
+  std::erase_if(recent, [&](std::int64_t earlier) { return activation - earlier >= limit.releases; });
+  recent.push_back(activation);
+  if (recent.size() < static_cast<std::size_t>(limit.faults)) return false;
+  recent.clear();
+  return true;
 }
 
 }  // namespace jarol

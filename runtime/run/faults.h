@@ -44,7 +44,8 @@ class Faults {
   bool has_late_fault(const LetEnd& let_end, Duration instant);
   std::string cause_of(std::uint32_t task, const BadActivation& bad, const void* out) const;
   void add_noted(std::uint32_t task, Duration instant);
-  void add(std::uint32_t task, std::int64_t activation, Duration instant, const std::string& cause);
+  void add(std::uint32_t task, std::int64_t activation, Duration instant, std::string cause);
+  bool reaches_limit(std::uint32_t task, std::int64_t activation);
 
   const Graph& graph_;
   RunState& state_;

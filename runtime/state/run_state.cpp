@@ -13,10 +13,12 @@ RunState::RunState(const Plan& of, std::span<const expect::Signal> tapped)
       outcomes(of.graph.tasks.size(), Outcome::good),
       heaps(of.graph.tasks.size()),
       last(of.graph.communicators.size()),
+      recent_faults(of.graph.tasks.size()),
       releases(of.groups.size()),
       tapped_(tapped),
-      arena_(static_cast<std::byte*>(::operator new (of.layout.size, std::align_val_t{Layout::line}))) {
+      arena_(make_arena(of.layout)) {
   std::memset(arena_.get(), 0, of.layout.size);
+  first_states_.reserve(of.graph.tasks.size());
   for (std::size_t i = 0; i < of.graph.tasks.size(); ++i) make_task(i);
   for (std::size_t i = 0; i < of.graph.communicators.size(); ++i) make_communicator(i);
   // each input begins with what its source reads as until first published
@@ -27,9 +29,12 @@ RunState::RunState(const Plan& of, std::span<const expect::Signal> tapped)
   for (const Plan::Group& group : of.groups) make_group(group);
 }
 
-void RunState::Release::operator()(std::byte* memory) const {
-  ::operator delete (memory, std::align_val_t{Layout::line});
+RunState::Arena RunState::make_arena(const Layout& layout) {
+  const std::align_val_t alignment{layout.spacing == Spacing::pages ? Layout::page : Layout::line};
+  return {static_cast<std::byte*>(::operator new(layout.size, alignment)), {alignment}};
 }
+
+void RunState::Release::operator()(std::byte* memory) const { ::operator delete(memory, alignment); }
 
 const std::byte* RunState::source_of(const End& end) const {
   if (end.kind == End::Kind::communicator) return at(plan.layout.communicators[end.index].value);
@@ -46,10 +51,7 @@ void RunState::make_task(std::size_t i) {
   const TaskClass& c = *task.task_class;
   const Layout::OfTask& place = plan.layout.tasks[i];
   TaskStatus& of_task = status[i];
-  if (has_heap(task)) {
-    heaps[i] = std::make_unique<PrivateHeap>(at(place.heap), task.heap);
-    of_task.heap = heaps[i].get();
-  }
+  if (has_heap(task)) { of_task.heap = heaps[i] = new (at(place.book)) PrivateHeap(at(place.heap), task.heap); }
   make_owned(*c.parameters, place.parameters, std::pmr::new_delete_resource());
   make_private(*c.out, place.out, of_task.heap);
   copy_value(*c.parameters, at(place.parameters), task.parameters.data());
@@ -62,6 +64,10 @@ void RunState::make_task(std::size_t i) {
   if (!of_task.undoable) return;
   of_task.kept = at(place.kept);
   of_task.size = plan.layout.undoable_size(plan.graph, i);
+  if (task.fault_limit) recent_faults[i].reserve(static_cast<std::size_t>(task.fault_limit->faults));
+  if (task.on_fault != OnFault::restart) return;
+  of_task.state_type = c.state;
+  if (c.state->is_deep()) of_task.first_state = first_states_.emplace_back(*c.state).data();
 }
 
 void RunState::start_with(std::size_t task, const void* parameters) {

@@ -27,6 +27,11 @@ class RunState {
   RunState(const RunState&) = delete;
   RunState& operator=(const RunState&) = delete;
 
+  /// Of a plan with Spacing::pages: whole pages with all that belongs to the task.
+  std::span<std::byte> pages_of(std::size_t task) const {
+    return {at(plan.layout.tasks[task].begin), at(plan.layout.tasks[task].end)};
+  }
+
   /// Before the first instant: other parameters of that task than the plan's graph has.
   void start_with(std::size_t task, const void* parameters);
 
@@ -42,20 +47,24 @@ class RunState {
   std::vector<LetOutputs> let_outputs;  // per group
   std::vector<CommunicatorAction> outs, ins;
 
-  std::vector<TaskStatus> status;                   // per task
-  std::vector<Outcome> outcomes;                    // per task: how the activation ended whose LET is under way
-  std::size_t bad_outcomes = 0;                     // among these
-  std::vector<std::unique_ptr<PrivateHeap>> heaps;  // per task, null where it has none
-  std::vector<const std::byte*> last;               // per communicator: what it last published, or its initial value
-  std::vector<std::byte*> taps;                     // per tapped signal: the field as last published
-  std::vector<std::byte> tap_news;                  // per tapped signal: 1, where that was since somebody put it to 0
-  Calendar calendar;                                // when each group is due
-  std::vector<std::int64_t> releases;               // per group: how often it was due
+  std::vector<TaskStatus> status;      // per task
+  std::vector<Outcome> outcomes;       // per task: how the activation ended whose LET is under way
+  std::size_t bad_outcomes = 0;        // among these
+  std::vector<PrivateHeap*> heaps;     // per task, null where it has none; owns nothing beyond the arena
+  std::vector<const std::byte*> last;  // per communicator: what it last published, or its initial value
+  std::vector<std::byte*> taps;        // per tapped signal: the field as last published
+  std::vector<std::byte> tap_news;     // per tapped signal: 1, where that was since somebody put it to 0
+  std::vector<std::vector<std::int64_t>> recent_faults;  // per task: activations that count for its fault_limit
+  Calendar calendar;                                     // when each group is due
+  std::vector<std::int64_t> releases;                    // per group: how often it was due
 
  private:
   struct Release {
+    std::align_val_t alignment{Layout::line};
     void operator()(std::byte* memory) const;
   };
+  using Arena = std::unique_ptr<std::byte, Release>;
+  static Arena make_arena(const Layout& layout);
   // a deep value in the arena whose memory is not a private heap
   struct Destroy {
     const Type* type = nullptr;
@@ -91,10 +100,11 @@ class RunState {
   Copy tap_of(std::size_t i) const;
 
   std::span<const expect::Signal> tapped_;
-  std::unique_ptr<std::byte, Release> arena_;
+  Arena arena_;
   std::pmr::unsynchronized_pool_resource communicator_memory_;  // of deep values; no more than they need
   std::vector<std::unique_ptr<std::byte, Destroy>> owned_;
   std::vector<std::uint64_t> tap_memory_;
+  std::vector<Value> first_states_;  // of tasks that are restarted, where they are deep
   std::vector<DeepInput> deep_inputs_;
   std::vector<DeepInput*> deep_input_of_;  // per connection, if there are any
   std::vector<Copy> copies_;

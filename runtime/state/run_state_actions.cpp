@@ -48,7 +48,7 @@ void RunState::add_let_output(LetOutputs& outputs, std::uint32_t i) {
   const Task& task = plan.graph.tasks[i];
   const Type& type = *task.task_class->out;
   const std::byte* const out = at(plan.layout.tasks[i].out);
-  if (has_let_doubles(task)) {
+  if (has_let_doubles(task) && plan.layout.spacing == Spacing::lines) {
     const std::size_t lines = (type.size + Layout::line - 1) / Layout::line;
     if (outputs.doubles.first == nullptr) outputs.doubles.first = reinterpret_cast<const double*>(out);
     outputs.doubles.last = reinterpret_cast<const double*>(out + lines * Layout::line);

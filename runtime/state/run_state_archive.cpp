@@ -49,8 +49,12 @@ void RunState::serialize_task(Archive& archive, std::size_t i) {
   }
   // of an activation whose LET is under way
   bad_outcomes -= outcomes[i] != Outcome::good ? 1 : 0;
-  archive(outcomes[i], of_task.skip_next);
-  archive.require(outcomes[i] <= Outcome::overrun, "has an outcome that there is not");
+  archive(outcomes[i], of_task.skip_next, of_task.begins_anew, recent_faults[i]);
+  archive.require(!of_task.begins_anew || of_task.state_type != nullptr, "begins a task anew that is never restarted");
+  const std::size_t most_recent =
+      plan.graph.tasks[i].fault_limit ? static_cast<std::size_t>(plan.graph.tasks[i].fault_limit->faults) : 0;
+  archive.require(recent_faults[i].size() <= most_recent, "has more recent faults than the task's limit");
+  archive.require(outcomes[i] <= Outcome::out_of_range, "has an outcome that there is not");
   bad_outcomes += outcomes[i] != Outcome::good ? 1 : 0;
   if (outcomes[i] == Outcome::good) return;
   archive(of_task.activation);

@@ -27,6 +27,10 @@ Outcome run_with_care(const TaskMemory& memory, const Tick& tick) {
     return Outcome::left_out;
   }
   if (status.undoable) status.keep(memory.state);
+  if (status.begins_anew) {
+    const Outcome outcome = contain([&] { status.begin_anew(memory.state); }, [&]() -> FaultText& { return status; });
+    if (outcome != Outcome::good) return outcome;
+  }
   return status.heap != nullptr ? run_with_heap(status, memory, tick) : status.run(memory, tick);
 }
 
@@ -38,6 +42,15 @@ void TaskStatus::keep(const void* state) {
 void TaskStatus::put_back(void* state) {
   std::memcpy(state, kept, size);
   if (heap != nullptr) heap->put_back(kept + size);
+}
+
+void TaskStatus::begin_anew(void* state) {
+  if (first_state == nullptr) {
+    state_type->construct(state);
+  } else {
+    state_type->assign(state, first_state);
+  }
+  begins_anew = false;
 }
 
 }  // namespace jarol

@@ -2,6 +2,7 @@
 // signals for four motors. Demands are parts of the thrust of hover, so that gains hold for light and heavy vehicles.
 #pragma once
 
+#include <numbers>
 #include <string_view>
 
 #include "graph/task.h"
@@ -53,7 +54,7 @@ struct PositionControl {
                       field<&P::ki>("1/s^3", "acceleration per integral of the error of place"),
                       field<&P::drag_time>("s", "over which the drag that is leant against is averaged"),
                       field<&P::approach>("", "to a new place"),
-                      field<&P::lean_limit>("rad", "greatest roll and pitch demanded"));
+                      field<&P::lean_limit>("rad", "greatest roll and pitch demanded").in(0, std::numbers::pi / 2));
     }
   };
   struct In {
@@ -100,7 +101,7 @@ struct TurnGains {
                     field<&G::effect>("rad/s^2", "angular acceleration per demand"),
                     field<&G::kp>("1/rad", "demand per error"), field<&G::kd>("s/rad", "demand per error of rate"),
                     field<&G::ki>("1/(rad s)", "demand per integral of the error"),
-                    field<&G::limit>("", "greatest demand"),
+                    field<&G::limit>("", "greatest demand").in(0, 1),
                     field<&G::spin_time>("s", "for which the hull turns more as rotors speed up than by their drag"));
   }
 };
@@ -218,7 +219,7 @@ struct MotorMixer {
     double quick_lag = 0.02;
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::hover>("", "signal that hovers"),
+      return describe(field<&P::hover>("", "signal that hovers").in(0, max_motor_signal),
                       field<&P::exponent>("", "thrust grows with the signal to this power"),
                       field<&P::voltage>("V", "of the battery at which it does; a lower one is made up for"),
                       field<&P::lag>("s", "of the rotors"),

@@ -4,6 +4,7 @@
 // idle signal.
 #pragma once
 
+#include <numbers>
 #include <string_view>
 
 #include "graph/task.h"
@@ -31,7 +32,7 @@ struct OriginalLogic {
     static constexpr auto fields() {
       using P = Param;
       return describe(field<&P::patience>("s", "without the operator, before the motors stop"),
-                      field<&P::idle>("", "signal that flight starts from"),
+                      field<&P::idle>("", "signal that flight starts from").in(0, max_motor_signal),
                       field<&P::rev_step>("", "growth of signals a period until then"));
     }
   };
@@ -71,7 +72,8 @@ struct OriginalPosition {
     double regularity = 1000;
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::gains>("", "for mm and mrad"), field<&P::lean_limit>("rad", "when it holds a place"),
+      return describe(field<&P::gains>("", "for mm and mrad"),
+                      field<&P::lean_limit>("rad", "when it holds a place").in(0, std::numbers::pi / 2),
                       field<&P::regularity>("", "periods between corrections, times the error in mm and one more"));
     }
   };
@@ -111,7 +113,7 @@ struct OriginalAttitude {
       using P = Param;
       return describe(field<&P::lean>("", "of roll and pitch, for mrad and signals"),
                       field<&P::yaw>("", "for mrad and signals"),
-                      field<&P::idle>("", "signal that flight starts from"));
+                      field<&P::idle>("", "signal that flight starts from").in(0, max_motor_signal));
     }
   };
   struct In {
@@ -144,7 +146,7 @@ struct OriginalAltitude {
     double idle = 8000;
     static constexpr auto fields() {
       return describe(field<&Param::gains>("", "for mm and signals"),
-                      field<&Param::idle>("", "signal that flight starts from"));
+                      field<&Param::idle>("", "signal that flight starts from").in(0, max_motor_signal));
     }
   };
   struct In {
@@ -172,7 +174,7 @@ struct OriginalMixer {
     double idle = 8000;
     double rev_step = 50;
     static constexpr auto fields() {
-      return describe(field<&Param::idle>("", "signal that flight starts from"),
+      return describe(field<&Param::idle>("", "signal that flight starts from").in(0, max_motor_signal),
                       field<&Param::rev_step>("", "change of signals a period before and after flight"));
     }
   };

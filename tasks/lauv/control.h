@@ -23,13 +23,14 @@ struct DepthControl {
     double fin_limit = 25 * degree;
     static constexpr auto fields() {
       using P = Param;
-      return describe(
-          field<&P::kp>("rad/m", "pitch per depth error"), field<&P::kd>("rad s/m", "pitch per rate of depth"),
-          field<&P::ki>("rad/(m s)", "pitch per integral of depth error"),
-          field<&P::reach>("m", "depth error below which the integral works"),
-          field<&P::limit>("rad", "greatest pitch demanded"), field<&P::pitch_kp>("", "fin angle per pitch error"),
-          field<&P::pitch_kd>("s", "fin angle per pitch rate"),
-          field<&P::fin_limit>("rad", "greatest fin angle demanded"));
+      return describe(field<&P::kp>("rad/m", "pitch per depth error").in(0, 10),
+                      field<&P::kd>("rad s/m", "pitch per rate of depth").in(0, 10),
+                      field<&P::ki>("rad/(m s)", "pitch per integral of depth error").in(0, 10),
+                      field<&P::reach>("m", "depth error below which the integral works"),
+                      field<&P::limit>("rad", "greatest pitch demanded").in(0, 90 * degree),
+                      field<&P::pitch_kp>("", "fin angle per pitch error").in(0, 100),
+                      field<&P::pitch_kd>("s", "fin angle per pitch rate").in(0, 100),
+                      field<&P::fin_limit>("rad", "greatest fin angle demanded").in(0, max_fin_angle));
     }
   };
   struct In {
@@ -59,10 +60,10 @@ struct HeadingControl {
     double fin_limit = 25 * degree;
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::kp>("1/s", "yaw rate per heading error"),
-                      field<&P::rate_limit>("rad/s", "greatest yaw rate demanded"),
-                      field<&P::rate_kp>("s", "fin angle per error of yaw rate"),
-                      field<&P::fin_limit>("rad", "greatest fin angle demanded"));
+      return describe(field<&P::kp>("1/s", "yaw rate per heading error").in(0, 100),
+                      field<&P::rate_limit>("rad/s", "greatest yaw rate demanded").in(0, 360 * degree),
+                      field<&P::rate_kp>("s", "fin angle per error of yaw rate").in(0, 100),
+                      field<&P::fin_limit>("rad", "greatest fin angle demanded").in(0, max_fin_angle));
     }
   };
   struct In {
@@ -85,9 +86,9 @@ struct SpeedControl {
     double ki = 0.1;
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::feed_forward>("s/m", "actuation per commanded speed"),
-                      field<&P::kp>("s/m", "actuation per speed error"),
-                      field<&P::ki>("1/m", "actuation per integral of speed error, held while saturated"));
+      return describe(field<&P::feed_forward>("s/m", "actuation per commanded speed").in(0, 100),
+                      field<&P::kp>("s/m", "actuation per speed error").in(0, 100),
+                      field<&P::ki>("1/m", "actuation per integral of speed error, held while saturated").in(0, 100));
     }
   };
   struct In {

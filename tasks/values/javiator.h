@@ -61,13 +61,16 @@ struct PilotCommand {
   }
 };
 
-/// Motor signals in the order front, right, rear, left, 0 to 16000; the Robostix obeys them while unlocked.
+/// As the Robostix takes them.
+inline constexpr double max_motor_signal = 16000;
+
+/// Motor signals in the order front, right, rear, left; the Robostix obeys them while unlocked.
 struct MotorCommand {
   std::array<double, 4> signals{};
   bool unlocked = false;
 
   static constexpr auto fields() {
-    return describe(field<&MotorCommand::signals>("", "0 to 16000"),
+    return describe(field<&MotorCommand::signals>("").in(0, max_motor_signal),
                     field<&MotorCommand::unlocked>("", "motors may turn"));
   }
 };

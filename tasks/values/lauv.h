@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 
 #include "graph/values/describe.h"
 #include "tasks/values/alarm.h"
@@ -74,12 +75,16 @@ struct VehicleReport {
   }
 };
 
+/// As far as the fins of any LAUV turn.
+inline constexpr double max_fin_angle = std::numbers::pi / 4;
+
 /// A turning demand on the fins of one axis, in fin angle.
 struct Moment {
   double angle = 0;
 
   static constexpr auto fields() {
-    return describe(field<&Moment::angle>("rad", "of the fins, positive turns the axis' positive way"));
+    return describe(field<&Moment::angle>("rad", "of the fins, positive turns the axis' positive way")
+                        .in(-max_fin_angle, max_fin_angle));
   }
 };
 
@@ -88,7 +93,7 @@ struct Thrust {
   double actuation = 0;
 
   static constexpr auto fields() {
-    return describe(field<&Thrust::actuation>("", "-1 (full astern) to 1 (full ahead)"));
+    return describe(field<&Thrust::actuation>("", "full astern to full ahead").in(-1, 1));
   }
 };
 

@@ -161,7 +161,7 @@ TEST_SUITE("distributers/registries") {
           "error: link of distributer 'pilot' key 'frequency': '868' is not from 400 to 500");
     CHECK(report_on("{type: radi, frequency: 433}") ==
           "error: link of distributer 'pilot' has type 'radi'; did you mean 'radio'?; a JaviatorOperator can "
-          "have: script, udp, tcp_client, tcp_server, serial, radio");
+          "have: script, console, udp, tcp_client, tcp_server, serial, radio");
   }
 
   TEST_CASE("a vehicle and a distributer of another's are simulated by the link that is built in") {

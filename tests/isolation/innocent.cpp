@@ -237,6 +237,11 @@ TASK(Scratch, {
   all.resize(3);
   out.out = all[2];
 })
+TASK(SequenceElement, {
+  jarol::Sequence<double> all;
+  all.push_back(in.in);
+  out.out = all.at(static_cast<std::size_t>(tick.activation));
+})
 TASK(Text, {
   jarol::String text;
   text = "depth";
@@ -336,6 +341,7 @@ TASK(Vectors, {
 JAROL_PLUGIN(Nothing, Adds, Integrates, Mathematics, SinglePrecision, LongDouble, LongDoubleToInteger, Complex,
              ConstantTable, TextTable, LocalConstants, FunctionTable, FunctionPointer, StdFunction, Lambdas, Virtual,
              MultipleInheritance, DynamicCast, MemberPointer, Switch, ComputedGoto, Throws, Catches, Destructors, Sort,
-             SortByPointer, Heap, PmrVector, PmrScratch, PmrText, PmrMap, PmrList, PmrHashed, Scratch, Text, ToChars,
-             FromChars, Optional, Variant, VariantGet, Bits, RandomBySeed, Distribution, LocalAtomic, Volatile,
-             ConstCast, Copies, Assembly, WeakFunction, Resolver, Asserts, Span, WideIntegers, TailCall, Vectors)
+             SortByPointer, Heap, PmrVector, PmrScratch, PmrText, PmrMap, PmrList, PmrHashed, Scratch, SequenceElement,
+             Text, ToChars, FromChars, Optional, Variant, VariantGet, Bits, RandomBySeed, Distribution, LocalAtomic,
+             Volatile, ConstCast, Copies, Assembly, WeakFunction, Resolver, Asserts, Span, WideIntegers, TailCall,
+             Vectors)

@@ -7,9 +7,10 @@ import {join, resolve} from 'node:path';
 import {pathToFileURL} from 'node:url';
 
 export class Browser {
-  constructor(program = process.env.JAROL_CHROMIUM ?? 'chromium') {
+  /** `flags`: of Chromium; as it is, it draws without WebGL. */
+  constructor({program = process.env.JAROL_CHROMIUM ?? 'chromium', flags = ['--disable-gpu']} = {}) {
     this.folder = mkdtempSync(join(tmpdir(), 'jarol_page_'));
-    this.process = spawn(program, ['--headless', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--hide-scrollbars',
+    this.process = spawn(program, ['--headless', '--no-sandbox', ...flags, '--disable-dev-shm-usage', '--hide-scrollbars',
       '--force-color-profile=srgb', '--no-first-run', '--remote-debugging-pipe', '--user-data-dir=' + this.folder, 'about:blank'],
       {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
     this.asked = new Map();
@@ -45,8 +46,8 @@ export class Browser {
     });
   }
 
-  /** A page of that width, in that of 'light' and 'dark'. */
-  async open(file, {width = 1280, height = 900, scheme = 'light', touch = false} = {}) {
+  /** A page of that width, in that of 'light' and 'dark': a file, or an address. */
+  async open(place, {width = 1280, height = 900, scheme = 'light', touch = false} = {}) {
     const {targetId} = await this.send('Target.createTarget', {url: 'about:blank'});
     const {sessionId} = await this.send('Target.attachToTarget', {targetId, flatten: true});
     const page = new Page(this, sessionId, targetId);
@@ -55,7 +56,7 @@ export class Browser {
     await page.send('Emulation.setTouchEmulationEnabled', {enabled: touch});
     await page.send('Emulation.setEmulatedMedia', {features: [{name: 'prefers-color-scheme', value: scheme}, {name: 'prefers-reduced-motion', value: 'reduce'}]});
     const loaded = page.event('Page.loadEventFired');
-    await page.send('Page.navigate', {url: pathToFileURL(resolve(file)).href});
+    await page.send('Page.navigate', {url: place.startsWith('http:') ? place : pathToFileURL(resolve(place)).href});
     await loaded;
     await page.settle();
     return page;
@@ -102,6 +103,25 @@ class Page {
 
   /** Until what was asked for is drawn. */
   settle() { return this.evaluate('new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(() => done(true)))))'); }
+
+  /** Until an expression comes to anything true in the page, which is what it comes to; what does not within two minutes never will. */
+  async until(expression) {
+    for (const end = Date.now() + 120_000; ; ) {
+      const value = await this.evaluate(expression);
+      if (value) return value;
+      if (Date.now() > end) throw new Error(`it did not come to be: ${expression}`);
+      await this.settle();
+    }
+  }
+
+  /** By the mouse, at the middle of what is found. */
+  async click(selector) {
+    const [x, y] = await this.evaluate(`(() => { const e = document.querySelector(${JSON.stringify(selector)}); e.scrollIntoView({block: 'nearest'}); const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()`);
+    await this.mouse('mouseMoved', x, y);
+    await this.mouse('mousePressed', x, y);
+    await this.mouse('mouseReleased', x, y);
+    await this.settle();
+  }
 
   async mouse(type, x, y, more = {}) {
     await this.send('Input.dispatchMouseEvent', {type, x, y, button: type === 'mouseMoved' && !more.buttons ? 'none' : 'left', clickCount: type === 'mouseMoved' ? 0 : 1, ...more});

@@ -14,6 +14,19 @@
 
 namespace jarol::tests {
 
+/// A graph with Plant, whose values of changing size go through a task.
+inline constexpr const char* plant_graph = R"(graph: t
+timing: {period: 3ms}
+distributers: {p: {type: Plant, link: {type: test}}}
+communicators:
+  i: {channel: p.sensor, period: 1ms}
+  w: {channel: p.window}
+  o: {channel: p.actuator, period: 1ms}
+  mean: {type: double, direction: out}
+tasks: {r: {type: Accumulate, period: 1ms, on_fault: hold}, m: {type: Mean}}
+connections: [i -> r.in, r.out -> o, w -> m.in, m.out -> mean]
+)";
+
 /// The distributer Plant: a sensor, an actuator, and a window of changing size that comes in.
 inline DistributerClass plant() {
   const Type* number = &type_of<double>();

@@ -172,8 +172,8 @@ std::string coarse_random_graph(std::uint64_t seed, std::int64_t step,
 std::string hurried_random_graph(std::uint64_t seed) {
   constexpr std::int64_t step = 20'000;
   return coarse_random_graph(seed, step, [&](const TaskModel& task) {
-    const char* const on_fault[] = {"hold", "skip", "stop"};
-    return std::string("core: ANY, on_fault: ") + on_fault[spread_seed(seed, task.name) % (seed % 4 == 0 ? 3 : 2)];
+    const char* const on_fault[] = {"hold", "skip", "restart", "stop"};
+    return std::string("core: ANY, on_fault: ") + on_fault[spread_seed(seed, task.name) % (seed % 4 == 0 ? 4 : 3)];
   });
 }
 

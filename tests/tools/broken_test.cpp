@@ -45,6 +45,8 @@ const std::vector<std::string> brought_about_elsewhere{
     // a log: tests/tools/log_mutations_test.cpp
     "ends before its bytes do", "has ", " where true or false stand", "ends before its length", "has a length of ",
     " and fewer bytes", "ends ", " bytes before they do",
+    // what a task throws: tests/graph/values/sequence_test.cpp
+    " of a sequence of ",
     // megabytes of text, no text at all: tests/graph/language/yaml_test.cpp
     "the text holds more than ", "the text is larger than ", "it is a directory", "it is larger than ",
     "it is no regular file; give - for what comes on stdin",

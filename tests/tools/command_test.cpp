@@ -82,7 +82,7 @@ tasks:
   }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need memory of their own
-  TEST_CASE("what a machine has no memory for is told in words") {
+  TEST_CASE("what a machine has no memory for is reported in words") {
     const Result run = jarol("schema > /dev/null; ulimit -v 1000000; " JAROL_COMMAND
                              " run specs/window.yaml --for 1s --set tasks.window.heap=1GiB");
     CHECK(run.exit_code == 3);
@@ -199,7 +199,8 @@ connections: [i -> sum.in]
     const Result command = jarol("chek x");
     CHECK(command.exit_code == 2);
     CHECK(command.output ==
-          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, campaign, check, doctor, graph, "
+          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, campaign, check, console, "
+          "doctor, graph, "
           "help, isolation, log, messages, new, replay, run, schema, tasks, vehicle\n");
     const Result missing = jarol("run no/such.yaml");
     CHECK(missing.exit_code == 2);
@@ -216,8 +217,8 @@ connections: [i -> sum.in]
   }
 
   TEST_CASE("every command helps, by --help and after the word help") {
-    for (const std::string command : {"", "bench", "campaign", "check", "doctor", "graph", "isolation", "log",
-                                      "messages", "new", "replay", "run", "schema", "tasks", "vehicle"}) {
+    for (const std::string command : {"", "bench", "campaign", "check", "console", "doctor", "graph", "isolation",
+                                      "log", "messages", "new", "replay", "run", "schema", "tasks", "vehicle"}) {
       CAPTURE(command);
       const Result help = jarol(command + " --help");
       CHECK(help.exit_code == 0);
@@ -226,7 +227,8 @@ connections: [i -> sum.in]
       CHECK(jarol("help " + command).exit_code == 0);
     }
     CHECK(jarol("help chek").output ==
-          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, campaign, check, doctor, graph, "
+          "error: there is no command 'chek'; did you mean 'check'?; there are: bench, campaign, check, console, "
+          "doctor, graph, "
           "help, isolation, log, messages, new, replay, run, schema, tasks, vehicle\n");
   }
 

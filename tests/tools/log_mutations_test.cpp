@@ -27,17 +27,7 @@ const Graph& the_graph() {
     made.add(tests::plant());
     return made;
   }();
-  static const Graph graph = tests::graph_of(registry, R"(graph: t
-timing: {period: 3ms}
-distributers: {p: {type: Plant, link: {type: test}}}
-communicators:
-  i: {channel: p.sensor, period: 1ms}
-  w: {channel: p.window}
-  o: {channel: p.actuator, period: 1ms}
-  mean: {type: double, direction: out}
-tasks: {r: {type: Accumulate, period: 1ms, on_fault: hold}, m: {type: Mean}}
-connections: [i -> r.in, r.out -> o, w -> m.in, m.out -> mean]
-)");
+  static const Graph graph = tests::graph_of(registry, tests::plant_graph);
   return graph;
 }
 

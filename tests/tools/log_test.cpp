@@ -148,6 +148,25 @@ connections: [count.out -> sum.in, sum.out -> flow.in]
     CHECK(has(info.output, "  count.out "));
   }
 
+  TEST_CASE("log info looks at the index alone; of a recording that breaks off it goes through what there is") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", graph = folder.write("g.yaml", R"(graph: g
+tasks: {count: {type: Counter, period: 1ms}}
+)");
+    REQUIRE(command::jarol("run " + graph + " --for 20s --record " + file + " --record-compression none").exit_code ==
+            0);
+    const std::string bytes = content(file), told = command::jarol("log info --json " + file).output;
+    CHECK(has(told, R"("messages":20000)"));
+    // published values in the middle of the file are not read for it
+    std::string damaged = bytes;
+    damaged[bytes.size() / 2] = static_cast<char>(damaged[bytes.size() / 2] ^ 1);
+    CHECK(command::jarol("log info --json " + folder.write("damaged", damaged)).output == told);
+    CHECK(command::jarol("log verify " + (folder / "damaged")).exit_code == 1);
+    const auto part = command::jarol("log info " + folder.write("part", bytes.substr(0, bytes.size() - 1)));
+    CHECK(part.exit_code == 0);
+    CHECK(has(part.output, "  breaks off at byte "));
+  }
+
   TEST_CASE("log verify finds each changed byte of a small recording") {
     const TemporaryFolder folder;
     const std::string file = folder / "r.mcap", graph = folder.write("g.yaml", R"(graph: g

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 
-#include "distributers/registries.h"
 #include "graph/floating_point.h"
 #include "graph/plugins/plugin.h"
 #include "runtime/record/recording_writer.h"
@@ -42,61 +41,6 @@ TEST_SUITE("tools/plugins") {
     CHECK(registry.find_task("Reverse")->is_deep());
   }
 
-  TEST_CASE("a plugin brings a vehicle and its distributer, and a graph with them runs and is judged") {
-    const command::TemporaryFolder folder;
-    folder.write("lamp.yaml", "vehicle: lamp\nparameters: {gain: 2}\n");
-    const std::string plugin = std::filesystem::absolute(library("world"));
-    const std::string graph = folder.write("g.yaml", "graph: g\ntiming: {period: 10ms}\nplugins: [" + plugin + R"(]
-distributers: {lamp: {type: LampSwitch, link: {type: simulation, vehicle: lamp.yaml, parameters: {gain: 3}}}}
-communicators: {level: {channel: lamp.level, offset: 0ms}}
-tasks: {count: {type: Counter, let: 10ms}}
-connections: [count.out -> level]
-expect: [light of lamp within 0.1 of 291]
-)");
-    const auto ran = command::jarol("run " + graph + " --for 1s", "2>/dev/null");
-    CHECK(ran.output.find("  expected    light of lamp within 0.1 of 291: holds, 291\n") != std::string::npos);
-    CHECK(ran.exit_code == 0);
-    // each run of a campaign makes the vehicle again
-    const auto campaign =
-        command::jarol("campaign " + graph + " --for 1s --set expect=null --results " + (folder / "r.sqlite") +
-                           " --vary 'distributers.lamp.link.parameters.gain=[1, 2]' --metric "
-                           "'light=light of lamp'",
-                       "2>/dev/null");
-    CAPTURE(campaign.output);
-    CHECK(campaign.output.find("  least light: 97 in run 0\n") != std::string::npos);
-    CHECK(campaign.output.find("  greatest light: 194 in run 1\n") != std::string::npos);
-    CHECK(campaign.exit_code == 0);
-    const auto described = command::jarol("vehicle lamp --describe --plugin " + plugin, "2>/dev/null");
-    CHECK(described.output.starts_with("lamp: shines\n"));
-    const auto read = command::jarol(
-        "vehicle lamp --describe --parameters " + (folder / "lamp.yaml") + " --plugin " + plugin, "2>/dev/null");
-    CHECK(read.output.ends_with("\n  gain  2  of its light\n"));
-    CHECK(command::jarol("tasks LampSwitch --plugin " + plugin).output.starts_with("LampSwitch: a lamp\n"));
-    CHECK(command::jarol("vehicle lamp --describe").output.find("there is no vehicle 'lamp'") != std::string::npos);
-  }
-
-  TEST_CASE("a plugin with a vehicle or distributer that there is already is refused, and nothing of it is added") {
-    distributers::Registries there = built_in();
-    vehicles::VehicleClass submarine;  // which is not there in a build without Simbody
-    submarine.name = "submarine";
-    if (there.vehicles.find("submarine") == nullptr) there.vehicles.add(submarine);
-    for (const auto& [name, what] : {std::pair{"clash_of_vehicles", "a vehicle 'submarine'"},
-                                     {"clash_of_distributers", "a distributer 'LauvOperator'"}}) {
-      PluginParts known{built_in().graph, {}};
-      const std::string wrong = load_plugin(
-          library(name), known, [&](const Extension& extension) { return distributers::has(there, extension); });
-      CHECK(wrong == "'" + library(name) + "' brings " + what + ", which there is already");
-      CHECK(known.extensions.empty());
-      CHECK(known.graph.distributers().size() == built_in().graph.distributers().size());
-    }
-    PluginParts known{built_in().graph, {}};
-    const IsThere none = [](const Extension&) { return false; };
-    CHECK(load_plugin(library("world"), known, none) == "");
-    CHECK(load_plugin(library("world"), known, none) ==
-          "'" + library("world") + "' brings a distributer 'LampSwitch', which there is already");
-    CHECK(known.extensions.size() == 1);
-  }
-
   TEST_CASE("a plugin's tasks may have names that the headers use, too") {
     Registry registry = built_in().graph;
     CHECK(load_plugin(library("names"), registry) == "");
@@ -127,7 +71,7 @@ connections: [a.out -> b.in]
     CHECK(report_on("nowhere") == "there is no file '" + library("nowhere") + "'");
     CHECK(report_on("none") ==
           "is no shared library with tasks; name them with JAROL_PLUGIN, see graph/plugins/plugin.h");
-    CHECK(report_on("old") == "was built for form 3 of the interface, this is form 6" + again);
+    CHECK(report_on("old") == "was built for form 3 of the interface, this is form 7" + again);
     CHECK(report_on("clash") == "brings a task type 'Counter', which there is already");
   }
 

@@ -4,11 +4,14 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <atomic>
 
 #include <array>
+#include <deque>
+#include <mutex>
 #include <stdexcept>
 
 #include "distributers/links/address.h"
@@ -71,10 +74,26 @@ bool Process::runs() {
 }
 
 bool Process::says(const std::string& text, std::chrono::seconds patience) {
+  return await(patience, [&] { return errors_.find(text) != std::string::npos; });
+}
+
+std::string Process::rest_of_line(const std::string& text, std::chrono::seconds patience) {
+  std::string rest;
+  await(patience, [&] {
+    const std::size_t at = errors_.find(text), end = errors_.find('\n', at);
+    if (at == std::string::npos || end == std::string::npos) return false;
+    rest = errors_.substr(at + text.size(), end - at - text.size());
+    return true;
+  });
+  return rest;
+}
+
+// Looks at what it said so far, again and again.
+bool Process::await(std::chrono::seconds patience, const std::function<bool()>& there) {
   for (const auto end = std::chrono::steady_clock::now() + patience; std::chrono::steady_clock::now() < end;) {
     {
       const std::lock_guard lock(mutex_);
-      if (errors_.find(text) != std::string::npos) return true;
+      if (there()) return true;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
@@ -93,6 +112,28 @@ int Process::end() {
   return exit_code_;
 }
 
+namespace {
+
+// No other process of tests gets the port until this one has asked for many more, or has ended: a name in the system,
+// which goes with its socket.
+bool reserve(const std::string& port) {
+  static std::mutex mutex;
+  static std::deque<Descriptor> held;
+  constexpr std::size_t most = 64;
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  const std::string text = "jarol test port " + port;
+  text.copy(name.sun_path + 1, sizeof name.sun_path - 1);  // behind a zero: a name, and no file
+  Descriptor mark(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  if (bind(mark.get(), reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0) return false;
+  const std::lock_guard lock(mutex);
+  held.push_back(std::move(mark));
+  if (held.size() > most) held.pop_front();
+  return true;
+}
+
+}  // namespace
+
 std::string free_port(int type) {
   constexpr int first = 10'000, count = 20'000;
   static std::atomic<int> next{static_cast<int>(getpid()) * 16};
@@ -100,7 +141,7 @@ std::string free_port(int type) {
     const std::string port = std::to_string(first + next++ % count);
     const Descriptor probe(socket(AF_INET, type | SOCK_CLOEXEC, 0));  // not for a process made meanwhile
     const Address address = Address::parse(port);
-    if (bind(probe.get(), address.get(), address.size()) == 0) return port;
+    if (bind(probe.get(), address.get(), address.size()) == 0 && reserve(port)) return port;
   }
   throw std::runtime_error("no free port");
 }

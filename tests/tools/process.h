@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <functional>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -30,6 +31,9 @@ class Process {
   bool runs();
   /// Waits until its errors, or notes, have this. False if it does not come.
   bool says(const std::string& text, std::chrono::seconds patience = std::chrono::seconds(20));
+  /// Waits likewise until its errors have a line with this, and is what stands behind it there; empty: it does not
+  /// come.
+  std::string rest_of_line(const std::string& text, std::chrono::seconds patience = std::chrono::seconds(20));
   /// Waits for its end; its exit code, or minus the signal that ended it.
   int end();
 
@@ -40,6 +44,7 @@ class Process {
 
  private:
   void read(int fd, std::string& to);
+  bool await(std::chrono::seconds patience, const std::function<bool()>& there);
 
   pid_t id_ = -1;
   int exit_code_ = 0;
@@ -48,7 +53,8 @@ class Process {
   std::thread out_, err_;
 };
 
-/// A port that was free a moment ago, for UDP or TCP; none that the system gives to whoever asks for any.
+/// A port that was free a moment ago, for UDP or TCP; none that the system gives to whoever asks for any, nor that
+/// another process of tests has just got.
 std::string free_port(int type);
 
 }  // namespace jarol::tests

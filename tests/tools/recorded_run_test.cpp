@@ -17,17 +17,7 @@ using namespace std::chrono_literals;
 using command::content;
 using command::TemporaryFolder;
 
-const std::string graph_text = R"(graph: t
-timing: {period: 3ms}
-distributers: {p: {type: Plant, link: {type: test}}}
-communicators:
-  i: {channel: p.sensor, period: 1ms}
-  w: {channel: p.window}
-  o: {channel: p.actuator, period: 1ms}
-  mean: {type: double, direction: out}
-tasks: {r: {type: Accumulate, period: 1ms, on_fault: hold}, m: {type: Mean}}
-connections: [i -> r.in, r.out -> o, w -> m.in, m.out -> mean]
-)";
+const std::string graph_text = tests::plant_graph;
 
 Graph graph_of(const std::string& text) {
   static const Registry registry = [] {
@@ -157,7 +147,7 @@ TEST_SUITE("tools/recorded_run") {
     CHECK(wrong_with(folder / "log") == "");
   }
 
-  TEST_CASE("what is no recording is told, and of a log of before which version reads it") {
+  TEST_CASE("what is no recording is refused, and of a log of before it is said which version reads it") {
     const TemporaryFolder folder;
     const auto no_log = [&](const std::string& text) { return wrong_with(folder.write("x", text)); };
     const std::string x = "'" + folder / "x" + "' ",
@@ -189,7 +179,7 @@ TEST_SUITE("tools/recorded_run") {
     CHECK(wrong_with(folder / "nothing") == "can't read '" + folder / "nothing" + "': No such file or directory");
   }
 
-  TEST_CASE("a log of another graph is told by what does not fit") {
+  TEST_CASE("a log of another graph is refused by what does not fit") {
     const TemporaryFolder folder;
     write_log(folder / "log");
     const std::string log = "'" + folder / "log" + "' ", remedy = "; replay the graph of the run";

@@ -11,15 +11,6 @@ namespace {
 using analysis::Verdict;
 using Json = nlohmann::ordered_json;
 
-std::string word_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::schedulable: return "schedulable";
-    case Verdict::not_schedulable: return "not_schedulable";
-    case Verdict::unknown: return "unknown";
-  }
-  return "";
-}
-
 // Null where nothing was measured.
 Json measured_json(const CheckReport& r) {
   if (!r.measured) return nullptr;

@@ -17,6 +17,7 @@ CommandLine make_command_line(int& exit_code) {
   add_bench(line, exit_code);
   add_campaign(line, exit_code);
   add_check(line, exit_code);
+  add_console(line, exit_code);
   add_doctor(line, exit_code);
   add_graph(line, exit_code);
   add_isolation(line, exit_code);

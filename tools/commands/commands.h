@@ -13,6 +13,7 @@ class CommandLine;
 void add_bench(CommandLine& line, int& exit_code);
 void add_campaign(CommandLine& line, int& exit_code);
 void add_check(CommandLine& line, int& exit_code);
+void add_console(CommandLine& line, int& exit_code);
 void add_doctor(CommandLine& line, int& exit_code);
 void add_graph(CommandLine& line, int& exit_code);
 void add_isolation(CommandLine& line, int& exit_code);

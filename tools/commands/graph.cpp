@@ -1,4 +1,4 @@
-// jarol graph: a graph as text, as JSON or as a DOT drawing.
+// jarol graph: a graph as text, as JSON, as a picture or as a DOT drawing.
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -6,6 +6,7 @@
 #include "graph/text/escape.h"
 
 #include "tools/commands/commands.h"
+#include "tools/drawing/svg.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
 #include "tools/report/rest_report.h"
@@ -20,6 +21,7 @@ struct Options {
   std::string file;
   Overrides overrides;
   bool dot = false;
+  bool svg = false;
   bool json = false;
 };
 
@@ -174,17 +176,26 @@ void print_dot(const Graph& graph) {
 
 void add_graph(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
-  Command* command = line.add_subcommand("graph", "Print a graph as text, or as a drawing for Graphviz");
+  Command* command = line.add_subcommand("graph", "Print a graph as text, as a picture, or as a drawing for Graphviz");
   command->add_option("FILE", options->file, "The graph, a YAML file")->file({"yaml"})->required();
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.period=100ms")
       ->one_value();
   command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
   add_no_plugins(*command, options->overrides);
   auto* dot = command->add_flag("--dot", options->dot, "A DOT drawing: jarol graph FILE --dot | dot -Tsvg > graph.svg");
-  command->add_flag("--json", options->json, "One JSON object instead of text")->excludes(dot);
+  auto* svg = command->add_flag("--svg", options->svg, "A picture: jarol graph FILE --svg > graph.svg");
+  svg->excludes(dot);
+  auto* json = command->add_flag("--json", options->json, "One JSON object instead of text");
+  json->excludes(dot);
+  json->excludes(svg);
   command->callback([options, &exit_code] {
     const Loaded loaded = load_graph(options->file, options->overrides);
-    options->json ? print_json(*loaded.graph) : options->dot ? print_dot(*loaded.graph) : print_text(*loaded.graph);
+    const Graph& graph = *loaded.graph;
+    if (options->svg) {
+      std::cout << to_svg(lay_out(graph), graph.name);
+    } else {
+      options->json ? print_json(graph) : options->dot ? print_dot(graph) : print_text(graph);
+    }
     exit_code = exit_good;
   });
 }

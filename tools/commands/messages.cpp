@@ -1,4 +1,5 @@
 // jarol messages: message sets, their messages and fields; packets to JSON and back.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
+#include "tools/run/known_with.h"
 #include "tools/run/packet_lines.h"
 
 namespace jarol::tools {
@@ -21,6 +23,7 @@ using Rows = std::vector<std::vector<std::string>>;
 
 struct Options {
   std::string set, name;
+  std::vector<std::string> plugins;
   bool json = false, decode = false, encode = false;
 };
 
@@ -61,9 +64,9 @@ std::string notes_on(const FieldForm& f) {
   return text;
 }
 
-void print_sets() {
+void print_sets(const std::vector<const MessageSet*>& sets) {
   Rows rows;
-  for (const MessageSet* set : messages::message_sets())
+  for (const MessageSet* set : sets)
     rows.push_back({std::string(set->name), std::to_string(set->messages.size()) + " messages",
                     std::string(set->title) + " " + std::string(set->version) + ": " + std::string(set->text)});
   print_rows(rows);
@@ -116,19 +119,21 @@ void print_json(const std::vector<const MessageForm*>& listed) {
 }
 
 int list_messages(const Options& options) {
+  const std::vector<const MessageSet*> sets = sets_of(known_with(options.plugins));
   std::vector<std::string> names;
   std::vector<const MessageForm*> listed;
   if (options.set.empty()) {
     if (options.decode || options.encode)
       throw std::invalid_argument("--decode and --encode need a set; jarol messages lists them");
-    for (const MessageSet* set : messages::message_sets())
-      listed.insert(listed.end(), set->messages.begin(), set->messages.end());
-    options.json ? print_json(listed) : print_sets();
+    for (const MessageSet* set : sets) listed.insert(listed.end(), set->messages.begin(), set->messages.end());
+    options.json ? print_json(listed) : print_sets(sets);
     return exit_good;
   }
-  const MessageSet* const set = messages::find_message_set(options.set);
+  const auto found =
+      std::find_if(sets.begin(), sets.end(), [&](const MessageSet* each) { return each->name == options.set; });
+  const MessageSet* const set = found == sets.end() ? nullptr : *found;
   if (set == nullptr) {
-    for (const MessageSet* known : messages::message_sets()) names.emplace_back(known->name);
+    for (const MessageSet* known : sets) names.emplace_back(known->name);
     throw std::invalid_argument("there is no message set '" + options.set + "'" + did_you_mean(options.set, names) +
                                 "; there are: " + list_of(names));
   }
@@ -158,6 +163,7 @@ void add_messages(CommandLine& line, int& exit_code) {
       line.add_subcommand("messages", "List message sets, their messages and fields, or turn packets to JSON and back");
   command->add_option("SET", options->set, "A message set, as in imc");
   auto* name = command->add_option("NAME", options->name, "A message of it, as in EstimatedState");
+  command->add_option("--plugin", options->plugins, "Also those of this shared library")->file({"so"})->one_value();
   auto* json = command->add_flag("--json", options->json, "One JSON object instead of text");
   auto* decode = command->add_flag("--decode", options->decode,
                                    "Packets from stdin, one of hexadecimal digits a line, to JSON objects, one a line");

@@ -11,6 +11,7 @@
 
 #include "distributers/session/graph_run.h"
 #include "distributers/session/only_tasks.h"
+#include "distributers/session/recorded_truth.h"
 #include "distributers/session/replay.h"
 #include "distributers/session/rest_verdict.h"
 #include "graph/text/escape.h"
@@ -105,11 +106,18 @@ nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comp
   return json;
 }
 
+// What is changed might have taken the vehicle elsewhere; where values are missing nobody knows where it was then.
+RecordedWorld world_of(const Options& options, Duration begin, const RecordedRun& log) {
+  if (begin > Duration{}) return RecordedWorld::systems;
+  const bool is_changed = !options.overrides.set.empty() || !options.overrides.profile.empty() || !options.only.empty();
+  return is_changed || !log.gaps().empty() ? RecordedWorld::nothing : RecordedWorld::truth;
+}
+
 int replay(const Options& options) {
   RecordedRun log(options.log);
   const Duration begin = replay_begin(options.from, log);
   const Overrides overrides = overrides_of(log.recording(), options.file, options.overrides);
-  Loaded whole = load_recorded(log.recording(), options.file, overrides, begin > Duration{});
+  Loaded whole = load_recorded(log.recording(), options.file, overrides, world_of(options, begin, log));
   require_apart({{"LOG", options.log}, {"FILE", options.file.empty() ? log.header().file : options.file}},
                 {{"--trace", options.files.trace}, {"--plot", options.files.plot}});
   if (begin > Duration{} && !options.only.empty())
@@ -120,7 +128,7 @@ int replay(const Options& options) {
     only.emplace(*whole.graph, options.only, log.recording());
     misses = only->misses_of(misses);
   } else {
-    std::vector<std::unique_ptr<Channels>> replayed = replayed_channels(*whole.graph, log);
+    std::vector<std::unique_ptr<Channels>> replayed = recorded_channels(whole, log);
     whole.channels =
         begin > Duration{} ? with_state_of(std::move(whole.channels), std::move(replayed)) : std::move(replayed);
   }

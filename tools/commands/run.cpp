@@ -1,117 +1,40 @@
 // jarol run: a graph on the virtual clock or in real time.
 #include <unistd.h>
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "distributers/session/graph_run.h"
 #include "distributers/session/guard.h"
+#include "distributers/session/recorded_truth.h"
 #include "distributers/session/rest_verdict.h"
 #include "graph/text/escape.h"
 #include "runtime/execute/executor_run.h"
 #include "runtime/execute/log_end.h"
 #include "tools/commands/commands.h"
+#include "tools/console/console.h"
 #include "tools/report/command_line.h"
 #include "tools/report/duration_option.h"
-#include "tools/report/json_line.h"
 #include "tools/report/noted.h"
 #include "tools/report/progress.h"
 #include "tools/report/rest_report.h"
 #include "tools/report/run_end.h"
-#include "tools/report/told_faults.h"
-#include "tools/run/apart.h"
-#include "tools/run/checkpoints.h"
+#include "tools/run/at_console.h"
 #include "tools/run/crash_line.h"
+#include "tools/run/execution.h"
+#include "tools/run/guard_option.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/load_graph.h"
-#include "tools/run/no_plugins.h"
+#include "tools/run/print_run.h"
 #include "tools/run/prompt_line.h"
-#include "tools/run/real_time.h"
-#include "tools/run/record_options.h"
-#include "tools/run/run_files.h"
 #include "tools/run/run_on_threads.h"
-#include "tools/run/run_report.h"
+#include "tools/run/run_options.h"
 #include "tools/run/what_if.h"
 
 namespace jarol::tools {
 namespace {
-
-struct Options {
-  std::string file;
-  Overrides overrides;
-  std::string duration;
-  std::uint64_t seed = 0;
-  std::size_t workers = 1;
-  std::string clock = "virtual";
-  std::string concurrency = "exotasks";
-  RealTimeArguments real_time;
-  bool json = false;
-  RunFileArguments files;
-  CheckpointArguments checkpoints;
-  RecordArguments recording;
-  std::vector<std::string> what_if;
-};
-
-void require_clock(const Options& options, const Loaded& loaded) {
-  if (options.clock == "real") return;
-  if (const Distributer* distributer = find_in_real_time(loaded))
-    throw std::invalid_argument("distributer '" + distributer->name +
-                                "' has a link to what goes on by itself; run it with --clock real");
-}
-
-// --for, else the end of the longest mission; on the real clock a graph without one runs until it is interrupted.
-Duration end_of_run(const Options& options, const Loaded& loaded) {
-  if (!options.duration.empty()) return length_of("--for", options.duration);
-  const Duration end = end_of_mission(pointers_to(loaded.channels));
-  if (end == Duration{} && options.clock == "real") return Duration::max();
-  if (end == Duration{})
-    throw std::invalid_argument("'" + options.file +
-                                "' has no mission that ends; say how long to run, as in --for 10s");
-  return end;
-}
-
-std::string text_of(const std::vector<Save>& saves) {
-  std::string text;
-  for (const Save& save : saves) text += "  saved       at " + seconds_text(save.at) + " s to " + save.file + "\n";
-  return text;
-}
-
-nlohmann::ordered_json json_of(const RunOutcome& outcome, const std::vector<Save>& saves, const WhatIfs& what_ifs) {
-  auto json = to_json(outcome);
-  if (outcome.begun > Duration{}) json["resumed_ns"] = outcome.begun.count();
-  for (const Save& save : saves) json["saved"].push_back({{"instant_ns", save.at.count()}, {"file", save.file}});
-  if (!what_ifs.outcomes().empty()) json["what_if"] = to_json(what_ifs.outcomes());
-  return json;
-}
-
-void print(const Options& options, const RunOutcome& outcome, const std::vector<Save>& saves, const WhatIfs& what_ifs,
-           bool written) {
-  const Report& report = outcome.executor.report();
-  if (options.json) {
-    std::cout << json_line(json_of(outcome, saves, what_ifs));
-    return;
-  }
-  if (outcome.clock != nullptr) {
-    std::cout << fmt::format("{}: {} s in real time{}\n", printable(outcome.graph.name),
-                             seconds_text(outcome.simulated), suffix_of(outcome.end));
-  } else {
-    const std::string from = outcome.begun > Duration{} ? ", from " + seconds_text(outcome.begun) + " s on," : "";
-    std::cout << fmt::format("{}: {} s on the virtual clock{} in {:.2f} s, {:.0f} times real time{}\n",
-                             printable(outcome.graph.name), seconds_text(outcome.simulated), from, outcome.seconds,
-                             real_time_factor(outcome), suffix_of(outcome.end));
-  }
-  std::cout << to_text(outcome);
-  std::cout << text_of(saves);
-  if (written) std::cout << to_text(options.files);
-  if (written) std::cout << to_text(options.recording);
-  std::cout << to_text(column_of(outcome.executor, outcome.true_states, outcome.verdict), what_ifs.outcomes());
-  std::cerr << told_faults(report);
-}
 
 void start_clock(RealClock& clock, const Executor& executor) {
   std::vector<std::string> refusals = clock.prepare_thread();
@@ -121,7 +44,7 @@ void start_clock(RealClock& clock, const Executor& executor) {
   clock.start();
 }
 
-RecordingHeader header_of(const Options& options, const Graph& graph, Duration begin, Duration until,
+RecordingHeader header_of(const RunOptions& options, const Graph& graph, Duration begin, Duration until,
                           Duration mission) {
   return {.graph = graph.name,
           .file = SourceSet::full_path(options.file),
@@ -133,31 +56,26 @@ RecordingHeader header_of(const Options& options, const Graph& graph, Duration b
           .seed = options.seed};
 }
 
-// Options that would have no effect.
-void require_effect(const Command& command, const Options& options) {
-  const std::vector<std::string> of_real_clock{"--rt-priority", "--cpus", "--spin", "--force", "--no-guardian"};
-  if (options.clock != "real")
-    command.refuse(of_real_clock, "belongs to the real clock; add --clock real, or leave it out");
-  require_effect(command, options.recording);
-  if (options.concurrency != "threads") return;
-  if (options.clock != "real") throw std::invalid_argument("--concurrency threads needs --clock real");
-  command.refuse(
-      {"--trace", "--trace-fill", "--trace-words", "--plot", "--signals", "--log", "--record", "--workers", "--spin"},
-      "belongs to --concurrency exotasks");
-  command.refuse({"--force"}, "belongs to --concurrency exotasks; whether threads come in time is not checked before");
+// How fast it goes on the virtual clock; null: as fast as possible.
+std::unique_ptr<Pace> pace_of(const RunOptions& options) {
+  const ConsoleArguments& console = options.console;
+  if (options.clock != "virtual" || (!console.wanted() && console.pace.empty())) return nullptr;
+  return std::make_unique<Pace>(console.pace.empty() ? std::optional(1.0) : parse_pace(console.pace));
 }
 
-// None of those that the command names replaces another.
-void require_files_apart(const Options& options, const std::vector<Save>& saves) {
-  std::vector<NamedFile> outputs{{"--trace", options.files.trace},
-                                 {"--plot", options.files.plot},
-                                 {"--log", options.recording.log},
-                                 {"--record", options.recording.record}};
-  for (const Save& save : saves) outputs.push_back({"--save", save.file});
-  require_apart({{"FILE", options.file}, {"--resume", options.checkpoints.resume}}, outputs);
+// Null: nobody wants to watch.
+std::unique_ptr<console::Console> make_console(const RunOptions& options, const Loaded& loaded, Duration until,
+                                               const std::vector<const Type*>& true_types, Pace* pace) {
+  if (!options.console.wanted()) return nullptr;
+  return std::make_unique<console::Console>(
+      console::Watched{{*loaded.graph, options.file, options.clock, until, true_types},
+                       server_of(options.console),
+                       pace,
+                       operators_at_console(loaded)});
 }
 
-int run(Options options) {
+int run(RunOptions options) {
+  if (options.guard) look_up_at_once();
   WhatIfs what_ifs(options.what_if);
   const std::vector<Save> saves = parse_saves(options.checkpoints.saves);
   require_files_apart(options, saves);
@@ -172,13 +90,15 @@ int run(Options options) {
     throw std::invalid_argument("the run ends at " + seconds_text(end) + " s, and goes on from " + seconds_text(begin) +
                                 " s; say until when, as in --for 100s");
   require_clock(options, loaded);
-  what_ifs.prepare(graph, options.file, options.overrides, options.seed, options.workers, end);
+  require_console(options, loaded);
+  what_ifs.prepare(graph, options.file, options.overrides, options.seed, options.workers, options.execution, end);
   if (options.concurrency == "threads") return run_on_threads(loaded, end, options.real_time, options.json);
+  Execution execution(options.execution, graph, options.seed);
   const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
   const std::unique_ptr<RecordingWriter> log = make_recording(
       options.recording, header_of(options, graph, begin, end, end_of_mission(pointers_to(loaded.channels))), sources,
-      graph);
+      loaded);
   std::optional<RealClock> clock;
   std::optional<Guard> guard;
   std::vector<analysis::TaskThread> threads;
@@ -192,20 +112,30 @@ int run(Options options) {
     guard.emplace(loaded, options.real_time.no_guardian ? "--no-guardian" : "", real_time.priority, print_note);
   }
   const CrashLine crash_line(graph, guard ? guard->process() : nullptr, options.recording.file());
+  const std::unique_ptr<TaskGuard> task_guard = make_guard(options.guard, graph, pointers_to(loaded.channels));
   Noted noted(graph);
   std::vector<RecordSink*> looking_on = files.sinks();
   noted.add_to(looking_on);
   what_ifs.add_to(looking_on);
   if (log && log->publications() != nullptr) looking_on.push_back(log->publications());
+  const std::unique_ptr<Pace> pace = pace_of(options);
+  const std::unique_ptr<console::Console> console =
+      make_console(options, loaded, end, types_of_truth(loaded), pace.get());
+  if (console) looking_on.push_back(&console->feed());
   RunOrigin origin = origin_of(loaded, options.overrides, options.seed);
   GraphRun graph_run(std::move(loaded), {.sinks = looking_on,
                                          .workers = options.workers,
                                          .clock = clock ? &*clock : nullptr,
                                          .threads = threads,
-                                         .log = log ? log->recorder() : nullptr});
+                                         .log = log ? log->recorder() : nullptr,
+                                         .schedule = execution.schedule(),
+                                         .times = execution.times(),
+                                         .guard = task_guard.get(),
+                                         .truth = console != nullptr || (log && !log->header().truths.empty()),
+                                         .watched = console != nullptr});
   Executor& executor = graph_run.executor();
   graph_run.set_origin(std::move(origin));
-  SavedRun saved(graph_run, noted, end);
+  SavedRun saved(graph_run, noted, end, pace.get());
   std::vector<Save> written_saves;
   for (const Save& save : saves)
     saved.add({"--save", save.at,
@@ -228,6 +158,10 @@ int run(Options options) {
       clock || std::any_of(channels.begin(), channels.end(), [](const Channels* c) { return c->outlives_run(); });
   const bool shown = !options.json && isatty(STDERR_FILENO) != 0 && end != Duration::max();
   let_writing_fail();
+  if (console) {
+    console->open();
+    print_url(console->url());
+  }
   const std::optional<Duration> rest = clock ? longest_rest(graph) : std::nullopt;
   const Interruptible interruptible([] {}, steers ? HaltKey::ends : HaltKey::halts,
                                     rest ? SecondSignal::hastens : SecondSignal::ends);
@@ -284,21 +218,21 @@ int run(Options options) {
   for (const std::string& lost : {saved.lost(), not_run})
     if (!lost.empty()) unwritten += (unwritten.empty() ? "" : "; ") + lost;
   const RunVerdict verdict = graph_run.judge(end, run_end, unseen);
-  print(options,
-        {.graph = graph,
-         .executor = executor,
-         .noted = noted,
-         .end = run_end,
-         .clock = clock ? &*clock : nullptr,
-         .guard = guard ? &*guard : nullptr,
-         .workers = options.workers,
-         .links = graph_run.link_reports(),
-         .seconds = seconds,
-         .begun = begin,
-         .simulated = report.simulated,
-         .verdict = verdict,
-         .true_states = run_end.hangs ? std::vector<TrueState>{} : find_true_states(graph, channels)},
-        written_saves, what_ifs, written);
+  const RunOutcome outcome{.graph = graph,
+                           .executor = executor,
+                           .noted = noted,
+                           .end = run_end,
+                           .clock = clock ? &*clock : nullptr,
+                           .guard = guard ? &*guard : nullptr,
+                           .workers = options.workers,
+                           .links = graph_run.link_reports(),
+                           .seconds = seconds,
+                           .begun = begin,
+                           .simulated = report.simulated,
+                           .verdict = verdict,
+                           .true_states = run_end.hangs ? std::vector<TrueState>{} : find_true_states(graph, channels)};
+  print(options, outcome, written_saves, what_ifs, written);
+  if (console) console->end(to_text(outcome) + failures_text(verdict));
   std::cerr << errors_of(run_end, executor.now()) << failures_text(verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
   const int exit_code =
@@ -310,7 +244,7 @@ int run(Options options) {
 }  // namespace
 
 void add_run(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   Command* command = line.add_subcommand(
       "run",
       "Run a graph: on the virtual clock, as fast as possible and the same to the bit every time, or\n"
@@ -321,41 +255,9 @@ void add_run(CommandLine& line, int& exit_code) {
       "fault,\n"
       "a lost vehicle, a task that does not end or a full disk, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), "
       "SIGTERM");
-  command->add_option("FILE", options->file, "The graph, a YAML file")->file({"yaml"})->required();
-  command->add_option("--for", options->duration,
-                      "How long, in logical time, as in 10s; default: until the mission ends");
-  command
-      ->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.parameters.kp=0.5")
-      ->one_value();
-  command->add_option("--profile", options->overrides.profile, "Use a profile of the file");
-  add_no_plugins(*command, options->overrides);
-  command->add_option("--seed", options->seed, "Seed of vehicles and distributers that have noise; default 0");
-  command
-      ->add_option("--workers", options->workers,
-                   "Threads that run tasks; stages are shared where that pays, and the outcome is the same for any "
-                   "number; default 1")
-      ->in_range(1, 64);
-  command->add_option("--clock", options->clock, "virtual (default) or real")->one_of({"virtual", "real"});
-  command
-      ->add_option(
-          "--concurrency", options->concurrency,
-          "exotasks (default), or threads: the same graph on ordinary threads, on the real clock, where nothing "
-          "is claimed of the digest")
-      ->one_of({"exotasks", "threads"});
-  add_real_time_options(*command, options->real_time);
-  command->add_flag("--json", options->json, "One JSON object instead of text");
-  add_run_file_options(*command, options->files);
-  add_checkpoint_options(*command, options->checkpoints);
-  add_record_options(*command, options->recording);
-  command
-      ->add_option("--what-if", options->what_if,
-                   "Go on from an instant with other parameters, too, and say from where and by how much that parts "
-                   "from the run: 'at=30s set=tasks.depth.parameters.kp=0.2', with any number of set; may be given "
-                   "more than once")
-      ->one_value();
+  add_run_options(*command, *options);
   command->callback([options, command, &exit_code] {
     require_effect(*command, *options);
-    require_checkpoint_effect(*command, options->checkpoints, options->clock == "virtual");
     exit_code = run(*options);
   });
 }

@@ -3,12 +3,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "graph/plugins/plugins.h"
 #include "graph/values/bind.h"
 #include "tools/commands/commands.h"
 #include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
+#include "tools/run/known_with.h"
 
 namespace jarol::tools {
 namespace {
@@ -53,12 +53,18 @@ void print_enumerators(const Type& type, const std::string& margin) {
   }
 }
 
+std::string ranged_text(const TypeField& field) {
+  return field.range.is_stated() ? " " + range_text(*field.type, field.range) : "";
+}
+
 void print_fields(const std::string& title, const Type& type, bool defaults) {
   if (type.fields.empty()) return;
   std::cout << "\n" << title << "\n";
   const Value value(type);
   std::size_t name_width = 0, type_width = 0;
-  const auto type_text = [](const TypeField& f) { return f.type->name + (f.unit.empty() ? "" : " [" + f.unit + "]"); };
+  const auto type_text = [](const TypeField& f) {
+    return f.type->name + (f.unit.empty() ? "" : " [" + f.unit + "]") + ranged_text(f);
+  };
   for (const TypeField& f : type.fields) {
     name_width = std::max(name_width, f.name.size());
     type_width = std::max(type_width, type_text(f).size());
@@ -76,6 +82,7 @@ void print_fields(const std::string& title, const Type& type, bool defaults) {
     for (const Leaf& leaf : f.type->kind == Kind::structure && !defaults ? leaves_of(*f.type) : std::vector<Leaf>{}) {
       const TypeField* member = find_field(*f.type, leaf.path);
       std::cout << "    ." << leaf.path << (leaf.unit.empty() ? "" : " [" + leaf.unit + "]")
+                << (member == nullptr ? "" : ranged_text(*member))
                 << (member == nullptr || member->text.empty() ? "" : "  " + member->text) << "\n";
       print_enumerators(*leaf.type, "      ");
     }
@@ -91,6 +98,7 @@ nlohmann::ordered_json fields_json(const Type& type) {
                     {"unit", f.unit},
                     {"text", f.text},
                     {"default", default_text(*f.type, static_cast<const std::byte*>(value.data()) + f.offset)}});
+    if (f.range.is_stated()) list.back().update({{"minimum", f.range.min}, {"maximum", f.range.max}});
     for (std::size_t i = 0; i < f.type->enumerators.size(); ++i)
       list.back()["enumerators"].push_back({{"name", f.type->enumerators[i].first}, {"meaning", f.type->meanings[i]}});
   }
@@ -165,11 +173,7 @@ std::vector<std::string> names_in(const Registry& known) {
 }
 
 int list_tasks(const Options& options) {
-  Registry known = built_in().graph;
-  for (const std::string& plugin : options.plugins) {
-    const std::string wrong = load_plugin(plugin, known);
-    if (!wrong.empty()) throw std::invalid_argument(wrong);
-  }
+  const Registry known = known_with(options.plugins).graph;
   if (options.name.empty()) {
     options.json ? print_json(known.tasks(), known.distributers()) : print_all(known);
     return exit_good;

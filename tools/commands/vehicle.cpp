@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "graph/language/quantities.h"
-#include "graph/plugins/plugins.h"
 #include "graph/registry.h"
 #include "tools/commands/commands.h"
 #include "tools/library/built_in.h"
@@ -13,6 +12,7 @@
 #include "tools/report/describe_vehicle.h"
 #include "tools/report/duration_option.h"
 #include "tools/run/apart.h"
+#include "tools/run/known_with.h"
 #include "tools/vehicle/made_vehicle.h"
 #include "tools/vehicle/open_loop.h"
 #include "tools/vehicle/serve_vehicle.h"
@@ -167,19 +167,8 @@ void require_effect(const Command& command, const Options& options) {
     command.refuse({"--initial", "--for", "--seed"}, "needs --script or --link: --describe does not move it");
 }
 
-// What is built in, and what plugins bring.
-NamedList<vehicles::VehicleClass> known_vehicles(const std::vector<std::string>& plugins) {
-  PluginParts parts{built_in().graph, {}};
-  for (const std::string& plugin : plugins) {
-    const std::string wrong =
-        load_plugin(plugin, parts, [](const Extension& extension) { return distributers::has(built_in(), extension); });
-    if (!wrong.empty()) throw std::invalid_argument(wrong);
-  }
-  return distributers::with_plugins(built_in(), std::move(parts)).vehicles;
-}
-
 int vehicle(const Options& options) {
-  const auto known = known_vehicles(options.plugins);
+  const auto known = known_with(options.plugins).vehicles;
   const vehicles::VehicleClass* const found = known.find(options.name);
   if (found == nullptr) {
     const std::vector<std::string> names = known.names();

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "graph/language/quantities.h"
@@ -14,16 +15,40 @@
 namespace jarol::tools {
 namespace {
 
-nlohmann::ordered_json json_of(const RecordedRun& run) {
+// By its index, or where it has none gone through as a whole.
+struct Looked {
+  std::unique_ptr<Recording> by_index;
+  std::unique_ptr<RecordedRun> gone_through;  // or null
+  std::optional<LogEnd> end;                  // none: it breaks off
+  Duration covered{};
+
+  const Recording& recording() const { return gone_through ? gone_through->recording() : *by_index; }
+};
+
+Looked look_into(const std::string& path) {
+  Looked looked;
+  looked.by_index = std::make_unique<Recording>(path);
+  looked.end = find_end(*looked.by_index);
+  if (looked.end) {
+    looked.covered = Duration(looked.end->covered);
+    return looked;
+  }
+  looked.gone_through = std::make_unique<RecordedRun>(path);
+  looked.end = looked.gone_through->end();
+  looked.covered = looked.gone_through->covered();
+  return looked;
+}
+
+nlohmann::ordered_json json_of(const Looked& run) {
   const Recording& recording = run.recording();
   auto json = nlohmann::ordered_json::parse(to_json(recording.header()));
   json["schema"] = "jarol.log_info/1";
   json["whole"] = recording.is_whole();
   json["bytes"] = recording.size();
   json["chunks"] = recording.chunks().size();
-  json["covered_ns"] = run.covered().count();
+  json["covered_ns"] = run.covered.count();
   json["digest"] =
-      run.end() ? nlohmann::ordered_json(fmt::format("0x{:016x}", run.end()->digest)) : nlohmann::ordered_json();
+      run.end ? nlohmann::ordered_json(fmt::format("0x{:016x}", run.end->digest)) : nlohmann::ordered_json();
   json["files"] = nlohmann::ordered_json::array();
   for (const RecordedFile& file : recording.files()) json["files"].push_back(file.path);
   json["topics"] = nlohmann::ordered_json::array();
@@ -36,7 +61,7 @@ nlohmann::ordered_json json_of(const RecordedRun& run) {
 }  // namespace
 
 int log_info(const LogOptions& options) {
-  const RecordedRun run(options.file);
+  const Looked run = look_into(options.file);
   const Recording& recording = run.recording();
   if (options.json) {
     std::cout << json_line(json_of(run));
@@ -44,7 +69,7 @@ int log_info(const LogOptions& options) {
   }
   const RecordingHeader& header = recording.header();
   std::cout << fmt::format("{}: {} s on the {} clock, {} bytes in {} chunks\n", printable(header.graph),
-                           seconds_text(run.covered()), printable(header.clock), recording.size(),
+                           seconds_text(run.covered), printable(header.clock), recording.size(),
                            recording.chunks().size());
   std::cout << "  graph       " << printable(header.file) << "\n";
   if (!header.overrides.profile.empty()) std::cout << "  profile     " << printable(header.overrides.profile) << "\n";
@@ -54,8 +79,8 @@ int log_info(const LogOptions& options) {
     if (file.path != header.file) std::cout << "  file        " << printable(file.path) << "\n";
   std::cout << "  made by     " << printable(header.version.substr(0, header.version.find('\n'))) << "\n  on          "
             << printable(header.platform) << "\n";
-  if (run.end())
-    std::cout << fmt::format("  digest      0x{:016x}\n", run.end()->digest);
+  if (run.end)
+    std::cout << fmt::format("  digest      0x{:016x}\n", run.end->digest);
   else
     std::cout << "  breaks off at byte " << recording.good_until() << "; how the run ended is not known\n";
   std::size_t width = 0;

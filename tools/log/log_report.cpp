@@ -151,7 +151,7 @@ int log_report(const LogOptions& options) {
   data.update(signals_json(run));
   data["paths"] = paths_json(data["signals"]);
   try {
-    Loaded loaded = load_recorded_graph(run.recording(), options.other, "jarol log report");
+    Loaded loaded = load_recorded_graph(run.recording(), options.other, "jarol log report", run.gaps().empty());
     const Graph& graph = *loaded.graph;
     data["drawing"] = drawing_json(graph);
     data["schedule"] = schedule_json(graph);

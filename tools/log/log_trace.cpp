@@ -140,7 +140,7 @@ int log_trace(const LogOptions& options) {
   RecordedRun run(options.file);
   const Recording& recording = run.recording();
   require_apart({{"FILE", options.file}, {"GRAPH", options.other}}, {{"--out", options.out}});
-  const Loaded loaded = load_recorded_graph(recording, options.other, "jarol log trace");
+  const Loaded loaded = load_recorded_graph(recording, options.other, "jarol log trace", false);
   const Graph& graph = *loaded.graph;
   const std::vector<Miss> misses = run.begin(graph);
   const RecordedEvents recorded = read_events(recording);

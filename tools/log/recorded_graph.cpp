@@ -10,23 +10,23 @@
 
 namespace jarol::tools {
 
-Loaded load_recorded_graph(const Recording& recording, const std::string& file, const std::string& command) {
+Loaded load_recorded_graph(const Recording& recording, const std::string& file, const std::string& command,
+                           bool with_truth) {
   Overrides overrides = recording.header().overrides;
-  if (!file.empty()) return load_without_channels(file, overrides);
+  const RecordingHeader* const recorded = with_truth ? &recording.header() : nullptr;
+  if (!file.empty()) return load_without_channels(file, overrides, recorded);
   overrides.no_plugins =
       "the recording names this graph, and a recording names no code; name it yourself: " + command + " FILE GRAPH";
   SourceSet sources;
   for (const RecordedFile& read : recording.files()) sources.give(read.path, read.text);
-  return load_without_channels(recording.header().file, overrides);
+  return load_without_channels(recording.header().file, overrides, recorded);
 }
 
 RecordedEvents read_events(const Recording& recording) {
   RecordedEvents read;
   const ReadTopic* const topic = recording.find(topics::events);
   if (topic == nullptr) return read;
-  std::vector<bool> wanted(65536);
-  wanted[topic->channel.id] = true;
-  for (MessageCursor cursor(recording, std::move(wanted)); cursor.message() != nullptr; cursor.next()) {
+  for (MessageCursor cursor(recording, *topic); cursor.message() != nullptr; cursor.next()) {
     if (read.events.size() == RecordedEvents::most) {
       ++read.more;
       continue;

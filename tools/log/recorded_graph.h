@@ -12,7 +12,9 @@ namespace jarol::tools {
 
 /// As the run has read it, or `file` in its place, with the run's overrides and without channels. A recording names no
 /// code: a graph that has plugins is refused unless `file` names it. `command`: what the user is to call then.
-Loaded load_recorded_graph(const Recording& recording, const std::string& file, const std::string& command);
+/// `with_truth`: what the recording has of where vehicles truly were is known.
+Loaded load_recorded_graph(const Recording& recording, const std::string& file, const std::string& command,
+                           bool with_truth);
 
 /// The instant of a fault is that at which it would have published.
 struct TimedEvent {

@@ -15,15 +15,6 @@ std::string timing_text(Duration period, Duration offset) {
   return duration_text(period) + (offset.count() > 0 ? " + " + duration_text(offset) : "");
 }
 
-const char* word_of(analysis::Verdict verdict) {
-  switch (verdict) {
-    case analysis::Verdict::schedulable: return "schedulable";
-    case analysis::Verdict::not_schedulable: return "not schedulable";
-    case analysis::Verdict::unknown: return "unknown";
-  }
-  return "";
-}
-
 Json or_null(const std::optional<Duration>& duration) { return duration ? Json(duration->count()) : Json(); }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "tools/log/report_replay.h"
 
 #include "distributers/session/graph_run.h"
+#include "distributers/session/recorded_truth.h"
 #include "distributers/session/rest_verdict.h"
 #include "runtime/machine/thread_time.h"
 #include "runtime/record/replayed_values.h"
@@ -30,7 +31,7 @@ ReportReplay replay_for_report(RecordedRun& run, Loaded loaded) {
   const CrashLine crash_line(*loaded.graph);
   replayed.measured = measure(run, *loaded.graph);
   const std::vector<Miss> misses = run.begin(*loaded.graph);
-  loaded.channels = replayed_channels(*loaded.graph, run);
+  loaded.channels = recorded_channels(loaded, run);
   ReplayedValues values(run, outputs_of(*loaded.graph));
   std::vector<RecordSink*> sinks;
   if (values.has_any()) sinks.push_back(&values);

@@ -79,7 +79,8 @@ std::vector<OptionWord> options_among(const CLI::App& command, const std::vector
 // CLI11 takes --json=false for no flag, and --json=3 for one.
 std::string flag_with_value(const CLI::App& command, const std::vector<std::string>& words) {
   for (const OptionWord& word : options_among(command, words))
-    if (word.option != nullptr && word.option->get_items_expected_max() == 0 && word.joined)
+    if (word.option != nullptr && word.option->get_items_expected_max() == 0 && word.joined &&
+        word.option->get_type_name().empty())
       return word.name + " takes no value, and has '" + *word.joined + "'; write " + word.name +
              " alone, or leave it out";
   return "";
@@ -186,6 +187,13 @@ Option* Command::add_flag(const std::string& name, bool& value, const std::strin
 
 Option* Command::add_flag(const std::string& name, const std::function<void()>& take, const std::string& text) {
   return &options_.emplace_back(*app_.add_flag_callback(name, take, text));
+}
+
+Option* Command::add_flag_with_value(const std::string& name, std::string& value, const std::string& value_name,
+                                     const std::string& text) {
+  CLI::Option& option = *app_.add_flag(name, value, text);
+  option.type_name("[=" + value_name + "]");
+  return &options_.emplace_back(option);
 }
 
 bool Command::given(const std::string& name) const { return app_.count(name) > 0; }

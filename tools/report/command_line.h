@@ -76,6 +76,10 @@ class Command {
                      const std::string& text);
   Option* add_flag(const std::string& name, bool& value, const std::string& text);
   Option* add_flag(const std::string& name, const std::function<void()>& take, const std::string& text);
+  /// A flag that may have a value in the same word, as in --console=8080, and without one has "true"; the word after it
+  /// is an argument again. `value_name` is what --help calls the value.
+  Option* add_flag_with_value(const std::string& name, std::string& value, const std::string& value_name,
+                              const std::string& text);
   /// Was the option of that name among the words?
   bool given(const std::string& name) const;
   /// Throws std::invalid_argument for the first of these options that was given: its name and this text, as in

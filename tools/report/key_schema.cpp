@@ -51,6 +51,7 @@ Json schema_of(const KeyDescription& key) {
     case Form::bytes: return {{"type", "string"}, {"pattern", bytes_pattern}};
     case Form::frequency: return frequency_schema();
     case Form::share: return share_schema();
+    case Form::fault_limit: return {{"type", "string"}, {"pattern", "^[1-9][0-9]* of [1-9][0-9]*$"}};
     case Form::choice: return {{"enum", key.choices}};
     case Form::mapping: return key.keys.empty() ? Json{{"type", "object"}} : mapping_schema(key.keys);
     case Form::any:

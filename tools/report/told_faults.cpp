@@ -27,7 +27,8 @@ std::string told_faults(const Report& report) {
   }
   if (const std::uint64_t others = report.fault_summary.others(); others > 0)
     text += "fault: and " + std::to_string(others) + " of other causes\n";
-  if (report.stopped && !report.faults.empty() && is_of_time(report.faults.back()))
+  if (report.stopped && !report.faults.empty() && is_of_time(report.faults.back()) &&
+      !is_by_limit(report.faults.back()))
     text +=
         "note: 'on_fault: stop', the default, ended the run there; with 'hold' what is late keeps its last outputs and "
         "the run goes on, as with --set tasks." +

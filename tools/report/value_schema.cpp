@@ -5,6 +5,7 @@
 
 #include "graph/language/quantities.h"
 #include "graph/language/units.h"
+#include "graph/values/bind.h"
 #include "graph/values/value.h"
 #include "tools/report/value_json.h"
 
@@ -24,13 +25,15 @@ std::string escaped(const std::string& text) {
 }
 
 // A number of its own has YAML's form, whatever its unit; one that says its unit is a word.
-Json number_schema(double most, const std::string& unit) {
-  Json number{{"type", "number"}, {"minimum", -most}, {"maximum", most}};
+Json number_schema(double most, const std::string& unit, const FieldRange& range) {
+  Json number{{"type", "number"},
+              {"minimum", range.is_stated() ? range.min : -most},
+              {"maximum", range.is_stated() ? range.max : most}};
   if (unit.empty()) return number;
   return {{"anyOf", {std::move(number), {{"type", "string"}, {"pattern", number_pattern(unit)}}}}};
 }
 
-Json integer_schema(const Type& type) {
+Json integer_schema(const Type& type, const FieldRange& range) {
   const std::size_t bits = 8 * type.size;
   const bool is_signed = type.kind == Kind::signed_integer;
   Json schema{{"type", "integer"}, {"minimum", 0}};
@@ -38,6 +41,10 @@ Json integer_schema(const Type& type) {
     schema["minimum"] = bits == 64 ? std::numeric_limits<std::int64_t>::min() : -(std::int64_t{1} << (bits - 1));
   const std::size_t places = bits - (is_signed ? 1 : 0);
   schema["maximum"] = places >= 63 ? std::numeric_limits<std::int64_t>::max() : (std::int64_t{1} << places) - 1;
+  if (range.is_stated()) {
+    schema["minimum"] = static_cast<std::int64_t>(range.min);
+    schema["maximum"] = static_cast<std::int64_t>(range.max);
+  }
   return schema;
 }
 
@@ -62,6 +69,7 @@ Json default_of(const Type& type, const void* value) {
 std::string described(const TypeField& field) {
   std::string text = field.text;
   if (!field.unit.empty()) text += (text.empty() ? "[" : " [") + field.unit + "]";
+  if (field.range.is_stated()) text += (text.empty() ? "" : ", ") + range_text(*field.type, field.range);
   return text;
 }
 
@@ -77,24 +85,24 @@ std::string number_pattern(const std::string& unit) {
   return "^-?" + whole + "([eE][-+]?[0-9]+)? *(" + units + ")$";
 }
 
-Json value_schema(const Type& type, const std::string& unit) {
+Json value_schema(const Type& type, const std::string& unit, const FieldRange& range) {
   switch (type.kind) {
     case Kind::boolean: return {{"type", "boolean"}};
     case Kind::signed_integer:
-    case Kind::unsigned_integer: return integer_schema(type);
+    case Kind::unsigned_integer: return integer_schema(type, range);
     case Kind::floating:
       return number_schema(
           type.size == 4 ? static_cast<double>(std::numeric_limits<float>::max()) : std::numeric_limits<double>::max(),
-          unit);
+          unit, range);
     case Kind::duration: return {{"type", "string"}, {"pattern", duration_pattern}};
     case Kind::enumeration: return enumeration_schema(type);
     case Kind::string: return {{"type", {"string", "number", "boolean"}}};
     case Kind::array:
       return {{"type", "array"},
-              {"items", value_schema(*type.element, unit)},
+              {"items", value_schema(*type.element, unit, range)},
               {"minItems", type.count},
               {"maxItems", type.count}};
-    case Kind::sequence: return {{"type", "array"}, {"items", value_schema(*type.element, unit)}};
+    case Kind::sequence: return {{"type", "array"}, {"items", value_schema(*type.element, unit, range)}};
     case Kind::structure: return fields_schema(type);
   }
   return Json::object();
@@ -104,7 +112,7 @@ Json fields_schema(const Type& type) {
   const Value value(type);
   Json properties = Json::object();
   for (const TypeField& field : type.fields) {
-    Json schema = value_schema(*field.type, field.unit);
+    Json schema = value_schema(*field.type, field.unit, field.range);
     if (const std::string text = described(field); !text.empty())
       schema["description"] =
           schema.contains("description") ? text + "; " + schema["description"].get<std::string>() : text;

@@ -15,7 +15,7 @@ extern const std::string duration_pattern, positive_duration_pattern, bytes_patt
 std::string number_pattern(const std::string& unit);
 
 /// A value of the type, a number in that unit.
-nlohmann::ordered_json value_schema(const Type& type, const std::string& unit);
+nlohmann::ordered_json value_schema(const Type& type, const std::string& unit, const FieldRange& range = {});
 
 /// A mapping of some of the struct's fields, with their meanings and defaults.
 nlohmann::ordered_json fields_schema(const Type& type);

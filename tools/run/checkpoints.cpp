@@ -107,14 +107,23 @@ void SavedRun::cover() {
     } catch (const std::exception& error) { add_lost(error.what()); }
   }
   cover_until(end_);
-  ExecutorRun::cover();
+}
+
+// At its pace.
+void SavedRun::cover_to(Duration instant) {
+  pace_ != nullptr ? pace_->cover(run_, instant) : run_.executor().cover(instant);
+}
+
+void SavedRun::close(const Ending& ending, Futex::Time patience) {
+  if (pace_ != nullptr) pace_->end();
+  ExecutorRun::close(ending, patience);
 }
 
 // By way of the instants at which each one is taken.
 void SavedRun::cover_until(Duration end) {
   const Report& report = run_.executor().report();
   for (; take_each_ && next_ < end; next_ += every_) {
-    run_.executor().cover(next_);
+    cover_to(next_);
     if (report.covered < next_ || report.stopped) return;
     try {
       take_each_(checkpoint_of(run_, noted_));
@@ -123,7 +132,7 @@ void SavedRun::cover_until(Duration end) {
       take_each_ = {};
     }
   }
-  run_.executor().cover(end);
+  cover_to(end);
 }
 
 void SavedRun::add_lost(const std::string& text) { lost_ += (lost_.empty() ? "" : "; ") + text; }

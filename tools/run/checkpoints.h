@@ -7,6 +7,7 @@
 
 #include "distributers/session/graph_run.h"
 #include "runtime/execute/executor_run.h"
+#include "tools/console/pace.h"
 #include "tools/report/noted.h"
 
 namespace jarol::tools {
@@ -42,11 +43,12 @@ struct Stop {
   std::string lost;                      // what there is not if the run does not come there: "'FILE' is not written"
 };
 
-/// A run that is saved on its way.
+/// A run on the virtual clock that is saved on its way, at some pace.
 class SavedRun : public ExecutorRun {
  public:
-  SavedRun(GraphRun& run, Noted& noted, Duration end)
-      : ExecutorRun(run.executor(), end), run_(run), noted_(noted), end_(end) {}
+  /// `pace`: null: as fast as possible.
+  SavedRun(GraphRun& run, Noted& noted, Duration end, Pace* pace = nullptr)
+      : ExecutorRun(run.executor(), end), run_(run), noted_(noted), end_(end), pace_(pace) {}
 
   /// Before it runs.
   void add(Stop stop);
@@ -58,18 +60,21 @@ class SavedRun : public ExecutorRun {
   /// Throws std::invalid_argument where the run can't be saved, or does not come there.
   void require_saveable(Duration begin, Duration end);
   void cover() override;
+  void close(const Ending& ending, Futex::Time patience) override;
 
   /// What was lost, and why; empty: nothing.
   const std::string& lost() const { return lost_; }
 
  private:
   void cover_until(Duration end);
+  void cover_to(Duration instant);
   void add_lost(const std::string& text);
 
   GraphRun& run_;
   Noted& noted_;
-  std::vector<Stop> stops_;  // in order of time
-  Duration end_;
+  const Duration end_;
+  Pace* const pace_;
+  std::vector<Stop> stops_;                           // in order of time
   std::function<void(const Checkpoint&)> take_each_;  // empty: none
   Duration every_{}, next_{};                         // when
   std::string lost_;

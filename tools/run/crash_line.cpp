@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
@@ -16,6 +17,7 @@
 
 #include "distributers/guardian/guardian.h"
 #include "graph/text/escape.h"
+#include "runtime/dispatch/task_guard.h"
 #include "runtime/files/partial_files.h"
 #include "runtime/machine/running_task.h"
 #include "runtime/state/task_status.h"
@@ -130,7 +132,31 @@ bool is_stack_used_up(void* context) {
   return at != 0 && running_task.stack_end != 0 && at < running_task.stack_end + close_to_end;
 }
 
+// What a task wrote to under guard.
+void name_forbidden(Line& line, const void* address) {
+  const Graph* const of = graph.load();
+  if (const auto owner = TaskGuard::find_owner(address); owner && of != nullptr) {
+    line << "wrote to the memory of task '" << of->tasks[*owner].name << "'";
+    return;
+  }
+  line << "wrote to memory that is not its own";
+  if (const std::string_view name = PageGuard::name_of(address); !name.empty()) line << ", of '" << name << "',";
+}
+
+// Is there an address in the way of which page protection stood?
+PageGuard::Fault judge(int signal, const siginfo_t& info) {
+  if (signal == SIGSEGV && info.si_code == SEGV_ACCERR) return PageGuard::judge(info.si_addr);
+  PageGuard::lift();
+  return PageGuard::Fault::other;
+}
+
 extern "C" void on_crash(int signal, siginfo_t* info, void* context) {
+  const int error = errno;
+  const PageGuard::Fault fault = judge(signal, *info);
+  if (fault == PageGuard::Fault::waited) {
+    errno = error;
+    return;
+  }
   wait_if_second();
   const Kind& kind = *std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.signal == signal; });
   Line line;
@@ -138,7 +164,9 @@ extern "C" void on_crash(int signal, siginfo_t* info, void* context) {
     line << "crash: " << kind.name << ", sent by process " << info->si_pid;
   } else {
     name_task(line);
-    if (signal == SIGSEGV && is_stack_used_up(context))
+    if (fault == PageGuard::Fault::forbidden)
+      name_forbidden(line, info->si_addr);
+    else if (signal == SIGSEGV && is_stack_used_up(context))
       line << "stack overflow";
     else
       line << kind.name;
@@ -159,6 +187,7 @@ extern "C" void on_crash(int signal, siginfo_t* info, void* context) {
 
 // In the thread that called it, before anything else is torn down.
 void on_exit_called(std::string_view call, std::optional<int> code = {}) {
+  PageGuard::lift();
   if (graph.load() == nullptr || running_task.memory.load(std::memory_order_relaxed) == nullptr) return;
   if (::getpid() != own_process) return;
   wait_if_second();

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "distributers/session/recorded_truth.h"
 #include "graph/text/escape.h"
 #include "tools/report/command_line.h"
 #include "tools/report/version.h"
@@ -62,7 +63,7 @@ void require_effect(const Command& command, const RecordArguments& arguments) {
 }
 
 std::unique_ptr<RecordingWriter> make_recording(const RecordArguments& arguments, RecordingHeader header,
-                                                const SourceSet& sources, const Graph& graph) {
+                                                const SourceSet& sources, const Loaded& loaded) {
   if (arguments.file().empty()) return nullptr;
   if (std::erase_if(header.overrides.set, names_plugins) > 0)
     std::cerr << "note: the recording does not name the plugins of --set; give them again to jarol replay\n";
@@ -71,8 +72,8 @@ std::unique_ptr<RecordingWriter> make_recording(const RecordArguments& arguments
   header.platform = platform_text();
   std::vector<RecordedFile> files;
   for (const auto& [path, source] : sources.read()) files.push_back({path, source->text});
-  return std::make_unique<RecordingWriter>(arguments.file(), std::move(header), std::move(files), graph,
-                                           compression_of(arguments.compression));
+  return std::make_unique<RecordingWriter>(arguments.file(), std::move(header), std::move(files), *loaded.graph,
+                                           compression_of(arguments.compression), types_of_truth(loaded));
 }
 
 std::string to_text(const RecordArguments& arguments) {

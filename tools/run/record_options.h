@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "distributers/session/load.h"
 #include "graph/language/source_set.h"
 #include "runtime/record/recording_writer.h"
 
@@ -28,7 +29,7 @@ void require_effect(const Command& command, const RecordArguments& arguments);
 /// Null: none is asked for. `header` as far as the options of the run say it; `sources`: what was read to load the
 /// graph.
 std::unique_ptr<RecordingWriter> make_recording(const RecordArguments& arguments, RecordingHeader header,
-                                                const SourceSet& sources, const Graph& graph);
+                                                const SourceSet& sources, const Loaded& loaded);
 
 /// A line of the report that names it.
 std::string to_text(const RecordArguments& arguments);

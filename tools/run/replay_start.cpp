@@ -23,9 +23,10 @@ Overrides overrides_of(const Recording& recording, const std::string& file, cons
 }
 
 Loaded load_recorded(const Recording& recording, const std::string& file, const Overrides& overrides,
-                     bool with_systems) {
+                     RecordedWorld world) {
   const auto load = [&](const std::string& path) {
-    return with_systems ? load_graph(path, overrides, recording.header().seed) : load_without_channels(path, overrides);
+    if (world == RecordedWorld::systems) return load_graph(path, overrides, recording.header().seed);
+    return load_without_channels(path, overrides, world == RecordedWorld::truth ? &recording.header() : nullptr);
   };
   if (!file.empty()) return load(file);
   SourceSet sources;

@@ -14,9 +14,16 @@ namespace jarol::tools {
 /// name the file or the plugin that brings it. `file`: in place of the graph of the run; empty: that.
 Overrides overrides_of(const Recording& recording, const std::string& file, const Overrides& given);
 
-/// The graph of the run as it was then, or `file` in its place. `with_systems`: its external systems, too.
+/// What of the world of a run is loaded with its graph.
+enum class RecordedWorld {
+  nothing,
+  truth,    // where its vehicles truly were, if the recording has that
+  systems,  // its external systems, to go on with
+};
+
+/// The graph of the run as it was then, or `file` in its place.
 Loaded load_recorded(const Recording& recording, const std::string& file, const Overrides& overrides,
-                     bool with_systems);
+                     RecordedWorld world);
 
 /// Files that the run has read and that are not what they were, or are gone.
 std::vector<std::string> changed_files(const Recording& recording);

@@ -39,7 +39,7 @@ std::string to_text(const RunOutcome& outcome) {
       text += "              nothing is claimed of the digest: task '" + task.name + "' is weakly isolated\n";
   for (const std::string& warning : warnings(find_arithmetic())) text += "  note        " + warning + "\n";
   for (std::size_t i = 0; i < graph.tasks.size(); ++i)
-    if (const PrivateHeap* heap = executor.state().heaps[i].get())
+    if (const PrivateHeap* heap = executor.state().heaps[i])
       text += fmt::format("  heap        {}: at most {} of {} bytes in use\n", graph.tasks[i].name, heap->most_used(),
                           heap->size());
   text += outcome.noted.told.to_text() + outcome.noted.logged.to_text();
@@ -63,7 +63,7 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
   const Report& report = executor.report();
   auto heaps = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < graph.tasks.size(); ++i)
-    if (const PrivateHeap* heap = executor.state().heaps[i].get())
+    if (const PrivateHeap* heap = executor.state().heaps[i])
       heaps[graph.tasks[i].name] = {{"size", heap->size()}, {"most_used", heap->most_used()}};
   nlohmann::ordered_json json{
       {"schema", "jarol.run/1"},

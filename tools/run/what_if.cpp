@@ -9,6 +9,7 @@
 #include "runtime/execute/executor_run.h"
 #include "tools/report/commanded.h"
 #include "tools/report/duration_option.h"
+#include "tools/run/execution.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/load_graph.h"
 
@@ -77,12 +78,13 @@ RunColumn column_of(const Executor& executor, const std::vector<TrueState>& trut
 }
 
 void WhatIfs::prepare(const Graph& graph, std::string file, Overrides overrides, std::uint64_t seed,
-                      std::size_t workers, Duration end) {
+                      std::size_t workers, std::string execution, Duration end) {
   if (what_ifs_.empty()) return;
   file_ = std::move(file);
   overrides_ = std::move(overrides);
   seed_ = seed;
   workers_ = workers;
+  execution_ = std::move(execution);
   end_ = end;
   Overrides with;
   for (const WhatIf& what_if : what_ifs_) load(what_if, with);
@@ -124,7 +126,9 @@ WhatIfOutcome WhatIfs::run(const WhatIf& what_if, RecordSink* beside) const {
   ComparedValues compared(*kept_, what_if.at);
   std::vector<RecordSink*> sinks{&compared};
   if (beside != nullptr) sinks.push_back(beside);
-  GraphRun other(std::move(loaded), {.sinks = sinks, .workers = workers_});
+  Execution execution(execution_, *loaded.graph, seed_);
+  GraphRun other(std::move(loaded),
+                 {.sinks = sinks, .workers = workers_, .schedule = execution.schedule(), .times = execution.times()});
   other.set_origin(std::move(origin));
   other.require_same_origin(*what_if.past);
   other.restore(*what_if.past);

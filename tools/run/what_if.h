@@ -60,7 +60,7 @@ class WhatIfs {
 
   /// The run that they begin with, until then. Throws SpecError where one is no graph with what it sets.
   void prepare(const Graph& graph, std::string file, Overrides overrides, std::uint64_t seed, std::size_t workers,
-               Duration end);
+               std::string execution, Duration end);
   /// After that: looks on at the run.
   void add_to(std::vector<RecordSink*>& sinks);
   void add_to(SavedRun& run);
@@ -78,6 +78,7 @@ class WhatIfs {
   Overrides overrides_;
   std::uint64_t seed_ = 0;
   std::size_t workers_ = 1;
+  std::string execution_;
   Duration end_{};
   std::optional<KeptValues> kept_;
   std::vector<WhatIfOutcome> outcomes_;

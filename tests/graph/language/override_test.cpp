@@ -77,7 +77,7 @@ TEST_SUITE("graph/spec/override") {
     CHECK(
         report_on(counting, {"", {"tasks.count.perod=20ms"}}) ==
         "--set:1:1: error: task 'count' has no key 'perod'; did you mean 'period'?; it has: type, period, offset, let, "
-        "deadline, wcet, jitter, blocking, priority, core, heap, on_fault, isolation, parameters, init\n"
+        "deadline, wcet, jitter, blocking, priority, core, heap, on_fault, fault_limit, isolation, parameters, init\n"
         "  tasks.count.perod=20ms\n"
         "  ^");
     CHECK(report_on(counting, {"", {"tasks.count.period=20"}}) ==

@@ -58,7 +58,7 @@ connections:
        "t.yaml:4:48: error: task 'slow' has no key 'colour'; it has: type, period, offset, let, deadline, wcet, "
        "jitter, blocking, "
        "priority, "
-       "core, heap, on_fault, isolation, parameters, init\n"
+       "core, heap, on_fault, fault_limit, isolation, parameters, init\n"
        "    slow: {type: Relay, period: 20ms, let: 30ms, colour: red}\n"
        "                                                 ^\n"
        "t.yaml:6:18: error: task 'slow' (Relay) has no input 'inn'; did you mean 'in'?; it has: in\n"

@@ -12,6 +12,11 @@ set(says_8 "Value::numbers.*use jarol::Sequence<T> or std::array in place of std
 set(says_9 "Value::text.*use jarol::String in place of std::string")
 set(says_10 "Value::number.*use a bool beside a member in place of std::optional or std::variant")
 set(says_11 "Value::mode.*a struct within a value needs a fields\\(\\) of its own, an enumeration enumerators\\(E\\)")
+set(says_12 "a range is of numbers and durations, and of arrays and sequences of these")
+set(says_13 "the_first_end_of_a_range_is_above_the_second")
+set(says_14 "a_range_of_whole_numbers_has_whole_ends_up_to_2_to_the_53")
+set(says_15 "a_range_has_finite_ends")
+set(says_16 "a default value is outside the range of its field")
 set(brief 1 8 9 10)
 # g++ names the members, too
 set(names_3 "Value::forgotten")

@@ -69,6 +69,33 @@ struct Value {
   Mode mode = Mode::on;
   static constexpr auto fields() { return describe(field<&Value::mode>()); }
 };
+#elif NOT_A_VALUE == 12  // a range of what is no number
+struct Value {
+  bool number = false;
+  static constexpr auto fields() { return describe(field<&Value::number>().in(0, 1)); }
+};
+#elif NOT_A_VALUE == 13  // a range that ends below its begin
+struct Value {
+  double number = 0;
+  static constexpr auto fields() { return describe(field<&Value::number>().in(1, -1)); }
+};
+#elif NOT_A_VALUE == 14  // a range of whole numbers with a fraction
+struct Value {
+  std::int32_t number = 0;
+  static constexpr auto fields() { return describe(field<&Value::number>().in(0, 2.5)); }
+};
+#elif NOT_A_VALUE == 15  // a range without end
+struct Value {
+  double number = 0;
+  static constexpr auto fields() {
+    return describe(field<&Value::number>().in(0, std::numeric_limits<double>::infinity()));
+  }
+};
+#elif NOT_A_VALUE == 16  // a default outside of its range
+struct Value {
+  double number = 3;
+  static constexpr auto fields() { return describe(field<&Value::number>().in(0, 1)); }
+};
 #else
 struct Value {
   double number = 0;

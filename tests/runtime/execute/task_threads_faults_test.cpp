@@ -11,7 +11,7 @@ using tests::lines_of;
 
 TEST_SUITE("runtime/task_threads_faults") {
   TEST_CASE("faults, what they keep back and what they undo are those of the virtual clock") {
-    for (const std::string on_fault : {"hold", "skip", "stop"}) {
+    for (const std::string on_fault : {"hold", "skip", "restart", "stop"}) {
       const std::string text = R"(graph: t
 timing: {period: 20ms}
 tasks:
@@ -41,11 +41,11 @@ connections: [source.out -> flow.in, flow.out -> timed.in, timed.out -> reader.a
   }
 
   TEST_CASE("a task that is late publishes what one that throws does: nothing, and its state is undone") {
-    for (const std::string let : {"", ", let: 10ms"}) {
+    for (const std::string let : {", on_fault: hold", ", let: 10ms, on_fault: hold", ", on_fault: restart"}) {
       const auto text = [&](const std::string& lasts) {
         return "graph: t\ntiming: {period: 20ms}\ntasks:\n  source: {type: Counter, core: ANY}\n  s: {type: Faulty, "
                "core: ANY" +
-               let + ", on_fault: hold, parameters: {faulty: 2, lasts: " + lasts +
+               let + ", parameters: {faulty: 2, lasts: " + lasts +
                "}}\n  r: {type: Relay, core: ANY, let: 20ms, offset: 10ms}\nconnections: [source.out -> s.in, s.out -> "
                "r.in]\n";
       };

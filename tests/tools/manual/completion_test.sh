@@ -24,7 +24,7 @@ offers() {
   fi
 }
 
-offers "campaign|check|" c
+offers "campaign|check|console|" c
 offers "help|" he
 offers "replay|run|" help r
 offers "--resume|" run --res

@@ -63,7 +63,8 @@ struct LampSwitch {
   static constexpr std::string_view summary = "a lamp";
   static constexpr bool is_vehicle = true;
   struct In {
-    static constexpr auto fields() { return describe(); }
+    jarol::distributers::Newest<double> echo;
+    static constexpr auto fields() { return describe(jarol::distributers::channel<&In::echo>("what it shines at")); }
   };
   struct Out {
     double level = 0;
@@ -71,9 +72,11 @@ struct LampSwitch {
   };
   static const jarol::messages::MessageSet& message_set() { return jarol::messages::javiator::message_set(); }
   static constexpr auto handlers() {
-    return jarol::distributers::handle(jarol::distributers::send<&Out::level>(&LampSwitch::send));
+    return jarol::distributers::handle(jarol::distributers::on<IdleLimit>(&LampSwitch::hear),
+                                       jarol::distributers::send<&Out::level>(&LampSwitch::send));
   }
   In in;
+  void hear(const IdleLimit& message) { in.echo = static_cast<double>(message.idle); }
   void send(const double& level, jarol::messages::Receiver& lamp) {
     IdleLimit message;
     message.idle = static_cast<decltype(message.idle)>(level);

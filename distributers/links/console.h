@@ -1,0 +1,76 @@
+// The link to an operator at a console of this process: messages come from the console's thread by a Jarol port, and
+// reach the distributer at the next instant, as from any other operator.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "distributers/interfaces/any_distributer.h"
+#include "distributers/messages/packet.h"
+#include "runtime/channels.h"
+#include "runtime/jarol/port.h"
+
+namespace jarol::distributers {
+
+struct LinkType;
+
+/// The link type `console`.
+LinkType console_link();
+
+/// The way from the console to the distributer, which either may outlive.
+class ConsolePort {
+ public:
+  explicit ConsolePort(const messages::MessageSet& set);
+
+  const messages::MessageSet& message_set() const { return set_; }
+
+  /// By the console's thread: the distributer gets the message at the next instant. False: it can't be sent, and `why`
+  /// says why not.
+  bool send(messages::MessageRef message, std::string& why);
+  /// By the run: all that was sent.
+  void receive(messages::Receiver& receiver);
+
+  std::uint64_t given() const { return given_.load(std::memory_order_relaxed); }
+  std::uint64_t refused() const { return refused_.load(std::memory_order_relaxed); }
+
+  static constexpr std::size_t most_packets = 64;  // on their way
+
+ private:
+  const messages::MessageSet& set_;
+  PacketPort port_;
+  std::atomic<std::uint64_t> given_{0}, refused_{0};
+  // of the console's thread
+  const messages::Message header_;
+  std::vector<std::byte> packet_;
+  // of the run
+  std::vector<std::byte> room_;
+  messages::PacketReader reader_;
+};
+
+class ConsoleChannels : public Channels {
+ public:
+  explicit ConsoleChannels(std::unique_ptr<AnyDistributer> distributer);
+
+  const std::shared_ptr<ConsolePort>& port() const { return port_; }
+
+  void finish() override { distributer_->finish(); }
+  std::optional<LinkReport> link_report() const override;
+  std::uint64_t non_finite_inputs() const override { return distributer_->non_finite_inputs(); }
+  void reach(Duration instant) override;
+  bool take(std::size_t channel, void* value) override { return distributer_->take(channel, value); }
+  void hand_over(std::size_t channel, const void* value) override { distributer_->hand_over(channel, value, unread_); }
+
+ private:
+  // Pages see what the graph publishes; reports in the operator's messages say the same.
+  struct Unread : messages::Receiver {
+    void receive(messages::MessageRef) override {}
+  };
+
+  std::unique_ptr<AnyDistributer> distributer_;
+  std::shared_ptr<ConsolePort> port_;
+  Unread unread_;
+};
+
+}  // namespace jarol::distributers

@@ -1,0 +1,279 @@
+#include "runtime/machine/page_guard.h"
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+namespace jarol {
+namespace {
+
+constexpr std::uintptr_t page = 4096;
+// glibc lays one page that can't be touched below each stack; more is what an arena has to grow into
+constexpr std::uintptr_t largest_stack_guard = 64 << 10;
+
+std::atomic<PageGuard*> guard{nullptr};
+
+pid_t this_thread() { return static_cast<pid_t>(::syscall(SYS_gettid)); }
+
+std::uintptr_t number(const void* address) { return reinterpret_cast<std::uintptr_t>(address); }
+
+// Of threads that do not ask for another size.
+std::uintptr_t find_stack_size() {
+  std::size_t size = std::size_t{8} << 20;
+  pthread_attr_t attributes;
+  if (::pthread_getattr_default_np(&attributes) != 0) return size;
+  ::pthread_attr_getstacksize(&attributes, &size);
+  ::pthread_attr_destroy(&attributes);
+  return size;
+}
+
+std::uintptr_t read_hexadecimal(std::string_view& line) {
+  std::uintptr_t read = 0;
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), read, 16);
+  line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+  return read;
+}
+
+// A line of /proc/self/maps: "7f00-7f10 rw-p 00000000 00:00 0    [heap]".
+struct MapLine {
+  explicit MapLine(std::string_view line) {
+    begin = read_hexadecimal(line);
+    line.remove_prefix(1);
+    end = read_hexadecimal(line);
+    permissions = line.substr(1, 4);
+    const std::size_t name_at = line.find_first_of("/[");
+    if (name_at != std::string_view::npos) name = line.substr(name_at);
+  }
+  bool is_writable() const { return permissions[1] == 'w'; }
+  bool is_closed() const { return permissions.starts_with("---"); }
+  int protection() const {
+    return (permissions[0] == 'r' ? PROT_READ : 0) | PROT_WRITE | (permissions[2] == 'x' ? PROT_EXEC : 0);
+  }
+
+  std::uintptr_t begin = 0, end = 0;
+  std::string_view permissions, name;
+};
+
+}  // namespace
+
+PageGuard::PageGuard() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  throw std::runtime_error("a program with sanitizers writes to memory of its own all the time");
+#endif
+  if (::sysconf(_SC_PAGESIZE) != static_cast<long>(page))
+    throw std::runtime_error("this machine's pages are not of 4096 bytes");
+  maps_ = ::open("/proc/self/maps", O_RDONLY | O_CLOEXEC);
+  if (maps_ < 0) throw std::runtime_error("/proc/self/maps can't be read");
+  // shared, so that no other mapping becomes one with it
+  void* const flags = ::mmap(nullptr, page, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (flags == MAP_FAILED) {
+    ::close(maps_);
+    throw std::runtime_error("there is no memory for it");
+  }
+  flags_ = new (flags) Flags;
+  regions_.reserve(most_regions);
+  leave_out(flags, page);
+  // of the main thread: what the system writes when it stops and goes on lies beside its own data
+  leave_out(reinterpret_cast<const void*>(::pthread_self()), page);
+  leave_out_stacks();
+  guard.store(this);
+}
+
+PageGuard::~PageGuard() {
+  open();
+  guard.store(nullptr);
+  ::munmap(flags_, page);
+  ::close(maps_);
+}
+
+void PageGuard::leave_out(const void* begin, std::size_t size) {
+  left_out_.push_back({number(begin) / page * page, (number(begin) + size + page - 1) / page * page});
+}
+
+// Of the calling thread, and of its handlers.
+void PageGuard::leave_out_stacks() {
+  stack_t handlers{};
+  if (::sigaltstack(nullptr, &handlers) == 0 && (handlers.ss_flags & SS_DISABLE) == 0)
+    leave_out(handlers.ss_sp, handlers.ss_size);
+  pthread_attr_t attributes;
+  if (::pthread_getattr_np(::pthread_self(), &attributes) != 0) return;
+  void* lowest = nullptr;
+  std::size_t size = 0;
+  if (::pthread_attr_getstack(&attributes, &lowest, &size) == 0) leave_out(lowest, size);
+  ::pthread_attr_destroy(&attributes);
+}
+
+void PageGuard::close(std::span<std::byte> own) {
+  if (flags_->thread.load() == 0) {
+    leave_out_stacks();
+    flags_->thread.store(this_thread());
+  }
+  own_ = {number(own.data()), number(own.data() + own.size())};
+  read_maps();
+  if (read_ != text_) {
+    flags_->changing.store(true);
+    text_.swap(read_);
+    find_regions();
+    flags_->changing.store(false);
+  }
+  flags_->suspended.store(false);
+  flags_->closed.store(true);
+  protect(false);
+}
+
+void PageGuard::open() {
+  flags_->suspended.store(false);
+  if (!flags_->closed.load()) return;
+  protect(true);
+  flags_->closed.store(false);
+}
+
+// Reading must allocate nothing that changes what is read: the text has room from the first time on.
+void PageGuard::read_maps() {
+  constexpr std::size_t chunk = 16 << 10;
+  std::size_t size = 0;
+  for (;;) {
+    if (read_.size() < size + chunk) read_.resize(2 * (size + chunk));
+    const ssize_t got = ::pread(maps_, read_.data() + size, read_.size() - size, static_cast<off_t>(size));
+    if (got <= 0) break;
+    size += static_cast<std::size_t>(got);
+  }
+  std::fill(read_.begin() + static_cast<std::ptrdiff_t>(size), read_.end(), '\0');
+}
+
+// What is writable, but for what is left out and the stacks of threads.
+void PageGuard::find_regions() {
+  regions_.clear();
+  static const std::uintptr_t stack_size = find_stack_size() + largest_stack_guard;
+  std::string_view text = std::string_view(text_).substr(0, text_.find('\0'));
+  std::uintptr_t guard_begin = 0, guard_end = 0;  // of a stack
+  std::string_view file;                          // of the line before, and where that ends
+  std::uintptr_t file_end = 0;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    MapLine line(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.is_closed()) {
+      guard_begin = line.begin;
+      guard_end = line.end;
+    }
+    // what begins as zeros lies behind the file's own data, without its name
+    const std::string_view of_file = std::exchange(file, line.name.starts_with('/') ? line.name : std::string_view());
+    const bool follows = line.begin == std::exchange(file_end, line.end);
+    if (line.name.empty() && follows) line.name = of_file;
+    if (!line.is_writable()) continue;
+    const bool has_guard = line.begin == guard_end && guard_end - guard_begin <= largest_stack_guard;
+    if (line.name == "[stack]") continue;
+    // the system may make one of a stack and what lies above it
+    const std::uintptr_t begin =
+        has_guard && line.name.empty() ? std::min(line.begin + stack_size, line.end) : line.begin;
+    const std::size_t slash = line.name.rfind('/');
+    add_region({{begin, line.end},
+                line.protection(),
+                std::string(slash == std::string_view::npos ? line.name : line.name.substr(slash + 1))});
+  }
+}
+
+// Without what is left out. Those beyond the room that there is stay writable.
+void PageGuard::add_region(Region region) {
+  for (const Pages& hole : left_out_) {
+    if (hole.end <= region.pages.begin || region.pages.end <= hole.begin) continue;
+    Region before = region;
+    before.pages.end = hole.begin;
+    region.pages.begin = hole.end;
+    if (before.pages.begin < before.pages.end) add_region(before);
+  }
+  if (region.pages.begin < region.pages.end && regions_.size() < most_regions) regions_.push_back(std::move(region));
+}
+
+// What is mapped no more is passed over.
+void PageGuard::protect(bool writable) const {
+  const auto set = [&](std::uintptr_t begin, std::uintptr_t end, int protection) {
+    if (begin < end)
+      ::mprotect(reinterpret_cast<void*>(begin), end - begin, writable ? protection : protection & ~PROT_WRITE);
+  };
+  for (const Region& region : regions_) {
+    const auto [begin, end] = region.pages;
+    const std::uintptr_t first = std::clamp(own_.begin, begin, end), last = std::clamp(own_.end, begin, end);
+    set(begin, first, region.protection);
+    set(last, end, region.protection);
+  }
+}
+
+void PageGuard::suspend() {
+  PageGuard* const of = guard.load();
+  if (of == nullptr || !of->flags_->closed.load() || of->flags_->thread.load() != this_thread()) return;
+  of->open();
+  of->flags_->suspended.store(true);
+}
+
+bool PageGuard::is_suspended() {
+  const PageGuard* const of = guard.load();
+  return of != nullptr && of->flags_->suspended.load() && of->flags_->thread.load() == this_thread();
+}
+
+void PageGuard::resume() {
+  if (!is_suspended()) return;
+  PageGuard& of = *guard.load();
+  of.close({reinterpret_cast<std::byte*>(of.own_.begin), of.own_.end - of.own_.begin});
+}
+
+const PageGuard::Region* PageGuard::find(const void* address) const {
+  const std::uintptr_t at = number(address);
+  const auto found = std::find_if(regions_.begin(), regions_.end(), [&](const Region& region) {
+    return region.pages.begin <= at && at < region.pages.end && !(own_.begin <= at && at < own_.end);
+  });
+  return found == regions_.end() ? nullptr : &*found;
+}
+
+// In a handler of a thread that is not guarded: until the guard is open, or for a second.
+void PageGuard::wait_for_others() const {
+  constexpr int looks = 1000;
+  const timespec look{0, 1'000'000};
+  for (int i = 0; i < looks && flags_->closed.load(); ++i) ::nanosleep(&look, nullptr);
+  lift();
+}
+
+PageGuard::Fault PageGuard::judge(const void* address) {
+  const PageGuard* const of = guard.load();
+  if (of == nullptr) return Fault::other;
+  const bool guarded = of->flags_->thread.load() == this_thread();
+  const bool closed = of->flags_->closed.load();
+  while (!guarded && of->flags_->changing.load()) {
+    const timespec look{0, 100'000};
+    ::nanosleep(&look, nullptr);
+  }
+  const bool known = of->find(address) != nullptr;
+  if (known && !(guarded && closed)) {
+    // it was writable, and is as soon as the guard is open
+    of->wait_for_others();
+    return Fault::waited;
+  }
+  lift();
+  return known ? Fault::forbidden : Fault::other;
+}
+
+void PageGuard::lift() {
+  const PageGuard* const of = guard.load();
+  if (of == nullptr || !of->flags_->closed.load()) return;
+  of->protect(true);
+  of->flags_->closed.store(false);
+}
+
+std::string_view PageGuard::name_of(const void* address) {
+  const PageGuard* const of = guard.load();
+  const Region* const found = of == nullptr ? nullptr : of->find(address);
+  return found == nullptr ? std::string_view() : std::string_view(found->name);
+}
+
+}  // namespace jarol

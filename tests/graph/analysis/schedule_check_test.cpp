@@ -1,0 +1,91 @@
+// What `check` says of random sets, and what runs on their platforms do: a "yes" is never followed by a miss.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <numeric>
+
+#include "graph/analysis/check.h"
+#include "graph/analysis/execution_times.h"
+#include "graph/language/key.h"
+#include "tests/graph/analysis/random_sets.h"
+
+namespace {
+using namespace jarol;
+using analysis::ExecutionTimes, analysis::Fate, analysis::Schedule, analysis::Verdict;
+
+std::uint64_t count_of_sets() {
+  if (std::getenv("JAROL_FULL") != nullptr) return 20'000;
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_THREAD__)
+  return 400;
+#else
+  return 60;
+#endif
+}
+
+// The first activation that is late or left out within so many hyperperiods after all offsets, as "a 3"; empty: none.
+std::string first_miss(const Graph& graph, ExecutionTimes times, std::int64_t hyperperiods) {
+  std::int64_t hyperperiod = 1, begin = 0;
+  for (const Task& task : graph.tasks) {
+    hyperperiod = std::lcm(hyperperiod, task.period.count());
+    begin = std::max(begin, task.offset.count());
+  }
+  Schedule schedule = schedule_of(graph, std::move(times));
+  std::string miss;
+  std::int64_t earliest = begin + hyperperiods * hyperperiod;
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    const Task& task = graph.tasks[i];
+    for (std::int64_t k = 0; task.offset.count() + k * task.period.count() < earliest; ++k) {
+      if (schedule.fate(i, k).kind == Fate::Kind::in_time) continue;
+      miss = task.name + " " + std::to_string(k);
+      earliest = task.offset.count() + k * task.period.count();
+      break;
+    }
+  }
+  return miss;
+}
+}  // namespace
+
+TEST_SUITE("graph/analysis/schedule") {
+  TEST_CASE("where check says yes no run has a miss: not at the WCETs, nor below them") {
+    for (const Policy policy : {Policy::table, Policy::fixed_priority, Policy::edf,
+                                Policy::fixed_priority_nonpreemptive, Policy::edf_nonpreemptive, Policy::global_edf}) {
+      const std::string name = Words<Policy>::list()[static_cast<std::size_t>(policy)];
+      CAPTURE(name);
+      std::uint64_t yes = 0;
+      for (std::uint64_t seed = 0; seed < count_of_sets(); ++seed) {
+        CAPTURE(seed);
+        const Graph graph = truth::graph_of(truth::random_set(seed, policy, {.any_phasing = false}));
+        if (analysis::check(graph).verdict != Verdict::schedulable) continue;
+        ++yes;
+        REQUIRE(first_miss(graph, ExecutionTimes::wcet(graph), 3) == "");
+        for (std::uint64_t run = 0; run < 3; ++run)
+          REQUIRE(first_miss(graph, ExecutionTimes::random(graph, run), 3) == "");
+      }
+      CHECK(yes > count_of_sets() / 20);
+    }
+  }
+
+  TEST_CASE("where check finds a late activation on one core the run at the WCETs has it, and none before") {
+    for (const Policy policy : {Policy::table, Policy::fixed_priority, Policy::edf}) {
+      const std::string name = Words<Policy>::list()[static_cast<std::size_t>(policy)];
+      CAPTURE(name);
+      std::uint64_t no = 0;
+      for (std::uint64_t seed = 0; seed < count_of_sets(); ++seed) {
+        CAPTURE(seed);
+        const Graph graph = truth::graph_of(truth::random_set(
+            seed, policy, {.jitter = false, .blocking = false, .data_flow = false, .any_phasing = false, .cores = 1}));
+        const analysis::Result said = analysis::check(graph);
+        if (said.verdict != Verdict::not_schedulable) continue;
+        ++no;
+        // backlog grows by one at least from repetition to repetition, and no deadline is longer than 31
+        REQUIRE(first_miss(graph, ExecutionTimes::wcet(graph), 64) != "");
+        if (policy != Policy::table || !said.late) continue;
+        Schedule schedule = schedule_of(graph, ExecutionTimes::wcet(graph));
+        const Fate& fate = schedule.fate(said.late->task, said.late->activation);
+        REQUIRE(fate.kind == Fate::Kind::late);
+        if (fate.response) REQUIRE(*fate.response == said.late->finish - said.late->release);
+      }
+      CHECK(no > count_of_sets() / 20);
+    }
+  }
+}

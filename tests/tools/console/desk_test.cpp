@@ -1,0 +1,178 @@
+// Who steers at the pages of a console, and how a page loses that.
+#include "tools/console/desk.h"
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "distributers/messages/javiator.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+using nlohmann::json;
+using tools::console::Desk;
+namespace javiator = messages::javiator;
+
+// A desk of one operator, whose clock the test sets.
+struct Desks {
+  std::shared_ptr<distributers::ConsolePort> port =
+      std::make_shared<distributers::ConsolePort>(javiator::message_set());
+  Desk desk{{{"terminal", "JaviatorOperator", port}}};
+  Desk::Clock::time_point now{};
+
+  void ask(std::uint64_t page, const std::string& message) { desk.obey(page, json::parse(message), now); }
+  void take(std::uint64_t page) {
+    ask(page, R"({"do": "take", "desk": "terminal", "as": "me", "sticks": {"roll": 0}})");
+  }
+  void send(std::uint64_t page, int sequence, int roll) {
+    ask(page, R"({"do": "send", "desk": "terminal", "message": "COMMAND_DATA", "sequence": )" +
+                  std::to_string(sequence) + R"(, "fields": {"roll": )" + std::to_string(roll) + "}}");
+  }
+  // who commands
+  json commander() { return desk.news(now)["terminal"]["commander"]; }
+  // the rolls that the run gets
+  std::vector<int> taken() {
+    struct Rolls : messages::Receiver {
+      void receive(messages::MessageRef message) override {
+        if (const auto* command = message.as<javiator::CommandData>()) all.push_back(command->roll);
+      }
+      std::vector<int> all;
+    } rolls;
+    port->receive(rolls);
+    return rolls.all;
+  }
+};
+}  // namespace
+
+TEST_SUITE("console/desk") {
+  TEST_CASE("pages learn which operators are at the console") {
+    Desks desks;
+    CHECK(json(desks.desk.describe()) ==
+          json::parse(R"([{"name": "terminal", "type": "JaviatorOperator", "messages": "javiator"}])"));
+    CHECK(desks.desk.news(desks.now).is_null());
+  }
+
+  TEST_CASE("who takes command steers, and the run gets its messages in their order") {
+    Desks desks;
+    desks.take(7);
+    CHECK(desks.commander() == "me");
+    CHECK(desks.desk.news(desks.now).is_null());
+    desks.send(7, 1, 10);
+    desks.send(7, 2, 20);
+    CHECK(desks.taken() == std::vector<int>{10, 20});
+  }
+
+  TEST_CASE("a message that is no newer than another was held up, and is not taken") {
+    Desks desks;
+    desks.take(7);
+    desks.send(7, 5, 10);
+    desks.send(7, 5, 20);
+    desks.send(7, 4, 30);
+    desks.send(7, 6, 40);
+    CHECK(desks.taken() == std::vector<int>{10, 40});
+  }
+
+  TEST_CASE("who does not command sends nothing") {
+    Desks desks;
+    CHECK_THROWS_WITH_AS(desks.send(7, 1, 10), "this page does not command 'terminal'; take it first",
+                         std::invalid_argument);
+    desks.take(7);
+    CHECK_THROWS_WITH_AS(desks.send(8, 1, 10), "this page does not command 'terminal'; take it first",
+                         std::invalid_argument);
+    CHECK(desks.taken().empty());
+  }
+
+  TEST_CASE("a stick that is not centred does not take over") {
+    Desks desks;
+    CHECK_THROWS_WITH_AS(
+        desks.ask(7, R"({"do": "take", "desk": "terminal", "as": "me", "sticks": {"roll": 0.04, "pitch": -0.4}})"),
+        "stick 'pitch' is at -0.4; centre it to take over", std::invalid_argument);
+    CHECK_THROWS_WITH_AS(desks.ask(7, R"({"do": "take", "desk": "terminal", "as": "me"})"),
+                         "expected the sticks' places as \"sticks\", as in {\"roll\": 0}", std::invalid_argument);
+    CHECK(desks.desk.news(desks.now).is_null());
+  }
+
+  TEST_CASE("a second page takes command only once the first has let go, has gone, or is silent") {
+    Desks desks;
+    desks.take(7);
+    CHECK_THROWS_WITH_AS(desks.take(8), "another page commands 'terminal'; it has to release it, or to fall silent",
+                         std::invalid_argument);
+    SUBCASE("it lets go") { desks.ask(7, R"({"do": "release", "desk": "terminal"})"); }
+    SUBCASE("it is gone") { desks.desk.leave(7); }
+    SUBCASE("it is silent") {
+      desks.now += Desk::patience + 1ms;
+      desks.desk.news(desks.now);
+    }
+    CHECK_NOTHROW(desks.take(8));
+    CHECK_NOTHROW(desks.send(8, 1, 10));
+    CHECK_THROWS_AS(desks.send(7, 9, 10), std::invalid_argument);
+  }
+
+  TEST_CASE("all pages learn why nobody commands any more") {
+    Desks desks;
+    desks.take(7);
+    desks.desk.news(desks.now);
+    std::string why;
+    SUBCASE("released") {
+      desks.ask(7, R"({"do": "release", "desk": "terminal"})");
+      why = "it was released";
+    }
+    SUBCASE("gone") {
+      desks.desk.leave(7);
+      why = "the page that commanded is gone";
+    }
+    SUBCASE("silent") {
+      desks.now += Desk::patience;
+      CHECK(desks.desk.news(desks.now).is_null());
+      desks.now += 1ms;
+      why = "the page that commanded was silent";
+    }
+    CHECK(json(desks.desk.news(desks.now)) == json{{"terminal", {{"commander", nullptr}, {"why", why}}}});
+  }
+
+  TEST_CASE("who is heard, with a command or without, goes on commanding") {
+    Desks desks;
+    desks.take(7);
+    for (int i = 1; i < 10; ++i) {
+      desks.now += Desk::patience;
+      if (i % 2 == 0)
+        desks.send(7, i, 0);
+      else
+        desks.ask(7, R"({"do": "alive", "desk": "terminal"})");
+      desks.desk.news(desks.now);
+    }
+    CHECK_NOTHROW(desks.send(7, 100, 0));
+  }
+
+  TEST_CASE("what makes no sense is said") {
+    Desks desks;
+    desks.take(7);
+    const auto refused = [&](const std::string& message, const char* why) {
+      CHECK_THROWS_WITH_AS(desks.ask(7, message), why, std::invalid_argument);
+    };
+    refused(R"({"do": "take", "desk": "neptus"})", "there is no desk of 'neptus'; there are: terminal");
+    refused(R"({"do": "take", "desk": 1})", "expected a text as \"desk\"");
+    refused(R"({"do": "fly", "desk": "terminal"})",
+            "there is no 'fly' to do at a desk; there are: alive, release, send, take");
+    refused(R"({"do": "send", "desk": "terminal", "message": "FLY", "sequence": 1})", "javiator has no message 'FLY'");
+    refused(R"({"do": "send", "desk": "terminal", "message": "FLY"})", "expected a number that grows as \"sequence\"");
+    refused(R"({"do": "send", "desk": "terminal", "message": "SHUT_DOWN", "sequence": -1})",
+            "expected a number that grows as \"sequence\"");
+    CHECK_THROWS_WITH_AS(desks.send(7, 1, 1'000'000), doctest::Contains("COMMAND_DATA: "), std::invalid_argument);
+    CHECK(desks.taken().empty());
+  }
+
+  TEST_CASE("what a run that is halted does not take is not kept for ever, and is said to be lost") {
+    Desks desks;
+    desks.take(7);
+    constexpr int most = distributers::ConsolePort::most_packets;
+    for (int i = 1; i <= most; ++i) desks.send(7, i, i);
+    CHECK_THROWS_WITH_AS(desks.send(7, most + 1, 0), "COMMAND_DATA is lost: the run has not taken what was sent before",
+                         std::invalid_argument);
+    CHECK(desks.taken().size() == most);
+    CHECK(desks.port->refused() == 1);
+    CHECK_NOTHROW(desks.send(7, most + 1, 0));
+  }
+}

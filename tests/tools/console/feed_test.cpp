@@ -1,0 +1,167 @@
+// From the recorder's thread to pages: bounded, evenly thinned, counted.
+#include "tools/console/feed.h"
+
+#include <doctest/doctest.h>
+
+#include "graph/values/type_of.h"
+#include "tools/console/history.h"
+#include "tools/console/samples_json.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+using tools::console::Batch;
+using tools::console::Feed;
+using tools::console::History;
+using tools::console::SamplesJson;
+
+std::vector<std::int64_t> instants_of(const Batch& batch, std::size_t output = 0) {
+  std::vector<std::int64_t> all;
+  for (const Duration instant : batch.samples[output].instants) all.push_back(instant.count());
+  return all;
+}
+
+void take(Feed& feed, std::int64_t from, std::int64_t to) {
+  for (std::int64_t i = from; i < to; ++i) {
+    const double value = 10.0 * static_cast<double>(i);
+    feed.take(Duration(i), 0, &value);
+  }
+}
+
+struct Mixed {
+  enum class Word : std::uint8_t { zero, one };
+  bool is = true;
+  float half = 0.1F;
+  double whole = 0.1;
+  std::uint64_t large = 18446744073709551615U;
+  Word word = Word::one;
+  std::array<std::int32_t, 2> two{-1, 2};
+  static constexpr auto fields() {
+    using M = Mixed;
+    return describe(field<&M::is>(), field<&M::half>("m"), field<&M::whole>(), field<&M::large>(), field<&M::word>(),
+                    field<&M::two>());
+  }
+};
+constexpr auto enumerators(Mixed::Word) {
+  return std::array<Enumerator<Mixed::Word>, 2>{{{"zero", Mixed::Word::zero}, {"one", Mixed::Word::one}}};
+}
+}  // namespace
+
+TEST_SUITE("console/feed") {
+  TEST_CASE("what comes is there once, in order") {
+    Feed feed({&type_of<double>()}, 8);
+    CHECK(feed.take_batch().empty());
+    take(feed, 1, 4);
+    Batch batch = feed.take_batch();
+    CHECK(instants_of(batch) == std::vector<std::int64_t>{1, 2, 3});
+    CHECK(*static_cast<const double*>(batch.samples[0].values[2].data()) == 30.0);
+    CHECK(batch.newest() == 3ns);
+    CHECK(batch.thinned == 0);
+    CHECK(feed.take_batch().empty());
+  }
+
+  TEST_CASE("beyond its room every second sample is left out and counted, the newest is there always") {
+    Feed feed({&type_of<double>()}, 4);
+    take(feed, 0, 5);
+    Batch batch = feed.take_batch();
+    CHECK(instants_of(batch) == std::vector<std::int64_t>{0, 2, 4});
+    CHECK(batch.thinned == 2);
+    take(feed, 0, 1000);
+    batch = feed.take_batch();
+    const std::vector<std::int64_t> kept = instants_of(batch);
+    REQUIRE(kept == std::vector<std::int64_t>{0, 512, 999});
+    CHECK(batch.thinned + kept.size() == 1000);
+    CHECK(*static_cast<const double*>(batch.samples[0].values[2].data()) == 9990.0);
+  }
+
+  TEST_CASE("outputs that nothing is known of, and those beyond the last, are left alone") {
+    Feed feed({nullptr, &type_of<double>()}, 4);
+    const double value = 1;
+    feed.take(1ns, 0, &value);
+    feed.take(1ns, 7, &value);
+    CHECK(feed.wants(0));
+    CHECK_FALSE(feed.wants(7));
+    CHECK(feed.take_batch().empty());
+  }
+
+  TEST_CASE("events beyond a thousand are counted") {
+    Feed feed({}, 4);
+    for (std::size_t i = 0; i < Feed::most_events + 3; ++i)
+      feed.take_event({RunEvent::Kind::fault, Duration(i), 2, 5, "was late"});
+    const Batch batch = feed.take_batch();
+    REQUIRE(batch.events.size() == Feed::most_events);
+    CHECK(batch.events[0].cause == "was late");
+    CHECK(batch.events[0].task == 2);
+    CHECK(batch.lost_events == 3);
+  }
+
+  TEST_CASE("values are numbers to the bit, in the order of their leaves") {
+    const Type& type = type_of<Mixed>();
+    Feed feed({&type}, 4);
+    const Mixed value;
+    feed.take(1500ms, 0, &value);
+    const SamplesJson json({&type});
+    const auto parts = json.parts_of(feed.take_batch(), 1000);
+    REQUIRE(parts.size() == 1);
+    CHECK(parts[0] == "[0,1.5,1,0.1,0.1,18446744073709551615,1,-1,2]");
+  }
+
+  TEST_CASE("what is no number in JSON is null") {
+    std::string text;
+    const std::vector<Leaf> leaves = leaves_of(type_of<double>());
+    const double infinite = std::numeric_limits<double>::infinity();
+    SamplesJson::append(text, leaves, &infinite);
+    CHECK(text == "null");
+  }
+
+  TEST_CASE("many samples come in parts, none of them lost") {
+    Feed feed({&type_of<double>()}, 1000);
+    take(feed, 0, 500);
+    const SamplesJson json({&type_of<double>()});
+    const auto parts = json.parts_of(feed.take_batch(), 100);
+    CHECK(parts.size() > 10);
+    std::size_t samples = 0;
+    for (const std::string& part : parts)
+      samples += static_cast<std::size_t>(std::count(part.begin(), part.end(), '['));
+    CHECK(samples == 500);
+  }
+}
+
+TEST_SUITE("console/history") {
+  TEST_CASE("a page that comes late gets all that is there") {
+    History history(100);
+    history.add("one");
+    history.add("two");
+    History::Place place = history.begin();
+    CHECK(*history.next(place) == "one");
+    CHECK(*history.next(place) == "two");
+    CHECK(history.next(place) == nullptr);
+    history.add("three");
+    CHECK(*history.next(place) == "three");
+    CHECK(place.missed == 0);
+  }
+
+  TEST_CASE("the oldest go when there is no room, and who had not got them is informed") {
+    History history(10);
+    history.add("aaaa");
+    History::Place place = history.begin();
+    history.add("bbbb");
+    history.add("cccc");
+    CHECK(*history.next(place) == "bbbb");
+    CHECK(place.missed == 1);
+    history.add(std::string(50, 'd'));
+    CHECK(history.next(place)->size() == 50);
+    CHECK(place.missed == 2);
+    CHECK(history.next(place) == nullptr);
+  }
+
+  TEST_CASE("a page that had caught up and falls behind goes on with the newest") {
+    History history(1 << 20);
+    History::Place slow = history.begin(), late = history.begin();
+    CHECK(history.next(slow) == nullptr);
+    for (std::uint64_t i = 0; i <= History::most_behind; ++i) history.add(std::to_string(i));
+    CHECK(*history.next(slow) == std::to_string(History::most_behind));
+    CHECK(slow.missed == History::most_behind);
+    CHECK(*history.next(late) == "0");
+  }
+}

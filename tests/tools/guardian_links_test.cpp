@@ -1,0 +1,76 @@
+// What a guardian sends over which link: those of one program, each with its own peer.
+#include <doctest/doctest.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "distributers/guardian/guardian.h"
+#include "distributers/links/descriptor.h"
+#include "distributers/messages/imc.h"
+#include "distributers/messages/javiator.h"
+
+namespace {
+using namespace jarol;
+using distributers::Descriptor;
+
+// A way to a peer, and what the peer gets.
+struct Way {
+  Way() {
+    int ends[2];
+    REQUIRE(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0);
+    ours = Descriptor(ends[0]);
+    theirs = Descriptor(ends[1]);
+  }
+  // Until the other end is gone.
+  std::string all() {
+    ours.close();
+    std::string text;
+    char room[4096];
+    pollfd ready{theirs.get(), POLLIN, 0};
+    while (::poll(&ready, 1, 20'000) > 0) {
+      const ssize_t length = ::recv(theirs.get(), room, sizeof room, 0);
+      if (length <= 0) break;
+      text.append(room, static_cast<std::size_t>(length));
+    }
+    return text;
+  }
+  Descriptor ours, theirs;
+};
+
+std::vector<std::byte> bytes_of(const std::string& text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+std::string times(int count, const std::string& text) {
+  std::string all;
+  for (int i = 0; i < count; ++i) all += text;
+  return all;
+}
+}  // namespace
+
+TEST_SUITE("tools/guardian_links") {
+  TEST_CASE("a link of a set that only a plugin knows gets its packets, and so do the links beside it") {
+    messages::MessageSet of_plugin = messages::javiator::message_set();
+    of_plugin.name = "rover";
+    const std::vector<std::vector<std::byte>> to_rover{bytes_of("brake")}, to_helicopter{bytes_of("motors off")},
+        to_lamp{bytes_of("dark")};
+    std::vector<Way> ways(3);
+    auto guardian = std::make_unique<distributers::Guardian>(JAROL_COMMAND);
+    const std::vector<distributers::Holder*> holders{
+        guardian->add(of_plugin, "rover's line", to_rover),
+        guardian->add(messages::javiator::message_set(), "helicopter's line", to_helicopter),
+        guardian->add(of_plugin, "lamp's line", to_lamp)};
+    guardian->await_ready();
+    for (std::size_t i = 0; i < ways.size(); ++i) holders[i]->hold(ways[i].ours.get(), {});
+    guardian->arm();
+    guardian.reset();  // as if the program were gone
+    // again, as datagrams may be lost
+    CHECK(ways[0].all() == times(5, "brake"));
+    CHECK(ways[1].all() == times(5, "motors off"));
+    CHECK(ways[2].all() == times(5, "dark"));
+  }
+}

@@ -1,0 +1,84 @@
+// jarol console: a recording as people see it on a page.
+#include <fmt/format.h>
+
+#include <memory>
+#include <thread>
+
+#include "distributers/session/graph_run.h"
+#include "distributers/session/recorded_truth.h"
+#include "distributers/session/replay.h"
+#include "runtime/record/replayed_values.h"
+#include "tools/commands/commands.h"
+#include "tools/console/console.h"
+#include "tools/console/options.h"
+#include "tools/log/recorded_graph.h"
+#include "tools/report/command_line.h"
+#include "tools/run/interrupt.h"
+
+namespace jarol::tools {
+namespace {
+
+// Of each output, evenly spread: as much as a screen is wide, and a few times as much for those who look closely.
+constexpr std::size_t most_samples = 8192;
+
+struct Options {
+  std::string log;
+  std::string file;
+  ConsoleArguments console;
+};
+
+std::string text_of(const RecordedRun& log, const Comparison& comparison) {
+  std::string text = "recorded    " + log.header().file + " on the " + log.header().clock + " clock\n";
+  if (!log.end()) text += "it breaks off; how the run ended is not known\n";
+  if (const auto& end = log.end())
+    text += fmt::format("activations {}, instants {}, faults {}\ndigest      0x{:016x}\n", end->activations,
+                        end->instants, end->faults, end->digest);
+  if (comparison.standing == Standing::diverged)
+    text += "DIVERGED    what is shown is not what the run did; jarol replay shows from where\n";
+  return text;
+}
+
+int show(const Options& options) {
+  RecordedRun log(options.log);
+  Loaded loaded = load_recorded_graph(log.recording(), options.file, "jarol console", true);
+  const std::vector<Miss> misses = log.begin(*loaded.graph);
+  loaded.channels = recorded_channels(loaded, log);
+  console::Console console(
+      {{*loaded.graph, options.log, "recorded", log.covered(), types_of_truth(loaded)}, server_of(options.console)},
+      most_samples);
+  GraphRun run(std::move(loaded), {.sinks = {&console.feed()}, .misses = misses, .truth = true});
+  const Interruptible interruptible;
+  ReplayRun replay(run.executor(), log);
+  const RunEnd end = attend(
+      replay, [] {}, Interruptible::wish);
+  if (end.failure) std::rethrow_exception(end.failure);
+  if (end.hangs) end_at_once(exit_unfinished);
+  run.sinks().close();
+  console.end(text_of(log, replay.comparison));
+  if (Interruptible::signal() == 0) {
+    console.open();
+    print_url(console.url());
+  }
+  // until Ctrl-C
+  while (Interruptible::signal() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  return exit_of_signal(Interruptible::signal());
+}
+
+}  // namespace
+
+void add_console(CommandLine& line, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  Command* command = line.add_subcommand(
+      "console",
+      "Look at a recording of jarol run --record or --log on a web page, whose address is printed; as with jarol "
+      "replay it\n"
+      "is run again for that. Ctrl-C ends it. A run that goes on is looked at by jarol run --console.\n"
+      "Exit code: 2 bad input, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
+  command->add_option("FILE", options->log, "The recording of a run")->file({"mcap"})->required();
+  command->add_option("GRAPH", options->file, "The graph, where it names plugins; default: as the run has read it")
+      ->file({"yaml"});
+  add_server_options(*command, options->console);
+  command->callback([options, &exit_code] { exit_code = show(*options); });
+}
+
+}  // namespace jarol::tools

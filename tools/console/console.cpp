@@ -1,0 +1,146 @@
+#include "tools/console/console.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "tools/console/seconds.h"
+
+namespace jarol::tools::console {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Of samples in one message.
+constexpr std::size_t most_bytes = std::size_t{256} << 10;
+
+std::string dump(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
+
+std::vector<std::string> names_of_tasks(const Graph& graph) {
+  std::vector<std::string> names;
+  for (const Task& task : graph.tasks) names.push_back(task.name);
+  return names;
+}
+
+Json event_json(const FeedEvent& event, const std::vector<std::string>& tasks) {
+  Json json{{"t", seconds(event.instant)}};
+  switch (event.kind) {
+    case RunEvent::Kind::fault:
+      json["kind"] = "fault";
+      json["task"] = tasks[event.task];
+      json["activation"] = event.activation;
+      json["text"] = event.cause;
+      break;
+    case RunEvent::Kind::rest_begun:
+      json["kind"] = "rest";
+      json["text"] = "the vehicle is brought to rest";
+      break;
+    case RunEvent::Kind::at_rest:
+      json["kind"] = "rest";
+      json["text"] = "the vehicle is at rest";
+      break;
+  }
+  return json;
+}
+
+nlohmann::json parse(const std::string& message) {
+  auto json = nlohmann::json::parse(message, nullptr, false);
+  if (!json.is_object() || !json.contains("do") || !json["do"].is_string())
+    throw std::invalid_argument("expected an object as in {\"do\": \"pause\"}");
+  return json;
+}
+
+Json hello_of(const Watched& watched, const Desk& desk) {
+  Json hello = describe_run(watched.run);
+  hello["paced"] = watched.pace != nullptr;
+  if (!desk.empty()) hello["desks"] = desk.describe();
+  return hello;
+}
+
+}  // namespace
+
+Console::Console(Watched watched, std::size_t most_at_once)
+    : watched_(std::move(watched)),
+      feed_(types_of_run(watched_.run.graph, watched_.run.true_types), most_at_once),
+      samples_(types_of_run(watched_.run.graph, watched_.run.true_types)),
+      tasks_(names_of_tasks(watched_.run.graph)),
+      desk_(watched_.operators) {}
+
+void Console::open() {
+  server_ = std::make_unique<Server>(
+      watched_.server, dump({{"hello", hello_of(watched_, desk_)}}), [this] { return next_messages(); },
+      [this](std::uint64_t page, const std::string& message) { return answer(page, message); },
+      [this](std::uint64_t page) { desk_.leave(page); });
+}
+
+void Console::end(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  ended_ = text;
+}
+
+// Samples are messages of their own, so that none is long; what stands before them is there always.
+std::vector<std::string> Console::next_messages() {
+  Batch batch = feed_.take_batch();
+  const Json desk = desk_.news(Desk::Clock::now());
+  const std::lock_guard lock(mutex_);
+  now_ = std::max(now_, batch.newest());
+  const std::pair shown(now_, watched_.pace != nullptr ? watched_.pace->state() : Pace::State{});
+  thinned_ += batch.thinned;
+  std::vector<std::string> messages;
+  if (!batch.empty() || shown_ != shown || !desk.is_null()) {
+    Json json{{"now", seconds(now_)}};
+    if (watched_.pace != nullptr) {
+      json["paused"] = shown.second.paused;
+      json["speed"] = shown.second.speed ? Json(*shown.second.speed) : Json("max");
+    }
+    if (!desk.is_null()) json["desk"] = desk;
+    if (thinned_ > 0) json["thinned"] = thinned_;
+    if (batch.lost_events > 0) json["lost_events"] = batch.lost_events;
+    for (const FeedEvent& event : batch.events) json["events"].push_back(event_json(event, tasks_));
+    std::string head = dump(json);
+    head.pop_back();
+    for (const std::string& part : samples_.parts_of(batch, most_bytes)) {
+      messages.push_back(head + ",\"samples\":[" + part + "]}");
+      head = "{\"now\":" + json["now"].dump();
+    }
+    shown_ = shown;
+  }
+  if (ended_) messages.push_back(dump({{"ended", *std::exchange(ended_, std::nullopt)}}));
+  return messages;
+}
+
+std::string Console::answer(std::uint64_t page, const std::string& message) {
+  const nlohmann::json json = parse(message);
+  if (json.contains("desk")) {
+    desk_.obey(page, json, Desk::Clock::now());
+  } else if (watched_.pace != nullptr) {
+    obey(*watched_.pace, message);
+  } else {
+    throw std::invalid_argument("this run goes on by itself; only one on the virtual clock can be paced and paused");
+  }
+  return "";
+}
+
+void obey(Pace& pace, const std::string& message) {
+  const nlohmann::json json = parse(message);
+  const std::string what = json["do"];
+  if (what == "pause") return pace.pause();
+  if (what == "go_on") return pace.go_on();
+  if (what == "step") {
+    const auto instants = json.value("instants", nlohmann::json(1));
+    if (!instants.is_number_unsigned() || instants < 1 || instants > 10000)
+      throw std::invalid_argument("'instants' of step is no whole number from 1 to 10000");
+    return pace.step(instants);
+  }
+  if (what == "speed") {
+    const auto speed = json.value("speed", nlohmann::json());
+    if (speed == "max") return pace.set_speed(std::nullopt);
+    if (!speed.is_number() || !(speed >= Pace::least && speed <= Pace::most))
+      throw std::invalid_argument("'speed' is no number from 0.001 to 1000, nor \"max\"");
+    return pace.set_speed(speed.get<double>());
+  }
+  throw std::invalid_argument("there is no '" + what + "' to do; there are: pause, go_on, step, speed");
+}
+
+}  // namespace jarol::tools::console

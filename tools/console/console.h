@@ -1,0 +1,61 @@
+// A run, or a recording of one, as people see it on a page: what joins its feed, its pace and the server.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "tools/console/describe.h"
+#include "tools/console/desk.h"
+#include "tools/console/feed.h"
+#include "tools/console/pace.h"
+#include "tools/console/samples_json.h"
+#include "tools/console/server.h"
+
+namespace jarol::tools::console {
+
+struct Watched {
+  Described run;
+  ServerOptions server;
+  Pace* pace = nullptr;                   // of a run on the virtual clock; outlives the console
+  std::vector<DeskOperator> operators{};  // who are at its pages
+};
+
+class Console {
+ public:
+  /// All that is named outlives it. Of each output at most so many samples go to pages in one thirtieth of a second.
+  explicit Console(Watched watched, std::size_t most_at_once = 64);
+
+  /// From now on pages are served, with what came before, too. Throws where the server can't be had, or
+  /// --console-listen is wrong.
+  void open();
+  /// Once it is open.
+  const std::string& url() const { return server_->url(); }
+  /// For whoever looks on at the run.
+  Feed& feed() { return feed_; }
+
+  /// The run has ended, as these lines say.
+  void end(const std::string& text);
+
+ private:
+  std::vector<std::string> next_messages();
+  std::string answer(std::uint64_t page, const std::string& message);
+
+  const Watched watched_;
+  Feed feed_;
+  const SamplesJson samples_;
+  const std::vector<std::string> tasks_;  // names
+  Desk desk_;                             // on the server's thread
+  std::mutex mutex_;
+  std::optional<std::string> ended_;  // and is not said yet
+  std::uint64_t thinned_ = 0;
+  Duration now_{};  // the newest instant that anything is known of
+  std::optional<std::pair<Duration, Pace::State>> shown_;
+  std::unique_ptr<Server> server_;  // last: its thread calls what stands above
+};
+
+/// What a page may ask for, as in {"do": "pause"}. Throws std::invalid_argument.
+void obey(Pace& pace, const std::string& message);
+
+}  // namespace jarol::tools::console

@@ -1,0 +1,22 @@
+// The first message that a page gets: all that it needs to know of a run, from the descriptions of its graph.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "graph/model/graph.h"
+
+namespace jarol::tools::console {
+
+struct Described {
+  const Graph& graph;
+  std::string file;                       // as the user called it
+  std::string clock;                      // virtual, real or recorded
+  Duration until{};                       // the greatest there is: until it is ended
+  std::vector<const Type*> true_types{};  // per distributer, null: nothing is known of a vehicle
+};
+
+nlohmann::ordered_json describe_run(const Described& run);
+
+}  // namespace jarol::tools::console

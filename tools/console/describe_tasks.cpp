@@ -1,0 +1,103 @@
+#include "tools/console/describe_tasks.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "graph/analysis/time_line.h"
+#include "graph/language/quantities.h"
+#include "graph/values/bind.h"
+#include "tools/console/leaf_text.h"
+#include "tools/console/seconds.h"
+#include "tools/report/value_json.h"
+
+namespace jarol::tools::console {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double seconds_of(std::int64_t nanoseconds) { return seconds(Duration(nanoseconds)); }
+
+const char* kind_of(const Type& type) {
+  switch (type.kind) {
+    case Kind::boolean: return "bool";
+    case Kind::enumeration: return "enum";
+    case Kind::signed_integer:
+    case Kind::unsigned_integer: return "integer";
+    case Kind::floating: return "number";
+    case Kind::duration:
+    case Kind::array:
+    case Kind::structure:
+    case Kind::sequence:
+    case Kind::string: return "text";
+  }
+  return "";
+}
+
+// As a graph says it.
+std::string text_of_value(const Type& type, const void* value) {
+  if (type.kind == Kind::duration) return duration_text(Duration(read_integer(type, value)));
+  const Json json = to_json(type, value);
+  return json.is_string() ? json.get<std::string>() : json.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+Json parameters_json(const Task& task) {
+  auto parameters = Json::array();
+  const Type& type = *task.task_class->parameters;
+  const Value defaults(type);
+  for (const Leaf& leaf : leaves_of(type)) {
+    const auto text_in = [&](const Value& value) {
+      return text_of_value(*leaf.type, static_cast<const std::byte*>(value.data()) + leaf.offset);
+    };
+    Json json{{"path", leaf.path},
+              {"kind", kind_of(*leaf.type)},
+              {"unit", leaf.unit},
+              {"value", text_in(task.parameters)},
+              {"default", text_in(defaults)}};
+    if (const std::string text = text_of_leaf(type, leaf.path); !text.empty()) json["text"] = text;
+    for (const auto& [name, number] : leaf.type->enumerators) json["words"].push_back(name);
+    parameters.push_back(std::move(json));
+  }
+  return parameters;
+}
+
+Json task_json(const Task& task) {
+  Json json{{"name", task.name},
+            {"type", task.task_class->name},
+            {"period", seconds(task.period)},
+            {"offset", seconds(task.offset)},
+            {"deadline", seconds(task.deadline)},
+            {"parameters", parameters_json(task)}};
+  if (task.let) json["let"] = seconds(*task.let);
+  if (task.wcet) json["wcet"] = seconds(*task.wcet);
+  return json;
+}
+
+Json schedule_json(const Graph& graph, const analysis::Result& result) {
+  const analysis::TimeLine line = analysis::time_line_of(analysis::system_of(graph), result);
+  const bool repeats = std::all_of(graph.tasks.begin(), graph.tasks.end(),
+                                   [&](const Task& t) { return line.until % t.period.count() == 0; });
+  auto slices = Json::array();
+  for (const analysis::Slice& slice : line.slices)
+    slices.push_back({slice.task, seconds_of(slice.begin), seconds_of(slice.end)});
+  return {{"until", seconds_of(line.until)}, {"repeats", repeats}, {"slices", std::move(slices)}};
+}
+
+}  // namespace
+
+void describe_tasks(const Graph& graph, Json& to) {
+  const analysis::Result result = analysis::check(graph);
+  auto& tasks = to["tasks"] = Json::array();
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    Json json = task_json(graph.tasks[i]);
+    if (result.response.size() > i && result.response[i])
+      json["slack"] = seconds(graph.tasks[i].deadline - Duration(*result.response[i]));
+    if (result.core.size() > i && result.core[i]) json["core"] = *result.core[i];
+    tasks.push_back(std::move(json));
+  }
+  to["verdict"] = {{"kind", word_of(result.verdict)}, {"reason", result.reason}};
+  const bool stated = std::all_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return t.wcet; });
+  if (stated && !graph.tasks.empty() && result.core.size() == graph.tasks.size())
+    to["schedule"] = schedule_json(graph, result);
+}
+
+}  // namespace jarol::tools::console

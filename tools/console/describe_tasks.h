@@ -1,0 +1,13 @@
+// The tasks of a graph as a page gets them: when they run, whether that holds, and what they were given.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "graph/model/graph.h"
+
+namespace jarol::tools::console {
+
+/// Adds "tasks", "verdict", and "schedule" where each task has a WCET.
+void describe_tasks(const Graph& graph, nlohmann::ordered_json& to);
+
+}  // namespace jarol::tools::console

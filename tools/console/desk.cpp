@@ -1,0 +1,132 @@
+#include "tools/console/desk.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "distributers/messages/json.h"
+#include "graph/language/problems.h"
+
+namespace jarol::tools::console {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string text_of(const Json& message, const char* key) {
+  const auto found = message.find(key);
+  if (found == message.end() || !found->is_string())
+    throw std::invalid_argument(fmt::format("expected a text as \"{}\"", key));
+  return *found;
+}
+
+// What a take-over could jerk the vehicle by.
+void require_centred(const Json& message) {
+  const auto sticks = message.find("sticks");
+  if (sticks == message.end() || !sticks->is_object())
+    throw std::invalid_argument("expected the sticks' places as \"sticks\", as in {\"roll\": 0}");
+  for (const auto& [name, place] : sticks->items())
+    if (!place.is_number() || !(std::abs(place.get<double>()) <= Desk::centred))
+      throw std::invalid_argument(fmt::format("stick '{}' is at {}; centre it to take over", name, place.dump()));
+}
+
+}  // namespace
+
+Desk::Desk(std::vector<DeskOperator> operators) {
+  for (DeskOperator& each : operators) seats_.push_back({std::move(each)});
+}
+
+nlohmann::ordered_json Desk::describe() const {
+  auto desks = nlohmann::ordered_json::array();
+  for (const Seat& seat : seats_)
+    desks.push_back({{"name", seat.of.name}, {"type", seat.of.type}, {"messages", seat.of.port->message_set().name}});
+  return desks;
+}
+
+void Desk::obey(std::uint64_t page, const Json& message, Clock::time_point now) {
+  const std::string what = text_of(message, "do");
+  Seat& seat = find(message);
+  if (what == "take") {
+    take(seat, page, message);
+  } else if (seat.page != page) {
+    throw std::invalid_argument(fmt::format("this page does not command '{}'; take it first", seat.of.name));
+  } else if (what == "send") {
+    send(seat, message);
+  } else if (what == "release") {
+    free(seat, "it was released");
+  } else if (what != "alive") {
+    throw std::invalid_argument(
+        fmt::format("there is no '{}' to do at a desk; there are: alive, release, send, take", what));
+  }
+  seat.heard = now;
+}
+
+void Desk::leave(std::uint64_t page) {
+  for (Seat& seat : seats_)
+    if (seat.page == page) free(seat, "the page that commanded is gone");
+}
+
+nlohmann::ordered_json Desk::news(Clock::time_point now) {
+  for (Seat& seat : seats_)
+    if (seat.page && now - seat.heard > patience) free(seat, "the page that commanded was silent");
+  if (!std::exchange(changed_, false)) return {};
+  nlohmann::ordered_json news;
+  for (const Seat& seat : seats_) {
+    auto& its = news[seat.of.name];
+    its["commander"] = seat.page ? nlohmann::ordered_json(seat.as) : nlohmann::ordered_json();
+    if (!seat.why.empty()) its["why"] = seat.why;
+  }
+  return news;
+}
+
+Desk::Seat& Desk::find(const Json& message) {
+  const std::string name = text_of(message, "desk");
+  std::vector<std::string> names;
+  for (Seat& seat : seats_) {
+    if (seat.of.name == name) return seat;
+    names.push_back(seat.of.name);
+  }
+  throw std::invalid_argument(fmt::format("there is no desk of '{}'; there are: {}", name, list_of(names)));
+}
+
+void Desk::take(Seat& seat, std::uint64_t page, const Json& message) {
+  if (seat.page && seat.page != page)
+    throw std::invalid_argument(
+        fmt::format("another page commands '{}'; it has to release it, or to fall silent", seat.of.name));
+  require_centred(message);
+  seat.as = text_of(message, "as");
+  if (seat.as.size() > 64) throw std::invalid_argument("what a page calls itself has at most 64 characters");
+  seat.page = page;
+  seat.sequence = 0;
+  seat.why.clear();
+  changed_ = true;
+}
+
+// One that is no newer than another was held up on its way: what it commands is past.
+void Desk::send(Seat& seat, const Json& message) {
+  const auto sequence = message.find("sequence");
+  if (sequence == message.end() || !sequence->is_number_unsigned())
+    throw std::invalid_argument("expected a number that grows as \"sequence\"");
+  if (sequence->get<std::uint64_t>() <= seat.sequence) return;
+  const messages::MessageSet& set = seat.of.port->message_set();
+  const std::string abbrev = text_of(message, "message");
+  const messages::MessageForm* const form = set.find(abbrev);
+  if (form == nullptr) throw std::invalid_argument(fmt::format("{} has no message '{}'", set.name, abbrev));
+  messages::Message made(*form);
+  std::string why;
+  const auto fields = message.find("fields");
+  if (fields != message.end() && !messages::from_json(fields->dump(), made, why))
+    throw std::invalid_argument(fmt::format("{}: {}", abbrev, why));
+  if (!seat.of.port->send(made, why)) throw std::invalid_argument(fmt::format("{} is lost: {}", abbrev, why));
+  seat.sequence = *sequence;
+}
+
+void Desk::free(Seat& seat, const std::string& why) {
+  seat.page.reset();
+  seat.why = why;
+  changed_ = true;
+}
+
+}  // namespace jarol::tools::console

@@ -1,0 +1,33 @@
+// The options of runs that people watch on a page.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tools/console/server.h"
+
+namespace jarol::tools {
+
+class Command;
+
+struct ConsoleArguments {
+  std::string port;  // empty: there is no console; "true": any port
+  std::string listen = "127.0.0.1";
+  std::string pace;  // empty: as --console has it
+
+  bool wanted() const { return !port.empty(); }
+};
+
+/// Of a run.
+void add_console_options(Command& command, ConsoleArguments& arguments);
+/// Where nothing but a page is wanted.
+void add_server_options(Command& command, ConsoleArguments& arguments);
+/// Refuses those that would have no effect. Throws std::invalid_argument.
+void require_effect(const Command& command, const ConsoleArguments& arguments, bool virtual_clock);
+
+console::ServerOptions server_of(const ConsoleArguments& arguments);
+
+/// A line that says where the page is, on stderr, at once.
+void print_url(const std::string& url);
+
+}  // namespace jarol::tools

@@ -1,0 +1,58 @@
+// How fast a run on the virtual clock goes on beside the wall clock: for people who watch, who may also halt it and go
+// on instant by instant. The run itself is the same.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "distributers/session/graph_run.h"
+
+namespace jarol::tools {
+
+class Pace {
+ public:
+  /// Logical seconds in one of the wall clock; none: as fast as possible.
+  explicit Pace(std::optional<double> speed) : state_{speed} {}
+
+  // by anyone who watches
+
+  struct State {
+    std::optional<double> speed;
+    bool paused = false;
+    bool operator==(const State&) const = default;
+  };
+  State state() const;
+  void set_speed(std::optional<double> speed);
+  void pause();
+  void go_on();
+  /// So many instants more, then it is paused.
+  void step(std::uint64_t instants);
+  /// `cover` returns soon.
+  void end();
+
+  /// By the thread that covers instants: up to that one, or less where it is ended.
+  void cover(GraphRun& run, Duration end);
+
+  static constexpr double least = 0.001, most = 1000;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::optional<Duration> next_end(Executor& executor, Duration end);
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  State state_;
+  std::uint64_t steps_ = 0;  // to be taken though it is paused
+  bool ended_ = false;
+  bool anew_ = true;  // the wall clock counts from now on
+  Clock::time_point wall_{};
+  Duration logical_{};
+};
+
+/// What --pace says, as in 1, 0.1, 10 or max. Throws std::invalid_argument.
+std::optional<double> parse_pace(const std::string& text);
+
+}  // namespace jarol::tools

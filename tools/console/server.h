@@ -1,0 +1,52 @@
+// The server of a console: one page, and a socket on which it gets what is shown and asks for what it may. One thread
+// serves all who watch.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "tools/console/feed.h"
+
+namespace jarol::tools::console {
+
+struct ServerOptions {
+  std::string listen = "127.0.0.1";  // an address of this machine
+  int port = 0;                      // 0: any that is free
+};
+
+/// What the page of that number asks for; the answer goes to that page alone, empty: there is none. Throws
+/// std::invalid_argument, of which the page is shown the text.
+using Answer = std::function<std::string(std::uint64_t page, const std::string& message)>;
+
+/// The page of that number is gone.
+using Left = std::function<void(std::uint64_t page)>;
+
+/// Called on the server's thread about thirty times a second: messages for all pages, in order.
+using NextMessages = std::function<std::vector<std::string>()>;
+
+class Server {
+ public:
+  /// `hello` is the first message that each page gets. Throws std::runtime_error where the port can't be had.
+  Server(const ServerOptions& options, std::string hello, NextMessages next, Answer answer, Left left = {});
+  /// Pages have got what there was, as far as they took it within a second.
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// With the token, without which nobody watches.
+  const std::string& url() const;
+
+  // limits, so that nobody who watches harms the run or others who watch
+  static constexpr std::size_t most_clients = 200;
+  static constexpr std::size_t most_message = 16 << 10;  // bytes, of what a page sends
+  static constexpr int most_messages_a_second = 100;     // of what a page sends
+  static constexpr std::size_t most_history = 64 << 20;  // bytes, for pages that come later
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace jarol::tools::console

@@ -1,0 +1,34 @@
+// Parameters of tasks, and what to call for a run with others: nothing changes in the run that is watched.
+
+import type { Hello, Parameter } from "./protocol.ts";
+
+/** Why the text can't be the parameter's value; empty: it can. */
+export function wrongValue(parameter: Parameter, text: string): string {
+  if (parameter.words) return parameter.words.includes(text) ? "" : `one of ${parameter.words.join(", ")}`;
+  if (parameter.kind === "bool") return text === "true" || text === "false" ? "" : "true or false";
+  if (parameter.kind === "text") return "";
+  const value = Number(text);
+  if (text.trim() === "" || !Number.isFinite(value)) return "a number";
+  if (parameter.kind === "integer" && !Number.isInteger(value)) return "a whole number";
+  const { least, most } = parameter;
+  if ((least !== undefined && value < least) || (most !== undefined && value > most))
+    return `a number from ${least ?? "any"} to ${most ?? "any"}`;
+  return "";
+}
+
+/** As a shell takes it, whatever is in it. */
+export function quoted(word: string): string {
+  return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", `'\\''`)}'`;
+}
+
+/** `changed`: texts by "task.path". */
+export function commandOf(hello: Hello, changed: ReadonlyMap<string, string>): string {
+  const words = ["jarol", "run", hello.file];
+  for (const task of hello.tasks)
+    for (const parameter of task.parameters) {
+      const text = changed.get(`${task.name}.${parameter.path}`);
+      if (text === undefined || text === parameter.value) continue;
+      words.push("--set", `tasks.${task.name}.parameters.${parameter.path}=${text}`);
+    }
+  return words.map(quoted).join(" ");
+}

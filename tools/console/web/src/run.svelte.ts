@@ -1,0 +1,139 @@
+// A run as the page knows it: the socket, all values so far, and the instant that is looked at.
+
+import { EventLog, type Event } from "./events.ts";
+import { parseMessage, type Hello, type Message, type Shown } from "./protocol.ts";
+import { Store } from "./series.ts";
+import { vehicleOf, type Vehicle } from "./vehicles.ts";
+
+export class Run {
+  hello: Hello | undefined = $state.raw();
+  store: Store | undefined = $state.raw();
+  vehicle: Vehicle | undefined = $state.raw();
+  link: "connecting" | "open" | "lost" = $state("connecting");
+  paused = $state(false);
+  speed: number | "max" = $state(1);
+  thinned = $state(0);
+  missed = $state(0);
+  error = $state("");
+  ended: string | undefined = $state();
+  newest = $state(0);
+  /** The instant that is looked at; undefined: the newest. */
+  cursor: number | undefined = $state();
+  playing = $state(false);
+  playSpeed = $state(1);
+  events: Event[] = $state.raw([]);
+  faults: Map<string, number> = $state.raw(new Map());
+  /** Who commands at which desk, as this page knows it. */
+  desks: Record<string, { commander: string | null; why?: string }> = $state.raw({});
+  /** Changes whenever there is something to draw, once a frame. */
+  tick = $state(0);
+
+  private log: EventLog | undefined;
+  private socket: WebSocket | undefined;
+  private news = false;
+  private lastFrame = 0;
+
+  get time(): number {
+    return this.cursor ?? this.newest;
+  }
+
+  connect(): void {
+    const scheme = location.protocol === "https:" ? "wss" : "ws";
+    this.socket = new WebSocket(`${scheme}://${location.host}/socket${location.search}`);
+    this.socket.onopen = () => (this.link = "open");
+    this.socket.onmessage = (event: MessageEvent<string>) => this.take(event.data);
+    this.socket.onclose = () => {
+      this.link = "lost";
+      if (this.hello?.clock === "recorded") return;
+      if (this.ended === undefined && this.hello) this.note("the connection to jarol is lost");
+    };
+    requestAnimationFrame((t) => this.frame(t));
+  }
+
+  ask(what: object): void {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(what));
+  }
+
+  look(t: number): void {
+    this.playing = false;
+    this.cursor = Math.min(Math.max(t, 0), this.newest);
+    ++this.tick;
+  }
+
+  follow(): void {
+    this.playing = false;
+    this.cursor = undefined;
+    ++this.tick;
+  }
+
+  play(): void {
+    if (this.time >= this.newest) this.cursor = 0;
+    this.playing = !this.playing;
+  }
+
+  private take(text: string): void {
+    let message: Message;
+    try {
+      message = parseMessage(text);
+    } catch (wrong) {
+      this.error = String(wrong instanceof Error ? wrong.message : wrong);
+      return;
+    }
+    if ("hello" in message) this.begin(message.hello);
+    else if ("missed" in message) this.missed += message.missed;
+    else if ("error" in message) this.error = message.error;
+    else if ("ended" in message) this.ended = message.ended;
+    else this.show(message);
+    this.news = true;
+  }
+
+  private begin(hello: Hello): void {
+    this.hello = hello;
+    this.store = new Store(hello.outputs);
+    this.vehicle = vehicleOf(this.store);
+    this.log = new EventLog(hello);
+    document.title = `${hello.graph} · Jarol`;
+    if (hello.clock === "recorded") this.cursor = 0;
+  }
+
+  private show(shown: Shown): void {
+    if (shown.paused !== undefined) this.paused = shown.paused;
+    if (shown.speed !== undefined) this.speed = shown.speed;
+    if (shown.thinned !== undefined) this.thinned = shown.thinned;
+    if (shown.events) {
+      this.log?.addRunEvents(shown.events);
+      const faults = new Map(this.faults);
+      for (const event of shown.events) if (event.task) faults.set(event.task, (faults.get(event.task) ?? 0) + 1);
+      this.faults = faults;
+    }
+    if (shown.desk) this.desks = { ...this.desks, ...shown.desk };
+    if (shown.samples) {
+      this.store?.add(shown.samples);
+      this.log?.look(shown.samples);
+    }
+    this.newest = Math.max(this.newest, shown.now);
+    if (this.log && this.log.all.length + this.log.dropped !== this.events.length) this.events = [...this.log.all];
+  }
+
+  private note(text: string): void {
+    this.log?.add({ t: this.newest, kind: "page", text });
+    this.events = [...(this.log?.all ?? [])];
+    this.news = true;
+  }
+
+  private frame(t: number): void {
+    const passed = Math.min(0.1, (t - this.lastFrame) / 1000);
+    this.lastFrame = t;
+    if (this.playing) {
+      const next = (this.cursor ?? 0) + passed * this.playSpeed;
+      this.cursor = Math.min(next, this.newest);
+      if (next >= this.newest) this.playing = false;
+      this.news = true;
+    }
+    if (this.news) {
+      this.news = false;
+      ++this.tick;
+    }
+    requestAnimationFrame((next) => this.frame(next));
+  }
+}

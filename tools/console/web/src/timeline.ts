@@ -1,0 +1,51 @@
+// When tasks run: their logical executions by period and LET, and who has a core when each takes its WCET.
+
+import type { Hello, Task } from "./protocol.ts";
+
+export interface Logical {
+  k: number; // which activation
+  release: number;
+  end: number; // of its LET, or its deadline
+}
+
+/** Activations whose logical execution touches the window; at most so many, the newest. */
+export function activationsOf(task: Task, from: number, to: number, most = 500): Logical[] {
+  const length = task.let ?? task.deadline;
+  // what is a rounding error before an instant is that instant
+  const slip = task.period * 1e-6;
+  const last = Math.floor((to - task.offset + slip) / task.period);
+  const first = Math.max(0, last - most + 1, Math.ceil((from - task.offset - length - slip) / task.period));
+  const found: Logical[] = [];
+  for (let k = first; k <= last; ++k) {
+    const release = task.offset + k * task.period;
+    found.push({ k, release, end: release + length });
+  }
+  return found;
+}
+
+export interface Execution {
+  task: number;
+  begin: number;
+  end: number;
+}
+
+/** The schedule over the window, as it repeats; nothing where only its begin is known. */
+export function executionsOf(schedule: Hello["schedule"], from: number, to: number): Execution[] {
+  if (!schedule || schedule.until <= 0) return [];
+  const found: Execution[] = [];
+  const rounds = schedule.repeats ? Math.floor(to / schedule.until) : 0;
+  const first = schedule.repeats ? Math.max(0, Math.floor(from / schedule.until)) : 0;
+  for (let round = first; round <= rounds; ++round)
+    for (const [task, begin, end] of schedule.slices) {
+      const at = round * schedule.until;
+      if (at + end > from && at + begin < to) found.push({ task, begin: at + begin, end: at + end });
+    }
+  return found;
+}
+
+/** What the window is as long as: two rounds of the schedule, but as long as the longest period twice where that is long. */
+export function windowOf(hello: Hello): number {
+  const longest = Math.max(0.001, ...hello.tasks.map((task) => task.period));
+  const round = hello.schedule?.repeats ? hello.schedule.until : longest;
+  return Math.max(round, longest) * 2;
+}

@@ -1,0 +1,77 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { deadZone, Goals, limits, nextSwitch, StickInput, withDeadZone, wrapped } from "../src/desk.ts";
+
+const centred = { roll: 0, pitch: 0, turn: 0, climb: 0 };
+const known = { x: 1, y: -2, altitude: 0.9, yaw: 7, position: true, flies: true };
+
+test("a stick near its centre is centred, and at its end is full", () => {
+  assert.equal(withDeadZone(deadZone * 0.99), 0);
+  assert.equal(withDeadZone(-1), -1);
+  assert.equal(withDeadZone(NaN), 0);
+  assert.ok(Math.abs(withDeadZone(0.54) - 0.5) < 1e-9);
+});
+
+test("who takes over changes nothing: goals are where the vehicle is", () => {
+  const goals = new Goals();
+  goals.adopt(known);
+  assert.deepEqual(goals.command(centred, true), { roll: -2000, pitch: 1000, yaw: Math.round((7 - 2 * Math.PI) * 1000), z: 900 });
+  goals.adopt({ ...known, flies: false });
+  assert.equal(goals.altitude, 0);
+});
+
+test("by hand sticks lean it, to the right and nose down for forward, and centred they do not", () => {
+  const goals = new Goals();
+  assert.deepEqual(goals.command({ ...centred, roll: 1, pitch: 1 }, false), { roll: 150, pitch: -150, yaw: 0, z: 0 });
+  assert.deepEqual(goals.command(centred, false), { roll: 0, pitch: 0, yaw: 0, z: 0 });
+});
+
+test("where position is held sticks move it along the nose, as far as it may go", () => {
+  const goals = new Goals();
+  goals.adopt({ ...known, x: 0, y: 0, yaw: Math.PI / 2 });
+  goals.move({ ...centred, pitch: 1 }, 1, true);
+  assert.ok(Math.abs(goals.x) < 1e-9 && Math.abs(goals.y - limits.speed) < 1e-9, "forward is east");
+  goals.move({ ...centred, roll: 1 }, 1, true);
+  assert.ok(Math.abs(goals.x + limits.speed) < 1e-9, "right of east is south");
+  goals.move({ ...centred, pitch: 1 }, 1e6, true);
+  assert.equal(goals.y, limits.away);
+  goals.move({ ...centred, pitch: 1 }, 1, false);
+  assert.equal(goals.y, limits.away);
+});
+
+test("climb and turn keep within limits", () => {
+  const goals = new Goals();
+  goals.move({ ...centred, climb: 1 }, 100, false);
+  assert.equal(goals.altitude, limits.altitude);
+  goals.move({ ...centred, climb: -1 }, 100, false);
+  assert.equal(goals.altitude, 0);
+  goals.move({ ...centred, turn: 1 }, 5, false);
+  assert.ok(Math.abs(goals.yaw - wrapped(4)) < 1e-9);
+});
+
+test("the newest of keys, pads and gamepad moves a stick, and all that is let go is centred", () => {
+  const input = new StickInput();
+  assert.deepEqual(input.read(), centred);
+  input.press("ArrowRight");
+  input.press("KeyS");
+  input.press("KeyX");
+  assert.deepEqual(input.read(), { ...centred, roll: 1, climb: -1 });
+  input.press("ArrowLeft");
+  assert.equal(input.read().roll, 0);
+  input.lift("ArrowRight");
+  assert.equal(input.read().roll, -1);
+  input.letGo();
+  assert.deepEqual(input.read(), centred);
+  input.pads.pitch = 0.5;
+  assert.equal(input.read([0, 0, 0, -1]).pitch, 1);
+  assert.equal(input.read([0.02, 0, 0, 0]).pitch, 0.5);
+});
+
+test("the one key arms, takes off, lands, and acknowledges what nobody wanted", () => {
+  assert.equal(nextSwitch("halt", "none"), "Arm");
+  assert.equal(nextSwitch("ground", "none"), "Take off");
+  assert.equal(nextSwitch("ground", "operator_lost"), "Acknowledge");
+  assert.equal(nextSwitch("starting", "none"), "Stop");
+  assert.equal(nextSwitch("flying", "none"), "Land");
+  assert.equal(nextSwitch("landing", "none"), undefined);
+});
