@@ -8,13 +8,25 @@
 namespace jarol::distributers {
 namespace {
 
+constexpr std::uint16_t longest_delay = 1000;  // of an answer, in signals sent since
+
 std::int16_t to_signal(double signal) {
   return static_cast<std::int16_t>(std::clamp(std::trunc(signal), 0.0, 16000.0));
 }
 
 }  // namespace
 
+// Numbers wrap around; signals of another controller, or of a run before, say nothing about the order.
+bool JaviatorVehicle::is_late(std::uint16_t id) {
+  const auto is_after = [](std::uint16_t a, std::uint16_t b) { return static_cast<std::int16_t>(a - b) > 0; };
+  if (is_after(id, id_)) return false;
+  if (is_after(answered_, id)) return true;
+  answered_ = id;
+  return false;
+}
+
 void JaviatorVehicle::data(const javiator::JaviatorData& d) {
+  if (is_late(d.id)) return;
   const bool waits = in.sensors.is_new;
   tasks::JaviatorSensors& s = in.sensors.renew();
   const auto has = [&](std::uint16_t bit) { return (d.flags & bit) != 0; };
@@ -47,9 +59,11 @@ void JaviatorVehicle::send_motors(const tasks::MotorCommand& motors, messages::R
   if (motors.unlocked && !unlocked_) system.receive(messages::refer_to(javiator::SwitchState{}));
   if (!motors.unlocked && unlocked_) system.receive(messages::refer_to(javiator::ShutDown{}));
   unlocked_ = motors.unlocked;
+  ++id_;
+  if (static_cast<std::uint16_t>(id_ - answered_) > longest_delay) answered_ = id_ - longest_delay;
   const auto& s = motors.signals;
   system.receive(messages::refer_to(
-      javiator::MotorSignals{to_signal(s[0]), to_signal(s[1]), to_signal(s[2]), to_signal(s[3]), ++id_}));
+      javiator::MotorSignals{to_signal(s[0]), to_signal(s[1]), to_signal(s[2]), to_signal(s[3]), id_}));
 }
 
 }  // namespace jarol::distributers

@@ -8,7 +8,8 @@
 namespace jarol::distributers {
 namespace javiator = messages::javiator;
 
-/// Speaks the JAviator's protocol: JaviatorData in; MotorSignals, SwitchState and ShutDown out.
+/// Speaks the JAviator's protocol: JaviatorData in; MotorSignals, SwitchState and ShutDown out. Answers come in the
+/// order of the signals that they answer; one that was held up on its way is left out.
 class JaviatorVehicle {
  public:
   static constexpr std::string_view summary = "the helicopter, over the JAviator's protocol";
@@ -31,16 +32,17 @@ class JaviatorVehicle {
 
   /// A ShutDown too many does no harm; a SwitchState might.
   void take_over() { unlocked_ = true; }
-  void serialize(Archive& archive) { archive(unlocked_, id_); }
+  void serialize(Archive& archive) { archive(unlocked_, id_, answered_); }
 
   In in;
 
  private:
   void data(const javiator::JaviatorData& d);
+  bool is_late(std::uint16_t id);
   void send_motors(const tasks::MotorCommand& motors, messages::Receiver& system);
 
   bool unlocked_ = false;
-  std::uint16_t id_ = 0;
+  std::uint16_t id_ = 0, answered_ = 0;  // of the signals sent last, and of the newest ones that were answered
 };
 
 }  // namespace jarol::distributers

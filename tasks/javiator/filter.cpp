@@ -121,6 +121,10 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
       hear(state.imu, fresh && s.new_imu, s.roll + s.pitch + s.yaw + s.p + s.q + s.r, p.imu_repeats, heard_dt);
   if (settled) forgive(state.imu, imu);
   const bool turns = believe(state.imu, imu, p.imu_patience);
+  // between readings it turns on as it did, and feels what it felt
+  state.unfelt = turns ? 0 : state.unfelt + dt;
+  const double felt = state.imu.lost ? 0 : std::exp(-state.unfelt / p.rate_fade);
+  const Vector3d rates = felt * Vector3d(s.p, s.q, s.r);
 
   if (state.stood && !settled) {
     take_off(state.x, state.zero_x);
@@ -133,9 +137,9 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   state.stood = settled;
 
   // angles follow the rates, and what is measured unless it jumps
-  const double turning = turns ? (s.q * std::sin(s.roll) + s.r * std::cos(s.roll)) / std::cos(s.pitch) : 0;
-  state.roll += dt * (turns ? s.p + turning * std::sin(s.pitch) : 0);
-  state.pitch += dt * (turns ? s.q * std::cos(s.roll) - s.r * std::sin(s.roll) : 0);
+  const double turning = (rates.y() * std::sin(s.roll) + rates.z() * std::cos(s.roll)) / std::cos(s.pitch);
+  state.roll += dt * (rates.x() + turning * std::sin(s.pitch));
+  state.pitch += dt * (rates.y() * std::cos(s.roll) - rates.z() * std::sin(s.roll));
   state.yaw += dt * turning;
   if (settled) {
     state.roll = s.roll;
@@ -152,12 +156,12 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     state.yaw += p.angle_gain * wrapped(s.yaw - state.zero_yaw - state.yaw);
   }
 
-  const Vector3d rates = turns ? Vector3d(s.p, s.q, s.r) : Vector3d::Zero();
   const Matrix3d R = rotation(state.roll, state.pitch, state.zero_yaw + state.yaw);
   // ranges are younger than the IMU's sample
   const Matrix3d R_now = rotation(state.roll + p.age * rates.x(), state.pitch + p.age * rates.y(),
                                   state.zero_yaw + state.yaw + p.age * rates.z());
-  const Vector3d force_b = turns ? Vector3d(s.a_x, s.a_y, s.a_z) : R.transpose() * Vector3d(0, 0, -gravity);
+  const Vector3d last_b(s.a_x, s.a_y, s.a_z), hover_b = R.transpose() * Vector3d(0, 0, -gravity);
+  const Vector3d force_b = turns ? last_b : Vector3d(hover_b + felt * (last_b - hover_b));
   const Vector3d a = R * force_b + Vector3d(0, 0, gravity);
   const double z = (R * Vector3d(p.sonar_x, p.sonar_y, p.sonar_z + s.sonar)).z();
   const double last_pressure = state.pressure.last;

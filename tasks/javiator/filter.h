@@ -48,6 +48,7 @@ struct JaviatorFilter {
     double angle_gain = 0.5;
     double patience = 0.3;
     double imu_patience = 0.04;
+    double rate_fade = 0.05;
     double place_patience = 3;
     double range_jump = 0.3;
     double angle_jump = 0.1;
@@ -69,6 +70,7 @@ struct JaviatorFilter {
           field<&P::angle_gain>("", "part of a measured angle in the new one, the rest is the rate's"),
           field<&P::patience>("s", "without a credible measurement before a sensor counts as lost"),
           field<&P::imu_patience>("s", "the same, for the IMU"),
+          field<&P::rate_fade>("s", "in which rates and forces of the last reading fade to a third until the next one"),
           field<&P::place_patience>("s", "without a laser that sees along an axis"),
           field<&P::range_jump>("m", "from the estimate at which a range is not credible"),
           field<&P::angle_jump>("rad", "the same, for roll and pitch"),
@@ -90,7 +92,7 @@ struct JaviatorFilter {
     SensorTrust imu{}, angles{}, laser_x{}, laser_y{}, sonar{}, pressure{};
     double zero_x = 0, zero_y = 0, zero_z = 0, zero_yaw = 0, zero_pressure = 0;
     double roll = 0, pitch = 0, yaw = 0;
-    double disagreement = 0, unanswered = 0;
+    double disagreement = 0, unanswered = 0, unfelt = 0;
     double slant_roll = 0, slant_pitch = 0;
     bool stood = false, has_flown = false;
     std::uint32_t answers = 0;
@@ -103,6 +105,7 @@ struct JaviatorFilter {
                       field<&S::roll>("rad"), field<&S::pitch>("rad"), field<&S::yaw>("rad", "all turns counted"),
                       field<&S::disagreement>("m", "of pressure and altitude, averaged"),
                       field<&S::unanswered>("s", "since the Robostix answered"),
+                      field<&S::unfelt>("s", "since the IMU's last reading"),
                       field<&S::slant_roll>("rad", "of the weight felt while it stands, less the roll, averaged"),
                       field<&S::slant_pitch>("rad"), field<&S::stood>("", "in the period before"),
                       field<&S::has_flown>(), field<&S::answers>("", "of the Robostix, up to now"));

@@ -34,9 +34,10 @@ struct Vehicle {
   Typed<JaviatorVehicle> distributer{};
   tasks::JaviatorSensors sensors{};
 
-  void hear(std::uint16_t flags) {
+  void hear(std::uint16_t flags, std::uint16_t id = 0) {
     javiator::JaviatorData data;
     data.flags = flags;
+    data.id = id;
     distributer.receive(messages::refer_to(data));
   }
   std::string take() {
@@ -62,6 +63,54 @@ TEST_SUITE("distributers/javiator_vehicle") {
     CHECK(v.take() == "nothing");
     v.hear(Flags::IMU);
     CHECK(v.take() == "i");
+  }
+
+  TEST_CASE(
+      "an answer to earlier signals than the last answer's is late, and left out; numbers begin again after 65535") {
+    Vehicle v;
+    Sent sent;
+    for (int i = 0; i < 3; ++i) v.command(sent, true, {});
+    v.hear(Flags::IMU, 2);
+    CHECK(v.take() == "i");
+    v.hear(Flags::SONAR, 1);
+    CHECK(v.take() == "nothing");
+    v.hear(Flags::SONAR, 2);  // the network doubles signals: they are answered twice
+    CHECK(v.take() == "s");
+    v.hear(Flags::BMU, 3);
+    CHECK(v.take() == "b");
+    CHECK(v.sensors.answers == 3);
+    for (int i = 3; i < 65538; ++i) v.command(sent, true, {});
+    CHECK(sent.signals.back().id == 2);
+    v.hear(Flags::IMU, 65534);
+    CHECK(v.take() == "i");
+    v.hear(Flags::BMU, 1);
+    CHECK(v.take() == "b");
+    v.hear(Flags::IMU, 65535);
+    CHECK(v.take() == "nothing");
+  }
+
+  TEST_CASE("after any time without answers those that come again are not late") {
+    for (const int silent : {1, 999, 30000, 32768, 40000, 65535, 70000}) {
+      Vehicle v;
+      Sent sent;
+      v.command(sent, true, {});
+      v.hear(Flags::IMU, 1);
+      for (int i = 0; i < silent; ++i) v.command(sent, true, {});
+      v.hear(Flags::SONAR, sent.signals.back().id);
+      CHECK(v.take() == "is");
+      v.hear(Flags::IMU, static_cast<std::uint16_t>(sent.signals.back().id - 1));
+      CHECK(v.take() == "nothing");
+    }
+  }
+
+  TEST_CASE("an answer to signals that were not sent yet is believed, but nothing after it is late for that") {
+    Vehicle v;
+    Sent sent;
+    v.command(sent, true, {});
+    v.hear(Flags::IMU, 700);  // to a controller that flew it before
+    CHECK(v.take() == "i");
+    v.hear(Flags::SONAR, 1);
+    CHECK(v.take() == "s");
   }
 
   TEST_CASE("each flag tells of its own sensor") {

@@ -156,6 +156,37 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     CHECK(e.yaw == doctest::Approx(0.125 * (dt + 0.02)));
   }
 
+  TEST_CASE(
+      "between two readings of the IMU it turns on at the last rates, and feels the last forces; both fade in 50 ms") {
+    for (const bool answered : {true, false}) {
+      CAPTURE(answered);
+      HeardHelicopter heard = hovering();
+      heard.param.angle_gain = 0;
+      heard.sensors.p = 0.5;
+      heard.sensors.q = -0.25;
+      heard.sensors.r = 0.125;
+      heard.sensors.a_x = 2;
+      heard.sensors.a_z = -8;
+      const FlightEstimate before = heard.run(1);
+      CHECK(before.lift == 8);
+      if (answered) {
+        heard.sensors.new_imu = false;
+      } else {
+        --heard.sensors.answers;  // none since
+      }
+      const double left = std::exp(-dt / 0.05);
+      const FlightEstimate& e = heard.run(1);
+      CHECK(e.p == doctest::Approx(0.5 * left));
+      CHECK(e.q == doctest::Approx(-0.25 * left));
+      CHECK(e.r == doctest::Approx(0.125 * left));
+      CHECK(e.roll - before.roll == doctest::Approx(0.5 * (left * (dt + 0.02) - 0.02)));
+      CHECK(e.lift == doctest::Approx(8 * left + 9.81 * (1 - left)).epsilon(1e-3));
+      CHECK(e.v_x - before.v_x > 0.9 * 2 * left * dt);
+      if (answered) heard.run(2);
+      CHECK((answered ? e.p : 0.0) == 0);  // it is lost, and nothing of it is believed
+    }
+  }
+
   TEST_CASE("the battery is averaged over a second") {
     HeardHelicopter heard = hovering();
     heard.sensors.battery = 14;
