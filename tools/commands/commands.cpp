@@ -19,6 +19,7 @@ CommandLine make_command_line(int& exit_code) {
   add_check(line, exit_code);
   add_console(line, exit_code);
   add_doctor(line, exit_code);
+  add_edit(line, exit_code);
   add_graph(line, exit_code);
   add_isolation(line, exit_code);
   add_log(line, exit_code);

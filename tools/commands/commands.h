@@ -15,6 +15,7 @@ void add_campaign(CommandLine& line, int& exit_code);
 void add_check(CommandLine& line, int& exit_code);
 void add_console(CommandLine& line, int& exit_code);
 void add_doctor(CommandLine& line, int& exit_code);
+void add_edit(CommandLine& line, int& exit_code);
 void add_graph(CommandLine& line, int& exit_code);
 void add_isolation(CommandLine& line, int& exit_code);
 void add_log(CommandLine& line, int& exit_code);

@@ -8,7 +8,7 @@
 #include "tools/console/leaf_text.h"
 #include "tools/console/samples_json.h"
 #include "tools/console/seconds.h"
-#include "tools/drawing/layout.h"
+#include "tools/drawing/drawing_json.h"
 #include "tools/report/commanded.h"
 
 namespace jarol::tools::console {
@@ -106,26 +106,6 @@ Json connections_json(const Graph& graph) {
   return connections;
 }
 
-Json drawing_json(const Drawing& drawing) {
-  auto nodes = Json::array(), arrows = Json::array();
-  for (const DrawnNode& n : drawing.nodes)
-    nodes.push_back({{"kind", word_of(n.kind)},
-                     {"name", n.name},
-                     {"lines", n.lines},
-                     {"x", n.x},
-                     {"y", n.y},
-                     {"width", n.width},
-                     {"height", n.height}});
-  for (const DrawnArrow& a : drawing.arrows)
-    arrows.push_back(
-        {{"from", a.from}, {"to", a.to}, {"connections", a.connections}, {"text", a.text}, {"curve", a.curve}});
-  return {{"width", drawing.width},
-          {"height", drawing.height},
-          {"core", {drawing.core_x, drawing.core_y, drawing.core_width, drawing.core_height}},
-          {"nodes", std::move(nodes)},
-          {"arrows", std::move(arrows)}};
-}
-
 // Names of leaves as plots call them.
 Json pairs_json(const Graph& graph) {
   auto pairs = Json::array();
@@ -151,7 +131,7 @@ nlohmann::ordered_json describe_run(const Described& run) {
   json["distributers"] = distributers_json(graph);
   json["connections"] = connections_json(graph);
   json["pairs"] = pairs_json(graph);
-  json["drawing"] = drawing_json(lay_out(graph));
+  json["drawing"] = to_json(lay_out(graph));
   return json;
 }
 

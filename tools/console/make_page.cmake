@@ -35,6 +35,7 @@ if(NOT dist)
   set(dist ${WORK}/without)
   file(REMOVE_RECURSE ${dist})
   file(MAKE_DIRECTORY ${dist})
+  file(COPY_FILE ${WEB}/without.html ${dist}/edit.html)
   file(COPY_FILE ${WEB}/without.html ${dist}/index.html)
 endif()
 

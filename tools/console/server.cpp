@@ -137,6 +137,7 @@ class Server::Implementation {
   ~Implementation();
 
   const std::string& url() const { return url_; }
+  void send(std::uint64_t page, std::string message);
 
  private:
   class Connection;
@@ -147,6 +148,7 @@ class Server::Implementation {
   void end();
 
   const std::string token_ = make_token();
+  const std::size_t most_message_;
   const std::shared_ptr<const std::string> hello_;
   const NextMessages next_;
   const Answer answer_;
@@ -178,7 +180,7 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
     timeout.idle_timeout = 20s;
     timeout.keep_alive_pings = true;
     socket_.set_option(timeout);
-    socket_.read_message_max(most_message);
+    socket_.read_message_max(server_.most_message_);
     socket_.async_accept(request, [self = shared_from_this()](Error error) {
       if (error || self->server_.ending_) return;
       self->place_ = self->server_.history_.begin();
@@ -187,6 +189,14 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
       self->own_.push_back(self->server_.hello_);
       self->write();
     });
+  }
+
+  std::uint64_t page() const { return page_; }
+
+  /// For this page alone.
+  void send(std::string message) {
+    own_.push_back(std::make_shared<const std::string>(std::move(message)));
+    write();
   }
 
   /// Something new is there.
@@ -238,9 +248,7 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
     } catch (const std::invalid_argument& wrong) {
       answer = nlohmann::json{{"error", wrong.what()}}.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     }
-    if (answer.empty()) return;
-    own_.push_back(std::make_shared<const std::string>(std::move(answer)));
-    write();
+    if (!answer.empty()) send(std::move(answer));
   }
 
   void refuse(const std::string& why) { close({websocket::close_code::policy_error, why}); }
@@ -328,7 +336,8 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
 
 Server::Implementation::Implementation(const ServerOptions& options, std::string hello, NextMessages next,
                                        Answer answer, Left left)
-    : hello_(std::make_shared<const std::string>(std::move(hello))),
+    : most_message_(options.most_message),
+      hello_(std::make_shared<const std::string>(std::move(hello))),
       next_(std::move(next)),
       answer_(std::move(answer)),
       left_(std::move(left)) {
@@ -348,9 +357,9 @@ Server::Implementation::Implementation(const ServerOptions& options, std::string
   require(acceptor_.bind(end, error));
   require(acceptor_.listen(asio::socket_base::max_listen_connections, error));
   const tcp::endpoint bound = acceptor_.local_endpoint();
-  url_ = fmt::format("http://{}:{}/?token={}",
+  url_ = fmt::format("http://{}:{}{}?token={}",
                      bound.address().is_v6() ? "[" + bound.address().to_string() + "]" : bound.address().to_string(),
-                     bound.port(), token_);
+                     bound.port(), options.page, token_);
   accept();
   show_next();
   thread_ = std::thread([this] { context_.run(); });
@@ -389,6 +398,13 @@ void Server::Implementation::show_next() {
   });
 }
 
+void Server::Implementation::send(std::uint64_t page, std::string message) {
+  asio::post(context_, [this, page, message = std::move(message)]() mutable {
+    for (const auto& watcher : watchers_)
+      if (watcher->page() == page) return watcher->send(std::move(message));
+  });
+}
+
 void Server::Implementation::end() {
   ending_ = true;
   Error ignored;
@@ -406,5 +422,6 @@ Server::Server(const ServerOptions& options, std::string hello, NextMessages nex
                                                        std::move(left))) {}
 Server::~Server() = default;
 const std::string& Server::url() const { return implementation_->url(); }
+void Server::send(std::uint64_t page, std::string message) { implementation_->send(page, std::move(message)); }
 
 }  // namespace jarol::tools::console

@@ -26,10 +26,6 @@ double text_width(const std::string& text) {
   return width;
 }
 
-std::string timing_of(Duration period, Duration offset) {
-  return "every " + duration_text(period) + (offset > Duration{} ? " from " + duration_text(offset) : "");
-}
-
 void give_size(DrawnNode& node) {
   double width = text_width(node.name) * 1.12;
   for (const std::string& line : node.lines) width = std::max(width, text_width(line) * 0.92);
@@ -46,18 +42,17 @@ struct Ends {
 Ends add_nodes(const Graph& graph, Drawing& drawing) {
   using Kind = DrawnNode::Kind;
   for (const Task& t : graph.tasks) {
-    DrawnNode node{Kind::task, t.name, {t.task_class->name, timing_of(t.period, t.offset)}};
+    DrawnNode node{Kind::task, t.name, {t.task_class->name, timing_text(t.period, t.offset)}};
     if (t.let) node.lines.push_back("LET " + duration_text(*t.let));
     drawing.nodes.push_back(std::move(node));
   }
   for (const Communicator& c : graph.communicators)
     drawing.nodes.push_back(
-        {c.direction == Direction::in ? Kind::in : Kind::out, c.name, {timing_of(c.period, c.offset)}});
+        {c.direction == Direction::in ? Kind::in : Kind::out, c.name, {timing_text(c.period, c.offset)}});
   const Ends ends{0, graph.tasks.size(), drawing.nodes.size()};
   for (int side = 0; side < 2; ++side)
     for (const Distributer& d : graph.distributers)
       drawing.nodes.push_back({Kind::distributer, d.name, {d.distributer_class->name}});
-  for (DrawnNode& node : drawing.nodes) give_size(node);
   return ends;
 }
 
@@ -176,9 +171,11 @@ void read_places(const Graphviz& from, Drawing& drawing) {
 }
 
 void find_core(Drawing& drawing) {
+  const auto is_outside = [](const DrawnNode& node) { return node.kind == DrawnNode::Kind::distributer; };
+  if (std::all_of(drawing.nodes.begin(), drawing.nodes.end(), is_outside)) return;
   double left = drawing.width, top = drawing.height, right = 0, bottom = 0;
   for (const DrawnNode& node : drawing.nodes) {
-    if (node.kind == DrawnNode::Kind::distributer) continue;
+    if (is_outside(node)) continue;
     left = std::min(left, node.x - node.width / 2);
     right = std::max(right, node.x + node.width / 2);
     top = std::min(top, node.y - node.height / 2);
@@ -230,20 +227,29 @@ const char* word_of(DrawnNode::Kind kind) {
   return "";
 }
 
+std::string timing_text(Duration period, Duration offset) {
+  return "every " + duration_text(period) + (offset > Duration{} ? " from " + duration_text(offset) : "");
+}
+
 Drawing lay_out(const Graph& graph) {
-  // Graphviz keeps state of its own between calls, and a second context in a process reads what the first has freed
-  static std::mutex one_at_a_time;
-  static GVC_t* const context = gvContext();
-  const std::lock_guard lock(one_at_a_time);
   Drawing drawing;
   const Ends ends = add_nodes(graph, drawing);
   add_arrows(graph, ends, drawing);
   drop_nodes_without_arrows(drawing);
+  return lay_out(std::move(drawing));
+}
+
+Drawing lay_out(Drawing drawing) {
+  // Graphviz keeps state of its own between calls, and a second context in a process reads what the first has freed
+  static std::mutex one_at_a_time;
+  static GVC_t* const context = gvContext();
+  const std::lock_guard lock(one_at_a_time);
+  for (DrawnNode& node : drawing.nodes) give_size(node);
   Graphviz graphviz;
   build(graphviz, drawing);
   [[maybe_unused]] const UnseenLeaks unseen{};
   if (gvLayout(context, graphviz.graph.get(), "dot") != 0)
-    throw std::runtime_error("Graphviz could not lay out graph '" + graph.name + "'");
+    throw std::runtime_error("Graphviz could not lay out the graph");
   read_places(graphviz, drawing);
   gvFreeLayout(context, graphviz.graph.get());
   find_core(drawing);

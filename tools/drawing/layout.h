@@ -36,7 +36,12 @@ struct Drawing {
   double core_x = 0, core_y = 0, core_width = 0, core_height = 0;  // within are tasks and communicators; top left
 };
 
+/// As a node says it: "every 50ms from 10ms".
+std::string timing_text(Duration period, Duration offset);
+
 /// Throws std::runtime_error where Graphviz can't.
 Drawing lay_out(const Graph& graph);
+/// Of nodes and arrows that have no sizes and places yet. Throws as above.
+Drawing lay_out(Drawing parts);
 
 }  // namespace jarol::tools

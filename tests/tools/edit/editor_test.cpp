@@ -1,0 +1,138 @@
+// jarol edit, as a page talks to it.
+#include <doctest/doctest.h>
+
+#include "tests/tools/console/client.h"
+#include "tests/tools/process.h"
+#include "tests/tools/run_command.h"
+
+namespace {
+using namespace jarol;
+using command::content;
+using command::TemporaryFolder;
+using nlohmann::json;
+using tests::PageSocket;
+
+// A copy of a graph with nothing beside it, and the editor of it.
+class Edited {
+ public:
+  Edited() : file_(folder_.write("counting.yaml", content("specs/counting.yaml"))), process_("edit " + file_) {
+    url_ = process_.rest_of_line("console: ");
+    REQUIRE(url_.starts_with("http://127.0.0.1:"));
+  }
+
+  const std::string& file() const { return file_; }
+  const std::string& url() const { return url_; }
+  tests::Process& process() { return process_; }
+
+ private:
+  TemporaryFolder folder_;
+  std::string file_, url_;
+  tests::Process process_;
+};
+
+std::string ask(PageSocket& page, const json& what, const char* answer) {
+  page.send(what.dump());
+  return page.read_with(answer)[answer].dump();
+}
+}  // namespace
+
+TEST_SUITE("editor/editor") {
+  TEST_CASE("a page gets the forms, then the text, then verdict, drawing and suggestions of what it sends") {
+    Edited edited;
+    CHECK(edited.url().find("/edit.html?token=") != std::string::npos);
+    PageSocket page(edited.url());
+    const json hello = page.read()->at("hello");
+    CHECK(hello["schema"] == "jarol.edit/1");
+    CHECK(hello["file"] == edited.file());
+    CHECK(hello["catalogue"]["tasks"].size() > 20);
+    page.send(R"({"do": "open"})");
+    const json opened = page.read_with("opened")["opened"];
+    CHECK(opened["text"] == content("specs/counting.yaml"));
+
+    page.send(json{{"do", "judge"}, {"id", 7}, {"text", opened["text"]}}.dump());
+    std::map<std::string, json> said;
+    while (said.size() < 3) {
+      const json message = *page.read();
+      for (const char* name : {"verdict", "drawn", "suggested"})
+        if (message.contains(name)) said[name] = message[name];
+    }
+    for (const auto& [name, message] : said) CHECK(message["id"] == 7);
+    CHECK(said["verdict"]["check"]["verdict"] == "schedulable");
+    CHECK(said["drawn"]["drawing"]["nodes"].size() == 6);
+    CHECK(said["suggested"]["list"] == json::array());
+    edited.process().interrupt();
+    CHECK(edited.process().end() == 130);
+  }
+
+  TEST_CASE("a text is saved over what was opened, and never over what others have written") {
+    Edited edited;
+    PageSocket page(edited.url());
+    page.send(R"({"do": "open"})");
+    const json opened = page.read_with("opened")["opened"];
+    const std::string mine = opened["text"].get<std::string>() + "# mine\n";
+    page.send(json{{"do", "save"}, {"text", mine}, {"over", opened["hash"]}}.dump());
+    const json saved = page.read_with("saved")["saved"];
+    CHECK(content(edited.file()) == mine);
+
+    std::ofstream(edited.file()) << "graph: other\n";
+    // whoever is at a page is told
+    const json disk = page.read_with("disk")["disk"];
+    CHECK(disk["hash"] != saved["hash"]);
+    page.send(json{{"do", "save"}, {"text", mine}, {"over", saved["hash"]}}.dump());
+    const json conflict = page.read_with("conflict")["conflict"];
+    CHECK(conflict["text"] == "graph: other\n");
+    CHECK(content(edited.file()) == "graph: other\n");
+    page.send(json{{"do", "save"}, {"text", mine}, {"over", conflict["hash"]}}.dump());
+    CHECK(page.read_with("saved")["saved"]["hash"] == saved["hash"]);
+    CHECK(content(edited.file()) == mine);
+  }
+
+  TEST_CASE("a text is run in simulation, saved or not") {
+    Edited edited;
+    PageSocket page(edited.url());
+    page.send(json{{"do", "run"}, {"text", content(edited.file())}, {"for", "100ms"}}.dump());
+    CHECK(page.read_with("trial")["trial"] == json::parse(R"({"state": "running", "watched": false})"));
+    const json end = page.read_with("trial")["trial"];
+    CHECK(end["state"] == "ended");
+    CHECK(end["exit_code"] == 0);
+    CHECK(end["text"].get<std::string>().find("digest") != std::string::npos);
+  }
+
+  TEST_CASE("what makes no sense is answered, and changes nothing") {
+    Edited edited;
+    PageSocket page(edited.url());
+    CHECK(ask(page, {{"do", "fly"}}, "error") ==
+          R"("there is no 'fly' to do; there are: open, judge, save, run, stop")");
+    CHECK(ask(page, {{"do", 1}}, "error") == R"("expected an object as in {\"do\": \"open\"}")");
+    CHECK(ask(page, {{"do", "judge"}, {"id", -1}}, "error") == R"("'id' is no whole number")");
+    CHECK(ask(page, {{"do", "judge"}, {"id", 1}, {"text", 1}}, "error") == R"("'text' is no text")");
+    CHECK(
+        ask(page, {{"do", "run"}, {"text", "graph: a\nplugins: [/tmp/x.so]\n"}}, "error") ==
+        R"("the text names plugins: the editor loads those that the file names; save it, and start jarol edit again")");
+    CHECK(ask(page, {{"do", "run"}, {"for", "-1"}}, "error").find("the length '-1' ") != std::string::npos);
+    page.send(json{{"do", "judge"}, {"id", 1}, {"text", "graph: a\nplugins: [/tmp/x.so]\n"}}.dump());
+    CHECK(page.read_with("verdict")["verdict"]["problems"][0]["text"] ==
+          "plugin '/tmp/x.so' is not loaded: the editor loads those that the file names; save it, and start jarol edit "
+          "again");
+    CHECK(content(edited.file()) == content("specs/counting.yaml"));
+  }
+
+  TEST_CASE("pages from elsewhere, and those without the token, are refused") {
+    Edited edited;
+    CHECK_THROWS_AS(PageSocket(edited.url(), "http://elsewhere.example"), std::runtime_error);
+    std::string wrong = edited.url();
+    wrong.back() = wrong.back() == '0' ? '1' : '0';
+    CHECK_THROWS_AS(PageSocket{wrong}, std::runtime_error);
+  }
+
+  TEST_CASE("what can't be edited is refused with its name") {
+    const auto nowhere = command::jarol("edit nowhere.yaml");
+    CHECK(nowhere.exit_code == 2);
+    CHECK(nowhere.output.find("nowhere.yaml") != std::string::npos);
+    const auto in = command::jarol("edit -");
+    CHECK(in.exit_code == 2);
+    CHECK(in.output == "error: '-' is stdin, which can't be written; name the graph's file\n");
+    CHECK(command::jarol("edit specs/counting.yaml --port 0").output ==
+          "error: the console's port '0' is no number from 1 to 65535\n");
+  }
+}
