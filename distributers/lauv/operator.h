@@ -137,7 +137,7 @@ class LauvOperator {
   Origin origin() const { return {parameters_.latitude, parameters_.longitude}; }
 
   // of plans; each returns why not, or nothing
-  std::string start_plan(const imc::PlanControl& request);
+  std::string start_plan(const imc::PlanControl& request, std::uint16_t who);
   std::string load_plan(const imc::PlanControl& request, std::uint16_t who);
   std::string execute(Plan plan);
   void end_plan(const std::string& why);

@@ -29,7 +29,7 @@ void LauvOperator::plan_control(const imc::PlanControl& plan, const From& from) 
   reply.request_id = plan.request_id;
   reply.plan_id = plan.plan_id;
   switch (plan.op) {
-    case Op::START: reply.info = start_plan(plan); break;
+    case Op::START: reply.info = start_plan(plan, system_of(from)); break;
     case Op::STOP: demand_stop(); break;
     case Op::LOAD: reply.info = load_plan(plan, system_of(from)); break;
     case Op::GET:
@@ -50,7 +50,11 @@ std::string LauvOperator::load_plan(const imc::PlanControl& request, std::uint16
   if (request.arg.empty()) {
     const imc::PlanSpecification* const stored = plans_.find(request.plan_id.view());
     if (stored == nullptr) return fmt::format("no plan '{}' is stored here", request.plan_id.view());
+    try {
+      static_cast<void>(make_plan(*stored, origin()));
+    } catch (const std::invalid_argument& error) { return error.what(); }
     loaded_ = *stored;
+    loaded_->plan_id = request.plan_id;
     return "";
   }
   messages::Message opened;
@@ -64,19 +68,20 @@ std::string LauvOperator::load_plan(const imc::PlanControl& request, std::uint16
   const auto name = request.plan_id.empty() ? plan->plan_id.view() : request.plan_id.view();
   if (std::string why_not = plans_.set(name, *plan, who, unix_time()); !why_not.empty()) return why_not;
   loaded_ = *plan;
+  loaded_->plan_id = name;
   return "";
 }
 
-std::string LauvOperator::start_plan(const imc::PlanControl& request) {
+std::string LauvOperator::start_plan(const imc::PlanControl& request, std::uint16_t who) {
   try {
     if (is_maneuver(request.arg.id))
       return execute(make_plan(std::string(request.plan_id.view()), request.arg, origin()));
-    const bool is_loaded = request.arg.empty() && loaded_ && loaded_->plan_id == request.plan_id;
+    // as it is stored now; one that is no more is there as it was loaded, and without a name the loaded one is meant
+    const bool is_loaded = request.arg.empty() && loaded_ && plans_.find(request.plan_id.view()) == nullptr &&
+                           (request.plan_id.empty() || loaded_->plan_id == request.plan_id);
     if (!is_loaded)
-      if (std::string why_not = load_plan(request, 0xffff); !why_not.empty()) return why_not;
-    Plan plan = make_plan(*loaded_, origin());
-    if (!request.plan_id.empty()) plan.name = request.plan_id.view();
-    return execute(std::move(plan));
+      if (std::string why_not = load_plan(request, who); !why_not.empty()) return why_not;
+    return execute(make_plan(*loaded_, origin()));
   } catch (const std::invalid_argument& error) { return error.what(); }
 }
 

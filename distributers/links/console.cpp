@@ -9,10 +9,11 @@ namespace jarol::distributers {
 
 ConsolePort::ConsolePort(const messages::MessageSet& set)
     : set_(set),
-      port_(most_packets, longest_packet(set)),
       header_(*set.header),
-      room_(longest_packet(set)),
-      reader_(set) {}
+      port_(most_packets, longest_packet(set)),
+      answers_(most_packets, longest_packet(set)),
+      answers_read_{std::vector<std::byte>(longest_packet(set)), messages::PacketReader(set)},
+      read_{std::vector<std::byte>(longest_packet(set)), messages::PacketReader(set)} {}
 
 bool ConsolePort::send(messages::MessageRef message, std::string& why) {
   if (!messages::write_packet(header_, message, set_.order, packet_, &why)) return false;
@@ -25,11 +26,24 @@ bool ConsolePort::send(messages::MessageRef message, std::string& why) {
   return false;
 }
 
-void ConsolePort::receive(messages::Receiver& receiver) {
-  for (std::size_t left = port_.capacity(); left > 0; --left) {
-    const std::optional<std::size_t> size = port_.read(room_);
+void ConsolePort::receive(messages::Receiver& receiver) { read_all(port_, read_, receiver); }
+
+void ConsolePort::answer(messages::MessageRef message) {
+  if (messages::write_packet(header_, message, set_.order, answer_packet_) && answers_.write(answer_packet_))
+    answered_.fetch_add(1, std::memory_order_relaxed);
+  else
+    lost_.fetch_add(1, std::memory_order_relaxed);
+}
+
+void ConsolePort::receive_answers(messages::Receiver& receiver) { read_all(answers_, answers_read_, receiver); }
+
+// No more than there is room for, however fast the other side writes.
+void ConsolePort::read_all(PacketPort& port, Reading& reading, messages::Receiver& receiver) {
+  for (std::size_t left = port.capacity(); left > 0; --left) {
+    const std::optional<std::size_t> size = port.read(reading.room);
     if (!size) return;
-    if (reader_.read(std::span(room_).first(*size)) == messages::Flaw::none) receiver.receive(reader_.message());
+    if (reading.reader.read(std::span(reading.room).first(*size)) == messages::Flaw::none)
+      receiver.receive(reading.reader.message());
   }
 }
 
@@ -38,7 +52,7 @@ ConsoleChannels::ConsoleChannels(std::unique_ptr<AnyDistributer> distributer)
 
 void ConsoleChannels::reach(Duration instant) {
   port_->receive(*distributer_);
-  distributer_->reach(instant, unread_);
+  distributer_->reach(instant, answers_);
 }
 
 std::optional<LinkReport> ConsoleChannels::link_report() const {
@@ -46,7 +60,10 @@ std::optional<LinkReport> ConsoleChannels::link_report() const {
   report.link = "console";
   report.heard = port_->given();
   report.dropped = port_->refused();
-  report.counts = {{"messages in", report.heard}, {"refused", report.dropped}};
+  report.counts = {{"messages in", report.heard},
+                   {"refused", report.dropped},
+                   {"messages out", port_->answered()},
+                   {"lost", port_->lost()}};
   return report;
 }
 

@@ -1,5 +1,5 @@
 // The link to an operator at a console of this process: messages come from the console's thread by a Jarol port, and
-// reach the distributer at the next instant, as from any other operator.
+// reach the distributer at the next instant, as from any other operator; its answers go back by another one.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ struct LinkType;
 /// The link type `console`.
 LinkType console_link();
 
-/// The way from the console to the distributer, which either may outlive.
+/// The way from the console to the distributer and back, which either may outlive.
 class ConsolePort {
  public:
   explicit ConsolePort(const messages::MessageSet& set);
@@ -32,21 +32,34 @@ class ConsolePort {
   /// By the run: all that was sent.
   void receive(messages::Receiver& receiver);
 
+  /// By the run: what the distributer says to the operator. What finds no room is lost and counted; nobody waits.
+  void answer(messages::MessageRef message);
+  /// By the console's thread: all that was answered.
+  void receive_answers(messages::Receiver& receiver);
+
   std::uint64_t given() const { return given_.load(std::memory_order_relaxed); }
   std::uint64_t refused() const { return refused_.load(std::memory_order_relaxed); }
+  std::uint64_t answered() const { return answered_.load(std::memory_order_relaxed); }
+  std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
-  static constexpr std::size_t most_packets = 64;  // on their way
+  static constexpr std::size_t most_packets = 64;  // on their way, each way
 
  private:
   const messages::MessageSet& set_;
-  PacketPort port_;
-  std::atomic<std::uint64_t> given_{0}, refused_{0};
-  // of the console's thread
   const messages::Message header_;
+  PacketPort port_, answers_;
+  std::atomic<std::uint64_t> given_{0}, refused_{0}, answered_{0}, lost_{0};
+  struct Reading {
+    std::vector<std::byte> room;
+    messages::PacketReader reader;
+  };
+  static void read_all(PacketPort& port, Reading& reading, messages::Receiver& receiver);
+  // of the console's thread
   std::vector<std::byte> packet_;
+  Reading answers_read_;
   // of the run
-  std::vector<std::byte> room_;
-  messages::PacketReader reader_;
+  std::vector<std::byte> answer_packet_;
+  Reading read_;
 };
 
 class ConsoleChannels : public Channels {
@@ -63,13 +76,19 @@ class ConsoleChannels : public Channels {
   void hand_over(std::size_t channel, const void* value) override { distributer_->hand_over(channel, value, unread_); }
 
  private:
-  // Pages see what the graph publishes; reports in the operator's messages say the same.
+  struct Answers : messages::Receiver {
+    explicit Answers(ConsolePort& to) : port(to) {}
+    void receive(messages::MessageRef message) override { port.answer(message); }
+    ConsolePort& port;
+  };
+  // Pages see what the graph publishes; what is made of it in the operator's messages says the same.
   struct Unread : messages::Receiver {
     void receive(messages::MessageRef) override {}
   };
 
   std::unique_ptr<AnyDistributer> distributer_;
   std::shared_ptr<ConsolePort> port_;
+  Answers answers_{*port_};
   Unread unread_;
 };
 

@@ -66,10 +66,10 @@ export class Console {
     return this.page.until(`document.querySelector('[role=status]')?.textContent === ${JSON.stringify(text)}`);
   }
 
-  /** Presses the button of that label or text. */
+  /** Presses the button of that label or text, once it can be pressed. */
   async press(label) {
     const found = `[...document.querySelectorAll('button')].find((b) => (b.getAttribute('aria-label') ?? b.textContent.trim()) === ${JSON.stringify(label)})`;
-    await this.page.until(`!!${found}`);
+    await this.page.until(`${found}?.disabled === false`);
     await this.page.evaluate(`${found}.id = 'pressed'`);
     await this.page.click('#pressed');
     await this.page.evaluate(`document.querySelector('#pressed')?.removeAttribute('id')`);

@@ -82,19 +82,20 @@ void Console::end(const std::string& text) {
 // Samples are messages of their own, so that none is long; what stands before them is there always.
 std::vector<std::string> Console::next_messages() {
   Batch batch = feed_.take_batch();
-  const Json desk = desk_.news(Desk::Clock::now());
+  const Json desk = desk_.news(Desk::Clock::now()), answers = desk_.answers();
   const std::lock_guard lock(mutex_);
   now_ = std::max(now_, batch.newest());
   const std::pair shown(now_, watched_.pace != nullptr ? watched_.pace->state() : Pace::State{});
   thinned_ += batch.thinned;
   std::vector<std::string> messages;
-  if (!batch.empty() || shown_ != shown || !desk.is_null()) {
+  if (!batch.empty() || shown_ != shown || !desk.is_null() || !answers.is_null()) {
     Json json{{"now", seconds(now_)}};
     if (watched_.pace != nullptr) {
       json["paused"] = shown.second.paused;
       json["speed"] = shown.second.speed ? Json(*shown.second.speed) : Json("max");
     }
     if (!desk.is_null()) json["desk"] = desk;
+    if (!answers.is_null()) json["answers"] = answers;
     if (thinned_ > 0) json["thinned"] = thinned_;
     if (batch.lost_events > 0) json["lost_events"] = batch.lost_events;
     for (const FeedEvent& event : batch.events) json["events"].push_back(event_json(event, tasks_));

@@ -94,6 +94,8 @@ Json distributers_json(const Graph& graph) {
                             {"summary", d.distributer_class->summary},
                             {"vehicle", d.distributer_class->is_vehicle},
                             {"link", link != nullptr ? link->text : ""}});
+    if (const Type* const parameters = d.distributer_class->parameters)
+      distributers.back()["parameters"] = describe_parameters(*parameters, d.parameters);
   }
   return distributers;
 }

@@ -40,9 +40,10 @@ std::string text_of_value(const Type& type, const void* value) {
   return json.is_string() ? json.get<std::string>() : json.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
-Json parameters_json(const Task& task) {
+}  // namespace
+
+Json describe_parameters(const Type& type, const Value& given) {
   auto parameters = Json::array();
-  const Type& type = *task.task_class->parameters;
   const Value defaults(type);
   for (const Leaf& leaf : leaves_of(type)) {
     const auto text_in = [&](const Value& value) {
@@ -51,7 +52,7 @@ Json parameters_json(const Task& task) {
     Json json{{"path", leaf.path},
               {"kind", kind_of(*leaf.type)},
               {"unit", leaf.unit},
-              {"value", text_in(task.parameters)},
+              {"value", text_in(given)},
               {"default", text_in(defaults)}};
     if (const std::string text = text_of_leaf(type, leaf.path); !text.empty()) json["text"] = text;
     for (const auto& [name, number] : leaf.type->enumerators) json["words"].push_back(name);
@@ -60,13 +61,15 @@ Json parameters_json(const Task& task) {
   return parameters;
 }
 
+namespace {
+
 Json task_json(const Task& task) {
   Json json{{"name", task.name},
             {"type", task.task_class->name},
             {"period", seconds(task.period)},
             {"offset", seconds(task.offset)},
             {"deadline", seconds(task.deadline)},
-            {"parameters", parameters_json(task)}};
+            {"parameters", describe_parameters(*task.task_class->parameters, task.parameters)}};
   if (task.let) json["let"] = seconds(*task.let);
   if (task.wcet) json["wcet"] = seconds(*task.wcet);
   return json;

@@ -81,6 +81,23 @@ nlohmann::ordered_json Desk::news(Clock::time_point now) {
   return news;
 }
 
+nlohmann::ordered_json Desk::answers() {
+  struct AsJson : messages::Receiver {
+    void receive(messages::MessageRef message) override {
+      all.push_back(
+          {{"message", message.form->name}, {"fields", nlohmann::ordered_json::parse(messages::to_json(message))}});
+    }
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  };
+  nlohmann::ordered_json answers;
+  for (const Seat& seat : seats_) {
+    AsJson its;
+    seat.of.port->receive_answers(its);
+    if (!its.all.empty()) answers[seat.of.name] = std::move(its.all);
+  }
+  return answers;
+}
+
 Desk::Seat& Desk::find(const Json& message) {
   const std::string name = text_of(message, "desk");
   std::vector<std::string> names;

@@ -14,7 +14,7 @@
 
 namespace jarol::tools::console {
 
-/// An operator whose link is the console.
+/// An operator whose link is the console, and its distributer's way to it.
 struct DeskOperator {
   std::string name;  // of the distributer
   std::string type;
@@ -40,6 +40,10 @@ class Desk {
   /// Who commands, if that has changed since the last call; else null. A commander that has fallen silent no longer
   /// does.
   nlohmann::ordered_json news(Clock::time_point now);
+
+  /// What the operators' distributers have said since the last call, as in {"neptus": [{"message": "PlanControl",
+  /// "fields": {...}}]}; null: nothing.
+  nlohmann::ordered_json answers();
 
   /// So long a page that is silent still commands.
   static constexpr std::chrono::milliseconds patience{1000};

@@ -2,11 +2,71 @@
 #include <doctest/doctest.h>
 
 #include "distributers/messages/payload.h"
+#include "tests/distributers/lauv/inline_messages.h"
 #include "tests/distributers/lauv_console.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tests;
+
+// One maneuver: go down at the origin.
+imc::PlanSpecification dive_plan(const char* name, float depth) {
+  imc::Goto there;
+  there.lat = LauvOperatorParameters{}.latitude;
+  there.lon = LauvOperatorParameters{}.longitude;
+  there.z = depth;
+  there.z_units = imc::ZUnits::DEPTH;
+  there.speed = 1;
+  imc::PlanManeuver named;
+  named.maneuver_id = "dive";
+  named.data = packed(there);
+  imc::PlanSpecification plan;
+  plan.plan_id = name;
+  plan.start_man_id = "dive";
+  plan.maneuvers.push_back(packed(named));
+  return plan;
+}
+
+// An operator who stores, loads and starts plans; each returns why not, or nothing.
+struct Planner : Conversation {
+  template <class M>
+  std::string ask(const M& request) {
+    say(request);
+    pass(50ms);
+    return std::string(to.last<M>().info.view());
+  }
+  std::string store(const char* name, const imc::PlanSpecification& plan) {
+    imc::PlanDB request;
+    request.op = imc::PlanDB::Op::SET;
+    request.plan_id = name;
+    request.arg = packed(plan);
+    return ask(request);
+  }
+  std::string forget(const char* name) {
+    imc::PlanDB request;
+    request.op = imc::PlanDB::Op::DEL;
+    request.plan_id = name;
+    return ask(request);
+  }
+  std::string load(const char* name, const messages::InlineMessage& plan = {}) {
+    return control(imc::PlanControl::Op::LOAD, name, plan);
+  }
+  std::string start(const char* name) { return control(imc::PlanControl::Op::START, name, {}); }
+  std::string control(std::uint8_t op, const char* name, const messages::InlineMessage& plan) {
+    imc::PlanControl request;
+    request.op = op;
+    request.plan_id = name;
+    request.arg = plan;
+    return ask(request);
+  }
+  // where it goes; 0: nowhere
+  double depth() {
+    adapter.take<&LauvOperator::In::leg>(leg);
+    return leg.level;
+  }
+  std::string name() const { return std::string(to.last<imc::PlanControlState>().plan_id.view()); }
+  tasks::Leg leg;
+};
 }  // namespace
 
 TEST_SUITE("distributers/lauv_operator_plans") {
@@ -38,6 +98,58 @@ TEST_SUITE("distributers/lauv_operator_plans") {
     CHECK(reply.type == imc::PlanControl::Type::FAILURE);
     CHECK(reply.info == "DesiredZ is not flown here");
     CHECK(c.op_mode() == OpMode::SERVICE);
+  }
+
+  TEST_CASE("a plan that is stored is loaded by its name and started, as it was stored last") {
+    Planner p;
+    CHECK(p.store("dive", dive_plan("dive", 3)) == "");
+    CHECK(p.load("dive") == "");
+    CHECK(p.op_mode() == OpMode::SERVICE);
+    SUBCASE("as it was loaded") {
+      CHECK(p.start("dive") == "");
+      CHECK(p.depth() == 3);
+    }
+    SUBCASE("stored anew since") {
+      CHECK(p.store("dive", dive_plan("dive", 4)) == "");
+      CHECK(p.start("dive") == "");
+      CHECK(p.depth() == 4);
+    }
+    SUBCASE("no name means the loaded one") {
+      CHECK(p.store("other", dive_plan("other", 5)) == "");
+      CHECK(p.start("") == "");
+      CHECK(p.depth() == 3);
+    }
+    SUBCASE("what is loaded is there though it is stored no more") {
+      CHECK(p.forget("dive") == "");
+      CHECK(p.start("dive") == "");
+      CHECK(p.depth() == 3);
+    }
+    CHECK(p.op_mode() == OpMode::MANEUVER);
+    CHECK(p.name() == "dive");
+  }
+
+  TEST_CASE("a plan goes by the name that it was stored or loaded by") {
+    Planner p;
+    SUBCASE("stored") {
+      CHECK(p.store("deep", dive_plan("dive", 6)) == "");
+      CHECK(p.load("deep") == "");
+    }
+    SUBCASE("loaded") { CHECK(p.load("deep", packed(dive_plan("dive", 6))) == ""); }
+    CHECK(p.start("dive") == "no plan 'dive' is stored here");
+    CHECK(p.start("deep") == "");
+    CHECK(p.depth() == 6);
+    CHECK(p.name() == "deep");
+  }
+
+  TEST_CASE("a stored plan that can't be flown is not loaded, and what was loaded stays") {
+    Planner p;
+    CHECK(p.load("good", packed(dive_plan("good", 3))) == "");
+    CHECK(p.store("bad", dive_plan("bad", -1)) == "");
+    CHECK(p.load("bad") == "maneuver 'dive': z is -1 m; depths and altitudes are not negative");
+    CHECK(p.start("bad") == "maneuver 'dive': z is -1 m; depths and altitudes are not negative");
+    CHECK(p.op_mode() == OpMode::SERVICE);
+    CHECK(p.start("") == "");
+    CHECK(p.depth() == 3);
   }
 
   TEST_CASE("a vehicle command executes and stops the same maneuver") {

@@ -2,8 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "distributers/interfaces/typed.h"
 #include "distributers/javiator/operator.h"
+#include "distributers/lauv/operator.h"
 #include "distributers/links/link_type.h"
 #include "graph/values/value.h"
 
@@ -25,6 +28,24 @@ struct Channelled {
     CHECK(channels.take(0, &command));
     return command;
   }
+};
+
+// The submarine's operator, and what the console gets of its distributer.
+struct Submarine : messages::Receiver {
+  void receive(messages::MessageRef message) override { got.emplace_back(message); }
+  void reach(Duration instant) {
+    channels.reach(instant);
+    channels.port()->receive_answers(*this);
+  }
+  template <class M>
+  std::size_t count() const {
+    return static_cast<std::size_t>(
+        std::count_if(got.begin(), got.end(), [](const messages::Message& m) { return m.as<M>() != nullptr; }));
+  }
+
+  DistributerClass operator_class = distributer_class<LauvOperator>();
+  ConsoleChannels channels{operator_class.make(Value(*operator_class.parameters).data())};
+  std::vector<messages::Message> got;
 };
 }  // namespace
 
@@ -56,7 +77,51 @@ TEST_SUITE("distributers/links/console") {
     CHECK(at.reach(0ms).shut_downs == ConsolePort::most_packets);
     const LinkReport report = *at.channels.link_report();
     CHECK(report.link == "console");
-    CHECK(report.counts == std::vector<std::pair<std::string, std::uint64_t>>{{"messages in", 64}, {"refused", 1}});
+    CHECK(report.counts == std::vector<std::pair<std::string, std::uint64_t>>{
+                               {"messages in", 64}, {"refused", 1}, {"messages out", 0}, {"lost", 0}});
+  }
+
+  TEST_CASE("what the distributer answers reaches the console, to the word") {
+    Submarine at;
+    imc::PlanControl question;
+    question.op = imc::PlanControl::Op::GET;
+    question.request_id = 7;
+    std::string why;
+    REQUIRE(at.channels.port()->send(messages::refer_to(question), why));
+    at.reach(0ms);
+    REQUIRE(at.count<imc::PlanControl>() == 1);
+    const auto* answer = std::find_if(at.got.begin(), at.got.end(), [](const messages::Message& m) {
+                           return m.as<imc::PlanControl>() != nullptr;
+                         })->as<imc::PlanControl>();
+    CHECK(answer->type == imc::PlanControl::Type::FAILURE);
+    CHECK(answer->request_id == 7);
+    CHECK(answer->info == "no plan is loaded");
+  }
+
+  TEST_CASE("what it says unasked comes as well, but not what the graph publishes anyway") {
+    Submarine at;
+    at.reach(0ms);
+    CHECK(at.count<imc::VehicleState>() == 1);
+    CHECK(at.count<imc::PlanControlState>() == 1);
+    const auto motion = std::find_if(at.operator_class.channels.begin(), at.operator_class.channels.end(),
+                                     [](const ChannelClass& channel) { return channel.name == "motion"; });
+    const auto which = static_cast<std::size_t>(motion - at.operator_class.channels.begin());
+    at.channels.hand_over(which, Value(type_of<tasks::Motion>()).data());
+    at.reach(50ms);
+    CHECK(at.count<imc::EstimatedState>() == 0);
+  }
+
+  TEST_CASE("answers that nobody takes are bounded, and those that are lost are counted") {
+    Submarine at;
+    // three messages a second
+    for (int second = 0; second < 30; ++second) at.channels.reach(second * 1s);
+    at.channels.port()->receive_answers(at);
+    CHECK(at.got.size() == ConsolePort::most_packets);
+    CHECK(at.channels.port()->answered() == ConsolePort::most_packets);
+    CHECK(at.channels.port()->lost() == 90 - ConsolePort::most_packets);
+    at.got.clear();
+    at.reach(30s);
+    CHECK(at.got.size() == 3);
   }
 
   TEST_CASE("the console may outlive the run") {

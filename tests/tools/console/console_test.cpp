@@ -88,6 +88,10 @@ TEST_SUITE("console/console") {
     CHECK(alarm["words"][0] == json::parse(R"({"number": 0, "name": "none"})"));
     CHECK(alarm["words"][1]["meaning"] == "it comes up, as the operator is silent");
     CHECK(output("fins.actuation")["leaves"][1]["path"] == "fins.0");
+    const json& neptus = described["distributers"][1];
+    CHECK(neptus["type"] == "LauvOperator");
+    CHECK(neptus["parameters"][1] == json::parse(R"({"path": "latitude", "kind": "number", "unit": "rad",
+        "value": "0.7188138524338646", "default": "0.7188138524338646", "text": "of the origin, WGS-84"})"));
     CHECK(described["pairs"][0] ==
           json::parse(R"({"title": "depth", "commanded": "from_neptus.depth", "reached": "to_neptus.depth"})"));
   }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "distributers/messages/imc.h"
 #include "distributers/messages/javiator.h"
 
 namespace {
@@ -144,6 +145,27 @@ TEST_SUITE("console/desk") {
       desks.desk.news(desks.now);
     }
     CHECK_NOTHROW(desks.send(7, 100, 0));
+  }
+
+  TEST_CASE("what an operator's distributer says reaches the pages once, in its words") {
+    const auto port = std::make_shared<distributers::ConsolePort>(messages::imc::message_set());
+    Desk desk{{{"neptus", "LauvOperator", port}}};
+    CHECK(desk.answers().is_null());
+    messages::imc::VehicleCommand answer;
+    answer.type = messages::imc::VehicleCommand::Type::FAILURE;
+    answer.request_id = 7;
+    answer.info = "just aborted";
+    port->answer(messages::refer_to(messages::imc::Heartbeat{}));
+    port->answer(messages::refer_to(answer));
+    const json answers = desk.answers()["neptus"];
+    REQUIRE(answers.size() == 2);
+    CHECK(answers[0] == json::parse(R"({"message": "Heartbeat", "fields": {}})"));
+    CHECK(answers[1]["message"] == "VehicleCommand");
+    CHECK(answers[1]["fields"]["type"] == messages::imc::VehicleCommand::Type::FAILURE);
+    CHECK(answers[1]["fields"]["request_id"] == 7);
+    CHECK(answers[1]["fields"]["info"] == "just aborted");
+    CHECK(answers[1]["fields"]["maneuver"] == nullptr);
+    CHECK(desk.answers().is_null());
   }
 
   TEST_CASE("what makes no sense is said") {

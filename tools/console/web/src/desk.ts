@@ -1,14 +1,11 @@
 // What a pilot at the desk commands a helicopter: sticks that spring back, and the goals that they move, in the messages of
 // the JAviator's terminal.
 
-/** Each from -1 to 1. */
-export interface Sticks {
-  roll: number; // to the right
-  pitch: number; // forward
-  turn: number; // to the right
-  climb: number;
-}
+import { clamp, wrapped, type Places, type StickPlan } from "./sticks.ts";
+
 export const stickNames = ["roll", "pitch", "turn", "climb"] as const;
+/** To the right, forward, to the right, up. */
+export type Sticks = Places<(typeof stickNames)[number]>;
 
 export const limits = {
   lean: 0.15, // rad, of a full stick
@@ -19,18 +16,6 @@ export const limits = {
   yaw: Math.PI,
   away: 20, // m
 };
-
-/** A stick that is nearly centred is. */
-export const deadZone = 0.08;
-export function withDeadZone(value: number): number {
-  const size = Math.abs(value);
-  if (!Number.isFinite(size) || size < deadZone) return 0;
-  return Math.sign(value) * Math.min(1, (size - deadZone) / (1 - deadZone));
-}
-
-const clamp = (value: number, most: number, least = -most) => Math.min(most, Math.max(least, value));
-/** To within half a turn. */
-export const wrapped = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
 /** Where the vehicle is, as far as it says. */
 export interface Known {
@@ -80,48 +65,20 @@ export class Goals {
   }
 }
 
-/** Which key moves which stick. */
-const keys: Record<string, [keyof Sticks, number]> = {
-  ArrowLeft: ["roll", -1],
-  ArrowRight: ["roll", 1],
-  ArrowUp: ["pitch", 1],
-  ArrowDown: ["pitch", -1],
-  KeyA: ["turn", -1],
-  KeyD: ["turn", 1],
-  KeyW: ["climb", 1],
-  KeyS: ["climb", -1],
+export const stickPlan: StickPlan<keyof Sticks> = {
+  names: stickNames,
+  keys: {
+    ArrowLeft: ["roll", -1],
+    ArrowRight: ["roll", 1],
+    ArrowUp: ["pitch", 1],
+    ArrowDown: ["pitch", -1],
+    KeyA: ["turn", -1],
+    KeyD: ["turn", 1],
+    KeyW: ["climb", 1],
+    KeyS: ["climb", -1],
+  },
+  axes: { turn: [0, 1], climb: [1, -1], roll: [2, 1], pitch: [3, -1] },
 };
-export const isStickKey = (code: string) => code in keys;
-
-/** Keys, pads on the screen and a gamepad, whichever is moved most. */
-export class StickInput {
-  private readonly held = new Set<string>();
-  readonly pads: Sticks = { roll: 0, pitch: 0, turn: 0, climb: 0 };
-
-  press(code: string): void {
-    if (isStickKey(code)) this.held.add(code);
-  }
-  lift(code: string): void {
-    this.held.delete(code);
-  }
-  /** Nobody holds anything any more. */
-  letGo(): void {
-    this.held.clear();
-    for (const name of stickNames) this.pads[name] = 0;
-  }
-
-  read(gamepad: readonly number[] = []): Sticks {
-    const [turn = 0, down = 0, roll = 0, back = 0] = gamepad.map(withDeadZone);
-    const pad: Sticks = { roll, pitch: -back, turn, climb: -down };
-    const read = { ...this.pads };
-    for (const name of stickNames) if (Math.abs(pad[name]) > Math.abs(read[name])) read[name] = pad[name];
-    for (const code of this.held) {
-      const [name, way] = keys[code]!;
-      read[name] = clamp(read[name] + way, 1);
-    }
-    return read;
-  }
-}
 
 /** The one thing that SWITCH_STATE does next; undefined: nothing now. */
 export function nextSwitch(state: string, cause: string): string | undefined {

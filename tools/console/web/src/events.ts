@@ -5,7 +5,7 @@ import type { Hello, RunEvent, Sample } from "./protocol.ts";
 
 export interface Event {
   t: number;
-  kind: "fault" | "rest" | "told" | "page";
+  kind: "fault" | "rest" | "told" | "operator" | "page";
   text: string;
   task?: string; // of a fault
 }

@@ -64,6 +64,7 @@ export interface Distributer {
   summary: string;
   vehicle: boolean;
   link: string;
+  parameters?: Parameter[];
 }
 
 export interface Connection {
@@ -159,6 +160,14 @@ export interface Shown {
   events?: RunEvent[];
   samples?: Sample[];
   desk?: Record<string, { commander: string | null; why?: string }>;
+  answers?: Record<string, Answer[]>;
+}
+
+export type Fields = Record<string, unknown>;
+/** What an operator's distributer has said: a message of its set. */
+export interface Answer {
+  message: string;
+  fields: Fields;
 }
 
 export type Message =

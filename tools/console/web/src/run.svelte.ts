@@ -1,9 +1,13 @@
 // A run as the page knows it: the socket, all values so far, and the instant that is looked at.
 
 import { EventLog, type Event } from "./events.ts";
-import { parseMessage, type Hello, type Message, type Shown } from "./protocol.ts";
+import { parseMessage, type Answer, type Fields, type Hello, type Message, type Shown } from "./protocol.ts";
 import { Store } from "./series.ts";
 import { vehicleOf, type Vehicle } from "./vehicles.ts";
+
+/** Milliseconds without news after which a run that has such a pace is not heard any more. */
+const patience = 3000;
+const leastPace = 0.2;
 
 export class Run {
   hello: Hello | undefined = $state.raw();
@@ -23,8 +27,14 @@ export class Run {
   playSpeed = $state(1);
   events: Event[] = $state.raw([]);
   faults: Map<string, number> = $state.raw(new Map());
+  /** Nothing comes any more, though the run should go on. */
+  silent = $state(false);
   /** Who commands at which desk, as this page knows it. */
   desks: Record<string, { commander: string | null; why?: string }> = $state.raw({});
+  /** The newest message of each name that an operator's distributer has said, by desk. */
+  said: Record<string, Record<string, Fields>> = $state.raw({});
+  /** Called with all that one says. */
+  readonly hearers = new Set<(desk: string, answer: Answer) => void>();
   /** Changes whenever there is something to draw, once a frame. */
   tick = $state(0);
 
@@ -32,6 +42,7 @@ export class Run {
   private socket: WebSocket | undefined;
   private news = false;
   private lastFrame = 0;
+  private heard = 0;
 
   get time(): number {
     return this.cursor ?? this.newest;
@@ -72,6 +83,7 @@ export class Run {
   }
 
   private take(text: string): void {
+    this.heard = performance.now();
     let message: Message;
     try {
       message = parseMessage(text);
@@ -107,6 +119,7 @@ export class Run {
       this.faults = faults;
     }
     if (shown.desk) this.desks = { ...this.desks, ...shown.desk };
+    if (shown.answers) this.hear(shown.answers);
     if (shown.samples) {
       this.store?.add(shown.samples);
       this.log?.look(shown.samples);
@@ -115,8 +128,21 @@ export class Run {
     if (this.log && this.log.all.length + this.log.dropped !== this.events.length) this.events = [...this.log.all];
   }
 
-  private note(text: string): void {
-    this.log?.add({ t: this.newest, kind: "page", text });
+  private hear(answers: Record<string, Answer[]>): void {
+    const said = { ...this.said };
+    for (const [desk, its] of Object.entries(answers)) {
+      const newest = (said[desk] = { ...said[desk] });
+      for (const answer of its) {
+        newest[answer.message] = answer.fields;
+        for (const hear of this.hearers) hear(desk, answer);
+      }
+    }
+    this.said = said;
+  }
+
+  /** In the list of what happened, at the newest instant. */
+  note(text: string, kind: Event["kind"] = "page"): void {
+    this.log?.add({ t: this.newest, kind, text });
     this.events = [...(this.log?.all ?? [])];
     this.news = true;
   }
@@ -130,6 +156,9 @@ export class Run {
       if (next >= this.newest) this.playing = false;
       this.news = true;
     }
+    const comes = this.link === "open" && this.ended === undefined && !this.paused && this.hello?.clock !== "recorded";
+    const fast = this.speed === "max" || this.speed >= leastPace;
+    this.silent = comes && fast && performance.now() - this.heard > patience;
     if (this.news) {
       this.news = false;
       ++this.tick;

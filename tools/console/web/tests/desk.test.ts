@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { deadZone, Goals, limits, nextSwitch, StickInput, withDeadZone, wrapped } from "../src/desk.ts";
+import { Goals, limits, nextSwitch, stickPlan } from "../src/desk.ts";
+import { deadZone, StickReader, withDeadZone, wrapped } from "../src/sticks.ts";
 
 const centred = { roll: 0, pitch: 0, turn: 0, climb: 0 };
 const known = { x: 1, y: -2, altitude: 0.9, yaw: 7, position: true, flies: true };
@@ -50,7 +51,7 @@ test("climb and turn keep within limits", () => {
 });
 
 test("the newest of keys, pads and gamepad moves a stick, and all that is let go is centred", () => {
-  const input = new StickInput();
+  const input = new StickReader(stickPlan);
   assert.deepEqual(input.read(), centred);
   input.press("ArrowRight");
   input.press("KeyS");
