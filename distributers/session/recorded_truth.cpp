@@ -11,7 +11,7 @@ namespace {
 class WithTruth : public Channels {
  public:
   WithTruth(std::unique_ptr<Channels> replayed, const Recording& recording, const ReadTopic& topic, const Type& type)
-      : replayed_(std::move(replayed)), recording_(recording), topic_(topic), next_(recording, topic), value_(type) {}
+      : replayed_(std::move(replayed)), topic_(topic), next_(recording, topic), value_(type) {}
 
   void reach(Duration instant) override {
     replayed_->reach(instant);
@@ -27,11 +27,10 @@ class WithTruth : public Channels {
     const std::string_view data = next_.message()->data;
     const std::span bytes(reinterpret_cast<const std::byte*>(data.data()), data.size());
     if (const std::string wrong = decode_cdr(*value_.type(), bytes, value_.data()); !wrong.empty())
-      fail_in_chunk(recording_.path(), next_.chunk_offset(), "a value of '" + topic_.channel.topic + "' that " + wrong);
+      fail_in_chunk(next_.spot(), "a value of '" + topic_.channel.topic + "' that " + wrong);
   }
 
   std::unique_ptr<Channels> replayed_;
-  const Recording& recording_;
   const ReadTopic& topic_;
   MessageCursor next_;
   Value value_;

@@ -40,7 +40,9 @@ class Verifier {
   void look_at_data(const Record& record) {
     try {
       switch (record.opcode) {
-        case Opcode::header: break;
+        case Opcode::header:
+        case Opcode::schema:
+        case Opcode::channel: break;
         case Opcode::attachment: read_attachment(record.content); break;
         case Opcode::chunk: look_at_chunk(record); break;
         case Opcode::message_index: look_at_index(record); break;

@@ -66,6 +66,12 @@ void Writer::write(const Attachment& attachment) {
   ++attachments_;
 }
 
+void Writer::write(const std::vector<Schema>& schemas, const std::vector<Channel>& channels) {
+  for (const Schema& schema : schemas) put_out(record_of(schema));
+  for (const Channel& channel : channels) put_out(record_of(channel));
+  flush();
+}
+
 void Writer::write(const Chunk& chunk) {
   const std::string_view records = chunk.records();
   std::string_view stored = records;

@@ -18,9 +18,15 @@ class Writer {
   Writer(std::FILE* file, Compression compression, std::string_view library);
 
   void write(const Attachment& attachment);
+  /// So that chunks need not describe their channels.
+  void write(const std::vector<Schema>& schemas, const std::vector<Channel>& channels);
   void write(const Chunk& chunk);
   /// The summary; `schemas` and `channels` are those of all chunks.
   void end(const std::vector<Schema>& schemas, const std::vector<Channel>& channels);
+
+  /// Written so far.
+  std::uint64_t bytes() const { return offset_; }
+  bool has_chunks() const { return !chunks_.empty(); }
 
  private:
   void put_out(std::string_view bytes);

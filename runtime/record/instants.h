@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/record/recording.h"
+#include "runtime/record/message_cursor.h"
 
 namespace jarol {
 

@@ -51,43 +51,45 @@ std::string wrong_with(const Gap& gap) {
 
 std::optional<LogEnd> find_end(const Recording& recording) {
   const ReadTopic* const topic = recording.find(topics::end);
-  if (!recording.is_whole() || recording.good_until() != recording.size() || topic == nullptr) return std::nullopt;
+  if (!recording.is_whole() || recording.good_until() != recording.size_of_last() || topic == nullptr)
+    return std::nullopt;
   MessageCursor cursor(recording, *topic);
   if (cursor.message() == nullptr) return std::nullopt;
   LogEnd end;
   std::string wrong = decode_cdr(type_of<LogEnd>(), bytes_of(*cursor.message()), &end);
-  const std::uint64_t offset = cursor.chunk_offset();
+  const ChunkSpot spot = cursor.spot();
   cursor.next();
   wrong = wrong.empty() ? wrong_with(end, {}, cursor.message() != nullptr) : "an end that " + wrong;
-  if (!wrong.empty()) fail_in_chunk(recording.path(), offset, wrong);
+  if (!wrong.empty()) fail_in_chunk(spot, wrong);
   return end;
 }
 
 RecordedRun::RecordedRun(std::string path) : path_(std::move(path)) {
   recording_ = std::make_unique<Recording>(path_, [this](const mcap::Message& message, const ReadTopic& topic,
-                                                         std::uint64_t offset) { keep(message, topic, offset); });
+                                                         const ChunkSpot& spot) { keep(message, topic, spot); });
   if (!recording_->is_whole()) end_.reset();
   // what follows the end may be another recording, or what else somebody has added: it is not what the run was
-  const std::uint64_t more = recording_->size() - recording_->good_until();
+  const std::uint64_t more = recording_->size_of_last() - recording_->good_until();
   if (recording_->is_whole() && more > 0)
     fail("goes on for " + std::to_string(more) + (more == 1 ? " byte" : " bytes") +
-         " after its end; what was recorded is: head -c " + std::to_string(recording_->good_until()) + " " + path_);
+         " after its end; what was recorded is: head -c " + std::to_string(recording_->good_until()) + " " +
+         recording_->parts().back());
   if (recording_->is_whole() && !end_) fail("does not say how its run ended; it is none that jarol run has written");
 }
 
 // What no run writes was made, and is refused.
-void RecordedRun::keep(const mcap::Message& message, const ReadTopic& topic, std::uint64_t offset) {
+void RecordedRun::keep(const mcap::Message& message, const ReadTopic& topic, const ChunkSpot& spot) {
   const std::string& name = topic.channel.topic;
   if (!topic.is_own()) return;
   const auto read = [&]<class T>(T value, const auto&... context) {
     if (const std::string wrong = decode_cdr(type_of<T>(), bytes_of(message), &value); !wrong.empty())
-      fail_in_chunk(path_, offset, "a message of '" + name + "' that " + wrong);
-    if (const std::string wrong = wrong_with(value, context...); !wrong.empty()) fail_in_chunk(path_, offset, wrong);
+      fail_in_chunk(spot, "a message of '" + name + "' that " + wrong);
+    if (const std::string wrong = wrong_with(value, context...); !wrong.empty()) fail_in_chunk(spot, wrong);
     return value;
   };
   if (name.starts_with(topics::taken)) {
     if (!is_time(message.time) || message.time < last_value_)
-      fail_in_chunk(path_, offset, "a value of '" + name.substr(topics::taken.size()) + "' before the one before it");
+      fail_in_chunk(spot, "a value of '" + name.substr(topics::taken.size()) + "' before the one before it");
     last_value_ = message.time;
     ++values_;
   } else if (name == topics::misses) {
@@ -103,7 +105,7 @@ void RecordedRun::keep(const mcap::Message& message, const ReadTopic& topic, std
     gaps_.push_back(read(Gap{}));
   } else if (name == topics::checkpoints) {
     if (!is_time(message.time) || (!saved_.empty() && Duration(message.time) <= saved_.back()))
-      fail_in_chunk(path_, offset, "a checkpoint that is not after the one before it");
+      fail_in_chunk(spot, "a checkpoint that is not after the one before it");
     saved_.emplace_back(message.time);
   }
   if (misses_.size() > most_kept || digests_.size() > most_kept || gaps_.size() > most_kept)
@@ -130,7 +132,7 @@ std::string RecordedRun::saved_at(Duration instant) const {
   if (!cursor || cursor->message() == nullptr || Duration(cursor->message()->time) != instant)
     fail("has no checkpoint at " + seconds_text(instant) + " s");
   if (const std::string wrong = decode_cdr(type_of<SavedState>(), bytes_of(*cursor->message()), &state); !wrong.empty())
-    fail_in_chunk(path_, cursor->chunk_offset(), "a checkpoint that " + wrong);
+    fail_in_chunk(cursor->spot(), "a checkpoint that " + wrong);
   return std::string(state.bytes);
 }
 
@@ -181,7 +183,7 @@ bool RecordedRun::take(Duration instant, std::size_t communicator, void* value) 
     return false;
   const Type& type = *graph_->communicators[communicator].type;
   if (const std::string wrong = decode_cdr(type, bytes_of(*message), value); !wrong.empty())
-    fail_in_chunk(path_, next_->chunk_offset(), "a value of '" + name_of_next() + "' that " + wrong);
+    fail_in_chunk(next_->spot(), "a value of '" + name_of_next() + "' that " + wrong);
   next_->next();
   return true;
 }

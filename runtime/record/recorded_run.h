@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/record/log.h"
-#include "runtime/record/recording.h"
+#include "runtime/record/message_cursor.h"
 
 namespace jarol {
 
@@ -31,7 +31,7 @@ class RecordedRun : public TakenValues {
   const std::optional<LogEnd>& end() const { return end_; }
   /// From then on the vehicle was brought to rest; none: it was not, or that is not known.
   std::optional<Duration> rest_begun() const { return rest_begun_; }
-  /// It is good up to that byte.
+  /// Its last part is good up to that byte.
   std::uint64_t good_until() const { return recording_->good_until(); }
   /// The instants before it can be replayed.
   Duration covered() const;
@@ -51,7 +51,7 @@ class RecordedRun : public TakenValues {
   void require_all_taken() const;
 
  private:
-  void keep(const mcap::Message& message, const ReadTopic& topic, std::uint64_t offset);
+  void keep(const mcap::Message& message, const ReadTopic& topic, const ChunkSpot& spot);
   void require_not_before(Duration instant) const;
   const std::string& name_of_next() const;
   [[noreturn]] void fail(const std::string& what) const;

@@ -20,6 +20,27 @@ bool is_old_log(const std::string& path) {
   return begin == old_format;
 }
 
+mcap::Attachment attachment_of(const mcap::Record& record, const std::string& path) {
+  try {
+    return mcap::read_attachment(record.content);
+  } catch (const mcap::FormatError&) {
+    throw LogError("'" + path + "' is damaged at byte " + std::to_string(record.offset) +
+                   ", before what was recorded, and can't be replayed");
+  }
+}
+
+// The header of a file and the attachment that it begins with: what stands there says that a run wrote it.
+RecordingHeader read_header(mcap::Reader& reader, const std::string& path) {
+  mcap::Record record;
+  if (!reader.next(record) || record.opcode != mcap::Opcode::header) throw mcap::FormatError("no header");
+  if (!reader.next(record) || record.opcode != mcap::Opcode::attachment) throw mcap::FormatError("no recording");
+  const mcap::Attachment attachment = attachment_of(record, path);
+  if (attachment.name != RecordingHeader::attachment) throw mcap::FormatError("no recording");
+  try {
+    return parse_header(attachment.data);
+  } catch (const LogError&) { throw mcap::FormatError("no recording"); }
+}
+
 }  // namespace
 
 Recording::Recording(std::string path, const Visit& visit) : path_(std::move(path)) {
@@ -30,9 +51,13 @@ Recording::Recording(std::string path, const Visit& visit) : path_(std::move(pat
   try {
     mcap::Reader reader(path_);
     note_input(path_);
-    size_ = reader.size();
+    parts_.push_back(path_);
+    last_size_ = reader.size();
     read_begin(reader);
-    if (visit || !read_summary(reader)) read_chunks(reader, visit);
+    do {
+      whole_ = false;
+      if (visit || !read_summary(reader)) read_chunks(reader, visit);
+    } while (whole_ && open_next_part(reader));
   } catch (const std::system_error& error) {
     throw LogError("can't read '" + path_ + "': " + error.code().message());
   } catch (const mcap::FormatError&) {
@@ -40,44 +65,55 @@ Recording::Recording(std::string path, const Visit& visit) : path_(std::move(pat
       fail("is a log of jarol 0.1.0, before logs were MCAP recordings; replay it with that version, or run again");
     fail("is no recording; one comes from jarol run --record or --log");
   }
+  // the part that follows was not begun, or is gone
+  const ReadTopic* const end = find(topics::end);
+  if (header_.split > 0 && (end == nullptr || end->messages == 0)) whole_ = false;
 }
 
 // The header of the file and the attachments, which a run writes first.
 void Recording::read_begin(mcap::Reader& reader) {
-  mcap::Record record;
-  if (!reader.next(record) || record.opcode != mcap::Opcode::header) throw mcap::FormatError("no header");
-  good_until_ = reader.offset();
-  bool is_first = true;
-  while (reader.next(record) && record.opcode == mcap::Opcode::attachment) {
-    mcap::Attachment attachment;
-    try {
-      attachment = mcap::read_attachment(record.content);
-    } catch (const mcap::FormatError&) {
-      fail("is damaged at byte " + std::to_string(record.offset) + ", before what was recorded, and can't be replayed");
-    }
-    if (is_first) {
-      if (attachment.name != RecordingHeader::attachment) throw mcap::FormatError("no recording");
-      try {
-        header_ = parse_header(attachment.data);
-      } catch (const LogError&) { throw mcap::FormatError("no recording"); }
-    } else {
-      files_.push_back({std::move(attachment.name), std::move(attachment.data)});
-    }
-    is_first = false;
-    good_until_ = reader.offset();
-  }
-  if (is_first) throw mcap::FormatError("no recording");
+  header_ = read_header(reader, path_);
+  if (header_.part > 1)
+    fail("is part " + std::to_string(header_.part) + " of a recording that is split; give its first part");
   for (const std::string& set : header_.overrides.set)
     if (names_plugins(set))
       fail("sets '" + set + "', and a recording names no code to load; it is none that jarol run has written");
+  good_until_ = reader.offset();
+  for (mcap::Record record; reader.next(record) && record.opcode == mcap::Opcode::attachment;) {
+    mcap::Attachment file = attachment_of(record, path_);
+    files_.push_back({std::move(file.name), std::move(file.data)});
+    good_until_ = reader.offset();
+  }
   reader.seek(good_until_);
+}
+
+// Of the run that the part before it is of.
+bool Recording::open_next_part(mcap::Reader& reader) {
+  if (header_.split == 0 || good_until_ != last_size_) return false;
+  const std::string next = path_of_part(path_, parts_.size() + 1);
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(next, none)) return false;
+  try {
+    mcap::Reader candidate(next);
+    const RecordingHeader header = read_header(candidate, next);
+    if (header.part != parts_.size() + 1 || header.follows != mark_of_part(parts_.back())) return false;
+    reader = std::move(candidate);
+  } catch (const mcap::FormatError&) { return false; } catch (const LogError&) {
+    return false;
+  }
+  note_input(next);
+  parts_.push_back(next);
+  sizes_before_ += last_size_;
+  last_size_ = reader.size();
+  good_until_ = reader.offset();
+  return true;
 }
 
 // False: there is none that is whole, and the file has to be gone through. Nothing has changed then.
 bool Recording::read_summary(mcap::Reader& reader) {
   constexpr std::size_t footer_bytes = mcap::record_head + 8 + 8 + 4;
-  if (size_ < good_until_ + footer_bytes + mcap::magic.size()) return false;
-  const std::uint64_t footer_at = size_ - mcap::magic.size() - footer_bytes;
+  if (last_size_ < good_until_ + footer_bytes + mcap::magic.size()) return false;
+  const std::uint64_t footer_at = last_size_ - mcap::magic.size() - footer_bytes;
   const std::string end = reader.bytes(footer_at, footer_bytes + mcap::magic.size());
   if (!end.ends_with(mcap::magic) || static_cast<mcap::Opcode>(end[0]) != mcap::Opcode::footer) return false;
   std::map<std::uint16_t, mcap::Schema> schemas;
@@ -112,7 +148,7 @@ bool Recording::read_summary(mcap::Reader& reader) {
           topic->second.messages = counts.number<std::uint64_t>();
         }
       } else if (opcode == mcap::Opcode::chunk_index) {
-        ReadPlace place{0, 0, 0, 65535, 0};
+        ReadPlace place{parts_.size() - 1, 0, 0, 0, 65535, 0};
         place.start = in.number<std::int64_t>();
         place.end = in.number<std::int64_t>();
         place.offset = in.number<std::uint64_t>();
@@ -127,10 +163,13 @@ bool Recording::read_summary(mcap::Reader& reader) {
     };
     mcap::for_each_record(std::string_view(summary).substr(0, footer_at - begin), read);
   } catch (const mcap::FormatError&) { return false; }
-  schemas_ = std::move(schemas);
-  topics_ = std::move(found);
-  chunks_ = std::move(chunks);
-  good_until_ = size_;
+  schemas_.merge(schemas);
+  for (const auto& [id, topic] : found) {
+    const auto [at, is_new] = topics_.emplace(id, topic);
+    if (!is_new) at->second.messages += topic.messages;
+  }
+  chunks_.insert(chunks_.end(), chunks.begin(), chunks.end());
+  good_until_ = last_size_;
   return whole_ = true;
 }
 
@@ -149,6 +188,8 @@ void Recording::read_chunks(mcap::Reader& reader, const Visit& visit) {
         read_chunk(record, visit);
       else if (record.opcode == mcap::Opcode::data_end)
         ended = true;
+      else if (record.opcode == mcap::Opcode::schema || record.opcode == mcap::Opcode::channel)
+        describe(record.opcode, record.content);
       else
         mcap::require_message_index(record);
     } catch (const mcap::FormatError&) {
@@ -158,18 +199,25 @@ void Recording::read_chunks(mcap::Reader& reader, const Visit& visit) {
   }
 }
 
+void Recording::describe(mcap::Opcode opcode, std::string_view content) {
+  if (opcode == mcap::Opcode::schema) {
+    mcap::Schema schema = mcap::read_schema(content);
+    schemas_[schema.id] = std::move(schema);
+    return;
+  }
+  const mcap::Channel channel = mcap::read_channel(content);
+  const auto schema = schemas_.find(channel.schema);
+  if (schema == schemas_.end()) throw mcap::FormatError("a channel without a schema");
+  topics_.emplace(channel.id, ReadTopic{channel, schema->second.name, schema->second.text});
+}
+
 void Recording::read_chunk(const mcap::Record& record, const Visit& visit) {
   const mcap::ReadChunk chunk = mcap::read_chunk(record.content);
-  ReadPlace place{record.offset, chunk.start, chunk.end, 65535, 0};
+  ReadPlace place{parts_.size() - 1, record.offset, chunk.start, chunk.end, 65535, 0};
+  const ChunkSpot spot{parts_.back(), record.offset};
   mcap::for_each_record(chunk.records, [&](mcap::Opcode opcode, std::string_view content, std::size_t) {
-    if (opcode == mcap::Opcode::schema) {
-      mcap::Schema schema = mcap::read_schema(content);
-      schemas_[schema.id] = std::move(schema);
-    } else if (opcode == mcap::Opcode::channel) {
-      mcap::Channel channel = mcap::read_channel(content);
-      const auto schema = schemas_.find(channel.schema);
-      if (schema == schemas_.end()) throw mcap::FormatError("a channel without a schema");
-      topics_.emplace(channel.id, ReadTopic{channel, schema->second.name, schema->second.text});
+    if (opcode == mcap::Opcode::schema || opcode == mcap::Opcode::channel) {
+      describe(opcode, content);
     } else if (opcode == mcap::Opcode::message) {
       const mcap::Message message = mcap::read_message(content);
       const auto topic = topics_.find(message.channel);
@@ -177,10 +225,18 @@ void Recording::read_chunk(const mcap::Record& record, const Visit& visit) {
       place.least_channel = std::min(place.least_channel, message.channel);
       place.most_channel = std::max(place.most_channel, message.channel);
       ++topic->second.messages;
-      if (visit) visit(message, topic->second, record.offset);
+      if (visit) visit(message, topic->second, spot);
     }
   });
   chunks_.push_back(place);
+}
+
+std::string Recording::text_of_break() const {
+  const std::string byte = "at byte " + std::to_string(good_until_);
+  if (header_.split == 0) return byte;
+  if (good_until_ < last_size_ || last_size_ == 0) return byte + " of '" + parts_.back() + "'";
+  return "after '" + parts_.back() + "', and there is no '" + path_of_part(path_, parts_.size() + 1) +
+         "' that follows it";
 }
 
 const ReadTopic* Recording::find(std::string_view topic) const {
@@ -191,78 +247,9 @@ const ReadTopic* Recording::find(std::string_view topic) const {
 
 void Recording::fail(const std::string& what) const { throw LogError("'" + path_ + "' " + what); }
 
-namespace {
-std::vector<bool> only(const ReadTopic& topic) {
-  std::vector<bool> wanted(topic.channel.id + std::size_t{1});
-  wanted.back() = true;
-  return wanted;
-}
-}  // namespace
-
-void fail_in_chunk(const std::string& path, std::uint64_t offset, const std::string& what) {
-  throw LogError("'" + path + "' has in the chunk at byte " + std::to_string(offset) + " " + what +
+void fail_in_chunk(const ChunkSpot& spot, const std::string& what) {
+  throw LogError("'" + spot.path + "' has in the chunk at byte " + std::to_string(spot.offset) + " " + what +
                  "; it is no recording that jarol run has written");
-}
-
-MessageCursor::MessageCursor(const Recording& recording, const ReadTopic& topic, Duration from)
-    : MessageCursor(recording, only(topic), from) {}
-
-MessageCursor::MessageCursor(const Recording& recording, std::vector<bool> wanted, Duration from)
-    : recording_(recording), reader_(recording.path()), wanted_(std::move(wanted)), from_(from.count()) {
-  wanted_.resize(65536);
-  for (const ReadPlace& chunk : recording.chunks())
-    if (chunk.end >= from_ && wants(chunk)) chunks_.push_back(chunk);
-  next();
-}
-
-bool MessageCursor::wants(const ReadPlace& chunk) const {
-  for (std::size_t channel = chunk.least_channel; channel <= chunk.most_channel; ++channel)
-    if (wanted_[channel]) return true;
-  return false;
-}
-
-void MessageCursor::open_chunk() {
-  const std::uint64_t offset = chunks_[at_++].offset;
-  reader_.seek(offset);
-  mcap::Record record;
-  try {
-    if (!reader_.next(record) || record.opcode != mcap::Opcode::chunk) throw mcap::FormatError("no chunk");
-    records_ = mcap::read_chunk(record.content).records;
-    place_ = 0;
-    require_whole();
-  } catch (const mcap::FormatError& error) {
-    throw LogError("'" + recording_.path() + "' is damaged: at byte " + std::to_string(offset) + " there is " +
-                   error.what());
-  }
-}
-
-// From here on it is believed.
-void MessageCursor::require_whole() const {
-  mcap::for_each_record(records_, [&](mcap::Opcode opcode, std::string_view content, std::size_t) {
-    if (opcode == mcap::Opcode::message && !recording_.topics().contains(mcap::read_message(content).channel))
-      throw mcap::FormatError("a message of no channel");
-  });
-}
-
-void MessageCursor::next() {
-  message_.reset();
-  for (;;) {
-    if (place_ == records_.size()) {
-      if (at_ == chunks_.size()) return;
-      open_chunk();
-      continue;
-    }
-    std::uint64_t length = 0;
-    std::memcpy(&length, records_.data() + place_ + 1, sizeof length);
-    const std::string_view content = std::string_view(records_).substr(place_ + mcap::record_head, length);
-    const bool is_message = static_cast<mcap::Opcode>(records_[place_]) == mcap::Opcode::message;
-    place_ += mcap::record_head + length;
-    if (!is_message) continue;
-    const mcap::Message message = mcap::read_message(content);
-    if (!wanted_[message.channel] || message.time < from_) continue;
-    message_ = message;
-    return;
-  }
 }
 
 }  // namespace jarol

@@ -5,13 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "runtime/mcap/reader.h"
 #include "runtime/record/recording_format.h"
-#include "runtime/record/recording_writer.h"
+#include "runtime/record/recording_parts.h"
 
 namespace jarol {
 
@@ -25,21 +24,31 @@ struct ReadTopic {
 
 /// A chunk, and where it lies.
 struct ReadPlace {
+  std::size_t part = 0;  // index in Recording::parts
   std::uint64_t offset = 0;
   std::int64_t start = 0, end = 0;  // ns
   std::uint16_t least_channel = 0, most_channel = 0;
 };
 
+/// For messages about a chunk: the file, and the byte at which it begins there.
+struct ChunkSpot {
+  const std::string& path;
+  std::uint64_t offset;
+};
+
 class Recording {
  public:
-  /// With the offset of its chunk.
-  using Visit = std::function<void(const mcap::Message& message, const ReadTopic& topic, std::uint64_t offset)>;
+  /// With the chunk that it is in.
+  using Visit = std::function<void(const mcap::Message& message, const ReadTopic& topic, const ChunkSpot& spot)>;
 
-  /// With `visit` it goes through the whole file, and shows it each message; else, of a file that is whole, only
-  /// through the index at its end. Throws LogError, "'path' ...", if it is no recording.
+  /// With `visit` it goes through all of it, and shows it each message; else, where it is whole, only through the
+  /// index at its end. The parts of one that is split are found beside the first. Throws LogError, "'path' ...", if it
+  /// is no recording.
   explicit Recording(std::string path, const Visit& visit = {});
 
   const std::string& path() const { return path_; }
+  /// Its files, one at least.
+  const std::vector<std::string>& parts() const { return parts_; }
   const RecordingHeader& header() const { return header_; }
   const std::vector<RecordedFile>& files() const { return files_; }
   /// By the number of their channel.
@@ -50,58 +59,35 @@ class Recording {
 
   /// Up to the mark at its end: the run has ended, and all was written.
   bool is_whole() const { return whole_; }
-  /// It is good up to that byte.
+  /// Its last part is good up to that byte, and has so many.
   std::uint64_t good_until() const { return good_until_; }
-  std::uint64_t size() const { return size_; }
+  std::uint64_t size_of_last() const { return last_size_; }
+  /// Where it breaks off, as in "at byte 100".
+  std::string text_of_break() const;
+  /// Of all parts, in bytes.
+  std::uint64_t size() const { return sizes_before_ + last_size_; }
 
  private:
   void read_begin(mcap::Reader& reader);
+  bool open_next_part(mcap::Reader& reader);
+  void describe(mcap::Opcode opcode, std::string_view content);
   bool read_summary(mcap::Reader& reader);
   void read_chunks(mcap::Reader& reader, const Visit& visit);
   void read_chunk(const mcap::Record& record, const Visit& visit);
   [[noreturn]] void fail(const std::string& what) const;
 
   std::string path_;
+  std::vector<std::string> parts_;
   RecordingHeader header_;
   std::vector<RecordedFile> files_;
   std::map<std::uint16_t, mcap::Schema> schemas_;
   std::map<std::uint16_t, ReadTopic> topics_;
   std::vector<ReadPlace> chunks_;
   bool whole_ = false;
-  std::uint64_t good_until_ = 0, size_ = 0;
+  std::uint64_t good_until_ = 0, last_size_ = 0, sizes_before_ = 0;
 };
 
 /// Throws LogError: what stands in that chunk can't be there.
-[[noreturn]] void fail_in_chunk(const std::string& path, std::uint64_t offset, const std::string& what);
-
-/// The messages of some topics of a recording, chunk by chunk. Throws LogError where a chunk is damaged.
-class MessageCursor {
- public:
-  /// The recording outlives it. `wanted`: by channel; those from `from` on.
-  MessageCursor(const Recording& recording, std::vector<bool> wanted, Duration from = {});
-  /// Of that topic alone.
-  MessageCursor(const Recording& recording, const ReadTopic& topic, Duration from = {});
-
-  /// Null: there are no more. What it points to holds until `next`.
-  const mcap::Message* message() const { return message_ ? &*message_ : nullptr; }
-  /// The chunk that it is in.
-  std::uint64_t chunk_offset() const { return chunks_[at_ - 1].offset; }
-  void next();
-
- private:
-  bool wants(const ReadPlace& chunk) const;
-  void require_whole() const;
-  void open_chunk();
-
-  const Recording& recording_;
-  mcap::Reader reader_;
-  std::vector<ReadPlace> chunks_;  // that may hold some
-  std::vector<bool> wanted_;
-  std::int64_t from_;
-  std::size_t at_ = 0;     // the chunk that follows
-  std::string records_;    // of the chunk that is open
-  std::size_t place_ = 0;  // in these
-  std::optional<mcap::Message> message_;
-};
+[[noreturn]] void fail_in_chunk(const ChunkSpot& spot, const std::string& what);
 
 }  // namespace jarol

@@ -47,6 +47,11 @@ std::string to_json(const RecordingHeader& header) {
     json["inputs"].push_back({{"name", input.name}, {"type", input.signature}});
   for (const RecordingHeader::Truth& truth : header.truths)
     json["truths"].push_back({{"distributer", truth.distributer}, {"type", truth.signature}});
+  if (header.split > 0) json["split_bytes"] = header.split;
+  if (header.part > 1) {
+    json["part"] = header.part;
+    json["follows"] = header.follows;
+  }
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
@@ -70,7 +75,10 @@ RecordingHeader parse_header(const std::string& text) {
                            .what = json.at("what"),
                            .version = json.at("version"),
                            .platform = json.at("platform"),
-                           .tasks = json.at("tasks")};
+                           .tasks = json.at("tasks"),
+                           .split = json.value("split_bytes", std::uint64_t{0}),
+                           .part = json.value("part", std::size_t{1}),
+                           .follows = json.value("follows", "")};
     for (const auto& input : json.at("inputs")) header.inputs.push_back({input.at("name"), input.at("type")});
     for (const auto& truth : json.value("truths", nlohmann::json::array()))
       header.truths.push_back({truth.at("distributer"), truth.at("type")});

@@ -48,6 +48,9 @@ struct RecordingHeader {
   std::vector<Input> inputs{};
   std::vector<Truth> truths{};       // of vehicles that were simulated in the run
   std::vector<std::string> tasks{};  // a miss names one by its index here
+  std::uint64_t split = 0;           // a new file begins at so many bytes; 0: never
+  std::size_t part = 1;              // of the files, which this one is
+  std::string follows{};             // the mark of the part before this one
 };
 
 /// Topics; those of published values are their names, in which no slash is.

@@ -1,39 +1,16 @@
 #include "runtime/record/recording_writer.h"
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
 #include <utility>
 
 #include "graph/values/type_of.h"
-#include "runtime/files/sync.h"
-#include "runtime/files/whole_file.h"
 #include "runtime/record/ros2msg.h"
 #include "runtime/record/select_outputs.h"
 
 namespace jarol {
-namespace {
-
-constexpr std::string_view library = "jarol";
-
-// Nothing that somebody would miss: no regular file, an empty one, or a recording.
-bool may_be_replaced(const std::string& path) {
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none) || std::filesystem::file_size(path, none) == 0) return true;
-  // magic, then the header: opcode, length, profile and library
-  std::string begin(mcap::magic.size() + mcap::record_head + 4 + 4 + library.size(), '\0');
-  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return begin.starts_with(mcap::magic) && begin.ends_with(library);
-}
-
-}  // namespace
-
 RecordingWriter::RecordingWriter(std::string path, RecordingHeader header, std::vector<RecordedFile> files,
                                  const Graph& graph, mcap::Compression compression,
                                  const std::vector<const Type*>& truths)
-    : path_(std::move(path)), header_(std::move(header)), files_(std::move(files)), compression_(compression) {
+    : header_(std::move(header)), files_(std::move(files)), parts_(std::move(path), compression) {
   for (const std::size_t i : logged_inputs(graph))
     header_.inputs.push_back({graph.communicators[i].name, signature_of(*graph.communicators[i].type)});
   for (const Task& task : graph.tasks) header_.tasks.push_back(task.name);
@@ -49,7 +26,6 @@ RecordingWriter::~RecordingWriter() {
   } catch (...) {
     // whoever cares for a loss closes first
   }
-  if (file_ != nullptr) std::fclose(file_);
 }
 
 RecordedTopic RecordingWriter::topic(std::string name, const Type& type, mcap::Texts metadata) {
@@ -110,17 +86,8 @@ void RecordingWriter::add_publications(const Graph& graph, const std::vector<con
 }
 
 void RecordingWriter::open() {
-  require_no_input(path_);
-  lock_ = OutputLock(target_of(path_));
-  if (!may_be_replaced(path_)) fail("it is there and no recording; choose another file, or remove it");
-  file_ = std::fopen(path_.c_str(), "wb");
-  if (file_ == nullptr) fail(std::strerror(errno));
-  try {
-    writer_.emplace(file_, compression_, library);
-    writer_->write({RecordingHeader::attachment, "application/json", to_json(header_)});
-    for (const RecordedFile& file : files_) writer_->write({file.path, "text/plain", file.text});
-  } catch (const std::system_error& error) { fail(error.code().message()); }
-  queue_.start([this](const mcap::Chunk& chunk) { writer_->write(chunk); });
+  parts_.open(header_, files_, schemas_, channels_);
+  queue_.start([this](const mcap::Chunk& chunk) { parts_.write(chunk); });
 }
 
 void RecordingWriter::add_checkpoint(Duration instant, std::string_view bytes) {
@@ -131,24 +98,15 @@ void RecordingWriter::add_checkpoint(Duration instant, std::string_view bytes) {
 
 void RecordingWriter::close(const LogEnd& end) {
   finish(end);
-  // what is in buffers goes out here at the latest, so that a full disk shows
-  if (!sync(file_)) fail(std::strerror(errno));
-  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(std::strerror(errno));
-  sync_folder_of(path_);
+  parts_.close();
 }
 
 void RecordingWriter::finish(const LogEnd& end) {
   recorder_->close();
   inputs_->append_beside(end_topic, Duration(end.covered), &end);
   inputs_->finish();
-  try {
-    queue_.close();
-    writer_->end(schemas_, channels_);
-  } catch (const std::system_error& error) { fail(error.code().message()); }
-}
-
-void RecordingWriter::fail(const std::string& reason) const {
-  throw std::runtime_error("can't write '" + path_ + "': " + reason);
+  queue_.close();
+  parts_.finish();
 }
 
 }  // namespace jarol

@@ -1,25 +1,17 @@
 // Writes the recording of a run while it goes on: what a replay needs and, as asked for, what is published.
 #pragma once
 
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "runtime/files/output_lock.h"
-#include "runtime/mcap/writer.h"
 #include "runtime/record/log.h"
 #include "runtime/record/recorded_stream.h"
 #include "runtime/record/recorder.h"
+#include "runtime/record/recording_parts.h"
 
 namespace jarol {
-
-/// A file that a run has read, as it was then.
-struct RecordedFile {
-  std::string path;  // from the root
-  std::string text;
-};
 
 class RecordingWriter {
  public:
@@ -61,18 +53,13 @@ class RecordingWriter {
   void add_inputs(const Graph& graph);
   void add_publications(const Graph& graph, const std::vector<const Type*>& truths);
   RecordedTopic topic(std::string name, const Type& type, mcap::Texts metadata = {});
-  [[noreturn]] void fail(const std::string& reason) const;
 
-  std::string path_;
   RecordingHeader header_;
   std::vector<RecordedFile> files_;
-  mcap::Compression compression_;
-  OutputLock lock_;
-  std::FILE* file_ = nullptr;
   std::vector<mcap::Schema> schemas_;
   std::vector<mcap::Channel> channels_;
-  std::optional<mcap::Writer> writer_;
-  ChunkQueue queue_;
+  RecordingParts parts_;
+  ChunkQueue queue_;  // writes the parts
   std::optional<RecordedStream> inputs_, publications_;
   std::unique_ptr<Recorder> recorder_;
 };

@@ -73,9 +73,8 @@ std::string text_of(const Comparison& comparison, const Report& report, const Re
     if (is_other_text) text += "              the file of the graph is not what it was\n";
   }
   if (!log.end())
-    text +=
-        fmt::format("  log         breaks off at byte {}, before {} s it is whole; how the run ended is not known\n",
-                    log.good_until(), seconds_text(log.covered()));
+    text += fmt::format("  log         breaks off {}, before {} s it is whole; how the run ended is not known\n",
+                        printable(log.recording().text_of_break()), seconds_text(log.covered()));
   return text;
 }
 

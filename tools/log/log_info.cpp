@@ -44,6 +44,7 @@ nlohmann::ordered_json json_of(const Looked& run) {
   auto json = nlohmann::ordered_json::parse(to_json(recording.header()));
   json["schema"] = "jarol.log_info/1";
   json["whole"] = recording.is_whole();
+  json["parts"] = recording.parts();
   json["bytes"] = recording.size();
   json["chunks"] = recording.chunks().size();
   json["covered_ns"] = run.covered.count();
@@ -68,9 +69,10 @@ int log_info(const LogOptions& options) {
     return exit_good;
   }
   const RecordingHeader& header = recording.header();
-  std::cout << fmt::format("{}: {} s on the {} clock, {} bytes in {} chunks\n", printable(header.graph),
+  const std::size_t parts = recording.parts().size();
+  std::cout << fmt::format("{}: {} s on the {} clock, {} bytes in {} chunks{}\n", printable(header.graph),
                            seconds_text(run.covered), printable(header.clock), recording.size(),
-                           recording.chunks().size());
+                           recording.chunks().size(), parts > 1 ? fmt::format(" of {} files", parts) : "");
   std::cout << "  graph       " << printable(header.file) << "\n";
   if (!header.overrides.profile.empty()) std::cout << "  profile     " << printable(header.overrides.profile) << "\n";
   for (const std::string& set : header.overrides.set) std::cout << "  set         " << printable(set) << "\n";
@@ -82,7 +84,7 @@ int log_info(const LogOptions& options) {
   if (run.end)
     std::cout << fmt::format("  digest      0x{:016x}\n", run.end->digest);
   else
-    std::cout << "  breaks off at byte " << recording.good_until() << "; how the run ended is not known\n";
+    std::cout << "  breaks off " << printable(recording.text_of_break()) << "; how the run ended is not known\n";
   std::size_t width = 0;
   for (const auto& [id, topic] : recording.topics()) width = std::max(width, topic.channel.topic.size());
   for (const auto& [id, topic] : recording.topics())
@@ -93,12 +95,15 @@ int log_info(const LogOptions& options) {
 
 int log_verify(const LogOptions& options) {
   const Recording recording(options.file);  // says what is no recording
-  const std::vector<std::string> problems = mcap::verify(options.file);
+  std::vector<std::string> problems;
+  for (const std::string& part : recording.parts())
+    for (const std::string& problem : mcap::verify(part)) problems.push_back("'" + part + "' " + problem);
+  if (problems.empty() && !recording.is_whole())
+    problems.push_back("'" + options.file + "' breaks off " + recording.text_of_break());
   if (options.json)
     std::cout << json_line(
         {{"schema", "jarol.log_verify/1"}, {"verdict", problems.empty() ? "good" : "damaged"}, {"problems", problems}});
-  for (const std::string& problem : problems)
-    std::cerr << "error: '" << printable(options.file) << "' " << problem << "\n";
+  for (const std::string& problem : problems) std::cerr << "error: " << printable(problem) << "\n";
   if (problems.empty() && !options.json) std::cout << printable(options.file) << ": every byte is as it was written\n";
   return problems.empty() ? exit_good : exit_negative;
 }

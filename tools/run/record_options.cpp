@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "distributers/session/recorded_truth.h"
+#include "graph/language/quantities.h"
 #include "graph/text/escape.h"
 #include "tools/report/command_line.h"
 #include "tools/report/version.h"
@@ -26,6 +27,16 @@ mcap::Compression compression_of(const std::string& name) {
   return name == "zstd" ? mcap::Compression::zstd : mcap::Compression::lz4;
 }
 
+std::uint64_t split_of(const std::string& text) {
+  constexpr std::int64_t least = std::int64_t{1} << 20;
+  if (text.empty()) return 0;
+  std::int64_t bytes = 0;
+  if (const std::string wrong = parse_bytes(text, bytes); !wrong.empty())
+    throw std::invalid_argument("--record-split: " + wrong);
+  if (bytes < least) throw std::invalid_argument("--record-split: '" + text + "' is below 1MiB");
+  return static_cast<std::uint64_t>(bytes);
+}
+
 }  // namespace
 
 void add_record_options(Command& command, RecordArguments& arguments) {
@@ -43,6 +54,10 @@ void add_record_options(Command& command, RecordArguments& arguments) {
   command
       .add_option("--record-compression", arguments.compression, "Of --record and --log: lz4 (default), zstd or none")
       ->one_of({"lz4", "zstd", "none"});
+  command.add_option("--record-split", arguments.split,
+                     "Begin a new file at so many bytes, as in 1GiB: FILE.2.mcap after FILE.mcap, and so on; whoever "
+                     "reads the first\n"
+                     "finds the others beside it");
   command.add_option("--record-checkpoints", arguments.checkpoints,
                      "Save the run in its recording this often in logical time, as in 10s, so that jarol replay --from "
                      "need not begin at the start");
@@ -58,7 +73,7 @@ void require_effect(const Command& command, const RecordArguments& arguments) {
   if (arguments.record.empty())
     command.refuse({"--record-what"}, "is about --record; add --record FILE, or leave it out");
   if (arguments.file().empty())
-    command.refuse({"--record-compression", "--record-checkpoints"},
+    command.refuse({"--record-compression", "--record-split", "--record-checkpoints"},
                    "is about --record and --log; add one of them, or leave it out");
 }
 
@@ -68,6 +83,7 @@ std::unique_ptr<RecordingWriter> make_recording(const RecordArguments& arguments
   if (std::erase_if(header.overrides.set, names_plugins) > 0)
     std::cerr << "note: the recording does not name the plugins of --set; give them again to jarol replay\n";
   header.what = arguments.record.empty() ? "inputs" : arguments.what;
+  header.split = split_of(arguments.split);
   header.version = version_text();
   header.platform = platform_text();
   std::vector<RecordedFile> files;

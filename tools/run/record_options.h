@@ -16,6 +16,7 @@ struct RecordArguments {
   std::string record, log;  // the file, by one of both
   std::string what = "all";
   std::string compression = "lz4";
+  std::string split;        // bytes of a file at most, as in 1GiB; empty: one file
   std::string checkpoints;  // how often, as in 10s; empty: never
 
   const std::string& file() const { return record.empty() ? log : record; }

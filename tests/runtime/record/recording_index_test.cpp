@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "runtime/execute/log_end.h"
-#include "runtime/record/recording.h"
+#include "runtime/record/message_cursor.h"
 #include "tests/runtime/trace_of.h"
 
 namespace {

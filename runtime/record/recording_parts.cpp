@@ -1,0 +1,115 @@
+#include "runtime/record/recording_parts.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "runtime/files/sync.h"
+#include "runtime/files/whole_file.h"
+
+namespace jarol {
+namespace {
+
+constexpr std::string_view library = "jarol";
+
+// Nothing that somebody would miss: no regular file, an empty one, or a recording.
+bool may_be_replaced(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none) || std::filesystem::file_size(path, none) == 0) return true;
+  // magic, then the header: opcode, length, profile and library
+  std::string begin(mcap::magic.size() + mcap::record_head + 4 + 4 + library.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin.starts_with(mcap::magic) && begin.ends_with(library);
+}
+
+}  // namespace
+
+std::string path_of_part(const std::string& path, std::size_t number) {
+  if (number == 1) return path;
+  std::filesystem::path part(path);
+  part.replace_extension("." + std::to_string(number) + part.extension().string());
+  return part.string();
+}
+
+std::string mark_of_part(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::int64_t>(std::streamoff(file.tellg()));
+  std::uint32_t sum = 0;
+  const auto from_end = static_cast<std::int64_t>(sizeof sum + mcap::magic.size());
+  if (!file || size < from_end) return "";
+  file.seekg(size - from_end);
+  file.read(reinterpret_cast<char*>(&sum), sizeof sum);
+  return file ? fmt::format("{} {:08x}", size, sum) : "";
+}
+
+RecordingParts::~RecordingParts() {
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+void RecordingParts::open(RecordingHeader header, const std::vector<RecordedFile>& files,
+                          std::vector<mcap::Schema> schemas, std::vector<mcap::Channel> channels) {
+  header_ = std::move(header);
+  schemas_ = std::move(schemas);
+  channels_ = std::move(channels);
+  open_part();
+  try {
+    for (const RecordedFile& file : files) writer_->write({file.path, "text/plain", file.text});
+  } catch (const std::system_error& error) { fail(error.code().message()); }
+}
+
+void RecordingParts::open_part() {
+  part_path_ = path_of_part(path_, header_.part);
+  require_no_input(part_path_);
+  lock_ = OutputLock(target_of(part_path_));
+  if (!may_be_replaced(part_path_)) fail("it is there and no recording; choose another file, or remove it");
+  file_ = std::fopen(part_path_.c_str(), "wb");
+  if (file_ == nullptr) fail(std::strerror(errno));
+  try {
+    writer_.emplace(file_, compression_, library);
+    writer_->write({RecordingHeader::attachment, "application/json", to_json(header_)});
+  } catch (const std::system_error& error) { fail(error.code().message()); }
+}
+
+void RecordingParts::write(const mcap::Chunk& chunk) {
+  const bool is_full = header_.split > 0 && writer_->bytes() + chunk.records().size() > header_.split;
+  if (is_full && writer_->has_chunks()) begin_next();
+  try {
+    writer_->write(chunk);
+  } catch (const std::system_error& error) { fail(error.code().message()); }
+}
+
+void RecordingParts::begin_next() {
+  finish();
+  close();
+  ++header_.part;
+  header_.follows = mark_of_part(part_path_);
+  open_part();
+  try {
+    writer_->write(schemas_, channels_);
+  } catch (const std::system_error& error) { fail(error.code().message()); }
+}
+
+void RecordingParts::finish() {
+  try {
+    writer_->end(schemas_, channels_);
+  } catch (const std::system_error& error) { fail(error.code().message()); }
+}
+
+void RecordingParts::close() {
+  // what is in buffers goes out here at the latest, so that a full disk shows
+  if (!sync(file_)) fail(std::strerror(errno));
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(std::strerror(errno));
+  sync_folder_of(part_path_);
+}
+
+void RecordingParts::fail(const std::string& reason) const {
+  throw std::runtime_error("can't write '" + part_path_ + "': " + reason);
+}
+
+}  // namespace jarol
