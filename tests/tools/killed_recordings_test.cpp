@@ -66,7 +66,7 @@ bool says_what_it_is(const std::string& path) {
 std::string wrong_with(const std::string& path) {
   std::map<std::string, std::uint32_t> next;
   std::string wrong;
-  const Recording recording(path, [&](const mcap::Message& message, const ReadTopic& topic, std::uint64_t) {
+  const Recording recording(path, [&](const mcap::Message& message, const ReadTopic& topic, const ChunkSpot&) {
     if (message.sequence != next[topic.channel.topic]++) wrong = "'" + topic.channel.topic + "' lacks a message";
   });
   if (recording.is_whole()) return "it says that it is whole";

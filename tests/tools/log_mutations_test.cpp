@@ -59,7 +59,7 @@ struct Log {
 
 Log read(const std::string& path) {
   Log log;
-  const Recording recording(path, [&](const mcap::Message& message, const ReadTopic&, std::uint64_t) {
+  const Recording recording(path, [&](const mcap::Message& message, const ReadTopic&, const ChunkSpot&) {
     log.records.push_back({message.channel, message.time, std::string(message.data)});
   });
   log.header = to_json(recording.header());

@@ -8,6 +8,7 @@
 
 #include "runtime/execute/log_end.h"
 #include "runtime/record/message_cursor.h"
+#include "runtime/record/recording_writer.h"
 #include "tests/runtime/trace_of.h"
 
 namespace {
@@ -60,7 +61,7 @@ std::string text_of(const Recording& recording) {
   return text;
 }
 
-const Recording::Visit nobody = [](const mcap::Message&, const ReadTopic&, std::uint64_t) {};
+const Recording::Visit nobody = [](const mcap::Message&, const ReadTopic&, const ChunkSpot&) {};
 
 std::vector<bool> topic_of(const Recording& recording, const std::string& name) {
   std::vector<bool> wanted(65536);
