@@ -93,19 +93,20 @@ TEST_SUITE("tools/log_split") {
     }
   }
 
-  TEST_CASE("where a part is missing the recording breaks off, and what is before it is good") {
+  TEST_CASE("where a part is missing the recording breaks off, and what is before it is looked into") {
     const TemporaryFolder folder;
     const std::string first = record(folder, "r.mcap", split), third = folder / "r.3.mcap";
     fs::remove(third);
     const std::string breaks =
         "breaks off after '" + folder / "r.2.mcap" + "', and there is no '" + third + "' that follows it";
     const auto info = command::jarol("log info " + first);
+    CHECK(json_of("log info " + first)["parts"].size() == 2);
+    CHECK(command::jarol("log cat --topic mean.out " + first).output.size() > 10000);
     CHECK(has(info.output, "  " + breaks + "; how the run ended is not known\n"));
     CHECK(command::jarol("log verify " + first).output == "error: '" + first + "' " + breaks + "\n");
     const auto replay = command::jarol("replay " + first);
     CHECK(replay.exit_code == 3);
     CHECK(has(replay.output, "  log         " + breaks + ", before "));
-    CHECK(has(replay.output, "same"));
   }
 
   TEST_CASE("a part of another run, or a damaged one, is not taken for what follows") {
@@ -149,7 +150,7 @@ TEST_SUITE("tools/log_split") {
     const std::string second = folder.write("r.2.mcap", "somebody's notes");
     const auto run =
         command::jarol("run " + graph_in(folder) + " --for 30s --record " + folder / "r.mcap" + split, "2>&1");
-    CHECK(run.exit_code == 2);
+    CHECK(run.exit_code == 3);
     CHECK(has(run.output, "error: can't write '" + second +
                               "': it is there and no recording; choose another file, or remove it\n"));
     std::string kept;

@@ -44,7 +44,7 @@ nlohmann::ordered_json json_of(const Looked& run) {
   auto json = nlohmann::ordered_json::parse(to_json(recording.header()));
   json["schema"] = "jarol.log_info/1";
   json["whole"] = recording.is_whole();
-  json["parts"] = recording.parts();
+  if (recording.parts().size() > 1) json["parts"] = recording.parts();
   json["bytes"] = recording.size();
   json["chunks"] = recording.chunks().size();
   json["covered_ns"] = run.covered.count();

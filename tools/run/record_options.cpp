@@ -32,7 +32,7 @@ std::uint64_t split_of(const std::string& text) {
   if (text.empty()) return 0;
   std::int64_t bytes = 0;
   if (const std::string wrong = parse_bytes(text, bytes); !wrong.empty())
-    throw std::invalid_argument("--record-split: " + wrong);
+    throw std::invalid_argument("--record-split: '" + text + "' " + wrong);
   if (bytes < least) throw std::invalid_argument("--record-split: '" + text + "' is below 1MiB");
   return static_cast<std::uint64_t>(bytes);
 }
