@@ -32,7 +32,7 @@ export class EditorPage extends Console {
   verdict() { return this.text('[aria-label=verdict]'); }
 
   /** Until what loader and check say is of the text as it is. */
-  judged() { return this.page.until(`!!document.querySelector('[aria-label=verdict]:not(.old)')`); }
+  judged() { return this.page.until(`!!document.querySelector('[aria-label=verdict]:not(.old)') && !!document.querySelector('svg:not(.old)')`); }
 
   async says(verdict) {
     await this.page.until(`document.querySelector('[aria-label=verdict]:not(.old)')?.textContent === ${JSON.stringify(verdict)}`);

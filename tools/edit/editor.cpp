@@ -35,6 +35,12 @@ std::string text_in(const nlohmann::json& json, const char* key) {
   return found;
 }
 
+// A graph that loads and does not hold.
+bool can_be_helped(const Json& verdict) {
+  return verdict.contains("check") &&
+         (verdict["check"]["verdict"] != "schedulable" || !verdict["check"]["limits_hold"].get<bool>());
+}
+
 // With what the file's plugins bring; where they can't be loaded, without.
 Json catalogue_for(const EditorOptions& options, const std::vector<std::string>& plugins) {
   if (plugins.empty() || !options.no_plugins.empty()) return catalogue_of(built_in());
@@ -101,7 +107,8 @@ std::string Editor::answer(std::uint64_t page, const std::string& message) {
   throw std::invalid_argument("there is no '" + what + "' to do; there are: open, judge, save, run, stop");
 }
 
-// Verdict, drawing and suggestions come when they are there, each by a thread of its own.
+// Verdict, drawing and suggestions come when they are there, each by a thread of its own; those that help a graph that
+// does not hold take longest.
 void Editor::judge(std::uint64_t page, const std::string& message) {
   const nlohmann::json json = parse(message);
   const auto id = json.value("id", nlohmann::json(0));
@@ -115,14 +122,18 @@ void Editor::judge(std::uint64_t page, const std::string& message) {
     body["id"] = id;
     this->send(page, dump({{name, std::move(body)}}));
   };
-  judging_.ask(page, [send, text] {
+  judging_.ask(page, [this, page, send, text] {
     const auto begin = Clock::now();
     Json verdict = tools::edit::judge(text);
+    if (can_be_helped(verdict)) {
+      suggesting_.ask(page, [send, text] { send("suggested", {{"list", suggest(text)}}); });
+    } else {
+      send("suggested", {{"list", Json::array()}});
+    }
     verdict["took_ms"] = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     send("verdict", std::move(verdict));
   });
   drawing_.ask(page, [send, text] { send("drawn", draw(text)); });
-  suggesting_.ask(page, [send, text] { send("suggested", {{"list", suggest(text)}}); });
 }
 
 std::string Editor::save(const std::string& text, const std::string& over) {

@@ -54,8 +54,8 @@ class Editor {
   std::vector<std::string> messages_;  // for all pages
   std::string stamp_;                  // size and time of the file then
 
-  std::unique_ptr<Trial> trial_;  // on the server's thread
-  Worker judging_, drawing_, suggesting_;
+  std::unique_ptr<Trial> trial_;             // on the server's thread
+  Worker suggesting_, drawing_, judging_;    // the last one asks the first
   std::unique_ptr<console::Server> server_;  // gone first
 };
 

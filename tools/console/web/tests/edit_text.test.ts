@@ -52,6 +52,13 @@ test("lists over several lines stay so, whatever stands beside their elements", 
   assert.equal(operations.removeConnection(last, last.connections[0]!).connections.length, 0);
 });
 
+test("a list that ends with a comma goes on so, also in its middle", () => {
+  const text = "connections: [\n  a.x -> b.y,  # one\n  b.y -> c.z,\n]\n";
+  assert.equal(operations.connect(graph(text), { name: "c", field: "z" }, { name: "d", field: "w" }).text, "connections: [\n  a.x -> b.y,  # one\n  b.y -> c.z,\n  c.z -> d.w,\n]\n");
+  const entries = "tasks: {\n  a: {\n    type: X,  # t\n    wcet: 1us,\n  },\n}\n";
+  assert.equal(setOf(entries, "tasks.a.let", "5ms", ["type", "let", "wcet"]), "tasks: {\n  a: {\n    type: X,  # t\n    let: 5ms,\n    wcet: 1us,\n  },\n}\n");
+});
+
 test("what is taken out leaves its comments on lines of their own", () => {
   const text = "tasks:\n  # first\n  a:            # of a\n    type: X     # its type\n  b: {type: Y}  # of b\nconnections:\n- a.x -> b.y  # arrow\n- b.y -> b.z\n";
   const made = operations.removePart(graph(text), task(graph(text), "a"));
@@ -74,7 +81,7 @@ test("values stand below each other where they did", () => {
 
 test("what is renamed is renamed wherever it is named, and nothing else is", () => {
   const text = `distributers: {depth: {type: V}}
-communicators: {seen: {channel: depth.motion}, is_on: {type: bool, direction: in}}
+communicators: {seen: {channel: depth.motion}, is_on: {type: bool, direction: in}, told: {type: double, direction: in}}
 tasks:
   depth: {type: X}
   deep: {type: Y}
@@ -84,6 +91,7 @@ expect:
   - depth of depth within 0.1 of 3
   - never depth.out.depth is not depth
   - always seen.depth < 3 and is_on
+  - max(told of depth) < 3
 at_end: {command: {seen: {depth: 0}}, until: depth.out.z < 1, longest: 3s}
 campaign: {vary: {tasks.depth.parameters.kp: 0..1}, metrics: {depth: max(depth.out.z)}}
 profiles:
@@ -109,9 +117,10 @@ profiles:
       .replace("max(depth.out.z)", "max(dive.out.z)"),
   );
   const system = operations.renamePart(g, g.find("distributer", "depth")!, "sub").text;
-  assert.equal(system, text.replace("{depth: {type: V}}", "{sub: {type: V}}").replace("depth.motion", "sub.motion").replace("depth of depth", "depth of sub"));
-  const communicator = operations.renamePart(g, g.find("communicator", "seen")!, "told").text;
-  assert.equal(communicator, text.replaceAll(/\bseen\b/g, "told"));
+  assert.equal(system, text.replace("{depth: {type: V}}", "{sub: {type: V}}").replace("depth.motion", "sub.motion").replace("depth of depth", "depth of sub").replace("told of depth", "told of sub"));
+  const communicator = operations.renamePart(g, g.find("communicator", "seen")!, "looked").text;
+  assert.equal(communicator, text.replaceAll(/\bseen\b/g, "looked"));
+  assert.equal(operations.renamePart(g, g.find("communicator", "told")!, "said").text, text.replace("told: {", "said: {"), "a true value of a vehicle may have the same name");
   assert.throws(() => operations.renamePart(g, task(g, "depth"), "seen"), new CannotEdit("there is a communicator 'seen'; choose another name"));
   assert.throws(() => operations.renamePart(g, task(g, "depth"), "1a"), new CannotEdit("'1a' is no name; use letters, digits and _, no digit first"));
 });

@@ -65,6 +65,10 @@ export class Editor {
   get isJudged(): boolean {
     return this.verdict?.id === this.asked;
   }
+  /** The drawing is of the text as it is; of what is no YAML there is none. */
+  get isDrawn(): boolean {
+    return this.drawn?.id === this.asked || !this.graph.isGood;
+  }
   get check(): Checked | undefined {
     return this.verdict?.check;
   }

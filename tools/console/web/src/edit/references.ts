@@ -62,8 +62,7 @@ class Renaming {
         const own = dotted ? keyOf(pair).split(".") : [keyOf(pair)];
         const all = dotted ? own : [...path, ...own];
         this.key(pair.key as Node, all, own.length);
-        // of what varies the values name nothing
-        if (path[1] !== "vary") this.visit(pair.value as Node | null, all);
+        this.visit(pair.value as Node | null, all);
       }
     } else if (isSeq(node)) {
       for (const element of node.items) this.visit(element as Node, [...path, "#"]);
