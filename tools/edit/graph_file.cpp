@@ -2,6 +2,7 @@
 
 #include <sodium.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "graph/language/read_source.h"
@@ -40,7 +41,8 @@ Version GraphFile::read() const {
 std::optional<Version> GraphFile::write(const std::string& text, const std::string& over) const {
   // other commands that write the file wait at its lock; what is read behind that is what is replaced
   WholeFile file(path_, Replaces::all);
-  Version there = read();
+  // a file that is gone has no text and no hash
+  Version there = std::filesystem::exists(path_) ? read() : Version{};
   if (there.hash != over) return there;
   file.write(text);
   file.commit();

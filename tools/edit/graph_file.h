@@ -23,8 +23,9 @@ class GraphFile {
   /// As it is on the disk. Throws SpecError where it can't be read, or is no UTF-8, which a page can't show.
   Version read() const;
 
-  /// Writes the text, if what is on the disk is the version of that hash; else it is left as it is, and returned. The
-  /// file is whole at any time. Throws std::runtime_error where it can't be written.
+  /// Writes the text, if what is on the disk is the version of that hash; else it is left as it is, and returned: a
+  /// file that is gone without text and hash. The file is whole at any time. Throws std::runtime_error where it can't
+  /// be written.
   std::optional<Version> write(const std::string& text, const std::string& over) const;
 
  private:

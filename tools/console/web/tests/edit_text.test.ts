@@ -184,3 +184,13 @@ test("places are counted as the loader counts them, and comments are found where
   assert.deepEqual(commentsOf(text).map(({ from, to }) => text.slice(from, to)), ["# c", "# d"]);
   assert.deepEqual(differenceOf("abc", "aXc"), { from: 1, to: 2, insert: "X" });
 });
+
+test("what the loader means is written where the wrong word stands", () => {
+  const text = "tasks:\n  a: {perid: 5ms}\nconnections: ['a.out -> b.inn']\n";
+  const key = operations.meantBy(graph(text), "task 'a' has no key 'perid'; did you mean 'period'?; it has: type", text.indexOf("perid"))!;
+  assert.equal(operations.takeMeant(graph(text), key).text, text.replace("perid", "period"));
+  const end = operations.meantBy(graph(text), "task 'b' (Sum) has no input 'inn'; did you mean 'in'?; it has: in", text.indexOf("b.inn"))!;
+  assert.equal(operations.takeMeant(graph(text), end).text, text.replace("inn", "in"));
+  assert.equal(operations.meantBy(graph(text), "task 'a' has no key 'other'; did you mean 'period'?", text.indexOf("perid")), undefined);
+  assert.equal(operations.meantBy(graph(text), "task 'a' lacks the key 'type'", 0), undefined);
+});

@@ -166,6 +166,22 @@ export function takeSuggestion(graph: GraphText, set: readonly string[], orders:
   }, graph);
 }
 
+/** What the loader means instead of a word: "'perid' ... did you mean 'period'?", where that word stands at the place. */
+export function meantBy(graph: GraphText, problem: string, offset: number): { from: number; word: string; meant: string } | undefined {
+  const meant = /; did you mean '([^']+)'\?/.exec(problem);
+  if (!meant) return undefined;
+  const words = [...problem.slice(0, meant.index).matchAll(/'([^']+)'/g)].map((found) => found[1]!);
+  // the last word that is said stands at the place, in quotes or behind a dot of its connection
+  const word = words.pop()!;
+  const end = lineEnd(graph.text, offset);
+  const from = graph.text.slice(offset, end).search(new RegExp(`(?<![A-Za-z0-9_])${word.replace(/[^A-Za-z0-9_]/g, "\\$&")}(?![A-Za-z0-9_])`));
+  return from < 0 ? undefined : { from: offset + from, word, meant: meant[1]! };
+}
+
+export function takeMeant(graph: GraphText, { from, word, meant }: { from: number; word: string; meant: string }): GraphText {
+  return new GraphText(applySplices(graph.text, [{ from, to: from + word.length, insert: meant }]));
+}
+
 /** One place up or down among its like; what a graph means does not change. */
 export function movePart(graph: GraphText, part: Part, by: -1 | 1): GraphText {
   requireGood(graph);
