@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "distributers/messages/imc.h"
@@ -67,6 +69,19 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     CHECK(maneuver.legs[0].leg.vertical == tasks::Vertical::altitude);
     CHECK(maneuver.legs[0].leg.drive == tasks::Drive::thrust);
     CHECK(maneuver.legs[0].leg.thrust == doctest::Approx(0.6));
+  }
+
+  TEST_CASE("a place is where the page of the console has it, which draws plans") {
+    std::ifstream file("tools/console/web/tests/places.json");
+    const auto places = nlohmann::json::parse(file);
+    CHECK(places.size() == 7);
+    for (const auto& place : places) {
+      tasks::Leg leg;
+      set_place(leg, place["lat"], place["lon"], {place["origin"]["lat"], place["origin"]["lon"]});
+      // a rounding of the angle is some nanometres
+      CHECK(std::abs(leg.north - place["north"].get<double>()) < 1e-8);
+      CHECK(std::abs(leg.east - place["east"].get<double>()) < 1e-8);
+    }
   }
 
   TEST_CASE("a path is a line to each of its points, from where it begins") {

@@ -33,6 +33,24 @@ TEST_SUITE("tasks/lauv_control") {
     CHECK(state.pitch_trim == doctest::Approx(-DepthControl::Param{}.ki * 0.1 * 0.05));
   }
 
+  TEST_CASE("what the integral of depth has learnt at rest, where it moves nothing, does not keep it out of reach") {
+    DepthControl::Param param;
+    SUBCASE("as it is") {}
+    SUBCASE("with another gain") { param.kp = 0.2; }
+    DepthControl::State state;
+    DepthControl::Out out;
+    DepthControl::In in;
+    in.motion.z = 0.07;  // afloat
+    for (int i = 0; i < 10'000; ++i) DepthControl::run(param, tick, in, state, out);
+    CHECK(state.pitch_trim > 0.08);
+    // there, short of the depth, it would stay
+    const double short_of = state.pitch_trim / param.kp;
+    in.setpoint.depth = 3;
+    in.motion.z = 3 - short_of;
+    DepthControl::run(param, tick, in, state, out);
+    CHECK(state.pitch_trim / param.kp < short_of);
+  }
+
   TEST_CASE("a turn takes the shorter way round") {
     HeadingControl::Out out;
     HeadingControl::In in;

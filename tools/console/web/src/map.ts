@@ -50,6 +50,13 @@ export function toSpot(frame: Frame, x: number, y: number): Spot {
   ];
 }
 
+/** The nearest place whose numbers are round, some points wide. */
+export function snapped(frame: Frame, [north, east]: Spot): Spot {
+  const step = roundLength(8 / frame.scale);
+  const round = (value: number) => Number((Math.round(value / step) * step).toPrecision(12)) || 0;
+  return [round(north), round(east)];
+}
+
 /** The same spot stays under the point. */
 export function zoomed(frame: Frame, factor: number, x: number, y: number): Frame {
   const [north, east] = toSpot(frame, x, y);
