@@ -1,9 +1,10 @@
-// The submarine's desk as a pilot uses it: steered, or along a plan
-// that is drawn on the map. In real time, or some times as fast; this wants a machine that has little else to do. Exit code
-// 77: jarol was built without the page.
+// The submarine's desk as a pilot uses it: steered, along a plan that is drawn on the map, and when something goes wrong
+// there. In real time, or some times as fast; this wants a machine that has little else to do. Exit code 77: jarol was
+// built without the page.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {mkdtempSync, rmSync} from 'node:fs';
+import {connect, createServer} from 'node:net';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, test} from 'node:test';
@@ -222,6 +223,66 @@ test('a plan that can\'t be flown is not sent, and it is said why; one that is f
   await shown.close();
   await run.stop();
 });
+
+// A way to the page that can be cut without a word.
+async function cuttable(url) {
+  const to = new URL(url), port = Number(to.port);
+  let cut = false;
+  const server = createServer((from) => {
+    const onward = connect(port, to.hostname);
+    for (const [one, other] of [[from, onward], [onward, from]]) {
+      one.on('data', (data) => cut || other.write(data));
+      one.on('end', () => cut || other.end());
+      one.on('error', () => {});
+    }
+  });
+  await new Promise((listens) => server.listen(0, '127.0.0.1', listens));
+  to.port = String(server.address().port);
+  return {url: to.href, cut: () => (cut = true), close: () => server.close()};
+}
+
+// How the pilot is lost; what that does; what is said of it then.
+const losses = {
+  'looks elsewhere with a key held': {does: ({shown}) => shown.page.evaluate(`window.dispatchEvent(new Event('blur'))`), why: 'it was released'},
+  // one that is closed may have time to say so itself
+  'closes the page': {does: ({shown}) => shown.page.close(), why: ''},
+  'has a page that is frozen for 5 s': {does: ({shown}) => void shown.page.evaluate(`(() => { for (const end = performance.now() + 5000; performance.now() < end;); })()`), why: 'the page that commanded was silent'},
+  'is cut off': {does: ({way}) => way.cut(), why: 'the page that commanded was silent'},
+};
+for (const [how, {does, why}] of Object.entries(losses))
+  test(`a pilot who ${how} commands no more: it comes up, the run goes on in time, and the next pilot takes over`, vehicles, async () => {
+    const pace = 2;
+    const file = join(folder, how.replaceAll(' ', '_') + '.mcap');
+    const run = start('run', 'specs/exolauv.yaml', '--profile', 'desk', '--console', '--pace', String(pace), '--record', file);
+    const way = await cuttable(await run.url);
+    const shown = await open(browser, way.url);
+    const other = await open(second, await run.url);
+    await take(shown);
+    await other.page.until(command('Another page commands neptus'));
+    assert.ok(await other.page.evaluate(`[...document.querySelectorAll('.desk .who button, .desk .acts button, .desk input')].every((b) => b.disabled)`), 'who watches steers nothing');
+    await steer(shown, {depth: 1.5, heading: 0, speed: 1});
+    await other.page.until(`${row('depth')} > 1`);
+    await shown.page.send('Input.dispatchKeyEvent', {type: 'keyDown', code: 'KeyD', key: 'd'});
+    const [begun, at] = [performance.now(), await other.seconds()];
+    await does({shown, way});
+    await other.page.until(command('Nobody commands: ' + why));
+    await other.page.until(state('comes up: operator lost'));
+    await new Promise((done) => setTimeout(done, Math.max(0, 5000 - (performance.now() - begun))));
+    const [passed, went] = [(performance.now() - begun) / 1000, (await other.seconds()) - at];
+    assert.ok(Math.abs(went / pace / passed - 1) < 0.1, `${went} s of the run in ${passed} s`);
+    if (how.startsWith('has a page')) await shown.page.until(command('Nobody commands: ' + why));
+    if (how === 'is cut off') await shown.page.until(command('Nothing comes from jarol any more'));
+    await other.page.until(`${row('depth')} < 0.3`);
+    await take(other);
+    await other.press('Acknowledge');
+    await other.page.until(state('at rest'));
+    await other.press('Release');
+    await other.close();
+    if (how !== 'closes the page') await shown.page.close();
+    way.close();
+    const {output} = await run.stop();
+    assert.equal(digestIn(execFileSync(jarol, ['replay', file], {encoding: 'utf8'})), digestIn(output));
+  });
 
 test('an abort is one act, of the pilot or of who finds nobody at the desk, and it comes up', vehicles, async () => {
   const {run, shown} = await atDesk('aborted', 4);
