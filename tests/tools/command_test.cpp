@@ -200,7 +200,7 @@ connections: [i -> sum.in]
     CHECK(command.exit_code == 2);
     CHECK(command.output ==
           "error: there is no command 'chek'; did you mean 'check'?; there are: bench, campaign, check, console, "
-          "doctor, graph, "
+          "doctor, edit, graph, "
           "help, isolation, log, messages, new, replay, run, schema, tasks, vehicle\n");
     const Result missing = jarol("run no/such.yaml");
     CHECK(missing.exit_code == 2);
@@ -228,7 +228,7 @@ connections: [i -> sum.in]
     }
     CHECK(jarol("help chek").output ==
           "error: there is no command 'chek'; did you mean 'check'?; there are: bench, campaign, check, console, "
-          "doctor, graph, "
+          "doctor, edit, graph, "
           "help, isolation, log, messages, new, replay, run, schema, tasks, vehicle\n");
   }
 

@@ -72,6 +72,7 @@ TEST_SUITE("editor/trial") {
     CHECK(digest_in(end.text) == digest_in(command::jarol("run specs/counting.yaml --for 1s").output));
   }
 
+#ifdef JAROL_VEHICLES
   TEST_CASE("paths in it are those of its file's folder") {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "missions");
@@ -83,6 +84,7 @@ TEST_SUITE("editor/trial") {
     CHECK(digest_in(end.text) == digest_in(command::jarol("run specs/exolauv.yaml --for 1s").output));
     CHECK_FALSE(std::filesystem::exists(folder / "edited.yaml"));
   }
+#endif
 
   TEST_CASE("a text that is wrong is told so") {
     const TrialEnd end = Tried({.file = "specs/counting.yaml", .text = "graph: [\n"}).end();
