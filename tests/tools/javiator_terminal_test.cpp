@@ -82,7 +82,8 @@ class Lab {
     const auto end = std::chrono::steady_clock::now() + 20s;
     for (int i = 0; i < 10 || count_of(lost) == 0; ++i) {
       REQUIRE(std::chrono::steady_clock::now() < end);
-      pass();
+      // 35 periods are a lost operator, however long the link's thread has to wait for a processor
+      if (i < 10 || i % 100 == 0) pass();
       if (i >= 10) std::this_thread::sleep_for(1ms);
     }
     std::this_thread::sleep_for(100ms);  // the next one is to see no half of a report and its trace
