@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/analysis/time_line.h"
-#include "graph/language/quantities.h"
 #include "graph/values/bind.h"
 #include "tools/console/leaf_text.h"
 #include "tools/console/seconds.h"
@@ -33,13 +32,6 @@ const char* kind_of(const Type& type) {
   return "";
 }
 
-// As a graph says it.
-std::string text_of_value(const Type& type, const void* value) {
-  if (type.kind == Kind::duration) return duration_text(Duration(read_integer(type, value)));
-  const Json json = to_json(type, value);
-  return json.is_string() ? json.get<std::string>() : json.dump(-1, ' ', true, Json::error_handler_t::replace);
-}
-
 }  // namespace
 
 Json describe_parameters(const Type& type, const Value& given) {
@@ -47,7 +39,7 @@ Json describe_parameters(const Type& type, const Value& given) {
   const Value defaults(type);
   for (const Leaf& leaf : leaves_of(type)) {
     const auto text_in = [&](const Value& value) {
-      return text_of_value(*leaf.type, static_cast<const std::byte*>(value.data()) + leaf.offset);
+      return graph_text(*leaf.type, static_cast<const std::byte*>(value.data()) + leaf.offset);
     };
     Json json{{"path", leaf.path},
               {"kind", kind_of(*leaf.type)},

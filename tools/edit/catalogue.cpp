@@ -29,13 +29,6 @@ const char* kind_of(const Type& type) {
   return "";
 }
 
-// As a graph says it.
-std::string text_of(const Type& type, const void* value) {
-  if (type.kind == Kind::duration) return duration_text(Duration(read_integer(type, value)));
-  const Json json = to_json(type, value);
-  return json.is_string() ? json.get<std::string>() : json.dump(-1, ' ', true, Json::error_handler_t::replace);
-}
-
 // Each member by its path; lists are edited as a whole.
 void add_fields(const Type& type, const std::byte* value, const std::string& path, Json& to) {
   for (const TypeField& field : type.fields) {
@@ -44,7 +37,8 @@ void add_fields(const Type& type, const std::byte* value, const std::string& pat
       add_fields(*field.type, value + field.offset, own + ".", to);
       continue;
     }
-    Json json{{"path", own}, {"kind", kind_of(*field.type)}, {"default", text_of(*field.type, value + field.offset)}};
+    Json json{
+        {"path", own}, {"kind", kind_of(*field.type)}, {"default", graph_text(*field.type, value + field.offset)}};
     if (!field.unit.empty()) json["unit"] = field.unit;
     if (!field.text.empty()) json["text"] = field.text;
     if (field.range.is_stated() && field.type->kind != Kind::duration) {

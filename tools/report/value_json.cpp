@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "graph/language/quantities.h"
 #include "graph/values/bind.h"
 
 namespace jarol::tools {
@@ -44,6 +45,13 @@ nlohmann::ordered_json outputs_to_json(const Graph& graph, const std::function<c
     if (graph.communicators[i].direction == Direction::out)
       outputs[graph.communicators[i].name] = to_json(*graph.communicators[i].type, last_value(i));
   return outputs;
+}
+
+std::string graph_text(const Type& type, const void* value) {
+  if (type.kind == Kind::duration) return duration_text(Duration(read_integer(type, value)));
+  using Json = nlohmann::ordered_json;
+  const Json json = to_json(type, value);
+  return json.is_string() ? json.get<std::string>() : json.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
 }  // namespace jarol::tools
