@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -41,10 +42,20 @@ class Walk {
         follow();
       }
     report();
+    if (reads_guard_ && !is_protected())
+      offend(*reads_guard_, {"thread-local storage", "", "reads the stack protector's number, which is random"});
     return std::move(found_);
   }
 
  private:
+  // Does it end the process where that number is not what it was? What it calls for that may be in its cold part.
+  bool is_protected() const {
+    return function_.is_cold() || !object_.functions_named(function_.name + ".cold").empty() ||
+           std::any_of(found_.begin(), found_.end(), [](const Finding& finding) {
+             return finding.what == Finding::What::import && finding.name == "__stack_chk_fail";
+           });
+  }
+
   // the instruction at an address, or none
   std::size_t index_of(Address at) const {
     const auto found =
@@ -201,6 +212,7 @@ class Walk {
     for (const Operand& operand : instruction.operands) {
       if (operand.kind != Operand::Kind::memory) continue;
       if (operand.thread_local_data) offend_thread_local(instruction.at, "");
+      if (operand.reads_guard && !puts_guard_aside(code_, instruction)) reads_guard_ = instruction.at;
       if (operand.reg != instruction_pointer) continue;
       const Address at = instruction.place(operand);
       const Pointer* const pointer = object_.pointer_at(at);
@@ -257,6 +269,7 @@ class Walk {
   std::map<std::size_t, State> entries_;  // what holds there
   std::set<std::size_t> work_;
   State after_calls_;  // what holds after any call, so that it does where what the call threw is caught
+  std::optional<Address> reads_guard_;  // of the stack protector
   std::vector<Finding> found_;
 };
 

@@ -193,9 +193,9 @@ Operand operand_of(const cs_x86_op& from) {
       made.index = register_of(from.mem.index);
       made.number = from.mem.disp;
       if (from.mem.segment == X86_REG_FS || from.mem.segment == X86_REG_GS) {
-        const bool guard = from.mem.segment == X86_REG_FS && from.mem.base == X86_REG_INVALID &&
-                           from.mem.index == X86_REG_INVALID && from.mem.disp == 0x28;
-        made.thread_local_data = !guard;
+        made.reads_guard = from.mem.segment == X86_REG_FS && from.mem.base == X86_REG_INVALID &&
+                           from.mem.index == X86_REG_INVALID && from.mem.disp == 0x28 && !made.written;
+        made.thread_local_data = !made.reads_guard;
       }
       break;
     default: break;
@@ -221,6 +221,8 @@ Instruction made_of(const cs_insn& from) {
   for (std::uint8_t i = 0; i < from.detail->regs_write_count; ++i)
     if (const Register reg = register_of(from.detail->regs_write[i]); reg >= 0 && reg != rsp)
       made.writes = static_cast<std::uint16_t>(made.writes | 1U << reg);
+  made.clears = from.id == X86_INS_XOR && made.operands[0].kind == Operand::Kind::reg &&
+                made.operands[1].kind == Operand::Kind::reg && made.operands[0].reg == made.operands[1].reg;
   return made;
 }
 
@@ -245,6 +247,17 @@ std::vector<Instruction> decode(const Object& object, Address begin, Address end
     after_conversion = converts;
   }
   return all;
+}
+
+bool puts_guard_aside(const std::vector<Instruction>& code, const Instruction& first) {
+  const auto i = static_cast<std::size_t>(&first - code.data());
+  if (i + 2 >= code.size() || first.form != Instruction::Form::move) return false;
+  const Register guard = first.operands[0].reg;
+  const Instruction &store = code[i + 1], &clear = code[i + 2];
+  const Operand& place = store.operands[0];
+  return store.form == Instruction::Form::move && place.kind == Operand::Kind::memory &&
+         (place.reg == rsp || place.reg == rbp) && store.operands[1].reg == guard && clear.clears &&
+         clear.operands[0].reg == guard;
 }
 
 }  // namespace jarol::isolation

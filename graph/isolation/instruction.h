@@ -18,7 +18,8 @@ struct Operand {
   enum class Kind : std::uint8_t { none, reg, number, memory, other };
   Kind kind = Kind::none;
   bool written = false;
-  bool thread_local_data = false;  // relative to fs or gs, but for the stack protector's guard
+  bool thread_local_data = false;  // relative to fs or gs, but for the next
+  bool reads_guard = false;        // the stack protector's number
   std::uint8_t size = 0;           // bytes
   Register reg = no_register;      // of memory: the base
   Register index = no_register;
@@ -32,6 +33,7 @@ struct Instruction {
   std::array<Operand, 3> operands{};
   std::uint16_t writes = 0;    // general registers, a bit each
   bool subtracts = false;      // `add` has a sign
+  bool clears = false;         // its first operand, by xor
   const char* forbidden = "";  // why no task may hold it
   std::string text{};          // of one that is forbidden: "rdtsc"
   /// The address that a memory operand relative to the instruction pointer names.
@@ -40,5 +42,9 @@ struct Instruction {
 
 /// In order of address, up to the first bytes that are no instruction; these are not in it.
 std::vector<Instruction> decode(const Object& object, Address begin, Address end);
+
+/// As g++ begins a function that is protected, also one that never returns and so never looks:
+/// mov %fs:0x28, r; mov r, n(%rsp); xor r, r.
+bool puts_guard_aside(const std::vector<Instruction>& code, const Instruction& first);
 
 }  // namespace jarol::isolation

@@ -84,6 +84,14 @@ TASK(ReadsSegment, {
   asm volatile("mov %%fs:0x10, %0" : "=r"(self));
   out.out = static_cast<double>(self);
 })
+// offends: thread-local storage: : ReadsGuard::run
+TASK(ReadsGuard, {
+  long random;
+  asm volatile("mov %%fs:0x28, %0" : "=r"(random));
+  out.out = static_cast<double>(random);
+})
+// offends: thread-local storage: : WritesGuard::run
+TASK(WritesGuard, { asm volatile("movq $0, %%fs:0x28" ::: "memory"); })
 // offends: unreadable code: : MiddleOfInstruction::run
 TASK(MiddleOfInstruction, {
   asm volatile(
@@ -120,5 +128,6 @@ TASK(Numbers, {
 }  // namespace
 
 JAROL_PLUGIN(SystemCall, OldSystemCall, Cycles, CyclesAndCore, HardwareRandom, HardwareSeed, AsksProcessor, AsksState,
-             SetsRounding, ReadsFlags, SetsOldRounding, TalksToDevice, ReadsSegment, MiddleOfInstruction,
-             ForgedFromInput, ForgedFromState, ForgedBesideGood, ForgedTailCall, ForgedObject, Numbers)
+             SetsRounding, ReadsFlags, SetsOldRounding, TalksToDevice, ReadsSegment, ReadsGuard, WritesGuard,
+             MiddleOfInstruction, ForgedFromInput, ForgedFromState, ForgedBesideGood, ForgedTailCall, ForgedObject,
+             Numbers)
