@@ -64,6 +64,20 @@ TEST_SUITE("tools/surfacing") {
     check_failures("lost", chosen_of(cases));
   }
 
+  TEST_CASE("a battery that runs low ends the dive while there is charge, and one that is flat stops the propeller") {
+    // 20.06 V with the propeller off: below the limit as soon as it turns
+    const Dive low = dive_with("power: {charge: 0.3}");
+    check_surfaces(low, Alarm::voltage_limit, 10);
+    CHECK(low.alarmed_at > 2);
+    // nobody looks at the voltage: 25 mA h are gone after some 30 s, and nothing lies
+    const Dive flat = dive("specs/exolauv.yaml",
+                           {"distributers.dune.link.parameters={power: {charge: 0.00125}}",
+                            "tasks.supervisor.parameters={min_voltage: 0 V}"},
+                           0, 140s);
+    CHECK(flat.samples.back().motion.z < 0.3);
+    CHECK(std::abs(flat.samples.back().motion.u) < 0.1);
+  }
+
   TEST_CASE("a sensor that lies ends the dive") {
     static constexpr Case cases[] = {
         {"depth", 30, 0.5, Alarm::depth_gauge},     {"pressure", 30, -60, Alarm::depth_gauge},

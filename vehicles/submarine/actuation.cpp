@@ -35,7 +35,7 @@ void SubmarineActuation::command_servo(std::size_t servo, double angle) {
   servo_silence_[servo] = 0;
 }
 
-SubmarineInput SubmarineActuation::step() {
+SubmarineInput SubmarineActuation::step(bool powered) {
   // whoever commands no longer is lost: propeller off, fins neutral
   const auto lost = [this](std::int64_t& silence) { return timeout_ > 0 && silence++ >= timeout_; };
   if (lost(thruster_silence_)) thruster_command_ = 0.0;
@@ -44,7 +44,7 @@ SubmarineInput SubmarineActuation::step() {
 
   // the plant sees what the actuators are on average over the step, or what they come to
   SubmarineInput input;
-  const double reach = servo_parameters_.slew * step_seconds;
+  const double reach = powered ? servo_parameters_.slew * step_seconds : 0.0;
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     const double before = servos_[i];
     servos_[i] += std::clamp(servo_commands_[i] - before, -reach, reach);
@@ -52,7 +52,7 @@ SubmarineInput SubmarineActuation::step() {
   }
 
   // first-order lag, solved exactly
-  const double command = thruster_command_ * thruster_.full_speed, before = propeller_;
+  const double command = powered ? thruster_command_ * thruster_.full_speed : 0.0, before = propeller_;
   const double kept = thruster_.time_constant > 0.0 ? std::exp(-step_seconds / thruster_.time_constant) : 0.0;
   propeller_ = command + (before - command) * kept;
   input.propeller = kept == 0.0 ? propeller_ : 0.5 * (before + propeller_);

@@ -1,4 +1,4 @@
-// What moves the submarine's propeller and fins: commands, their time-out, lag, slew and limits.
+// What moves the submarine's propeller and fins: commands, their time-out, power, lag, slew and limits.
 #pragma once
 
 #include <array>
@@ -18,8 +18,9 @@ class SubmarineActuation {
   void command_thruster(double actuation);
   void command_servo(std::size_t servo, double angle);
 
-  /// A step of 10 ms; returns what the plant sees over it.
-  SubmarineInput step();
+  /// A step of 10 ms; returns what the plant sees over it. Without power the propeller stops, and fins stay where they
+  /// are.
+  SubmarineInput step(bool powered = true);
 
   double propeller() const { return propeller_; }  // rad/s
   const std::array<double, 4>& servos() const { return servos_; }

@@ -11,6 +11,7 @@ struct PowerParameters {
   double empty = 18.0;
   double resistance = 0.1;
   double capacity = 20.0;
+  double charge = 1.0;
   double hotel = 1.0;
   double propulsion = 6.0;
   double heating = 3.0;
@@ -21,7 +22,8 @@ struct PowerParameters {
     return describe(field<&S::full>("V", "voltage of the full battery without load"),
                     field<&S::empty>("V", "the same of the empty one; between them it falls with the charge used"),
                     field<&S::resistance>("Ohm", "inside the battery"),
-                    field<&S::capacity>("A h", "charge of the battery"),
+                    field<&S::capacity>("A h", "charge of the full battery"),
+                    field<&S::charge>("", "part of it that is left at the start").in(0, 1),
                     field<&S::hotel>("A", "what everything but the propeller draws"),
                     field<&S::propulsion>("A", "what the propeller draws at full speed; grows with its cube"),
                     field<&S::heating>("K/A", "in the end the hull is warmer than the water by this, per current"),
@@ -31,10 +33,14 @@ struct PowerParameters {
 
 class Power {
  public:
-  explicit Power(const PowerParameters& parameters) : parameters_(parameters) {}
+  explicit Power(const PowerParameters& parameters)
+      : parameters_(parameters), used_(3600.0 * (1.0 - parameters.charge) * parameters.capacity) {}
 
   /// A propeller at this part of its full speed, for some seconds.
   void draw(double part, double seconds);
+
+  /// All of the charge is used: propeller and servos get none any more, and instruments have a cell of their own.
+  bool is_flat() const { return used_ >= 3600.0 * parameters_.capacity; }
 
   double current() const { return current_; }
   double voltage() const;

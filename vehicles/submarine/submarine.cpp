@@ -78,7 +78,7 @@ void Submarine::command(const void* inputs) {
 }
 
 void Submarine::step() {
-  motion_->step(actuation_.step());
+  motion_->step(actuation_.step(!power_.is_flat()));
   ++steps_;
   at_ = motion_->state();
   const auto& servos = actuation_.servos();

@@ -71,6 +71,36 @@ TEST_SUITE("vehicles/submarine_actuation") {
     CHECK(power.voltage() == 0);
   }
 
+  TEST_CASE("a battery may begin with a part of its charge, and is flat when all is used, not before") {
+    PowerParameters parameters;
+    parameters.charge = 0.05;  // 1 A h
+    Power power(parameters);
+    CHECK(power.voltage() == doctest::Approx(18 + 0.05 * 7.2));
+    power.draw(0, 3599);
+    CHECK_FALSE(power.is_flat());
+    power.draw(0, 1);
+    CHECK(power.is_flat());
+    CHECK(power.voltage() == doctest::Approx(18 - 0.1));
+  }
+
+  TEST_CASE("without power the propeller runs down whatever is commanded, and fins stay where they are") {
+    SubmarineActuation actuation({});
+    actuation.command_thruster(0.5);
+    actuation.command_servo(1, 0.2);
+    for (int i = 0; i < 100; ++i) actuation.step();
+    actuation.command_servo(1, -0.2);
+    for (int i = 0; i < 100; ++i) {
+      actuation.command_thruster(1);
+      actuation.step(false);
+    }
+    CHECK(actuation.propeller() < 1e-6);
+    CHECK(actuation.servos()[1] == doctest::Approx(0.2));
+    CHECK(actuation.step(false).fins[1] == doctest::Approx(0.2));
+    for (int i = 0; i < 50; ++i) actuation.step();
+    CHECK(actuation.propeller() > 261);
+    CHECK(actuation.servos()[1] == doctest::Approx(-0.2));
+  }
+
   TEST_CASE("the hull warms by 3 K for each ampere, after ten minutes to two thirds") {
     Power power({});
     power.draw(1, 600);

@@ -116,6 +116,29 @@ TEST_SUITE("vehicles/submarine") {
     CHECK(out->actuators.fin0 == 0);
   }
 
+  TEST_CASE("when the battery's charge is used up the propeller stops, and it comes up") {
+    SubmarineParameters parameters;
+    parameters.start.depth = 3;
+    parameters.power.charge = 0.0003;  // 6 mA h
+    Submarine submarine(parameters);
+    const auto* out = static_cast<const SubmarineOutputs*>(submarine.outputs());
+    const auto run = [&](int steps) {
+      for (int i = 0; i < steps; ++i) {
+        command(submarine, 0.5F, {});
+        submarine.step();
+      }
+    };
+    // 1 A, and 6/8 A by the propeller: 12.3 s
+    run(1200);
+    CHECK(out->actuators.propeller == doctest::Approx(130.9));
+    run(100);
+    CHECK(out->actuators.propeller < 1e-3);
+    CHECK(out->sensors.current == doctest::Approx(1));
+    run(12000);
+    CHECK(sense(submarine).z < 0.3F);
+    CHECK(std::abs(sense(submarine).u) < 0.05F);
+  }
+
   TEST_CASE("a command that is no number changes nothing") {
     Submarine submarine({});
     const auto* out = static_cast<const SubmarineOutputs*>(submarine.outputs());
