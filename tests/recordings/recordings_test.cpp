@@ -1,7 +1,9 @@
 // Recordings are read to the bit by the npm packages that tools of the field read MCAP with.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "graph/values/value.h"
 #include "runtime/execute/log_end.h"
@@ -121,6 +123,40 @@ TEST_SUITE("recordings") {
     CAPTURE(output.substr(0, 2000));
     CHECK(output.ends_with(" numbers are the same\n"));
     CHECK(output != "0 numbers are the same\n");
+  }
+
+  TEST_CASE("each part of a split recording is read as a file of its own, and all hold what one file does") {
+    if (!are_fetched()) return;
+    const TemporaryFolder folder;
+    const std::string run = "run " + folder.write("g.yaml", R"(graph: g
+tasks:
+  count: {type: Counter, period: 10ms}
+  sum: {type: Accumulate, period: 10ms}
+  window: {type: Window, period: 30ms, heap: 64KiB, parameters: {length: 500}}
+  mean: {type: Mean, period: 30ms}
+connections: [count.out -> sum.in, sum.out -> window.in, window.out -> mean.in]
+)") + " --for 20s --record-checkpoints 7s --record-compression none --record ";
+    REQUIRE(command::jarol(run + (folder / "one.mcap")).exit_code == 0);
+    REQUIRE(command::jarol(run + (folder / "r.mcap") + " --record-split 1MiB").exit_code == 0);
+    const auto lines_of = [](const std::string& file) {
+      std::vector<std::string> lines;
+      std::istringstream dump(read("dump " + file));
+      for (std::string line; std::getline(dump, line);) lines.push_back(line);
+      return lines;
+    };
+    std::vector<std::string> parts = lines_of(folder / "r.mcap"), one = lines_of(folder / "one.mcap");
+    int part = 2;
+    for (; std::filesystem::exists(folder / ("r." + std::to_string(part) + ".mcap")); ++part) {
+      const std::vector<std::string> more = lines_of(folder / ("r." + std::to_string(part) + ".mcap"));
+      CHECK(more.size() > 10);
+      parts.insert(parts.end(), more.begin(), more.end());
+    }
+    CHECK(part > 3);
+    CHECK(std::count_if(one.begin(), one.end(),
+                        [](const std::string& line) { return line.starts_with("mean.out "); }) == 20'000 / 30 + 1);
+    // a part may hold messages from before the end of the one that it follows
+    for (auto* lines : {&parts, &one}) std::sort(lines->begin(), lines->end());
+    CHECK((parts == one));
   }
 
   TEST_CASE("values of every kind are read to the bit") {

@@ -1,13 +1,16 @@
 // One campaign on many processes, as mpirun starts them: what comes of it is what one process finds.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tests/tools/campaign/database_content.h"
 #include "tests/tools/default_signals.h"
 #include "tests/tools/run_command.h"
 
 namespace {
 using command::content;
+using command::database_content;
 using command::TemporaryFolder;
 
 // So many ranks on this machine, however few processors it has.
@@ -24,12 +27,13 @@ const std::string counting =
 }  // namespace
 
 TEST_SUITE("tools/campaign/ranks") {
-  TEST_CASE("for any number of ranks the table is the same, byte for byte") {
+  TEST_CASE("for any number of ranks the table is the same, byte for byte, and the results hold the same") {
     const TemporaryFolder folder;
     REQUIRE(
         command::jarol(counting + "--results " + (folder / "alone") + " --csv " + (folder / "alone.csv")).exit_code ==
         0);
-    const std::string table = content(folder / "alone.csv");
+    const std::string table = content(folder / "alone.csv"), results = database_content(folder / "alone");
+    CHECK(std::count(results.begin(), results.end(), '\n') > 120);
     for (const int count : {1, 2, 4}) {
       CAPTURE(count);
       const std::string name = folder / std::to_string(count);
@@ -38,10 +42,11 @@ TEST_SUITE("tools/campaign/ranks") {
       CHECK(result.exit_code == 0);
       CHECK(nlohmann::json::parse(result.output)["done"] == 120);
       CHECK(content(name + ".csv") == table);
+      CHECK(database_content(name) == results);
     }
   }
 
-  TEST_CASE("a rank that dies ends the job, and the same command goes on to the same table") {
+  TEST_CASE("a rank that dies ends the job, and the same command goes on to the same table and results") {
     const command::DefaultSignals taken;
     const TemporaryFolder folder;
     const std::string of =
@@ -62,6 +67,7 @@ TEST_SUITE("tools/campaign/ranks") {
     }
     CHECK(killed > 0);
     CHECK(content(csv) == content(folder / "alone.csv"));
+    CHECK(database_content(results) == database_content(folder / "alone"));
   }
 
   TEST_CASE("what is wrong with a campaign is reported once, by the first rank") {
