@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "distributers/lauv/messages.h"
+#include "distributers/messages/payload.h"
+#include "graph/math/geometry.h"
 
 namespace jarol::distributers {
 
@@ -14,6 +16,7 @@ using tasks::Instruments;
 namespace {
 
 constexpr Duration ask_period = std::chrono::seconds(5);
+constexpr double flat_earth = 100e3;  // m from the origin, as far as plans go
 
 // what a device does not measure it writes as no number beside what it does
 bool measured(std::initializer_list<double> values) {
@@ -22,7 +25,8 @@ bool measured(std::initializer_list<double> values) {
 
 }  // namespace
 
-LauvVehicle::LauvVehicle(const Param& parameters) : parameters_(parameters) {
+LauvVehicle::LauvVehicle(const Param& parameters)
+    : parameters_(parameters), latitude_(parameters.latitude), longitude_(parameters.longitude) {
   using P = LauvVehicleParameters;
   using I = Instruments;
   Instruments& all = in.instruments.value;
@@ -45,6 +49,7 @@ LauvVehicle::LauvVehicle(const Param& parameters) : parameters_(parameters) {
                                 std::pair{&P::voltage, &I::voltage},
                                 std::pair{&P::current, &I::current}};
   std::apply([&](auto... pair) { (leave_out(parameters_.*(pair.first), all.*(pair.second)), ...); }, readings);
+  for (tasks::BeaconReading& beacon : all.beacons) leave_out(parameters_.ranges, beacon);
 }
 
 bool LauvVehicle::is(const LauvInstrument& instrument, const messages::MessageRef& from) {
@@ -178,19 +183,44 @@ void LauvVehicle::entity(const imc::EntityState& m, const messages::MessageRef& 
   for (LeakDetector& each : leaks_) each.reported = false;
 }
 
-// offsets from the first fix along meridian and parallel, WGS-84
+// offsets from the origin along meridian and parallel
 void LauvVehicle::place(double latitude, double longitude) {
   if (!all_finite({latitude, longitude})) return;
-  if (in.instruments->place.count < 1) {
+  const EarthRadii radii = earth_radii(latitude_);
+  const bool far = std::hypot((latitude - latitude_) * radii.north, (longitude - longitude_) * radii.east) > flat_earth;
+  if (in.instruments->place.count < 1 && far) {
     latitude_ = latitude;
     longitude_ = longitude;
   }
-  constexpr double equatorial_radius = 6378137.0, eccentricity_squared = 6.69437999014e-3;
-  const double s = std::sin(latitude_), w = 1 - eccentricity_squared * s * s;
-  const double east_radius = equatorial_radius / std::sqrt(w);
+  const EarthRadii here = earth_radii(latitude_);
   tasks::VectorReading& r = in.instruments.renew().place;
-  r = {(latitude - latitude_) * east_radius * (1 - eccentricity_squared) / w,
-       (longitude - longitude_) * east_radius * std::cos(latitude_), 0, std::max<std::int64_t>(r.count, 0) + 1};
+  r = {(latitude - latitude_) * here.north, (longitude - longitude_) * here.east, 0,
+       std::max<std::int64_t>(r.count, 0) + 1};
+}
+
+// the configuration that the vehicle has or gets, by the order in it
+void LauvVehicle::beacons(const imc::LblConfig& m) {
+  if (m.op == imc::LblConfig::Op::GET_CFG) return;
+  for (std::size_t k = 0; k < beacons_.size(); ++k) {
+    beacons_[k] = {};
+    messages::Message message;
+    if (k >= m.beacons.size() || !messages::take_inline(imc::message_set(), m.beacons[k], message)) continue;
+    if (const auto* b = message.as<imc::LblBeacon>(); b != nullptr && all_finite({b->lat, b->lon, b->depth}))
+      beacons_[k] = {true, b->lat, b->lon, b->depth};
+  }
+}
+
+// of a beacon whose place is known
+void LauvVehicle::range(const imc::LblRange& m, const messages::MessageRef& from) {
+  if (m.id >= beacons_.size() || !beacons_[m.id].known || !is(parameters_.ranges, from)) return;
+  double range = m.range;
+  if (Entities::sender_of(from) != Entities::nobody) range *= parameters_.ranges.scale;
+  if (!all_finite({range})) return;
+  const Beacon& b = beacons_[m.id];
+  const EarthRadii radii = earth_radii(latitude_);
+  tasks::BeaconReading& r = in.instruments.renew().beacons[m.id];
+  r = {(b.latitude - latitude_) * radii.north, (b.longitude - longitude_) * radii.east, b.depth, range,
+       std::max<std::int64_t>(r.count, 0) + 1};
 }
 
 void LauvVehicle::announce(Duration instant, messages::Receiver& all) {

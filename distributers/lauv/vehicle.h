@@ -9,6 +9,7 @@
 #include "distributers/interfaces/distributer.h"
 #include "distributers/lauv/entities.h"
 #include "distributers/messages/imc.h"
+#include "graph/math/geometry.h"
 #include "graph/values/type_of.h"
 #include "tasks/values/instruments.h"
 #include "tasks/values/lauv.h"
@@ -35,20 +36,24 @@ struct LauvInstrument {
 struct LauvVehicleParameters {
   LauvInstrument depth{}, pressure{}, attitude{}, rates{}, forces{}, heading{}, velocity{}, rpm{}, place{},
       altitude{.entity = "Altimeter*"}, conductivity{}, water_temperature{}, leak{.entity = "Leak*"}, voltage{},
-      current{};
+      current{}, ranges{};
   bool gravity = true;
+  double latitude = 41.1850 * degree;
+  double longitude = -8.7062 * degree;
 
   static constexpr auto fields() {
     using P = LauvVehicleParameters;
-    return describe(field<&P::depth>("", "Depth"), field<&P::pressure>("", "Pressure"),
-                    field<&P::attitude>("", "EulerAngles: roll, pitch, yaw"), field<&P::rates>("", "AngularVelocity"),
-                    field<&P::forces>("", "Acceleration"), field<&P::heading>("", "EulerAngles: the magnetic heading"),
-                    field<&P::velocity>("", "WaterVelocity"), field<&P::rpm>("", "Rpm"), field<&P::place>("", "GpsFix"),
-                    field<&P::altitude>("", "Distance, downward"), field<&P::conductivity>("", "Conductivity"),
-                    field<&P::water_temperature>("", "Temperature"),
-                    field<&P::leak>("", "EntityState: each in FAILURE is a leak"), field<&P::voltage>("", "Voltage"),
-                    field<&P::current>("", "Current"),
-                    field<&P::gravity>("", "an entity's Acceleration is what a mass at rest feels: less gravity"));
+    return describe(
+        field<&P::depth>("", "Depth"), field<&P::pressure>("", "Pressure"),
+        field<&P::attitude>("", "EulerAngles: roll, pitch, yaw"), field<&P::rates>("", "AngularVelocity"),
+        field<&P::forces>("", "Acceleration"), field<&P::heading>("", "EulerAngles: the magnetic heading"),
+        field<&P::velocity>("", "WaterVelocity"), field<&P::rpm>("", "Rpm"), field<&P::place>("", "GpsFix"),
+        field<&P::altitude>("", "Distance, downward"), field<&P::conductivity>("", "Conductivity"),
+        field<&P::water_temperature>("", "Temperature"), field<&P::leak>("", "EntityState: each in FAILURE is a leak"),
+        field<&P::voltage>("", "Voltage"), field<&P::current>("", "Current"), field<&P::ranges>("", "LblRange"),
+        field<&P::gravity>("", "an entity's Acceleration is what a mass at rest feels: less gravity"),
+        field<&P::latitude>("rad", "of the origin, WGS-84, unless the first fix is 100 km from it: then that"),
+        field<&P::longitude>("rad", "of the origin"));
   }
 };
 
@@ -85,7 +90,8 @@ class LauvVehicle {
                   on<imc::Conductivity>(&V::conductivity), on<imc::Temperature>(&V::temperature),
                   on<imc::Distance>(&V::distance), on<imc::EntityState>(&V::entity), on<imc::Voltage>(&V::voltage),
                   on<imc::Current>(&V::current), on<imc::EntityInfo>(&V::entity_info),
-                  on<imc::EntityList>(&V::entity_list), send<&Out::actuation>(&V::send_actuation));
+                  on<imc::EntityList>(&V::entity_list), on<imc::LblConfig>(&V::beacons), on<imc::LblRange>(&V::range),
+                  send<&Out::actuation>(&V::send_actuation));
   }
 
   explicit LauvVehicle(const Param& parameters);
@@ -99,7 +105,7 @@ class LauvVehicle {
   std::uint64_t non_finite_inputs() const { return non_finite_inputs_; }
   /// Without what concerns a link to elsewhere.
   void serialize(Archive& archive) {
-    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, latitude_, longitude_);
+    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, latitude_, longitude_, beacons_);
   }
 
   In in;
@@ -123,6 +129,8 @@ class LauvVehicle {
   void current(const imc::Current& m, const messages::MessageRef& from);
   void entity_info(const imc::EntityInfo& m) { entities_.note(m); }
   void entity_list(const imc::EntityList& m) { entities_.note(m); }
+  void beacons(const imc::LblConfig& m);
+  void range(const imc::LblRange& m, const messages::MessageRef& from);
   void send_actuation(const tasks::Actuation& actuation, messages::Receiver& system);
 
   void place(double latitude, double longitude);
@@ -142,13 +150,20 @@ class LauvVehicle {
     void serialize(Archive& archive) { archive(known, reported, failed); }
   };
 
+  struct Beacon {
+    bool known = false;
+    double latitude = 0, longitude = 0, depth = 0;
+    void serialize(Archive& archive) { archive(known, latitude, longitude, depth); }
+  };
+
   LauvVehicleParameters parameters_;
   Entities entities_;
   std::array<LeakDetector, 256> leaks_{};
   bool label_lacks_ = false;
   std::optional<Duration> asked_;
   std::uint64_t non_finite_inputs_ = 0;
-  double latitude_ = 0, longitude_ = 0;  // of the first fix
+  double latitude_ = 0, longitude_ = 0;  // of the origin
+  std::array<Beacon, 2> beacons_{};
   std::string address_;
   std::optional<Duration> announced_;
 };

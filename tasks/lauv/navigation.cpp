@@ -12,6 +12,38 @@ namespace {
 // The part of an error that a step sets right.
 double share(double step, double time) { return time > step ? step / time : 1.0; }
 
+PlaceFilter::Model model_of(const LauvNavigation::Param& p) {
+  return {.drift = p.drift,
+          .change = p.current_change,
+          .current = p.current,
+          .fix = p.fix_error,
+          .range = p.range_error,
+          .gate = p.gate};
+}
+
+void take_places(const LauvNavigation::Param& p, const Instruments& i, double z, LauvNavigation::State& state) {
+  const PlaceFilter::Model model = model_of(p);
+  if (i.place.count > state.fixes) {
+    if (state.fixes < 1 || state.misfits >= p.restart) {
+      state.place.begin(model, i.place.x, i.place.y);
+      state.misfits = 0;
+    } else if (state.place.take_fix(model, i.place.x, i.place.y)) {
+      state.misfits = 0;
+    } else {
+      ++state.misfits;
+      ++state.left_out;
+    }
+    state.fixes = i.place.count;
+  }
+  for (std::size_t k = 0; k < i.beacons.size(); ++k) {
+    const BeaconReading& b = i.beacons[k];
+    const bool is_new = b.count > state.ranges[k];
+    state.ranges[k] = b.count;
+    if (!is_new || state.fixes < 1) continue;
+    if (!state.place.take_range(model, b.north, b.east, b.depth - z, b.range)) ++state.left_out;
+  }
+}
+
 }  // namespace
 
 void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
@@ -30,8 +62,8 @@ void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& 
     const double turn = m.q * s_phi + m.r * c_phi, lifted = m.v * s_phi + m.w * c_phi;
     const double ahead = m.u * c_theta + lifted * s_theta, aside = m.v * c_phi - m.w * s_phi;
 
-    m.x += dt * (ahead * std::cos(m.psi) - aside * std::sin(m.psi));
-    m.y += dt * (ahead * std::sin(m.psi) + aside * std::cos(m.psi));
+    state.place.predict(model_of(p), ahead * std::cos(m.psi) - aside * std::sin(m.psi),
+                        ahead * std::sin(m.psi) + aside * std::cos(m.psi), dt);
     m.z += dt * (lifted * c_theta - m.u * s_theta);
     m.phi += dt * (m.p + turn * s_theta / c_theta);
     m.theta += dt * (m.q * c_phi - m.r * s_phi);
@@ -43,13 +75,9 @@ void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& 
     m.theta += angles * wrapped(i.attitude.y - m.theta);
     m.psi = wrapped(m.psi + angles * wrapped(i.heading.value - m.psi));
   }
-  if (i.place.count > state.fixes) {
-    // the first fix sets the place, the others draw it near
-    const double part = state.fixes == 0 ? 1.0 : share(1.0, p.place_time);
-    m.x += part * (i.place.x - m.x);
-    m.y += part * (i.place.y - m.y);
-    state.fixes = i.place.count;
-  }
+  take_places(p, i, m.z, state);
+  m.x = state.place.s[0];
+  m.y = state.place.s[1];
   const double speeds = share(dt, p.speed_time);
   m.u += speeds * (i.velocity.x - m.u);
   m.v += speeds * (i.velocity.y - m.v);
@@ -58,6 +86,8 @@ void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& 
   m.q = i.rates.y;
   m.r = i.rates.z;
   out.motion = m;
+  out.stream = {state.place.s[2], state.place.s[3]};
+  out.accuracy = {state.fixes > 0, std::sqrt(state.place.P[0] + state.place.P[5]), state.left_out};
 }
 
 }  // namespace jarol::tasks

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/lauv/place_filter.h"
 #include "tasks/values/guidance.h"
 #include "tasks/values/instruments.h"
 #include "tasks/values/lauv.h"
@@ -11,20 +12,34 @@
 namespace jarol::tasks {
 
 /// Complementary filters: rates and velocities carry on what slower instruments set right. With exact instruments the
-/// motion is exact but for what a period of the task hides.
+/// motion is exact but for what a period of the task hides. Place and current are those of the place filter, from the
+/// first fix on: before, nobody knows where it is. After `restart` fixes in a row that fit nothing the place begins
+/// anew with the next one.
 struct LauvNavigation {
   static constexpr std::string_view summary = "tells the submarine's motion from its instruments";
   struct Param {
     double angle_time = 0.5;
     double depth_time = 0.7;
     double speed_time = 0.2;
-    double place_time = 5;
+    double drift = 0.05;
+    double current_change = 0.003;
+    double current = 0.5;
+    double fix_error = 2.5;
+    double range_error = 1;
+    double gate = 3.3;
+    std::int64_t restart = 10;
     static constexpr auto fields() {
       using P = Param;
       return describe(field<&P::angle_time>("s", "after which angles follow IMU and compass rather than rates"),
                       field<&P::depth_time>("s", "after which depth follows the gauge rather than the motion"),
                       field<&P::speed_time>("s", "over which the speed log is smoothed"),
-                      field<&P::place_time>("s", "after which the place follows GPS rather than the motion"));
+                      field<&P::drift>("m/s^0.5", "deviation of the way reckoned, after 1 s"),
+                      field<&P::current_change>("m/s^1.5", "deviation by which the current changes in 1 s"),
+                      field<&P::current>("m/s", "deviation of the current before anything is known of it"),
+                      field<&P::fix_error>("m", "deviation of GPS, per axis"),
+                      field<&P::range_error>("m", "deviation of the range to a beacon"),
+                      field<&P::gate>("", "a fix or range that is off by more deviations is left out"),
+                      field<&P::restart>("", "fixes left out in a row, after which the next one counts"));
     }
   };
   struct In {
@@ -34,16 +49,23 @@ struct LauvNavigation {
   struct State {
     bool started = false;
     Motion motion{};
-    std::int64_t fixes = 0;
+    PlaceFilter place{};
+    std::int64_t fixes = 0, misfits = 0, left_out = 0;
+    std::array<std::int64_t, 2> ranges{};
     static constexpr auto fields() {
-      return describe(field<&State::started>(), field<&State::motion>("", "as told last"),
-                      field<&State::fixes>("", "of GPS, taken so far"));
+      using S = State;
+      return describe(field<&S::started>(), field<&S::motion>("", "as told last"), field<&S::place>(),
+                      field<&S::fixes>("", "of GPS, so far"), field<&S::misfits>("", "fixes left out in a row"),
+                      field<&S::left_out>("", "fixes and ranges so far"), field<&S::ranges>("", "so far, per beacon"));
     }
   };
   struct Out {
     Motion motion{};
     Stream stream{};
-    static constexpr auto fields() { return describe(field<&Out::motion>(), field<&Out::stream>()); }
+    PlaceAccuracy accuracy{};
+    static constexpr auto fields() {
+      return describe(field<&Out::motion>(), field<&Out::stream>(), field<&Out::accuracy>());
+    }
   };
   static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };

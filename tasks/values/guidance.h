@@ -89,4 +89,18 @@ struct Stream {
   static constexpr auto fields() { return describe(field<&Stream::north>("m/s"), field<&Stream::east>("m/s")); }
 };
 
+/// How well navigation knows its place.
+struct PlaceAccuracy {
+  bool known = false;
+  double deviation = 0;
+  std::int64_t left_out = 0;
+
+  static constexpr auto fields() {
+    using P = PlaceAccuracy;
+    return describe(field<&P::known>("", "GPS has found it once"),
+                    field<&P::deviation>("m", "standard deviation of the place, of both axes together"),
+                    field<&P::left_out>("", "fixes and ranges that fit nothing known, so far"));
+  }
+};
+
 }  // namespace jarol::tasks

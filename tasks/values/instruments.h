@@ -1,6 +1,7 @@
 // What the submarine's instruments tell, as it comes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "graph/values/describe.h"
@@ -30,6 +31,20 @@ struct VectorReading {
   }
 };
 
+/// The newest range to an acoustic transponder, and where that lies.
+struct BeaconReading {
+  double north = 0, east = 0, depth = 0;
+  double range = 0;
+  std::int64_t count = 0;
+
+  static constexpr auto fields() {
+    using B = BeaconReading;
+    return describe(field<&B::north>("m", "of the origin"), field<&B::east>("m", "of the origin"),
+                    field<&B::depth>("m", "below the surface"), field<&B::range>("m", "from the vehicle"),
+                    field<&B::count>("", "ranges so far; -1: not fitted"));
+  }
+};
+
 struct Instruments {
   Reading depth{};
   Reading pressure{};
@@ -46,6 +61,7 @@ struct Instruments {
   Reading leak{};
   Reading voltage{};
   Reading current{};
+  std::array<BeaconReading, 2> beacons{};
 
   static constexpr auto fields() {
     using I = Instruments;
@@ -55,10 +71,10 @@ struct Instruments {
         field<&I::rates>("", "rad/s: body rates of the IMU"),
         field<&I::forces>("", "m/s^2: specific forces of the IMU"), field<&I::heading>("", "rad, of the compass"),
         field<&I::velocity>("", "m/s through the water, body axes"), field<&I::rpm>("", "rpm, of the propeller"),
-        field<&I::place>("", "m north and east of the first fix, of GPS"),
-        field<&I::altitude>("", "m over the sea floor"), field<&I::conductivity>("", "S/m, of the CTD"),
-        field<&I::water_temperature>("", "degC, of the CTD"), field<&I::leak>("", "1 for water in the hull"),
-        field<&I::voltage>("", "V, of the battery"), field<&I::current>("", "A, from the battery"));
+        field<&I::place>("", "m north and east of the origin, of GPS"), field<&I::altitude>("", "m over the sea floor"),
+        field<&I::conductivity>("", "S/m, of the CTD"), field<&I::water_temperature>("", "degC, of the CTD"),
+        field<&I::leak>("", "1 for water in the hull"), field<&I::voltage>("", "V, of the battery"),
+        field<&I::current>("", "A, from the battery"), field<&I::beacons>("", "acoustic transponders"));
   }
 };
 

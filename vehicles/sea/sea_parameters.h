@@ -6,6 +6,31 @@
 
 namespace jarol::vehicles {
 
+/// Where an acoustic transponder lies.
+struct BeaconParameters {
+  double north = 0.0;
+  double east = 0.0;
+  double depth = 0.0;
+
+  static constexpr auto fields() {
+    using S = BeaconParameters;
+    return describe(field<&S::north>("m", "offset north of the origin"),
+                    field<&S::east>("m", "offset east of the origin"), field<&S::depth>("m", "below the surface"));
+  }
+};
+
+struct BeaconsParameters {
+  BeaconParameters first{-30.0, -60.0, 10.0};
+  BeaconParameters second{130.0, -60.0, 10.0};
+  double reach = 500.0;
+
+  static constexpr auto fields() {
+    using S = BeaconsParameters;
+    return describe(field<&S::first>("", "one of them"), field<&S::second>("", "the other"),
+                    field<&S::reach>("m", "greatest range at which they answer; 0: there are none"));
+  }
+};
+
 /// The current is the same at all depths and carries the waves along, so that the motion through the water does not
 /// depend on it.
 struct SeaParameters {
@@ -21,6 +46,7 @@ struct SeaParameters {
   double floor = 50.0;
   double latitude = 41.1850 * degree;
   double longitude = -8.7062 * degree;
+  BeaconsParameters beacons{};
 
   static constexpr auto fields() {
     using S = SeaParameters;
@@ -32,7 +58,7 @@ struct SeaParameters {
         field<&S::wave_period>("s", "from crest to crest"),
         field<&S::wave_direction>("rad", "to which the waves run, clockwise from north"),
         field<&S::floor>("m", "depth of the sea floor"), field<&S::latitude>("rad", "latitude of the origin (WGS-84)"),
-        field<&S::longitude>("rad", "longitude of the origin"));
+        field<&S::longitude>("rad", "longitude of the origin"), field<&S::beacons>("", "acoustic transponders"));
   }
 };
 

@@ -77,6 +77,8 @@ struct SubmarineReadings {
   double hull_temperature = unknown;
   double voltage = unknown;
   double current = unknown;
+  double range_first = unknown;
+  double range_second = unknown;
 
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -96,7 +98,8 @@ struct SubmarineReadings {
         field<&S::rpm>("rpm", "speed of the propeller"), field<&S::gps_north>("m", "north of the origin"),
         field<&S::gps_east>("m", "east of the origin"), field<&S::altitude>("m", "over the sea floor"),
         field<&S::leak>("", "1 for water in the hull"), field<&S::hull_temperature>("degC", "inside the hull"),
-        field<&S::voltage>("V", "of the battery"), field<&S::current>("A", "from the battery"));
+        field<&S::voltage>("V", "of the battery"), field<&S::current>("A", "from the battery"),
+        field<&S::range_first>("m", "to the first transponder"), field<&S::range_second>("m", "to the second one"));
   }
 };
 

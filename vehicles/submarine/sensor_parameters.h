@@ -73,6 +73,10 @@ struct PositionSensor {
   static constexpr std::string_view unit = "m";
   static constexpr int milliseconds = 1000;
 };
+struct RangeSensor {
+  static constexpr std::string_view unit = "m";
+  static constexpr int milliseconds = 2000;
+};
 struct AltitudeSensor {
   static constexpr std::string_view unit = "m";
   static constexpr int milliseconds = 100;
@@ -106,6 +110,7 @@ struct SubmarineSensorParameters {
   SensorOf<SpeedSensor> speed_log{};
   SensorOf<RpmSensor> rpm{};
   SensorOf<PositionSensor> gps{};
+  SensorOf<RangeSensor> range{};
   SensorOf<AltitudeSensor> altitude{};
   SensorOf<LeakSensor> leak{};
   SensorOf<SlowTemperatureSensor> hull_temperature{};
@@ -123,6 +128,7 @@ struct SubmarineSensorParameters {
                     field<&S::compass>("", "heading"),
                     field<&S::speed_log>("", "velocity through the water, along the body's axes"),
                     field<&S::rpm>("", "speed of the propeller"), field<&S::gps>("", "place, at the surface only"),
+                    field<&S::range>("", "to each acoustic transponder within reach"),
                     field<&S::altitude>("", "over the sea floor, down the body's axis, no more than 100 m"),
                     field<&S::leak>("", "1 for water in the hull"), field<&S::hull_temperature>("", "inside the hull"),
                     field<&S::voltage>("", "of the battery"), field<&S::current>("", "from the battery"));

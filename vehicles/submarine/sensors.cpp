@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "distributers/messages/imc.h"
+#include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
 #include "vehicles/sea/sea_water.h"
 
@@ -34,6 +35,27 @@ void tell_vector(messages::Receiver& receiver, const Sensor& sensor, Message mes
   receiver.receive(messages::refer_to(message));
 }
 
+constexpr std::int64_t beacons_period = 1000;  // steps between two messages that tell where they lie
+
+messages::Message tell_beacons_of(const SeaParameters& sea) {
+  const EarthRadii radii = earth_radii(sea.latitude);
+  const BeaconParameters* const all[] = {&sea.beacons.first, &sea.beacons.second};
+  constexpr std::string_view names[] = {"first", "second"};
+  imc::LblConfig config;
+  config.op = imc::LblConfig::Op::CUR_CFG;
+  for (std::size_t k = 0; k < 2; ++k) {
+    imc::LblBeacon beacon;
+    beacon.beacon = names[k];
+    beacon.lat = sea.latitude + all[k]->north / radii.north;
+    beacon.lon = sea.longitude + all[k]->east / radii.east;
+    beacon.depth = static_cast<float>(all[k]->depth);
+    messages::InlineMessage packed;
+    messages::put_inline(messages::refer_to(beacon), packed);
+    config.beacons.push_back(packed);
+  }
+  return messages::Message(messages::refer_to(config));
+}
+
 }  // namespace
 
 SubmarineSensors::SubmarineSensors(const SubmarineSensorParameters& p, const SeaParameters& sea, double floating_depth,
@@ -56,11 +78,13 @@ SubmarineSensors::SubmarineSensors(const SubmarineSensorParameters& p, const Sea
       leak_(p.leak, "leak", seed),
       hull_temperature_(p.hull_temperature, "hull_temperature", seed),
       voltage_(p.voltage, "voltage", seed),
-      current_(p.current, "current", seed) {}
+      current_(p.current, "current", seed),
+      ranges_{Sensor(p.range, "range_first", seed), Sensor(p.range, "range_second", seed)},
+      beacons_(tell_beacons_of(sea)) {}
 
 void SubmarineSensors::serialize(Archive& archive) {
   archive(seconds_, depth_, pressure_, conductivity_cell_, water_temperature_, attitude_, rates_, forces_, compass_,
-          speed_, rpm_, gps_, altitude_, leak_, hull_temperature_, voltage_, current_, readings_);
+          speed_, rpm_, gps_, altitude_, leak_, hull_temperature_, voltage_, current_, ranges_, step_, readings_);
 }
 
 void SubmarineSensors::step(std::int64_t step, const SubmarineScene& scene) {
@@ -69,6 +93,7 @@ void SubmarineSensors::step(std::int64_t step, const SubmarineScene& scene) {
   const double c_theta = std::cos(eta[4]);
   const fossen::Vector3 down_b = {-std::sin(eta[4]), c_theta * std::sin(eta[3]), c_theta * std::cos(eta[3])};
   seconds_ = static_cast<double>(step) * step_seconds;
+  step_ = step;
 
   // both gauges feel pressure
   const double head = std::max(eta[2] + scene.head, 0.0);
@@ -96,6 +121,13 @@ void SubmarineSensors::step(std::int64_t step, const SubmarineScene& scene) {
   const double range = (sea_.floor - eta[2]) / std::max(down_b[2], 1e-3);
   const bool echo = range > shortest_range && range < longest_range;
   altitude_.step(step, echo ? std::optional(Values{range}) : std::nullopt);
+
+  const BeaconParameters* const beacons[] = {&sea_.beacons.first, &sea_.beacons.second};
+  for (std::size_t k = 0; k < ranges_.size(); ++k) {
+    const BeaconParameters& b = *beacons[k];
+    const double away = std::hypot(b.north - scene.north, b.east - scene.east, b.depth - eta[2]);
+    ranges_[k].step(step, away < sea_.beacons.reach ? std::optional(Values{away}) : std::nullopt);
+  }
 
   leak_.step(step, Values{scene.leak ? 1.0 : 0.0});
   hull_temperature_.step(step, Values{sea_.temperature + scene.hull_warmth});
@@ -134,6 +166,8 @@ void SubmarineSensors::note() {
   r.hull_temperature = hull_temperature_.value();
   r.voltage = voltage_.value();
   r.current = current_.value();
+  r.range_first = ranges_[0].value();
+  r.range_second = ranges_[1].value();
 }
 
 void SubmarineSensors::tell(messages::Receiver& receiver) const {
@@ -141,6 +175,7 @@ void SubmarineSensors::tell(messages::Receiver& receiver) const {
   tell_water(receiver);
   tell_hull(receiver);
   tell_place(receiver);
+  tell_beacons(receiver);
 }
 
 void SubmarineSensors::tell_motion(messages::Receiver& receiver) const {
@@ -212,6 +247,14 @@ void SubmarineSensors::tell_place(messages::Receiver& receiver) const {
     distance.value = static_cast<float>(altitude_.value());
     receiver.receive(messages::refer_to(distance));
   }
+}
+
+void SubmarineSensors::tell_beacons(messages::Receiver& receiver) const {
+  if (sea_.beacons.reach > 0.0 && step_ % beacons_period == 0) receiver.receive(beacons_);
+  for (std::size_t k = 0; k < ranges_.size(); ++k)
+    if (ranges_[k].told())
+      receiver.receive(messages::refer_to(
+          imc::LblRange{static_cast<std::uint8_t>(k), static_cast<float>(std::max(ranges_[k].value(), 0.0))}));
 }
 
 }  // namespace jarol::vehicles

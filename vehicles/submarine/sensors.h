@@ -44,13 +44,17 @@ class SubmarineSensors {
   void tell_water(messages::Receiver& receiver) const;
   void tell_hull(messages::Receiver& receiver) const;
   void tell_place(messages::Receiver& receiver) const;
+  void tell_beacons(messages::Receiver& receiver) const;
 
   SeaParameters sea_;
   double antenna_depth_ = 0.0;
   double conductivity_ = 0.0;
   double seconds_ = 0.0;
+  std::int64_t step_ = 0;
   Sensor depth_, pressure_, conductivity_cell_, water_temperature_, attitude_, rates_, forces_, compass_, speed_, rpm_,
       gps_, altitude_, leak_, hull_temperature_, voltage_, current_;
+  std::array<Sensor, 2> ranges_;
+  messages::Message beacons_;  // where they lie
   SubmarineReadings readings_;
 };
 

@@ -10,6 +10,7 @@
 
 #include "distributers/interfaces/typed.h"
 #include "distributers/messages/imc.h"
+#include "distributers/messages/payload.h"
 
 namespace {
 using namespace jarol;
@@ -220,7 +221,56 @@ TEST_SUITE("distributers/lauv_vehicle") {
     CHECK(i.place.y == doctest::Approx(apart(point(1, 0.5), point(1, 0.5 + 1e-5))).scale(0).epsilon(1e-5));
   }
 
-  TEST_CASE("the first fix is the origin of the place") {
+  TEST_CASE("places are measured from the origin of plans, wherever the first fix is") {
+    Typed<LauvVehicle> adapter;
+    imc::GpsFix fix;
+    fix.validity = imc::GpsFix::Validity::VALID_POS;
+    fix.lat = 41.1850 * degree + 1e-5;
+    fix.lon = -8.7062 * degree - 1e-5;
+    adapter.receive(messages::refer_to(fix));
+    tasks::Instruments i;
+    CHECK(adapter.take<&In::instruments>(i));
+    CHECK(i.place.x == doctest::Approx(63.63).scale(0).epsilon(1e-3));
+    CHECK(i.place.y == doctest::Approx(-48.07).scale(0).epsilon(1e-3));
+  }
+
+  TEST_CASE("a range counts once it is known where its transponder lies, from the same origin") {
+    Typed<LauvVehicle> adapter;
+    tasks::Instruments i;
+    adapter.receive(messages::refer_to(imc::LblRange{0, 70}));
+    CHECK_FALSE(adapter.take<&In::instruments>(i));
+    const imc::LblBeacon beacon{.lat = 41.1850 * degree + 1e-5, .lon = -8.7062 * degree, .depth = 12};
+    imc::LblConfig config;
+    config.op = imc::LblConfig::Op::CUR_CFG;
+    messages::InlineMessage packed;
+    REQUIRE(messages::put_inline(messages::refer_to(beacon), packed));
+    config.beacons.push_back(packed);
+    adapter.receive(messages::refer_to(config));
+    adapter.receive(messages::refer_to(imc::LblRange{0, 70}));
+    adapter.receive(messages::refer_to(imc::LblRange{1, 80}));  // there is none
+    adapter.receive(messages::refer_to(imc::LblRange{200, 80}));
+    CHECK(adapter.take<&In::instruments>(i));
+    CHECK(i.beacons[0].range == 70);
+    CHECK(i.beacons[0].count == 1);
+    CHECK(i.beacons[0].north == doctest::Approx(63.63).scale(0).epsilon(1e-3));
+    CHECK(i.beacons[0].east == 0);
+    CHECK(i.beacons[0].depth == 12);
+    CHECK(i.beacons[1].count == 0);
+    adapter.receive(messages::refer_to(imc::LblRange{0, std::numeric_limits<float>::quiet_NaN()}));
+    CHECK(adapter.non_finite_inputs() == 1);
+    config.op = imc::LblConfig::Op::GET_CFG;  // a question
+    config.beacons.clear();
+    adapter.receive(messages::refer_to(config));
+    adapter.receive(messages::refer_to(imc::LblRange{0, 71}));
+    CHECK(adapter.take<&In::instruments>(i));
+    CHECK(i.beacons[0].range == 71);
+    config.op = imc::LblConfig::Op::SET_CFG;  // there are none any more
+    adapter.receive(messages::refer_to(config));
+    adapter.receive(messages::refer_to(imc::LblRange{0, 72}));
+    CHECK_FALSE(adapter.take<&In::instruments>(i));
+  }
+
+  TEST_CASE("the first fix is the origin where it is more than 100 km from that of plans") {
     Typed<LauvVehicle> adapter;
     imc::GpsFix fix;
     fix.validity = imc::GpsFix::Validity::VALID_POS;

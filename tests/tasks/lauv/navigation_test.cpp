@@ -65,19 +65,28 @@ TEST_SUITE("tasks/lauv_navigation") {
     CHECK(out.motion.z == doctest::Approx(5 - 0.7 * std::sin(0.3)).scale(0).epsilon(0.01));
   }
 
-  TEST_CASE("the first fix sets the place, later ones draw it near") {
+  TEST_CASE("the first fix sets the place, the next counts half, and nobody knows the place before") {
     LauvNavigation::State state;
     LauvNavigation::Out out;
     Instruments i;
+    i.beacons[0] = {0, 100, 0, 30, 1};
+    LauvNavigation::run({}, every_50_ms, {i}, state, out);
+    CHECK(out.motion.x == 0);
+    CHECK(out.motion.y == 0);
+    CHECK_FALSE(out.accuracy.known);
+    CHECK(out.accuracy.left_out == 0);
     i.place = {10, -20, 0, 1};
     LauvNavigation::run({}, every_50_ms, {i}, state, out);
     CHECK(out.motion.x == 10);
     CHECK(out.motion.y == -20);
+    CHECK(out.accuracy.known);
+    CHECK(out.accuracy.deviation == doctest::Approx(2.5 * std::sqrt(2)));
     i.place = {15, -20, 0, 2};
     LauvNavigation::run({}, every_50_ms, {i}, state, out);
-    CHECK(out.motion.x == doctest::Approx(11));
+    CHECK(out.motion.x == doctest::Approx(12.5));
+    CHECK(out.accuracy.deviation == doctest::Approx(2.5));
     LauvNavigation::run({}, every_50_ms, {i}, state, out);
-    CHECK(out.motion.x == doctest::Approx(11));
+    CHECK(out.motion.x == doctest::Approx(12.5));
   }
 
   TEST_CASE("each instrument is followed over its own time") {
@@ -139,5 +148,121 @@ TEST_SUITE("tasks/lauv_navigation") {
         }
       }
     }
+  }
+
+  // At rest in the water of a current, at the surface or deep, with exact instruments.
+  struct Drifting {
+    double north, east;
+    Instruments i = turning(0);
+    LauvNavigation::State state{};
+    LauvNavigation::Out out{};
+    int k = 0;
+
+    Drifting(double c_north, double c_east) : north(c_north), east(c_east) {
+      i.rates = {};
+      i.velocity = {};
+    }
+    double x() const { return 0.05 * k * north; }
+    double y() const { return 0.05 * k * east; }
+    void fix(double off = 0) { i.place = {x() + off, y(), 0, i.place.count + 1}; }
+    void range(std::size_t beacon, double at_north, double at_east, double off = 0) {
+      const double away = std::hypot(x() - at_north, y() - at_east, 15 - i.depth.value);
+      i.beacons[beacon] = {at_north, at_east, 15, away + off, i.beacons[beacon].count + 1};
+    }
+    void step() {
+      ++k;
+      LauvNavigation::run({}, every_50_ms, {i}, state, out);
+    }
+    double error() const { return std::hypot(out.motion.x - x(), out.motion.y - y()); }
+  };
+
+  TEST_CASE("what GPS sees of the drift is the current") {
+    Drifting boat(0.3, -0.1);
+    for (int second = 0; second < 60; ++second) {
+      boat.fix();
+      for (int k = 0; k < 20; ++k) boat.step();
+    }
+    CHECK(boat.out.stream.north == doctest::Approx(0.3).scale(0).epsilon(0.03));
+    CHECK(boat.out.stream.east == doctest::Approx(-0.1).scale(0).epsilon(0.03));
+    // and is reckoned with when GPS is gone
+    const double before = boat.error();
+    for (int k = 0; k < 1200; ++k) boat.step();
+    CHECK(boat.error() < before + 0.6);
+  }
+
+  TEST_CASE("two beacons tell place and current under water, from below and aside") {
+    Drifting boat(-0.2, 0.3);
+    boat.fix();
+    for (int step = 0; step < 100; ++step) {
+      boat.range(0, -30, -60);
+      boat.range(1, 130, -60);
+      for (int k = 0; k < 40; ++k) boat.step();
+    }
+    CHECK(boat.error() < 0.1);
+    CHECK(boat.out.stream.north == doctest::Approx(-0.2).scale(0).epsilon(0.01));
+    CHECK(boat.out.stream.east == doctest::Approx(0.3).scale(0).epsilon(0.01));
+    CHECK(boat.out.accuracy.deviation < 1.5);
+    CHECK(boat.out.accuracy.left_out == 0);
+  }
+
+  TEST_CASE("a fix or a range that fits nothing is left out and counted, and ten such fixes in a row are believed") {
+    Drifting boat(0, 0);
+    for (int second = 0; second < 30; ++second) {
+      boat.fix();
+      boat.range(0, -30, -60);
+      for (int k = 0; k < 20; ++k) boat.step();
+    }
+    const double before = boat.error();
+    boat.fix(15);
+    boat.range(0, -30, -60, 8);
+    boat.step();
+    CHECK(boat.out.accuracy.left_out == 2);
+    CHECK(boat.error() < before + 0.02);
+    boat.fix(1);
+    boat.range(0, -30, -60, 1);
+    boat.step();
+    CHECK(boat.out.accuracy.left_out == 2);
+    for (int fix = 0; fix < 10; ++fix) {
+      boat.fix(100);
+      boat.step();
+    }
+    CHECK(boat.out.accuracy.left_out == 12);
+    CHECK(boat.error() < 2);
+    boat.fix(100);
+    boat.step();
+    CHECK(boat.out.motion.x == doctest::Approx(100));
+    CHECK(boat.out.stream.north == 0);
+  }
+
+  TEST_CASE("the place filter is a Kalman filter: a step and a range by hand") {
+    const PlaceFilter::Model model{.drift = 0.1, .change = 0.01, .current = 0.5, .fix = 2, .range = 1, .gate = 3};
+    PlaceFilter filter;
+    filter.begin(model, 3, 4);
+    filter.predict(model, 1, -2, 2);
+    CHECK(filter.s[0] == 5);
+    CHECK(filter.s[1] == 0);
+    // P_xx = 4 + 2^2 0.25 + 0.01 2, P_xc = 2 0.25, P_cc = 0.25 + 1e-4 2
+    CHECK(filter.P[0] == doctest::Approx(5.02));
+    CHECK(filter.P[2] == doctest::Approx(0.5));
+    CHECK(filter.P[8] == doctest::Approx(0.5));
+    CHECK(filter.P[10] == doctest::Approx(0.2502));
+    CHECK(filter.P[1] == 0);
+    // 3-4-5 on the ground and 12 below: h = (4, -3)/13, S = 5.02 25/169 + 1
+    REQUIRE(filter.take_range(model, 1, 3, 12, 14));
+    const double S = 5.02 * 25 / 169 + 1;
+    CHECK(filter.s[0] == doctest::Approx(5 + 5.02 * 4 / 13 / S));
+    CHECK(filter.s[1] == doctest::Approx(-5.02 * 3 / 13 / S));
+    CHECK(filter.s[2] == doctest::Approx(0.5 * 4 / 13 / S));
+    CHECK(filter.P[0] == doctest::Approx(5.02 - 5.02 * 5.02 * 16 / 169 / S));
+    CHECK(filter.P[1] == doctest::Approx(5.02 * 5.02 * 12 / 169 / S));
+    CHECK(filter.P[4] == filter.P[1]);
+    // three deviations and no more
+    PlaceFilter there;
+    there.begin(model, 5, 0);
+    CHECK_FALSE(there.take_fix(model, 5, 3.01 * std::sqrt(8)));
+    CHECK_FALSE(there.take_fix(model, -3.01 * std::sqrt(8) + 5, 0));
+    CHECK(there.s[1] == 0);
+    CHECK(there.take_fix(model, 5, 2.99 * std::sqrt(8)));
+    CHECK_FALSE(there.take_range(model, 5, there.s[1], 0, 1));
   }
 }

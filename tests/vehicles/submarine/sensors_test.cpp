@@ -6,6 +6,7 @@
 #include <string>
 
 #include "distributers/messages/imc.h"
+#include "distributers/messages/payload.h"
 #include "vehicles/sea/sea_water.h"
 #include "vehicles/submarine/submarine.h"
 
@@ -102,6 +103,8 @@ TEST_SUITE("vehicles/submarine_sensors") {
                                                            {"EntityState", 10},
                                                            {"EulerAngles", 1000},
                                                            {"GpsFix", 10},
+                                                           {"LblConfig", 1},
+                                                           {"LblRange", 10},
                                                            {"Pressure", 100},
                                                            {"Rpm", 200},
                                                            {"Salinity", 62},
@@ -178,5 +181,59 @@ TEST_SUITE("vehicles/submarine_sensors") {
     // a minute at 7 A of 20 A h
     CHECK(r.voltage == doctest::Approx(25.2 - 0.7 - 7.2 * 7 / 60 / 20).scale(0).epsilon(1e-4));
     CHECK(r.hull_temperature == doctest::Approx(14 + 21 * (1 - std::exp(-0.1))).scale(0).epsilon(0.01));
+  }
+
+  TEST_CASE("each transponder within reach answers every two seconds, and where they lie is told every ten") {
+    SubmarineParameters parameters;
+    parameters.sea.beacons.first = {30, 40, 20};
+    parameters.sea.beacons.second = {0, 400, 20};
+    parameters.sea.beacons.reach = 100;
+    parameters.sea.current_north = 0.5;
+    Submarine submarine = deep(parameters);
+    struct Heard : messages::Receiver {
+      void receive(messages::MessageRef message) override {
+        if (const auto* m = message.as<imc::LblRange>()) ranges.push_back(*m);
+        if (const auto* m = message.as<imc::LblConfig>()) configs.push_back(*m);
+      }
+      std::vector<imc::LblRange> ranges;
+      std::vector<imc::LblConfig> configs;
+    } heard;
+    submarine.sense(heard);
+    for (int i = 0; i < 1999; ++i) {
+      submarine.step();
+      submarine.sense(heard);
+    }
+    REQUIRE(heard.ranges.size() == 10);
+    const auto& last = heard.ranges.back();  // at 18 s, 9 m to the north
+    CHECK(last.id == 0);
+    CHECK(last.range == doctest::Approx(std::hypot(30 - 9, 40, 20 - submarine.state().z)).scale(0).epsilon(1e-3));
+    CHECK(readings_of(submarine).range_first == doctest::Approx(static_cast<double>(last.range)));
+    CHECK(std::isnan(readings_of(submarine).range_second));
+    REQUIRE(heard.configs.size() == 2);
+    CHECK(heard.configs[0].op == imc::LblConfig::Op::CUR_CFG);
+    REQUIRE(heard.configs[0].beacons.size() == 2);
+    messages::Message message;
+    REQUIRE(messages::take_inline(imc::message_set(), heard.configs[0].beacons[1], message));
+    const auto* second = message.as<imc::LblBeacon>();
+    REQUIRE(second != nullptr);
+    CHECK(second->beacon.view() == "second");
+    CHECK(second->depth == 20);
+    CHECK(second->lat == parameters.sea.latitude);
+    // the radius of that parallel is 4807.09 km
+    CHECK(second->lon - parameters.sea.longitude == doctest::Approx(400 / 4.80709e6).scale(0).epsilon(1e-5));
+  }
+
+  TEST_CASE("without transponders nothing is told of them") {
+    SubmarineParameters parameters;
+    parameters.sea.beacons.reach = 0;
+    Submarine submarine = deep(parameters);
+    Told told;
+    submarine.sense(told);
+    for (int i = 0; i < 1000; ++i) {
+      submarine.step();
+      submarine.sense(told);
+    }
+    CHECK(told.counts["LblRange"] == 0);
+    CHECK(told.counts["LblConfig"] == 0);
   }
 }

@@ -34,7 +34,9 @@ struct Peer : messages::Receiver {
 
 TEST_SUITE("vehicles/submarine_telemetry") {
   TEST_CASE("in each of ten seconds a peer is told as often as DUNE tells, and nothing else") {
-    Submarine submarine({});
+    SubmarineParameters parameters;
+    parameters.sea.beacons.reach = 0;  // there are none where DUNE's simulator is
+    Submarine submarine(parameters);
     Peer peer;
     SubmarineTelemetry telemetry(submarine, peer);
     for (int second = 0; second < 10; ++second) {
