@@ -11,9 +11,10 @@ namespace jarol::tasks {
 /// An extended Kalman filter of s = [x y c_x c_y]: the place in NED and the current, which carries the water over
 /// ground:
 ///   s' = [x + dt (v_x + c_x), y + dt (v_y + c_y), c_x, c_y],   P' = F P F^T + Q dt,   v: through the water, in NED.
-/// A reading z = h(s) with deviation sigma: e = z - h, S = H P H^T + sigma^2, K = P H^T / S, s += K e, P -= K H P (Jazwinski,
-/// "Stochastic Processes and Filtering Theory", 1970, section 8.3). One with e^2 > gate^2 S fits nothing that is known,
-/// and is left out. GPS measures x and y; the range to a beacon at b is h = |p - b|, H = [(x - b_x)/h (y - b_y)/h 0 0].
+/// A reading z = h(s) with deviation sigma: e = z - h, S = H P H^T + sigma^2, K = P H^T / S, s += K e, P -= K H P
+/// (Jazwinski, "Stochastic Processes and Filtering Theory", 1970, section 8.3). One with e^2 > gate^2 S fits nothing
+/// that is known, and is left out. GPS measures x and y; the range to a beacon at b is h = |p - b|, H = [(x - b_x)/h (y
+/// - b_y)/h 0 0].
 struct PlaceFilter {
   /// SI units; deviations.
   struct Model {

@@ -63,7 +63,8 @@ TEST_SUITE("tools/lauv_navigation") {
 
   TEST_CASE("a transponder that jumps is left out") {
     const std::string failure = "distributers.dune.link.parameters.sensors.range.failure.";
-    const Lost jumps = after_100_s("at_sea", 0, 0.3, 1, {failure + "kind=jumping", failure + "at=20s", failure + "by=30"});
+    const Lost jumps =
+        after_100_s("at_sea", 0, 0.3, 1, {failure + "kind=jumping", failure + "at=20s", failure + "by=30"});
     CHECK(jumps.place < 4);
   }
 
