@@ -9,7 +9,7 @@ import {Console, start} from './watched_run.mjs';
 export class EditorPage extends Console {
   /** `name` as in 'exolauv.yaml'. */
   static async edit(browser, name, {options = {}, words = []} = {}) {
-    const folder = mkdtempSync(join(tmpdir(), 'jarol_edit_'));
+    const folder = join(mkdtempSync(join(tmpdir(), 'jarol_edit_')), 'specs');
     cpSync('specs', folder, {recursive: true, filter: (from) => !/specs\/(broken|pictures)/.test(from)});
     const file = join(folder, name);
     const run = start('edit', file, ...words);
@@ -24,7 +24,7 @@ export class EditorPage extends Console {
   async end() {
     await this.close();
     assert.equal((await this.run.stop()).code, 130);
-    rmSync(this.folder, {recursive: true, force: true});
+    rmSync(join(this.folder, '..'), {recursive: true, force: true});
   }
 
   onDisk() { return readFileSync(this.file, 'utf8'); }

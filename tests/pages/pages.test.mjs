@@ -6,7 +6,6 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, test} from 'node:test';
 import {Signal} from '../../tools/pages/data.js';
-import {layersOf} from '../../tools/pages/drawing.js';
 import {Browser} from './browser.mjs';
 
 const jarol = process.env.JAROL_COMMAND;
@@ -149,11 +148,6 @@ connections: [a.out -> w.in]
   await lacking.close();
 });
 
-test('the layers of a graph go from what feeds to what is fed, and a circle of connections has an end', () => {
-  const layers = layersOf([{id: 'a'}, {id: 'b'}, {id: 'c'}], [{from: 'a', to: 'b'}, {from: 'b', to: 'c'}, {from: 'c', to: 'b'}]);
-  assert.deepEqual([...layers], [['a', 0], ['b', 1], ['c', 2]]);
-});
-
 test('the report of a dive draws graph, time lines, plots and path, and answers mouse and keys', vehicles, async () => {
   const file = report('dive', 'specs/exolauv.yaml');
   const data = dataOf(file);
@@ -167,6 +161,10 @@ test('the report of a dive draws graph, time lines, plots and path, and answers 
   for (const pixels of (await drawn(page, 'series-0')).slice(2, 5)) assert.ok(pixels > 300, 'a commanded signal is drawn');
   for (const pixels of (await drawn(page, 'series-1')).slice(2, 5)) assert.ok(pixels > 300, 'what it reached is drawn');
   assert.equal(await page.evaluate(`document.querySelectorAll('.graph .node.task').length`), 8);
+  // one layout for all
+  const svg = run('graph', 'specs/exolauv.yaml', '--svg');
+  assert.equal(svg.split('<g class="node').length - 1, await page.evaluate(`document.querySelectorAll('.graph .node').length`));
+  assert.equal(svg.match(/viewBox="0 0 ([0-9]+)/)[1], data.drawing.width.toFixed(0));
   assert.equal(await page.evaluate(`document.querySelectorAll('#tasks tbody tr').length`), 8);
 
   // dragging across a plot comes closer, and all plots with it; a key shows all again

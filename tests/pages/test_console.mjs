@@ -94,7 +94,8 @@ test('a recording is looked at from its begin, at any instant, and played', vehi
   const run = start('console', file);
   const shown = await Console.open(browser, await run.url);
   await shown.state('recording');
-  await shown.page.until(`Number(document.querySelector('[aria-label="instant"]').max) > 99`);
+  await shown.all();
+  assert.ok(await shown.page.evaluate(`Number(document.querySelector('[aria-label="instant"]').max) > 99`));
   assert.equal(await shown.seconds(), 0);
   await shown.choose('instant', '60');
   assert.ok(Math.abs((await shown.row('depth'))[0] - 3) < 0.05);

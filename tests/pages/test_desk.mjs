@@ -7,7 +7,8 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, test} from 'node:test';
 import {Browser} from './browser.mjs';
-import {Console, digestIn, endAll, leaveOutWithoutPage, start} from './watched_run.mjs';
+import {command, Console, digestIn, endAll, leaveOutWithoutPage, pilotFlags, row, start, state} from './watched_run.mjs';
+import {Watcher} from './watcher.mjs';
 
 const jarol = process.env.JAROL_COMMAND;
 const vehicles = process.env.JAROL_VEHICLES === '1' ? {} : {skip: 'built without vehicles'};
@@ -15,9 +16,8 @@ const vehicles = process.env.JAROL_VEHICLES === '1' ? {} : {skip: 'built without
 await leaveOutWithoutPage();
 
 const folder = mkdtempSync(join(tmpdir(), 'jarol_console_'));
-const flags = ['--disable-gpu', '--enable-unsafe-swiftshader'];
 // a page behind another one of its browser is not drawn, and who is hidden does not command: each pilot has one of their own
-const [browser, second] = [new Browser({flags}), new Browser({flags})];
+const [browser, second] = [new Browser({flags: pilotFlags}), new Browser({flags: pilotFlags})];
 after(async () => {
   endAll();
   await browser.close();
@@ -32,10 +32,7 @@ async function atDesk(record, options = {}) {
   await shown.page.until(`document.querySelector('[aria-label=state]')?.textContent === 'halt'`);
   return {run, shown};
 }
-const command = (text) => `document.querySelector('[aria-label=command]').textContent.replace(/\\s+/g, ' ').startsWith(${JSON.stringify(text)})`;
-const flight = (text) => `document.querySelector('[aria-label=state]').textContent.startsWith(${JSON.stringify(text)})`;
 const near = (value, goal, within) => `Math.abs(${value} - ${goal}) < ${within}`;
-const row = (name) => `Number([...document.querySelectorAll('#panel-instruments tr')].find((r) => r.cells[0].textContent === '${name}').cells[1].textContent)`;
 
 async function takeOff(shown) {
   await shown.press('Take command');
@@ -43,9 +40,9 @@ async function takeOff(shown) {
   await shown.press('Arm …');
   assert.equal(await shown.text('[aria-label=state]'), 'halt', 'one press does not arm');
   await shown.press('Arm: confirm');
-  await shown.page.until(flight('ground'));
+  await shown.page.until(state('ground'));
   await shown.press('Take off');
-  await shown.page.until(flight('flying'));
+  await shown.page.until(state('flying'));
   await shown.page.until(near(row('altitude'), 1, 0.1));
 }
 
@@ -71,11 +68,11 @@ test('a pilot takes off, leans it by the keyboard, holds a position, flies one m
   await shown.page.until(`Math.abs(${row('heading')} - 90) < 3`);
   await shown.page.until(near(row('north'), goal, 0.15));
   await shown.press('Land');
-  await shown.page.until(flight('ground'));
+  await shown.page.until(state('ground'));
   assert.equal(await shown.text('[aria-label=state]'), 'ground', 'nothing went wrong');
   await shown.press('Shut down …');
   await shown.press('Shut down: confirm');
-  await shown.page.until(flight('halt'));
+  await shown.page.until(state('halt'));
   await shown.press('Release');
   await shown.page.until(command('Nobody commands: it was released'));
   await shown.close();
@@ -93,8 +90,8 @@ test('who looks elsewhere with a key held commands no more, and it lands by itse
   await shown.page.send('Input.dispatchKeyEvent', {type: 'keyDown', code: 'ArrowRight', key: 'ArrowRight'});
   await shown.page.evaluate(`window.dispatchEvent(new Event('blur'))`);
   await shown.page.until(command('Nobody commands: it was released'));
-  await other.page.until(flight('landing: operator lost'));
-  await other.page.until(flight('ground: operator lost'));
+  await other.page.until(state('landing: operator lost'));
+  await other.page.until(state('ground: operator lost'));
   // what stands on the ground for a reason is acknowledged first
   await other.press('Take command');
   await other.page.until(command('You command'));
@@ -114,8 +111,70 @@ test('a page that is closed in flight, or freezes, does not keep the command, an
     if (how === 'closed') await shown.page.close();
     else void shown.page.evaluate(`(() => { for (const end = performance.now() + 5000; performance.now() < end;); })()`);
     await other.page.until(command('Nobody commands: ' + why));
-    await other.page.until(flight('ground: operator lost'));
+    await other.page.until(state('ground: operator lost'));
     await other.close();
     await run.stop();
   }
+});
+
+test('a pilot flies on while a hundred watch, one reads nothing, and others try what they may not; each is told, and the run goes on in time', vehicles, async (t) => {
+  const file = join(folder, 'crowded.mcap');
+  const {run, shown} = await atDesk(file);
+  const url = await run.url;
+  await takeOff(shown);
+  const [begun, at] = [performance.now(), await shown.seconds()];
+  const all = await Promise.all(Array.from({length: 100}, () => Watcher.open(url)));
+  const slow = await Watcher.open(url, {reads: false});
+  assert.ok(all.every(({status}) => status === 101));
+  // what no page does
+  const wrongToken = await Watcher.open(url.replace(/token=..../, 'token=0000'));
+  const foreign = await Watcher.open(url, {origin: 'http://evil.example'});
+  assert.deepEqual([wrongToken.status, foreign.status], [403, 403]);
+  const stranger = await Watcher.open(url);
+  const refused = async (text, why) => {
+    delete stranger.newest.error;
+    stranger.send(text);
+    await stranger.until(({error}) => error !== undefined);
+    assert.equal(stranger.newest.error, why);
+  };
+  const steer = (what, more = {}) => JSON.stringify({do: what, desk: 'terminal', as: 'a stranger', sticks: {roll: 0}, ...more});
+  await refused('garbage \u0000 {', 'expected an object as in {"do": "pause"}');
+  await refused(steer('take', {sticks: {roll: 0.4}}), "another page commands 'terminal'; it has to release it, or to fall silent");
+  await refused(steer('take'), "another page commands 'terminal'; it has to release it, or to fall silent");
+  await refused(steer('release'), "this page does not command 'terminal'; take it first");
+  await refused(steer('send', {message: 'SHUT_DOWN', sequence: 1}), "this page does not command 'terminal'; take it first");
+  const bytes = await Watcher.open(url);
+  bytes.sendBytes([255, 0, 1]);
+  await bytes.closed;
+  assert.deepEqual([bytes.closeCode, bytes.closeReason], [1008, 'expected text, got bytes']);
+  const long = await Watcher.open(url);
+  long.send('x'.repeat(10 << 20));
+  await long.closed;
+  const loud = await Watcher.open(url);
+  for (let i = 0; i < 1000; ++i) loud.ask({do: 'alive', desk: 'terminal'});
+  await loud.closed;
+  const cut = await Watcher.open(url);
+  cut.cut();
+  // all see the same run, and who commands it
+  await new Promise((done) => setTimeout(done, Math.max(0, 8000 - (performance.now() - begun))));
+  const [passed, went] = [(performance.now() - begun) / 1000, (await shown.seconds()) - at];
+  t.diagnostic(`${went.toFixed(2)} s of the run in ${passed.toFixed(2)} s`);
+  assert.ok(Math.abs(went / 0.5 / passed - 1) < 0.1, `${went} s of the run in ${passed} s`);
+  for (const watcher of all) await watcher.until(({now, desk}) => now > at + 2 && desk?.terminal.commander);
+  assert.equal(new Set(all.map(({newest}) => newest.desk.terminal.commander)).size, 1);
+  // it flies as before
+  assert.ok(await shown.page.evaluate(command('You command')));
+  assert.equal(await shown.text('[aria-label=state]'), 'flying');
+  const [altitude] = await shown.row('altitude');
+  assert.ok(Math.abs(altitude - 1) < 0.15, `${altitude} m`);
+  // who has read nothing sees the newest
+  slow.goOn();
+  await slow.until(({now}) => now > at + 2);
+  for (const watcher of [...all, slow, stranger]) watcher.cut();
+  await shown.press('Land');
+  await shown.page.until(state('ground'));
+  assert.equal(await shown.text('[aria-label=state]'), 'ground', 'nothing went wrong');
+  await shown.close();
+  const {output} = await run.stop();
+  assert.equal(digestIn(execFileSync(jarol, ['replay', file], {encoding: 'utf8'})), digestIn(output));
 });

@@ -9,7 +9,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, test} from 'node:test';
 import {Browser} from './browser.mjs';
-import {Console, digestIn, endAll, leaveOutWithoutPage, start} from './watched_run.mjs';
+import {command, Console, digestIn, endAll, leaveOutWithoutPage, pilotFlags, row, start, state} from './watched_run.mjs';
 
 const jarol = process.env.JAROL_COMMAND;
 const vehicles = process.env.JAROL_VEHICLES === '1' ? {} : {skip: 'built without vehicles'};
@@ -17,9 +17,8 @@ const vehicles = process.env.JAROL_VEHICLES === '1' ? {} : {skip: 'built without
 await leaveOutWithoutPage();
 
 const folder = mkdtempSync(join(tmpdir(), 'jarol_console_'));
-const flags = ['--disable-gpu', '--enable-unsafe-swiftshader'];
 // a page behind another one of its browser is not drawn, and who is hidden does not command: each pilot has one of their own
-const [browser, second] = [new Browser({flags}), new Browser({flags})];
+const [browser, second] = [new Browser({flags: pilotFlags}), new Browser({flags: pilotFlags})];
 after(async () => {
   endAll();
   await browser.close();
@@ -27,11 +26,8 @@ after(async () => {
   rmSync(folder, {recursive: true, force: true});
 });
 
-const command = (text) => `document.querySelector('[aria-label=command]').textContent.startsWith(${JSON.stringify(text)})`;
-const state = (text) => `document.querySelector('[aria-label=state]')?.textContent.startsWith(${JSON.stringify(text)})`;
 const plan = (text) => `document.querySelector('[role=status][aria-label=plan]').textContent.includes(${JSON.stringify(text)})`;
 const said = (text) => `document.querySelector('[role=log]').textContent.includes(${JSON.stringify(text)})`;
-const row = (name) => `Number([...document.querySelectorAll('#panel-instruments tr')].find((r) => r.cells[0].textContent === '${name}').cells[1].textContent)`;
 
 // A run that is recorded, so many times as fast as the sea.
 async function atDesk(name, pace) {

@@ -39,6 +39,15 @@ export async function leaveOutWithoutPage() {
   process.exit(77);
 }
 
+/** Of pages that pilots have: of those who command, and whoever does not see a page does not, each needs a browser. */
+export const pilotFlags = ['--disable-gpu', '--enable-unsafe-swiftshader'];
+
+// What comes to be true at a desk, for `until`: who commands, what the vehicle does, a number of the instruments.
+const begins = (selector, text) => `document.querySelector('${selector}')?.textContent.replace(/\\s+/g, ' ').trim().startsWith(${JSON.stringify(text)})`;
+export const command = (text) => begins('[aria-label=command]', text);
+export const state = (text) => begins('[aria-label=state]', text);
+export const row = (name) => `Number([...document.querySelectorAll('#panel-instruments tr')].find((r) => r.cells[0].textContent === '${name}').cells[1].textContent)`;
+
 /** In the report of a run. */
 export const digestIn = (text) => /digest\s+(0x\w+)/.exec(text)[1];
 
@@ -84,6 +93,11 @@ export class Console {
     await this.page.settle();
   }
 
+  /** Until all of a recording is there, which its report follows. */
+  all() {
+    return this.page.until(`document.querySelector('[role=log]')?.textContent.includes('digest')`);
+  }
+
   text(selector) {
     return this.page.evaluate(`document.querySelector(${JSON.stringify(selector)})?.innerText ?? ''`);
   }
@@ -91,6 +105,18 @@ export class Console {
   /** The numbers in the instruments' row of that name. */
   row(name) {
     return this.page.evaluate(`[...document.querySelectorAll('#panel-instruments tr')].find((r) => r.cells[0].textContent === '${name}') ?.innerText.split(/\\s+/).slice(1).map(Number) ?? []`);
+  }
+
+  /** Controls and pictures that a screen reader has no name for, or that no key leads to. */
+  nameless() {
+    return this.page.evaluate(`[...document.querySelectorAll('button, select, input, textarea, a, [role=button], [role=tab], [role=separator], [role=img], canvas')]
+      .filter((e) => e.getClientRects().length > 0 && !e.closest('[aria-hidden=true]'))
+      .flatMap((e) => {
+        const name = e.getAttribute('aria-label') || e.innerText?.trim() || e.labels?.[0]?.innerText.trim() || e.title || e.getAttribute('placeholder');
+        const isControl = !/^(img|canvas)$/i.test(e.getAttribute('role') ?? e.tagName);
+        const isReached = !isControl || e.disabled || e.tabIndex >= 0 || e.getAttribute('role') === 'tab' || e.matches('.channel');
+        return name && isReached ? [] : [e.outerHTML.slice(0, 120)];
+      })`);
   }
 
   /** Nothing is complained of, and nobody asked but jarol. */

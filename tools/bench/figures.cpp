@@ -17,6 +17,7 @@
 #include "tools/bench/sharing.h"
 #include "tools/bench/timing.h"
 #include "tools/bench/vehicles.h"
+#include "tools/bench/watched.h"
 #include "tools/bench/yaml_floor.h"
 
 namespace jarol::bench {
@@ -133,7 +134,12 @@ std::vector<std::string> figure_names() {
                                  "push_port_round_trip",
                                  "clock_1khz_p50",
                                  "clock_1khz_p99",
-                                 "udp_echo"};
+                                 "udp_echo",
+                                 "watched_0",
+                                 "watched_1",
+                                 "watched_100",
+                                 "watched_slow",
+                                 "layout_200"};
   if (has_vehicles()) names.insert(names.end(), {"dive", "dive_rigid", "hover", "hover_rigid", "checkpoint"});
   return names;
 }
@@ -169,6 +175,11 @@ Figure measure(const std::string& name, int repeats) {
   if (name == "clock_1khz_p50") return measure_clock(name, 0.5, repeats);
   if (name == "clock_1khz_p99") return measure_clock(name, 0.99, repeats);
   if (name == "udp_echo") return measure_udp_echo(name, repeats);
+  if (name == "watched_0") return measure_watched(name, 0, true, repeats);
+  if (name == "watched_1") return measure_watched(name, 1, true, repeats);
+  if (name == "watched_100") return measure_watched(name, 100, true, repeats);
+  if (name == "watched_slow") return measure_watched(name, 1, false, repeats);
+  if (name == "layout_200") return measure_layout(name, repeats);
   if (name == "dive") return measure_dive(repeats);
   if (name == "dive_rigid") return measure_dive_rigid(repeats);
   if (name == "hover") return measure_hover(repeats);

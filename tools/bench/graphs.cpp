@@ -1,5 +1,6 @@
 #include "tools/bench/graphs.h"
 
+#include <algorithm>
 #include <array>
 
 #include "graph/language/load.h"
@@ -103,6 +104,25 @@ std::string layers(int depth, int width, std::uint32_t rounds) {
           "  - " + (layer == 0 ? std::string("source") : name(layer - 1)) + ".out -> " + name(layer) + ".in\n";
     }
   return "graph: layers\ntasks:\n" + tasks + "connections:\n" + connections;
+}
+
+std::string meshed(int depth, int width) {
+  std::string tasks, connections;
+  const auto name = [](int layer, int i) { return "l" + std::to_string(100 + layer) + "_" + std::to_string(i); };
+  std::uint32_t random = 1;
+  const auto below = [&](int end) {
+    random = random * 1664525 + 1013904223;
+    return static_cast<int>((random >> 8) % static_cast<std::uint32_t>(end));
+  };
+  for (int layer = 0; layer < depth; ++layer)
+    for (int i = 0; i < width; ++i) {
+      const std::string its = name(layer, i);
+      tasks += "  " + its + ": {type: " + (layer == 0 ? "Counter" : "Sum") + ", period: 1ms}\n";
+      if (layer == 0) continue;
+      connections += "  - " + name(layer - 1, i) + ".out -> " + its + ".a\n";
+      connections += "  - " + name(std::max(0, layer - 1 - below(2)), below(width)) + ".out -> " + its + ".b\n";
+    }
+  return "graph: meshed\ntasks:\n" + tasks + "connections:\n" + connections;
 }
 
 }  // namespace jarol::bench

@@ -29,5 +29,7 @@ std::string scattered(int count);
 std::string sums(int count);
 /// A source and `depth` layers of `width` tasks, each fed by the one above.
 std::string layers(int depth, int width, std::uint32_t rounds);
+/// Layers of tasks with two inputs each, from any tasks of the layer above and of the one above that.
+std::string meshed(int depth, int width);
 
 }  // namespace jarol::bench

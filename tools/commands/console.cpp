@@ -1,12 +1,16 @@
 // jarol console: a recording as people see it on a page.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <thread>
 
 #include "distributers/session/graph_run.h"
 #include "distributers/session/recorded_truth.h"
 #include "distributers/session/replay.h"
+#include "runtime/plan/output.h"
 #include "runtime/record/replayed_values.h"
 #include "tools/commands/commands.h"
 #include "tools/console/console.h"
@@ -19,7 +23,7 @@ namespace jarol::tools {
 namespace {
 
 // Of each output, evenly spread: as much as a screen is wide, and a few times as much for those who look closely.
-constexpr std::size_t most_samples = 8192;
+constexpr std::int64_t most_samples = 8192;
 
 struct Options {
   std::string log;
@@ -27,8 +31,38 @@ struct Options {
   ConsoleArguments console;
 };
 
+// Of each output, so that the whole recording has no more samples than that.
+std::vector<std::uint64_t> strides_of(const Graph& graph, Duration covered) {
+  std::map<std::string, Duration> periods;
+  for (const Task& task : graph.tasks) periods[task.name] = task.period;
+  for (const Communicator& communicator : graph.communicators) periods[communicator.name] = communicator.period;
+  Duration shortest = covered;
+  for (const auto& [name, period] : periods) shortest = std::min(shortest, period);
+  std::vector<std::uint64_t> strides;
+  const auto add = [&](Duration period) {
+    const std::int64_t samples = covered.count() / std::max<std::int64_t>(1, period.count());
+    strides.push_back(static_cast<std::uint64_t>(1 + samples / most_samples));
+  };
+  for (const Output& output : outputs_of(graph)) add(periods.at(output.name.substr(0, output.name.find('.'))));
+  // where vehicles truly are: at no more instants than there are
+  for (std::size_t i = 0; i < graph.distributers.size(); ++i) add(shortest);
+  return strides;
+}
+
+// As the user sees it from here.
+std::string near_name(const std::string& file) {
+  const std::string here = std::filesystem::current_path().string() + "/";
+  return file.starts_with(here) ? file.substr(here.size()) : file;
+}
+
+std::vector<std::shared_ptr<const Source>> sources_of(const std::vector<RecordedFile>& files) {
+  std::vector<std::shared_ptr<const Source>> sources;
+  for (const RecordedFile& file : files) sources.push_back(std::make_shared<Source>(Source{file.path, file.text}));
+  return sources;
+}
+
 std::string text_of(const RecordedRun& log, const Comparison& comparison) {
-  std::string text = "recorded    " + log.header().file + " on the " + log.header().clock + " clock\n";
+  std::string text = "recorded    " + near_name(log.header().file) + " on the " + log.header().clock + " clock\n";
   if (!log.end()) text += "it breaks off; how the run ended is not known\n";
   if (const auto& end = log.end())
     text += fmt::format("activations {}, instants {}, faults {}\ndigest      0x{:016x}\n", end->activations,
@@ -44,10 +78,15 @@ int show(const Options& options) {
   const std::vector<Miss> misses = log.begin(*loaded.graph);
   loaded.channels = recorded_channels(loaded, log);
   console::Console console(
-      {{*loaded.graph, options.log, "recorded", log.covered(), types_of_truth(loaded)}, server_of(options.console)},
-      most_samples);
-  GraphRun run(std::move(loaded), {.sinks = {&console.feed()}, .misses = misses, .truth = true});
+      {{*loaded.graph, options.log, "recorded", log.covered(), types_of_truth(loaded),
+        console::find_flow(*loaded.graph, loaded.known->vehicles, sources_of(log.recording().files()))},
+       server_of(options.console)},
+      most_samples, strides_of(*loaded.graph, log.covered()));
+  GraphRun run(std::move(loaded), {.sinks = {&console.feed()}, .misses = misses, .truth = true, .watched = true});
   const Interruptible interruptible;
+  // of a long one pages see the begin while the rest is run
+  console.open();
+  print_url(console.url());
   ReplayRun replay(run.executor(), log);
   const RunEnd end = attend(
       replay, [] {}, Interruptible::wish);
@@ -55,10 +94,6 @@ int show(const Options& options) {
   if (end.hangs) end_at_once(exit_unfinished);
   run.sinks().close();
   console.end(text_of(log, replay.comparison));
-  if (Interruptible::signal() == 0) {
-    console.open();
-    print_url(console.url());
-  }
   // until Ctrl-C
   while (Interruptible::signal() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return exit_of_signal(Interruptible::signal());

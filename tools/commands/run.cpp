@@ -68,7 +68,8 @@ std::unique_ptr<console::Console> make_console(const RunOptions& options, const 
                                                const std::vector<const Type*>& true_types, Pace* pace) {
   if (!options.console.wanted()) return nullptr;
   return std::make_unique<console::Console>(
-      console::Watched{{*loaded.graph, options.file, options.clock, until, true_types},
+      console::Watched{{*loaded.graph, options.file, options.clock, until, true_types,
+                        console::find_flow(*loaded.graph, loaded.known->vehicles, loaded.files)},
                        server_of(options.console),
                        pace,
                        operators_at_console(loaded)});

@@ -60,9 +60,9 @@ Json hello_of(const Watched& watched, const Desk& desk) {
 
 }  // namespace
 
-Console::Console(Watched watched, std::size_t most_at_once)
+Console::Console(Watched watched, std::size_t most_at_once, std::vector<std::uint64_t> strides)
     : watched_(std::move(watched)),
-      feed_(types_of_run(watched_.run.graph, watched_.run.true_types), most_at_once),
+      feed_(types_of_run(watched_.run.graph, watched_.run.true_types), most_at_once, std::move(strides)),
       samples_(types_of_run(watched_.run.graph, watched_.run.true_types)),
       tasks_(names_of_tasks(watched_.run.graph)),
       desk_(watched_.operators) {}

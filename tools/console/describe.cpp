@@ -134,6 +134,7 @@ nlohmann::ordered_json describe_run(const Described& run) {
   json["connections"] = connections_json(graph);
   json["pairs"] = pairs_json(graph);
   json["drawing"] = to_json(lay_out(graph));
+  if (run.flow) json["flow"] = {{"of", run.flow->of}, {"north", run.flow->north}, {"east", run.flow->east}};
   return json;
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "graph/model/graph.h"
+#include "tools/console/flow.h"
 
 namespace jarol::tools::console {
 
@@ -15,6 +17,7 @@ struct Described {
   std::string clock;                      // virtual, real or recorded
   Duration until{};                       // the greatest there is: until it is ended
   std::vector<const Type*> true_types{};  // per distributer, null: nothing is known of a vehicle
+  std::optional<Flow> flow{};             // of what a vehicle moves in
 };
 
 nlohmann::ordered_json describe_run(const Described& run);

@@ -71,7 +71,8 @@ void Desk::leave(std::uint64_t page) {
 nlohmann::ordered_json Desk::news(Clock::time_point now) {
   for (Seat& seat : seats_)
     if (seat.page && now - seat.heard > patience) free(seat, "the page that commanded was silent");
-  if (!std::exchange(changed_, false)) return {};
+  if (seats_.empty() || (!std::exchange(changed_, false) && now - reported_ < repeat)) return {};
+  reported_ = now;
   nlohmann::ordered_json news;
   for (const Seat& seat : seats_) {
     auto& its = news[seat.of.name];

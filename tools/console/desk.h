@@ -37,8 +37,8 @@ class Desk {
   void obey(std::uint64_t page, const nlohmann::json& message, Clock::time_point now);
   /// The page is gone.
   void leave(std::uint64_t page);
-  /// Who commands, if that has changed since the last call; else null. A commander that has fallen silent no longer
-  /// does.
+  /// Who commands, if that has changed since the last call, and again after `repeat`, for pages that missed it; else
+  /// null. A commander that has fallen silent no longer does.
   nlohmann::ordered_json news(Clock::time_point now);
 
   /// What the operators' distributers have said since the last call, as in {"neptus": [{"message": "PlanControl",
@@ -47,6 +47,8 @@ class Desk {
 
   /// So long a page that is silent still commands.
   static constexpr std::chrono::milliseconds patience{1000};
+  /// So often it is said who commands where that does not change.
+  static constexpr std::chrono::milliseconds repeat{2000};
   /// A stick within that part of its way is centred.
   static constexpr double centred = 0.05;
 
@@ -66,6 +68,7 @@ class Desk {
 
   std::vector<Seat> seats_;
   bool changed_ = false;
+  Clock::time_point reported_{};  // who commands, to all pages
 };
 
 }  // namespace jarol::tools::console

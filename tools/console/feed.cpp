@@ -17,14 +17,22 @@ Duration Batch::newest() const {
   return newest;
 }
 
-Feed::Feed(std::vector<const Type*> outputs, std::size_t most)
-    : types_(std::move(outputs)), most_(std::max<std::size_t>(most, 2)), kept_(types_.size()) {}
+Feed::Feed(std::vector<const Type*> outputs, std::size_t most, std::vector<std::uint64_t> strides)
+    : types_(std::move(outputs)), most_(std::max<std::size_t>(most, 2)), strides_(std::move(strides)), kept_(begin()) {}
+
+std::vector<Feed::Kept> Feed::begin() const {
+  std::vector<Kept> kept(types_.size());
+  for (std::size_t i = 0; i < std::min(kept.size(), strides_.size()); ++i) kept[i].stride = strides_[i];
+  return kept;
+}
 
 Batch Feed::take_batch() {
-  std::vector<Kept> kept(types_.size());
+  std::vector<Kept> kept = begin();
   Batch batch;
   {
     const std::lock_guard lock(mutex_);
+    // where it stands in its strides goes on
+    for (std::size_t i = 0; i < std::min(kept.size(), strides_.size()); ++i) kept[i].seen = kept_[i].seen;
     kept.swap(kept_);
     batch.events.swap(events_);
     batch.thinned = std::exchange(thinned_, 0);

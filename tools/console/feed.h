@@ -43,8 +43,9 @@ struct Batch {
 class Feed : public RecordSink {
  public:
   /// `outputs`: those of the graph, and the true values behind them; a null type: there is none. Of each at most `most`
-  /// samples are kept until they are taken: beyond that every second one is left out.
-  Feed(std::vector<const Type*> outputs, std::size_t most);
+  /// samples are kept until they are taken: beyond that every second one is left out. `strides`, where there are any:
+  /// of each output no more than every so manieth is kept.
+  Feed(std::vector<const Type*> outputs, std::size_t most, std::vector<std::uint64_t> strides = {});
 
   /// By whoever watches.
   Batch take_batch();
@@ -66,9 +67,11 @@ class Feed : public RecordSink {
     bool counts() const { return seen % stride == 0; }
   };
   void thin(Kept& kept);
+  std::vector<Kept> begin() const;
 
   const std::vector<const Type*> types_;
   const std::size_t most_;
+  const std::vector<std::uint64_t> strides_;
   std::mutex mutex_;  // never taken by a thread that runs tasks: sinks have a thread of their own
   std::vector<Kept> kept_;
   std::vector<FeedEvent> events_;

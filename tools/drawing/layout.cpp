@@ -18,6 +18,8 @@ namespace {
 
 constexpr double line_height = 13, margin_x = 10, margin_y = 8, points_per_inch = 72, border = 12, core_margin = 14;
 
+constexpr std::size_t most_drawn_best = 60;
+
 // As wide as its letters are in a common sans-serif font of 11 points; no font is asked, so that every machine draws
 // the same.
 double text_width(const std::string& text) {
@@ -27,8 +29,8 @@ double text_width(const std::string& text) {
 }
 
 void give_size(DrawnNode& node) {
-  double width = text_width(node.name) * 1.12;
-  for (const std::string& line : node.lines) width = std::max(width, text_width(line) * 0.92);
+  double width = text_width(node.name) * 1.2;
+  for (const std::string& line : node.lines) width = std::max(width, text_width(line));
   node.width = width + 2 * margin_x;
   node.height = line_height * static_cast<double>(1 + node.lines.size()) + 2 * margin_y;
 }
@@ -116,8 +118,11 @@ void build(Graphviz& to, const Drawing& drawing) {
   std::string name = "jarol", empty;
   to.graph.reset(agopen(name.data(), Agdirected, nullptr));
   set(to.graph.get(), "rankdir", "LR");
-  set(to.graph.get(), "ranksep", "0.7");
+  set(to.graph.get(), "ranksep", "0.5");
   set(to.graph.get(), "nodesep", "0.22");
+  // a graph of many tasks need not be drawn in the best of all ways, which takes long
+  if (drawing.nodes.size() > most_drawn_best)
+    for (const char* limit : {"nslimit", "nslimit1"}) set(to.graph.get(), limit, "2");
   for (std::size_t i = 0; i < drawing.nodes.size(); ++i) {
     const DrawnNode& node = drawing.nodes[i];
     std::string id = std::to_string(i);

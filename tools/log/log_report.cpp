@@ -11,6 +11,8 @@
 #include "graph/text/escape.h"
 #include "runtime/files/whole_file.h"
 #include "tools/campaign/repeat.h"
+#include "tools/drawing/drawing_json.h"
+#include "tools/drawing/layout.h"
 #include "tools/log/log_commands.h"
 #include "tools/log/recorded_graph.h"
 #include "tools/log/report_graph.h"
@@ -153,7 +155,7 @@ int log_report(const LogOptions& options) {
   try {
     Loaded loaded = load_recorded_graph(run.recording(), options.other, "jarol log report", run.gaps().empty());
     const Graph& graph = *loaded.graph;
-    data["drawing"] = drawing_json(graph);
+    data["drawing"] = to_json(lay_out(graph));
     data["schedule"] = schedule_json(graph);
     data["pairs"] = pairs_json(graph);
     data["happenings"] = happenings_json(run, run.begin(graph), events, &graph);

@@ -11,49 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string timing_text(Duration period, Duration offset) {
-  return duration_text(period) + (offset.count() > 0 ? " + " + duration_text(offset) : "");
-}
-
 Json or_null(const std::optional<Duration>& duration) { return duration ? Json(duration->count()) : Json(); }
 
 }  // namespace
-
-nlohmann::ordered_json drawing_json(const Graph& graph) {
-  Json nodes = Json::array(), edges = Json::array();
-  for (const Distributer& d : graph.distributers)
-    nodes.push_back(
-        {{"id", "world " + d.name}, {"kind", "world"}, {"name", d.name}, {"type", d.distributer_class->name}});
-  for (const Communicator& c : graph.communicators) {
-    const bool in = c.direction == Direction::in;
-    const std::string id = "communicator " + c.name;
-    nodes.push_back({{"id", id},
-                     {"kind", in ? "in" : "out"},
-                     {"name", c.name},
-                     {"type", c.type->name},
-                     {"timing", timing_text(c.period, c.offset)}});
-    if (!c.distributer) continue;
-    const Distributer& d = graph.distributers[*c.distributer];
-    const std::string world = "world " + d.name, channel = d.distributer_class->channels[c.channel].name;
-    edges.push_back({{"from", in ? world : id}, {"to", in ? id : world}, {"label", channel}, {"outside", true}});
-  }
-  for (const Task& t : graph.tasks)
-    nodes.push_back({{"id", "task " + t.name},
-                     {"kind", "task"},
-                     {"name", t.name},
-                     {"type", t.task_class->name},
-                     {"timing", timing_text(t.period, t.offset)},
-                     {"let", t.let ? Json(duration_text(*t.let)) : Json()}});
-  const auto id_of = [&](const End& end) {
-    return end.kind == End::Kind::task ? "task " + graph.tasks[end.index].name
-                                       : "communicator " + graph.communicators[end.index].name;
-  };
-  for (const Connection& c : graph.connections)
-    edges.push_back({{"from", id_of(c.from)},
-                     {"to", id_of(c.to)},
-                     {"label", end_name(graph, c.from, true) + " → " + end_name(graph, c.to, false)}});
-  return {{"nodes", std::move(nodes)}, {"edges", std::move(edges)}};
-}
 
 nlohmann::ordered_json schedule_json(const Graph& graph) {
   if (graph.tasks.empty() || std::any_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return !t.wcet; }))

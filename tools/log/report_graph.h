@@ -1,4 +1,4 @@
-// What a report says of the graph itself: its drawing, its tasks, and what is to run when.
+// What a report says of the graph itself: its tasks, and what is to run when.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,9 +6,6 @@
 #include "graph/model/graph.h"
 
 namespace jarol::tools {
-
-/// {"nodes", "edges"}: tasks, communicators and the external systems that they are linked to.
-nlohmann::ordered_json drawing_json(const Graph& graph);
 
 /// {"verdict", "reason", "until_ns", "slices": [task, activation, begin, end] of a hyperperiod, or as much of it as
 /// some 300 activations fill}, when each activation takes its WCET; null where a task has none.

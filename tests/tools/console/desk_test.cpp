@@ -133,6 +133,27 @@ TEST_SUITE("console/desk") {
     CHECK(json(desks.desk.news(desks.now)) == json{{"terminal", {{"commander", nullptr}, {"why", why}}}});
   }
 
+  TEST_CASE("who commands is said again every two seconds, for pages that missed it") {
+    Desks desks;
+    desks.take(7);
+    const json commands = json(desks.desk.news(desks.now));
+    CHECK(commands == json{{"terminal", {{"commander", "me"}}}});
+    for (int i = 0; i < 3; ++i) {
+      desks.now += Desk::patience;
+      desks.ask(7, R"({"do": "alive", "desk": "terminal"})");
+      CHECK(desks.desk.news(desks.now).is_null());
+      desks.now += Desk::patience;
+      desks.ask(7, R"({"do": "alive", "desk": "terminal"})");
+      CHECK(json(desks.desk.news(desks.now)) == commands);
+    }
+    desks.desk.leave(7);
+    const json nobody = json(desks.desk.news(desks.now));
+    CHECK(nobody == json{{"terminal", {{"commander", nullptr}, {"why", "the page that commanded is gone"}}}});
+    desks.now += Desk::repeat;
+    CHECK(json(desks.desk.news(desks.now)) == nobody);
+    CHECK(Desk({}).news(desks.now).is_null());
+  }
+
   TEST_CASE("who is heard, with a command or without, goes on commanding") {
     Desks desks;
     desks.take(7);

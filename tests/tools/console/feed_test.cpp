@@ -48,6 +48,19 @@ constexpr auto enumerators(Mixed::Word) {
 }  // namespace
 
 TEST_SUITE("console/feed") {
+  TEST_CASE("with a stride every so manieth is kept, from the begin to the end, and the newest") {
+    Feed feed({&type_of<double>()}, 8, {4});
+    take(feed, 0, 10);
+    Batch batch = feed.take_batch();
+    CHECK(instants_of(batch) == std::vector<std::int64_t>{0, 4, 8, 9});
+    CHECK(batch.thinned == 6);
+    take(feed, 10, 16);
+    batch = feed.take_batch();
+    CHECK(instants_of(batch) == std::vector<std::int64_t>{12, 15});
+    CHECK(batch.thinned == 4);
+    CHECK(feed.take_batch().empty());
+  }
+
   TEST_CASE("what comes is there once, in order") {
     Feed feed({&type_of<double>()}, 8);
     CHECK(feed.take_batch().empty());

@@ -1,7 +1,7 @@
 // What happened, in words: faults, and what the vehicle's own decisions tell the outside.
 
-import { wordOf } from "./format.ts";
-import type { Hello, RunEvent, Sample } from "./protocol.ts";
+import { formatCell, wordOf } from "./format.ts";
+import type { Hello, Leaf, RunEvent, Sample } from "./protocol.ts";
 
 export interface Event {
   t: number;
@@ -19,12 +19,23 @@ interface Watch {
   last: number | undefined;
 }
 
-/** Notes when an enumeration that goes out changes and either word has a meaning, or is a state. */
+/** What is asked for, by the name that plots have: it is noted once it has stayed for so long. */
+interface Asked {
+  leaf: number;
+  title: string;
+  last: number | undefined;
+  since: number;
+  noted: number | undefined;
+}
+const settled = 0.5;
+
+/** Notes when something else is asked for, and when an enumeration that goes out changes and either word has a meaning, or is a state. */
 export class EventLog {
   readonly all: Event[] = [];
   dropped = 0;
   private readonly hello: Hello;
   private readonly watches: Map<number, Watch[]>;
+  private readonly asked = new Map<number, Asked[]>();
 
   constructor(hello: Hello) {
     this.hello = hello;
@@ -37,10 +48,20 @@ export class EventLog {
       );
       if (its.length > 0) this.watches.set(i, its);
     });
+    hello.outputs.forEach((output, i) => {
+      const its = (output?.leaves ?? []).flatMap(({ path, kind }, leaf) => {
+        const pair = hello.pairs.find(({ commanded }) => commanded === `${output!.name}.${path}`);
+        return pair && kind === "number" ? [{ leaf, title: pair.title, last: undefined, since: 0, noted: undefined }] : [];
+      });
+      if (its.length > 0) this.asked.set(i, its);
+    });
   }
 
+  /** In the order of time, though of several outputs one comes after the other. */
   add(event: Event): void {
-    this.all.push(event);
+    let at = this.all.length;
+    while (at > 0 && this.all[at - 1]!.t > event.t) --at;
+    this.all.splice(at, 0, event);
     if (this.all.length > mostEvents) {
       this.all.shift();
       ++this.dropped;
@@ -55,13 +76,25 @@ export class EventLog {
   }
 
   look(samples: readonly Sample[]): void {
-    for (const [output, t, ...cells] of samples)
+    for (const [output, t, ...cells] of samples) {
+      for (const asked of this.asked.get(output) ?? []) this.listen(asked, this.hello.outputs[output]!.leaves[asked.leaf]!, t, cells[asked.leaf]);
       for (const watch of this.watches.get(output) ?? []) {
         const value = cells[watch.leaf];
         if (typeof value !== "number" || value === watch.last) continue;
         if (watch.last !== undefined) this.add({ t, kind: "told", text: this.textOf(watch, value) });
         watch.last = value;
       }
+    }
+  }
+
+  // a stick that moves is no command until it rests
+  private listen(asked: Asked, leaf: Leaf, t: number, value: unknown): void {
+    if (typeof value !== "number") return;
+    if (value !== asked.last) [asked.last, asked.since] = [value, t];
+    if (value === asked.noted || t < asked.since + settled) return;
+    const first = asked.noted === undefined;
+    asked.noted = value;
+    if (!first) this.add({ t: asked.since, kind: "operator", text: `${asked.title} ${formatCell(leaf, value)}` });
   }
 
   private textOf(watch: Watch, value: number): string {

@@ -1,5 +1,6 @@
 // What the drawing of the graph shows of a run at an instant.
 
+import { formatCell } from "./format.ts";
 import type { Cell, Hello, Leaf } from "./protocol.ts";
 import type { Store } from "./series.ts";
 
@@ -9,6 +10,8 @@ export interface NodeState {
   stale: boolean; // it has missed more than two of its turns
   faults: number;
   slack: number | undefined;
+  /** The one that says most of what it has published last, in few words; empty: none. */
+  value: string;
 }
 
 export interface ShownValue {
@@ -22,7 +25,11 @@ interface NodeInfo {
   patience: number; // seconds without a publication until it is stale
   slack: number | undefined;
   outputs: number[];
+  telling: { output: number; leaf: number } | undefined;
 }
+
+/** Of larger graphs values are shown of what is chosen alone. */
+const mostWithValues = 60;
 
 export class GraphModel {
   /** In ascending order. */
@@ -49,7 +56,9 @@ export class GraphModel {
       if (series && index >= 0) age = Math.min(age ?? Infinity, t - series.times[index]!);
     }
     const { kind, name } = this.hello.drawing.nodes[node]!;
+    const told = this.nodes.length <= mostWithValues ? info.telling : undefined;
     return {
+      value: told ? this.told(told.output, told.leaf, t) : "",
       period: info.period,
       age,
       stale: age !== undefined && age > info.patience,
@@ -71,17 +80,40 @@ export class GraphModel {
     });
   }
 
+  private told(output: number, leaf: number, t: number): string {
+    const series = this.store.series[output]!;
+    const index = series.at(t);
+    if (index < 0) return "";
+    const { path } = series.output.leaves[leaf]!;
+    const text = `${path.split(".").at(-1)} ${formatCell(series.output.leaves[leaf]!, series.cell(leaf, index))}`.trim();
+    return text.length > 24 ? `${text.slice(0, 23)}…` : text;
+  }
+
+  // what plots show of it, else its first number or word
+  private tellingOf(outputs: number[]): NodeInfo["telling"] {
+    const plotted = new Set(this.hello.pairs.flatMap(({ commanded, reached }) => [commanded, reached]));
+    let first: NodeInfo["telling"];
+    for (const output of outputs) {
+      const { name, leaves } = this.hello.outputs[output]!;
+      for (const [leaf, { path, kind }] of leaves.entries()) {
+        if (plotted.has(path === "" ? name : `${name}.${path}`)) return { output, leaf };
+        if (kind !== "text") first ??= { output, leaf };
+      }
+    }
+    return first;
+  }
+
   private infoOf(kind: string, name: string): NodeInfo {
     if (kind === "distributer") {
       const outputs = this.hello.outputs.flatMap((o, i) => (o?.kind === "truth" && o.of === name ? [i] : []));
-      return { period: 0, patience: Infinity, slack: undefined, outputs };
+      return { period: 0, patience: Infinity, slack: undefined, outputs, telling: undefined };
     }
     const of = kind === "task" ? "task" : "communicator";
     const outputs = this.hello.outputs.flatMap((o, i) => (o?.kind === of && o.of === name ? [i] : []));
     const task = kind === "task" ? this.hello.tasks.find((one) => one.name === name) : undefined;
     const communicator = this.hello.communicators.find((one) => one.name === name);
     const period = (kind === "task" ? task?.period : communicator?.period) ?? 0;
-    return { period, patience: 2 * period + (task?.let ?? 0) + 0.2, slack: task?.slack, outputs };
+    return { period, patience: 2 * period + (task?.let ?? 0) + 0.2, slack: task?.slack, outputs, telling: this.tellingOf(outputs) };
   }
 }
 

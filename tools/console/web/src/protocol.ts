@@ -1,5 +1,7 @@
 // What the server sends: see tools/console/README.md.
 
+import type { Flow } from "./vehicles.ts";
+
 export interface Word {
   number: number;
   name: string;
@@ -138,6 +140,7 @@ export interface Hello {
   verdict?: { kind: "schedulable" | "not_schedulable" | "unknown"; reason: string };
   schedule?: Schedule;
   desks?: DeskDescription[];
+  flow?: Flow;
 }
 
 export interface RunEvent {

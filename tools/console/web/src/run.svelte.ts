@@ -83,7 +83,6 @@ export class Run {
   }
 
   private take(text: string): void {
-    this.heard = performance.now();
     let message: Message;
     try {
       message = parseMessage(text);
@@ -91,6 +90,8 @@ export class Run {
       this.error = String(wrong instanceof Error ? wrong.message : wrong);
       return;
     }
+    // who commands is said also while the run is stuck
+    if (!("desk" in message) || message.now > this.newest) this.heard = performance.now();
     if ("hello" in message) this.begin(message.hello);
     else if ("missed" in message) this.missed += message.missed;
     else if ("error" in message) this.error = message.error;

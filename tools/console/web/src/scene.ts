@@ -11,7 +11,7 @@ export interface Model {
 }
 
 function solid(geometry: three.BufferGeometry, colour: number): three.Mesh {
-  return new three.Mesh(geometry, new three.MeshLambertMaterial({ color: colour }));
+  return new three.Mesh(geometry, new three.MeshPhongMaterial({ color: colour, specular: 0x444444, shininess: 50 }));
 }
 
 // Fins as the LAUV numbers them: bottom, port, starboard, top.
@@ -21,13 +21,27 @@ function submarine(): Model {
   const hull = solid(new three.CapsuleGeometry(radius, 0.95, 10, 24), 0xf0b323);
   hull.rotation.z = Math.PI / 2;
   group.add(hull);
-  const nose = solid(new three.SphereGeometry(radius * 0.98, 20, 12), 0x222a35);
-  nose.position.x = 0.49;
+  const nose = solid(new three.SphereGeometry(radius * 1.004, 28, 16, 0, Math.PI), 0x1d242e);
+  nose.rotation.y = Math.PI / 2;
+  nose.position.x = 0.475;
   group.add(nose);
+  // where its sections are joined
+  for (const [x, width, colour] of [[0.47, 0.03, 0x1d242e], [0.2, 0.012, 0x2b3442], [-0.16, 0.012, 0x2b3442], [-0.4, 0.05, 0x1d242e]] as const) {
+    const ring = solid(new three.CylinderGeometry(radius * 1.012, radius * 1.012, width, 32), colour);
+    ring.rotation.z = Math.PI / 2;
+    ring.position.x = x;
+    group.add(ring);
+  }
+  const sonar = solid(new three.BoxGeometry(0.12, 0.03, 0.03), 0x1d242e);
+  sonar.position.set(0.3, 0, radius);
+  group.add(sonar);
   const antenna = solid(new three.CylinderGeometry(0.006, 0.006, 0.2), 0x30343c);
   antenna.rotation.x = Math.PI / 2;
   antenna.position.set(0.1, 0, -0.15);
   group.add(antenna);
+  const mast = solid(new three.BoxGeometry(0.07, 0.02, 0.07), 0x1d242e);
+  mast.position.set(0.1, 0, -0.1);
+  group.add(mast);
   const fins = [
     [0, 1],
     [-1, 0],

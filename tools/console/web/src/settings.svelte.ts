@@ -1,13 +1,13 @@
 // How this browser's user likes the page: kept by the browser.
 
-const key = "jarol.console";
+const key = "jarol.console.2";
 
 export class Settings {
   theme: "light" | "dark" = $state(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
   /** Parts in percent. */
-  left = $state(46);
-  top = $state(52);
-  upper = $state(74);
+  left = $state(42);
+  upper = $state(61);
+  lower = $state(66);
   /** The view that has all the room; empty: none. */
   whole = $state("");
   camera: "follow" | "overview" = $state("follow");
@@ -20,7 +20,7 @@ export class Settings {
     try {
       const kept = JSON.parse(localStorage.getItem(key) ?? "{}") as Record<string, unknown>;
       if (kept["theme"] === "light" || kept["theme"] === "dark") this.theme = kept["theme"];
-      for (const part of ["left", "top", "upper"] as const)
+      for (const part of ["left", "upper", "lower"] as const)
         if (typeof kept[part] === "number") this.set(part, kept[part]);
       const tabs = kept["tabs"];
       if (typeof tabs === "object" && tabs !== null)
@@ -32,14 +32,14 @@ export class Settings {
     }
   }
 
-  set(part: "left" | "top" | "upper", percent: number): void {
+  set(part: "left" | "upper" | "lower", percent: number): void {
     this[part] = Math.min(85, Math.max(15, percent));
   }
 
   keep(): void {
-    const { theme, left, top, upper, camera, tabs, window } = this;
+    const { theme, left, upper, lower, camera, tabs, window } = this;
     try {
-      localStorage.setItem(key, JSON.stringify({ theme, left, top, upper, camera, tabs, window }));
+      localStorage.setItem(key, JSON.stringify({ theme, left, upper, lower, camera, tabs, window }));
     } catch {
       // this browser keeps nothing
     }

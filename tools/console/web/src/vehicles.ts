@@ -25,6 +25,13 @@ export interface Vehicle {
   floor?: Signal; // true height above it
 }
 
+/** How fast the water or the air moves, in the mean. */
+export interface Flow {
+  of: "current" | "wind";
+  north: number;
+  east: number;
+}
+
 export interface Pose {
   x: number;
   y: number;

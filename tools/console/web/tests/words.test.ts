@@ -65,7 +65,9 @@ const hello = {
     },
     { name: "from", type: "F", kind: "communicator", of: "from", leaves: [leaf("enum", "", "x")] },
     { name: "steer.out", type: "double", kind: "task", of: "steer", leaves: [leaf("number", "m")] },
+    { name: "goal", type: "Goal", kind: "communicator", of: "goal", leaves: [leaf("number", "m", "depth")] },
   ],
+  pairs: [{ title: "depth", commanded: "goal.depth", reached: "steer.out" }],
   drawing: { nodes: [{ kind: "task", name: "steer" }, { kind: "out", name: "to" }, { kind: "distributer", name: "d" }] },
 } as unknown as Hello;
 
@@ -85,6 +87,25 @@ test("what the vehicle tells the outside is an event when it changes", () => {
   ]);
 });
 
+test("what is asked for is an event once it has stayed for half a second: a stick that moves is none", () => {
+  const log = new EventLog(hello);
+  const at = (t: number, depth: number) => log.look([[3, t, depth]]);
+  for (let t = 0; t < 2; t += 0.1) at(t, 0);
+  at(2, 3);
+  at(2.4, 3);
+  assert.deepEqual(log.all, []);
+  at(2.5, 3);
+  for (let i = 0; i < 20; ++i) at(3 + i * 0.1, 3 + i);
+  at(5.5, 22);
+  assert.deepEqual(log.all, [
+    { t: 2, kind: "operator", text: "depth 3\u202fm" },
+    { t: 4.9, kind: "operator", text: "depth 22\u202fm" },
+  ]);
+  // of what comes of another output the instant may be before
+  log.addRunEvents([{ t: 3, kind: "fault", task: "steer", activation: 60, text: "was late" }]);
+  assert.deepEqual(log.all.map(({ t }) => t), [2, 3, 4.9]);
+});
+
 test("faults name task and activation; of too many the oldest go, and are counted", () => {
   const log = new EventLog(hello);
   log.addRunEvents([{ t: 1, kind: "fault", task: "steer", activation: 20, text: "was late" }]);
@@ -101,10 +122,12 @@ test("a node has the age of what it published, and is stale when that is missing
   const faults = new Map([["steer", 3]]);
   assert.equal(model.state(0, 1, faults).age, undefined);
   assert.equal(model.state(0, 1, faults).stale, false);
+  assert.equal(model.state(0, 1, faults).value, "");
   store.add([[2, 1, 7]]);
   const fresh = model.state(0, 1.02, faults);
   assert.ok(Math.abs(fresh.age! - 0.02) < 1e-9);
   assert.equal(fresh.faults, 3);
+  assert.equal(fresh.value, "7 m".replace(" ", "\u202f"));
   assert.equal(fresh.slack, 0.01);
   assert.equal(fresh.stale, false);
   assert.equal(model.state(0, 2, faults).stale, true);

@@ -1,0 +1,162 @@
+#include "tools/bench/watched.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "runtime/execute/executor.h"
+#include "tools/bench/graphs.h"
+#include "tools/bench/message.h"
+#include "tools/bench/timing.h"
+#include "tools/console/console.h"
+#include "tools/drawing/layout.h"
+
+namespace jarol::bench {
+namespace {
+
+constexpr int ticks = 1000;  // of a slice
+
+// Sockets of pages in a process of their own, which ends with this.
+class Watchers {
+ public:
+  Watchers(const std::string& url, int count, bool reads) {
+    int ready[2];
+    if (::pipe2(ready, O_CLOEXEC) != 0) throw std::runtime_error("the benchmark has no pipe");
+    child_ = ::fork();
+    if (child_ < 0) throw std::runtime_error("the benchmark has no process for those who watch");
+    if (child_ == 0) {
+      watch(url, count, reads, ready[1]);
+      ::_exit(1);
+    }
+    ::close(ready[1]);
+    char all = 0;
+    const bool are_there = ::read(ready[0], &all, 1) == 1;
+    ::close(ready[0]);
+    if (!are_there) throw std::runtime_error("the benchmark's watchers were not let in");
+  }
+  ~Watchers() {
+    ::kill(child_, SIGKILL);
+    ::waitpid(child_, nullptr, 0);
+  }
+  Watchers(const Watchers&) = delete;
+  Watchers& operator=(const Watchers&) = delete;
+
+ private:
+  // "http://127.0.0.1:PORT/?token=TOKEN"
+  static int open(const std::string& url) {
+    const std::size_t colon = url.rfind(':'), slash = url.find('/', colon);
+    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(std::stoi(url.substr(colon + 1, slash - colon - 1))));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const std::string ask = "GET /socket" + url.substr(url.find('?')) +
+                            " HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+                            "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
+    char answer[13] = {};
+    if (socket < 0 || ::connect(socket, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0 ||
+        ::write(socket, ask.data(), ask.size()) != static_cast<ssize_t>(ask.size()) ||
+        ::recv(socket, answer, 12, MSG_WAITALL) != 12 || std::string(answer) != "HTTP/1.1 101")
+      return -1;
+    return socket;
+  }
+
+  static void watch(const std::string& url, int count, bool reads, int ready) {
+    std::vector<pollfd> sockets;
+    for (int i = 0; i < count; ++i) {
+      sockets.push_back({open(url), POLLIN, 0});
+      if (sockets.back().fd < 0) return;
+    }
+    static_cast<void>(::write(ready, "y", 1));
+    static char taken[1 << 16];
+    while (!reads) ::pause();
+    while (::poll(sockets.data(), sockets.size(), -1) > 0)
+      for (pollfd& socket : sockets)
+        if (socket.revents != 0 && ::read(socket.fd, taken, sizeof taken) <= 0) socket.fd = -1;
+  }
+
+  pid_t child_;
+};
+
+// The first task of the instant says how late it is.
+std::string text_of_graph() {
+  std::string text = chain(10, same_rate);
+  return text.insert(text.find("tasks:\n") + 7, "  a: {type: Stamp, period: 1ms}\n");
+}
+
+void run(const Graph& graph, RecordSink* sink, std::vector<std::int64_t>& lateness) {
+  RealClock clock(graph.tasks.size());
+  std::optional<Recorder> recorder;
+  if (sink != nullptr) recorder.emplace(std::vector{sink}, std::chrono::milliseconds(20));
+  Executor executor(graph, {}, {.recorder = recorder ? &*recorder : nullptr, .clock = &clock});
+  Stamp::clock = &clock;
+  Stamp::begun.clear();
+  clock.start();
+  executor.run_until(std::chrono::milliseconds(ticks + 1));
+  if (recorder) recorder->close();
+  // before activation 0 nobody sleeps
+  lateness.insert(lateness.end(), Stamp::begun.begin() + 1, Stamp::begun.end());
+}
+
+void run_watched(const Graph& graph, int watchers, bool reads, std::vector<std::int64_t>& lateness) {
+  tools::console::Console console(
+      tools::console::Watched{.run = {graph, "bench", "real", Duration::max()}, .server = {}, .pace = nullptr});
+  console.open();
+  std::optional<Watchers> all;
+  if (watchers > 0) all.emplace(console.url(), watchers, reads);
+  run(graph, &console.feed(), lateness);
+}
+
+double percentile(std::vector<std::int64_t>& samples, double part) {
+  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(samples.size() - 1));
+  std::nth_element(samples.begin(), at, samples.end());
+  return 1e-3 * static_cast<double>(*at);
+}
+
+}  // namespace
+
+Figure measure_watched(const std::string& name, int watchers, bool reads, int repeats) {
+  const Graph graph = graph_of(text_of_graph());
+  std::vector<std::int64_t> watched, alone;
+  Stamp::begun.reserve(ticks + 1);
+  // a thread of its own: the figures after this one keep their timer slack
+  std::thread([&] {
+    static_cast<void>(RealClock(0).prepare_thread());
+    for (int i = 0; i < std::max(4, repeats / 10); ++i) {
+      if (i % 2 == 0) run(graph, nullptr, alone);
+      run_watched(graph, watchers, reads, watched);
+      if (i % 2 == 1) run(graph, nullptr, alone);
+    }
+  }).join();
+  ::munlockall();
+  const double value = percentile(watched, 0.99), floor = percentile(alone, 0.99);
+  const std::string who = watchers == 0  ? "nobody at its console"
+                          : !reads       ? "a page that reads nothing"
+                          : watchers == 1 ? "a page that watches"
+                                         : std::to_string(watchers) + " pages that watch";
+  return {name, value, "us", floor, value / floor, 1.2, "lateness at 1 kHz, 99 %, with " + who + " / without a console"};
+}
+
+Figure measure_layout(const std::string& name, int repeats) {
+  const Graph graph = graph_of(meshed(20, 10));
+  // the goal is absolute: the floor is its unit, one second
+  Figure figure{name, 1e300, "s", 1, 0, 3, "layout of a graph of 200 tasks / 1 s"};
+  for (int i = 0; i < std::max(1, repeats / 20); ++i)
+    figure.value = std::min(figure.value, seconds_of([&] { keep(tools::lay_out(graph).width); }));
+  figure.ratio = figure.value / figure.floor;
+  return figure;
+}
+
+}  // namespace jarol::bench
