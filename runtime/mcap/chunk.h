@@ -2,11 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "runtime/mcap/crc32.h"
 #include "runtime/mcap/records.h"
 
 namespace jarol::mcap {
@@ -38,6 +41,12 @@ class Chunk {
     return at + message_head;
   }
 
+  /// Nothing comes after this. By the thread that has filled it: the records still are in the cache of its core, and
+  /// whoever writes them has less to do.
+  void seal() { crc_ = crc32(records()); }
+  /// Of the records.
+  std::uint32_t crc() const { return crc_ ? *crc_ : crc32(records()); }
+
   std::string_view records() const { return {reinterpret_cast<const char*>(memory_.get()), size_}; }
   std::uint64_t messages() const { return messages_; }
   std::int64_t start() const { return start_; }
@@ -48,6 +57,7 @@ class Chunk {
   /// Its memory stays.
   void clear() {
     size_ = 0;
+    crc_.reset();
     messages_ = 0;
     start_ = end_ = 0;
     for (auto& of_channel : entries_) of_channel.clear();
@@ -55,6 +65,7 @@ class Chunk {
 
  private:
   std::byte* room_for(std::size_t bytes) {
+    assert(!crc_);
     if (capacity_ - size_ < bytes) grow(bytes);
     std::byte* const at = memory_.get() + size_;
     size_ += bytes;
@@ -71,6 +82,7 @@ class Chunk {
   std::unique_ptr<std::byte[]> memory_;
   std::size_t capacity_ = 0, size_ = 0;
   std::vector<std::vector<IndexEntry>> entries_;
+  std::optional<std::uint32_t> crc_;  // once sealed
   std::uint64_t messages_ = 0;
   std::int64_t start_ = 0, end_ = 0;  // ns
 };

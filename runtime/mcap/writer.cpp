@@ -83,7 +83,7 @@ void Writer::write(const Chunk& chunk) {
     else
       compression = Compression::none;
   }
-  const std::uint32_t crc = crc32(records);
+  const std::uint32_t crc = chunk.crc();
   ChunkPlace place{.start = chunk.start(),
                    .end = chunk.end(),
                    .offset = offset_,

@@ -27,6 +27,17 @@ bool is_number(const Type& type) {
 
 bool is_empty(const Type& type) { return type.kind == Kind::structure && type.fields.empty(); }
 
+// A call would take longer than so few bytes do.
+void copy_short(std::byte* to, const std::byte* from, std::size_t bytes) {
+  constexpr std::size_t step = 16, most = 256;
+  if (bytes < step || bytes > most) {
+    std::memcpy(to, from, bytes);
+    return;
+  }
+  for (std::size_t at = 0; at < bytes - step; at += step) std::memcpy(to + at, from + at, step);
+  std::memcpy(to + bytes - step, from + bytes - step, step);  // again some of those before it
+}
+
 std::size_t aligned(std::size_t at, std::size_t to) { return (at + to - 1) / to * to; }
 
 // Goes through a value in the order of CDR: out.numbers(bytes, size, count) for numbers of that size that lie one after
@@ -125,7 +136,7 @@ void CdrEncoder::encode(const void* value, std::byte* to) const {
   const auto* const from = static_cast<const std::byte*>(value);
   if (has_gaps_) std::memset(to, 0, flat_size_);
   std::memcpy(to, head, sizeof head);
-  for (const Piece& piece : pieces_) std::memcpy(to + piece.to, from + piece.from, piece.bytes);
+  for (const Piece& piece : pieces_) copy_short(to + piece.to, from + piece.from, piece.bytes);
   if (flat_size_ > 0) return;
   Writing writing{to + head_size};
   go_through(*type_, from, writing);

@@ -46,6 +46,7 @@ bool ChunkQueue::push_if_room(ChunkPointer& chunk) {
 void ChunkQueue::put(ChunkPointer chunk) {
   if (failure_ || ended_) return;  // nothing is written any more
   waiting_.push_back(std::move(chunk));
+  pushed_.fetch_add(1, std::memory_order_relaxed);
   changed_.notify_all();
 }
 

@@ -1,7 +1,9 @@
 // Chunks on their way to the file: a thread of its own writes them, so that nobody else waits for the disk.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <exception>
 #include <functional>
@@ -39,6 +41,9 @@ class ChunkQueue {
   /// Chunks that may wait, but for those that are pushed in any case.
   static constexpr std::size_t room = 16;
 
+  /// Chunks that were pushed so far, by all.
+  std::uint64_t pushed() const { return pushed_.load(std::memory_order_relaxed); }
+
   /// Ends the thread once all is written; throws what `write` threw.
   void close();
 
@@ -51,6 +56,7 @@ class ChunkQueue {
   std::condition_variable changed_;
   std::deque<ChunkPointer> waiting_;
   std::vector<ChunkPointer> spare_;
+  std::atomic<std::uint64_t> pushed_{0};
   bool ended_ = false;
   std::exception_ptr failure_;
   std::thread thread_;

@@ -54,10 +54,11 @@ void RecordedStream::append_beside(std::size_t i, Duration instant, const void* 
   append(beside_[i], instant, value);
 }
 
-// Not so often that chunks are small, and not so seldom that much is lost with a program that is killed.
+// Not so often that chunks are small, and not so seldom that much is lost with a program that is killed, or with the
+// later parts of a recording.
 void RecordedStream::pause() {
   if (chunk_->messages() == 0) return;
-  if (chunk_->records().size() >= small_chunk_bytes ||
+  if (chunk_->records().size() >= small_chunk_bytes || (pressure_ == Pressure::keeps && queue_.pushed() != pushed_) ||
       std::chrono::steady_clock::now() - handed_on_ >= std::chrono::milliseconds(200))
     hand_on();
 }
@@ -71,9 +72,11 @@ void RecordedStream::hand_on(bool last) {
   handed_on_ = std::chrono::steady_clock::now();
   const std::uint64_t values = chunk_->messages();
   if (gap_) put(beside_[1], Duration(gap_->to), &*gap_, beside_[1].encoder.size(&*gap_));
+  chunk_->seal();
   if (pressure_ == Pressure::drops && !last && !queue_.push_if_room(chunk_)) return add_to_gap(values);
   if (pressure_ == Pressure::waits && chunk_) queue_.wait_and_push(std::move(chunk_));
   if (chunk_) queue_.push(std::move(chunk_));
+  pushed_ = queue_.pushed();
   chunk_ = queue_.empty_chunk();
   gap_.reset();
   is_first_ = false;

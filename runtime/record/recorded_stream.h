@@ -22,7 +22,8 @@ struct RecordedTopic {
 
 class RecordedStream : public RecordSink {
  public:
-  /// What becomes of chunks where the disk is behind.
+  /// What becomes of chunks where the disk is behind. What keeps them all is needed to replay the others, and goes out
+  /// with each chunk of theirs.
   enum class Pressure { keeps, waits, drops };
 
   /// By output the topic for it; none: it is not recorded. `beside`: the topics for events and gaps. `schemas`: of all.
@@ -65,6 +66,7 @@ class RecordedStream : public RecordSink {
   std::vector<std::string> task_names_;
   ChunkQueue::ChunkPointer chunk_;
   std::chrono::steady_clock::time_point handed_on_{};
+  std::uint64_t pushed_ = 0;  // chunks, by all streams of the queue, when this one handed on its newest
   std::string descriptions_;  // records that stand before the first message
   bool are_described_ = false;
   bool is_first_ = true;    // no chunk was written yet

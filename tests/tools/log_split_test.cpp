@@ -109,6 +109,17 @@ TEST_SUITE("tools/log_split") {
     CHECK(has(replay.output, "  log         " + breaks + ", before "));
   }
 
+  TEST_CASE("what a fast run takes in lies in each part, so that all but a lost last one is replayed") {
+    const TemporaryFolder folder;
+    const std::string first = folder / "r.mcap";
+    REQUIRE(command::jarol("run " + graph_in(folder) + " --for 300s --record " + first + split).exit_code == 0);
+    const auto parts = json_of("log info " + first)["parts"].get<std::vector<std::string>>();
+    REQUIRE(parts.size() > 20);
+    fs::remove(parts.back());
+    CHECK(json_of("log info " + first)["covered_ns"] > 200'000'000'000);
+    CHECK(json_of("replay " + first)["compared_values"] > 40'000);
+  }
+
   TEST_CASE("a part of another run, or a damaged one, is not taken for what follows") {
     const TemporaryFolder folder;
     const std::string first = record(folder, "r.mcap", split), second = folder / "r.2.mcap";

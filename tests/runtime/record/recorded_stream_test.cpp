@@ -27,6 +27,7 @@ struct Written {
 
   void add(const mcap::Chunk& chunk) {
     ++chunks;
+    if (chunk.crc() != mcap::crc32(chunk.records())) wrong = "another check sum";
     mcap::for_each_record(chunk.records(), [&](mcap::Opcode opcode, std::string_view content, std::size_t) {
       if (opcode == mcap::Opcode::channel) channels.push_back(mcap::read_channel(content).id);
       if (opcode == mcap::Opcode::message) add(mcap::read_message(content));
@@ -186,6 +187,19 @@ TEST_SUITE("runtime/recorded_stream") {
     REQUIRE(written.gaps.size() == 1);
     CHECK(written.gaps[0].from == 0);
     CHECK(written.values.size() + written.gaps[0].values == static_cast<std::size_t>(run.taken()));
+  }
+
+  TEST_CASE("what a replay needs goes out as soon as a piece of what is published does") {
+    HeldUp run(Pressure::keeps);
+    run.take(1);
+    run.stream().pause();
+    run.take(1);
+    run.fill_queue();
+    run.stream().pause();
+    run.take(1);
+    const Written& written = run.end();
+    CHECK(written.chunks == 3 + ChunkQueue::room);
+    CHECK(written.values == std::vector<std::int64_t>{0, 1, 2});
   }
 
   TEST_CASE("what a replay needs is never left out, however long the writer is held up") {
