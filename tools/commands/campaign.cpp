@@ -1,4 +1,5 @@
 // jarol campaign: a graph run many times, with other values and seeds each time.
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -201,13 +202,16 @@ int run(const Options& options) {
                           .repeat =
                               [&](std::uint64_t index) {
                                 return repeat_command(options.file, options.overrides, campaign.length,
-                                                      draws.at(index));
+                                                      draws.at(index)) +
+                                       fmt::format(" --record run_{}.mcap", index);
                               },
                           .results = results_file,
                           .ran = pace.ran(),
                           .seconds = seconds,
                           .shrunk = shrunk ? &*shrunk : nullptr};
-  if (shrunk) outcome.repeat_shrunk = repeat_command(options.file, options.overrides, campaign.length, shrunk->start);
+  if (shrunk)
+    outcome.repeat_shrunk = repeat_command(options.file, options.overrides, campaign.length, shrunk->start) +
+                            fmt::format(" --record run_{}_mild.mcap", shrunk->start.index);
   if (whole && !options.csv.empty()) write_table(options.csv, results, campaign, draws);
   if (whole && !options.report.empty()) {
     WholeFile page(options.report);

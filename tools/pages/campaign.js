@@ -69,7 +69,7 @@ function scatters() {
 function cases() {
   const worst = metrics.flatMap((m) => m.worst ? [['worst', m, m.worst]] : m.least ? [['least', m, m.least], ['greatest', m, m.greatest]] : []);
   const item = (title, text, line) => el('li', {}, el('p', {}, el('strong', {}, title), ' ', text), command(line));
-  return section('cases', 'Cases to repeat', 'Each command runs that case again, to the bit; with --record FILE.mcap it is recorded, and jarol log report makes a page of it.',
+  return section('cases', 'Cases to repeat', 'Each command runs that case again, to the bit, and records it; jarol log report makes a page of the recording.',
     report.shrunk ? [el('h3', {}, 'The mildest that fails'), el('ul', {class: 'cases'}, item(`Run ${report.shrunk.run}`, report.shrunk.why, report.shrunk.command))] : [],
     worst.length > 0 ? [el('h3', {}, 'Those that stand out'), el('ul', {class: 'cases'}, worst.map(([word, m, one]) => item(`${word} ${m.name}`, `${reached(one.value, m.unit)}, run ${one.run}`, one.command)))] : [],
     el('h3', {}, 'Those that are not good'),

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/tools/campaign/database_content.h"
 #include "tests/tools/default_signals.h"
 #include "tests/tools/run_command.h"
 #include "tools/campaign/campaign_report.h"
@@ -12,6 +13,7 @@
 
 namespace {
 using command::content;
+using command::database_content;
 using command::TemporaryFolder;
 using nlohmann::json;
 namespace tools = jarol::tools;
@@ -85,7 +87,7 @@ TEST_SUITE("tools/campaign") {
     CHECK(!std::filesystem::exists(folder / "r"));
   }
 
-  TEST_CASE("the same command goes on where it was killed or interrupted, to the same table") {
+  TEST_CASE("the same command goes on where it was killed or interrupted, to the same table and results") {
     const command::DefaultSignals taken;
     const TemporaryFolder folder;
     const std::string of =
@@ -113,6 +115,7 @@ TEST_SUITE("tools/campaign") {
       }
       CHECK(pieces > 1);
       CHECK(content(csv) == table);
+      CHECK(database_content(results) == database_content(folder / "whole"));
       CHECK(!std::filesystem::exists(results + "-wal"));
     }
   }
@@ -164,6 +167,7 @@ TEST_SUITE("tools/campaign") {
       json_of(of + "--workers " + workers + " --results " + (folder / workers) + " --csv " +
               (folder / (workers + ".csv")));
       CHECK(content(folder / (workers + ".csv")) == table);
+      CHECK(database_content(folder / workers) == database_content(folder / "1"));
     }
     const std::vector<std::string> lines = lines_of(table);
     REQUIRE(lines.size() == 7);
@@ -182,7 +186,8 @@ TEST_SUITE("tools/campaign") {
     const std::vector<std::string> row = cells_of(lines[static_cast<std::size_t>(deepest["run"]) + 1]);
     CHECK(deepest["command"] ==
           "jarol run specs/exolauv.yaml --profile at_sea --set expect=null --set tasks.depth.parameters.kp=" + row[2] +
-              " --set distributers.dune.link.parameters.hull.mass=" + row[3] + " --seed " + row[1] + " --for 5s");
+              " --set distributers.dune.link.parameters.hull.mass=" + row[3] + " --seed " + row[1] +
+              " --for 5s --record run_" + row[0] + ".mcap");
     CHECK(row[4] == json(deepest["value"]).dump());
   }
 #endif
