@@ -142,11 +142,12 @@ Figure measure_watched(const std::string& name, int watchers, bool reads, int re
   }).join();
   ::munlockall();
   const double value = percentile(watched, 0.99), floor = percentile(alone, 0.99);
-  const std::string who = watchers == 0  ? "nobody at its console"
-                          : !reads       ? "a page that reads nothing"
+  const std::string who = watchers == 0   ? "nobody at its console"
+                          : !reads        ? "a page that reads nothing"
                           : watchers == 1 ? "a page that watches"
-                                         : std::to_string(watchers) + " pages that watch";
-  return {name, value, "us", floor, value / floor, 1.2, "lateness at 1 kHz, 99 %, with " + who + " / without a console"};
+                                          : std::to_string(watchers) + " pages that watch";
+  return {
+      name, value, "us", floor, value / floor, 1.2, "lateness at 1 kHz, 99 %, with " + who + " / without a console"};
 }
 
 Figure measure_layout(const std::string& name, int repeats) {

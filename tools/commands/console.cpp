@@ -73,6 +73,9 @@ std::string text_of(const RecordedRun& log, const Comparison& comparison) {
 }
 
 int show(const Options& options) {
+  console::ServerOptions server = server_of(options.console);
+  // it ends, and is there as a whole
+  server.skips = false;
   RecordedRun log(options.log);
   Loaded loaded = load_recorded_graph(log.recording(), options.file, "jarol console", true);
   const std::vector<Miss> misses = log.begin(*loaded.graph);
@@ -80,7 +83,7 @@ int show(const Options& options) {
   console::Console console(
       {{*loaded.graph, options.log, "recorded", log.covered(), types_of_truth(loaded),
         console::find_flow(*loaded.graph, loaded.known->vehicles, sources_of(log.recording().files()))},
-       server_of(options.console)},
+       server},
       most_samples, strides_of(*loaded.graph, log.covered()));
   GraphRun run(std::move(loaded), {.sinks = {&console.feed()}, .misses = misses, .truth = true, .watched = true});
   const Interruptible interruptible;

@@ -14,8 +14,9 @@ using Files = std::vector<std::shared_ptr<const Source>>;
 
 // Links name files relative to the graph's.
 std::shared_ptr<const Source> find_file(const Files& files, const std::string& name) {
-  const auto found = std::find_if(files.begin(), files.end(),
-                                  [&](const auto& file) { return file->name == name || file->name.ends_with("/" + name); });
+  const auto found = std::find_if(files.begin(), files.end(), [&](const auto& file) {
+    return file->name == name || file->name.ends_with("/" + name);
+  });
   return found == files.end() ? nullptr : *found;
 }
 

@@ -13,8 +13,8 @@ class History {
  public:
   using Message = std::shared_ptr<const std::string>;
 
-  /// So many bytes at most, but for the newest message.
-  explicit History(std::size_t room) : room_(room) {}
+  /// So many bytes at most, but for the newest message. `skips`: for pages that fall behind.
+  explicit History(std::size_t room, bool skips = true) : room_(room), skips_(skips) {}
 
   void add(std::string message);
 
@@ -34,6 +34,7 @@ class History {
 
  private:
   std::size_t room_, bytes_ = 0;
+  bool skips_;
   std::uint64_t first_ = 0;  // number of the oldest
   std::deque<Message> messages_;
 };

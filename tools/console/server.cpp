@@ -154,7 +154,7 @@ class Server::Implementation {
   const Answer answer_;
   const Left left_;
   std::uint64_t pages_ = 0;  // so far
-  History history_{most_history};
+  History history_;
   std::size_t connections_ = 0;  // watchers among them
   asio::io_context context_{1};  // what waits in it knows what stands above
   tcp::acceptor acceptor_{context_};
@@ -340,7 +340,8 @@ Server::Implementation::Implementation(const ServerOptions& options, std::string
       hello_(std::make_shared<const std::string>(std::move(hello))),
       next_(std::move(next)),
       answer_(std::move(answer)),
-      left_(std::move(left)) {
+      left_(std::move(left)),
+      history_(most_history, options.skips) {
   Error error;
   const asio::ip::address address = asio::ip::make_address(options.listen, error);
   if (error)

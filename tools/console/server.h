@@ -16,6 +16,7 @@ struct ServerOptions {
   int port = 0;                                      // 0: any that is free
   std::string page = "/";                            // where the page is that the address leads to
   std::size_t most_message = std::size_t{16} << 10;  // bytes, of what a page sends
+  bool skips = true;                                 // a page that is slow goes on with the newest
 };
 
 /// What the page of that number asks for; the answer goes to that page alone, empty: there is none. Throws

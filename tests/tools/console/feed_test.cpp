@@ -48,6 +48,17 @@ constexpr auto enumerators(Mixed::Word) {
 }  // namespace
 
 TEST_SUITE("console/feed") {
+  TEST_CASE("a page that is slow gets all of what ends") {
+    History history(1 << 20, false);
+    history.add("first");
+    History::Place place = history.begin();
+    CHECK(*history.next(place) == "first");
+    CHECK(history.next(place) == nullptr);
+    for (std::uint64_t i = 0; i < 2 * History::most_behind; ++i) history.add(std::to_string(i));
+    for (std::uint64_t i = 0; i < 2 * History::most_behind; ++i) CHECK(*history.next(place) == std::to_string(i));
+    CHECK(place.missed == 0);
+  }
+
   TEST_CASE("with a stride every so manieth is kept, from the begin to the end, and the newest") {
     Feed feed({&type_of<double>()}, 8, {4});
     take(feed, 0, 10);
