@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "graph/values/seed.h"
 #include "vehicles/submarine/motion.h"
 
 namespace jarol::vehicles {
@@ -11,11 +12,16 @@ namespace {
 constexpr double step_seconds = SubmarineMotion::step_seconds;
 }
 
-SubmarineActuation::SubmarineActuation(const SubmarineParameters& parameters)
+SubmarineActuation::SubmarineActuation(const SubmarineParameters& parameters, std::uint64_t seed)
     : servo_parameters_(parameters.servos),
       thruster_(parameters.thruster),
       at_end_of_step_(parameters.vsim_compatible),
-      timeout_(parameters.command_timeout / std::chrono::milliseconds(10)) {
+      timeout_(parameters.command_timeout / std::chrono::milliseconds(10)),
+      failing_fins_{FailingActuator(parameters.failures.fin0, spread_seed(seed, "fin0.failure")),
+                    FailingActuator(parameters.failures.fin1, spread_seed(seed, "fin1.failure")),
+                    FailingActuator(parameters.failures.fin2, spread_seed(seed, "fin2.failure")),
+                    FailingActuator(parameters.failures.fin3, spread_seed(seed, "fin3.failure"))},
+      failing_propeller_(parameters.failures.propeller, spread_seed(seed, "propeller.failure")) {
   if (parameters.command_timeout < Duration{}) throw std::runtime_error("submarine: command_timeout is below zero");
   if (!(thruster_.time_constant >= 0.0)) throw std::runtime_error("submarine: thruster.time_constant is below zero");
   if (!(servo_parameters_.limit >= 0.0)) throw std::runtime_error("submarine: servos.limit is below zero");
@@ -42,19 +48,23 @@ SubmarineInput SubmarineActuation::step(bool powered) {
   for (std::size_t i = 0; i < servos_.size(); ++i)
     if (lost(servo_silence_[i])) servo_commands_[i] = 0.0;
 
+  const double now = static_cast<double>(steps_++) * step_seconds;
+
   // the plant sees what the actuators are on average over the step, or what they come to
   SubmarineInput input;
   const double reach = powered ? servo_parameters_.slew * step_seconds : 0.0;
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     const double before = servos_[i];
-    servos_[i] += std::clamp(servo_commands_[i] - before, -reach, reach);
-    input.fins[i] = at_end_of_step_ ? servos_[i] : 0.5 * (before + servos_[i]);
+    if (!failing_fins_[i].is_stuck(now)) servos_[i] += std::clamp(servo_commands_[i] - before, -reach, reach);
+    const double part = failing_fins_[i].part(now);  // lift grows with the angle
+    input.fins[i] = part * (at_end_of_step_ ? servos_[i] : 0.5 * (before + servos_[i]));
   }
 
-  // first-order lag, solved exactly
-  const double command = powered ? thruster_command_ * thruster_.full_speed : 0.0, before = propeller_;
+  // first-order lag, solved exactly; thrust grows with the square of the speed
+  const double speed = std::sqrt(failing_propeller_.part(now)) * thruster_.full_speed;
+  const double command = powered ? thruster_command_ * speed : 0.0, before = propeller_;
   const double kept = thruster_.time_constant > 0.0 ? std::exp(-step_seconds / thruster_.time_constant) : 0.0;
-  propeller_ = command + (before - command) * kept;
+  if (!powered || !failing_propeller_.is_stuck(now)) propeller_ = command + (before - command) * kept;
   input.propeller = kept == 0.0 ? propeller_ : 0.5 * (before + propeller_);
   return input;
 }

@@ -1,4 +1,5 @@
-// What moves the submarine's propeller and fins: commands, their time-out, power, lag, slew and limits.
+// What moves the submarine's propeller and fins: commands, their time-out, power, failures, lag, slew and
+// limits.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@ namespace jarol::vehicles {
 class SubmarineActuation {
  public:
   /// Throws std::runtime_error if no actuators can have these parameters.
-  explicit SubmarineActuation(const SubmarineParameters& parameters);
+  explicit SubmarineActuation(const SubmarineParameters& parameters, std::uint64_t seed = 0);
 
   // what is not a finite number is not taken
   void command_thruster(double actuation);
@@ -26,7 +27,7 @@ class SubmarineActuation {
   const std::array<double, 4>& servos() const { return servos_; }
 
   void serialize(Archive& archive) {
-    archive(thruster_command_, servo_commands_, thruster_silence_, servo_silence_, propeller_, servos_);
+    archive(thruster_command_, servo_commands_, thruster_silence_, servo_silence_, propeller_, servos_, steps_);
   }
 
  private:
@@ -40,6 +41,9 @@ class SubmarineActuation {
   std::array<std::int64_t, 4> servo_silence_{};
   double propeller_ = 0.0;
   std::array<double, 4> servos_{};
+  std::array<FailingActuator, 4> failing_fins_;
+  FailingActuator failing_propeller_;
+  std::int64_t steps_ = 0;
 };
 
 }  // namespace jarol::vehicles

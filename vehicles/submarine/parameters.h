@@ -5,6 +5,7 @@
 
 #include "vehicles/mechanics/dynamics.h"
 #include "vehicles/sea/sea_parameters.h"
+#include "vehicles/submarine/actuator_failure.h"
 #include "vehicles/submarine/power.h"
 #include "vehicles/submarine/sensor_parameters.h"
 
@@ -261,6 +262,7 @@ struct SubmarineParameters {
   PowerParameters power{};
   SubmarineSensorParameters sensors{};
   Duration leak_at{};
+  ActuatorFailureParameters failures{};
   SeaParameters sea{};
   DiveLimitParameters limits{};
   StartParameters start{};
@@ -277,7 +279,8 @@ struct SubmarineParameters {
                     field<&S::lift>("", "lift of hull and undeflected fins"), field<&S::fins>("", "the four fins"),
                     field<&S::thruster>("", "the propeller"), field<&S::servos>("", "the servos of the fins"),
                     field<&S::power>("", "battery, and warmth of the hull"), field<&S::sensors>("", "the sensors"),
-                    field<&S::leak_at>("", "when water enters the hull; 0 never"), field<&S::sea>("", "the sea"),
+                    field<&S::leak_at>("", "when water enters the hull; 0 never"),
+                    field<&S::failures>("", "of fins and propeller"), field<&S::sea>("", "the sea"),
                     field<&S::limits>("", "of a dive that ends well"), field<&S::start>("", "the start"));
   }
 };

@@ -41,7 +41,7 @@ VehicleState start_of(const SubmarineParameters& parameters) {
 Submarine::Submarine(const SubmarineParameters& parameters, std::uint64_t seed)
     : parameters_(parameters),
       seed_(seed),
-      actuation_(parameters),
+      actuation_(parameters, seed),
       sensors_(parameters.sensors, parameters.sea, floating_depth(parameters), seed),
       power_(parameters.power),
       waves_(parameters.sea.wave_height, parameters.sea.wave_period, parameters.sea.wave_direction),

@@ -101,6 +101,70 @@ TEST_SUITE("vehicles/submarine_actuation") {
     CHECK(actuation.servos()[1] == doctest::Approx(-0.2));
   }
 
+  TEST_CASE(
+      "a fin that is stuck stays where it is, one that is lost or weak turns and gives none or a part of its lift") {
+    SubmarineParameters parameters;
+    const auto kind = [](ActuatorFailureKind how) { return ActuatorFailure{.kind = how, .at = 0.5, .by = 0.3}; };
+    parameters.failures.fin0 = kind(ActuatorFailureKind::stuck);
+    parameters.failures.fin1 = kind(ActuatorFailureKind::lost);
+    parameters.failures.fin2 = kind(ActuatorFailureKind::weak);
+    SubmarineActuation actuation(parameters);
+    const auto turn = [&](double angle, int steps) {
+      for (std::size_t i = 0; i < 4; ++i) actuation.command_servo(i, angle);
+      SubmarineInput seen;
+      for (int i = 0; i < steps; ++i) seen = actuation.step();
+      return seen.fins;
+    };
+    for (const double angle : turn(0.2, 50)) CHECK(angle == doctest::Approx(0.2));
+    const auto fins = turn(-0.1, 50);
+    CHECK(fins[0] == doctest::Approx(0.2));
+    CHECK(fins[1] == 0);
+    CHECK(fins[2] == doctest::Approx(-0.03));
+    CHECK(fins[3] == doctest::Approx(-0.1));
+    CHECK(actuation.servos()[0] == doctest::Approx(0.2));
+    CHECK(actuation.servos()[1] == doctest::Approx(-0.1));
+    CHECK(actuation.servos()[2] == doctest::Approx(-0.1));
+  }
+
+  TEST_CASE(
+      "a propeller that is lost runs down, one that is stuck turns on while there is power, a weak one gives a part of "
+      "its thrust") {
+    const auto speed = [](ActuatorFailureKind how, bool powered) {
+      SubmarineParameters parameters;
+      parameters.failures.propeller = {.kind = how, .at = 1, .by = 0.25};
+      SubmarineActuation actuation(parameters);
+      actuation.command_thruster(0.8);
+      for (int i = 0; i < 100; ++i) actuation.step();
+      actuation.command_thruster(0.4);
+      for (int i = 0; i < 100; ++i) actuation.step(powered);
+      return actuation.propeller() / parameters.thruster.full_speed;
+    };
+    CHECK(speed(ActuatorFailureKind::none, true) == doctest::Approx(0.4));
+    CHECK(speed(ActuatorFailureKind::lost, true) < 1e-6);
+    CHECK(speed(ActuatorFailureKind::stuck, true) == doctest::Approx(0.8));
+    CHECK(speed(ActuatorFailureKind::stuck, false) < 1e-6);
+    CHECK(speed(ActuatorFailureKind::weak, true) == doctest::Approx(0.2));
+  }
+
+  TEST_CASE("an actuator fails by chance from its time on, another with each seed") {
+    const auto stuck_at = [](std::uint64_t seed) {
+      SubmarineParameters parameters;
+      parameters.failures.fin1 = {.kind = ActuatorFailureKind::stuck, .at = 1, .chance = 0.5};
+      SubmarineActuation actuation(parameters, seed);
+      for (int i = 0; i < 3000; ++i) {
+        const double before = actuation.servos()[1];
+        actuation.command_servo(1, i % 2 == 0 ? 0.05 : -0.05);
+        actuation.step();
+        if (actuation.servos()[1] == before) return i;
+      }
+      return 3000;
+    };
+    CHECK(stuck_at(1) >= 100);
+    CHECK(stuck_at(1) < 3000);
+    CHECK(stuck_at(1) == stuck_at(1));
+    CHECK(stuck_at(1) != stuck_at(2));
+  }
+
   TEST_CASE("the hull warms by 3 K for each ampere, after ten minutes to two thirds") {
     Power power({});
     power.draw(1, 600);

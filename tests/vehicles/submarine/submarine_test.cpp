@@ -139,6 +139,21 @@ TEST_SUITE("vehicles/submarine") {
     CHECK(std::abs(sense(submarine).u) < 0.05F);
   }
 
+  TEST_CASE("with a rudder stuck to starboard it turns there, whatever is commanded") {
+    SubmarineParameters parameters;
+    parameters.start.depth = 20;
+    parameters.start.surge = 1.2;
+    parameters.failures.fin3 = {.kind = ActuatorFailureKind::stuck, .at = 1};
+    Submarine submarine(parameters, 1);
+    for (int i = 0; i < 1000; ++i) {
+      const float rudder = i < 100 ? -0.2F : 0.0F;
+      command(submarine, 0.6F, {rudder, 0, 0, rudder});
+      submarine.step();
+    }
+    CHECK(sense(submarine).psi > 0.5F);
+    CHECK(static_cast<const SubmarineOutputs*>(submarine.outputs())->actuators.fin3 == doctest::Approx(-0.2));
+  }
+
   TEST_CASE("a command that is no number changes nothing") {
     Submarine submarine({});
     const auto* out = static_cast<const SubmarineOutputs*>(submarine.outputs());

@@ -1,0 +1,80 @@
+// Fins and propeller that fail at a time or by chance, as a vehicle file says.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "graph/values/describe.h"
+#include "vehicles/sensors/noise.h"
+
+namespace jarol::vehicles {
+
+enum class ActuatorFailureKind : std::uint8_t { none, lost, stuck, weak };
+
+constexpr auto enumerators(ActuatorFailureKind) {
+  using enum ActuatorFailureKind;
+  return std::array<Enumerator<ActuatorFailureKind>, 4>{
+      {{"none", none},
+       {"lost", lost, "a fin is broken off, the propeller turns no more"},
+       {"stuck", stuck, "a fin stays where it is, the propeller turns on as it did"},
+       {"weak", weak, "a fin or the propeller gives a part of its force"}}};
+}
+
+struct ActuatorFailure {
+  ActuatorFailureKind kind = ActuatorFailureKind::none;
+  double at = 0.0;
+  double by = 0.5;
+  double chance = 0.0;
+
+  static constexpr auto fields() {
+    using A = ActuatorFailure;
+    return describe(field<&A::kind>("", "how it fails"), field<&A::at>("s", "when it begins, or may begin"),
+                    field<&A::by>("", "part of its force that a weak one gives").in(0, 1),
+                    field<&A::chance>("1/s", "rate at which it begins from then on; 0: it begins then"));
+  }
+};
+
+struct ActuatorFailureParameters {
+  ActuatorFailure fin0{};
+  ActuatorFailure fin1{};
+  ActuatorFailure fin2{};
+  ActuatorFailure fin3{};
+  ActuatorFailure propeller{};
+
+  static constexpr auto fields() {
+    using S = ActuatorFailureParameters;
+    return describe(field<&S::fin0>("", "the bottom rudder"), field<&S::fin1>("", "the port elevator"),
+                    field<&S::fin2>("", "the starboard elevator"), field<&S::fin3>("", "the top rudder"),
+                    field<&S::propeller>("", "the propeller"));
+  }
+};
+
+/// An actuator's failure in one run.
+class FailingActuator {
+ public:
+  FailingActuator(const ActuatorFailure& failure, std::uint64_t seed)
+      : failure_(failure), begin_(draw_begin(failure.at, failure.chance, seed)) {}
+
+  bool is_stuck(double seconds) const { return kind(seconds) == ActuatorFailureKind::stuck; }
+
+  /// The part of its force that it gives.
+  double part(double seconds) const {
+    switch (kind(seconds)) {
+      case ActuatorFailureKind::lost: return 0.0;
+      case ActuatorFailureKind::weak: return failure_.by;
+      case ActuatorFailureKind::none:
+      case ActuatorFailureKind::stuck: break;
+    }
+    return 1.0;
+  }
+
+ private:
+  ActuatorFailureKind kind(double seconds) const {
+    return seconds >= begin_ ? failure_.kind : ActuatorFailureKind::none;
+  }
+
+  ActuatorFailure failure_;
+  double begin_;
+};
+
+}  // namespace jarol::vehicles
