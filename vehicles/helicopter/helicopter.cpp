@@ -54,6 +54,8 @@ Helicopter::Helicopter(const HelicopterParameters& parameters, std::uint64_t see
       battery_(parameters.battery),
       wind_(parameters.air, spread_seed(seed, "wind")),
       sensors_(parameters, seed),
+      signals_(parameters.packets, spread_seed(seed, "packets.signals")),
+      answers_(parameters.packets, spread_seed(seed, "packets.answers")),
       voltage_(battery_.calc_voltage(0.0)),
       judge_(parameters, plant_->motion()),
       seed_(seed),
@@ -77,7 +79,21 @@ const HelicopterMotion& Helicopter::motion() const { return plant_->motion(); }
 
 HelicopterSensors::Scene Helicopter::scene() const { return {plant_->motion(), plant_->specific_force(), voltage_}; }
 
+void Helicopter::accept(messages::MessageRef command) {
+  if (const auto* signals = command.as<messages::javiator::MotorSignals>()) {
+    signals_.send(*signals, nanoseconds_);
+    hear_signals();
+  } else {
+    robostix_.accept(command);
+  }
+}
+
+void Helicopter::hear_signals() {
+  for (const auto& packet : signals_.arrive(nanoseconds_)) robostix_.accept(messages::refer_to(packet.message));
+}
+
 void Helicopter::step() {
+  hear_signals();
   constexpr double seconds = 1e-9 * HelicopterDynamics::step_nanoseconds;
   wind_.step(seconds);
   HelicopterCommand command;
@@ -102,10 +118,13 @@ void Helicopter::step() {
 
   sensors_.sample(nanoseconds_, scene());
   robostix_.step();
-  if (!robostix_.answers()) return;
-  answer_ = sensors_.answer(robostix_.id());
-  outputs_.sensors = readings_of(answer_);
-  sensors_.sample_imu(nanoseconds_, scene());
+  if (robostix_.answers()) {
+    answer_ = sensors_.answer(robostix_.id());
+    answers_.send(answer_, nanoseconds_);
+    outputs_.sensors = readings_of(answer_);
+    sensors_.sample_imu(nanoseconds_, scene());
+  }
+  answers_.arrive(nanoseconds_);
 }
 
 void Helicopter::tell_outputs(double current) {
@@ -119,6 +138,7 @@ void Helicopter::serialize(Archive& archive) {
   plant_->serialize(archive);
   archive(robostix_, battery_, wind_, sensors_, voltage_, outputs_, judge_, motors_, nanoseconds_);
   archive.bytes(&answer_, sizeof answer_);
+  archive(signals_, answers_);
 }
 
 VehicleState Helicopter::state() const {
@@ -167,7 +187,7 @@ void Helicopter::command(const void* inputs) {
 }
 
 void Helicopter::sense(messages::Receiver& receiver) const {
-  if (robostix_.answers()) receiver.receive(messages::refer_to(answer_));
+  for (const auto& packet : answers_.arrived()) receiver.receive(messages::refer_to(packet.message));
 }
 
 }  // namespace jarol::vehicles

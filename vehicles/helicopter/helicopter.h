@@ -11,6 +11,7 @@
 #include "vehicles/helicopter/io.h"
 #include "vehicles/helicopter/judge.h"
 #include "vehicles/helicopter/motor_failure.h"
+#include "vehicles/helicopter/packets.h"
 #include "vehicles/helicopter/robostix.h"
 #include "vehicles/helicopter/sensors.h"
 
@@ -19,7 +20,7 @@ namespace jarol::vehicles {
 class HelicopterDynamics;
 
 /// Steps of 5 ms. Motor signals act at once and are answered a step later; the IMU values of an answer were measured
-/// when the answer before had been sent.
+/// when the answer before had been sent. Signals and answers may be lost on their way; switches, sent once, are not.
 class Helicopter : public Vehicle {
  public:
   using Parameters = HelicopterParameters;
@@ -32,7 +33,7 @@ class Helicopter : public Vehicle {
   ~Helicopter() override;
 
   std::chrono::nanoseconds grid() const override;
-  void accept(messages::MessageRef command) override { robostix_.accept(command); }
+  void accept(messages::MessageRef command) override;
   void step() override;
   void sense(messages::Receiver& receiver) const override;
   const Type* true_type() const override { return &type_of<HelicopterTruth>(); }
@@ -53,6 +54,7 @@ class Helicopter : public Vehicle {
  private:
   HelicopterSensors::Scene scene() const;
   void tell_outputs(double current);
+  void hear_signals();
 
   HelicopterParameters parameters_;
   std::unique_ptr<HelicopterDynamics> plant_;
@@ -61,6 +63,8 @@ class Helicopter : public Vehicle {
   Wind wind_;
   HelicopterSensors sensors_;
   messages::javiator::JaviatorData answer_{};
+  PacketLine<messages::javiator::MotorSignals> signals_;
+  PacketLine<messages::javiator::JaviatorData> answers_;
   double voltage_ = 0.0;
   HelicopterOutputs outputs_;
   HelicopterJudge judge_;

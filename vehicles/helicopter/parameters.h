@@ -6,6 +6,7 @@
 
 #include "graph/values/describe.h"
 #include "vehicles/air/parameters.h"
+#include "vehicles/helicopter/packets.h"
 #include "vehicles/helicopter/sensor_parameters.h"
 #include "vehicles/mechanics/dynamics.h"
 
@@ -163,6 +164,7 @@ struct HelicopterParameters {
   SensorParameters sensors{};
   NoiseParameters noise{};
   FailureParameters failures{};
+  PacketParameters packets{};
   PayloadParameters payload{};
   LimitParameters limits{};
   LiftOffParameters start{};
@@ -174,6 +176,7 @@ struct HelicopterParameters {
                     field<&S::battery>("", "the battery"), field<&S::air>("", "the air"),
                     field<&S::sensors>("", "places of the sensors"), field<&S::noise>("", "of the sensors"),
                     field<&S::failures>("", "of sensors and motors"),
+                    field<&S::packets>("", "between it and whoever steers it"),
                     field<&S::payload>("", "what it carries and drops"),
                     field<&S::limits>("", "of a flight that ends well"), field<&S::start>("", "the start"));
   }

@@ -30,7 +30,8 @@ TEST_SUITE("tools/verdicts") {
   TEST_CASE("every shipped mission holds what it expects, in every profile that needs nobody else") {
     for (const std::string run :
          {"exolauv", "exolauv --profile at_sea --seed 1", "exolauv_bare", "javiator", "javiator --profile wind",
-          "javiator --profile wind --seed 3", "javiator --profile v2", "javiator --profile original"}) {
+          "javiator --profile wind --seed 3", "javiator --profile radio", "javiator --profile radio --seed 3",
+          "javiator --profile v2", "javiator --profile original"}) {
       CAPTURE(run);
       const std::size_t space = run.find(' ');
       const Result result = command::jarol("run specs/" + run.substr(0, space) + ".yaml" +
