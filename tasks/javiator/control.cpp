@@ -135,12 +135,17 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     return;
   }
   if (d.state == FlightState::landing) {
-    const double speed = e.altitude > 0.5 && e.altitude_known ? p.descent : p.touch_speed;
+    state.landing += dt;
+    const double overdue = std::clamp(p.overdue * (state.landing - p.landing_time), 0.0, p.touch_speed);
+    // an altitude that nothing confirms may be wrong
+    const bool is_high = e.altitude > 0.5 && e.altitude_known && e.pressure_known;
+    const double speed = is_high ? p.descent : p.touch_speed + overdue;
     state.z.demand = limited(3 * (-speed - state.z.speed), 2);
     state.z.speed += state.z.demand * dt;
     // never far below: on the ground it would wind down all at once
     state.z.place = std::max(state.z.place + state.z.speed * dt, e.altitude - 0.15);
   } else {
+    state.landing = 0;
     approach(state.z, d.altitude, p.approach, dt);
     if (d.altitude <= ground && e.altitude < ground && std::abs(e.climb) < 0.05) state.lifted = false;
   }

@@ -159,6 +159,8 @@ struct AltitudeControl {
     double lift_rate = 1.5;
     double descent = 0.5;
     double touch_speed = 0.2;
+    double landing_time = 8;
+    double overdue = 0.05;
     double spin_up = 1.5;
     double blind_gain = 0.15;
     double blind_speed = 0.25;
@@ -173,6 +175,10 @@ struct AltitudeControl {
                       field<&P::idle>("", "thrust while standing ready, in parts of that of hover"),
                       field<&P::lift_rate>("1/s", "at which thrust grows until it lifts off"),
                       field<&P::descent>("m/s", "of a landing"), field<&P::touch_speed>("m/s", "of its last part"),
+                      field<&P::landing_time>("s",
+                                              "after which a landing is overdue: it may descend more slowly than "
+                                              "it believes"),
+                      field<&P::overdue>("m/s^2", "by which its last part gets faster then, up to twice its speed"),
                       field<&P::spin_up>("s", "from rest to idle"),
                       field<&P::blind_gain>("s/m", "thrust per error of descent when the IMU is lost"),
                       field<&P::blind_speed>("m/s", "of descent then"));
@@ -192,14 +198,15 @@ struct AltitudeControl {
     double trim = 0, mean_trim = 0;
     double expected = 0;
     double sunk = 0;
+    double landing = 0;
     bool lifted = false;
     static constexpr auto fields() {
       using S = State;
-      return describe(field<&S::z>(), field<&S::trim>("", "thrust at rest, learnt"),
-                      field<&S::mean_trim>("", "over a second"),
-                      field<&S::expected>("", "thrust that should be felt now, less the trim"),
-                      field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
-                      field<&S::lifted>("", "it has left the ground"));
+      return describe(
+          field<&S::z>(), field<&S::trim>("", "thrust at rest, learnt"), field<&S::mean_trim>("", "over a second"),
+          field<&S::expected>("", "thrust that should be felt now, less the trim"),
+          field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
+          field<&S::landing>("s", "since it began to land"), field<&S::lifted>("", "it has left the ground"));
     }
   };
   struct Out {

@@ -1,6 +1,7 @@
 #include "tasks/javiator/filter.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "graph/math/geometry.h"
@@ -42,57 +43,51 @@ void forgive(SensorTrust& trust, bool heard) {
   if (heard) trust.silent = 0;
 }
 
-void predict(AxisObserver& axis, double acceleration, double dt) {
-  const double a = acceleration - axis.bias;
-  axis.place += axis.speed * dt + 0.5 * a * dt * dt;
-  axis.speed += a * dt;
-  axis.since += dt;
+bool is_near(const AxisObserver& axis, double measured, double jump) { return std::abs(measured - axis.place) < jump; }
+
+// A sonar that drifts tells a climb that is not felt.
+void compare_climb(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double dt) {
+  state.climb_off += (state.z.speed - state.z_slow.speed - state.climb_off) * dt / p.drift.climb_time;
+  state.climb_was_off = std::max(state.climb_was_off * (1 - dt / p.drift.climb_memory), std::abs(state.climb_off));
 }
 
-// gains of the critically damped filter of third order, with its poles at e^(-bandwidth T) (Brookner, "Tracking and
-// Kalman Filtering Made Easy", 1998, sec. 1.3)
-void correct(AxisObserver& axis, double measured, double bandwidth) {
-  const double residual = measured - axis.place;
-  const double T = axis.since;
-  const double pole = std::exp(-bandwidth * T);
-  axis.place += (1 - pole * pole * pole) * residual;
-  axis.speed += 1.5 * (1 - pole) * (1 - pole) * (1 + pole) * residual / T;
-  axis.bias -= std::pow(1 - pole, 3) * residual / (T * T);
-  axis.since = 0;
-}
-
-// Standing still it does not move, and what it feels is the accelerometer's bias.
-void rest(AxisObserver& axis, double acceleration) {
-  axis = {.place = axis.place, .bias = axis.bias + 0.02 * (acceleration - axis.bias)};
-}
-
-// What is measured there is averaged, as zero before the first flight and as the place after it.
-void settle(AxisObserver& axis, double& zero, double measured, bool has_flown) {
-  if (has_flown) {
-    axis.place += 0.1 * (measured - zero - axis.place);
-  } else {
-    zero += (zero == 0 ? 1 : 0.1) * (measured - zero);
-  }
-}
-
-// where it takes off is zero
-void take_off(AxisObserver& axis, double& zero) {
-  zero += axis.place;
-  axis.place = 0;
-}
-
-bool is_near(const AxisObserver& axis, double measured, const JaviatorFilter::Param& p) {
-  return std::abs(measured - axis.place) < p.range_jump;
-}
-
-// Without a sonar the pressure has to do; with one, it tells whether the sonar can be believed.
+// Without a sonar the pressure has to do; with one, each tells whether the other can be believed, and what is felt
+// which of the two.
 void weigh_pressure(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double pressure) {
   const double residual = (state.zero_pressure - pressure) / pascal_per_metre - state.z.place;
   state.disagreement += 0.05 * (residual - state.disagreement);
-  if (std::abs(state.disagreement) > p.disagreement) state.sonar.lost = true;
+  if (!state.sonar.lost && std::abs(state.disagreement) > p.disagreement) {
+    if (state.climb_was_off < p.drift.climb) {
+      state.pressure.lost = true;
+    } else {
+      state.sonar.lost = true;
+    }
+  }
   if (!state.sonar.lost) return;
-  state.z.place += 0.1 * residual;
-  state.z.speed += 0.1 * residual;
+  state.z.place += p.pressure_place * residual;
+  state.z.speed += p.pressure_speed * residual;
+}
+
+// Wrong angles turn gravity sideways, which the observers of the place take for a bias.
+void compare_pull(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double dt) {
+  const double heading = state.zero_yaw + state.yaw, c = std::cos(heading), s = std::sin(heading);
+  const double forward = c * state.x.bias + s * state.y.bias, right = c * state.y.bias - s * state.x.bias;
+  const double part = dt / p.drift.pull_time;
+  state.roll_off += (right / gravity - state.roll_off) * part;
+  state.pitch_off += (-forward / gravity - state.pitch_off) * part;
+}
+
+// Angles that drift against the rates are not believed.
+void watch_drift(JaviatorFilter::State& state, const JaviatorFilter::Param& p, const JaviatorSensors& s, double dt) {
+  if (state.angles.lost) return;
+  correct(state.slow_roll, s.roll, p.drift.angle_bandwidth, dt);
+  correct(state.slow_pitch, s.pitch, p.drift.angle_bandwidth, dt);
+  // rates alone go astray where readings are lost or late, places where their sensors fail
+  const auto drifts = [&](double by_rates, double by_places) {
+    return by_rates * by_places > 0 && std::abs(by_rates) > p.drift.angle && std::abs(by_places) > p.drift.pull;
+  };
+  state.angles.lost = drifts(state.roll - state.slow_roll.angle, state.roll_off) ||
+                      drifts(state.pitch - state.slow_pitch.angle, state.pitch_off);
 }
 
 // Angles that disagree with the weight that it feels on the ground are not believed: it does not fly with them.
@@ -122,6 +117,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   if (settled) forgive(state.imu, imu);
   const bool turns = believe(state.imu, imu, p.imu_patience);
   // between readings it turns on as it did, and feels what it felt
+  const bool was_unfelt = state.unfelt > 0;
   state.unfelt = turns ? 0 : state.unfelt + dt;
   const double felt = state.imu.lost ? 0 : std::exp(-state.unfelt / p.rate_fade);
   const Vector3d rates = felt * Vector3d(s.p, s.q, s.r);
@@ -130,6 +126,9 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     take_off(state.x, state.zero_x);
     take_off(state.y, state.zero_y);
     take_off(state.z, state.zero_z);
+    state.z_slow = state.z;
+    state.climb_off = state.climb_was_off = 0;
+    state.roll_off = state.pitch_off = 0;
     state.zero_yaw += state.yaw;
     state.yaw = 0;
     state.has_flown = true;
@@ -138,8 +137,12 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
 
   // angles follow the rates, and what is measured unless it jumps
   const double turning = (rates.y() * std::sin(s.roll) + rates.z() * std::cos(s.roll)) / std::cos(s.pitch);
-  state.roll += dt * (rates.x() + turning * std::sin(s.pitch));
-  state.pitch += dt * (rates.y() * std::cos(s.roll) - rates.z() * std::sin(s.roll));
+  const double rolling = rates.x() + turning * std::sin(s.pitch);
+  const double pitching = rates.y() * std::cos(s.roll) - rates.z() * std::sin(s.roll);
+  state.roll += dt * rolling;
+  state.pitch += dt * pitching;
+  predict(state.slow_roll, rolling, dt);
+  predict(state.slow_pitch, pitching, dt);
   state.yaw += dt * turning;
   if (settled) {
     state.roll = s.roll;
@@ -147,13 +150,28 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     if (!state.has_flown) state.zero_yaw = s.yaw;
     state.yaw = wrapped(s.yaw - state.zero_yaw);
     if (s.answers > 0) feel_weight(state, p, s);
+    rest(state.slow_roll, s.roll, rolling);
+    rest(state.slow_pitch, s.pitch, pitching);
   }
   const bool smooth = std::abs(s.roll - state.roll) < p.angle_jump && std::abs(s.pitch - state.pitch) < p.angle_jump;
   state.angles.silent += heard_dt;
+  if (turns && smooth) {
+    // what it turned meanwhile was not felt
+    if (was_unfelt && !state.angles.lost) {
+      state.slow_roll.angle += s.roll - state.roll;
+      state.slow_pitch.angle += s.pitch - state.pitch;
+      state.roll = s.roll;
+      state.pitch = s.pitch;
+    }
+    watch_drift(state, p, s, dt);
+  }
   if (believe(state.angles, turns && smooth, p.imu_patience)) {
     state.roll += p.angle_gain * (s.roll - state.roll);
     state.pitch += p.angle_gain * (s.pitch - state.pitch);
     state.yaw += p.angle_gain * wrapped(s.yaw - state.zero_yaw - state.yaw);
+  } else if (state.angles.lost) {
+    state.roll = state.slow_roll.angle;
+    state.pitch = state.slow_pitch.angle;
   }
 
   const Matrix3d R = rotation(state.roll, state.pitch, state.zero_yaw + state.yaw);
@@ -165,14 +183,16 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   const Vector3d a = R * force_b + Vector3d(0, 0, gravity);
   const double z = (R * Vector3d(p.sonar_x, p.sonar_y, p.sonar_z + s.sonar)).z();
   const double last_pressure = state.pressure.last;
-  const bool new_x = hear(state.laser_x, fresh && s.new_x, s.laser_x, p.repeats, heard_dt);
-  const bool new_y = hear(state.laser_y, fresh && s.new_y, s.laser_y, p.repeats, heard_dt);
+  const bool new_x = hear(state.laser_x, fresh && s.new_x, s.laser_x, p.laser_repeats, heard_dt);
+  const bool new_y = hear(state.laser_y, fresh && s.new_y, s.laser_y, p.laser_repeats, heard_dt);
   const bool new_z = hear(state.sonar, fresh && s.new_sonar, s.sonar, p.repeats, heard_dt);
   const bool new_pressure = hear(state.pressure, fresh && s.new_bmu, s.pressure, p.repeats, heard_dt);
   if (settled) {
-    rest(state.x, a.x());
-    rest(state.y, a.y());
-    rest(state.z, -a.z());
+    if (s.answers > 0) {
+      rest(state.x, a.x());
+      rest(state.y, a.y());
+      rest(state.z, -a.z());
+    }
     forgive(state.sonar, new_z);
     if (new_z) settle(state.z, state.zero_z, z, state.has_flown);
     forgive(state.pressure, new_pressure);
@@ -182,11 +202,24 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     predict(state.x, a.x(), dt);
     predict(state.y, a.y(), dt);
     predict(state.z, -a.z(), dt);
-    const bool credible = new_z && is_near(state.z, z - state.zero_z, p);
-    if (believe(state.sonar, credible, p.patience)) correct(state.z, z - state.zero_z, p.bandwidth);
+    predict(state.z_slow, -a.z(), dt);
+    const double jump = state.imu.lost ? p.range_jump : p.sonar_jump + p.sonar_jump_rate * state.z.since;
+    const bool credible = new_z && is_near(state.z, z - state.zero_z, std::min(jump, p.range_jump));
+    const bool had_sonar = !state.sonar.lost;
+    const bool repeats = p.sonar_repeats > 0 && state.sonar.repeats >= p.sonar_repeats;
+    if (believe(state.sonar, credible, p.patience) && !repeats) {
+      correct(state.z, z - state.zero_z, p.bandwidth);
+      correct(state.z_slow, z - state.zero_z, p.drift.climb_bandwidth);
+    }
+    compare_climb(state, p, dt);
     // no climb is that fast: a pressure that jumps is wrong
     if (new_pressure && std::abs(s.pressure - last_pressure) > p.pressure_jump) state.pressure.lost = true;
     if (believe(state.pressure, new_pressure, p.patience)) weigh_pressure(state, p, s.pressure);
+    // what it has learnt of late may be what is wrong with the sonar
+    if (had_sonar && state.sonar.lost) {
+      state.z.speed = state.z_slow.speed;
+      state.z.bias = state.z_slow.bias;
+    }
   }
 
   AxisObserver* const axes[] = {&state.x, &state.y};
@@ -202,11 +235,14 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
       if (heard && fix.seen) settle(axis, zero, fix.place, state.has_flown);
       return;
     }
-    const bool credible = heard && fix.seen && is_near(axis, fix.place - zero, p);
-    if (believe(laser, credible, p.patience) && axis.since > 0) correct(axis, fix.place - zero, p.bandwidth);
+    const bool credible = heard && fix.seen && is_near(axis, fix.place - zero, p.range_jump);
+    const bool repeats = p.laser_repeats > 0 && laser.repeats > 0;
+    if (believe(laser, credible, p.patience) && axis.since > 0 && !repeats)
+      correct(axis, fix.place - zero, p.bandwidth);
   };
   look(state.laser_x, new_x, {p.laser_x_x, p.laser_x_y, p.laser_x_z}, 0, s.laser_x);
   look(state.laser_y, new_y, {p.laser_y_x, p.laser_y_y, p.laser_y_z}, 1, s.laser_y);
+  if (!settled) compare_pull(state, p, dt);
   const bool seen = state.x.since < p.place_patience && state.y.since < p.place_patience;
 
   const bool answers = state.unanswered <= p.imu_patience;

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/javiator/observers.h"
 #include "tasks/javiator/room.h"
 #include "tasks/values/javiator.h"
 
@@ -23,16 +24,29 @@ struct SensorTrust {
   }
 };
 
-/// One axis of a fixed-gain observer: acceleration is integrated, and each measurement corrects place, speed and the
-/// bias of the accelerometer.
-struct AxisObserver {
-  double place = 0, speed = 0, bias = 0;
-  double since = 0;
+/// What drifts is found by what is felt: beside the sonar's climb and the IMU's angles others are kept that hardly
+/// trust them, but the accelerometer and the rates.
+struct DriftLimits {
+  double climb_bandwidth = 0.3;
+  double climb = 0.032;
+  double climb_time = 1;
+  double climb_memory = 10;
+  double angle_bandwidth = 0.25;
+  double angle = 0.015;
+  double pull = 0.02;
+  double pull_time = 1.5;
 
   static constexpr auto fields() {
-    using A = AxisObserver;
-    return describe(field<&A::place>("m"), field<&A::speed>("m/s"), field<&A::bias>("m/s^2", "of the accelerometer"),
-                    field<&A::since>("s", "the last measurement"));
+    using D = DriftLimits;
+    return describe(
+        field<&D::climb_bandwidth>("rad/s", "at which the sonar corrects the climb that is felt"),
+        field<&D::climb>("m/s", "between it and the sonar's at which the sonar drifts, not the pressure"),
+        field<&D::climb_time>("s", "over which that is averaged"),
+        field<&D::climb_memory>("s", "in which it is forgotten"),
+        field<&D::angle_bandwidth>("rad/s", "at which angles correct those that the rates turn"),
+        field<&D::angle>("rad", "between them at which the angles are not credible, if the place is as well"),
+        field<&D::pull>("rad", "of an angle that sideways acceleration without a cause tells of"),
+        field<&D::pull_time>("s", "over which that is averaged"));
   }
 };
 
@@ -51,10 +65,17 @@ struct JaviatorFilter {
     double rate_fade = 0.05;
     double place_patience = 3;
     double range_jump = 0.3;
+    double sonar_jump = 0.08;
+    double sonar_jump_rate = 0.1;
     double angle_jump = 0.1;
     double pressure_jump = 15;
     double disagreement = 0.6;
+    DriftLimits drift{};
+    double pressure_place = 0.05;
+    double pressure_speed = 0.02;
     std::uint32_t imu_repeats = 3;
+    std::uint32_t laser_repeats = 5;
+    std::uint32_t sonar_repeats = 6;
     std::uint32_t repeats = 40;
     static constexpr auto fields() {
       using P = Param;
@@ -73,10 +94,17 @@ struct JaviatorFilter {
           field<&P::rate_fade>("s", "in which rates and forces of the last reading fade to a third until the next one"),
           field<&P::place_patience>("s", "without a laser that sees along an axis"),
           field<&P::range_jump>("m", "from the estimate at which a range is not credible"),
+          field<&P::sonar_jump>("m", "the same, of the sonar right after a credible range"),
+          field<&P::sonar_jump_rate>("m/s", "at which that grows until the next one, up to that of any range"),
           field<&P::angle_jump>("rad", "the same, for roll and pitch"),
           field<&P::pressure_jump>("Pa", "from one reading to the next, which is not credible"),
-          field<&P::disagreement>("m", "between sonar and pressure from which on the sonar is not credible"),
+          field<&P::disagreement>("m", "between sonar and pressure from which on one of them is not credible"),
+          field<&P::drift>("", "of sensors, how it is found"),
+          field<&P::pressure_place>("", "part of what the pressure differs by that is taken without a sonar"),
+          field<&P::pressure_speed>("1/s", "and climb by it"),
           field<&P::imu_repeats>("", "of all its angles and rates at which the IMU counts as stuck; 0: never"),
+          field<&P::laser_repeats>("", "the same, for a laser; none that repeats is used"),
+          field<&P::sonar_repeats>("", "of its range from which on a sonar is not used; 0: always used"),
           field<&P::repeats>("", "the same, for each other sensor"));
     }
   };
@@ -88,23 +116,29 @@ struct JaviatorFilter {
     }
   };
   struct State {
-    AxisObserver x{}, y{}, z{};
+    AxisObserver x{}, y{}, z{}, z_slow{};
+    SlowAngle slow_roll{}, slow_pitch{};
     SensorTrust imu{}, angles{}, laser_x{}, laser_y{}, sonar{}, pressure{};
     double zero_x = 0, zero_y = 0, zero_z = 0, zero_yaw = 0, zero_pressure = 0;
     double roll = 0, pitch = 0, yaw = 0;
-    double disagreement = 0, unanswered = 0, unfelt = 0;
+    double disagreement = 0, climb_off = 0, climb_was_off = 0, roll_off = 0, pitch_off = 0, unanswered = 0, unfelt = 0;
     double slant_roll = 0, slant_pitch = 0;
     bool stood = false, has_flown = false;
     std::uint32_t answers = 0;
     static constexpr auto fields() {
       using S = State;
-      return describe(field<&S::x>(), field<&S::y>(), field<&S::z>("", "upwards"), field<&S::imu>(),
+      return describe(field<&S::x>(), field<&S::y>(), field<&S::z>("", "upwards"),
+                      field<&S::z_slow>("", "upwards, the sonar hardly trusted"),
+                      field<&S::slow_roll>("", "the angles hardly trusted"), field<&S::slow_pitch>(), field<&S::imu>(),
                       field<&S::angles>(), field<&S::laser_x>(), field<&S::laser_y>(), field<&S::sonar>(),
                       field<&S::pressure>(), field<&S::zero_x>("m", "measured where it stands"), field<&S::zero_y>("m"),
                       field<&S::zero_z>("m"), field<&S::zero_yaw>("rad"), field<&S::zero_pressure>("Pa"),
                       field<&S::roll>("rad"), field<&S::pitch>("rad"), field<&S::yaw>("rad", "all turns counted"),
                       field<&S::disagreement>("m", "of pressure and altitude, averaged"),
-                      field<&S::unanswered>("s", "since the Robostix answered"),
+                      field<&S::climb_off>("m/s", "of the sonar's climb and the slow one, averaged"),
+                      field<&S::climb_was_off>("m/s", "of late, at most"),
+                      field<&S::roll_off>("rad", "by which it is wrong as places tell, averaged"),
+                      field<&S::pitch_off>("rad"), field<&S::unanswered>("s", "since the Robostix answered"),
                       field<&S::unfelt>("s", "since the IMU's last reading"),
                       field<&S::slant_roll>("rad", "of the weight felt while it stands, less the roll, averaged"),
                       field<&S::slant_pitch>("rad"), field<&S::stood>("", "in the period before"),

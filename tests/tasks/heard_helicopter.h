@@ -7,7 +7,7 @@ namespace jarol::tests {
 
 /// A filter with what it hears: level and at rest at an altitude, 15 ms a period, every sensor new each period.
 struct HeardHelicopter {
-  tasks::JaviatorFilter::Param param{.imu_repeats = 0, .repeats = 0};
+  tasks::JaviatorFilter::Param param{.imu_repeats = 0, .laser_repeats = 0, .sonar_repeats = 0, .repeats = 0};
   tasks::JaviatorFilter::State state{};
   tasks::JaviatorFilter::Out out{};
   tasks::JaviatorSensors sensors{.a_z = -9.81,

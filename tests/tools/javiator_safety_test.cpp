@@ -20,12 +20,12 @@ struct Failing {
   LandingCause cause;
 };
 
-Flight fly_failing(const Failing& f, const std::string& profile = "") {
+Flight fly_failing(const Failing& f, const std::string& profile = "", double seconds = 18) {
   const std::string path = "distributers.robostix.link.parameters.failures." + f.sensor;
   return tests::fly({.set = {path + ".kind=" + f.kind, path + ".at=9s", path + ".by=" + f.by},
                      .profile = profile,
                      .pilot = tests::hover_command,
-                     .seconds = 18});
+                     .seconds = seconds});
 }
 
 void check_safe(const Flight& flight, LandingCause cause) {
@@ -78,6 +78,14 @@ TEST_SUITE("tools/javiator_safety") {
     check_safe(fly_failing({"laser_east", "biased", "-1", LandingCause::position_lost}), LandingCause::position_lost);
     check_safe(fly_failing({"bmu", "biased", "60", LandingCause::bmu_lost}), LandingCause::bmu_lost);
     check_safe(fly_failing({"imu", "biased", "0.3", LandingCause::imu_lost}), LandingCause::imu_lost);
+  }
+
+  TEST_CASE("it lands safely when a sensor drifts or jumps, and knows which one it is") {
+    const auto check = [](const Failing& failing) { check_safe(fly_failing(failing, "", 25), failing.cause); };
+    check({"imu", "drifting", "0.02", LandingCause::imu_lost});
+    check({"sonar", "drifting", "0.1", LandingCause::sonar_lost});
+    check({"sonar", "jumping", "0.25", LandingCause::sonar_lost});
+    check({"bmu", "drifting", "2", LandingCause::bmu_lost});
   }
 
   TEST_CASE("it lands safely when a limit of roll, pitch, yaw or altitude is exceeded") {

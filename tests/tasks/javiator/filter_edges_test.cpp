@@ -21,17 +21,82 @@ HeardHelicopter hovering() {
 }  // namespace
 
 TEST_SUITE("tasks/javiator_filter/edges") {
-  TEST_CASE("a range is credible up to 30 cm from where it should be") {
+  TEST_CASE("a laser is credible up to 30 cm from where it should be, and so is a sonar when the IMU is lost") {
     for (const double side : {-1.0, 1.0}) {
       HeardHelicopter near = hovering();
-      near.sensors.sonar += 0.299 * side;
-      CHECK(std::abs(near.run(1).altitude - 1) > 0.01);
-      CHECK(near.state.sonar.silent == 0);
+      near.sensors.laser_x += 0.299 * side;
+      near.sensors.laser_y += 0.299 * side;
+      near.run(1);
+      CHECK(near.state.laser_x.silent + near.state.laser_y.silent == 0);
       HeardHelicopter far = hovering();
-      far.sensors.sonar += 0.301 * side;
-      CHECK(far.run(1).altitude == doctest::Approx(1).scale(0).epsilon(1e-3));
-      CHECK(far.state.sonar.silent == doctest::Approx(dt));
+      far.sensors.laser_x += 0.301 * side;
+      far.sensors.laser_y += 0.301 * side;
+      far.run(1);
+      CHECK(far.state.laser_x.silent + far.state.laser_y.silent == doctest::Approx(2 * dt));
+      for (const double part : {0.299, 0.301}) {
+        HeardHelicopter blind = hovering();
+        blind.state.imu.lost = true;
+        blind.sensors.sonar += part * side;
+        blind.run(1);
+        CHECK((blind.state.sonar.silent == 0) == (part < 0.3));
+      }
     }
+  }
+
+  TEST_CASE("a sonar is credible up to 8 cm from where it should be, and 10 cm more for each second without one") {
+    for (const double side : {-1.0, 1.0}) {
+      for (const int silent : {0, 10}) {
+        CAPTURE(silent);
+        const double most = 0.08 + 0.1 * dt * (silent + 1);
+        HeardHelicopter near = hovering();
+        near.sensors.new_sonar = false;
+        near.run(silent);
+        HeardHelicopter far = near;
+        near.sensors.new_sonar = far.sensors.new_sonar = true;
+        near.sensors.sonar += (most - 1e-3) * side;
+        CHECK(std::abs(near.run(1).altitude - 1) > 0.01);
+        CHECK(near.state.sonar.silent == 0);
+        far.sensors.sonar += (most + 1e-3) * side;
+        CHECK(far.run(1).altitude == doctest::Approx(1).scale(0).epsilon(1e-3));
+        CHECK(far.state.sonar.silent == doctest::Approx(dt * (silent + 1)));
+      }
+    }
+  }
+
+  TEST_CASE("a laser's reading that repeats is not used, and a sixth time it is no sign of life") {
+    HeardHelicopter heard = hovering();
+    heard.param.laser_repeats = 5;
+    heard.sensors.laser_x -= 0.01;
+    heard.run(1);
+    CHECK(heard.state.x.since == 0);
+    for (int i = 1; i <= 4; ++i) {
+      heard.run(1);
+      CHECK(heard.state.x.since == doctest::Approx(i * dt));
+      CHECK(heard.state.laser_x.silent == 0);
+    }
+    heard.run(1);
+    CHECK(heard.state.laser_x.silent == doctest::Approx(dt));
+  }
+
+  TEST_CASE("a sonar's range is used six times, and not again") {
+    HeardHelicopter heard = hovering();
+    heard.param.sonar_repeats = 6;
+    heard.sensors.sonar += 0.01;
+    heard.run(6);
+    CHECK(heard.state.z.since == 0);
+    heard.run(1);
+    CHECK(heard.state.z.since == doctest::Approx(dt));
+    CHECK(heard.state.sonar.silent == 0);
+  }
+
+  TEST_CASE("before the Robostix has answered nothing is felt") {
+    HeardHelicopter heard;
+    heard.sensors.answers = static_cast<std::uint32_t>(-1);  // none yet when it runs first
+    heard.sensors.a_x = heard.sensors.a_y = heard.sensors.a_z = 0;
+    heard.run(1);
+    CHECK(heard.state.x.bias == 0);
+    CHECK(heard.state.y.bias == 0);
+    CHECK(heard.state.z.bias == 0);
   }
 
   TEST_CASE("errors of place, speed and bias die out with three poles of 6 rad/s") {
@@ -54,6 +119,12 @@ TEST_SUITE("tasks/javiator_filter/edges") {
   }
 
   TEST_CASE("roll and pitch are believed up to 0.1 rad from where the rates turned them, and half of it is taken") {
+    // and drift as they like
+    const auto hovering = [] {
+      HeardHelicopter heard = ::hovering();
+      heard.param.drift.angle = 1;
+      return heard;
+    };
     for (double JaviatorSensors::*angle : {&JaviatorSensors::roll, &JaviatorSensors::pitch}) {
       for (const double side : {-1.0, 1.0}) {
         HeardHelicopter near = hovering();
@@ -87,9 +158,12 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     }
   }
 
-  TEST_CASE("a sonar is lost where pressure differs by more than 60 cm, averaged over twenty readings") {
+  TEST_CASE(
+      "a sonar whose climb was not felt is lost where pressure differs by more than 60 cm, averaged over twenty "
+      "readings") {
     for (const double side : {-1.0, 1.0}) {
       HeardHelicopter heard = hovering();
+      heard.param.drift.climb = 0;
       heard.sensors.pressure -= 12 * side;  // a metre: 1 - 0.95^n is 0.582 after 17 readings, 0.603 after 18
       CHECK(heard.run(17).altitude_known);
       CHECK_FALSE(heard.run(1).altitude_known);
@@ -97,20 +171,21 @@ TEST_SUITE("tasks/javiator_filter/edges") {
       less.sensors.pressure -= 0.59 * 12 * side;
       CHECK(less.run(1000).altitude_known);
       HeardHelicopter more = hovering();
+      more.param.drift.climb = 0;
       more.sensors.pressure -= 0.61 * 12 * side;
       CHECK_FALSE(more.run(1000).altitude_known);
     }
   }
 
-  TEST_CASE("without a sonar a tenth of what pressure differs by is taken, as place and as speed") {
+  TEST_CASE("without a sonar 5 % of what pressure differs by are taken as place, 2 % a second as speed") {
     HeardHelicopter heard = hovering();
     heard.state.sonar.lost = true;
     const AxisObserver before = heard.state.z;
     heard.sensors.pressure -= 1.2;  // ten centimetres
     heard.run(1);
     const double residual = 1.1 - before.place - before.speed * dt;
-    CHECK(heard.state.z.place - before.place == doctest::Approx(0.1 * residual).scale(0).epsilon(0.01));
-    CHECK(heard.state.z.speed - before.speed == doctest::Approx(0.1 * residual).scale(0).epsilon(0.01));
+    CHECK(heard.state.z.place - before.place == doctest::Approx(0.05 * residual).scale(0).epsilon(1e-3));
+    CHECK(heard.state.z.speed - before.speed == doctest::Approx(0.02 * residual).scale(0).epsilon(1e-3));
   }
 
   TEST_CASE("each sensor has 0.3 s of patience, the IMU 40 ms") {

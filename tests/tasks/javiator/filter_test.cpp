@@ -118,7 +118,7 @@ TEST_SUITE("tasks/javiator_filter") {
   TEST_CASE("sensors that repeat themselves are stuck") {
     Heard heard;
     heard.lift_to(1);
-    heard.param.repeats = 40;
+    heard.param.repeats = heard.param.laser_repeats = 40;
     heard.state.sonar.repeats = heard.state.laser_x.repeats = heard.state.laser_y.repeats = 0;
     heard.state.pressure.repeats = 0;
     CHECK(heard.run(39).altitude_known);

@@ -1,4 +1,4 @@
-// The numbers of the helicopter's law of altitude and of its mixer: each gain, limit and time, at its edge.
+// The numbers of the helicopter's law of altitude: each gain, limit and time, at its edge.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -36,18 +36,6 @@ struct Grounded : Altitude {
     in.estimate.altitude = 0;
   }
 };
-
-struct Mixer {
-  MotorMixer::Param param{.quick_lag = 0.05};  // signals as they are due
-  MotorMixer::State state{};
-  MotorMixer::Out out{};
-  MotorMixer::In in{.lift = {1}, .directive = {.state = FlightState::flying}, .estimate = {.battery = 15.887}};
-
-  const std::array<double, 4>& run() {
-    MotorMixer::run(param, tick, in, state, out);
-    return out.motors.signals;
-  }
-};
 }  // namespace
 
 TEST_SUITE("tasks/javiator_control/lift") {
@@ -59,6 +47,36 @@ TEST_SUITE("tasks/javiator_control/lift") {
     Altitude rising;
     rising.in.estimate.climb = 0.01;
     CHECK(rising.run() == doctest::Approx(1 - 0.07 / gravity));
+  }
+
+  TEST_CASE("a landing that has lasted 8 s gets faster by 5 cm/s each second, up to 40 cm/s") {
+    Altitude a;
+    a.in.directive = {.state = FlightState::landing};
+    a.in.estimate.altitude = 0.4;
+    a.in.estimate.altitude_known = true;
+    a.in.estimate.pressure_known = true;
+    const auto demand_after = [&](double seconds) {
+      a.state.landing = seconds - dt;
+      a.state.z = {.place = 0.4, .speed = -0.3};
+      a.run();
+      return a.state.z.demand;
+    };
+    CHECK(demand_after(7.9) == doctest::Approx(3 * 0.1));
+    CHECK(demand_after(9) == doctest::Approx(3 * 0.05));
+    CHECK(demand_after(100) == doctest::Approx(-3 * 0.1));
+    a.in.directive.state = FlightState::flying;
+    a.run();
+    CHECK(a.state.landing == 0);
+  }
+
+  TEST_CASE("it descends fast only where pressure and sonar tell that it is high") {
+    for (const bool pressure : {true, false}) {
+      Altitude a;
+      a.in.directive = {.state = FlightState::landing};
+      a.in.estimate.pressure_known = pressure;
+      a.run();
+      CHECK(a.state.z.demand == doctest::Approx(-3 * (pressure ? 0.5 : 0.2)));
+    }
   }
 
   TEST_CASE("a lasting error of altitude is made up for with 1 m/s^2 at most, to either side") {
@@ -190,6 +208,7 @@ TEST_SUITE("tasks/javiator_control/lift") {
       a.in.directive.state = FlightState::landing;
       a.in.estimate.altitude = altitude;
       a.in.estimate.altitude_known = known;
+      a.in.estimate.pressure_known = true;
       a.state.z = {.place = altitude};
       a.run();
       CHECK(a.state.z.speed == doctest::Approx(a.state.z.demand * dt));
@@ -222,70 +241,5 @@ TEST_SUITE("tasks/javiator_control/lift") {
     CHECK(a.run() == doctest::Approx(1 - 0.03 - 0.06));
     a.in.estimate.climb = -1;
     CHECK(a.run() == doctest::Approx(1 - 0.03 + 0.06));
-  }
-}
-
-TEST_SUITE("tasks/javiator_control/mixer") {
-  TEST_CASE("thrust grows with the signal to the power of 1.415, up to a signal of 16000") {
-    Mixer m;
-    m.in.lift.thrust = 1.5;
-    for (const double signal : m.run()) CHECK(signal == doctest::Approx(8000 * std::pow(1.5, 1 / 1.415)));
-    Mixer full;
-    full.in.lift.thrust = 4;
-    for (const double signal : full.run()) CHECK(signal == 16000);
-    Mixer none;
-    none.in.lift.thrust = -0.1;
-    for (const double signal : none.run()) CHECK(signal == 0);
-  }
-
-  TEST_CASE("a battery is made up for from eight tenths to thirteen tenths of the signal; an unknown one is not") {
-    const auto signal_at = [](double battery) {
-      Mixer m;
-      m.in.estimate.battery = battery;
-      return m.run()[0];
-    };
-    CHECK(signal_at(15.887 / 1.29) == doctest::Approx(8000 * 1.29));
-    CHECK(signal_at(15.887 / 1.31) == doctest::Approx(8000 * 1.3));
-    CHECK(signal_at(15.887 / 0.81) == doctest::Approx(8000 * 0.81));
-    CHECK(signal_at(15.887 / 0.79) == doctest::Approx(8000 * 0.8));
-    CHECK(signal_at(0) == doctest::Approx(8000));
-  }
-
-  TEST_CASE("each demand of turning is shared by the rotors that give it") {
-    const auto thrusts = [](TurnDemand turn) {
-      Mixer m;
-      m.in.turn = turn;
-      std::array<double, 4> parts = m.run();
-      for (double& part : parts) part = std::pow(part / 8000, 1.415) - 1;
-      return parts;
-    };
-    const auto is = [](const std::array<double, 4>& parts, double front, double right, double rear, double left) {
-      CHECK(parts[0] == doctest::Approx(front));
-      CHECK(parts[1] == doctest::Approx(right));
-      CHECK(parts[2] == doctest::Approx(rear));
-      CHECK(parts[3] == doctest::Approx(left));
-    };
-    is(thrusts({.roll = 0.1}), 0, -0.1, 0, 0.1);
-    is(thrusts({.pitch = 0.1}), 0.1, 0, -0.1, 0);
-    is(thrusts({.yaw = 0.1}), -0.1, 0.1, -0.1, 0.1);
-  }
-
-  TEST_CASE("rotors of 50 ms follow as if they had 20 ms") {
-    Mixer m;
-    m.param = {};
-    m.in.lift.thrust = 0.5;
-    const double signal = m.run()[0], due = 8000 * std::pow(0.5, 1 / 1.415);
-    // what a rotor with a lag of 50 ms reaches with that signal, one with 20 ms reaches with what is due
-    CHECK(signal * (1 - std::exp(-dt / 0.05)) == doctest::Approx(due * (1 - std::exp(-dt / 0.02))));
-    CHECK(m.state.reached[0] == doctest::Approx(due * (1 - std::exp(-dt / 0.02))));
-  }
-
-  TEST_CASE("only in flight and while landing does it steer") {
-    for (const FlightState state : {FlightState::ground, FlightState::starting}) {
-      Mixer m;
-      m.in.directive.state = state;
-      m.in.turn = {0.1, 0.1, 0.1};
-      for (const double signal : m.run()) CHECK(signal == doctest::Approx(8000));
-    }
   }
 }

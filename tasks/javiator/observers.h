@@ -1,0 +1,54 @@
+// Fixed-gain observers of the helicopter's filter: one axis of place, and an angle that is slow to be corrected.
+#pragma once
+
+#include "graph/values/describe.h"
+
+namespace jarol::tasks {
+
+/// One axis of a fixed-gain observer: acceleration is integrated, and each measurement corrects place, speed and the
+/// bias of the accelerometer.
+struct AxisObserver {
+  double place = 0, speed = 0, bias = 0;
+  double since = 0;
+
+  static constexpr auto fields() {
+    using A = AxisObserver;
+    return describe(field<&A::place>("m"), field<&A::speed>("m/s"), field<&A::bias>("m/s^2", "of the accelerometer"),
+                    field<&A::since>("s", "the last measurement"));
+  }
+};
+
+/// An angle that its rate turns, whose bias is learnt; what is measured corrects it only slowly.
+struct SlowAngle {
+  double angle = 0, bias = 0;
+
+  static constexpr auto fields() {
+    return describe(field<&SlowAngle::angle>("rad"), field<&SlowAngle::bias>("rad/s", "of its rate"));
+  }
+};
+
+/// Acceleration (m/s^2) is integrated over dt (s).
+void predict(AxisObserver& axis, double acceleration, double dt);
+
+/// What is measured (m) corrects place, speed and bias, with three poles at the bandwidth (rad/s).
+void correct(AxisObserver& axis, double measured, double bandwidth);
+
+/// Standing still it does not move, and what it feels is the accelerometer's bias.
+void rest(AxisObserver& axis, double acceleration);
+
+/// What is measured where it stands is averaged, as zero before the first flight and as the place after it.
+void settle(AxisObserver& axis, double& zero, double measured, bool has_flown);
+
+/// Where it takes off is zero.
+void take_off(AxisObserver& axis, double& zero);
+
+/// The rate (rad/s) of an Euler angle, less its bias, is integrated over dt (s).
+void predict(SlowAngle& slow, double rate, double dt);
+
+/// What is measured (rad) each dt (s) corrects angle and bias, with two poles at the bandwidth (rad/s).
+void correct(SlowAngle& slow, double measured, double bandwidth, double dt);
+
+/// Standing still the angle is what is measured, and its rate is its bias.
+void rest(SlowAngle& slow, double measured, double rate);
+
+}  // namespace jarol::tasks
