@@ -76,6 +76,7 @@ class ThreadsCore {
   /// The instant reached, as of Executor.
   Duration now() const { return Duration(now_.load(std::memory_order_relaxed)); }
   const void* last_value(std::size_t communicator) const { return run_.state.last[communicator]; }
+  const RunState& state() const { return run_.state; }
 
  private:
   // What is due once in so many rounds: in the first that is run of these, as others may be left out.

@@ -31,6 +31,13 @@ TEST_SUITE("tools/threads") {
           command::jarol("run specs/exolauv.yaml --for 1s --json --clock real" + concurrency, "2>/dev/null").output);
     };
     const auto threads = told_of(" --concurrency threads"), exotasks = told_of("");
+    for (const auto& [key, value] : exotasks.items()) {
+      CAPTURE(key);
+      CHECK(threads.contains(key));
+    }
+    CHECK(threads["concurrency"] == "threads");
+    CHECK(exotasks["concurrency"] == "exotasks");
+    CHECK(threads["digest_claimed"] == false);
     CHECK(threads["outputs"].size() == 4);
     for (const auto& [output, value] : exotasks["outputs"].items()) {
       CAPTURE(output);
@@ -41,7 +48,7 @@ TEST_SUITE("tools/threads") {
     CHECK(time["lateness_50_ns"] > 0);
     CHECK(time["lateness_50_ns"] <= time["lateness_99_ns"]);
     CHECK(time["lateness_99_ns"] <= time["lateness_most_ns"]);
-    CHECK(threads["outputs_50_ns"] > time["lateness_50_ns"]);  // both from the tick on
+    CHECK(time["outputs_50_ns"] > time["lateness_50_ns"]);  // both from the tick on
     CHECK(time["tasks"].size() == 8);
     std::uint64_t activations = 0;
     for (const auto& [task, timing] : time["tasks"].items()) {
@@ -54,6 +61,9 @@ TEST_SUITE("tools/threads") {
     CHECK(activations == threads["activations"]);
     const std::string text =
         command::jarol(std::string("run specs/exolauv.yaml") + on_threads + "200ms", "2>/dev/null").output;
+    CHECK(text.find("\n              nothing is claimed of the digest: its tasks ran on threads\n") !=
+          std::string::npos);
+    CHECK(text.find("\n  rounds      ") < text.find("\n  outputs     "));
     CHECK(text.find(" us worst\n  task        activations     99 % us    worst us\n  depth ") != std::string::npos);
   }
 

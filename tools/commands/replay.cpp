@@ -184,8 +184,10 @@ int replay(const Options& options) {
                                        why_cut_short(judged_until(log.rest_begun(), log.header().until, reached),
                                                      log.header().until, log.header().mission));
   verdict.left_out = find_left_out(graph, report);
-  const RunOutcome outcome{.graph = graph,
-                           .executor = executor,
+  const RunOutcome outcome{.state = executor.state(),
+                           .report = report,
+                           .rest = executor.rest(),
+                           .safe_commands = executor.safe_commands(),
                            .noted = noted,
                            .end = run_end,
                            .seconds = seconds,

@@ -93,7 +93,7 @@ int run(RunOptions options) {
   require_clock(options, loaded);
   require_console(options, loaded);
   what_ifs.prepare(graph, options.file, options.overrides, options.seed, options.workers, options.execution, end);
-  if (options.concurrency == "threads") return run_on_threads(loaded, end, options.real_time, options.json);
+  if (options.concurrency == "threads") return run_on_threads(loaded, end, options);
   Execution execution(options.execution, graph, options.seed);
   const ReportsAside aside(options.files);
   RunFiles files(graph, options.files);
@@ -219,13 +219,16 @@ int run(RunOptions options) {
   for (const std::string& lost : {saved.lost(), not_run})
     if (!lost.empty()) unwritten += (unwritten.empty() ? "" : "; ") + lost;
   const RunVerdict verdict = graph_run.judge(end, run_end, unseen);
-  const RunOutcome outcome{.graph = graph,
-                           .executor = executor,
+  const RunOutcome outcome{.state = executor.state(),
+                           .report = report,
+                           .rest = executor.rest(),
+                           .safe_commands = executor.safe_commands(),
                            .noted = noted,
                            .end = run_end,
                            .clock = clock ? &*clock : nullptr,
                            .guard = guard ? &*guard : nullptr,
                            .workers = options.workers,
+                           .team = executor.team(),
                            .links = graph_run.link_reports(),
                            .seconds = seconds,
                            .begun = begin,

@@ -34,26 +34,28 @@ nlohmann::ordered_json json_of(const RunOptions& options, const RunOutcome& outc
 
 void print(const RunOptions& options, const RunOutcome& outcome, const std::vector<Save>& saves,
            const WhatIfs& what_ifs, bool written) {
-  const Report& report = outcome.executor.report();
+  const Report& report = outcome.report;
   if (options.json) {
     std::cout << json_line(json_of(options, outcome, saves, what_ifs));
     return;
   }
-  if (outcome.clock != nullptr) {
-    std::cout << fmt::format("{}: {} s in real time{}\n", printable(outcome.graph.name),
-                             seconds_text(outcome.simulated), suffix_of(outcome.end));
+  if (outcome.in_real_time()) {
+    std::cout << fmt::format("{}: {} s in real time{}{}\n", printable(outcome.graph().name),
+                             seconds_text(outcome.simulated), outcome.threads != nullptr ? " on threads" : "",
+                             suffix_of(outcome.end));
   } else {
     const std::string from = outcome.begun > Duration{} ? ", from " + seconds_text(outcome.begun) + " s on," : "";
     std::cout << fmt::format("{}: {} s on the virtual clock{} in {:.2f} s, {:.0f} times real time{}\n",
-                             printable(outcome.graph.name), seconds_text(outcome.simulated), from, outcome.seconds,
+                             printable(outcome.graph().name), seconds_text(outcome.simulated), from, outcome.seconds,
                              real_time_factor(outcome), suffix_of(outcome.end));
   }
-  std::cout << to_text(outcome) << execution_text(options.execution, outcome.graph)
+  std::cout << to_text(outcome) << execution_text(options.execution, outcome.graph())
             << (options.guard ? "  guard       no task wrote to memory that is not its own\n" : "");
   std::cout << text_of(saves);
   if (written) std::cout << to_text(options.files);
   if (written) std::cout << to_text(options.recording);
-  std::cout << to_text(column_of(outcome.executor, outcome.true_states, outcome.verdict), what_ifs.outcomes());
+  std::cout << to_text(column_of(outcome.state, outcome.report, outcome.true_states, outcome.verdict),
+                       what_ifs.outcomes());
   std::cerr << told_faults(report);
 }
 

@@ -11,6 +11,7 @@
 #include "tools/report/value_json.h"
 #include "tools/report/verdicts.h"
 #include "tools/run/real_time.h"
+#include "tools/run/threads_report.h"
 
 namespace jarol::tools {
 namespace {
@@ -27,30 +28,31 @@ double real_time_factor(const RunOutcome& outcome) {
 }
 
 std::string to_text(const RunOutcome& outcome) {
-  const Graph& graph = outcome.graph;
-  const Executor& executor = outcome.executor;
-  const Report& report = executor.report();
+  const Graph& graph = outcome.graph();
+  const Report& report = outcome.report;
   std::string text = reached_text(
-      graph, [&](std::size_t communicator) { return executor.last_value(communicator); }, outcome.true_states);
+      graph, [&](std::size_t communicator) { return outcome.last_value(communicator); }, outcome.true_states);
   text += fmt::format("  activations {}, instants {}\n  digest      0x{:016x}\n", report.activations, report.instants,
                       report.digest);
+  if (outcome.threads != nullptr) text += "              nothing is claimed of the digest: its tasks ran on threads\n";
   for (const Task& task : graph.tasks)
     if (task.isolation == Isolation::weak)
       text += "              nothing is claimed of the digest: task '" + task.name + "' is weakly isolated\n";
   for (const std::string& warning : warnings(find_arithmetic())) text += "  note        " + warning + "\n";
   for (std::size_t i = 0; i < graph.tasks.size(); ++i)
-    if (const PrivateHeap* heap = executor.state().heaps[i])
+    if (const PrivateHeap* heap = outcome.state.heaps[i])
       text += fmt::format("  heap        {}: at most {} of {} bytes in use\n", graph.tasks[i].name, heap->most_used(),
                           heap->size());
   text += outcome.noted.told.to_text() + outcome.noted.logged.to_text();
   if (outcome.clock != nullptr) text += to_text(graph, *outcome.clock);
+  if (outcome.threads != nullptr) text += to_text(graph, *outcome.threads);
   for (const LinkReport& link : outcome.links) text += to_text(link);
-  text += to_text(graph, executor.rest(), outcome.end);
-  text += to_text(graph, executor.safe_commands(), outcome.end.ending);
+  text += to_text(graph, outcome.rest, outcome.end);
+  text += to_text(graph, outcome.safe_commands, outcome.end.ending);
   if (outcome.guard != nullptr) text += to_text(*outcome.guard);
   if (report.non_finite_inputs > 0)
     text += fmt::format("  {} values from outside were not finite and not taken\n", report.non_finite_inputs);
-  if (const StageTeam* team = executor.team())
+  if (const StageTeam* team = outcome.team)
     text += fmt::format("  workers     {}, {} of {} levels of tasks shared\n", outcome.workers, team->shared(),
                         team->shared() + team->alone());
   text += to_text(outcome.verdict);
@@ -58,19 +60,19 @@ std::string to_text(const RunOutcome& outcome) {
 }
 
 nlohmann::ordered_json to_json(const RunOutcome& outcome) {
-  const Graph& graph = outcome.graph;
-  const Executor& executor = outcome.executor;
-  const Report& report = executor.report();
+  const Graph& graph = outcome.graph();
+  const Report& report = outcome.report;
   auto heaps = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < graph.tasks.size(); ++i)
-    if (const PrivateHeap* heap = executor.state().heaps[i])
+    if (const PrivateHeap* heap = outcome.state.heaps[i])
       heaps[graph.tasks[i].name] = {{"size", heap->size()}, {"most_used", heap->most_used()}};
   nlohmann::ordered_json json{
       {"schema", "jarol.run/1"},
       {"graph", graph.name},
-      {"clock", outcome.clock != nullptr ? "real" : "virtual"},
+      {"clock", outcome.in_real_time() ? "real" : "virtual"},
+      {"concurrency", outcome.threads != nullptr ? "threads" : "exotasks"},
       {"digest", fmt::format("0x{:016x}", report.digest)},
-      {"digest_claimed", !has_weak_isolation(graph)},
+      {"digest_claimed", outcome.threads == nullptr && !has_weak_isolation(graph)},
       {"digest_notes", warnings(find_arithmetic())},
       {"simulated_ns", outcome.simulated.count()},
       {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
@@ -82,13 +84,14 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
       {"fault_summary", fault_summary_to_json(report)},
       {"non_finite_inputs", report.non_finite_inputs},
       {"ending", to_json(outcome.end)},
-      {"rest", to_json(graph, executor.rest(), outcome.end)},
-      {"safe_commands", to_json(graph, executor.safe_commands())},
+      {"rest", to_json(graph, outcome.rest, outcome.end)},
+      {"safe_commands", to_json(graph, outcome.safe_commands)},
       {"told", outcome.noted.told.to_json()},
       {"logged", outcome.noted.logged.to_json()},
       {"heaps", heaps},
-      {"outputs", outputs_to_json(graph, [&](std::size_t communicator) { return executor.last_value(communicator); })}};
+      {"outputs", outputs_to_json(graph, [&](std::size_t communicator) { return outcome.last_value(communicator); })}};
   if (outcome.clock != nullptr) json["real_time"] = to_json(graph, *outcome.clock);
+  if (outcome.threads != nullptr) json["real_time"] = to_json(graph, *outcome.threads);
   if (outcome.guard != nullptr) json["guardian"] = to_json(*outcome.guard);
   json["true_values"] = to_json(outcome.true_states);
   json["judgement"] = to_json(outcome.verdict);

@@ -60,14 +60,14 @@ std::string to_text(const WhatIf& what_if) {
   return text;
 }
 
-RunColumn column_of(const Executor& executor, const std::vector<TrueState>& truth, const RunVerdict& verdict) {
-  const Graph& graph = executor.state().plan.graph;
-  const Report& report = executor.report();
+RunColumn column_of(const RunState& state, const Report& report, const std::vector<TrueState>& truth,
+                    const RunVerdict& verdict) {
+  const Graph& graph = state.plan.graph;
   RunColumn column{.digest = report.digest, .fault_count = report.fault_count, .verdict = verdict};
   if (report.stopped) column.stopped = to_text(report.faults.back());
   for (const Reported& r : find_reported(graph)) {
     if (!r.command) continue;
-    column.reached.push_back(shown(r.title, r.leaf, executor.last_value(r.communicator), false));
+    column.reached.push_back(shown(r.title, r.leaf, state.last[r.communicator], false));
     if (truth.size() != 1) continue;  // of several vehicles nobody knows whose is meant
     const Value& values = truth.front().values;
     for (const Leaf& leaf : leaves_of(*values.type()))
@@ -141,7 +141,8 @@ WhatIfOutcome WhatIfs::run(const WhatIf& what_if, RecordSink* beside) const {
   other.disconnect();
   other.sinks().close();
   const std::vector<TrueState> truth = find_true_states(other.graph(), other.channels());
-  return {what_if, column_of(other.executor(), truth, other.judge(end_, end)), compared.differences()};
+  return {what_if, column_of(other.executor().state(), other.executor().report(), truth, other.judge(end_, end)),
+          compared.differences()};
 }
 
 }  // namespace jarol::tools

@@ -43,7 +43,8 @@ struct RunColumn {
   RunVerdict verdict{};
 };
 
-RunColumn column_of(const Executor& executor, const std::vector<TrueState>& truth, const RunVerdict& verdict);
+RunColumn column_of(const RunState& state, const Report& report, const std::vector<TrueState>& truth,
+                    const RunVerdict& verdict);
 
 /// A what-if that was run, beside its run.
 struct WhatIfOutcome {

@@ -1,0 +1,14 @@
+// What a run on threads tells of its rounds.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "runtime/jarol/threads_core.h"
+
+namespace jarol::tools {
+
+std::string to_text(const Graph& graph, const ThreadsCore& core);
+nlohmann::ordered_json to_json(const Graph& graph, const ThreadsCore& core);
+
+}  // namespace jarol::tools
