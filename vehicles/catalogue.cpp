@@ -17,6 +17,7 @@ VehicleClass submarine() {
     return std::make_unique<SubmarineTelemetry>(vehicle, to);
   };
   made.true_state = &messages::imc::SimulatedState::form;
+  made.make_announcement = announcement_of;
   return made;
 }
 

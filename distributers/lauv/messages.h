@@ -25,15 +25,4 @@ double unix_time();
 /// EstimatedState about an origin, latitude and longitude in rad; the altitude is not known.
 messages::imc::EstimatedState estimate_state(const tasks::Motion& motion, double latitude, double longitude);
 
-/// Who announces itself; the address as in "udp://127.0.0.1:6001", empty where it can't be reached.
-struct System {
-  std::string_view name;
-  std::int64_t type = 0;  // SystemType
-  double latitude = 0, longitude = 0;
-  std::string_view address;
-};
-
-constexpr Duration announce_period = std::chrono::seconds(10);
-messages::imc::Announce make_announce(const System& system);
-
 }  // namespace jarol::distributers

@@ -3,6 +3,7 @@
 
 #include "distributers/lauv/messages.h"
 #include "distributers/lauv/operator.h"
+#include "distributers/messages/imc_announce.h"
 #include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
 
@@ -173,13 +174,13 @@ void LauvOperator::send_plan_state(messages::Receiver& system) const {
 }
 
 void LauvOperator::announce(Duration instant, messages::Receiver& all) {
-  if (announced_ && instant - *announced_ < announce_period) return;
+  if (announced_ && instant - *announced_ < imc::announce_period) return;
   announced_ = instant;
-  all.receive(messages::refer_to(make_announce({.name = parameters_.name,
-                                                .type = imc::SystemType::UUV,
-                                                .latitude = parameters_.latitude,
-                                                .longitude = parameters_.longitude,
-                                                .address = address_})));
+  all.receive(messages::refer_to(imc::make_announce({.name = parameters_.name,
+                                                     .type = imc::SystemType::UUV,
+                                                     .latitude = parameters_.latitude,
+                                                     .longitude = parameters_.longitude,
+                                                     .address = address_})));
 }
 
 // Nobody has to be there as long as nothing was asked for.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "distributers/lauv/messages.h"
+#include "distributers/messages/imc_announce.h"
 #include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
 
@@ -224,9 +225,10 @@ void LauvVehicle::range(const imc::LblRange& m, const messages::MessageRef& from
 }
 
 void LauvVehicle::announce(Duration instant, messages::Receiver& all) {
-  if (announced_ && instant - *announced_ < announce_period) return;
+  if (announced_ && instant - *announced_ < imc::announce_period) return;
   announced_ = instant;
-  all.receive(messages::refer_to(make_announce({.name = "jarol", .type = imc::SystemType::CCU, .address = address_})));
+  all.receive(
+      messages::refer_to(imc::make_announce({.name = "jarol", .type = imc::SystemType::CCU, .address = address_})));
 }
 
 void LauvVehicle::send_actuation(const tasks::Actuation& actuation, messages::Receiver& system) {

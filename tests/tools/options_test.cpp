@@ -128,9 +128,11 @@ TEST_SUITE("tools/options") {
     const TemporaryFolder folder;
     const std::string script = folder.write("s.csv", "time,thruster\n0,0.5\n1,0\n"), csv = folder / "out.csv";
     const std::string vehicle = "vehicle submarine ", link = "--link udp --listen 7010 ";
-    check_refused(vehicle + link + "--csv " + csv,
-                  "--csv belongs to --script; what a peer does with it is not written");
-    check_refused(vehicle + link + "--rate 5", "--rate belongs to --script; what a peer does with it is not written");
+    check_refused(vehicle + link + "--rate 5", "--rate belongs to --csv, where the rows go");
+    check_refused(vehicle + "--link lockstep --listen 7010 --csv " + csv,
+                  "--csv has no place in lockstep: what a run does with it is told there, as by jarol run --record");
+    check_refused("vehicle helicopter " + link + "--announce 30100",
+                  "--announce: nobody looks for a helicopter, which has no message for that");
     check_refused(vehicle + link + "--script " + script, "--script and --link: either a script steers it or a peer");
     check_refused(vehicle + "--script " + script, "--script needs --csv, where the motion goes");
     check_refused(vehicle + "--describe --script " + script, "--script needs --csv, where the motion goes");
@@ -138,7 +140,7 @@ TEST_SUITE("tools/options") {
                   "--json belongs to --describe, and to --link in real time; add one of them, or leave it out");
     for (const std::string describe : {"", "--describe "}) {
       check_refused(vehicle + describe + "--csv " + csv,
-                    "--csv belongs to --script, which moves it; add that, or leave it out");
+                    "--csv belongs to --script or --link, which move it; add one, or leave it out");
       check_refused(vehicle + describe + "--listen 7010", "--listen needs --link");
     }
     for (const std::string option : {"--initial z=4", "--for 1s", "--seed 1"})

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "graph/language/quantities.h"
 #include "graph/registry.h"
@@ -14,6 +15,7 @@
 #include "tools/run/apart.h"
 #include "tools/run/known_with.h"
 #include "tools/vehicle/made_vehicle.h"
+#include "tools/vehicle/motion_file.h"
 #include "tools/vehicle/open_loop.h"
 #include "tools/vehicle/serve_vehicle.h"
 
@@ -125,10 +127,16 @@ int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, c
   const auto vehicle =
       make_vehicle(options.made, vehicle_class, parameters, own_seed(options.made, vehicle_class), problems);
   const Duration end = options.duration.empty() ? Duration::max() : end_of(options, {});
+  std::optional<MotionFile> motion;
+  const Duration period = options.csv.empty() ? Duration{} : period_of(options, vehicle->grid(), end);
+  if (!options.csv.empty()) motion.emplace(options.csv, vehicle_class);
   const Told told = options.bare ? Told::true_state : Told::all;
   RealTimeOptions real_time;
   if (options.priority > 0) real_time.priority = options.priority;
-  return serve_vehicle(*vehicle, vehicle_class, *link, end, {told, options.json}, real_time);
+  const int exit_code = serve_vehicle(*vehicle, vehicle_class, *link, end,
+                                      {told, options.json, motion ? &*motion : nullptr, period}, real_time);
+  if (motion) motion->commit();
+  return exit_code;
 }
 
 // A vehicle on TCP is the one that listens, unless it is told whom to connect to.
@@ -150,9 +158,12 @@ void require_effect(const Command& command, const Options& options) {
         "say --describe; or --script and --csv: what to do, and where the motion goes; or --link: who steers it");
   if (linked && scripted) throw std::invalid_argument("--script and --link: either a script steers it or a peer");
   if (scripted && options.csv.empty()) throw std::invalid_argument("--script needs --csv, where the motion goes");
-  if (!scripted)
-    command.refuse({"--csv", "--rate"}, linked ? "belongs to --script; what a peer does with it is not written"
-                                               : "belongs to --script, which moves it; add that, or leave it out");
+  if (in_lockstep)
+    command.refuse({"--csv", "--rate"},
+                   "has no place in lockstep: what a run does with it is told there, as by jarol run --record");
+  if (!scripted && !linked)
+    command.refuse({"--csv", "--rate"}, "belongs to --script or --link, which move it; add one, or leave it out");
+  if (options.csv.empty()) command.refuse({"--rate"}, "belongs to --csv, where the rows go");
   if (options.bare && (!linked || in_lockstep))
     throw std::invalid_argument("--bare needs --link, and one in real time");
   if (!linked || in_lockstep) command.refuse({"--rt-priority"}, "belongs to --link in real time");
@@ -175,6 +186,9 @@ int vehicle(const Options& options) {
     throw std::invalid_argument("there is no vehicle '" + options.name + "'" + did_you_mean(options.name, names) +
                                 "; this build has: " + list_of(names));
   }
+  for (const auto& [key, text] : options.link)
+    if (key == "announce" && found->make_announcement == nullptr)
+      throw std::invalid_argument("--announce: nobody looks for a " + found->name + ", which has no message for that");
   if (options.bare && found->true_state == nullptr)
     throw std::invalid_argument("--bare: there is no message of a " + found->name + "'s true state");
   Problems problems;
@@ -229,6 +243,7 @@ void add_vehicle(CommandLine& line, int& exit_code) {
       {"baud", "Link: rate of the serial line; default 115200"},
       {"key", "Link: file of the key that both ends have"},
       {"silence", "Link: of the peer, after which another may take its place; default 5 s"},
+      {"announce", "Link: where it tells that it is there, as in 127.0.0.1:30100-30104; default: nowhere"},
       {"id", "Link: the sender's id in what is sent, in hex or decimal, as in 0x00D1"},
   };
   command

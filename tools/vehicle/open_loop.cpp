@@ -10,8 +10,8 @@
 #include "graph/language/quantities.h"
 #include "graph/text/escape.h"
 #include "graph/values/bind.h"
-#include "runtime/files/whole_file.h"
 #include "tools/report/progress.h"
+#include "tools/vehicle/motion_file.h"
 
 namespace jarol::tools {
 namespace {
@@ -28,14 +28,6 @@ std::optional<std::size_t> find_input(const Table::Cell& title, const std::vecto
   problems.add(title.where, "column '" + title.text + "' is no input of vehicle '" + vehicle + "'" +
                                 did_you_mean(title.text, names) + "; there are: " + list_of(names));
   return std::nullopt;
-}
-
-void add_cells(std::string& row, const std::vector<Leaf>& leaves, const void* value) {
-  for (const Leaf& leaf : leaves) {
-    const void* cell = static_cast<const std::byte*>(value) + leaf.offset;
-    row += ',';
-    if (leaf.type->finite(cell)) row += scalar_text(*leaf.type, cell);
-  }
 }
 
 }  // namespace
@@ -73,26 +65,13 @@ std::vector<Commands> read_commands(const std::shared_ptr<const Source>& script,
 
 void run_open_loop(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class,
                    const std::vector<Commands>& commands, Duration period, Duration end, const std::string& path) {
-  const std::vector<Leaf> states = leaves_of(type_of<vehicles::VehicleState>()),
-                          outputs = leaves_of(*vehicle_class.outputs);
-  WholeFile file(path);
-  std::string row = "time";
-  for (const auto* leaves : {&states, &outputs})
-    for (const Leaf& leaf : *leaves) row += "," + csv_text(leaf.path);
-  file.write(row + "\n");
-
+  MotionFile file(path, vehicle_class);
   std::atomic<Duration> reached{};
   const Progress progress(::isatty(STDERR_FILENO) == 1 && end > Duration{}, end, [&] { return reached.load(); });
   std::size_t next = 0;
   for (Duration at{};; at += vehicle.grid()) {
     reached = at;
-    if (at % period == Duration{}) {
-      const vehicles::VehicleState state = vehicle.state();
-      row = seconds_text(at);
-      add_cells(row, states, &state);
-      add_cells(row, outputs, vehicle.outputs());
-      file.write(row + "\n");
-    }
+    if (at % period == Duration{}) file.add(at, vehicle);
     if (at >= end) break;
     while (next < commands.size() && commands[next].time <= at) ++next;
     // given again at each step, so that no time-out of the vehicle ends a row before its time

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "distributers/links/tcp.h"
+#include "distributers/messages/imc_announce.h"
 #include "graph/language/quantities.h"
 #include "tools/report/exit_code.h"
 #include "tools/report/json_line.h"
@@ -54,6 +55,25 @@ std::unique_ptr<messages::Receiver> make_telemetry(const vehicles::Vehicle& vehi
   return std::make_unique<All>(to);
 }
 
+// Tells those who look for systems that it is there, as often as DUNE does.
+class Announcements {
+ public:
+  Announcements(const vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link)
+      : vehicle_(vehicle), make_(link.announces() ? vehicle_class.make_announcement : nullptr), link_(link) {}
+
+  void reach(Duration instant) {
+    if (make_ == nullptr || instant < next_) return;
+    next_ = instant + messages::imc::announce_period;
+    link_.announce(make_(vehicle_, link_.transport().address()));
+  }
+
+ private:
+  const vehicles::Vehicle& vehicle_;
+  decltype(vehicles::VehicleClass::make_announcement) make_;
+  distributers::Link& link_;
+  Duration next_{};
+};
+
 void report(const vehicles::Mishap& mishap, const std::string& name) {
   std::cerr << "error: the " << name << " has " << mishap.text << ", at " << seconds_text(mishap.instant) << " s\n";
 }
@@ -84,8 +104,14 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
   clock.start();
   const std::int64_t grid = vehicle.grid().count();
   std::int64_t instant = 0;
+  Announcements announcements(vehicle, vehicle_class, link);
+  const auto write = [&](Duration at) {
+    if (telling.motion != nullptr && at % telling.period == Duration{}) telling.motion->add(at, vehicle);
+  };
+  announcements.reach(Duration{});
   vehicle.sense(to_peer);
   link.flush();
+  write(Duration{});
   try {
     for (; instant < end.count() && !interrupted.load(std::memory_order_relaxed); instant += grid) {
       clock.wait_until(instant + grid, interrupted);
@@ -94,8 +120,10 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
       to_vehicle.heard = false;
       link.receive(to_vehicle);
       diary.note(Duration(instant + grid), to_vehicle.heard);
+      announcements.reach(Duration(instant + grid));
       vehicle.sense(to_peer);
       link.flush();
+      write(Duration(instant + grid));
     }
   } catch (const vehicles::NoState& error) {
     std::cerr << "error: " << error.what() << "\n";

@@ -9,6 +9,7 @@
 #include "distributers/links/link.h"
 #include "distributers/links/lockstep.h"
 #include "runtime/machine/real_clock.h"
+#include "tools/vehicle/motion_file.h"
 
 namespace jarol::tools {
 
@@ -17,13 +18,16 @@ enum class Told { all, true_state };
 
 struct Telling {
   Told told = Told::all;
-  bool json = false;  // at the end, instead of text
+  bool json = false;             // at the end, instead of text
+  MotionFile* motion = nullptr;  // gets a row each `period`, a multiple of the vehicle's grid; null: nothing is written
+  std::chrono::nanoseconds period{};
 };
 
 /// A line on stderr if something has become of the vehicle that no mission wants; false: nothing has.
 bool report_mishap(const vehicles::Vehicle& vehicle, const std::string& name);
 
-/// Runs until `end` or Ctrl-C and tells what it did and what was carried; the exit code.
+/// Runs until `end` or Ctrl-C and tells what it did and what was carried; the exit code. The motion's file is left to
+/// be committed.
 int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
                   std::chrono::nanoseconds end, const Telling& telling = {}, const RealTimeOptions& real_time = {});
 

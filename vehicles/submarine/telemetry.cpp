@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "distributers/messages/imc_announce.h"
+#include "graph/math/geometry.h"
 #include "vehicles/submarine/io.h"
 
 namespace jarol::vehicles {
@@ -116,6 +118,23 @@ void SubmarineTelemetry::tell_water(const imc::SimulatedState& s) {
   to_.receive(messages::refer_to(imc::GroundVelocity{Validity::VAL_VEL_X | Validity::VAL_VEL_Y | Validity::VAL_VEL_Z,
                                                      static_cast<double>(s.u) + x, static_cast<double>(s.v) + y,
                                                      static_cast<double>(s.w) + z}));
+}
+
+messages::Message announcement_of(const Vehicle& vehicle, const std::string& address) {
+  struct Truth : messages::Receiver {
+    void receive(messages::MessageRef message) override {
+      if (const auto* state = message.as<imc::SimulatedState>()) at = *state;
+    }
+    imc::SimulatedState at;
+  } truth;
+  vehicle.sense(truth);
+  const EarthRadii radii = earth_radii(truth.at.lat);
+  const imc::Announce announce = imc::make_announce({.name = "lauv-simulator-1",
+                                                     .type = imc::SystemType::UUV,
+                                                     .latitude = truth.at.lat + truth.at.x / radii.north,
+                                                     .longitude = truth.at.lon + truth.at.y / radii.east,
+                                                     .address = address});
+  return messages::Message(messages::refer_to(announce));
 }
 
 }  // namespace jarol::vehicles

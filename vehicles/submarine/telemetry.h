@@ -41,4 +41,8 @@ class SubmarineTelemetry : public messages::Receiver {
   std::array<Reading, 8> readings_;
 };
 
+/// DUNE's Announce of a simulated submarine, which can be reached at an address, as in "udp://127.0.0.1:6002", and lies
+/// where it is.
+messages::Message announcement_of(const Vehicle& vehicle, const std::string& address);
+
 }  // namespace jarol::vehicles

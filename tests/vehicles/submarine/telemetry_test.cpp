@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "graph/math/geometry.h"
 #include "vehicles/catalogue.h"
 #include "vehicles/submarine/submarine.h"
 
@@ -33,6 +34,27 @@ struct Peer : messages::Receiver {
 }  // namespace
 
 TEST_SUITE("vehicles/submarine_telemetry") {
+  TEST_CASE("it announces where it lies, and the address at which it is reached") {
+    SubmarineParameters parameters;
+    Submarine submarine(parameters);
+    VehicleState state = submarine.state();
+    state.x = 1000;
+    state.y = -2000;
+    state.z = 3;
+    submarine.place(state);
+    const messages::Message message = announcement_of(submarine, "udp://127.0.0.1:6002");
+    const auto* announce = message.as<imc::Announce>();
+    REQUIRE(announce != nullptr);
+    CHECK(announce->sys_name == "lauv-simulator-1");
+    CHECK(announce->sys_type == imc::SystemType::UUV);
+    CHECK(announce->services == "imc+info://0.0.0.0/version/5.4.31;imc+udp://127.0.0.1:6002/");
+    // a degree of latitude has 111057.5 m here, one of longitude 83901.2 m, by the usual series for WGS-84
+    CHECK((announce->lat - parameters.sea.latitude) / degree ==
+          doctest::Approx(1000 / 111057.5).epsilon(1e-4).scale(0));
+    CHECK((announce->lon - parameters.sea.longitude) / degree ==
+          doctest::Approx(-2000 / 83901.2).epsilon(1e-4).scale(0));
+  }
+
   TEST_CASE("in each of ten seconds a peer is told as often as DUNE tells, and nothing else") {
     SubmarineParameters parameters;
     parameters.sea.beacons.reach = 0;  // there are none where DUNE's simulator is
