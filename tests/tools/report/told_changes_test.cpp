@@ -117,7 +117,7 @@ TEST_SUITE("tools/told_changes") {
     CHECK(told_in(command::jarol(run).output) ==
           std::vector<std::string>{
               "to_terminal at 12.28 s: state landing, cause sonar_lost: the sonar tells nothing credible",
-              "to_terminal at 18.325 s: state ground", "to_terminal at 28.03 s: cause none"});
+              "to_terminal at 18.19 s: state ground", "to_terminal at 28.03 s: cause none"});
     CHECK(nlohmann::json::parse(command::jarol(run + " --json", "2>/dev/null").output)["told"][0] ==
           nlohmann::json{{"communicator", "to_terminal"},
                          {"instant_ns", 12'280'000'000},
