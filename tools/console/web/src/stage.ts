@@ -78,7 +78,7 @@ export class Stage {
     box.append(canvas);
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", `the ${vehicle.kind} and its path`);
-    this.renderer.setPixelRatio(Math.min(2, this.software ? 1 : devicePixelRatio));
+    this.renderer.setPixelRatio(this.software ? 1 : Math.min(2, devicePixelRatio));
     this.controls = new OrbitControls(this.eye, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener("change", () => this.turning || this.render());
@@ -249,6 +249,7 @@ export class Stage {
     this.eye.position.copy(this.controls.target).add(new three.Vector3(-0.6, 0.5, 0.7).multiplyScalar(size * 1.2));
   }
 
+  private readonly pixel = new Uint8Array(4);
   // At most a quarter of the time goes into pictures: the next one waits.
   private render(): void {
     const begun = performance.now();
@@ -271,7 +272,11 @@ export class Stage {
     this.dome.mesh.position.copy(this.eye.position);
     this.renderer.render(this.scene, this.eye);
     this.renderer.domElement.dataset.instant = String(this.instant);
-    if (this.software) this.renderer.getContext().finish();
+    if (this.software) {
+      // waits until the picture is made, which finish() does not where another process makes it
+      const gl = this.renderer.getContext();
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, this.pixel);
+    }
     const cost = performance.now() - begun;
     this.free = cost > 12 ? performance.now() + 3 * cost : 0;
   }
