@@ -2,6 +2,7 @@
 
 #include "graph/language/quantities.h"
 #include "graph/text/escape.h"
+#include "graph/values/type_of.h"
 
 namespace jarol::tools {
 namespace {
