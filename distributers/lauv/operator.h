@@ -10,6 +10,7 @@
 #include "distributers/lauv/plan_run.h"
 #include "distributers/lauv/plan_store.h"
 #include "distributers/messages/imc.h"
+#include "distributers/messages/imc_announce.h"
 #include "graph/values/type_of.h"
 #include "tasks/values/guidance.h"
 #include "tasks/values/instruments.h"
@@ -186,7 +187,7 @@ class LauvOperator {
   bool motion_sent_ = false;  // by channel `motion`, which has more than `report`
   bool mode_changed_ = true;
   std::optional<std::int64_t> second_;  // told for it
-  std::optional<Duration> announced_;
+  messages::imc::AnnounceTimer announce_timer_;
   struct Answer {
     messages::Message message;
     imc::Header header;

@@ -3,7 +3,6 @@
 
 #include "distributers/lauv/messages.h"
 #include "distributers/lauv/operator.h"
-#include "distributers/messages/imc_announce.h"
 #include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
 
@@ -174,8 +173,7 @@ void LauvOperator::send_plan_state(messages::Receiver& system) const {
 }
 
 void LauvOperator::announce(Duration instant, messages::Receiver& all) {
-  if (announced_ && instant - *announced_ < imc::announce_period) return;
-  announced_ = instant;
+  if (!announce_timer_.is_due(instant)) return;
   all.receive(messages::refer_to(imc::make_announce({.name = parameters_.name,
                                                      .type = imc::SystemType::UUV,
                                                      .latitude = parameters_.latitude,

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "distributers/lauv/messages.h"
-#include "distributers/messages/imc_announce.h"
 #include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
 
@@ -187,15 +186,15 @@ void LauvVehicle::entity(const imc::EntityState& m, const messages::MessageRef& 
 // offsets from the origin along meridian and parallel
 void LauvVehicle::place(double latitude, double longitude) {
   if (!all_finite({latitude, longitude})) return;
-  const EarthRadii radii = earth_radii(latitude_);
-  const bool far = std::hypot((latitude - latitude_) * radii.north, (longitude - longitude_) * radii.east) > flat_earth;
-  if (in.instruments->place.count < 1 && far) {
+  EarthRadii radii = earth_radii(latitude_);
+  if (in.instruments->place.count < 1 &&
+      std::hypot((latitude - latitude_) * radii.north, (longitude - longitude_) * radii.east) > flat_earth) {
     latitude_ = latitude;
     longitude_ = longitude;
+    radii = earth_radii(latitude);
   }
-  const EarthRadii here = earth_radii(latitude_);
   tasks::VectorReading& r = in.instruments.renew().place;
-  r = {(latitude - latitude_) * here.north, (longitude - longitude_) * here.east, 0,
+  r = {(latitude - latitude_) * radii.north, (longitude - longitude_) * radii.east, 0,
        std::max<std::int64_t>(r.count, 0) + 1};
 }
 
@@ -225,8 +224,7 @@ void LauvVehicle::range(const imc::LblRange& m, const messages::MessageRef& from
 }
 
 void LauvVehicle::announce(Duration instant, messages::Receiver& all) {
-  if (announced_ && instant - *announced_ < imc::announce_period) return;
-  announced_ = instant;
+  if (!announce_timer_.is_due(instant)) return;
   all.receive(
       messages::refer_to(imc::make_announce({.name = "jarol", .type = imc::SystemType::CCU, .address = address_})));
 }

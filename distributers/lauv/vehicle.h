@@ -9,6 +9,7 @@
 #include "distributers/interfaces/distributer.h"
 #include "distributers/lauv/entities.h"
 #include "distributers/messages/imc.h"
+#include "distributers/messages/imc_announce.h"
 #include "graph/math/geometry.h"
 #include "graph/values/type_of.h"
 #include "tasks/values/instruments.h"
@@ -165,7 +166,7 @@ class LauvVehicle {
   double latitude_ = 0, longitude_ = 0;  // of the origin
   std::array<Beacon, 2> beacons_{};
   std::string address_;
-  std::optional<Duration> announced_;
+  messages::imc::AnnounceTimer announce_timer_;
 };
 
 }  // namespace jarol::distributers

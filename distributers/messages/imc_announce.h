@@ -1,8 +1,9 @@
-// How a system of IMC tells that it is there.
+// How a system of IMC announces itself.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "distributers/messages/imc.h"
@@ -17,8 +18,20 @@ struct System {
   std::string_view address;
 };
 
-/// DUNE's.
-inline constexpr std::chrono::nanoseconds announce_period = std::chrono::seconds(10);
 Announce make_announce(const System& system);
+
+/// When a system announces itself: at once, and then every 10 s, as DUNE does.
+class AnnounceTimer {
+ public:
+  /// Counts from an instant at which it is due.
+  bool is_due(std::chrono::nanoseconds instant) {
+    if (last_ && instant - *last_ < std::chrono::seconds(10)) return false;
+    last_ = instant;
+    return true;
+  }
+
+ private:
+  std::optional<std::chrono::nanoseconds> last_;
+};
 
 }  // namespace jarol::messages::imc

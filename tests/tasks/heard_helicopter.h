@@ -23,6 +23,8 @@ struct HeardHelicopter {
                                  .new_y = true};
   tasks::FlightDirective directive{.state = tasks::FlightState::ground};
 
+  static constexpr double dt = 0.015;  // s
+
   const tasks::FlightEstimate& run(int periods) {
     for (int i = 0; i < periods; ++i) {
       ++sensors.answers;
@@ -31,7 +33,7 @@ struct HeardHelicopter {
     return out.estimate;
   }
 
-  // Takes off, and is lifted slowly to an altitude, as all sensors tell.
+  // Takes off, and is lifted slowly to an altitude, as all sensors show.
   void lift_to(double altitude) {
     run(100);
     directive.state = tasks::FlightState::flying;
@@ -43,5 +45,12 @@ struct HeardHelicopter {
     run(300);
   }
 };
+
+/// One that hovers at 1 m, all sensors agreeing.
+inline HeardHelicopter hovering() {
+  HeardHelicopter heard;
+  heard.lift_to(1);
+  return heard;
+}
 
 }  // namespace jarol::tests

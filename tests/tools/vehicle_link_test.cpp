@@ -1,4 +1,4 @@
-// `jarol vehicle` over a link: what it writes, and who is told that it is there.
+// `jarol vehicle` over a link: what it writes, and how it announces itself.
 #include <doctest/doctest.h>
 #include <sys/socket.h>
 
@@ -30,8 +30,7 @@ TEST_SUITE("tools/vehicle_link") {
     CHECK(rows.back()[3] < 4);  // it rises
   }
 
-  TEST_CASE(
-      "with --announce it tells that it is there at once and every ten seconds, with the port at which it listens") {
+  TEST_CASE("with --announce it announces itself at once, with the port at which it listens, and not again in 300 ms") {
     const links::Descriptor socket(::socket(AF_INET, SOCK_DGRAM, 0));
     const links::Address any = links::Address::parse("0");
     REQUIRE(::bind(socket.get(), any.get(), any.size()) == 0);

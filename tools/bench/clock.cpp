@@ -3,7 +3,6 @@
 #include <sys/mman.h>
 #include <time.h>
 
-#include <algorithm>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "runtime/execute/executor.h"
 #include "tools/bench/graphs.h"
 #include "tools/bench/message.h"
+#include "tools/bench/timing.h"
 
 namespace jarol::bench {
 namespace {
@@ -42,12 +42,6 @@ void run_engine(const Graph& graph, Samples& lateness) {
   lateness.insert(lateness.end(), Stamp::begun.begin() + 1, Stamp::begun.end());
 }
 
-double percentile(Samples& samples, double part) {
-  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(samples.size() - 1));
-  std::nth_element(samples.begin(), at, samples.end());
-  return 1e-3 * static_cast<double>(*at);
-}
-
 }  // namespace
 
 Figure measure_clock(const std::string& name, double part, int repeats) {
@@ -64,7 +58,7 @@ Figure measure_clock(const std::string& name, double part, int repeats) {
     }
   }).join();
   munlockall();
-  const double value = percentile(engine, part), floor = percentile(bare, part);
+  const double value = microseconds_at(part, engine), floor = microseconds_at(part, bare);
   return {name, value, "us", floor, value / floor, 1.1, "lateness of a task at 1 kHz / of a bare sleeping loop"};
 }
 

@@ -13,6 +13,12 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+double microseconds_at(double part, std::vector<std::int64_t>& samples) {
+  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(samples.size() - 1));
+  std::nth_element(samples.begin(), at, samples.end());
+  return 1e-3 * static_cast<double>(*at);
+}
+
 void keep(double result) { asm volatile("" : : "g"(&result) : "memory"); }
 
 GraphRun::GraphRun(const std::string& text, bool digest, Duration slice, std::size_t workers)

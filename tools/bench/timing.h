@@ -1,8 +1,10 @@
 // How figures are measured: beside their floor, in turn, in one process.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "runtime/execute/executor.h"
 #include "tools/bench/figures.h"
@@ -10,6 +12,9 @@
 namespace jarol::bench {
 
 double seconds_of(const std::function<void()>& work);
+
+/// The sample, in us, that a part of all samples, in ns, does not exceed. Reorders them.
+double microseconds_at(double part, std::vector<std::int64_t>& samples);
 
 /// Takes results, so that no floor is optimised away.
 void keep(double result);

@@ -119,12 +119,6 @@ void run_watched(const Graph& graph, int watchers, bool reads, std::vector<std::
   run(graph, &console.feed(), lateness);
 }
 
-double percentile(std::vector<std::int64_t>& samples, double part) {
-  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(samples.size() - 1));
-  std::nth_element(samples.begin(), at, samples.end());
-  return 1e-3 * static_cast<double>(*at);
-}
-
 }  // namespace
 
 Figure measure_watched(const std::string& name, int watchers, bool reads, int repeats) {
@@ -141,7 +135,7 @@ Figure measure_watched(const std::string& name, int watchers, bool reads, int re
     }
   }).join();
   ::munlockall();
-  const double value = percentile(watched, 0.99), floor = percentile(alone, 0.99);
+  const double value = microseconds_at(0.99, watched), floor = microseconds_at(0.99, alone);
   const std::string who = watchers == 0   ? "nobody at its console"
                           : !reads        ? "a page that reads nothing"
                           : watchers == 1 ? "a page that watches"

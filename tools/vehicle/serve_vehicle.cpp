@@ -55,23 +55,21 @@ std::unique_ptr<messages::Receiver> make_telemetry(const vehicles::Vehicle& vehi
   return std::make_unique<All>(to);
 }
 
-// Tells those who look for systems that it is there, as often as DUNE does.
+// Announces the vehicle to those who look for systems, as often as DUNE does.
 class Announcements {
  public:
   Announcements(const vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link)
       : vehicle_(vehicle), make_(link.announces() ? vehicle_class.make_announcement : nullptr), link_(link) {}
 
   void reach(Duration instant) {
-    if (make_ == nullptr || instant < next_) return;
-    next_ = instant + messages::imc::announce_period;
-    link_.announce(make_(vehicle_, link_.transport().address()));
+    if (make_ != nullptr && timer_.is_due(instant)) link_.announce(make_(vehicle_, link_.transport().address()));
   }
 
  private:
   const vehicles::Vehicle& vehicle_;
   decltype(vehicles::VehicleClass::make_announcement) make_;
   distributers::Link& link_;
-  Duration next_{};
+  messages::imc::AnnounceTimer timer_;
 };
 
 void report(const vehicles::Mishap& mishap, const std::string& name) {

@@ -59,10 +59,10 @@ Helicopter::Helicopter(const HelicopterParameters& parameters, std::uint64_t see
       voltage_(battery_.calc_voltage(0.0)),
       judge_(parameters, plant_->motion()),
       seed_(seed),
-      motors_{FailingMotor(parameters.failures.front, spread_seed(seed, "front.failure")),
-              FailingMotor(parameters.failures.right, spread_seed(seed, "right.failure")),
-              FailingMotor(parameters.failures.rear, spread_seed(seed, "rear.failure")),
-              FailingMotor(parameters.failures.left, spread_seed(seed, "left.failure"))},
+      motors_{FailingActuator(parameters.failures.front, spread_seed(seed, "front.failure")),
+              FailingActuator(parameters.failures.right, spread_seed(seed, "right.failure")),
+              FailingActuator(parameters.failures.rear, spread_seed(seed, "rear.failure")),
+              FailingActuator(parameters.failures.left, spread_seed(seed, "left.failure"))},
       payload_until_(draw_begin(parameters.payload.at, parameters.payload.chance, spread_seed(seed, "payload"))) {
   sensors_.sample(0, scene());
   sensors_.sample_imu(0, scene());
@@ -100,8 +100,10 @@ void Helicopter::step() {
   command.wind_n = wind_.now(-plant_->motion().p_n[2]);
   const double time = 1e-9 * static_cast<double>(nanoseconds_);
   for (std::size_t i = 0; i < 4; ++i) {
-    const double setting = setting_of(parameters_, robostix_.signals()[i], voltage_);
-    command.settings[i] = motors_[i].follow(setting, parameters_.rotors.thrust_exponent, time);
+    if (!motors_[i].is_stuck(time)) settings_[i] = setting_of(parameters_, robostix_.signals()[i], voltage_);
+    const double part = motors_[i].part(time);
+    const double slower = part == 1.0 ? 1.0 : std::pow(part, 1.0 / parameters_.rotors.thrust_exponent);
+    command.settings[i] = slower * settings_[i];
   }
   command.payload = time < payload_until_ ? parameters_.payload.mass : 0.0;
   plant_->step(command);
@@ -136,7 +138,7 @@ void Helicopter::tell_outputs(double current) {
 
 void Helicopter::serialize(Archive& archive) {
   plant_->serialize(archive);
-  archive(robostix_, battery_, wind_, sensors_, voltage_, outputs_, judge_, motors_, nanoseconds_);
+  archive(robostix_, battery_, wind_, sensors_, voltage_, outputs_, judge_, settings_, nanoseconds_);
   archive.bytes(&answer_, sizeof answer_);
   archive(signals_, answers_);
 }

@@ -10,10 +10,10 @@
 #include "vehicles/helicopter/battery.h"
 #include "vehicles/helicopter/io.h"
 #include "vehicles/helicopter/judge.h"
-#include "vehicles/helicopter/motor_failure.h"
 #include "vehicles/helicopter/packets.h"
 #include "vehicles/helicopter/robostix.h"
 #include "vehicles/helicopter/sensors.h"
+#include "vehicles/mechanics/actuator_failure.h"
 
 namespace jarol::vehicles {
 
@@ -70,8 +70,9 @@ class Helicopter : public Vehicle {
   HelicopterJudge judge_;
   std::int64_t nanoseconds_ = 0;
   std::uint64_t seed_ = 0;
-  std::array<FailingMotor, 4> motors_{};
-  double payload_until_ = 0.0;  // s
+  std::array<FailingActuator, 4> motors_{};
+  std::array<double, 4> settings_{};  // of the motors; a stuck one keeps its own
+  double payload_until_ = 0.0;        // s
 };
 
 }  // namespace jarol::vehicles

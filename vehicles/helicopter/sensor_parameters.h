@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "graph/values/describe.h"
-#include "vehicles/helicopter/motor_failure.h"
+#include "vehicles/mechanics/actuator_failure.h"
 #include "vehicles/sensors/sensor_failure.h"
 
 namespace jarol::vehicles {
@@ -87,10 +87,10 @@ struct FailureParameters {
   SensorFailure laser_north{};
   SensorFailure laser_east{};
   SensorFailure bmu{};
-  MotorFailure front{};
-  MotorFailure right{};
-  MotorFailure rear{};
-  MotorFailure left{};
+  ActuatorFailure front{};
+  ActuatorFailure right{};
+  ActuatorFailure rear{};
+  ActuatorFailure left{};
 
   static constexpr auto fields() {
     using S = FailureParameters;

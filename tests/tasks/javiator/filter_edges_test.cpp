@@ -10,14 +10,9 @@ namespace {
 using namespace jarol;
 using namespace jarol::tasks;
 using jarol::tests::HeardHelicopter;
+using jarol::tests::hovering;
 
-constexpr double dt = 0.015;
-
-HeardHelicopter hovering() {
-  HeardHelicopter heard;
-  heard.lift_to(1);
-  return heard;
-}
+constexpr double dt = HeardHelicopter::dt;
 }  // namespace
 
 TEST_SUITE("tasks/javiator_filter/edges") {

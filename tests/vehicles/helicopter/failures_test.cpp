@@ -38,13 +38,13 @@ std::vector<double> begins(double chance) {
 TEST_SUITE("vehicles/helicopter_failures") {
   TEST_CASE("a motor that is lost stands, one that is weak gives its part of the thrust, one that is stuck turns on") {
     HelicopterParameters parameters = flying();
-    parameters.failures.front = {MotorFailureKind::lost, 0.1};
-    parameters.failures.right = {MotorFailureKind::weak, 0.1, 0.5};
+    parameters.failures.front = {ActuatorFailureKind::lost, 0.1};
+    parameters.failures.right = {ActuatorFailureKind::weak, 0.1, 0.5};
     const HelicopterRotors reached = rotors_after(parameters, 1);
     CHECK(reached.front < 1);
     CHECK(std::pow(reached.right / reached.left, parameters.rotors.thrust_exponent) == doctest::Approx(0.5));
 
-    parameters.failures.rear = {MotorFailureKind::stuck, 0.1};
+    parameters.failures.rear = {ActuatorFailureKind::stuck, 0.1};
     Helicopter helicopter(parameters);
     HelicopterInputs inputs{8000, 8000, 8000, 8000};
     for (int i = 0; i < 100; ++i) {

@@ -25,7 +25,7 @@ HelicopterParameters any_parameters(std::mt19937_64& random) {
   parameters.air.dryden = random() % 2 == 0;
   parameters.payload = {.mass = between(random, 0, 0.5), .at = between(random, 0, 10)};
   if (random() % 2 == 0)
-    parameters.failures.right = {.kind = MotorFailureKind::weak, .at = between(random, 0, 10), .by = 0.7};
+    parameters.failures.right = {.kind = ActuatorFailureKind::weak, .at = between(random, 0, 10), .by = 0.7};
   return parameters;
 }
 

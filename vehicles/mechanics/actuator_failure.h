@@ -1,4 +1,4 @@
-// Fins and propeller that fail at a time or by chance, as a vehicle file says.
+// Actuators (motors, fins, propellers) that fail at a time or by chance, as a vehicle file says.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ constexpr auto enumerators(ActuatorFailureKind) {
   using enum ActuatorFailureKind;
   return std::array<Enumerator<ActuatorFailureKind>, 4>{
       {{"none", none},
-       {"lost", lost, "a fin is broken off, the propeller turns no more"},
-       {"stuck", stuck, "a fin stays where it is, the propeller turns on as it did"},
-       {"weak", weak, "a fin or the propeller gives a part of its force"}}};
+       {"lost", lost, "a motor or propeller turns no more, a fin is broken off"},
+       {"stuck", stuck, "a motor or propeller turns on as it did, a fin stays where it is"},
+       {"weak", weak, "it gives a part of its force"}}};
 }
 
 struct ActuatorFailure {
@@ -34,24 +34,10 @@ struct ActuatorFailure {
   }
 };
 
-struct ActuatorFailureParameters {
-  ActuatorFailure fin0{};
-  ActuatorFailure fin1{};
-  ActuatorFailure fin2{};
-  ActuatorFailure fin3{};
-  ActuatorFailure propeller{};
-
-  static constexpr auto fields() {
-    using S = ActuatorFailureParameters;
-    return describe(field<&S::fin0>("", "the bottom rudder"), field<&S::fin1>("", "the port elevator"),
-                    field<&S::fin2>("", "the starboard elevator"), field<&S::fin3>("", "the top rudder"),
-                    field<&S::propeller>("", "the propeller"));
-  }
-};
-
 /// An actuator's failure in one run.
 class FailingActuator {
  public:
+  FailingActuator() = default;
   FailingActuator(const ActuatorFailure& failure, std::uint64_t seed)
       : failure_(failure), begin_(draw_begin(failure.at, failure.chance, seed)) {}
 
@@ -73,8 +59,8 @@ class FailingActuator {
     return seconds >= begin_ ? failure_.kind : ActuatorFailureKind::none;
   }
 
-  ActuatorFailure failure_;
-  double begin_;
+  ActuatorFailure failure_{};
+  double begin_ = 0.0;
 };
 
 }  // namespace jarol::vehicles
