@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/math/rotations.h"
+
 namespace jarol::distributers {
 namespace {
 
@@ -27,12 +29,6 @@ std::uint8_t state_of(tasks::FlightState state) {
     case tasks::FlightState::landing: break;
   }
   return Shown::FLYING;
-}
-
-std::array<double, 3> euler_rates(const tasks::HelicopterReport& r) {
-  const double sin_roll = std::sin(r.roll), cos_roll = std::cos(r.roll);
-  const double turning = (r.q * sin_roll + r.r * cos_roll) / std::cos(r.pitch);
-  return {1e3 * (r.p + turning * std::sin(r.pitch)), 1e3 * (r.q * cos_roll - r.r * sin_roll), 1e3 * turning};
 }
 
 javiator::MotorOffsets effort(const std::array<double, 4>& signals) {
@@ -100,9 +96,9 @@ tasks::PilotCommand JaviatorOperator::take_command() {
 }
 
 void JaviatorOperator::send_report(const tasks::HelicopterReport& report, messages::Receiver& system) {
-  const std::array<double, 3> rates = euler_rates(report);
+  const Eigen::Vector3d rates = 1e3 * euler_rates(report.roll, report.pitch, {report.p, report.q, report.r});  // mrad/s
   // what it calls acceleration is less than a third of it at 15 ms
-  const auto gain = [&](std::size_t axis) { return to_wire(19.79 * (rates[axis] - rates_[axis])); };
+  const auto gain = [&](Eigen::Index axis) { return to_wire(19.79 * (rates[axis] - rates_[axis])); };
   const auto& signals = report.signals;
   const std::uint8_t state = state_of(report.state);
   const javiator::GroundReport shown{

@@ -1,6 +1,8 @@
 // The helicopter's operator as the core sees it: commands come in, reports go out.
 #pragma once
 
+#include <Eigen/Core>
+
 #include "distributers/interfaces/distributer.h"
 #include "distributers/javiator/trim_file.h"
 #include "distributers/messages/javiator.h"
@@ -92,8 +94,8 @@ class JaviatorOperator {
   bool hello_due_ = false;
 
   Duration now_{}, taken_{}, period_{}, reported_{};
-  std::array<double, 3> rates_{};  // of roll, pitch, yaw in the report before, mrad/s
-  std::uint8_t state_;             // in the report before
+  Eigen::Vector3d rates_ = Eigen::Vector3d::Zero();  // of roll, pitch, yaw in the report before, mrad/s
+  std::uint8_t state_;                               // in the report before
   std::uint16_t reports_ = 0;
 };
 

@@ -1,7 +1,8 @@
 #include "distributers/lauv/messages.h"
 
 #include <chrono>
-#include <cmath>
+
+#include "graph/math/rotations.h"
 
 namespace jarol::distributers {
 namespace imc = messages::imc;
@@ -29,14 +30,10 @@ imc::EstimatedState estimate_state(const tasks::Motion& m, double latitude, doub
   s.u = static_cast<float>(m.u);
   s.v = static_cast<float>(m.v);
   s.w = static_cast<float>(m.w);
-  // R_nb of Euler angles ZYX times the velocity
-  const double c_phi = std::cos(m.phi), s_phi = std::sin(m.phi), c_theta = std::cos(m.theta),
-               s_theta = std::sin(m.theta), c_psi = std::cos(m.psi), s_psi = std::sin(m.psi);
-  const double across = c_phi * m.v - s_phi * m.w, lifted = s_phi * m.v + c_phi * m.w;
-  const double along = c_theta * m.u + s_theta * lifted;
-  s.vx = static_cast<float>(c_psi * along - s_psi * across);
-  s.vy = static_cast<float>(s_psi * along + c_psi * across);
-  s.vz = static_cast<float>(c_theta * lifted - s_theta * m.u);
+  const Eigen::Vector3f v_n = (rotation_of(m.phi, m.theta, m.psi) * Eigen::Vector3d(m.u, m.v, m.w)).cast<float>();
+  s.vx = v_n.x();
+  s.vy = v_n.y();
+  s.vz = v_n.z();
   s.p = static_cast<float>(m.p);
   s.q = static_cast<float>(m.q);
   s.r = static_cast<float>(m.r);

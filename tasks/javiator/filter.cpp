@@ -1,10 +1,10 @@
 #include "tasks/javiator/filter.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "graph/math/geometry.h"
+#include "graph/math/rotations.h"
 
 namespace jarol::tasks {
 namespace {
@@ -14,12 +14,6 @@ using Eigen::Vector3d;
 
 constexpr double gravity = 9.81;
 constexpr double pascal_per_metre = 12.0;
-
-Matrix3d rotation(double roll, double pitch, double heading) {
-  return (Eigen::AngleAxisd(heading, Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3d::UnitY()) *
-          Eigen::AngleAxisd(roll, Vector3d::UnitX()))
-      .toRotationMatrix();
-}
 
 // Counts repeats, and silence in the answers that come; says whether there is a new reading.
 bool hear(SensorTrust& trust, bool is_new, double reading, std::uint32_t most_repeats, double dt) {
@@ -136,22 +130,20 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   state.stood = settled;
 
   // angles follow the rates, and what is measured unless it jumps
-  const double turning = (rates.y() * std::sin(s.roll) + rates.z() * std::cos(s.roll)) / std::cos(s.pitch);
-  const double rolling = rates.x() + turning * std::sin(s.pitch);
-  const double pitching = rates.y() * std::cos(s.roll) - rates.z() * std::sin(s.roll);
-  state.roll += dt * rolling;
-  state.pitch += dt * pitching;
-  predict(state.slow_roll, rolling, dt);
-  predict(state.slow_pitch, pitching, dt);
-  state.yaw += dt * turning;
+  const Vector3d angle_rates = euler_rates(s.roll, s.pitch, rates);
+  state.roll += dt * angle_rates.x();
+  state.pitch += dt * angle_rates.y();
+  predict(state.slow_roll, angle_rates.x(), dt);
+  predict(state.slow_pitch, angle_rates.y(), dt);
+  state.yaw += dt * angle_rates.z();
   if (settled) {
     state.roll = s.roll;
     state.pitch = s.pitch;
     if (!state.has_flown) state.zero_yaw = s.yaw;
     state.yaw = wrapped(s.yaw - state.zero_yaw);
     if (s.answers > 0) feel_weight(state, p, s);
-    rest(state.slow_roll, s.roll, rolling);
-    rest(state.slow_pitch, s.pitch, pitching);
+    rest(state.slow_roll, s.roll, angle_rates.x());
+    rest(state.slow_pitch, s.pitch, angle_rates.y());
   }
   const bool smooth = std::abs(s.roll - state.roll) < p.angle_jump && std::abs(s.pitch - state.pitch) < p.angle_jump;
   state.angles.silent += heard_dt;
@@ -174,10 +166,10 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     state.pitch = state.slow_pitch.angle;
   }
 
-  const Matrix3d R = rotation(state.roll, state.pitch, state.zero_yaw + state.yaw);
+  const Matrix3d R = rotation_of(state.roll, state.pitch, state.zero_yaw + state.yaw);
   // ranges are younger than the IMU's sample
-  const Matrix3d R_now = rotation(state.roll + p.age * rates.x(), state.pitch + p.age * rates.y(),
-                                  state.zero_yaw + state.yaw + p.age * rates.z());
+  const Matrix3d R_now = rotation_of(state.roll + p.age * rates.x(), state.pitch + p.age * rates.y(),
+                                     state.zero_yaw + state.yaw + p.age * rates.z());
   const Vector3d last_b(s.a_x, s.a_y, s.a_z), hover_b = R.transpose() * Vector3d(0, 0, -gravity);
   const Vector3d force_b = turns ? last_b : Vector3d(hover_b + felt * (last_b - hover_b));
   const Vector3d a = R * force_b + Vector3d(0, 0, gravity);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "graph/math/geometry.h"
+#include "graph/math/rotations.h"
 
 namespace jarol::tasks {
 namespace {
@@ -93,27 +94,22 @@ void OriginalPosition::run(const Param& p, const Tick& tick, const In& in, State
 void OriginalAttitude::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const FlightEstimate& e = in.estimate;
   const double dt = seconds(tick.period);
-  const double sin_roll = std::sin(e.roll), cos_roll = std::cos(e.roll), cos_pitch = std::cos(e.pitch);
-  // rates of Euler angles, mrad/s
-  const double turning = (e.q * sin_roll + e.r * cos_roll) / cos_pitch;
-  const double rate_p = 1e3 * (e.p + turning * std::sin(e.pitch));
-  const double rate_q = 1e3 * (e.q * cos_roll - e.r * sin_roll);
-  const double rate_r = 1e3 * turning;
+  const Eigen::Vector3d rates = 1e3 * euler_rates(e.roll, e.pitch, {e.p, e.q, e.r});  // mrad/s
   // what it calls acceleration is less than a third of it at 15 ms
   constexpr double per_period = 19.79;
   const PiddGains& lean = in.gains.lean.value_or(p.lean);
   const double roll =
-      calc_pidd(lean, 1e3 * in.goal.roll, 1e3 * e.roll, rate_p, per_period * (rate_p - state.p), state.roll, dt);
-  const double pitch =
-      calc_pidd(lean, 1e3 * in.goal.pitch, 1e3 * e.pitch, rate_q, per_period * (rate_q - state.q), state.pitch, dt);
+      calc_pidd(lean, 1e3 * in.goal.roll, 1e3 * e.roll, rates.x(), per_period * (rates.x() - state.p), state.roll, dt);
+  const double pitch = calc_pidd(lean, 1e3 * in.goal.pitch, 1e3 * e.pitch, rates.y(),
+                                 per_period * (rates.y() - state.q), state.pitch, dt);
   // turned round, a goal and its rate are those of the nearest heading that is the same
   const double goal = e.yaw + wrapped(in.goal.yaw - e.yaw);
   state.yaw.goal = 1e3 * (goal + wrapped(1e-3 * state.yaw.goal - goal));
-  const double yaw = calc_pidd(in.gains.yaw.value_or(p.yaw), 1e3 * goal, 1e3 * e.yaw, rate_r,
-                               per_period * (rate_r - state.r), state.yaw, dt);
-  state.p = rate_p;
-  state.q = rate_q;
-  state.r = rate_r;
+  const double yaw = calc_pidd(in.gains.yaw.value_or(p.yaw), 1e3 * goal, 1e3 * e.yaw, rates.z(),
+                               per_period * (rates.z() - state.r), state.yaw, dt);
+  state.p = rates.x();
+  state.q = rates.y();
+  state.r = rates.z();
   out.turn = {roll / p.idle, pitch / p.idle, yaw / p.idle};
 }
 

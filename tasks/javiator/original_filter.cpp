@@ -1,11 +1,11 @@
 #include "tasks/javiator/original_filter.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "graph/math/geometry.h"
+#include "graph/math/rotations.h"
 
 namespace jarol::tasks {
 namespace {
@@ -79,15 +79,13 @@ void OriginalFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   state.unwrapped_yaw += std::remainder(s.yaw - state.unwrapped_yaw, 2 * std::numbers::pi);
   const double yaw = state.unwrapped_yaw - state.zero_yaw;
 
-  filter_angle(state.roll, s.roll, s.p + std::tan(s.pitch) * (s.q * std::sin(s.roll) + s.r * std::cos(s.roll)), dt);
-  filter_angle(state.pitch, s.pitch, s.q * std::cos(s.roll) - s.r * std::sin(s.roll), dt);
-  filter_angle(state.yaw, yaw, (s.q * std::sin(s.roll) + s.r * std::cos(s.roll)) / std::cos(s.pitch), dt);
+  const Vector3d rates = euler_rates(s.roll, s.pitch, {s.p, s.q, s.r});
+  filter_angle(state.roll, s.roll, rates.x(), dt);
+  filter_angle(state.pitch, s.pitch, rates.y(), dt);
+  filter_angle(state.yaw, yaw, rates.z(), dt);
   if (settled) state.yaw = 0;
 
-  const Eigen::Matrix3d R =
-      (Eigen::AngleAxisd(s.yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(s.pitch, Vector3d::UnitY()) *
-       Eigen::AngleAxisd(s.roll, Vector3d::UnitX()))
-          .toRotationMatrix();
+  const Eigen::Matrix3d R = rotation_of(s.roll, s.pitch, s.yaw);
   const Vector3d a = R * (1e3 * Vector3d(s.a_x, s.a_y, s.a_z)) + Vector3d(0, 0, gravity);
   // its constants of the lasers lead from these to the centre of gravity
   const Vector3d sonar_b(-95, -95, 55), laser_x_b(-70, 75, 80), laser_y_b(50, -77, 80);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "graph/math/geometry.h"
+#include "graph/math/rotations.h"
 
 namespace jarol::tasks {
 namespace {
@@ -57,17 +58,13 @@ void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& 
     m.theta = i.attitude.y;
     m.psi = i.heading.value;
   } else {
-    const double c_phi = std::cos(m.phi), s_phi = std::sin(m.phi);
-    const double c_theta = std::max(std::cos(m.theta), 0.1), s_theta = std::sin(m.theta);
-    const double turn = m.q * s_phi + m.r * c_phi, lifted = m.v * s_phi + m.w * c_phi;
-    const double ahead = m.u * c_theta + lifted * s_theta, aside = m.v * c_phi - m.w * s_phi;
-
-    state.place.predict(model_of(p), ahead * std::cos(m.psi) - aside * std::sin(m.psi),
-                        ahead * std::sin(m.psi) + aside * std::cos(m.psi), dt);
-    m.z += dt * (lifted * c_theta - m.u * s_theta);
-    m.phi += dt * (m.p + turn * s_theta / c_theta);
-    m.theta += dt * (m.q * c_phi - m.r * s_phi);
-    m.psi += dt * turn / c_theta;
+    const Eigen::Vector3d v_n = rotation_of(m.phi, m.theta, m.psi) * Eigen::Vector3d(m.u, m.v, m.w);
+    const Eigen::Vector3d angle_rates = euler_rates(m.phi, limited(m.theta, max_pitch_of_rates), {m.p, m.q, m.r});
+    state.place.predict(model_of(p), v_n.x(), v_n.y(), dt);
+    m.z += dt * v_n.z();
+    m.phi += dt * angle_rates.x();
+    m.theta += dt * angle_rates.y();
+    m.psi += dt * angle_rates.z();
 
     const double angles = share(dt, p.angle_time);
     m.z += share(dt, p.depth_time) * (i.depth.value - m.z);

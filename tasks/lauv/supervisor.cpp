@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "graph/math/geometry.h"
+#include "graph/math/rotations.h"
 
 namespace jarol::tasks {
 namespace {
@@ -50,8 +51,8 @@ Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
   const auto told = [](const auto&... readings) { return (... && (readings.count > 0)); };
   const bool turns = told(i.attitude, i.rates), moves = told(i.velocity, i.rpm),
              sounds = told(i.altitude, i.depth, i.attitude);
-  const double theta = i.attitude.y, phi = i.attitude.x, c_theta = std::max(std::cos(theta), 0.1);
-  const double floor = i.altitude.value * c_theta * std::cos(phi) + i.depth.value;
+  const double theta = i.attitude.y, phi = i.attitude.x;
+  const double floor = i.altitude.value * std::cos(limited(theta, max_pitch_of_rates)) * std::cos(phi) + i.depth.value;
   if (turns && !std::exchange(state.attitude_started, true)) {
     state.theta = theta;
     state.psi = i.attitude.z;
@@ -59,8 +60,10 @@ Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
   if (moves && !std::exchange(state.speed_started, true)) state.speed = i.velocity.x;
   if (sounds && !std::exchange(state.floor_started, true)) state.floor = floor;
   const double part = std::min(dt / watch_time, 1.0);
-  state.theta += dt * (i.rates.y * std::cos(phi) - i.rates.z * std::sin(phi));
-  state.psi += dt * (i.rates.y * std::sin(phi) + i.rates.z * std::cos(phi)) / c_theta;
+  const Eigen::Vector3d angle_rates =
+      euler_rates(phi, limited(theta, max_pitch_of_rates), {i.rates.x, i.rates.y, i.rates.z});
+  state.theta += dt * angle_rates.y();
+  state.psi += dt * angle_rates.z();
   const double theta_error = theta - state.theta, psi_error = wrapped(i.attitude.z - state.psi);
   state.theta += part * theta_error;
   state.psi += part * psi_error;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "distributers/messages/javiator_units.h"
+#include "graph/math/rotations.h"
 #include "graph/values/seed.h"
 #include "vehicles/helicopter/coefficients.h"
 #include "vehicles/helicopter/plant.h"
@@ -161,14 +162,10 @@ VehicleState Helicopter::state() const {
 }
 
 void Helicopter::place(const VehicleState& s) {
-  const double cphi = std::cos(s.phi), sphi = std::sin(s.phi);
-  const double cth = std::cos(s.theta), sth = std::sin(s.theta);
-  const double cpsi = std::cos(s.psi), spsi = std::sin(s.psi);
   HelicopterMotion motion;
   motion.p_n = {s.x, s.y, s.z};
-  motion.R_nb = {{{cpsi * cth, cpsi * sth * sphi - spsi * cphi, cpsi * sth * cphi + spsi * sphi},
-                  {spsi * cth, spsi * sth * sphi + cpsi * cphi, spsi * sth * cphi - cpsi * sphi},
-                  {-sth, cth * sphi, cth * cphi}}};
+  const Eigen::Matrix3d R_nb = rotation_of(s.phi, s.theta, s.psi);
+  for (int i = 0; i < 3; ++i) motion.R_nb[static_cast<std::size_t>(i)] = {R_nb(i, 0), R_nb(i, 1), R_nb(i, 2)};
   motion.v_b = {s.u, s.v, s.w};
   motion.omega_b = {s.p, s.q, s.r};
   plant_ = make_plant(parameters_, motion);

@@ -3,10 +3,10 @@
 // order, three). The attitude is a unit quaternion, so that no attitude is singular.
 #pragma once
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <initializer_list>
 
+#include "graph/math/rotations.h"
 #include "graph/values/archive.h"
 #include "vehicles/mechanics/fossen.h"
 
@@ -25,12 +25,6 @@ struct RigidState {
     archive.bytes(q_nb.coeffs().data(), 4 * sizeof(double));
   }
 };
-
-/// Attitude of Euler angles ZYX: roll, pitch, yaw.
-inline Eigen::Quaterniond quaternion_of(double phi, double theta, double psi) {
-  return Eigen::AngleAxisd(psi, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(theta, Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(phi, Eigen::Vector3d::UnitX());
-}
 
 /// Rates of a state.
 struct RigidRates {

@@ -3,9 +3,9 @@
 // them.
 #pragma once
 
-#include "vehicles/mechanics/actuator_failure.h"
 #include "vehicles/mechanics/dynamics.h"
 #include "vehicles/sea/sea_parameters.h"
+#include "vehicles/submarine/failure_parameters.h"
 #include "vehicles/submarine/power.h"
 #include "vehicles/submarine/sensor_parameters.h"
 
@@ -243,21 +243,6 @@ struct DiveLimitParameters {
     using S = DiveLimitParameters;
     return describe(field<&S::depth>("m", "beyond which it has sunk"),
                     field<&S::tilt>("rad", "of its axis down from the vertical, beyond which it has capsized"));
-  }
-};
-
-struct ActuatorFailureParameters {
-  ActuatorFailure fin0{};
-  ActuatorFailure fin1{};
-  ActuatorFailure fin2{};
-  ActuatorFailure fin3{};
-  ActuatorFailure propeller{};
-
-  static constexpr auto fields() {
-    using S = ActuatorFailureParameters;
-    return describe(field<&S::fin0>("", "the bottom rudder"), field<&S::fin1>("", "the port elevator"),
-                    field<&S::fin2>("", "the starboard elevator"), field<&S::fin3>("", "the top rudder"),
-                    field<&S::propeller>("", "the propeller"));
   }
 };
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "distributers/messages/imc.h"
+#include "graph/math/rotations.h"
 #include "vehicles/submarine/coefficients.h"
 #include "vehicles/submarine/plant.h"
 #include "vehicles/submarine/rigid_plant.h"
@@ -16,15 +17,6 @@ namespace {
 constexpr double step_seconds = SubmarineMotion::step_seconds;
 
 double floating_depth(const SubmarineParameters& parameters) { return calc_floating_depth(make_body(parameters).hull); }
-
-// R_bn of Euler angles ZYX times a vector
-fossen::Vector3 to_body_axes(const fossen::Vector3& angles, const fossen::Vector3& v) {
-  const double c_phi = std::cos(angles[0]), s_phi = std::sin(angles[0]), c_theta = std::cos(angles[1]),
-               s_theta = std::sin(angles[1]), c_psi = std::cos(angles[2]), s_psi = std::sin(angles[2]);
-  const double along = c_psi * v[0] + s_psi * v[1], across = c_psi * v[1] - s_psi * v[0];
-  const double lifted = s_theta * along + c_theta * v[2];
-  return {c_theta * along - s_theta * v[2], c_phi * across + s_phi * lifted, c_phi * lifted - s_phi * across};
-}
 
 VehicleState start_of(const SubmarineParameters& parameters) {
   VehicleState start;
@@ -100,7 +92,9 @@ void Submarine::sample() {
   scene.east = over_ground.y;
   scene.depth = eta[2] - water.surface;
   scene.head = water.head;
-  scene.water_b = to_body_axes({eta[3], eta[4], eta[5]}, water.velocity_n);
+  const fossen::Vector3& v_n = water.velocity_n;
+  const Eigen::Vector3d v_b = rotation_of(eta[3], eta[4], eta[5]).transpose() * Eigen::Vector3d(v_n[0], v_n[1], v_n[2]);
+  scene.water_b = {v_b[0], v_b[1], v_b[2]};
   scene.rpm = actuation_.propeller() * 30.0 / std::numbers::pi;
   scene.leak = parameters_.leak_at > Duration{} && steps_ * grid() >= parameters_.leak_at;
   scene.hull_warmth = power_.warmth();

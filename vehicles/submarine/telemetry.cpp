@@ -4,6 +4,7 @@
 
 #include "distributers/messages/imc_announce.h"
 #include "graph/math/geometry.h"
+#include "graph/math/rotations.h"
 #include "vehicles/submarine/io.h"
 
 namespace jarol::vehicles {
@@ -12,14 +13,7 @@ namespace {
 
 constexpr std::int64_t states_a_second = 100;
 
-// Body-fixed components of a velocity in the earth frame: R_nb of Euler angles ZYX, transposed.
-std::array<double, 3> to_body(const imc::SimulatedState& s, double north, double east, double down) {
-  const double c_psi = std::cos(s.psi), s_psi = std::sin(s.psi), c_theta = std::cos(s.theta),
-               s_theta = std::sin(s.theta), c_phi = std::cos(s.phi), s_phi = std::sin(s.phi);
-  const double along = c_psi * north + s_psi * east, across = c_psi * east - s_psi * north;
-  const double below = s_theta * along + c_theta * down;
-  return {c_theta * along - s_theta * down, c_phi * across + s_phi * below, c_phi * below - s_phi * across};
-}
+Eigen::Matrix3d attitude_of(const imc::SimulatedState& s) { return rotation_of(s.phi, s.theta, s.psi); }
 
 }  // namespace
 
@@ -98,13 +92,12 @@ void SubmarineTelemetry::tell_estimate(const imc::SimulatedState& s) {
   e.u = s.u;
   e.v = s.v;
   e.w = s.w;
-  // over ground: R_nb of Euler angles ZYX times the velocity through the water, and the current
-  const float across = std::cos(s.phi) * s.v - std::sin(s.phi) * s.w;
-  const float lifted = std::sin(s.phi) * s.v + std::cos(s.phi) * s.w;
-  const float along = std::cos(s.theta) * s.u + std::sin(s.theta) * lifted;
-  e.vx = std::cos(s.psi) * along - std::sin(s.psi) * across + s.svx;
-  e.vy = std::sin(s.psi) * along + std::cos(s.psi) * across + s.svy;
-  e.vz = std::cos(s.theta) * lifted - std::sin(s.theta) * s.u + s.svz;
+  // over ground: the velocity through the water, and the current
+  const Eigen::Vector3f v_n =
+      (attitude_of(s) * Eigen::Vector3d(s.u, s.v, s.w) + Eigen::Vector3d(s.svx, s.svy, s.svz)).cast<float>();
+  e.vx = v_n.x();
+  e.vy = v_n.y();
+  e.vz = v_n.z();
   e.p = s.p;
   e.q = s.q;
   e.r = s.r;
@@ -114,10 +107,10 @@ void SubmarineTelemetry::tell_estimate(const imc::SimulatedState& s) {
 
 void SubmarineTelemetry::tell_water(const imc::SimulatedState& s) {
   using Validity = imc::GroundVelocity::Validity;
-  const auto [x, y, z] = to_body(s, s.svx, s.svy, s.svz);
-  to_.receive(messages::refer_to(imc::GroundVelocity{Validity::VAL_VEL_X | Validity::VAL_VEL_Y | Validity::VAL_VEL_Z,
-                                                     static_cast<double>(s.u) + x, static_cast<double>(s.v) + y,
-                                                     static_cast<double>(s.w) + z}));
+  const Eigen::Vector3d v_b =
+      Eigen::Vector3d(s.u, s.v, s.w) + attitude_of(s).transpose() * Eigen::Vector3d(s.svx, s.svy, s.svz);
+  to_.receive(messages::refer_to(
+      imc::GroundVelocity{Validity::VAL_VEL_X | Validity::VAL_VEL_Y | Validity::VAL_VEL_Z, v_b.x(), v_b.y(), v_b.z()}));
 }
 
 messages::Message announcement_of(const Vehicle& vehicle, const std::string& address) {

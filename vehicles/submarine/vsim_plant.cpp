@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "distributers/interfaces/no_state.h"
+#include "graph/math/rotations.h"
 #include "vehicles/submarine/coefficients.h"
 
 namespace jarol::vehicles {
@@ -63,18 +64,10 @@ Vector6 drag_force(const fossen::Damping& D, const Vector6& nu) {
 
 // rates of NED offset and of Euler angles
 Vector6 calc_eta_dot(const PlantState& s) {
-  const double c_phi = std::cos(s.eta[3]), s_phi = std::sin(s.eta[3]), c_theta = std::cos(s.eta[4]),
-               s_theta = std::sin(s.eta[4]), c_psi = std::cos(s.eta[5]), s_psi = std::sin(s.eta[5]);
-  const double u = s.nu[0], v = s.nu[1], w = s.nu[2], p = s.nu[3], q = s.nu[4], r = s.nu[5];
-  const double turn = q * s_phi + r * c_phi;
-  return {u * c_psi * c_theta + v * (c_psi * s_theta * s_phi - s_psi * c_phi) +
-              w * (c_psi * s_theta * c_phi + s_psi * s_phi),
-          u * s_psi * c_theta + v * (s_psi * s_theta * s_phi + c_psi * c_phi) +
-              w * (s_psi * s_theta * c_phi - c_psi * s_phi),
-          -u * s_theta + v * c_theta * s_phi + w * c_theta * c_phi,
-          p + turn * s_theta / c_theta,
-          q * c_phi - r * s_phi,
-          turn / c_theta};
+  const double phi = s.eta[3], theta = s.eta[4], psi = s.eta[5];
+  const Eigen::Vector3d v_n = rotation_of(phi, theta, psi) * Eigen::Vector3d(s.nu[0], s.nu[1], s.nu[2]);
+  const Eigen::Vector3d angle_rates = euler_rates(phi, theta, {s.nu[3], s.nu[4], s.nu[5]});
+  return {v_n.x(), v_n.y(), v_n.z(), angle_rates.x(), angle_rates.y(), angle_rates.z()};
 }
 
 }  // namespace
