@@ -7,9 +7,9 @@
 #include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <atomic>
 
 #include <array>
+#include <atomic>
 #include <deque>
 #include <mutex>
 #include <stdexcept>
@@ -20,6 +20,11 @@ namespace jarol::tests {
 
 using distributers::Address;
 using distributers::Descriptor;
+
+namespace {
+// A process that is being made has whatever is open here until it runs its own program: no probe of a port may be.
+std::mutex making;
+}  // namespace
 
 Process::Process(const std::string& arguments) {
   // the shell splits the arguments and gives its place to the command
@@ -38,7 +43,9 @@ Process::Process(const std::string& arguments) {
   sigfillset(&signals);
   posix_spawnattr_setsigdefault(&attributes, &signals);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  std::unique_lock lock(making);
   const int failed = posix_spawn(&id_, "/bin/sh", &actions, &attributes, words.data(), environ);
+  lock.unlock();
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   close(out[1]);
@@ -139,6 +146,7 @@ std::string free_port(int type) {
   static std::atomic<int> next{static_cast<int>(getpid()) * 16};
   for (int i = 0; i < count; ++i) {
     const std::string port = std::to_string(first + next++ % count);
+    const std::lock_guard lock(making);
     const Descriptor probe(socket(AF_INET, type | SOCK_CLOEXEC, 0));  // not for a process made meanwhile
     const Address address = Address::parse(port);
     if (bind(probe.get(), address.get(), address.size()) == 0 && reserve(port)) return port;
