@@ -37,9 +37,9 @@ struct LauvSupervisor {
     double floor_error = 1.5;
     double error_time = 1;
     double speed_error_time = 3;
-    double thrust_coefficient = 2e-4;
+    double thrust_coefficient = 2.1e-4;
     double advance_coefficient = 0;
-    double max_thrust = 10;
+    double max_thrust = 14.4;
     double surge_drag = 2.4;
     double surge_mass = 19;
     double climb_speed = 1;

@@ -173,9 +173,9 @@ struct ThrusterParameters {
   double radius = 0.05;
   double full_speed = 261.8;
   double time_constant = 0.05;
-  double thrust_coefficient = 2.0e-4;
+  double thrust_coefficient = 2.1e-4;
   double advance_coefficient = 0.0;
-  double max_thrust = 10.0;
+  double max_thrust = 14.4;
 
   static constexpr auto fields() {
     using S = ThrusterParameters;

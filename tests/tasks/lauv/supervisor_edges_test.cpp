@@ -198,8 +198,8 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
   }
 
   TEST_CASE("the propeller's speed is what its thrust and the drag leave: a log that agrees does not alarm") {
-    // 300 rad/s would be 18 N, bounded to 10 N; 2.4 N s/m u (1 + u) = 10 N at u = 1.6021
-    const double u = (-1 + std::sqrt(1 + 4 * 10 / 2.4)) / 2;
+    // 300 rad/s would be 18.9 N, bounded to 14.4 N; 2.4 N s/m u (1 + u) = 14.4 N at u = 2
+    const double u = 2;
     Watched w;
     const Change going = [&](LauvSupervisor::In& at) {
       at.instruments.rpm.value = 300 * 30 / std::numbers::pi;
@@ -207,18 +207,18 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
     };
     CHECK(w.run(4000, going) == Alarm::none);
     CHECK(w.state.speed == doctest::Approx(u).scale(0).epsilon(1e-6));
-    // below the bound: 150 rad/s are 4.5 N
-    const double slow = (-1 + std::sqrt(1 + 4 * 4.5 / 2.4)) / 2;
+    // below the bound: 150 rad/s are 4.725 N
+    const double slow = (-1 + std::sqrt(1 + 4 * 4.725 / 2.4)) / 2;
     Watched v;
     v.run(4000, [&](LauvSupervisor::In& at) {
       at.instruments.rpm.value = 150 * 30 / std::numbers::pi;
       at.instruments.velocity.x = slow;
     });
     CHECK(v.state.speed == doctest::Approx(slow).scale(0).epsilon(1e-6));
-    // and 19 kg give the first step from rest: 10 N for 50 ms
+    // and 19 kg give the first step from rest: 14.4 N for 50 ms
     Watched first;
     first.run(1, [&](LauvSupervisor::In& at) { at.instruments.rpm.value = 300 * 30 / std::numbers::pi; });
-    CHECK(first.state.speed == doctest::Approx(0.05 * 10 / 19));
+    CHECK(first.state.speed == doctest::Approx(0.05 * 14.4 / 19));
   }
 
   TEST_CASE("what it does then: it climbs by its propeller, or stops it where steering or power are in doubt") {
