@@ -111,9 +111,9 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   if (settled) forgive(state.imu, imu);
   const bool turns = believe(state.imu, imu, p.imu_patience);
   // between readings it turns on as it did, and feels what it felt
-  const bool was_unfelt = state.unfelt > 0;
-  state.unfelt = turns ? 0 : state.unfelt + dt;
-  const double felt = state.imu.lost ? 0 : std::exp(-state.unfelt / p.rate_fade);
+  const double gap = state.last_turn.since;
+  state.last_turn.since = turns ? 0 : state.last_turn.since + dt;
+  const double felt = state.imu.lost ? 0 : std::exp(-state.last_turn.since / p.rate_fade);
   const Vector3d rates = felt * Vector3d(s.p, s.q, s.r);
 
   if (state.stood && !settled) {
@@ -145,11 +145,16 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     rest(state.slow_roll, s.roll, angle_rates.x());
     rest(state.slow_pitch, s.pitch, angle_rates.y());
   }
-  const bool smooth = std::abs(s.roll - state.roll) < p.angle_jump && std::abs(s.pitch - state.pitch) < p.angle_jump;
+  // over a gap it turned at the mean of the rates before and after it
+  const double turned = 0.5 * (gap + dt);
+  const LastTurn& last = state.last_turn;
+  const double roll = gap > 0 ? last.roll + turned * (last.roll_rate + angle_rates.x()) : state.roll;
+  const double pitch = gap > 0 ? last.pitch + turned * (last.pitch_rate + angle_rates.y()) : state.pitch;
+  const bool smooth = std::abs(s.roll - roll) < p.angle_jump && std::abs(s.pitch - pitch) < p.angle_jump;
   state.angles.silent += heard_dt;
   if (turns && smooth) {
     // what it turned meanwhile was not felt
-    if (was_unfelt && !state.angles.lost) {
+    if (gap > 0 && !state.angles.lost) {
       state.slow_roll.angle += s.roll - state.roll;
       state.slow_pitch.angle += s.pitch - state.pitch;
       state.roll = s.roll;
@@ -165,6 +170,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     state.roll = state.slow_roll.angle;
     state.pitch = state.slow_pitch.angle;
   }
+  if (turns) state.last_turn = {0, state.roll, state.pitch, angle_rates.x(), angle_rates.y()};
 
   const Matrix3d R = rotation_of(state.roll, state.pitch, state.zero_yaw + state.yaw);
   // ranges are younger than the IMU's sample

@@ -118,10 +118,11 @@ struct JaviatorFilter {
   struct State {
     AxisObserver x{}, y{}, z{}, z_slow{};
     SlowAngle slow_roll{}, slow_pitch{};
+    LastTurn last_turn{};
     SensorTrust imu{}, angles{}, laser_x{}, laser_y{}, sonar{}, pressure{};
     double zero_x = 0, zero_y = 0, zero_z = 0, zero_yaw = 0, zero_pressure = 0;
     double roll = 0, pitch = 0, yaw = 0;
-    double disagreement = 0, climb_off = 0, climb_was_off = 0, roll_off = 0, pitch_off = 0, unanswered = 0, unfelt = 0;
+    double disagreement = 0, climb_off = 0, climb_was_off = 0, roll_off = 0, pitch_off = 0, unanswered = 0;
     double slant_roll = 0, slant_pitch = 0;
     bool stood = false, has_flown = false;
     std::uint32_t answers = 0;
@@ -129,9 +130,10 @@ struct JaviatorFilter {
       using S = State;
       return describe(field<&S::x>(), field<&S::y>(), field<&S::z>("", "upwards"),
                       field<&S::z_slow>("", "upwards, the sonar hardly trusted"),
-                      field<&S::slow_roll>("", "the angles hardly trusted"), field<&S::slow_pitch>(), field<&S::imu>(),
-                      field<&S::angles>(), field<&S::laser_x>(), field<&S::laser_y>(), field<&S::sonar>(),
-                      field<&S::pressure>(), field<&S::zero_x>("m", "measured where it stands"), field<&S::zero_y>("m"),
+                      field<&S::slow_roll>("", "the angles hardly trusted"), field<&S::slow_pitch>(),
+                      field<&S::last_turn>(), field<&S::imu>(), field<&S::angles>(), field<&S::laser_x>(),
+                      field<&S::laser_y>(), field<&S::sonar>(), field<&S::pressure>(),
+                      field<&S::zero_x>("m", "measured where it stands"), field<&S::zero_y>("m"),
                       field<&S::zero_z>("m"), field<&S::zero_yaw>("rad"), field<&S::zero_pressure>("Pa"),
                       field<&S::roll>("rad"), field<&S::pitch>("rad"), field<&S::yaw>("rad", "all turns counted"),
                       field<&S::disagreement>("m", "of pressure and altitude, averaged"),
@@ -139,7 +141,6 @@ struct JaviatorFilter {
                       field<&S::climb_was_off>("m/s", "of late, at most"),
                       field<&S::roll_off>("rad", "by which it is wrong as places tell, averaged"),
                       field<&S::pitch_off>("rad"), field<&S::unanswered>("s", "since the Robostix answered"),
-                      field<&S::unfelt>("s", "since the IMU's last reading"),
                       field<&S::slant_roll>("rad", "of the weight felt while it stands, less the roll, averaged"),
                       field<&S::slant_pitch>("rad"), field<&S::stood>("", "in the period before"),
                       field<&S::has_flown>(), field<&S::answers>("", "of the Robostix, up to now"));

@@ -27,6 +27,17 @@ struct SlowAngle {
   }
 };
 
+/// How it turned at the last reading of the IMU.
+struct LastTurn {
+  double since = 0, roll = 0, pitch = 0, roll_rate = 0, pitch_rate = 0;
+
+  static constexpr auto fields() {
+    using L = LastTurn;
+    return describe(field<&L::since>("s", "that reading"), field<&L::roll>("rad"), field<&L::pitch>("rad"),
+                    field<&L::roll_rate>("rad/s", "of the Euler angle"), field<&L::pitch_rate>("rad/s"));
+  }
+};
+
 /// Acceleration (m/s^2) is integrated over dt (s).
 void predict(AxisObserver& axis, double acceleration, double dt);
 

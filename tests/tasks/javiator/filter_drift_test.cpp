@@ -148,4 +148,26 @@ TEST_SUITE("tasks/javiator_filter/drift") {
     CHECK(heard.state.slow_roll.bias == doctest::Approx(0.02 * 0.01));
     CHECK(heard.state.slow_pitch.bias == doctest::Approx(-0.02 * 0.02));
   }
+
+  TEST_CASE("where readings were lost an angle is credible up to 0.1 rad from where the rates before and after lead") {
+    for (const bool rolls : {true, false}) {
+      for (const double off : {-0.101, -0.099, 0.099, 0.101}) {
+        CAPTURE(rolls);
+        CAPTURE(off);
+        HeardHelicopter heard = hovering();
+        heard.param.angle_gain = 1;
+        double& rate = rolls ? heard.sensors.p : heard.sensors.q;
+        rate = 4;
+        heard.run(1);
+        for (int i = 0; i < 3; ++i) {
+          --heard.sensors.answers;
+          heard.run(1);
+        }
+        rate = 2;
+        (rolls ? heard.sensors.roll : heard.sensors.pitch) = 4 * dt * (4 + 2) / 2 + off;
+        heard.run(1);
+        CHECK((heard.state.angles.silent == 0) == (std::abs(off) < 0.1));
+      }
+    }
+  }
 }
