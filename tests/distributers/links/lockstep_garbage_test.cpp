@@ -57,26 +57,33 @@ void put_garbage(Bytes& to, const std::vector<Bytes>& packets, Random& random) {
 }
 
 // How many messages ought to have an effect: those before the first frame that is wrong. Sent by a runner, all count;
-// by a vehicle, what its sensors tell.
+// by a vehicle, the answers that a distributer takes.
 std::size_t messages_before_a_flaw(std::span<const std::byte> bytes, bool of_runner) {
   messages::PacketReader reader(protocol().set);
-  std::size_t count = 0;
+  Typed<JaviatorVehicle> distributer;
+  std::size_t of_any = 0;
+  const auto count = [&] {
+    tasks::JaviatorSensors sensors;
+    distributer.take(0, &sensors);
+    return of_runner ? of_any : sensors.answers;
+  };
   for (bool begun = false;; begun = true) {
-    if (bytes.size() < 5) return count;
+    if (bytes.size() < 5) return count();
     std::uint32_t size = 0;
     std::memcpy(&size, bytes.data(), 4);
     const auto kind = static_cast<FrameKind>(bytes[4]);
-    if (bytes.size() - 5 < size) return count;
+    if (bytes.size() - 5 < size) return count();
     const auto content = bytes.subspan(5, size);
     bytes = bytes.subspan(5 + size);
     if (!begun) {
-      if (kind != (of_runner ? FrameKind::begin : FrameKind::welcome) || size < 8) return count;
+      if (kind != (of_runner ? FrameKind::begin : FrameKind::welcome) || size < 8) return count();
     } else if (kind == FrameKind::message) {
-      if (reader.read(content) != messages::Flaw::none) return count;
+      if (reader.read(content) != messages::Flaw::none) return count();
       REQUIRE(protocol().is_sealed(content));
-      if (of_runner || reader.message().as<javiator::JaviatorData>() != nullptr) ++count;
+      ++of_any;
+      distributer.receive(reader.message());
     } else if (!of_runner || (kind != FrameKind::step && kind != FrameKind::sense)) {
-      return count;
+      return count();
     }
   }
 }
