@@ -19,6 +19,13 @@ std::vector<std::string> names_of_fields(const messages::MessageForm& form) {
   return names;
 }
 
+std::uint64_t default_of(const messages::MessageForm& form, const messages::FieldForm& field) {
+  messages::Message made(form);
+  std::uint64_t value = 0;
+  std::memcpy(&value, static_cast<const std::byte*>(made.value()) + field.offset, size_of(field.wire));
+  return value;
+}
+
 template <class Array, class Finding>
 auto& count_of(Array& counts, Finding finding) {
   return counts[static_cast<std::size_t>(finding)];
@@ -45,7 +52,8 @@ std::size_t longest_packet(const messages::MessageSet& set) {
 
 // What a field of a header has to be; little-endian machines only.
 bool Translator::Accepted::accepts(messages::MessageRef header) const {
-  return std::memcmp(static_cast<const std::byte*>(header.value) + field->offset, &value, size_of(field->wire)) == 0;
+  const auto* at = static_cast<const std::byte*>(header.value) + field->offset;
+  return std::memcmp(at, &value, size_of(field->wire)) == 0 || std::memcmp(at, &other, size_of(field->wire)) == 0;
 }
 
 Translator::Translator(const messages::MessageSet& set, const LinkOptions& options, Seal* seal, PacketPorts& input)
@@ -57,7 +65,10 @@ Translator::Translator(const messages::MessageSet& set, const LinkOptions& optio
       order_(set),
       entry_(peer_size + longest_packet(set)) {
   for (const auto& [name, value] : options.accept)
-    accepted_.push_back({&find_header_field(*set.header, name, value), value});
+    accepted_.push_back({&find_header_field(*set.header, name, value), value, value});
+  for (const auto& [name, id] : options.header)
+    for (const messages::FieldForm& field : set.header->fields)
+      if (name == "src" && field.name == "dst") destination_ = {&field, id, default_of(*set.header, field)};
 }
 
 bool Translator::take(std::span<const std::byte> bytes, std::uint32_t peer) {
@@ -91,7 +102,7 @@ bool Translator::is_valid_begin(std::span<const std::byte> bytes) const {
     reader.filled(part);
     bytes = bytes.subspan(part);
     while (reader.next())
-      if (accepts(reader.header())) return true;
+      if (why_not(reader.header()) == nullptr) return true;
   }
   return false;
 }
@@ -154,14 +165,16 @@ bool Translator::take_sealed_stream(std::span<const std::byte> bytes) {
   return valid;
 }
 
-bool Translator::accepts(messages::MessageRef header) const {
-  return std::all_of(accepted_.begin(), accepted_.end(), [&](const Accepted& field) { return field.accepts(header); });
+std::atomic<std::uint64_t> Translator::Counts::*Translator::why_not(messages::MessageRef header) const {
+  for (const Accepted& field : accepted_)
+    if (!field.accepts(header)) return &Counts::others;
+  return destination_ && !destination_->accepts(header) ? &Counts::elsewhere : nullptr;
 }
 
 // False: it does not count, as from another sender than the one that does.
 bool Translator::write(messages::MessageRef header, std::span<const std::byte> packet, std::uint32_t peer) {
-  if (!accepts(header)) {
-    ++counts_.others;
+  if (const auto count = why_not(header); count != nullptr) {
+    ++(counts_.*count);
     return false;
   }
   const double here = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -196,7 +209,7 @@ void Translator::store(const messages::PacketCounts& now) {
 void Translator::add_carried_to(LinkReport& report) const {
   const std::uint64_t packets = counts_.packets;  // before the others: no more of them than these
   const std::uint64_t stamps = counts_.stamps[1] + counts_.stamps[2] + counts_.stamps[3];
-  report.heard = packets - std::min<std::uint64_t>(packets, counts_.others + stamps);
+  report.heard = packets - std::min<std::uint64_t>(packets, counts_.others + counts_.elsewhere + stamps);
   report.counts.emplace_back("packets in", packets);
   report.counts.emplace_back("bytes in", counts_.bytes);
   report.counts.emplace_back("bytes dropped", counts_.dropped_bytes);
@@ -211,6 +224,7 @@ void Translator::add_dropped_to(LinkReport& report) const {
   for (std::size_t i = 1; i < messages::flaw_count; ++i)
     add_dropped(std::string(name_of(static_cast<Flaw>(i))), counts_.dropped[i]);
   add_dropped("other source", counts_.others);
+  add_dropped("other destination", counts_.elsewhere);
   add_dropped("stamp is no time", count_of(counts_.stamps, StampLimits::Finding::no_time));
   add_dropped("stamp in the future", count_of(counts_.stamps, StampLimits::Finding::ahead));
   add_dropped("stamp in the past", count_of(counts_.stamps, StampLimits::Finding::behind));

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -50,7 +51,7 @@ class Translator : public ByteSink {
  private:
   struct Accepted {
     const messages::FieldForm* field;
-    std::uint64_t value;
+    std::uint64_t value, other;
     bool accepts(messages::MessageRef header) const;
   };
 
@@ -58,17 +59,20 @@ class Translator : public ByteSink {
   bool take_stream(std::span<const std::byte> bytes);
   bool take_sealed(std::span<const std::byte> bytes, std::uint32_t peer);
   bool take_sealed_stream(std::span<const std::byte> bytes);
-  bool accepts(messages::MessageRef header) const;
   bool write(messages::MessageRef header, std::span<const std::byte> packet, std::uint32_t peer);
   void store(const messages::PacketCounts& now);
 
   // read by other threads
   struct Counts {
-    std::atomic<std::uint64_t> packets{0}, bytes{0}, dropped_bytes{0}, refused{0}, others{0}, late{0}, sealed{0};
+    std::atomic<std::uint64_t> packets{0}, bytes{0}, dropped_bytes{0}, refused{0}, others{0}, late{0}, sealed{0},
+        elsewhere{0};
     std::array<std::atomic<std::uint64_t>, messages::flaw_count> dropped{};
     std::array<std::atomic<std::uint64_t>, StampLimits::finding_count> stamps{};
     std::array<std::atomic<std::uint64_t>, Seal::finding_count> seals{};
   };
+
+  // Where a packet is counted that does not count here; null: it does.
+  std::atomic<std::uint64_t> Counts::*why_not(messages::MessageRef header) const;
 
   const messages::MessageSet& set_;
   messages::PacketReader datagrams_;
@@ -82,6 +86,7 @@ class Translator : public ByteSink {
   StampOrder order_;
   std::vector<std::byte> entry_;
   std::vector<Accepted> accepted_;
+  std::optional<Accepted> destination_;   // this system, or any
   messages::PacketCounts told_, before_;  // before_: of the streams that have ended
   Counts counts_;
 };

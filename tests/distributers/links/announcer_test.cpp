@@ -69,7 +69,7 @@ TEST_SUITE("distributers/links/announcer") {
     link.disconnect();
   }
 
-  TEST_CASE("only packets of the source that was named count, and make their sender the peer") {
+  TEST_CASE("only packets of the source that was named and to this system count, and make their sender the peer") {
     const auto make = [](std::uint64_t id, const Address& listen, const Address& peer, const LinkOptions& options) {
       LinkOptions its = options;
       its.header.emplace_back("src", id);
@@ -81,7 +81,13 @@ TEST_SUITE("distributers/links/announcer") {
     options.accept.emplace_back("src", 0xd1);
     const auto link = make(0x4001, Address::parse("0"), {}, options);
     const Address at = Address::parse(link->transport().address().substr(6));
-    const auto right = make(0xd1, Address::parse("0"), at, {}), wrong = make(0xd2, Address::parse("0"), at, {});
+    const auto to = [](std::uint64_t system) {
+      LinkOptions its;
+      its.header.emplace_back("dst", system);
+      return its;
+    };
+    const auto right = make(0xd1, Address::parse("0"), at, to(0x4001)), wrong = make(0xd2, Address::parse("0"), at, {}),
+               elsewhere = make(0xd1, Address::parse("0"), at, to(0x4002));
     const auto count = [&](const std::string& name) {
       for (const auto& [counted, n] : link->report().counts)
         if (counted == name) return n;
@@ -95,6 +101,10 @@ TEST_SUITE("distributers/links/announcer") {
     wrong->send(messages::refer_to(imc::Heartbeat{}));
     wrong->flush();
     CHECK(waits("dropped: other source", 1) == 1);
+    CHECK(count("peers") == 0);
+    elsewhere->send(messages::refer_to(imc::Heartbeat{}));
+    elsewhere->flush();
+    CHECK(waits("dropped: other destination", 1) == 1);
     CHECK(count("peers") == 0);
     right->send(messages::refer_to(imc::Heartbeat{}));
     right->flush();
