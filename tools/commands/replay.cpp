@@ -28,6 +28,7 @@
 #include "tools/run/crash_line.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/no_plugins.h"
+#include "tools/run/panels.h"
 #include "tools/run/replay_start.h"
 #include "tools/run/run_files.h"
 #include "tools/run/run_report.h"
@@ -139,7 +140,7 @@ int replay(const Options& options) {
   if (begin > Duration{}) origin = origin_of(loaded, overrides, log.header().seed);
   const Graph& graph = *loaded.graph;
   const ReportsAside aside(options.files);
-  RunFiles files(graph, options.files);
+  RunFiles files(graph, options.files, note_of(overrides, log.header().seed), types_of_truth(loaded));
   Noted noted(graph);
   std::vector<RecordSink*> looking_on = files.sinks();
   noted.add_to(looking_on);
@@ -147,7 +148,7 @@ int replay(const Options& options) {
   if (only && !values.has_any())
     throw std::invalid_argument("--only: the recording has no values of these tasks to compare with");
   if (values.has_any()) looking_on.push_back(&values);
-  GraphRun graph_run(std::move(loaded), {.sinks = looking_on, .misses = misses});
+  GraphRun graph_run(std::move(loaded), {.sinks = looking_on, .misses = misses, .truth = files.shows_truth()});
   if (begin > Duration{}) restore_recorded(graph_run, log, begin, std::move(origin));
   RunSinks& sinks = graph_run.sinks();
   Executor& executor = graph_run.executor();

@@ -27,6 +27,7 @@
 #include "tools/run/guard_option.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/load_graph.h"
+#include "tools/run/panels.h"
 #include "tools/run/print_run.h"
 #include "tools/run/prompt_line.h"
 #include "tools/run/run_on_threads.h"
@@ -96,7 +97,7 @@ int run(RunOptions options) {
   if (options.concurrency == "threads") return run_on_threads(loaded, end, options);
   Execution execution(options.execution, graph, options.seed);
   const ReportsAside aside(options.files);
-  RunFiles files(graph, options.files);
+  RunFiles files(graph, options.files, note_of(options.overrides, options.seed), types_of_truth(loaded));
   const std::unique_ptr<RecordingWriter> log = make_recording(
       options.recording, header_of(options, graph, begin, end, end_of_mission(pointers_to(loaded.channels))), sources,
       loaded);
@@ -124,16 +125,17 @@ int run(RunOptions options) {
       make_console(options, loaded, end, types_of_truth(loaded), pace.get());
   if (console) looking_on.push_back(&console->feed());
   RunOrigin origin = origin_of(loaded, options.overrides, options.seed);
-  GraphRun graph_run(std::move(loaded), {.sinks = looking_on,
-                                         .workers = options.workers,
-                                         .clock = clock ? &*clock : nullptr,
-                                         .threads = threads,
-                                         .log = log ? log->recorder() : nullptr,
-                                         .schedule = execution.schedule(),
-                                         .times = execution.times(),
-                                         .guard = task_guard.get(),
-                                         .truth = console != nullptr || (log && !log->header().truths.empty()),
-                                         .watched = console != nullptr});
+  GraphRun graph_run(std::move(loaded),
+                     {.sinks = looking_on,
+                      .workers = options.workers,
+                      .clock = clock ? &*clock : nullptr,
+                      .threads = threads,
+                      .log = log ? log->recorder() : nullptr,
+                      .schedule = execution.schedule(),
+                      .times = execution.times(),
+                      .guard = task_guard.get(),
+                      .truth = console != nullptr || files.shows_truth() || (log && !log->header().truths.empty()),
+                      .watched = console != nullptr});
   Executor& executor = graph_run.executor();
   graph_run.set_origin(std::move(origin));
   SavedRun saved(graph_run, noted, end, pace.get());

@@ -28,9 +28,17 @@ constexpr double time_labels = 48;
 // colours of Okabe and Ito, told apart with any kind of colour vision
 constexpr std::string_view reached_stroke = R"(stroke="#0072B2" stroke-width="2")";
 constexpr std::string_view commanded_stroke = R"(stroke="#D55E00" stroke-width="1.6" stroke-dasharray="6 4")";
+// broad and pale, so that what lies on it is seen
+constexpr std::string_view true_stroke = R"(stroke="#B8C1CC" stroke-width="5")";
 
 // of other runs, in turn
 constexpr std::array<std::string_view, 4> other_strokes{
+    R"(stroke="#009E73" stroke-width="1.6")", R"(stroke="#CC79A7" stroke-width="1.6")",
+    R"(stroke="#E69F00" stroke-width="1.6")", R"(stroke="#56B4E9" stroke-width="1.6")"};
+
+// of several values of one kind, in turn
+constexpr std::array<std::string_view, 6> strokes_of_kind{
+    R"(stroke="#0072B2" stroke-width="1.6")", R"(stroke="#D55E00" stroke-width="1.6")",
     R"(stroke="#009E73" stroke-width="1.6")", R"(stroke="#CC79A7" stroke-width="1.6")",
     R"(stroke="#E69F00" stroke-width="1.6")", R"(stroke="#56B4E9" stroke-width="1.6")"};
 
@@ -52,12 +60,30 @@ std::string name_of(const Panel& panel) {
   return name;
 }
 
+struct Named {
+  double value = 0;
+  std::string name;
+};
+
+// The enumerators that occur, in order of their values.
+std::vector<Named> names_of(const Type& type, const std::vector<std::vector<PlotCurve::Point>>& lines) {
+  std::vector<Named> names;
+  for (const auto& [name, value] : type.enumerators) {
+    const auto number = static_cast<double>(value);
+    const auto is_it = [&](const PlotCurve::Point& p) { return p.value == number; };
+    if (std::any_of(lines.begin(), lines.end(),
+                    [&](const auto& points) { return std::any_of(points.begin(), points.end(), is_it); }))
+      names.push_back({number, name});
+  }
+  return names;
+}
+
 bool is_angle(std::string_view unit) { return unit == "rad" || unit.starts_with("rad/") || unit.starts_with("rad "); }
 
 }  // namespace
 
-PlotSvg::PlotSvg(std::string path, std::string title, std::vector<Panel> panels)
-    : path_(std::move(path)), title_(std::move(title)) {
+PlotSvg::PlotSvg(std::string path, std::string title, std::vector<Panel> panels, PictureExtras extras)
+    : path_(std::move(path)), title_(std::move(title)), note_(std::move(extras.note)) {
   for (Panel& panel : panels) {
     Drawing drawing;
     drawing.panel = std::move(panel);
@@ -66,13 +92,24 @@ PlotSvg::PlotSvg(std::string path, std::string title, std::vector<Panel> panels)
     if (unit.empty() && its.leaf.type->kind == Kind::duration) unit = "s";
     drawing.unit = is_angle(unit) ? "deg" + unit.substr(3) : unit;
     drawing.downwards = name_of(its) == "depth" || (name_of(its) == "z" && unit == "m");
-    drawing.curves.push_back(add_curve(its.output, its.leaf, drawing, false));
-    if (its.commanded) drawing.curves.push_back(add_curve(its.commanded->first, its.commanded->second, drawing, true));
+    if (its.truth) add_line(drawing, its.truth->first, its.truth->second, true_stroke, "true");
+    drawing.first = curves_.size();
+    const bool alone = its.more.empty();
+    add_line(drawing, its.output, its.leaf, alone ? reached_stroke : strokes_of_kind[0],
+             alone ? "reached" : its.leaf.path);
+    for (std::size_t i = 0; i < its.more.size(); ++i)
+      add_line(drawing, its.more[i].first, its.more[i].second, strokes_of_kind[(i + 1) % strokes_of_kind.size()],
+               its.more[i].second.path);
+    if (its.commanded)
+      add_line(drawing, its.commanded->first, its.commanded->second, commanded_stroke, "commanded", true);
     drawings_.push_back(std::move(drawing));
   }
+  if (extras.true_path) paths_.emplace_back(*extras.true_path, "true", true_stroke);
+  if (extras.path) paths_.emplace_back(*extras.path, "reached", reached_stroke);
 }
 
-std::size_t PlotSvg::add_curve(std::uint32_t output, const Leaf& leaf, const Drawing& drawing, bool held) {
+void PlotSvg::add_line(Drawing& drawing, std::uint32_t output, const Leaf& leaf, std::string_view stroke,
+                       std::string name, bool held) {
   PlotCurve curve;
   curve.leaf = leaf;
   if (is_angle(leaf.unit.empty() ? drawing.panel.unit : leaf.unit)) curve.factor = degrees;
@@ -83,14 +120,15 @@ std::size_t PlotSvg::add_curve(std::uint32_t output, const Leaf& leaf, const Dra
   curves_.push_back(std::move(curve));
   if (curves_of_.size() <= output) curves_of_.resize(output + std::size_t{1});
   curves_of_[output].push_back(curves_.size() - 1);
-  return curves_.size() - 1;
+  drawing.lines.push_back({curves_.size() - 1, stroke, std::move(name)});
 }
 
 // Adds to the curves of another run.
 class PlotSvg::Beside : public RecordSink {
  public:
   explicit Beside(PlotSvg& picture) : picture_(picture) {
-    for (const Drawing& drawing : picture.drawings_) curves_.emplace_back(drawing.panel.output, drawing.others.back());
+    for (const Drawing& drawing : picture.drawings_)
+      if (drawing.panel.more.empty()) curves_.emplace_back(drawing.panel.output, drawing.lines.back().curve);
   }
   bool wants(std::uint32_t output) const override {
     return std::any_of(curves_.begin(), curves_.end(), [&](const auto& curve) { return curve.first == output; });
@@ -108,13 +146,14 @@ class PlotSvg::Beside : public RecordSink {
 };
 
 std::unique_ptr<RecordSink> PlotSvg::beside(std::string name) {
-  others_.push_back(std::move(name));
+  const std::string_view stroke = other_strokes[others_++ % other_strokes.size()];
   for (Drawing& drawing : drawings_) {
-    PlotCurve curve = curves_[drawing.curves[0]];
+    if (!drawing.panel.more.empty()) continue;  // colours enough
+    PlotCurve curve = curves_[drawing.first];
     curve.spans.clear();
     curve.samples_per_span = 1;
     curve.samples_in_last = 0;
-    drawing.others.push_back(curves_.size());
+    drawing.lines.push_back({curves_.size(), stroke, name});
     curves_.push_back(std::move(curve));
   }
   return std::make_unique<Beside>(*this);
@@ -122,22 +161,45 @@ std::unique_ptr<RecordSink> PlotSvg::beside(std::string name) {
 
 void PlotSvg::take(Duration instant, std::uint32_t output, const void* value) {
   end_ = std::max(end_, instant.count());
+  for (PlotMap::Path& path : paths_) path.take(output, value);
   if (output >= curves_of_.size()) return;
   for (const std::size_t i : curves_of_[output]) { curves_[i].add(instant.count(), value); }
 }
 
+// From the right: what was reached, commanded, true, then what other runs reached; kinds from the left.
+void PlotSvg::draw_legend(const Drawing& drawing, double top, PlotPen& pen) {
+  if (drawing.lines.size() < 2) return;
+  constexpr double stroke_length = 26, gap = 6, letter = 7;
+  std::vector<const Line*> entries;
+  for (auto line = drawing.lines.rbegin(); line != drawing.lines.rend(); ++line) entries.push_back(&*line);
+  if (drawing.panel.more.empty()) {
+    const auto rank = [&](const Line* line) {
+      return line->curve == drawing.first       ? 0
+             : line->stroke == commanded_stroke ? 1
+             : line->stroke == true_stroke      ? 2
+                                                : 3;
+    };
+    std::stable_sort(entries.begin(), entries.end(), [&](const Line* a, const Line* b) { return rank(a) < rank(b); });
+  }
+  double at = right;
+  for (const Line* line : entries) {
+    at -= std::max(84.0, 2 * stroke_length + 2 * gap + letter * static_cast<double>(line->name.size()));
+    pen.line(at, at + stroke_length, top - 13, line->stroke);
+    pen.text(at + stroke_length + gap, top - 9, "", line->name);
+  }
+}
+
 void PlotSvg::draw(const Drawing& drawing, double top, PlotPen& pen) const {
   const double bottom = top + panel_height;
-  const bool angle = curves_[drawing.curves[0]].angle;
+  const PlotCurve& first = curves_[drawing.first];
+  const bool angle = first.angle;
   bool whole_numbers = true;
   bool crosses = false;
   double least = PlotCurve::most_value;
   double most = -PlotCurve::most_value;
   std::vector<std::vector<PlotCurve::Point>> lines;
-  std::vector<std::size_t> drawn = drawing.curves;
-  drawn.insert(drawn.end(), drawing.others.begin(), drawing.others.end());
-  for (const std::size_t i : drawn) {
-    const PlotCurve& curve = curves_[i];
+  for (const Line& line : drawing.lines) {
+    const PlotCurve& curve = curves_[line.curve];
     lines.push_back(curve.points(end_));
     for (const PlotCurve::Point& p : lines.back()) {
       least = std::min(least, p.value);
@@ -147,6 +209,7 @@ void PlotSvg::draw(const Drawing& drawing, double top, PlotPen& pen) const {
     whole_numbers = whole_numbers && curve.leaf.type->kind != Kind::floating && curve.factor == 1;
   }
   const bool no_data = least > most;
+  const bool names = first.leaf.type->kind == Kind::enumeration;
 
   Axis y;
   y.from = drawing.downwards ? top : bottom;
@@ -156,7 +219,7 @@ void PlotSvg::draw(const Drawing& drawing, double top, PlotPen& pen) const {
     const double greatest = std::max(std::abs(least), std::abs(most));
     const double range = most - least;
     const bool flat = range <= 1e-9 * greatest || range < 1e-290;
-    const double air = !flat ? 0.06 * range : greatest > 1e-290 ? 0.1 * greatest : 1.0;
+    const double air = !flat ? (names ? 0.2 : 0.06) * range : greatest > 1e-290 ? 0.1 * greatest : 1.0;
     y.least = least >= 0 && least < air && !flat ? 0 : least - air;
     y.most = most <= 0 && most > -air && !flat ? 0 : most + air;
     if (angle && least >= -180 && most <= 180) {
@@ -167,11 +230,13 @@ void PlotSvg::draw(const Drawing& drawing, double top, PlotPen& pen) const {
   y.ticks = find_ticks(y.most - y.least, 5, angle);
   if (whole_numbers && y.ticks.exponent < 0) y.ticks = {1, 0};
   const Axis x = time_axis(end_, left, right);
+  const std::vector<Named> named = names ? names_of(*first.leaf.type, lines) : std::vector<Named>{};
 
   pen.svg += "<path stroke=\"#E4E7EB\" d=\"";
   x.for_each_tick([&](double at, const std::string&) { pen.svg += "M" + px(at) + "," + px(top) + "V" + px(bottom); });
-  if (!no_data)
-    y.for_each_tick([&](double at, const std::string&) { pen.svg += "M" + px(left) + "," + px(at) + "H" + px(right); });
+  const auto across = [&](double at) { pen.svg += "M" + px(left) + "," + px(at) + "H" + px(right); };
+  for (const Named& each : named) across(y.place(each.value));
+  if (!no_data && !names) y.for_each_tick([&](double at, const std::string&) { across(at); });
   pen.svg += "\"/>\n<rect x=\"" + px(left) + "\" y=\"" + px(top) + "\" width=\"" + px(right - left) + "\" height=\"" +
              px(panel_height) + "\" stroke=\"#9AA5B1\" fill=\"none\"/>\n";
 
@@ -183,31 +248,28 @@ void PlotSvg::draw(const Drawing& drawing, double top, PlotPen& pen) const {
     pen.text((left + right) / 2, top + panel_height / 2 + 5, "font-size=\"14\" text-anchor=\"middle\"", "no data");
     return;
   }
-  pen.svg += "<g text-anchor=\"end\">\n";
-  y.for_each_tick([&](double at, const std::string& label) { pen.text(left - 8, at + 4, "", label); });
-  pen.svg += "</g>\n";
-  std::vector<std::string_view> strokes{reached_stroke, commanded_stroke};
-  strokes.resize(drawing.curves.size());
-  for (std::size_t i = 0; i < others_.size(); ++i) strokes.push_back(other_strokes[i % other_strokes.size()]);
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    if (!lines[i].empty()) pen.curve(curves_[drawn[i]], lines[i], x, y, strokes[i], right);
-
-  for (std::size_t i = 0; i < others_.size(); ++i) {
-    const double at = right - 216 - 84 * static_cast<double>(others_.size() - i);
-    pen.line(at, at + 26, top - 13, strokes[drawing.curves.size() + i]);
-    pen.text(at + 32, top - 9, "", others_[i]);
+  if (!names) {
+    pen.svg += "<g text-anchor=\"end\">\n";
+    y.for_each_tick([&](double at, const std::string& label) { pen.text(left - 8, at + 4, "", label); });
+    pen.svg += "</g>\n";
   }
-  if (!drawing.panel.commanded) return;
-  pen.line(right - 216, right - 190, top - 13, commanded_stroke);
-  pen.text(right - 184, top - 9, "", "commanded");
-  pen.line(right - 84, right - 58, top - 13, reached_stroke);
-  pen.text(right - 52, top - 9, "", "reached");
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (!lines[i].empty()) pen.curve(curves_[drawing.lines[i].curve], lines[i], x, y, drawing.lines[i].stroke, right);
+  // within the panel, as they are longer than numbers
+  for (const Named& each : named)
+    pen.text(left + 6, y.place(each.value) - 4, "paint-order=\"stroke\" stroke=\"#FFFFFF\" stroke-width=\"3\"",
+             each.name);
+  draw_legend(drawing, top, pen);
 }
 
 std::string PlotSvg::text() const {
   constexpr double pitch = heading_line + panel_height + panel_gap;
   const double bottom = first_panel + pitch * static_cast<double>(drawings_.size()) - panel_gap;
-  const double height = drawings_.empty() ? first_panel + 40 : bottom + time_labels;
+  const PlotMap map(paths_);
+  const double map_top = bottom + time_labels + heading_line;
+  const double height = drawings_.empty() ? first_panel + 40
+                        : map.is_empty()  ? bottom + time_labels
+                                          : map_top + PlotMap::height + time_labels;
   PlotPen pen;
   pen.svg =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"" +
@@ -216,6 +278,7 @@ std::string PlotSvg::text() const {
       "fill=\"#52606D\">\n<title>" +
       xml_text(title_) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\n";
   pen.text(left, 32, "font-size=\"18\" font-weight=\"bold\" fill=\"#1F2933\"", title_);
+  if (!note_.empty()) pen.text(right, 32, "text-anchor=\"end\"", note_);
   if (drawings_.empty()) {
     pen.text(left, first_panel + 16, "", "no data");
     return pen.svg + "</svg>\n";
@@ -231,6 +294,7 @@ std::string PlotSvg::text() const {
   });
   pen.text((left + right) / 2, bottom + 37, "", "time [s]");
   pen.svg += "</g>\n";
+  if (!map.is_empty()) map.draw(left, right, map_top, pen);
   return pen.svg + "</svg>\n";
 }
 

@@ -40,19 +40,25 @@ class ReportsAside {
 
 class RunFiles {
  public:
-  /// Throws std::runtime_error if one can't be made, std::invalid_argument if it can't hold what is asked for.
-  RunFiles(const Graph& graph, const RunFileArguments& arguments);
+  /// `note`: how the run differs from others of its graph; `truths`: by distributer the type of what is known of its
+  /// vehicle, or null. Throws std::runtime_error if one can't be made, std::invalid_argument if it can't hold what is
+  /// asked for.
+  RunFiles(const Graph& graph, const RunFileArguments& arguments, std::string note,
+           const std::vector<const Type*>& truths);
   ~RunFiles();
   RunFiles(const RunFiles&) = delete;
   RunFiles& operator=(const RunFiles&) = delete;
 
   std::vector<RecordSink*> sinks() const;
+  /// The picture shows true values beside what is published.
+  bool shows_truth() const { return shows_truth_; }
   /// Lines of another run in the picture; null: there is none.
   std::unique_ptr<RecordSink> beside(const std::string& name);
 
  private:
   std::vector<std::unique_ptr<RecordSink>> sinks_;
   PlotSvg* plot_ = nullptr;  // among them
+  bool shows_truth_ = false;
 };
 
 }  // namespace jarol::tools

@@ -68,6 +68,31 @@ TEST_SUITE("tools/run_files") {
   }
 
 #ifdef JAROL_VEHICLES
+  TEST_CASE(
+      "a picture shows what is true beside what is reported, the actuators, names of states, the path and what the run "
+      "differs in") {
+    const TemporaryFolder folder;
+    const std::string picture = folder / "p.svg", recording = folder / "r.mcap", replayed = folder / "q.svg";
+    CHECK(jarol("run specs/exolauv.yaml --profile at_sea --seed 7 --for 20s --set expect=null --record " + recording +
+                " --plot " + picture)
+              .exit_code == 0);
+    const std::string svg = content(picture);
+    CHECK(titles_of(svg) ==
+          Titles{"depth", "pitch", "heading", "speed", "alarm", "to_dune.thruster", "to_dune.fins", "path"});
+    const auto count = [&](const std::string& text) {
+      std::size_t found = 0;
+      for (std::size_t at = 0; (at = svg.find(text, at)) != std::string::npos; ++at) ++found;
+      return found;
+    };
+    CHECK(count(">true</text>") == 5);  // all but alarm, and the path
+    CHECK(count(">commanded</text>") == 3);
+    CHECK(count(">none</text>") == 1);
+    for (const std::string fin : {"fins.0", "fins.1", "fins.2", "fins.3"}) CHECK(count(">" + fin + "</text>") == 1);
+    CHECK(count(">profile at_sea, seed 7, expect=null</text>") == 1);
+    CHECK(jarol("replay " + recording + " --plot " + replayed).exit_code == 0);
+    CHECK(content(replayed) == svg);
+  }
+
   TEST_CASE("a trace in words has a row of units, and names what enumerators and truth values mean") {
     const TemporaryFolder folder;
     const std::string plain = folder / "p.csv", words = folder / "w.csv";
