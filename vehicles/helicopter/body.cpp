@@ -23,26 +23,11 @@ double ground_gain(const HelicopterBody& body, double height) {
 
 }  // namespace
 
-Vector3 to_ned(const std::array<Vector3, 3>& R_nb, const Vector3& b) {
-  return {fossen::dot(R_nb[0], b), fossen::dot(R_nb[1], b), fossen::dot(R_nb[2], b)};
-}
-
-Vector3 from_ned(const std::array<Vector3, 3>& R_nb, const Vector3& n) {
-  return sum(sum(scaled(R_nb[0], n[0]), scaled(R_nb[1], n[1])), scaled(R_nb[2], n[2]));
-}
-
-double calc_remaining(const HelicopterBody& body, double seconds) { return std::exp(-seconds / body.lag); }
-
-double calc_thrust(const HelicopterBody& body, double setting) {
-  return body.full_thrust * std::pow(setting, body.thrust_exponent);
-}
-
 fossen::Vector6 calc_loads(const HelicopterBody& body, const HelicopterMotion& motion, const HelicopterInput& input,
                            double time) {
   const Vector3& down_b = motion.R_nb[2];
   const Vector3 air_b = sum(motion.v_b, scaled(from_ned(motion.R_nb, input.wind_n), -1.0));
   const double remaining = calc_remaining(body, time - input.begin);
-  const double n = body.thrust_exponent;
   Vector3 force{};
   Vector3 moment{};
 
@@ -53,13 +38,14 @@ fossen::Vector6 calc_loads(const HelicopterBody& body, const HelicopterMotion& m
     const double change = (input.from[i] - input.to[i]) * remaining;
     const double setting = input.to[i] + change;
     const double height = -(motion.p_n[2] + fossen::dot(down_b, rotor.hub_b));
-    const double free_thrust = calc_thrust(body, setting);
+    const double free_thrust = calc_thrust(body, i, setting);
     const double thrust = free_thrust * ground_gain(body, height);
 
     // thrust grows with speed squared; its power law has no slope at rest, where nothing turns anyway
     const double speed = body.full_speed * std::sqrt(free_thrust / body.full_thrust);
     spin += rotor.spin * body.rotor_inertia * speed;
-    spin_dot -= rotor.spin * body.rotor_inertia * speed * 0.5 * n / std::max(setting, 0.02) * change / body.lag;
+    spin_dot -= rotor.spin * body.rotor_inertia * speed * 0.5 * body.thrust_law[i].exponent() /
+                std::max(setting, 0.02) * change / body.lag;
 
     // blades resist flow in their plane and along their axis in proportion to their speed
     const Vector3 flow = sum(air_b, fossen::cross(motion.omega_b, rotor.hub_b));
@@ -76,7 +62,7 @@ fossen::Vector6 calc_loads(const HelicopterBody& body, const HelicopterMotion& m
 
   for (std::size_t i = 0; i < body.feet.r_b.size(); ++i) {
     const Vector3& r_b = body.feet.r_b[i];
-    if (motion.p_n[2] + fossen::dot(down_b, r_b) <= 0.0) continue;
+    if (foot_depth(motion, r_b) <= 0.0) continue;
     const FootMotion foot = foot_motion(motion, r_b);
     const Vector3 on_foot = from_ned(motion.R_nb, calc_foot_force(body.feet, foot, input.anchors[i]));
     add(force, on_foot);

@@ -4,8 +4,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 
 #include "vehicles/helicopter/feet.h"
+#include "vehicles/helicopter/thrust_law.h"
 
 namespace jarol::vehicles {
 
@@ -32,7 +35,7 @@ struct HelicopterBody {
   };
   std::array<Rotor, 4> rotors{};
   double full_thrust = 1.0;
-  double thrust_exponent = 1.0;
+  std::array<ThrustLaw, 4> thrust_law{};  // each knows the settings that its own rotor had last
   double lag = 0.05;
   double torque_per_thrust = 0.0;
   double rotor_inertia = 0.0;
@@ -59,7 +62,9 @@ struct HelicopterInput {
 };
 
 /// The part of a change of setting that is still to come after a time: first-order lag, solved exactly.
-double calc_remaining(const HelicopterBody& body, double seconds);
+inline double calc_remaining(const HelicopterBody& body, double seconds) {
+  return seconds == 0.0 ? 1.0 : std::exp(-seconds / body.lag);
+}
 
 /// Force and moment about the centre of gravity in body axes, weight left out. The force is what moves the body, of
 /// which a payload takes its share.
@@ -67,13 +72,25 @@ fossen::Vector6 calc_loads(const HelicopterBody& body, const HelicopterMotion& m
                            double time);
 
 /// Thrust of one rotor at a setting, far from the ground and in air at rest.
-double calc_thrust(const HelicopterBody& body, double setting);
+inline double calc_thrust(const HelicopterBody& body, std::size_t rotor, double setting) {
+  return body.full_thrust * body.thrust_law[rotor].part(setting);
+}
 
 /// In NED axes.
-fossen::Vector3 to_ned(const std::array<fossen::Vector3, 3>& R_nb, const fossen::Vector3& b);
+inline fossen::Vector3 to_ned(const std::array<fossen::Vector3, 3>& R_nb, const fossen::Vector3& b) {
+  return {fossen::dot(R_nb[0], b), fossen::dot(R_nb[1], b), fossen::dot(R_nb[2], b)};
+}
+/// In body axes.
+inline fossen::Vector3 from_ned(const std::array<fossen::Vector3, 3>& R_nb, const fossen::Vector3& n) {
+  fossen::Vector3 b{};
+  for (std::size_t i = 0; i < 3; ++i) b[i] = n[0] * R_nb[0][i] + n[1] * R_nb[1][i] + n[2] * R_nb[2][i];
+  return b;
+}
 /// Of a foot that stands there in the body.
 FootMotion foot_motion(const HelicopterMotion& motion, const fossen::Vector3& r_b);
-/// In body axes.
-fossen::Vector3 from_ned(const std::array<fossen::Vector3, 3>& R_nb, const fossen::Vector3& n);
+/// Its z of NED.
+inline double foot_depth(const HelicopterMotion& motion, const fossen::Vector3& r_b) {
+  return motion.p_n[2] + fossen::dot(motion.R_nb[2], r_b);
+}
 
 }  // namespace jarol::vehicles

@@ -1,5 +1,6 @@
 #include "vehicles/helicopter/dynamics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 
@@ -19,6 +20,7 @@ bool is_finite(const HelicopterMotion& m) {
 HelicopterDynamics::HelicopterDynamics(const HelicopterBody& body, const HelicopterMotion& start,
                                        const std::array<double, 4>& settings)
     : body_(body), motion_(start) {
+  for (const fossen::Vector3& r_b : body_.feet.r_b) reach_ = std::max(reach_, std::sqrt(fossen::dot(r_b, r_b)));
   input_.from = input_.to = settings;
   input_.payload = body.payload;
   for (std::size_t i = 0; i < contact_count; ++i) {
@@ -29,11 +31,30 @@ HelicopterDynamics::HelicopterDynamics(const HelicopterBody& body, const Helicop
 
 // could any part of it touch the ground within a step?
 bool HelicopterDynamics::near_ground() const {
+  const auto sum_of = [](const fossen::Vector3& x) { return std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]); };
+  // m/s that no part of it moves faster than
+  const double fastest = sum_of(motion_.v_b) + sum_of(motion_.omega_b) * reach_;
   for (const fossen::Vector3& r_b : body_.feet.r_b) {
+    if (foot_depth(motion_, r_b) < -0.021 - 2e-9 * step_nanoseconds * fastest) continue;
     const FootMotion foot = foot_motion(motion_, r_b);
     if (foot.p_n[2] > -0.02 - 2e-9 * step_nanoseconds * std::abs(foot.v_n[2])) return true;
   }
   return false;
+}
+
+// Where nothing is near the ground anchors are not brought along. What is in the air has its own below it.
+void HelicopterDynamics::lift_anchors() {
+  for (std::size_t i = 0; i < contact_count; ++i) {
+    const fossen::Vector3& r_b = body_.feet.r_b[i];
+    if (foot_depth(motion_, r_b) <= 0.0)
+      input_.anchors[i] = drag_along(body_.feet, foot_motion(motion_, r_b), input_.anchors[i]);
+  }
+}
+
+std::array<double, 4> HelicopterDynamics::thrusts() const {
+  std::array<double, 4> parts{};
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = body_.thrust_law[i].part(input_.from[i]);
+  return parts;
 }
 
 void HelicopterDynamics::step(const HelicopterCommand& command) {
@@ -41,7 +62,9 @@ void HelicopterDynamics::step(const HelicopterCommand& command) {
   input_.to = command.settings;
   input_.wind_n = command.wind_n;
   input_.payload = command.payload;
-  const long parts = near_ground() ? 5 : 1;
+  near_ground_ = near_ground();
+  if (near_ground_) lift_anchors();
+  const long parts = near_ground_ ? 5 : 1;
   for (long i = 0; i < parts; ++i) advance_to(now_ + step_nanoseconds / parts);
 }
 
@@ -60,6 +83,7 @@ void HelicopterDynamics::advance_to(long nanoseconds) {
   const double remaining = calc_remaining(body_, t - input_.begin);
   for (std::size_t i = 0; i < 4; ++i) input_.from[i] = input_.to[i] + (input_.from[i] - input_.to[i]) * remaining;
   input_.begin = t;
+  if (!near_ground_) return;
   for (std::size_t i = 0; i < contact_count; ++i)
     input_.anchors[i] = drag_along(body_.feet, foot_motion(motion_, body_.feet.r_b[i]), input_.anchors[i]);
 }

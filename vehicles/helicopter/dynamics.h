@@ -27,6 +27,8 @@ class HelicopterDynamics {
   const HelicopterMotion& motion() const { return motion_; }
   /// The rotors' settings reached.
   const std::array<double, 4>& settings() const { return input_.from; }
+  /// Their thrusts, each as a part of its full one, far from the ground and in air at rest.
+  std::array<double, 4> thrusts() const;
   /// What an accelerometer in the centre of gravity measures in body axes: all forces but the weight, per mass.
   fossen::Vector3 specific_force() const;
 
@@ -48,10 +50,13 @@ class HelicopterDynamics {
 
   void advance_to(long nanoseconds);
   bool near_ground() const;
+  void lift_anchors();
 
   HelicopterBody body_;
   HelicopterInput input_;
   HelicopterMotion motion_;
+  double reach_ = 0.0;       // m, of the outermost part that may touch the ground
+  bool near_ground_ = true;  // in this step
   long now_ = 0;
   std::string failure_;
 };

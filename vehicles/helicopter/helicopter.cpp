@@ -80,6 +80,8 @@ const HelicopterMotion& Helicopter::motion() const { return plant_->motion(); }
 
 HelicopterSensors::Scene Helicopter::scene() const { return {plant_->motion(), plant_->specific_force(), voltage_}; }
 
+HelicopterSensors::Scene Helicopter::scene_without_force() const { return {plant_->motion(), {}, voltage_}; }
+
 void Helicopter::accept(messages::MessageRef command) {
   if (const auto* signals = command.as<messages::javiator::MotorSignals>()) {
     signals_.send(*signals, nanoseconds_);
@@ -111,15 +113,12 @@ void Helicopter::step() {
   nanoseconds_ += HelicopterDynamics::step_nanoseconds;
   judge_.look(std::chrono::nanoseconds(nanoseconds_), plant_->motion(), plant_->settings());
 
-  // a rotor's thrust as a part of its full thrust
-  std::array<double, 4> thrusts = plant_->settings();
-  for (double& part : thrusts) part = std::pow(part, parameters_.rotors.thrust_exponent);
-  const double current = battery_.calc_current(thrusts);
+  const double current = battery_.calc_current(plant_->thrusts());
   battery_.draw(current, seconds);
   voltage_ = battery_.calc_voltage(current);
   tell_outputs(current);
 
-  sensors_.sample(nanoseconds_, scene());
+  sensors_.sample(nanoseconds_, scene_without_force());
   robostix_.step();
   if (robostix_.answers()) {
     answer_ = sensors_.answer(robostix_.id());

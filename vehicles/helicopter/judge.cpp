@@ -19,15 +19,19 @@ double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 }  // namespace
 
 HelicopterJudge::HelicopterJudge(const HelicopterParameters& parameters, const HelicopterMotion& start)
-    : body_(make_body(parameters)), limits_(parameters.limits), start_(start), last_(start) {
-  tell_truth(start);
-  has_flown_ = truth_.height > airborne;
+    : body_(make_body(parameters)),
+      limits_(parameters.limits),
+      upright_(std::cos(parameters.limits.tilt) + 1e-9),
+      start_(start),
+      last_(start) {
+  has_flown_ = height() > airborne;
 }
 
-void HelicopterJudge::tell_truth(const HelicopterMotion& m) {
+void HelicopterJudge::find_truth() const {
+  const HelicopterMotion& m = last_;
   const auto& R = m.R_nb;
-  const fossen::Vector3 v_n = to_ned(R, m.v_b);
   const auto yaw_of = [](const HelicopterMotion& of) { return std::atan2(of.R_nb[1][0], of.R_nb[0][0]); };
+  const fossen::Vector3 v_n = to_ned(R, m.v_b);
   truth_.roll = std::atan2(R[2][1], R[2][2]);
   truth_.pitch = -std::asin(std::clamp(R[2][0], -1.0, 1.0));
   truth_.yaw = std::remainder(yaw_of(m) - yaw_of(start_), 2.0 * std::numbers::pi);
@@ -37,28 +41,33 @@ void HelicopterJudge::tell_truth(const HelicopterMotion& m) {
   truth_.climb = -v_n[2];
   truth_.speed = std::hypot(v_n[0], v_n[1]);
   truth_.tilt = std::acos(std::clamp(R[2][2], -1.0, 1.0));
+  truth_.height = height();
+  is_found_ = true;
+}
+
+double HelicopterJudge::height() const {
   double lowest = -1e9;
-  for (std::size_t i = 0; i < foot_count; ++i) lowest = std::max(lowest, foot_motion(m, body_.feet.r_b[i]).p_n[2]);
-  truth_.height = -lowest;
+  for (std::size_t i = 0; i < foot_count; ++i) lowest = std::max(lowest, foot_depth(last_, body_.feet.r_b[i]));
+  return -lowest;
 }
 
 void HelicopterJudge::look(std::chrono::nanoseconds instant, const HelicopterMotion& motion,
                            const std::array<double, 4>& settings) {
-  tell_truth(motion);
   for (std::size_t i = 0; i < contact_count; ++i) meet_ground(instant, motion, i);
+  last_ = motion;
+  is_found_ = false;
   if (!mishap_) find_capsize(instant);
-  has_flown_ = has_flown_ || truth_.height > airborne;
+  has_flown_ = has_flown_ || height() > airborne;
   const double mean = (settings[0] + settings[1] + settings[2] + settings[3]) / 4;
   if (!has_flown_ && most_signal * mean >= limits_.take_off_signal)
     driven_ += std::chrono::duration<double>(instant - last_instant_).count();
   last_instant_ = instant;
-  last_ = motion;
 }
 
 void HelicopterJudge::meet_ground(std::chrono::nanoseconds instant, const HelicopterMotion& motion, std::size_t part) {
   const fossen::Vector3& r_b = body_.feet.r_b[part];
+  if (foot_depth(last_, r_b) > 0 || foot_depth(motion, r_b) <= 0) return;
   const FootMotion before = foot_motion(last_, r_b), after = foot_motion(motion, r_b);
-  if (before.p_n[2] > 0 || after.p_n[2] <= 0) return;
   // the ground has slowed it down since it touched
   const double speed = std::max(before.v_n[2], after.v_n[2]);
   truth_.impact = std::max(truth_.impact, speed);
@@ -72,9 +81,10 @@ void HelicopterJudge::meet_ground(std::chrono::nanoseconds instant, const Helico
 }
 
 void HelicopterJudge::find_capsize(std::chrono::nanoseconds instant) {
-  if (truth_.tilt > limits_.tilt)
-    mishap_ = {instant, fmt::format("capsized: tilted by {:.0f} deg, beyond {:.0f} deg", degrees(truth_.tilt),
-                                    degrees(limits_.tilt))};
+  // by its cosine where that suffices
+  if (last_.R_nb[2][2] > upright_ || !(truth().tilt > limits_.tilt)) return;
+  mishap_ = {instant, fmt::format("capsized: tilted by {:.0f} deg, beyond {:.0f} deg", degrees(truth_.tilt),
+                                  degrees(limits_.tilt))};
 }
 
 std::optional<Mishap> HelicopterJudge::mishap() const {

@@ -17,21 +17,31 @@ class HelicopterJudge {
   /// A step has brought it here, with these settings of its rotors.
   void look(std::chrono::nanoseconds instant, const HelicopterMotion& motion, const std::array<double, 4>& settings);
 
-  const HelicopterTruth& truth() const { return truth_; }
+  /// Of the newest motion; found when it is asked for.
+  const HelicopterTruth& truth() const {
+    if (!is_found_) find_truth();
+    return truth_;
+  }
   std::optional<Mishap> mishap() const;
 
-  void serialize(Archive& archive) { archive(start_, last_, truth_, mishap_, has_flown_, last_instant_, driven_); }
+  void serialize(Archive& archive) {
+    if (!is_found_) find_truth();
+    archive(start_, last_, truth_, mishap_, has_flown_, last_instant_, driven_);
+  }
 
  private:
-  void tell_truth(const HelicopterMotion& motion);
+  void find_truth() const;
+  double height() const;
   void meet_ground(std::chrono::nanoseconds instant, const HelicopterMotion& motion, std::size_t part);
   void find_capsize(std::chrono::nanoseconds instant);
 
   HelicopterBody body_;
   LimitParameters limits_;
+  double upright_;  // cosine of a tilt that is surely within its limit
   HelicopterMotion start_;
   HelicopterMotion last_;
-  HelicopterTruth truth_;
+  mutable HelicopterTruth truth_;  // its impact always, the rest where it is found
+  mutable bool is_found_ = false;
   std::optional<Mishap> mishap_;
   bool has_flown_ = false;
   std::chrono::nanoseconds last_instant_{};
