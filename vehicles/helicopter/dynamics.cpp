@@ -42,15 +42,6 @@ bool HelicopterDynamics::near_ground() const {
   return false;
 }
 
-// Where nothing is near the ground anchors are not brought along. What is in the air has its own below it.
-void HelicopterDynamics::lift_anchors() {
-  for (std::size_t i = 0; i < contact_count; ++i) {
-    const fossen::Vector3& r_b = body_.feet.r_b[i];
-    if (foot_depth(motion_, r_b) <= 0.0)
-      input_.anchors[i] = drag_along(body_.feet, foot_motion(motion_, r_b), input_.anchors[i]);
-  }
-}
-
 std::array<double, 4> HelicopterDynamics::thrusts() const {
   std::array<double, 4> parts{};
   for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = body_.thrust_law[i].part(input_.from[i]);
@@ -63,7 +54,6 @@ void HelicopterDynamics::step(const HelicopterCommand& command) {
   input_.wind_n = command.wind_n;
   input_.payload = command.payload;
   near_ground_ = near_ground();
-  if (near_ground_) lift_anchors();
   const long parts = near_ground_ ? 5 : 1;
   for (long i = 0; i < parts; ++i) advance_to(now_ + step_nanoseconds / parts);
 }
@@ -83,6 +73,7 @@ void HelicopterDynamics::advance_to(long nanoseconds) {
   const double remaining = calc_remaining(body_, t - input_.begin);
   for (std::size_t i = 0; i < 4; ++i) input_.from[i] = input_.to[i] + (input_.from[i] - input_.to[i]) * remaining;
   input_.begin = t;
+  // what is far from the ground grips nowhere, and begins to be looked after in time before it could touch
   if (!near_ground_) return;
   for (std::size_t i = 0; i < contact_count; ++i)
     input_.anchors[i] = drag_along(body_.feet, foot_motion(motion_, body_.feet.r_b[i]), input_.anchors[i]);

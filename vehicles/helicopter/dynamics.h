@@ -50,7 +50,6 @@ class HelicopterDynamics {
 
   void advance_to(long nanoseconds);
   bool near_ground() const;
-  void lift_anchors();
 
   HelicopterBody body_;
   HelicopterInput input_;
