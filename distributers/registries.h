@@ -8,10 +8,10 @@
 
 namespace jarol::distributers {
 
-/// A description and a factory for each; loader, help, reference and JSON Schema read them. Filled by `add_tasks`,
-/// `add_distributers`, `add_links`, `add_vehicles` and whoever has more.
+/// A description and a factory for each; loader, help, reference and JSON Schema read them. Filled by `add_policies`,
+/// `add_tasks`, `add_distributers`, `add_links`, `add_vehicles` and whoever has more.
 struct Registries {
-  Registry graph;  // task types and distributers
+  Registry graph;  // task types, distributers and policies
   NamedList<LinkType> links;
   NamedList<vehicles::VehicleClass> vehicles;
 };

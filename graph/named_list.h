@@ -1,4 +1,4 @@
-// A list of entries with a name each, as of vehicles or of link types.
+// A list of entries with a name each, as of vehicles, link types or policies.
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// The task types and distributer classes that graphs may name.
+// The task types, distributer classes and scheduling policies that graphs may name.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "graph/language/spec.h"
+#include "graph/named_list.h"
+#include "graph/policy.h"
 #include "graph/task.h"
 
 namespace jarol {
@@ -46,9 +48,11 @@ class Registry {
   /// Throws std::invalid_argument if there is one of that name.
   void add(TaskClass task);
   void add(DistributerClass distributer);
+  void add(const Policy& policy) { policies_.add(policy); }
 
   const TaskClass* find_task(std::string_view name) const;
   const DistributerClass* find_distributer(std::string_view name) const;
+  const Policy* find_policy(std::string_view name) const { return policies_.find(name); }
   /// A type that some input, output or channel has, or null.
   const Type* find_type(std::string_view name) const;
 
@@ -60,6 +64,8 @@ class Registry {
   const std::vector<TaskClass>& tasks() const { return tasks_; }
   const std::vector<DistributerClass>& distributers() const { return distributers_; }
   std::vector<std::string> type_names() const;
+  /// In the order in which they were added.
+  const std::vector<Policy>& policies() const { return policies_.entries(); }
 
  private:
   void add_type(const Type& type);
@@ -67,6 +73,7 @@ class Registry {
   std::vector<TaskClass> tasks_;
   std::vector<DistributerClass> distributers_;
   std::vector<const Type*> types_;  // in bytewise order of name
+  NamedList<Policy> policies_;
   bool complete_ = true;
 };
 
@@ -74,7 +81,7 @@ class Registry {
 template <class C>
 std::vector<std::string> names_of(const std::vector<C>& classes) {
   std::vector<std::string> names;
-  for (const C& c : classes) names.push_back(c.name);
+  for (const C& c : classes) names.emplace_back(c.name);
   return names;
 }
 

@@ -17,24 +17,24 @@ namespace {
 // "'table' and 'fixed_priority'"
 std::string executed_policies() {
   std::string names;
-  for (const analysis::PolicyEntry& policy : analysis::policies())
-    if (policy.executed) names += (names.empty() ? "'" : " and '") + policy.name() + "'";
+  for (const Policy& policy : analysis::built_in_policies())
+    if (policy.executed) names += (names.empty() ? "'" : " and '") + std::string(policy.name) + "'";
   return names;
 }
 
 }  // namespace
 
 void require_executed(const std::string& name, const Graph& graph, const RealTimeWords& words) {
-  const analysis::PolicyEntry& policy = analysis::entry_of(graph.platform.policy);
+  const Policy& policy = analysis::policy_of(graph.platform);
   if (!policy.executed)
-    throw NotExecutable("'" + name + "' has the policy '" + policy.name() + "'; the real clock executes " +
+    throw NotExecutable("'" + name + "' has the policy '" + std::string(policy.name) + "'; the real clock executes " +
                         executed_policies() + "; choose one by " + words.set + " platform.policy=table");
 }
 
 std::vector<analysis::TaskThread> threads_for(const std::string& name, const Graph& graph, RealTimeOptions& options,
                                               const RealTimeWords& words) {
   require_executed(name, graph, words);
-  const bool by_priority = analysis::entry_of(graph.platform.policy).urgency == analysis::Urgency::priority;
+  const bool by_priority = analysis::policy_of(graph.platform).urgency == Urgency::priority;
   if (!by_priority && graph.platform.cores == 1) return {};
   std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
   std::size_t cores = 0, levels = 0;

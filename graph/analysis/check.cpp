@@ -1,18 +1,8 @@
 #include "graph/analysis/check.h"
 
-#include <cassert>
-
-#include "graph/analysis/policies.h"
 #include "graph/language/problems.h"
 
 namespace jarol::analysis {
-namespace {
-
-Result check_system(const System& system, bool whole, Effort& effort) {
-  return entry_of(system.policy).check(system, whole, effort);
-}
-
-}  // namespace
 
 const char* word_of(Verdict verdict) {
   switch (verdict) {
@@ -25,13 +15,15 @@ const char* word_of(Verdict verdict) {
 
 Result check(const System& system) {
   Effort effort;
-  Result result = check_system(system, true, effort);
-  assert(result.response.size() == system.loads.size() && result.core.size() == system.loads.size());
+  Result result = system.policy.check(system, true, effort);
+  // the policy of a plugin may leave them out
+  result.response.resize(system.loads.size());
+  result.core.resize(system.loads.size());
   result.utilisation = utilisation(system.loads);
   return result;
 }
 
-Verdict verdict_of(const System& system, Effort& effort) { return check_system(system, false, effort).verdict; }
+Verdict verdict_of(const System& system, Effort& effort) { return system.policy.check(system, false, effort).verdict; }
 
 Result check(const Graph& graph) {
   std::vector<std::string> missing;

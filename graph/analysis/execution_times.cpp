@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "graph/analysis/check.h"
-#include "graph/analysis/policies.h"
 #include "graph/values/seed.h"
 
 namespace jarol::analysis {
@@ -103,7 +102,7 @@ Schedule schedule_of(const Graph& graph, ExecutionTimes times) {
   if (!system.offsets_hold)
     throw std::invalid_argument("'phasing: any' leaves open when tasks are released; state 'phasing: given'");
   std::vector<std::size_t> core;
-  if (entry_of(system.policy).keeps_core) {
+  if (system.policy.keeps_core) {
     for (const auto& of_task : check(system).core) core.push_back(of_task.value_or(0));
   }
   std::vector<bool> skips;

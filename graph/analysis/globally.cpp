@@ -85,7 +85,7 @@ void walk(const System& system, const Loads& loads, Result& result, Effort& effo
 
 // On one core global EDF is EDF.
 System with_edf(System system) {
-  system.policy = Policy::edf;
+  system.policy = policies::edf;
   return system;
 }
 

@@ -6,7 +6,6 @@
 #include "graph/analysis/explore.h"
 #include "graph/analysis/extremes.h"
 #include "graph/analysis/fixed_priority.h"
-#include "graph/analysis/policies.h"
 #include "graph/analysis/readiness.h"
 
 namespace jarol::analysis {
@@ -16,9 +15,8 @@ constexpr std::int64_t most_time = std::int64_t{1} << 60;
 constexpr std::uint64_t most_activations = 1'000'000;
 constexpr std::uint64_t steps_of_activation = 10;  // that the simulation takes
 
-bool by_deadline(Policy policy) { return entry_of(policy).urgency == Urgency::deadline; }
-bool is_preemptive(Policy policy) { return entry_of(policy).interrupts; }
-Order order_of(Policy policy) { return by_deadline(policy) ? Order::by_deadline : Order::by_priority; }
+bool by_deadline(const Policy& policy) { return policy.urgency == Urgency::deadline; }
+Order order_of(const Policy& policy) { return by_deadline(policy) ? Order::by_deadline : Order::by_priority; }
 
 CoreResult undecided(std::string reason, std::vector<std::optional<std::int64_t>> responses = {}) {
   return {Verdict::unknown, Standing::none, std::move(reason), std::move(responses), {}, {}, {}};
@@ -39,12 +37,12 @@ std::vector<std::optional<std::int64_t>> optional(const std::vector<std::int64_t
 }
 
 // For sporadic tasks: every shift, every jitter.
-CoreResult check_any_phasing(std::span<const Load> loads, Policy policy, bool responses, Effort& effort) {
+CoreResult check_any_phasing(std::span<const Load> loads, const Policy& policy, bool responses, Effort& effort) {
   CoreResult result;
   result.standing = Standing::proof;
   if (by_deadline(policy)) {
-    const EdfResult edf = check_edf(loads, is_preemptive(policy), effort);
-    if (responses) result.responses = optional(edf_responses(loads, is_preemptive(policy), effort));
+    const EdfResult edf = check_edf(loads, policy.interrupts, effort);
+    if (responses) result.responses = optional(edf_responses(loads, policy.interrupts, effort));
     if (!edf.decided) return undecided("no end of the processor demand was found", result.responses);
     result.verdict = edf.over ? Verdict::not_schedulable : Verdict::schedulable;
     result.demand = edf.over;
@@ -52,7 +50,7 @@ CoreResult check_any_phasing(std::span<const Load> loads, Policy policy, bool re
                              : "in no interval more work is due than there is time for (processor demand)";
     return result;
   }
-  result.responses = fixed_priority_responses(loads, is_preemptive(policy), effort);
+  result.responses = fixed_priority_responses(loads, policy.interrupts, effort);
   bool open = false, late = false;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     if (!result.responses[i]) {
@@ -109,25 +107,24 @@ Loads without_readers(const CoreTasks& tasks) {
 }
 
 // Is a "no" under EDF one that does not rest on what holds up others that go before?
-bool is_sure(std::span<const Load> loads, Policy policy, Effort& effort) {
+bool is_sure(std::span<const Load> loads, const Policy& policy, Effort& effort) {
   if (!by_deadline(policy) || !has_blocking(loads)) return true;
   const Loads freely = without_blocking({loads.begin(), loads.end()});
-  return check_edf(freely, is_preemptive(policy), effort).over ||
-         is_late_by_own_blocking(loads, is_preemptive(policy), effort);
+  return check_edf(freely, policy.interrupts, effort).over || is_late_by_own_blocking(loads, policy.interrupts, effort);
 }
 
 // The first late activation if all arrive as given.
-void add_witness(std::span<const Load> loads, Policy policy, CoreResult& result) {
+void add_witness(std::span<const Load> loads, const Policy& policy, CoreResult& result) {
   std::int64_t end = 0;
   for (const Load& l : loads) end = std::max(end, l.offset + 4 * l.period);
   end = std::max(end_of_repetition(loads).value_or(end), result.demand ? result.demand->length : 0);
-  Simulation run = simulate(loads, order_of(policy), is_preemptive(policy), end, most_activations);
+  Simulation run = simulate(loads, order_of(policy), policy.interrupts, end, most_activations);
   result.late = run.late;
   if (run.late) result.slices = std::move(run.slices);
 }
 
 // With offsets that hold, interrupting: without jitter and blocking one run decides, else one from each worst start.
-CoreResult walk_preemptive(const CoreTasks& tasks, Policy policy, Effort& effort) {
+CoreResult walk_preemptive(const CoreTasks& tasks, const Policy& policy, Effort& effort) {
   if (effort.spent()) return undecided("");
   const Loads loads = inheriting_loads(tasks);
   const auto end = end_of_repetition(loads);
@@ -155,7 +152,7 @@ CoreResult walk_preemptive(const CoreTasks& tasks, Policy policy, Effort& effort
 }
 
 // With offsets that hold, not interrupting: shorter execution may change the order and so make others late.
-CoreResult walk_nonpreemptive(const CoreTasks& tasks, Policy policy, Effort& effort) {
+CoreResult walk_nonpreemptive(const CoreTasks& tasks, const Policy& policy, Effort& effort) {
   if (effort.spent()) return undecided("");
   CoreTasks all = tasks;
   all.follows.insert(all.follows.end(), tasks.upward.begin(), tasks.upward.end());
@@ -187,25 +184,24 @@ CoreResult walk_nonpreemptive(const CoreTasks& tasks, Policy policy, Effort& eff
           {}};
 }
 
-CoreResult decide(const CoreTasks& tasks, Policy policy, bool offsets_hold, Detail detail, Effort& effort) {
+CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Effort& effort) {
   const bool responses = detail != Detail::verdict, tight = detail == Detail::tight;
   const Loads loads = inheriting_loads(tasks);
   CoreResult any = check_any_phasing(loads, policy, responses, effort);
   const auto order = compare_utilisation(loads, 1);
   if (order && *order > 0) return any;
   // exact for every shift, but for readers that do not always wait for what they inherited
-  const bool readers_hold_up = !is_preemptive(policy) && !tasks.follows.empty();  // those that they wait for: hardly
+  const bool readers_hold_up = !policy.interrupts && !tasks.follows.empty();  // those that they wait for: hardly
   const bool inherited = readers_hold_up || (!tasks.follows.empty() && (has_jitter(loads) || has_blocking(loads)));
-  const bool worst_at_once = is_preemptive(policy) && all_at_once(loads) && !has_jitter(loads) && !inherited &&
+  const bool worst_at_once = policy.interrupts && all_at_once(loads) && !has_jitter(loads) && !inherited &&
                              !(by_deadline(policy) && has_blocking(loads));
   const bool sure = any.verdict != Verdict::not_schedulable || is_sure(tasks.loads, policy, effort);
   if (sure && !inherited && (!offsets_hold || (worst_at_once && !(tight && any.verdict == Verdict::schedulable))))
     return any;
   // what holds for every shift holds for the one that is given
-  if (any.verdict == Verdict::schedulable && !(offsets_hold && responses && (is_preemptive(policy) || tight)))
-    return any;
+  if (any.verdict == Verdict::schedulable && !(offsets_hold && responses && (policy.interrupts || tight))) return any;
   CoreResult given =
-      is_preemptive(policy) ? walk_preemptive(tasks, policy, effort) : walk_nonpreemptive(tasks, policy, effort);
+      policy.interrupts ? walk_preemptive(tasks, policy, effort) : walk_nonpreemptive(tasks, policy, effort);
   // what bounds every shift bounds this one
   if (given.verdict == Verdict::not_schedulable) given.responses = any.responses;
   if (given.verdict == Verdict::not_schedulable || (offsets_hold && given.verdict == Verdict::schedulable))
@@ -225,11 +221,11 @@ CoreResult decide(const CoreTasks& tasks, Policy policy, bool offsets_hold, Deta
 
 }  // namespace
 
-CoreResult check_core(const CoreTasks& tasks, Policy policy, bool offsets_hold, Detail detail, Effort& effort) {
+CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Effort& effort) {
   CoreResult result = decide(tasks, policy, offsets_hold, detail, effort);
   // a reader that would go first does not, so that what the tests say of those behind it is too much; exploring knows
   const auto order = compare_utilisation(tasks.loads, 1);
-  const bool explored = offsets_hold && !is_preemptive(policy);
+  const bool explored = offsets_hold && !policy.interrupts;
   if (!tasks.upward.empty() && !explored && result.verdict == Verdict::not_schedulable && !(order && *order > 0))
     result = undecided(
         "a task has a higher priority than one that it follows at the same instant; give the producer "

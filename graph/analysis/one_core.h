@@ -31,6 +31,6 @@ struct CoreResult {
 enum class Detail { verdict, whole, tight };
 
 /// Not for tables. Unknown where it would take more effort.
-CoreResult check_core(const CoreTasks& tasks, Policy policy, bool offsets_hold, Detail detail, Effort& effort);
+CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Effort& effort);
 
 }  // namespace jarol::analysis

@@ -3,7 +3,6 @@
 
 #include "graph/analysis/one_core.h"
 #include "graph/analysis/partition.h"
-#include "graph/analysis/policies.h"
 #include "graph/analysis/simulate_global.h"
 #include "graph/analysis/systems.h"
 #include "graph/analysis/urgency.h"
@@ -15,7 +14,7 @@ using Follow = std::pair<std::size_t, std::size_t>;  // producer, reader
 
 // Does the policy run the first before the second wherever both are ready?
 bool goes_before(const System& s, std::size_t a, std::size_t b) {
-  if (entry_of(s.policy).urgency == Urgency::priority) return more_urgent(s, a, b);
+  if (s.policy.urgency == Urgency::priority) return more_urgent(s, a, b);
   return std::pair(s.loads[a].deadline, s.rank[a]) < std::pair(s.loads[b].deadline, s.rank[b]);
 }
 
@@ -144,8 +143,8 @@ Result run_with_waits(const System& system, const std::vector<std::size_t>& core
   RunRules rules{system.follows, core, std::vector<std::size_t>(all.size()), {}, false};
   all = in_order(system, std::move(all));
   for (std::size_t i = 0; i < all.size(); ++i) rules.order[all[i]] = i;
-  rules.by_order = entry_of(system.policy).urgency == Urgency::priority;
-  rules.preemptive = entry_of(system.policy).interrupts;
+  rules.by_order = system.policy.urgency == Urgency::priority;
+  rules.preemptive = system.policy.interrupts;
   for (const bool late : {true, false}) {
     Loads loads = system.loads;
     for (Load& l : loads) l.jitter = late ? l.jitter : 0;

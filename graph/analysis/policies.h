@@ -1,36 +1,43 @@
-// The scheduling policies there are, each with what distinguishes it and with its test.
+// The scheduling policies that are built in, and how a policy is made of a struct.
 #pragma once
 
-#include <string>
-#include <string_view>
+#include <concepts>
 #include <vector>
 
-#include "graph/analysis/check.h"
+#include "graph/policy.h"
 
-namespace jarol::analysis {
+namespace jarol {
 
-/// Which of several tasks that could run goes first.
-enum class Urgency {
-  turn,      // the one that is due first in the order of the graph's one thread
-  priority,  // the one with the higher priority: see more_urgent
-  deadline,  // the one whose deadline is earlier
+class Registry;
+struct Platform;
+
+namespace policies {
+extern const Policy table, fixed_priority, edf, fixed_priority_nonpreemptive, edf_nonpreemptive, global_edf;
+}  // namespace policies
+
+namespace analysis {
+
+/// In the order in which they are listed.
+const std::vector<Policy>& built_in_policies();
+void add_policies(Registry& registry);
+
+/// The one that the platform states, else a table.
+const Policy& policy_of(const Platform& platform);
+
+/// A struct with a static check() of this form is a policy.
+template <class P>
+concept PolicyForm = requires {
+  requires std::convertible_to<decltype(&P::check), decltype(Policy::check)>;
 };
 
-struct PolicyEntry {
-  Policy policy = Policy::table;
-  std::string_view how;  // tasks run, as a clause
-  Urgency urgency = Urgency::turn;
-  bool interrupts = false;  // a task that runs, for a more urgent one
-  bool keeps_core = true;   // a task runs on one core always
-  bool executed = false;    // by jarol run, on the real clock
-  /// `whole`: with witness and responses.
-  Result (*check)(const System& system, bool whole, Effort& effort) = nullptr;
+/// Of such a struct, whose `name`, `how`, `urgency` and `interrupts` are static constants; `keeps_core` may be one,
+/// too.
+template <PolicyForm P>
+constexpr Policy make_policy() {
+  Policy made{.name = P::name, .how = P::how, .urgency = P::urgency, .interrupts = P::interrupts, .check = P::check};
+  if constexpr (requires { P::keeps_core; }) made.keeps_core = P::keeps_core;
+  return made;
+}
 
-  std::string name() const;
-};
-
-/// One for each name that `policy` may have, in their order.
-const std::vector<PolicyEntry>& policies();
-const PolicyEntry& entry_of(Policy policy);
-
-}  // namespace jarol::analysis
+}  // namespace analysis
+}  // namespace jarol

@@ -4,7 +4,6 @@
 #include <tuple>
 #include <utility>
 
-#include "graph/analysis/policies.h"
 #include "graph/analysis/urgency.h"
 
 namespace jarol::analysis {
@@ -12,7 +11,7 @@ namespace {
 
 // Per task, which of those goes first that are equally urgent: see the policies of graph/analysis/README.md.
 std::vector<std::size_t> order_of(const System& system) {
-  const PolicyEntry& policy = entry_of(system.policy);
+  const Policy& policy = system.policy;
   if (policy.urgency == Urgency::turn) return system.turn;
   std::vector<std::size_t> all(system.loads.size()), order(system.loads.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -98,7 +97,7 @@ void Schedule::release(std::size_t task) {
     return;
   }
   std::int64_t urgency = 0;
-  switch (entry_of(system_.policy).urgency) {
+  switch (system_.policy.urgency) {
     case Urgency::turn: urgency = now_; break;
     case Urgency::priority: break;
     case Urgency::deadline: urgency = now_ + load.deadline; break;
@@ -121,7 +120,7 @@ bool Schedule::waits(const Job& job) const {
 }
 
 void Schedule::choose() {
-  const PolicyEntry& policy = entry_of(system_.policy);
+  const Policy& policy = system_.policy;
   running_.clear();
   taken_.assign(static_cast<std::size_t>(system_.cores), false);
   std::size_t free = taken_.size();

@@ -9,7 +9,7 @@ namespace jarol::analysis {
 
 System system_of(const Graph& graph) {
   System system;
-  system.policy = graph.platform.policy;
+  system.policy = policy_of(graph.platform);
   system.cores = graph.platform.cores;
   system.offsets_hold = graph.platform.phasing == Phasing::given;
   std::vector<std::int64_t> bytes(graph.tasks.size(), 0);

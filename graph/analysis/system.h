@@ -4,12 +4,13 @@
 #include <string>
 
 #include "graph/analysis/load.h"
+#include "graph/analysis/policies.h"
 #include "graph/model/graph.h"
 
 namespace jarol::analysis {
 
 struct System {
-  Policy policy = Policy::table;
+  Policy policy = policies::table;
   std::int64_t cores = 1;
   bool offsets_hold = true;  // else every shift of the tasks against each other is possible
   // per task, in the order of the graph

@@ -1,7 +1,6 @@
 #include "graph/analysis/threads.h"
 
 #include "graph/analysis/check.h"
-#include "graph/analysis/policies.h"
 #include "graph/analysis/urgency.h"
 
 namespace jarol::analysis {
@@ -35,7 +34,7 @@ std::vector<TaskThread> threads_of(const Graph& graph) {
     tasks = in_order(system, std::move(tasks));
     const std::size_t first = threads.size();
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-      const bool shares = i > 0 && (entry_of(system.policy).urgency == Urgency::turn ||
+      const bool shares = i > 0 && (system.policy.urgency == Urgency::turn ||
                                     (follows(system, tasks[i - 1], tasks[i]) && !waits[tasks[i - 1]]));
       if (!shares) threads.push_back({core, threads.size() - first, {}});
       threads.back().tasks.push_back(tasks[i]);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "graph/analysis/policies.h"
 #include "graph/analysis/simulate_global.h"
 #include "graph/analysis/urgency.h"
 
@@ -30,7 +29,7 @@ std::int64_t length_of(const Loads& loads) {
 TimeLine time_line_of(const System& system, const Result& result) {
   TimeLine line;
   if (system.loads.empty()) return line;
-  const PolicyEntry& policy = entry_of(system.policy);
+  const Policy& policy = system.policy;
   line.until = length_of(system.loads);
   std::vector<std::size_t> all(system.loads.size()), core(all.size());
   std::iota(all.begin(), all.end(), std::size_t{0});

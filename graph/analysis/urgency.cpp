@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "graph/analysis/policies.h"
-
 namespace jarol::analysis {
 
 bool more_urgent(const System& s, std::size_t a, std::size_t b) {
@@ -15,7 +13,7 @@ bool more_urgent(const System& s, std::size_t a, std::size_t b) {
 }
 
 std::vector<std::size_t> in_order(const System& system, std::vector<std::size_t> tasks) {
-  const bool by_priority = entry_of(system.policy).urgency == Urgency::priority;
+  const bool by_priority = system.policy.urgency == Urgency::priority;
   std::sort(tasks.begin(), tasks.end(), [&](std::size_t a, std::size_t b) {
     return by_priority ? more_urgent(system, a, b) : system.rank[a] < system.rank[b];
   });

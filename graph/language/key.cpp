@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace jarol::detail {
+namespace jarol {
 namespace {
 
 bool is_scalar(const Yaml& yaml, const std::string& need, const std::string& subject, Problems& problems) {
@@ -18,6 +18,18 @@ bool passes(const Yaml& yaml, const std::string& wrong, const std::string& subje
 }
 
 }  // namespace
+
+bool read_choice(const Yaml& yaml, const std::vector<std::string>& choices, std::size_t& to, const std::string& subject,
+                 Problems& problems) {
+  if (!is_scalar(yaml, "one of " + list_of(choices), subject, problems)) return false;
+  for (to = 0; to < choices.size(); ++to)
+    if (choices[to] == yaml.text) return true;
+  problems.add(yaml.where, subject + " can't be '" + yaml.text + "'" + did_you_mean(yaml.text, choices) +
+                               "; it is one of " + list_of(choices));
+  return false;
+}
+
+namespace detail {
 
 bool read_word(const Yaml& yaml, std::string& to, const std::string& subject, Problems& problems) {
   if (!is_scalar(yaml, "a word", subject, problems)) return false;
@@ -78,20 +90,11 @@ bool read_fault_limit(const Yaml& yaml, FaultLimit& to, const std::string& subje
                 problems);
 }
 
-bool read_choice(const Yaml& yaml, const std::vector<std::string>& choices, std::size_t& to, const std::string& subject,
-                 Problems& problems) {
-  if (!is_scalar(yaml, "one of " + list_of(choices), subject, problems)) return false;
-  for (to = 0; to < choices.size(); ++to)
-    if (choices[to] == yaml.text) return true;
-  problems.add(yaml.where, subject + " can't be '" + yaml.text + "'" + did_you_mean(yaml.text, choices) +
-                               "; it is one of " + list_of(choices));
-  return false;
-}
-
 bool read_mapping_value(const Yaml& yaml, const std::string& subject, Problems& problems) {
   if (yaml.kind == Yaml::Kind::mapping) return true;
   problems.add(yaml.where, subject + " needs a mapping, not " + std::string(kind_name(yaml)));
   return false;
 }
 
-}  // namespace jarol::detail
+}  // namespace detail
+}  // namespace jarol

@@ -98,12 +98,10 @@ template <>
 struct Words<Sampling> {
   static std::vector<std::string> list() { return {"random", "latin"}; }
 };
-template <>
-struct Words<Policy> {
-  static std::vector<std::string> list() {
-    return {"table", "fixed_priority", "edf", "fixed_priority_nonpreemptive", "edf_nonpreemptive", "global_edf"};
-  }
-};
+
+/// Reports what is wrong and returns false, or `to` is which of the choices it is.
+bool read_choice(const Yaml& yaml, const std::vector<std::string>& choices, std::size_t& to, const std::string& subject,
+                 Problems& problems);
 
 namespace detail {
 
@@ -117,8 +115,6 @@ bool read_bytes(const Yaml& yaml, std::int64_t& to, const std::string& subject, 
 bool read_frequency(const Yaml& yaml, double& to, const std::string& subject, Problems& problems);  // rad/s
 bool read_share(const Yaml& yaml, double& to, const std::string& subject, Problems& problems);      // of 1
 bool read_fault_limit(const Yaml& yaml, FaultLimit& to, const std::string& subject, Problems& problems);
-bool read_choice(const Yaml& yaml, const std::vector<std::string>& choices, std::size_t& to, const std::string& subject,
-                 Problems& problems);
 bool read_mapping_value(const Yaml& yaml, const std::string& subject, Problems& problems);
 
 template <auto Member, class S, class T>
@@ -141,7 +137,7 @@ void read_member(const Key<S>& key, const Yaml& yaml, S& to, const std::string& 
   } else if constexpr (std::is_same_v<T, FaultLimit>) {
     good = read_fault_limit(yaml, value.value, what, problems);
   } else if constexpr (std::is_same_v<T, Yaml>) {
-    good = key.form == Form::any || read_mapping_value(yaml, what, problems);
+    good = key.form != Form::mapping || read_mapping_value(yaml, what, problems);
     value.value = yaml;
   } else {
     std::size_t index = 0;

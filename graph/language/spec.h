@@ -79,7 +79,6 @@ struct DistributerSpec {
 };
 
 enum class Grammar { let };
-enum class Policy { table, fixed_priority, edf, fixed_priority_nonpreemptive, edf_nonpreemptive, global_edf };
 
 struct TimingSpec {
   Maybe<Grammar> grammar;
@@ -90,7 +89,7 @@ enum class Phasing { given, any };
 
 struct PlatformSpec {
   Maybe<std::int64_t> cores;
-  Maybe<Policy> policy;
+  Maybe<Yaml> policy;  // a name
   Maybe<Phasing> phasing;
   Maybe<Duration> dispatch, copy;
 };

@@ -3,6 +3,8 @@
 namespace jarol {
 namespace {
 
+constexpr char policy_key[] = "policy";
+
 Key<GraphSpec> section(std::string name, std::string text) {
   return key_read_elsewhere<GraphSpec>(std::move(name), Form::section, std::move(text));
 }
@@ -110,13 +112,23 @@ const std::vector<Key<ChainSpec>>& chain_keys() {
 const std::vector<Key<PlatformSpec>>& platform_keys() {
   static const std::vector<Key<PlatformSpec>> keys{
       key<&PlatformSpec::cores>("cores", Form::integer, "number of cores, default 1").in_range(1, most_cores),
-      key<&PlatformSpec::policy>("policy", Form::choice, "scheduling policy, default table"),
+      key<&PlatformSpec::policy>(policy_key, Form::word, "scheduling policy, default table"),
       key<&PlatformSpec::phasing>("phasing", Form::choice,
                                   "do offsets hold as given, or is every shift possible; default given"),
       key<&PlatformSpec::dispatch>("dispatch", Form::duration, "overhead of each activation, for check, default 0ns"),
       key<&PlatformSpec::copy>("copy", Form::duration,
                                "overhead of each byte that an activation hands on, for check, default 0ns"),
   };
+  return keys;
+}
+
+std::vector<Key<PlatformSpec>> platform_keys(const std::vector<std::string>& policies) {
+  std::vector<Key<PlatformSpec>> keys = platform_keys();
+  for (Key<PlatformSpec>& key : keys) {
+    if (key.name != policy_key) continue;
+    key.form = Form::choice;
+    key.choices = policies;
+  }
   return keys;
 }
 

@@ -14,7 +14,10 @@ const std::vector<Key<DistributerSpec>>& distributer_keys();
 const std::vector<Key<CommunicatorSpec>>& communicator_keys();
 const std::vector<Key<TaskSpec>>& task_keys();
 const std::vector<Key<ChainSpec>>& chain_keys();
+/// Without the names of policies, which registries have.
 const std::vector<Key<PlatformSpec>>& platform_keys();
+/// With these.
+std::vector<Key<PlatformSpec>> platform_keys(const std::vector<std::string>& policies);
 const std::vector<Key<AtEndSpec>>& at_end_keys();
 const std::vector<Key<CampaignSpec>>& campaign_keys();
 

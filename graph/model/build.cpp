@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "graph/language/key.h"
 #include "graph/model/chains.h"
 #include "graph/model/channels.h"
 #include "graph/model/connect.h"
@@ -35,7 +36,7 @@ class Builder {
     graph_.where = spec_.where;
     graph_.period = value_of(spec_.timing.period);
     graph_.platform.cores = spec_.platform.cores ? spec_.platform.cores->value : 1;
-    graph_.platform.policy = spec_.platform.policy ? spec_.platform.policy->value : Policy::table;
+    graph_.platform.policy = find_policy();
     graph_.platform.dispatch = value_of(spec_.platform.dispatch).value_or(Duration{});
     graph_.platform.copy = value_of(spec_.platform.copy).value_or(Duration{});
     if (spec_.platform.phasing) graph_.platform.phasing = spec_.platform.phasing->value;
@@ -89,6 +90,16 @@ class Builder {
                                               " not below its period " + duration_text(timing.period));
     }
     return timing;
+  }
+
+  // The one that is stated, or null.
+  const Policy* find_policy() {
+    if (!spec_.platform.policy) return nullptr;
+    const Yaml& yaml = spec_.platform.policy->value;
+    if (!registry_.is_complete() && yaml.kind == Yaml::Kind::scalar) return registry_.find_policy(yaml.text);
+    std::size_t which = 0;
+    const bool known = read_choice(yaml, names_of(registry_.policies()), which, "'platform' key 'policy'", problems_);
+    return known ? &registry_.policies()[which] : nullptr;
   }
 
   void add_distributers() {

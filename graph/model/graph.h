@@ -66,7 +66,7 @@ struct Connection {
 
 struct Platform {
   std::int64_t cores = 1;
-  Policy policy = Policy::table;
+  const Policy* policy = nullptr;  // null: none is stated
   Phasing phasing = Phasing::given;
   Duration dispatch{};  // overhead of each activation
   Duration copy{};      // overhead of each byte that an activation hands on

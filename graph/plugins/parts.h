@@ -17,7 +17,7 @@ struct Extension {
 };
 
 struct PluginParts {
-  Registry graph{};  // task types and distributers
+  Registry graph{};  // task types, distributers and policies
   std::vector<Extension> extensions{};
 };
 

@@ -82,6 +82,8 @@ std::string find_clash(const PluginParts& added, const PluginParts& known, const
     if (known.graph.find_task(task.name) != nullptr) return "a task type '" + task.name + "'";
   for (const DistributerClass& distributer : added.graph.distributers())
     if (known.graph.find_distributer(distributer.name) != nullptr) return "a distributer '" + distributer.name + "'";
+  for (const Policy& policy : added.graph.policies())
+    if (known.graph.find_policy(policy.name) != nullptr) return "a policy '" + std::string(policy.name) + "'";
   for (const Extension& extension : added.extensions) {
     const bool added_before = std::any_of(
         known.extensions.begin(), known.extensions.end(),
@@ -116,6 +118,7 @@ std::string add_plugin(const std::string& path, PluginParts& known, const IsTher
     known.graph.add(std::move(task));
   }
   for (const DistributerClass& distributer : added.graph.distributers()) known.graph.add(distributer);
+  for (const Policy& policy : added.graph.policies()) known.graph.add(policy);
   known.extensions.insert(known.extensions.end(), added.extensions.begin(), added.extensions.end());
   return "";
 }

@@ -1,4 +1,4 @@
-// Task types and distributers from shared libraries, and on their way what layers above keep.
+// Task types, distributers and policies from shared libraries, and on their way what layers above keep.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace jarol {
 using IsThere = std::function<bool(const Extension& extension)>;
 std::string load_plugin(const std::string& path, PluginParts& known, const IsThere& is_there);
 
-/// The same of task types and distributers alone.
+/// The same of what the registry holds alone.
 std::string load_plugin(const std::string& path, Registry& registry);
 
 /// Where a plugin stands that a graph names: paths are relative to its file.

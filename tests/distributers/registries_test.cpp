@@ -12,6 +12,7 @@
 #include "distributers/interfaces/vehicle_class.h"
 #include "distributers/links/packet_link.h"
 #include "distributers/messages/javiator.h"
+#include "graph/analysis/policies.h"
 #include "tests/graph/graph_of.h"
 
 namespace {
@@ -111,6 +112,7 @@ class Buoy : public vehicles::Vehicle {
 const Registries& known() {
   static const Registries all = [] {
     Registries made;
+    analysis::add_policies(made.graph);
     tasks::add_tasks(made.graph);
     add_distributers(made.graph);
     add_links(made.links);

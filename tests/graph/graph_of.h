@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "graph/analysis/policies.h"
 #include "graph/language/load.h"
 #include "graph/model/build.h"
 #include "tasks/tasks.h"
@@ -12,6 +13,7 @@ namespace jarol::tests {
 inline const Registry& generic_tasks() {
   static const Registry registry = [] {
     Registry made;
+    analysis::add_policies(made);
     tasks::add_tasks(made);
     return made;
   }();

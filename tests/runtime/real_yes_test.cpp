@@ -75,6 +75,7 @@ struct Burn2 {
 Graph burning_graph(const std::string& text) {
   static const Registry registry = [] {
     Registry made;
+    analysis::add_policies(made);
     made.add(task_class<Burn0>());
     made.add(task_class<Burn1>());
     made.add(task_class<Burn2>());
@@ -91,7 +92,7 @@ std::string burning_text(const truth::Set& set) {
 }
 
 // The next set of two cores, both in use, that `check` says yes to, not far from a no.
-truth::Set next_yes(std::uint64_t& seed, Policy policy) {
+truth::Set next_yes(std::uint64_t& seed, const Policy& policy) {
   while (true) {
     const truth::Set set =
         truth::random_set(++seed, policy, {.jitter = false, .blocking = false, .any_phasing = false});
@@ -112,7 +113,7 @@ TEST_SUITE("runtime/real_yes") {
     RealTimeOptions options = undisturbed();
     options.core_cpus = {machine().usable[0], machine().usable[1]};
     const int count = std::getenv("JAROL_FULL") != nullptr ? 100 : 4;
-    for (const Policy policy : {Policy::table, Policy::fixed_priority}) {
+    for (const Policy& policy : {policies::table, policies::fixed_priority}) {
       std::uint64_t seed = 0;
       for (int i = 0; i < count; ++i) {
         const truth::Set set = next_yes(seed, policy);

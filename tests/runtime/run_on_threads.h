@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "graph/analysis/policies.h"
 #include "graph/analysis/threads.h"
 #include "runtime/execute/executor.h"
 #include "runtime/machine/machine.h"
@@ -99,6 +100,7 @@ struct Busy {
 inline Graph graph_of(const std::string& text) {
   static const Registry registry = [] {
     Registry made;
+    analysis::add_policies(made);
     tasks::add_tasks(made);
     made.add(task_class<Faulty>());
     made.add(task_class<Busy>());

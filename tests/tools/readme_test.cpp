@@ -123,4 +123,15 @@ TEST_SUITE("tools/readme") {
     }
     CHECK(fields >= 12);
   }
+
+  TEST_CASE("the page of the analysis shows a policy of one's own that compiles, and what check says with it") {
+    const std::string text = page("graph/analysis/README.md"), folder = JAROL_PLUGIN_FOLDER;
+    CHECK(between(text, "```cpp\n", "```") == page("tests/tools/plugins/rate_monotonic.cpp"));
+    std::ofstream(folder + "/rates.yaml") << between(text, "$ cat rates.yaml\n", "$ jarol");
+    const std::string said = between(text, "$ jarol check rates.yaml\n", "...\n");
+    std::string verdict = output_of("check " + folder + "/rates.yaml 2>&1");
+    for (std::size_t at; (at = verdict.find(folder + "/")) != std::string::npos;) verdict.erase(at, folder.size() + 1);
+    CHECK(said.size() > 100);
+    CHECK(verdict.starts_with(said));
+  }
 }

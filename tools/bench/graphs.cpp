@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "graph/analysis/policies.h"
 #include "graph/language/load.h"
 #include "graph/model/build.h"
 #include "tasks/tasks.h"
@@ -23,6 +24,7 @@ const Registry& registry() {
     const Type* number = &type_of<double>();
     made.add(
         DistributerClass{"Echo", "answers", {{"in", Direction::in, number, ""}, {"out", Direction::out, number, ""}}});
+    analysis::add_policies(made);
     tasks::add_tasks(made);
     return made;
   }();

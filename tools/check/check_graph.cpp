@@ -2,15 +2,13 @@
 
 #include <algorithm>
 
-#include "graph/analysis/policies.h"
-
 namespace jarol::tools {
 namespace {
 
 // About how many steps one verdict takes.
 double cost_of(const analysis::System& system) {
   const auto n = static_cast<double>(system.loads.size());
-  if (analysis::entry_of(system.policy).urgency != analysis::Urgency::turn && !system.offsets_hold) return n * n;
+  if (system.policy.urgency != Urgency::turn && !system.offsets_hold) return n * n;
   const auto lcm = analysis::hyperperiod(system.loads, std::int64_t{1} << 60);
   double activations = 0;
   for (const analysis::Load& l : system.loads)

@@ -86,7 +86,7 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
           {"file", r.file},
           {"graph", r.graph->name},
           {"cores", platform.cores},
-          {"policy", analysis::entry_of(platform.policy).name()},
+          {"policy", analysis::policy_of(platform).name},
           {"assumptions",
            {{"text", assumption(platform)},
             {"phasing", Words<Phasing>::list()[static_cast<std::size_t>(platform.phasing)]},

@@ -27,7 +27,7 @@ std::string duration(std::int64_t ns) { return duration_text(Duration(ns)); }
 
 std::string platform_text(const Platform& platform) {
   const std::string cores = platform.cores == 1 ? "one core" : std::to_string(platform.cores) + " cores";
-  return cores + " (" + analysis::entry_of(platform.policy).name() + ")";
+  return cores + " (" + std::string(analysis::policy_of(platform).name) + ")";
 }
 
 // Where no run shows the miss, as offsets and jitter may be worse: the task that exceeds its deadline by most.
@@ -76,7 +76,7 @@ std::string headline(const CheckReport& r) {
   if (r.result.late) {
     const analysis::Late& l = *r.result.late;
     // under a global policy it is no single core's
-    if (r.result.core_at_fault || analysis::entry_of(r.graph->platform.policy).keeps_core)
+    if (r.result.core_at_fault || analysis::policy_of(r.graph->platform).keeps_core)
       text += fmt::format(" core {}:", r.result.core_at_fault.value_or(0));
     text += fmt::format(" task '{}' activation {} (released {}) finishes {}, deadline {} (late {})",
                         r.graph->tasks[l.task].name, l.activation, milliseconds(l.release), milliseconds(l.finish),

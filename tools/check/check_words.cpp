@@ -26,7 +26,7 @@ const Task* longer_than_stated(const CheckReport& r) {
 bool chains_hold(const CheckReport& report) { return std::all_of(report.chains.begin(), report.chains.end(), holds); }
 
 std::string assumption(const Platform& platform) {
-  const analysis::PolicyEntry& policy = analysis::entry_of(platform.policy);
+  const Policy& policy = analysis::policy_of(platform);
   const std::string how = std::string(policy.how) + (policy.executed ? "" : "; 'run' does not execute this");
   std::string overhead = ", without overhead";
   if (platform.dispatch > Duration{} || platform.copy > Duration{})

@@ -32,7 +32,7 @@ class Search {
     if (found_.empty()) try_pairs();
     if (found_.size() > max_executable) found_.resize(max_executable);
     wcets();
-    for (const analysis::PolicyEntry& policy : analysis::policies())
+    for (const Policy& policy : registry_.policies())
       if (!policy.executed && policy.interrupts && found_.size() < max_remedies) add(policy_remedy(policy));
     if (found_.size() > max_remedies) found_.resize(max_remedies);
     return std::move(found_);
@@ -88,7 +88,7 @@ class Search {
   // One change and one more: another policy or a core more beside each of the others.
   void try_pairs() {
     std::vector<Remedy> others{cores_remedy(), priorities_remedy()};
-    const std::vector<analysis::PolicyEntry>& policies = analysis::policies();
+    const std::vector<Policy>& policies = registry_.policies();
     for (auto policy = policies.rbegin(); policy != policies.rend(); ++policy)
       if (policy->executed) others.push_back(policy_remedy(*policy));
     for (const Remedy& first : others) {
@@ -132,20 +132,21 @@ class Search {
 
   Remedy priorities_remedy() const {
     Remedy remedy{"priorities by deadline, without 'priority'", {}};
-    if (analysis::entry_of(graph().platform.policy).urgency == analysis::Urgency::priority)
+    if (analysis::policy_of(graph().platform).urgency == Urgency::priority)
       for (const Task& task : graph().tasks)
         if (task.priority) remedy.set.push_back("tasks." + task.name + ".priority=null");
     return remedy;
   }
   void priorities() { add(priorities_remedy()); }
 
-  Remedy policy_remedy(const analysis::PolicyEntry& policy) const {
-    if (policy.policy == graph().platform.policy) return {};
-    return {quoted("policy", policy.name()) + (policy.executed ? "" : ", which 'run' does not execute"),
-            {"platform.policy=" + policy.name()}};
+  Remedy policy_remedy(const Policy& policy) const {
+    if (policy == analysis::policy_of(graph().platform)) return {};
+    const std::string name(policy.name);
+    return {quoted("policy", name) + (policy.executed ? "" : ", which 'run' does not execute"),
+            {"platform.policy=" + name}};
   }
   void executable_policies() {
-    for (const analysis::PolicyEntry& policy : analysis::policies())
+    for (const Policy& policy : registry_.policies())
       if (policy.executed) add(policy_remedy(policy));
   }
 

@@ -19,6 +19,7 @@
 #include "tools/check/generate_graphs.h"
 #include "tools/check/measure_file.h"
 #include "tools/commands/commands.h"
+#include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/duration_option.h"
 #include "tools/report/failure.h"
@@ -258,7 +259,7 @@ void add_check(CommandLine& line, int& exit_code) {
       ->in_range(0.0, 1e6);
   command->add_option("--cores", options->generation.cores, "Cores of a graph; default 1")->in_range(1, 1024);
   command->add_option("--policy", options->generation.policy, "Policy of a graph; default fixed_priority")
-      ->one_of(Words<Policy>::list());
+      ->one_of(names_of(built_in().graph.policies()));
   command->add_flag("--json", options->json, "One JSON object per file and line instead of text");
   command->callback([options, command, &exit_code] {
     require_effect(*command, *options);

@@ -146,7 +146,7 @@ Json catalogue_of(const distributers::Registries& known) {
           {"types", known.graph.type_names()},
           {"keys",
            {{"timing", keys_json(timing_keys())},
-            {"platform", keys_json(platform_keys())},
+            {"platform", keys_json(platform_keys(names_of(known.graph.policies())))},
             {"distributers", keys_json(distributer_keys())},
             {"communicators", keys_json(communicator_keys())},
             {"tasks", keys_json(task_keys())}}}};

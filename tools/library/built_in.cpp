@@ -1,6 +1,7 @@
 #include "tools/library/built_in.h"
 
 #include "distributers/distributers.h"
+#include "graph/analysis/policies.h"
 #include "tasks/tasks.h"
 #ifdef JAROL_VEHICLES
 #include "vehicles/catalogue.h"
@@ -11,6 +12,7 @@ namespace {
 
 distributers::Registries make_registries() {
   distributers::Registries made;
+  analysis::add_policies(made.graph);
   tasks::add_tasks(made.graph);
   distributers::add_distributers(made.graph);
   distributers::add_links(made.links);

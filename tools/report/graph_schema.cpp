@@ -102,6 +102,15 @@ Json chain_schema() {
   return schema;
 }
 
+// Other policies may be a plugin's.
+Json platform_schema(const Registry& known) {
+  Json schema = mapping_schema(platform_keys()), names = Json::array();
+  for (const Policy& policy : known.policies()) names.push_back({{"const", policy.name}, {"description", policy.how}});
+  names.push_back({{"type", "string"}});
+  schema["properties"]["policy"]["anyOf"] = std::move(names);
+  return schema;
+}
+
 Json at_end_schema() {
   Json schema = mapping_schema(at_end_keys());
   schema["properties"]["command"]["minProperties"] = 1;
@@ -128,14 +137,18 @@ Json some_of(const std::string& section) {
   return {{"required", Json::array({section})}, {"properties", {{section, {{"minProperties", 1}}}}}};
 }
 
-// Without plugins there are no task types and types of values but those that are known here.
+// Without plugins there are no task types, types of values and policies but those that are known here.
 Json without_plugins(const Registry& known) {
   Json tasks{{"type", {{"enum", names_of(known.tasks())}}}}, values{{"type", {{"enum", known.type_names()}}}};
   const auto each = [](Json properties) {
     return Json{{"additionalProperties", {{"properties", std::move(properties)}}}};
   };
-  return {{"if", {{"required", {"plugins"}}}},
-          {"else", {{"properties", {{"tasks", each(std::move(tasks))}, {"communicators", each(std::move(values))}}}}}};
+  const Json platform{{"properties", {{"policy", {{"enum", names_of(known.policies())}}}}}};
+  return {
+      {"if", {{"required", {"plugins"}}}},
+      {"else",
+       {{"properties",
+         {{"tasks", each(std::move(tasks))}, {"communicators", each(std::move(values))}, {"platform", platform}}}}}};
 }
 
 }  // namespace
@@ -150,7 +163,7 @@ std::string graph_schema(const distributers::Registries& known) {
   describe_section(schema, "connections",
                    {{"type", "array"}, {"items", {{"type", "string"}, {"pattern", arrow_pattern}}}});
   describe_section(schema, "chains", entries_schema(chain_schema()));
-  describe_section(schema, "platform", mapping_schema(platform_keys()));
+  describe_section(schema, "platform", platform_schema(known.graph));
   describe_section(schema, "at_end", at_end_schema());
   describe_section(schema, "campaign", campaign_schema());
   describe_section(schema, "expect", texts());

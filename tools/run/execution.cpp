@@ -55,8 +55,8 @@ Execution::Execution(const std::string& execution, const Graph& graph, std::uint
 std::string execution_text(const std::string& execution, const Graph& graph) {
   if (execution.empty()) return "";
   const std::int64_t cores = graph.platform.cores;
-  return "  execution   " + printable(execution) + ", by " + analysis::entry_of(graph.platform.policy).name() + " on " +
-         (cores == 1 ? "one core" : std::to_string(cores) + " cores") + "\n";
+  return "  execution   " + printable(execution) + ", by " + std::string(analysis::policy_of(graph.platform).name) +
+         " on " + (cores == 1 ? "one core" : std::to_string(cores) + " cores") + "\n";
 }
 
 }  // namespace jarol::tools

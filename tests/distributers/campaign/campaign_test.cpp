@@ -12,6 +12,7 @@
 #include "distributers/campaign/summary.h"
 #include "distributers/distributers.h"
 #include "distributers/session/session.h"
+#include "graph/analysis/policies.h"
 #include "graph/campaign/draws.h"
 #include "tasks/tasks.h"
 
@@ -49,6 +50,7 @@ struct Unsteady {
 const distributers::Registries& known() {
   static const distributers::Registries all = [] {
     distributers::Registries made;
+    analysis::add_policies(made.graph);
     tasks::add_tasks(made.graph);
     distributers::add_distributers(made.graph);
     distributers::add_links(made.links);

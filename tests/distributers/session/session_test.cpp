@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "distributers/distributers.h"
+#include "graph/analysis/policies.h"
 #include "tasks/tasks.h"
 #include "tasks/values/lauv.h"
 
@@ -26,6 +27,7 @@ struct FailsAtThree {
 const distributers::Registries& known() {
   static const distributers::Registries all = [] {
     distributers::Registries made;
+    analysis::add_policies(made.graph);
     tasks::add_tasks(made.graph);
     distributers::add_distributers(made.graph);
     distributers::add_links(made.links);

@@ -53,7 +53,7 @@ Set random_set(std::uint64_t seed) {
   return set;
 }
 
-System system_of(const Set& set, Policy policy, bool offsets_hold) {
+System system_of(const Set& set, const Policy& policy, bool offsets_hold) {
   System system;
   system.policy = policy;
   system.offsets_hold = offsets_hold;
@@ -67,11 +67,12 @@ System system_of(const Set& set, Policy policy, bool offsets_hold) {
   return system;
 }
 
-bool is_preemptive(Policy policy) { return policy == Policy::edf || policy == Policy::fixed_priority; }
-bool is_edf(Policy policy) { return policy == Policy::edf || policy == Policy::edf_nonpreemptive; }
+bool is_preemptive(const Policy& policy) { return policy == policies::edf || policy == policies::fixed_priority; }
+bool is_edf(const Policy& policy) { return policy == policies::edf || policy == policies::edf_nonpreemptive; }
 
 // Unit by unit; `takes(task, activation)` is how long an activation runs. Longest responses, or nothing on a miss.
-std::optional<std::vector<std::int64_t>> run(const Set& set, const std::vector<std::int64_t>& offset, Policy policy,
+std::optional<std::vector<std::int64_t>> run(const Set& set, const std::vector<std::int64_t>& offset,
+                                             const Policy& policy,
                                              const std::function<std::int64_t(std::size_t, std::int64_t)>& takes) {
   struct Job {
     std::size_t task;
@@ -96,7 +97,7 @@ std::optional<std::vector<std::int64_t>> run(const Set& set, const std::vector<s
     if (!busy || is_preemptive(policy)) {
       const auto urgency = [&](const Job& j) {
         const std::int64_t d = set.deadline[j.task];
-        const bool table = policy == Policy::table;
+        const bool table = policy == policies::table;
         return table ? std::tuple(j.release, std::int64_t{0}, j.task, j.release)
                      : std::tuple(is_edf(policy) ? j.release + d : d, std::int64_t{0}, j.task, j.release);
       };
@@ -116,7 +117,7 @@ std::optional<std::vector<std::int64_t>> run(const Set& set, const std::vector<s
 }
 
 // Worst responses over every shift of the tasks, or nothing if one misses.
-std::optional<std::vector<std::int64_t>> over_all_offsets(const Set& set, Policy policy) {
+std::optional<std::vector<std::int64_t>> over_all_offsets(const Set& set, const Policy& policy) {
   std::vector<std::int64_t> offset(set.size(), 0), worst(set.size(), 0);
   while (true) {
     const auto found = run(set, offset, policy, [&](std::size_t i, std::int64_t) { return set.wcet[i]; });
@@ -137,7 +138,7 @@ std::uint64_t count_of_sets() {
 }
 
 // Each task's activations take all, one unit or none, as `choice` says.
-bool some_shorter_execution_misses(const Set& set, Policy policy) {
+bool some_shorter_execution_misses(const Set& set, const Policy& policy) {
   for (std::uint64_t choice = 0; choice < 729; ++choice) {
     const auto takes = [&](std::size_t i, std::int64_t k) -> std::int64_t {
       std::uint64_t digit = choice;
@@ -156,9 +157,9 @@ TEST_SUITE("graph/analysis/brute_force") {
       const Set set = random_set(seed);
       const std::string tasks = text_of(set);
       CAPTURE(tasks);
-      for (const Policy policy :
-           {Policy::fixed_priority, Policy::edf, Policy::fixed_priority_nonpreemptive, Policy::edf_nonpreemptive}) {
-        CAPTURE(static_cast<int>(policy));
+      for (const Policy& policy : {policies::fixed_priority, policies::edf, policies::fixed_priority_nonpreemptive,
+                                   policies::edf_nonpreemptive}) {
+        CAPTURE(policy.name);
         const auto truth = over_all_offsets(set, policy);
         const Result result = check(system_of(set, policy, false));
         REQUIRE(result.verdict == (truth ? Verdict::schedulable : Verdict::not_schedulable));
@@ -168,7 +169,7 @@ TEST_SUITE("graph/analysis/brute_force") {
           if (!result.response[i]) continue;
           // ties go against the task in the analysis, by order in the trial
           REQUIRE(*result.response[i] >= (*truth)[i]);
-          if (policy == Policy::fixed_priority) REQUIRE(*result.response[i] == (*truth)[i]);
+          if (policy == policies::fixed_priority) REQUIRE(*result.response[i] == (*truth)[i]);
         }
       }
     }
@@ -180,9 +181,9 @@ TEST_SUITE("graph/analysis/brute_force") {
       const Set set = random_set(seed);
       const std::string tasks = text_of(set);
       CAPTURE(tasks);
-      for (const Policy policy : {Policy::table, Policy::fixed_priority, Policy::edf,
-                                  Policy::fixed_priority_nonpreemptive, Policy::edf_nonpreemptive}) {
-        CAPTURE(static_cast<int>(policy));
+      for (const Policy& policy : {policies::table, policies::fixed_priority, policies::edf,
+                                   policies::fixed_priority_nonpreemptive, policies::edf_nonpreemptive}) {
+        CAPTURE(policy.name);
         const auto truth = run(set, set.offset, policy, [&](std::size_t i, std::int64_t) { return set.wcet[i]; });
         const Result result = check(system_of(set, policy, true));
         if (result.verdict == Verdict::unknown) {
@@ -194,7 +195,7 @@ TEST_SUITE("graph/analysis/brute_force") {
           // not interrupted, a shorter execution may be what makes another late
           if (truth) {
             REQUIRE(!is_preemptive(policy));
-            REQUIRE(policy != Policy::table);
+            REQUIRE(policy != policies::table);
             ++by_shorter;
             by_few_shorter += some_shorter_execution_misses(set, policy) ? 1 : 0;
           }
@@ -202,7 +203,7 @@ TEST_SUITE("graph/analysis/brute_force") {
         }
         REQUIRE(truth);
         if (seed % 20 == 0) REQUIRE(!some_shorter_execution_misses(set, policy));
-        if (is_preemptive(policy) || policy == Policy::table)
+        if (is_preemptive(policy) || policy == policies::table)
           for (std::size_t i = 0; i < set.size(); ++i) REQUIRE(*result.response[i] >= (*truth)[i]);
       }
     }

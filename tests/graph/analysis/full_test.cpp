@@ -6,11 +6,12 @@
 namespace {
 using namespace jarol::analysis;
 using jarol::Policy;
+namespace policies = jarol::policies;
 
 constexpr std::int64_t ms = 1'000'000;
 
 // 1 - 2.5e-9 of a core, and so as long as the last task takes no longer.
-System nearly_full(Policy policy, std::int64_t last) {
+System nearly_full(const Policy& policy, std::int64_t last) {
   System system;
   system.policy = policy;
   system.offsets_hold = false;
@@ -28,9 +29,9 @@ System nearly_full(Policy policy, std::int64_t last) {
 
 TEST_SUITE("graph/analysis/full") {
   TEST_CASE("a core that is all but full is decided, whatever the policy") {
-    for (const Policy policy :
-         {Policy::edf, Policy::edf_nonpreemptive, Policy::fixed_priority, Policy::fixed_priority_nonpreemptive}) {
-      CAPTURE(static_cast<int>(policy));
+    for (const Policy& policy : {policies::edf, policies::edf_nonpreemptive, policies::fixed_priority,
+                                 policies::fixed_priority_nonpreemptive}) {
+      CAPTURE(policy.name);
       const Result holds = check(nearly_full(policy, 50 * ms - 1));
       CHECK(holds.verdict == Verdict::schedulable);
       CHECK(holds.standing == Standing::proof);
@@ -40,7 +41,7 @@ TEST_SUITE("graph/analysis/full") {
   }
 
   TEST_CASE("a verdict that would take more effort is given up, and not the one after it") {
-    const System system = nearly_full(Policy::edf_nonpreemptive, 50 * ms - 1);
+    const System system = nearly_full(policies::edf_nonpreemptive, 50 * ms - 1);
     Effort little{20}, enough{1'000};
     CHECK(verdict_of(system, little) == Verdict::unknown);
     CHECK(little.spent());

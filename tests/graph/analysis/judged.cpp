@@ -20,7 +20,7 @@ bool keeps_given_cores(const Set& set, const std::vector<std::size_t>& core) {
 
 Truth truth_on_best_cores(const Set& set, const Places& places) {
   std::vector<std::size_t> core(set.tasks.size(), 0);
-  if (set.policy == Policy::global_edf) return truth_of(set, core, places, most_states);
+  if (set.policy == policies::global_edf) return truth_of(set, core, places, most_states);
   Truth last;
   bool open = false;
   while (true) {

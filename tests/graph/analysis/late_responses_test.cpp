@@ -22,12 +22,12 @@ struct Job {
   int arrival, ready, left;
 };
 
-bool is_nonpreemptive(Policy policy) {
-  return policy == Policy::edf_nonpreemptive || policy == Policy::fixed_priority_nonpreemptive;
+bool is_nonpreemptive(const Policy& policy) {
+  return policy == policies::edf_nonpreemptive || policy == policies::fixed_priority_nonpreemptive;
 }
 
-bool is_by_priority(Policy policy) {
-  return policy == Policy::fixed_priority || policy == Policy::fixed_priority_nonpreemptive;
+bool is_by_priority(const Policy& policy) {
+  return policy == policies::fixed_priority || policy == policies::fixed_priority_nonpreemptive;
 }
 
 // Each task on its core, or all on all cores under global EDF, with every WCET, shifts and jitter as drawn: the longest
@@ -94,11 +94,11 @@ class Trial {
       const bool begun = is_nonpreemptive(set_.policy) && job.left < t.wcet;
       if (is_by_priority(set_.policy))
         return std::make_tuple(!begun, t.priority ? 0 : 1, t.priority.value_or(t.deadline), order_[job.task]);
-      const std::size_t equal = set_.policy == Policy::global_edf ? job.task : order_[job.task];
+      const std::size_t equal = set_.policy == policies::global_edf ? job.task : order_[job.task];
       return std::make_tuple(!begun, 0, job.arrival + t.deadline, equal);
     };
     std::sort(ready.begin(), ready.end(), [&](std::size_t a, std::size_t b) { return urgency(a) < urgency(b); });
-    const bool global = set_.policy == Policy::global_edf;
+    const bool global = set_.policy == policies::global_edf;
     std::vector<bool> taken(static_cast<std::size_t>(set_.cores), false);
     for (const std::size_t j : ready) {
       const auto free = global ? std::find(taken.begin(), taken.end(), false)
@@ -122,7 +122,7 @@ struct Tally {
 
   void add(const Set& set, std::uint64_t seed) {
     const analysis::Result said = analysis::check(graph_of(set));
-    const bool global = set.policy == Policy::global_edf;
+    const bool global = set.policy == policies::global_edf;
     const bool placed = std::all_of(said.core.begin(), said.core.end(), [](const auto& c) { return c.has_value(); });
     if (said.verdict == Verdict::schedulable || (!global && !placed)) return;
     ++sets;
@@ -147,13 +147,13 @@ struct Tally {
 
 TEST_SUITE("graph/analysis/late_responses") {
   TEST_CASE("no activation takes longer than the response that is reported, though others are late") {
-    for (const Policy policy : {Policy::fixed_priority, Policy::edf, Policy::fixed_priority_nonpreemptive,
-                                Policy::edf_nonpreemptive, Policy::global_edf}) {
+    for (const Policy& policy : {policies::fixed_priority, policies::edf, policies::fixed_priority_nonpreemptive,
+                                 policies::edf_nonpreemptive, policies::global_edf}) {
       const truth::Features features{
           .jitter = true, .blocking = false, .data_flow = true, .any_phasing = true, .cores = 2};
       Tally tally;
       for (std::uint64_t seed = 0; seed < 3000; ++seed) tally.add(truth::random_set(seed, policy, features), seed);
-      CAPTURE(std::string(truth::name_of(policy)));
+      CAPTURE(policy.name);
       MESSAGE(tally.sets << " sets, " << tally.reported << " responses, " << tally.reached << " of these reached");
       CHECK(tally.sets > 100);
       CHECK_MESSAGE(tally.short_ones == 0, tally.first);

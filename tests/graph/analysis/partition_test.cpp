@@ -8,6 +8,7 @@
 namespace {
 using namespace jarol::analysis;
 using jarol::Policy;
+namespace policies = jarol::policies;
 
 // splitmix64
 std::int64_t drawn(std::uint64_t& state, std::int64_t least, std::int64_t most) {
@@ -18,7 +19,7 @@ std::int64_t drawn(std::uint64_t& state, std::int64_t least, std::int64_t most) 
 }
 
 // A few tasks on two cores, none of them given, offsets as drawn.
-System random_system(std::uint64_t seed, Policy policy) {
+System random_system(std::uint64_t seed, const Policy& policy) {
   System system;
   system.policy = policy;
   system.cores = 2;
@@ -52,10 +53,10 @@ TEST_SUITE("graph/analysis/partition") {
   TEST_CASE("no is said of all assignments only where none is left that may hold") {
     int counts[] = {0, 0, 0};
     for (std::uint64_t seed = 0; seed < 1000; ++seed)
-      for (const Policy policy :
-           {Policy::edf, Policy::fixed_priority, Policy::edf_nonpreemptive, Policy::fixed_priority_nonpreemptive}) {
+      for (const Policy& policy : {policies::edf, policies::fixed_priority, policies::edf_nonpreemptive,
+                                   policies::fixed_priority_nonpreemptive}) {
         CAPTURE(seed);
-        CAPTURE(static_cast<int>(policy));
+        CAPTURE(policy.name);
         const System system = random_system(seed, policy);
         const Result result = check(system);
         ++counts[static_cast<int>(result.verdict)];
@@ -66,8 +67,9 @@ TEST_SUITE("graph/analysis/partition") {
   }
 
   TEST_CASE("four hundred tasks find their cores among sixty-four") {
-    for (const Policy policy : {Policy::table, Policy::fixed_priority, Policy::edf, Policy::edf_nonpreemptive}) {
-      CAPTURE(static_cast<int>(policy));
+    for (const Policy& policy :
+         {policies::table, policies::fixed_priority, policies::edf, policies::edf_nonpreemptive}) {
+      CAPTURE(policy.name);
       System system;
       system.policy = policy;
       system.cores = 64;
@@ -91,7 +93,7 @@ TEST_SUITE("graph/analysis/partition") {
 
   TEST_CASE("of tasks that follow each other some go elsewhere, and no is said of all only after these too") {
     System system;
-    system.policy = Policy::fixed_priority;
+    system.policy = policies::fixed_priority;
     system.cores = 2;
     for (std::size_t i = 0; i < 4; ++i) {
       system.loads.push_back({i == 0 ? 1 : 4, 10, 10, 0, 0, 0, 0});

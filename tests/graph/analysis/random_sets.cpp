@@ -48,14 +48,14 @@ int derived_deadline(const Set& set, std::size_t task) {
 
 }  // namespace
 
-Set random_set(std::uint64_t seed, Policy policy, const Features& features) {
+Set random_set(std::uint64_t seed, const Policy& policy, const Features& features) {
   static const std::vector<std::vector<int>> families{
       {2, 4, 8}, {3, 6}, {2, 3, 6}, {4, 6}, {5, 5, 2}, {8, 4}, {6, 3, 2}, {3, 4}, {7}, {5}, {8}, {6}, {4}};
   Random random(seed);
   Set set;
   set.policy = policy;
-  set.cores = random.between(policy == Policy::global_edf ? std::min(2, features.cores) : 1, features.cores);
-  set.offsets_hold = policy == Policy::table || !features.any_phasing || random.once_in(2);
+  set.cores = random.between(policy == policies::global_edf ? std::min(2, features.cores) : 1, features.cores);
+  set.offsets_hold = policy == policies::table || !features.any_phasing || random.once_in(2);
   const auto& family = families[static_cast<std::size_t>(random.between(0, static_cast<int>(families.size()) - 1))];
   // one period, each core full or almost, a chain from core to core: where waiting for others shows
   const bool tight = set.offsets_hold && random.once_in(4);
@@ -97,7 +97,7 @@ Set random_set(std::uint64_t seed, Policy policy, const Features& features) {
     for (Task& t : set.tasks)
       if (int& left = room[static_cast<std::size_t>(t.core.value_or(0))]; left > 0 && random.once_in(2))
         t.wcet += std::exchange(left, 0), t.jitter = t.blocking = 0;
-  if (policy == Policy::global_edf)
+  if (policy == policies::global_edf)
     for (Task& t : set.tasks) t.core.reset();
   if (features.data_flow && random.once_in(2)) {
     std::vector<std::size_t> rank(set.tasks.size());
@@ -195,25 +195,14 @@ Places places_in(const Graph& graph) {
   return places;
 }
 
-const char* name_of(Policy policy) {
-  switch (policy) {
-    case Policy::table: return "table";
-    case Policy::fixed_priority: return "fixed_priority";
-    case Policy::edf: return "edf";
-    case Policy::fixed_priority_nonpreemptive: return "fixed_priority_nonpreemptive";
-    case Policy::edf_nonpreemptive: return "edf_nonpreemptive";
-    case Policy::global_edf: return "global_edf";
-  }
-  return "";
-}
-
 std::string counting_type(const Task&, std::size_t inputs) {
   return inputs == 0 ? "Counter" : inputs == 1 ? "Relay" : "Sum";
 }
 
 std::string yaml_of(const Set& set, const std::string& unit, const TypeOf& type) {
-  std::string text = "graph: t\nplatform: {cores: " + std::to_string(set.cores) + ", policy: " + name_of(set.policy) +
-                     (set.offsets_hold ? "" : ", phasing: any") + "}\ntasks:\n";
+  std::string text = "graph: t\nplatform: {cores: " + std::to_string(set.cores) +
+                     ", policy: " + std::string(set.policy.name) + (set.offsets_hold ? "" : ", phasing: any") +
+                     "}\ntasks:\n";
   std::string connections;
   for (std::size_t i = 0; i < set.tasks.size(); ++i) {
     const Task& t = set.tasks[i];
@@ -253,7 +242,7 @@ Graph graph_of(const Set& set) {
   Graph graph;
   graph.name = "t";
   graph.platform.cores = set.cores;
-  graph.platform.policy = set.policy;
+  graph.platform.policy = tests::generic_tasks().find_policy(set.policy.name);
   graph.platform.phasing = set.offsets_hold ? Phasing::given : Phasing::any;
   for (std::size_t i = 0; i < set.tasks.size(); ++i) {
     const Task& t = set.tasks[i];

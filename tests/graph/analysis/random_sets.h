@@ -13,7 +13,7 @@ struct Features {
   int cores = 2;
 };
 
-Set random_set(std::uint64_t seed, Policy policy, const Features& features);
+Set random_set(std::uint64_t seed, const Policy& policy, const Features& features);
 
 /// A table of up to twelve tasks on given cores, each core full or almost, chains going from core to core: where
 /// waiting for others may let backlog grow, period by period.
@@ -28,7 +28,5 @@ std::string counting_type(const Task& task, std::size_t inputs);
 std::string yaml_of(const Set& set, const std::string& unit, const TypeOf& type = counting_type);
 
 Places places_in(const Graph& graph);
-
-const char* name_of(Policy policy);
 
 }  // namespace jarol::truth

@@ -6,7 +6,6 @@
 
 #include "graph/analysis/check.h"
 #include "graph/analysis/execution_times.h"
-#include "graph/language/key.h"
 #include "tests/graph/analysis/random_sets.h"
 
 namespace {
@@ -47,10 +46,10 @@ std::string first_miss(const Graph& graph, ExecutionTimes times, std::int64_t hy
 
 TEST_SUITE("graph/analysis/schedule") {
   TEST_CASE("where check says yes no run has a miss: not at the WCETs, nor below them") {
-    for (const Policy policy : {Policy::table, Policy::fixed_priority, Policy::edf,
-                                Policy::fixed_priority_nonpreemptive, Policy::edf_nonpreemptive, Policy::global_edf}) {
-      const std::string name = Words<Policy>::list()[static_cast<std::size_t>(policy)];
-      CAPTURE(name);
+    for (const Policy& policy :
+         {policies::table, policies::fixed_priority, policies::edf, policies::fixed_priority_nonpreemptive,
+          policies::edf_nonpreemptive, policies::global_edf}) {
+      CAPTURE(policy.name);
       std::uint64_t yes = 0;
       for (std::uint64_t seed = 0; seed < count_of_sets(); ++seed) {
         CAPTURE(seed);
@@ -66,9 +65,8 @@ TEST_SUITE("graph/analysis/schedule") {
   }
 
   TEST_CASE("where check finds a late activation on one core the run at the WCETs has it, and none before") {
-    for (const Policy policy : {Policy::table, Policy::fixed_priority, Policy::edf}) {
-      const std::string name = Words<Policy>::list()[static_cast<std::size_t>(policy)];
-      CAPTURE(name);
+    for (const Policy& policy : {policies::table, policies::fixed_priority, policies::edf}) {
+      CAPTURE(policy.name);
       std::uint64_t no = 0;
       for (std::uint64_t seed = 0; seed < count_of_sets(); ++seed) {
         CAPTURE(seed);
@@ -79,7 +77,7 @@ TEST_SUITE("graph/analysis/schedule") {
         ++no;
         // backlog grows by one at least from repetition to repetition, and no deadline is longer than 31
         REQUIRE(first_miss(graph, ExecutionTimes::wcet(graph), 64) != "");
-        if (policy != Policy::table || !said.late) continue;
+        if (policy != policies::table || !said.late) continue;
         Schedule schedule = schedule_of(graph, ExecutionTimes::wcet(graph));
         const Fate& fate = schedule.fate(said.late->task, said.late->activation);
         REQUIRE(fate.kind == Fate::Kind::late);

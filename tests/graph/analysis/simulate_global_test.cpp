@@ -21,7 +21,7 @@ std::int64_t drawn(std::uint64_t& state, std::int64_t least, std::int64_t most) 
 
 System random_system(std::uint64_t seed) {
   System system;
-  system.policy = jarol::Policy::global_edf;
+  system.policy = jarol::policies::global_edf;
   system.cores = drawn(seed, 2, 3);
   const auto n = static_cast<std::size_t>(system.cores + drawn(seed, 0, 3));
   for (std::size_t i = 0; i < n; ++i) {

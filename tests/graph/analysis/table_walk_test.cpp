@@ -30,7 +30,7 @@ std::uint64_t count_of_tables() {
 TEST_SUITE("graph/analysis/table_walk") {
   TEST_CASE("walking a table until it repeats says what trying everything says") {
     for (std::uint64_t seed = 0; seed < 3000; ++seed) {
-      truth::Set set = truth::random_set(seed, Policy::table, {});
+      truth::Set set = truth::random_set(seed, policies::table, {});
       for (truth::Task& t : set.tasks) t.core = t.core.value_or(0);
       const Graph graph = truth::graph_of(set);
       std::vector<std::size_t> core;

@@ -108,10 +108,16 @@ class Search {
  public:
   Search(const Set& set, const std::vector<std::size_t>& core, const Places& places)
       : set_(set), core_(core), places_(places), producers_(set.tasks.size()), n_(set.tasks.size()) {
+    using namespace policies;
+    const Policy& policy = set.policy;
+    by_table_ = policy == table;
+    by_priority_ = policy == fixed_priority || policy == fixed_priority_nonpreemptive;
+    global_ = policy == global_edf;
+    preemptive_ = policy == fixed_priority || policy == edf || global_;
     for (const auto& [from, to] : set.feeds)
       if (!set.tasks[from].let) producers_[to].push_back(from);
     truth_.longest.resize(n_, 0);
-    nonpreemptive_ = !takes_longer() && !preemptive() &&
+    nonpreemptive_ = !takes_longer() && !preemptive_ &&
                      std::any_of(set.tasks.begin(), set.tasks.end(), [](const Task& t) { return t.blocking > 0; });
   }
 
@@ -144,14 +150,7 @@ class Search {
 
  private:
   // Where it is time of the core, an activation that is held up just takes longer.
-  bool takes_longer() const { return by_table() || set_.policy == Policy::global_edf; }
-  bool by_table() const { return set_.policy == Policy::table; }
-  bool by_priority() const {
-    return set_.policy == Policy::fixed_priority || set_.policy == Policy::fixed_priority_nonpreemptive;
-  }
-  bool preemptive() const {
-    return set_.policy == Policy::fixed_priority || set_.policy == Policy::edf || set_.policy == Policy::global_edf;
-  }
+  bool takes_longer() const { return by_table_ || global_; }
 
   // 0. under a non-preemptive policy something holds up a core that ran nothing just before: the judged, or a producer
   // that it follows there
@@ -193,7 +192,7 @@ class Search {
       slot.left = static_cast<std::uint8_t>(t.wcet + (takes_longer() ? t.blocking : 0));
       slot.wait = static_cast<std::uint8_t>(t.jitter);
     }
-    if (!takes_longer() && preemptive() && s.judged == nobody)
+    if (!takes_longer() && preemptive_ && s.judged == nobody)
       for (std::size_t held = 0; held < n_; ++held)
         if (s.slots[held].pending && s.slots[held].age == 0) hold_up(s, held);
     release(s, 0);
@@ -226,7 +225,7 @@ class Search {
       slot.released = true;
     }
     dispatch(s, 0, 0);
-    if (s.judged == nobody || preemptive()) return;
+    if (s.judged == nobody || preemptive_) return;
     for (std::size_t c = 0; c < most_cores; ++c)  // what holds up may end sooner
       if (s.piece[c] > 0) {
         s.piece[c] = 0;
@@ -243,23 +242,22 @@ class Search {
   using Urgency = std::tuple<int, int, std::size_t>;  // smaller is more urgent
   Urgency urgency(const State& s, std::size_t i) const {
     const Task& t = set_.tasks[i];
-    if (by_table()) return {0, -s.slots[i].age, places_.turn[i]};
-    if (by_priority()) return {t.priority ? 0 : 1, t.priority.value_or(t.deadline), places_.order[i]};
-    return {0, t.deadline - s.slots[i].age, set_.policy == Policy::global_edf ? i : places_.order[i]};
+    if (by_table_) return {0, -s.slots[i].age, places_.turn[i]};
+    if (by_priority_) return {t.priority ? 0 : 1, t.priority.value_or(t.deadline), places_.order[i]};
+    return {0, t.deadline - s.slots[i].age, global_ ? i : places_.order[i]};
   }
 
   // The tasks that the policy runs now, as bits.
   unsigned picked(const State& s) const {
     unsigned bits = 0;
-    const bool global = set_.policy == Policy::global_edf;
     for (int c = 0; c < set_.cores; ++c) {
       if (s.piece[static_cast<std::size_t>(c)] > 0) continue;
       std::size_t best = nobody;
       for (std::size_t i = 0; i < n_; ++i) {
         if (!s.slots[i].pending || (bits >> i & 1) != 0) continue;
-        if (!global && core_[i] != static_cast<std::size_t>(c)) continue;
-        if (!by_table() && !eligible(s, i)) continue;
-        if (!preemptive() && s.slots[i].started) {
+        if (!global_ && core_[i] != static_cast<std::size_t>(c)) continue;
+        if (!by_table_ && !eligible(s, i)) continue;
+        if (!preemptive_ && s.slots[i].started) {
           best = i;
           break;
         }
@@ -313,7 +311,7 @@ class Search {
     }
     for (std::size_t i = 0; i < n_; ++i) {
       if ((runs >> i & 1) == 0) continue;
-      s.slots[i].started = !preemptive();
+      s.slots[i].started = !preemptive_;
       if (--s.slots[i].left == 0 && !end(s, i, s.slots[i].age + 1)) return;
     }
     bool late = false;
@@ -377,6 +375,7 @@ class Search {
   const Places& places_;
   std::vector<std::vector<std::size_t>> producers_;
   std::size_t n_;
+  bool by_table_ = false, by_priority_ = false, preemptive_ = false, global_ = false;
   bool nonpreemptive_ = false;  // and something may hold up
   Seen seen_;
   std::size_t from_ = 0;

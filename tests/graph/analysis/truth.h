@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "graph/analysis/policies.h"
 #include "graph/model/graph.h"
 
 namespace jarol::truth {
@@ -25,7 +26,7 @@ struct Task {
 
 /// Units of time are nanoseconds where a graph is made of it.
 struct Set {
-  Policy policy = Policy::table;
+  Policy policy = policies::table;
   bool offsets_hold = true;
   int cores = 1;
   std::vector<Task> tasks;                                 // named a, b, c ...

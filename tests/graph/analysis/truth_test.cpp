@@ -17,13 +17,6 @@ using truth::Judged;
 using truth::Set;
 using Answer = truth::Truth::Answer;
 
-const Policy policies[] = {Policy::table,
-                           Policy::fixed_priority,
-                           Policy::edf,
-                           Policy::fixed_priority_nonpreemptive,
-                           Policy::edf_nonpreemptive,
-                           Policy::global_edf};
-
 // JAROL_SETS of each policy, else as many as there is time for.
 std::uint64_t count_of_sets() {
   if (const char* count = std::getenv("JAROL_SETS")) return std::strtoull(count, nullptr, 10);
@@ -35,8 +28,8 @@ std::uint64_t count_of_sets() {
 }
 
 // Of a hundred sets, so many may be left open; measured: 0, 1.3, 1.6, 1.4, 1.2 and 9 of 20,000.
-std::uint64_t most_unknown(Policy policy) {
-  return policy == Policy::table ? 0 : policy == Policy::global_edf ? 10 : 2;
+std::uint64_t most_unknown(const Policy& policy) {
+  return policy == policies::table ? 0 : policy == policies::global_edf ? 10 : 2;
 }
 
 // How hard a wrong answer is to read.
@@ -68,21 +61,22 @@ struct Tally {
     if (!known || size_of(judged.set) < size_of(known->set)) known = judged;
   }
 
-  void print(Policy policy) {
+  void print(const Policy& policy) {
     std::printf(
         "%s: %llu sets, %llu decidable, %llu schedulable; unsafe yes %llu, false proofs %llu, short responses "
         "%llu; unknown %llu, no without proof that is yes %llu\n",
-        truth::name_of(policy), static_cast<unsigned long long>(sets), static_cast<unsigned long long>(decidable),
-        static_cast<unsigned long long>(schedulable), static_cast<unsigned long long>(wrong["unsafe yes"]),
-        static_cast<unsigned long long>(wrong["false proof"]), static_cast<unsigned long long>(wrong["short response"]),
-        static_cast<unsigned long long>(unknown), static_cast<unsigned long long>(safe_no));
+        std::string(policy.name).c_str(), static_cast<unsigned long long>(sets),
+        static_cast<unsigned long long>(decidable), static_cast<unsigned long long>(schedulable),
+        static_cast<unsigned long long>(wrong["unsafe yes"]), static_cast<unsigned long long>(wrong["false proof"]),
+        static_cast<unsigned long long>(wrong["short response"]), static_cast<unsigned long long>(unknown),
+        static_cast<unsigned long long>(safe_no));
   }
 };
 }  // namespace
 
 TEST_SUITE("graph/analysis/truth") {
   TEST_CASE("no yes is unsafe, and no proof of a no is false") {
-    for (const Policy policy : policies) {
+    for (const Policy& policy : analysis::built_in_policies()) {
       Tally tally;
       for (std::uint64_t seed = 0; seed < count_of_sets(); ++seed)
         tally.add(truth::judge(truth::random_set(seed, policy, {})));
@@ -90,14 +84,13 @@ TEST_SUITE("graph/analysis/truth") {
       CHECK(tally.unknown <= most_unknown(policy) * tally.sets / 100);
       CHECK(tally.decidable > 95 * tally.sets / 100);
       for (const auto& [kind, judged] : tally.least)
-        FAIL_CHECK(std::string(truth::name_of(policy)), ": ", tally.wrong[kind], " of kind ", kind, ", such as\n",
-                   judged->text());
+        FAIL_CHECK(std::string(policy.name), ": ", tally.wrong[kind], " of kind ", kind, ", such as\n", judged->text());
     }
   }
 
   TEST_CASE("a set's graph is what the loader makes of its text") {
     for (std::uint64_t seed = 0; seed < 300; ++seed)
-      for (const Policy policy : {Policy::table, Policy::edf}) {
+      for (const Policy& policy : {policies::table, policies::edf}) {
         const Set set = truth::random_set(seed, policy, {});
         const std::string text = truth::yaml_of(set, "ns");
         CAPTURE(text);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "graph/analysis/execution_times.h"
+#include "graph/analysis/policies.h"
 #include "tests/runtime/trace_of.h"
 
 namespace {
@@ -96,6 +97,7 @@ connections:
 Graph graph_of_text(const std::string& text) {
   static const Registry registry = [] {
     Registry made;
+    analysis::add_policies(made);
     tasks::add_tasks(made);
     made.add(task_class<Culprit>());
     return made;

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <thread>
 
+#include "graph/analysis/policies.h"
 #include "graph/expect/at_end.h"
 #include "runtime/jarol/threads_core.h"
 #include "tests/runtime/run_on_threads.h"
@@ -79,6 +80,7 @@ class Plant : public Channels {
 const Registry& registry() {
   static const Registry made = [] {
     Registry known;
+    analysis::add_policies(known);
     tasks::add_tasks(known);
     known.add(task_class<Climb>());
     const Type* number = &type_of<double>();

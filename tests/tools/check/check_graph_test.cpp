@@ -143,8 +143,8 @@ void check_texts(const CheckReport& r) {
 }
 
 // What holds for every shift of the tasks holds for the one that is given.
-void check_phasing(Policy policy, Verdict given, Verdict any) {
-  if (policy == Policy::table) CHECK(any == Verdict::unknown);
+void check_phasing(const Policy& policy, Verdict given, Verdict any) {
+  if (policy == policies::table) CHECK(any == Verdict::unknown);
   if (any == Verdict::schedulable) CHECK(given == Verdict::schedulable);
   if (given == Verdict::not_schedulable) CHECK(any != Verdict::schedulable);
 }
@@ -153,13 +153,13 @@ void check_phasing(Policy policy, Verdict given, Verdict any) {
 TEST_SUITE("tools/check_graph") {
   TEST_CASE("every policy, phasing, number of cores and overhead gives a verdict and a report of every kind of graph") {
     for (const auto& source : graphs())
-      for (std::size_t policy = 0; policy < Words<Policy>::list().size(); ++policy)
+      for (const Policy& policy : built_in().graph.policies())
         for (const char* cores : {"1", "3"})
           for (const std::string& overhead : overheads()) {
             std::vector<Verdict> verdicts;
             for (const std::string& phasing : Words<Phasing>::list()) {
               Overrides overrides{"",
-                                  {"platform.policy=" + Words<Policy>::list()[policy],
+                                  {"platform.policy=" + std::string(policy.name),
                                    "platform.cores=" + std::string(cores), "platform.phasing=" + phasing}};
               if (!overhead.empty()) overrides.set.insert(overrides.set.begin(), overhead);
               std::string made = source->name;
@@ -175,7 +175,7 @@ TEST_SUITE("tools/check_graph") {
                 CHECK(analysis::verdict_of(analysis::system_of(graph), effort) == report.result.verdict);
               verdicts.push_back(report.result.verdict);
             }
-            check_phasing(static_cast<Policy>(policy), verdicts[0], verdicts[1]);
+            check_phasing(policy, verdicts[0], verdicts[1]);
           }
   }
 

@@ -60,6 +60,10 @@ WRITTEN = [
     ("communicators: {c: {channel: d.setpoint, init: {turn: left}}}", "communicators/c/init/turn"),
     ("communicators: {c: {channel: d.actuation, safe: {fins: [0, 0, 0, 0]}}}", ""),
     ("communicators: {c: {channel: d.actuation, safe: {fins: [0, 0, 0]}}}", "communicators/c/safe/fins"),
+    ("tasks: {a: {type: Counter}}\nplatform: {policy: edf}", ""),
+    ("tasks: {a: {type: Counter}}\nplatform: {policy: mine}", "platform/policy"),
+    ("tasks: {a: {type: Counter}}\nplatform: {policy: mine}\nplugins: [mine.so]", ""),
+    ("tasks: {a: {type: Counter}}\nplatform: {policy: [edf]}\nplugins: [mine.so]", "platform/policy"),
 ]
 
 
