@@ -9,6 +9,7 @@
 #include "graph/text/escape.h"
 #include "runtime/files/whole_file.h"
 #include "tools/plot/plot_axis.h"
+#include "tools/plot/plot_names.h"
 #include "tools/plot/plot_pen.h"
 #include "tools/plot/svg_text.h"
 
@@ -58,24 +59,6 @@ std::string name_of(const Panel& panel) {
   for (char& c : name)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return name;
-}
-
-struct Named {
-  double value = 0;
-  std::string name;
-};
-
-// The enumerators that occur, in order of their values.
-std::vector<Named> names_of(const Type& type, const std::vector<std::vector<PlotCurve::Point>>& lines) {
-  std::vector<Named> names;
-  for (const auto& [name, value] : type.enumerators) {
-    const auto number = static_cast<double>(value);
-    const auto is_it = [&](const PlotCurve::Point& p) { return p.value == number; };
-    if (std::any_of(lines.begin(), lines.end(),
-                    [&](const auto& points) { return std::any_of(points.begin(), points.end(), is_it); }))
-      names.push_back({number, name});
-  }
-  return names;
 }
 
 bool is_angle(std::string_view unit) { return unit == "rad" || unit.starts_with("rad/") || unit.starts_with("rad "); }
@@ -230,12 +213,12 @@ void PlotSvg::draw(const Drawing& drawing, double top, PlotPen& pen) const {
   y.ticks = find_ticks(y.most - y.least, 5, angle);
   if (whole_numbers && y.ticks.exponent < 0) y.ticks = {1, 0};
   const Axis x = time_axis(end_, left, right);
-  const std::vector<Named> named = names ? names_of(*first.leaf.type, lines) : std::vector<Named>{};
+  const std::vector<NamedValue> named = names ? names_in(lines, *first.leaf.type) : std::vector<NamedValue>{};
 
   pen.svg += "<path stroke=\"#E4E7EB\" d=\"";
   x.for_each_tick([&](double at, const std::string&) { pen.svg += "M" + px(at) + "," + px(top) + "V" + px(bottom); });
   const auto across = [&](double at) { pen.svg += "M" + px(left) + "," + px(at) + "H" + px(right); };
-  for (const Named& each : named) across(y.place(each.value));
+  for (const NamedValue& each : named) across(y.place(each.value));
   if (!no_data && !names) y.for_each_tick([&](double at, const std::string&) { across(at); });
   pen.svg += "\"/>\n<rect x=\"" + px(left) + "\" y=\"" + px(top) + "\" width=\"" + px(right - left) + "\" height=\"" +
              px(panel_height) + "\" stroke=\"#9AA5B1\" fill=\"none\"/>\n";
@@ -256,7 +239,7 @@ void PlotSvg::draw(const Drawing& drawing, double top, PlotPen& pen) const {
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (!lines[i].empty()) pen.curve(curves_[drawing.lines[i].curve], lines[i], x, y, drawing.lines[i].stroke, right);
   // within the panel, as they are longer than numbers
-  for (const Named& each : named)
+  for (const NamedValue& each : named)
     pen.text(left + 6, y.place(each.value) - 4, "paint-order=\"stroke\" stroke=\"#FFFFFF\" stroke-width=\"3\"",
              each.name);
   draw_legend(drawing, top, pen);
