@@ -15,6 +15,7 @@
 #include "distributers/links/udp.h"
 #include "distributers/messages/javiator.h"
 #include "distributers/session/load.h"
+#include "graph/analysis/policies.h"
 #include "runtime/execute/executor.h"
 #include "tasks/tasks.h"
 
@@ -72,6 +73,7 @@ std::uint64_t count_of(const LinkReport& report, const std::string& name) {
 template <class MakeFlood>
 void flood(std::unique_ptr<Transport> transport, const MakeFlood& make_flood, bool loses_nothing) {
   Registries known;
+  analysis::add_policies(known.graph);
   tasks::add_tasks(known.graph);
   add_distributers(known.graph);
   add_links(known.links);

@@ -19,7 +19,9 @@ inline constexpr double degree = std::numbers::pi / 180.0;
 
 inline Leaf number(const std::string& path, const std::string& unit) { return {path, unit, 0, &type_of<double>()}; }
 
-inline void take(PlotSvg& plot, Duration instant, std::uint32_t output, double value) { plot.take(instant, output, &value); }
+inline void take(PlotSvg& plot, Duration instant, std::uint32_t output, double value) {
+  plot.take(instant, output, &value);
+}
 
 inline bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
