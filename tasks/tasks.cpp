@@ -7,6 +7,7 @@
 #include "tasks/javiator/original_control.h"
 #include "tasks/javiator/original_filter.h"
 #include "tasks/lauv/control.h"
+#include "tasks/lauv/fins.h"
 #include "tasks/lauv/guidance.h"
 #include "tasks/lauv/navigation.h"
 #include "tasks/lauv/supervisor.h"
@@ -27,8 +28,8 @@ void add_tasks(Registry& registry) {
   add<AltitudeControl, AttitudeControl, FlightLogic, HelicopterReporter, JaviatorFilter, MotorMixer, PositionControl>(
       registry);
   add<OriginalAltitude, OriginalAttitude, OriginalFilter, OriginalLogic, OriginalMixer, OriginalPosition>(registry);
-  add<DepthControl, FinAllocator, HeadingControl, LauvForward, LauvGuidance, LauvNavigation, LauvReport, LauvSupervisor,
-      SpeedControl>(registry);
+  add<DepthControl, FaultTolerantAllocator, FinAllocator, FinWatch, HeadingControl, LauvForward, LauvGuidance,
+      LauvNavigation, LauvReport, LauvSupervisor, SpeedControl>(registry);
 }
 
 }  // namespace jarol::tasks

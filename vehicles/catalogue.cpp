@@ -13,8 +13,8 @@ namespace {
 VehicleClass submarine() {
   VehicleClass made = vehicle_class<Submarine>("submarine", messages::imc::message_set(),
                                                "torpedo-shaped AUV with four fins and one propeller (LAUV)");
-  made.make_telemetry = [](const Vehicle& vehicle, messages::Receiver& to) -> std::unique_ptr<messages::Receiver> {
-    return std::make_unique<SubmarineTelemetry>(vehicle, to);
+  made.make_telemetry = [](const Vehicle&, messages::Receiver& to) -> std::unique_ptr<messages::Receiver> {
+    return std::make_unique<SubmarineTelemetry>(to);
   };
   made.true_state = &messages::imc::SimulatedState::form;
   made.make_announcement = announcement_of;

@@ -50,6 +50,7 @@ LauvVehicle::LauvVehicle(const Param& parameters)
                                 std::pair{&P::current, &I::current}};
   std::apply([&](auto... pair) { (leave_out(parameters_.*(pair.first), all.*(pair.second)), ...); }, readings);
   for (tasks::BeaconReading& beacon : all.beacons) leave_out(parameters_.ranges, beacon);
+  for (tasks::ServoReading& servo : in.servos.value.fins) leave_out(parameters_.servos, servo);
 }
 
 bool LauvVehicle::is(const LauvInstrument& instrument, const messages::MessageRef& from) {
@@ -223,6 +224,16 @@ void LauvVehicle::range(const imc::LblRange& m, const messages::MessageRef& from
        std::max<std::int64_t>(r.count, 0) + 1};
 }
 
+// and where it was sent last
+void LauvVehicle::servo(const imc::ServoPosition& m, const messages::MessageRef& from) {
+  if (m.id >= sent_fins_.size() || !is(parameters_.servos, from)) return;
+  double angle = m.value;
+  if (Entities::sender_of(from) != Entities::nobody) angle *= parameters_.servos.scale;
+  if (!all_finite({angle})) return;
+  tasks::ServoReading& r = in.servos.renew().fins[m.id];
+  r = {angle, sent_fins_[m.id], std::max<std::int64_t>(r.count, 0) + 1};
+}
+
 void LauvVehicle::announce(Duration instant, messages::Receiver& all) {
   if (!announce_timer_.is_due(instant)) return;
   all.receive(
@@ -231,6 +242,7 @@ void LauvVehicle::announce(Duration instant, messages::Receiver& all) {
 
 void LauvVehicle::send_actuation(const tasks::Actuation& actuation, messages::Receiver& system) {
   system.receive(messages::refer_to(imc::SetThrusterActuation{0, static_cast<float>(actuation.thruster)}));
+  sent_fins_ = actuation.fins;
   for (std::uint8_t i = 0; i < actuation.fins.size(); ++i)
     system.receive(messages::refer_to(imc::SetServoPosition{i, static_cast<float>(actuation.fins[i])}));
 }

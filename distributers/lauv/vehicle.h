@@ -12,6 +12,7 @@
 #include "distributers/messages/imc_announce.h"
 #include "graph/math/geometry.h"
 #include "graph/values/type_of.h"
+#include "tasks/values/fins.h"
 #include "tasks/values/instruments.h"
 #include "tasks/values/lauv.h"
 
@@ -37,7 +38,7 @@ struct LauvInstrument {
 struct LauvVehicleParameters {
   LauvInstrument depth{}, pressure{}, attitude{}, rates{}, forces{}, heading{}, velocity{}, rpm{}, place{},
       altitude{.entity = "Altimeter*"}, conductivity{}, water_temperature{}, leak{.entity = "Leak*"}, voltage{},
-      current{}, ranges{};
+      current{}, ranges{}, servos{};
   bool gravity = true;
   double latitude = 41.1850 * degree;
   double longitude = -8.7062 * degree;
@@ -52,6 +53,7 @@ struct LauvVehicleParameters {
         field<&P::altitude>("", "Distance, downward"), field<&P::conductivity>("", "Conductivity"),
         field<&P::water_temperature>("", "Temperature"), field<&P::leak>("", "EntityState: each in FAILURE is a leak"),
         field<&P::voltage>("", "Voltage"), field<&P::current>("", "Current"), field<&P::ranges>("", "LblRange"),
+        field<&P::servos>("", "ServoPosition"),
         field<&P::gravity>("", "an entity's Acceleration is what a mass at rest feels: less gravity"),
         field<&P::latitude>("rad", "of the origin, WGS-84, unless the first fix is 100 km from it: then that"),
         field<&P::longitude>("rad", "of the origin"));
@@ -71,9 +73,11 @@ class LauvVehicle {
   struct In {
     Newest<tasks::Motion> motion;
     Newest<tasks::Instruments> instruments;
+    Newest<tasks::Servos> servos;
     static constexpr auto fields() {
       return describe(channel<&In::motion>("position, attitude and velocities"),
-                      channel<&In::instruments>("what the instruments tell"));
+                      channel<&In::instruments>("what the instruments tell"),
+                      channel<&In::servos>("where the fins are, and where they were sent"));
     }
   };
   struct Out {
@@ -92,7 +96,7 @@ class LauvVehicle {
                   on<imc::Distance>(&V::distance), on<imc::EntityState>(&V::entity), on<imc::Voltage>(&V::voltage),
                   on<imc::Current>(&V::current), on<imc::EntityInfo>(&V::entity_info),
                   on<imc::EntityList>(&V::entity_list), on<imc::LblConfig>(&V::beacons), on<imc::LblRange>(&V::range),
-                  send<&Out::actuation>(&V::send_actuation));
+                  on<imc::ServoPosition>(&V::servo), send<&Out::actuation>(&V::send_actuation));
   }
 
   explicit LauvVehicle(const Param& parameters);
@@ -106,7 +110,7 @@ class LauvVehicle {
   std::uint64_t non_finite_inputs() const { return non_finite_inputs_; }
   /// Without what concerns a link to elsewhere.
   void serialize(Archive& archive) {
-    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, latitude_, longitude_, beacons_);
+    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, latitude_, longitude_, beacons_, sent_fins_);
   }
 
   In in;
@@ -132,6 +136,7 @@ class LauvVehicle {
   void entity_list(const imc::EntityList& m) { entities_.note(m); }
   void beacons(const imc::LblConfig& m);
   void range(const imc::LblRange& m, const messages::MessageRef& from);
+  void servo(const imc::ServoPosition& m, const messages::MessageRef& from);
   void send_actuation(const tasks::Actuation& actuation, messages::Receiver& system);
 
   void place(double latitude, double longitude);
@@ -165,6 +170,7 @@ class LauvVehicle {
   std::uint64_t non_finite_inputs_ = 0;
   double latitude_ = 0, longitude_ = 0;  // of the origin
   std::array<Beacon, 2> beacons_{};
+  std::array<double, 4> sent_fins_{};
   std::string address_;
   messages::imc::AnnounceTimer announce_timer_;
 };

@@ -100,6 +100,13 @@ Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
   return found;
 }
 
+Alarm find_fin(const Param& p, const FinCondition& fins) {
+  constexpr Alarm alarms[] = {Alarm::bottom_fin, Alarm::port_fin, Alarm::starboard_fin, Alarm::top_fin};
+  for (std::size_t i = 0; p.fins_end_dive && i < fins.states.size(); ++i)
+    if (fins.states[i] == FinState::stuck || fins.states[i] == FinState::silent) return alarms[i];
+  return Alarm::none;
+}
+
 Alarm find_exceeded(const Param& p, const LauvSupervisor::In& in) {
   const Instruments& i = in.instruments;
   if (in.contact.silence > p.operator_timeout) return Alarm::operator_lost;
@@ -129,7 +136,11 @@ bool steerable(Alarm alarm) {
     case Alarm::heading:
     case Alarm::altimeter:
     case Alarm::ctd:
-    case Alarm::battery: return true;
+    case Alarm::battery:
+    case Alarm::bottom_fin:
+    case Alarm::port_fin:
+    case Alarm::starboard_fin:
+    case Alarm::top_fin: return true;
   }
   return false;
 }
@@ -142,11 +153,13 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   const bool stopped = in.contact.stops != state.stops;
   state.stops = in.contact.stops;
   if (state.alarm == Alarm::none || stopped) {
-    const Alarm exceeded = find_exceeded(p, in);
-    const Alarm found = lost != Alarm::none ? lost : liar != Alarm::none ? liar : exceeded;
+    Alarm found = Alarm::none;
+    for (const Alarm next : {lost, liar, find_fin(p, in.fins), find_exceeded(p, in)})
+      if (found == Alarm::none) found = next;
     if (state.alarm == Alarm::none || found == Alarm::none) {
       state.alarm = found;
       state.fixes_at_alarm = in.instruments.place.count;
+      state.depth_at_alarm = in.instruments.depth.value;
       state.since_alarm = 0;
       state.surfaced = false;
     }
@@ -157,6 +170,8 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   }
   // a climb gone wrong is given up
   if (!steerable(lost) || !steerable(liar)) state.surfaced = true;
+  const bool sinks = in.instruments.depth.value > state.depth_at_alarm + p.climb_sink;
+  if (sinks && state.alarm != Alarm::depth_gauge) state.surfaced = true;
   state.since_alarm += dt;
   if (in.instruments.place.count > state.fixes_at_alarm || state.since_alarm > p.climb_time) state.surfaced = true;
   const bool climbs = steerable(state.alarm) && !state.surfaced;

@@ -7,6 +7,7 @@
 
 #include "graph/task.h"
 #include "tasks/values/alarm.h"
+#include "tasks/values/fins.h"
 #include "tasks/values/instruments.h"
 #include "tasks/values/lauv.h"
 
@@ -16,9 +17,9 @@ namespace jarol::tasks {
 /// not waited for. One that lies is found by another that knows better: depth gauge and
 /// pressure, compass and IMU, attitude and rates, attitude and specific force, speed log and propeller, altitude and
 /// depth over a floor without steps: each from when both have told something. Once alarmed it comes up: nose up at some
-/// speed until GPS finds the surface, or, where attitude or speed are in doubt, with propeller off, by buoyancy. It
-/// stays alarmed, whatever becomes of the cause, until the operator demands a stop when there is none any more: then it
-/// is a vehicle at rest, to be commanded anew.
+/// speed until GPS finds the surface, or, where attitude or speed are in doubt, or the nose does not come up and it
+/// sinks, with propeller off, by buoyancy. It stays alarmed, whatever becomes of the cause, until the operator demands
+/// a stop when there is none any more: then it is a vehicle at rest, to be commanded anew.
 struct LauvSupervisor {
   static constexpr std::string_view summary = "passes the operator's setpoint on, or brings the submarine up";
   struct Param {
@@ -44,6 +45,8 @@ struct LauvSupervisor {
     double surge_mass = 19;
     double climb_speed = 1;
     double climb_time = 60;
+    double climb_sink = 1.5;
+    bool fins_end_dive = true;
     static constexpr auto fields() {
       using P = Param;
       return describe(
@@ -65,21 +68,25 @@ struct LauvSupervisor {
           field<&P::advance_coefficient>("N s^2/(m rad)", "less thrust per speed of the propeller and speed ahead"),
           field<&P::max_thrust>("N", "of the same"), field<&P::surge_drag>("N s/m", "per speed, and per speed squared"),
           field<&P::surge_mass>("kg", "with added mass"), field<&P::climb_speed>("m/s", "on the way up"),
-          field<&P::climb_time>("s", "after which it stops the propeller in any case"));
+          field<&P::climb_time>("s", "after which it stops the propeller in any case"),
+          field<&P::climb_sink>("m", "deeper than at the alarm by so much it stops the propeller, too"),
+          field<&P::fins_end_dive>("", "false: with a fin that is stuck or silent it goes on, and nobody is told"));
     }
   };
   struct In {
     Setpoint setpoint{};
     Contact contact{};
     Instruments instruments{};
+    FinCondition fins{};
     static constexpr auto fields() {
-      return describe(field<&In::setpoint>(), field<&In::contact>(), field<&In::instruments>());
+      return describe(field<&In::setpoint>(), field<&In::contact>(), field<&In::instruments>(), field<&In::fins>());
     }
   };
   struct State {
     Alarm alarm = Alarm::none;
     double since_alarm = 0;
     std::int64_t fixes_at_alarm = 0;
+    double depth_at_alarm = 0;
     std::uint32_t stops = 0;
     bool surfaced = false;
     std::array<std::int64_t, 14> counts{};
@@ -93,10 +100,10 @@ struct LauvSupervisor {
       using S = State;
       return describe(
           field<&S::alarm>(), field<&S::since_alarm>("s"), field<&S::fixes_at_alarm>(),
-          field<&S::stops>("", "of the operator, up to now"), field<&S::surfaced>(),
-          field<&S::counts>("", "of each instrument"), field<&S::silences>("s", "of each instrument"),
-          field<&S::since_fix>("s", "at the surface"), field<&S::fixes>(),
-          field<&S::wrong_for>("s", "each difference, for so long"), field<&S::attitude_started>(),
+          field<&S::depth_at_alarm>("m", "by the gauge"), field<&S::stops>("", "of the operator, up to now"),
+          field<&S::surfaced>(), field<&S::counts>("", "of each instrument"),
+          field<&S::silences>("s", "of each instrument"), field<&S::since_fix>("s", "at the surface"),
+          field<&S::fixes>(), field<&S::wrong_for>("s", "each difference, for so long"), field<&S::attitude_started>(),
           field<&S::speed_started>(), field<&S::floor_started>(), field<&S::theta>("rad", "that the rates add up to"),
           field<&S::psi>("rad", "that the rates add up to"), field<&S::speed>("m/s", "that the propeller gives"),
           field<&S::floor>("m", "depth of the sea floor"));

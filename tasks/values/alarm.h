@@ -25,12 +25,16 @@ enum class Alarm : std::uint8_t {
   altimeter,
   ctd,
   battery,
-  gps
+  gps,
+  bottom_fin,
+  port_fin,
+  starboard_fin,
+  top_fin
 };
 
 constexpr auto enumerators(Alarm) {
   using enum Alarm;
-  return std::array<Enumerator<Alarm>, 16>{
+  return std::array<Enumerator<Alarm>, 20>{
       {{"none", none},
        {"operator_lost", operator_lost, "it comes up, as the operator is silent"},
        {"depth_limit", depth_limit, "it comes up, as it is deeper than the limit"},
@@ -46,7 +50,11 @@ constexpr auto enumerators(Alarm) {
        {"altimeter", altimeter, "it comes up, as the altimeter is silent or wrong"},
        {"ctd", ctd, "it comes up, as a sensor of the water is silent"},
        {"battery", battery, "it comes up, as voltage or current of the battery are not told"},
-       {"gps", gps, "it stays at the surface, as GPS is silent"}}};
+       {"gps", gps, "it stays at the surface, as GPS is silent"},
+       {"bottom_fin", bottom_fin, "it comes up, as the bottom rudder is stuck or its servo silent"},
+       {"port_fin", port_fin, "it comes up, as the port elevator is stuck or its servo silent"},
+       {"starboard_fin", starboard_fin, "it comes up, as the starboard elevator is stuck or its servo silent"},
+       {"top_fin", top_fin, "it comes up, as the top rudder is stuck or its servo silent"}}};
 }
 
 struct Condition {

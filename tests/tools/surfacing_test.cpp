@@ -1,8 +1,11 @@
 // What goes wrong on a dive ends at the surface.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 #include "tests/tools/dive.h"
 
@@ -60,7 +63,8 @@ TEST_SUITE("tools/surfacing") {
                                      {"speed_log", 30, 0, Alarm::speed},       {"rpm", 30, 0, Alarm::speed},
                                      {"altitude", 30, 0, Alarm::altimeter},    {"conductivity", 30, 0, Alarm::ctd},
                                      {"water_temperature", 30, 0, Alarm::ctd}, {"leak", 30, 0, Alarm::leak},
-                                     {"voltage", 30, 0, Alarm::battery},       {"current", 30, 0, Alarm::battery}};
+                                     {"voltage", 30, 0, Alarm::battery},       {"current", 30, 0, Alarm::battery},
+                                     {"servos", 30, 0, Alarm::bottom_fin}};
     check_failures("lost", chosen_of(cases));
   }
 
@@ -107,6 +111,48 @@ TEST_SUITE("tools/surfacing") {
   }
 
   TEST_CASE("water in the hull ends the dive") { check_surfaces(dive_with("leak_at: 30s"), Alarm::leak, 32); }
+
+  TEST_CASE("a fin that goes hard over ends the dive, whichever it is and to whichever side, and it hardly sinks") {
+    struct Fin {
+      int number, to;
+      Alarm alarm;
+    };
+    static constexpr Fin fins[] = {{0, 1, Alarm::bottom_fin},    {0, -1, Alarm::bottom_fin}, {1, 1, Alarm::port_fin},
+                                   {1, -1, Alarm::port_fin},     {2, 1, Alarm::starboard_fin},
+                                   {2, -1, Alarm::starboard_fin}, {3, 1, Alarm::top_fin},    {3, -1, Alarm::top_fin}};
+    for (const Fin& fin : fins) {
+      CAPTURE(fin.number);
+      CAPTURE(fin.to);
+      // an elevator that noses down leaves it no more than buoyancy
+      const Dive done = dive("specs/exolauv.yaml",
+                             {fmt::format("distributers.dune.link.parameters={{failures: {{fin{}: {{kind: hardover, "
+                                          "at: 30, to: {}}}}}, dynamics: rigid}}",
+                                          fin.number, fin.to)},
+                             0, 220s);
+      check_surfaces(done, fin.alarm, 31);
+      double deepest = 0;
+      for (const auto& sample : done.samples) deepest = std::max(deepest, sample.motion.z);
+      CHECK(deepest < 5);
+    }
+  }
+
+  TEST_CASE("a rudder that sticks in the turn ends the dive at the surface, and where it goes on the turn is made") {
+    const std::string stuck = "distributers.dune.link.parameters={failures: {fin3: {kind: stuck, at: 50.4}}}";
+    check_surfaces(dive("specs/exolauv.yaml", {stuck}, 0, 140s), Alarm::top_fin, 53);
+    const Dive on = dive("specs/exolauv.yaml", {stuck, "tasks.supervisor.parameters.fins_end_dive=false"});
+    CHECK(on.alarm == Alarm::none);
+    const tasks::Motion& end = on.samples.back().motion;
+    CHECK(end.psi == doctest::Approx(std::numbers::pi / 2).scale(0).epsilon(0.01));
+    CHECK(end.z == doctest::Approx(3).scale(0).epsilon(0.02));
+  }
+
+  TEST_CASE("a vehicle that never reports its servos dives as it is sent, with a stuck rudder, too") {
+    const Dive done = dive("specs/exolauv.yaml",
+                           {"distributers.dune.link.parameters={failures: {fin3: {kind: stuck, at: 50.4}}, sensors: "
+                            "{servos: {failure: {kind: lost}}}}"});
+    CHECK(done.alarm == Alarm::none);
+    CHECK(done.samples.back().motion.z == doctest::Approx(3).scale(0).epsilon(0.02));
+  }
 
   TEST_CASE("an operator who is lost ends the dive") {
     check_surfaces(dive("specs/exolauv.yaml", {"distributers.neptus.link.file=missions/lost_operator.csv"}, 0, 100s),

@@ -103,7 +103,8 @@ void Helicopter::step() {
   command.wind_n = wind_.now(-plant_->motion().p_n[2]);
   const double time = 1e-9 * static_cast<double>(nanoseconds_);
   for (std::size_t i = 0; i < 4; ++i) {
-    if (!motors_[i].is_stuck(time)) settings_[i] = setting_of(parameters_, robostix_.signals()[i], voltage_);
+    const double signal = std::max(motors_[i].command(time, robostix_.signals()[i], most_signal), 0.0);
+    if (!motors_[i].is_stuck(time)) settings_[i] = setting_of(parameters_, signal, voltage_);
     const double part = motors_[i].part(time);
     const double slower = part == 1.0 ? 1.0 : std::pow(part, 1.0 / parameters_.rotors.thrust_exponent);
     command.settings[i] = slower * settings_[i];

@@ -9,27 +9,30 @@
 
 namespace jarol::vehicles {
 
-enum class ActuatorFailureKind : std::uint8_t { none, lost, stuck, weak };
+enum class ActuatorFailureKind : std::uint8_t { none, lost, stuck, weak, hardover };
 
 constexpr auto enumerators(ActuatorFailureKind) {
   using enum ActuatorFailureKind;
-  return std::array<Enumerator<ActuatorFailureKind>, 4>{
+  return std::array<Enumerator<ActuatorFailureKind>, 5>{
       {{"none", none},
        {"lost", lost, "a motor or propeller turns no more, a fin is broken off"},
        {"stuck", stuck, "a motor or propeller turns on as it did, a fin stays where it is"},
-       {"weak", weak, "it gives a part of its force"}}};
+       {"weak", weak, "it gives a part of its force"},
+       {"hardover", hardover, "it goes to an end of its travel and stays: a motor at full speed, a fin at its limit"}}};
 }
 
 struct ActuatorFailure {
   ActuatorFailureKind kind = ActuatorFailureKind::none;
   double at = 0.0;
   double by = 0.5;
+  double to = 1.0;
   double chance = 0.0;
 
   static constexpr auto fields() {
     using A = ActuatorFailure;
     return describe(field<&A::kind>("", "how it fails"), field<&A::at>("s", "when it begins, or may begin"),
                     field<&A::by>("", "part of its force that a weak one gives").in(0, 1),
+                    field<&A::to>("", "part of its full travel to which a hardover one goes").in(-1, 1),
                     field<&A::chance>("1/s", "rate at which it begins from then on; 0: it begins then"));
   }
 };
@@ -43,13 +46,19 @@ class FailingActuator {
 
   bool is_stuck(double seconds) const { return kind(seconds) == ActuatorFailureKind::stuck; }
 
+  /// What it is commanded, or what it does instead, where `full` is its full travel.
+  double command(double seconds, double commanded, double full) const {
+    return kind(seconds) == ActuatorFailureKind::hardover ? failure_.to * full : commanded;
+  }
+
   /// The part of its force that it gives.
   double part(double seconds) const {
     switch (kind(seconds)) {
       case ActuatorFailureKind::lost: return 0.0;
       case ActuatorFailureKind::weak: return failure_.by;
       case ActuatorFailureKind::none:
-      case ActuatorFailureKind::stuck: break;
+      case ActuatorFailureKind::stuck:
+      case ActuatorFailureKind::hardover: break;
     }
     return 1.0;
   }

@@ -55,14 +55,16 @@ SubmarineInput SubmarineActuation::step(bool powered) {
   const double reach = powered ? servo_parameters_.slew * step_seconds : 0.0;
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     const double before = servos_[i];
-    if (!failing_fins_[i].is_stuck(now)) servos_[i] += std::clamp(servo_commands_[i] - before, -reach, reach);
+    const double command = failing_fins_[i].command(now, servo_commands_[i], servo_parameters_.limit);
+    if (!failing_fins_[i].is_stuck(now)) servos_[i] += std::clamp(command - before, -reach, reach);
     const double part = failing_fins_[i].part(now);  // lift grows with the angle
     input.fins[i] = part * (at_end_of_step_ ? servos_[i] : 0.5 * (before + servos_[i]));
   }
 
   // first-order lag, solved exactly; thrust grows with the square of the speed
   const double speed = std::sqrt(failing_propeller_.part(now)) * thruster_.full_speed;
-  const double command = powered ? thruster_command_ * speed : 0.0, before = propeller_;
+  const double actuation = failing_propeller_.command(now, thruster_command_, 1.0);
+  const double command = powered ? actuation * speed : 0.0, before = propeller_;
   const double kept = thruster_.time_constant > 0.0 ? std::exp(-step_seconds / thruster_.time_constant) : 0.0;
   if (!powered || !failing_propeller_.is_stuck(now)) propeller_ = command + (before - command) * kept;
   input.propeller = kept == 0.0 ? propeller_ : 0.5 * (before + propeller_);

@@ -98,6 +98,11 @@ struct CurrentSensor {
   static constexpr int milliseconds = 1000;
 };
 
+struct ServoSensor {
+  static constexpr std::string_view unit = "rad";
+  static constexpr int milliseconds = 10;
+};
+
 struct SubmarineSensorParameters {
   SensorOf<DepthSensor> depth{};
   SensorOf<PressureSensor> pressure{};
@@ -116,6 +121,7 @@ struct SubmarineSensorParameters {
   SensorOf<SlowTemperatureSensor> hull_temperature{};
   SensorOf<VoltageSensor> voltage{};
   SensorOf<CurrentSensor> current{};
+  SensorOf<ServoSensor> servos{};
 
   static constexpr auto fields() {
     using S = SubmarineSensorParameters;
@@ -131,7 +137,8 @@ struct SubmarineSensorParameters {
                     field<&S::range>("", "to each acoustic transponder within reach"),
                     field<&S::altitude>("", "over the sea floor, down the body's axis, no more than 100 m"),
                     field<&S::leak>("", "1 for water in the hull"), field<&S::hull_temperature>("", "inside the hull"),
-                    field<&S::voltage>("", "of the battery"), field<&S::current>("", "from the battery"));
+                    field<&S::voltage>("", "of the battery"), field<&S::current>("", "from the battery"),
+                    field<&S::servos>("", "angle of each fin, at its servo"));
   }
 };
 

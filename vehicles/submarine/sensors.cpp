@@ -80,11 +80,14 @@ SubmarineSensors::SubmarineSensors(const SubmarineSensorParameters& p, const Sea
       voltage_(p.voltage, "voltage", seed),
       current_(p.current, "current", seed),
       ranges_{Sensor(p.range, "range_first", seed), Sensor(p.range, "range_second", seed)},
+      servos_{Sensor(p.servos, "servo0", seed), Sensor(p.servos, "servo1", seed), Sensor(p.servos, "servo2", seed),
+              Sensor(p.servos, "servo3", seed)},
       beacons_(tell_beacons_of(sea)) {}
 
 void SubmarineSensors::serialize(Archive& archive) {
   archive(seconds_, depth_, pressure_, conductivity_cell_, water_temperature_, attitude_, rates_, forces_, compass_,
-          speed_, rpm_, gps_, altitude_, leak_, hull_temperature_, voltage_, current_, ranges_, step_, readings_);
+          speed_, rpm_, gps_, altitude_, leak_, hull_temperature_, voltage_, current_, ranges_, servos_, step_,
+          readings_);
 }
 
 void SubmarineSensors::step(std::int64_t step, const SubmarineScene& scene) {
@@ -133,6 +136,7 @@ void SubmarineSensors::step(std::int64_t step, const SubmarineScene& scene) {
   hull_temperature_.step(step, Values{sea_.temperature + scene.hull_warmth});
   voltage_.step(step, Values{scene.voltage});
   current_.step(step, Values{scene.current});
+  for (std::size_t i = 0; i < servos_.size(); ++i) servos_[i].step(step, Values{scene.servos[i]});
   note();
 }
 
@@ -172,6 +176,7 @@ void SubmarineSensors::note() {
 
 void SubmarineSensors::tell(messages::Receiver& receiver) const {
   tell_motion(receiver);
+  tell_servos(receiver);
   tell_water(receiver);
   tell_hull(receiver);
   tell_place(receiver);
@@ -205,6 +210,12 @@ void SubmarineSensors::tell_motion(messages::Receiver& receiver) const {
     rpm.value = static_cast<std::int16_t>(std::lround(std::clamp(rpm_.value(), -32768.0, 32767.0)));
     receiver.receive(messages::refer_to(rpm));
   }
+}
+
+void SubmarineSensors::tell_servos(messages::Receiver& receiver) const {
+  for (std::uint8_t i = 0; i < servos_.size(); ++i)
+    if (servos_[i].told())
+      receiver.receive(messages::refer_to(imc::ServoPosition{i, static_cast<float>(servos_[i].value())}));
 }
 
 void SubmarineSensors::tell_water(messages::Receiver& receiver) const {

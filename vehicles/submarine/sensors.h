@@ -1,6 +1,8 @@
 // The submarine's instruments: what each measures, and the messages in which it tells.
 #pragma once
 
+#include <array>
+
 #include "distributers/messages/message.h"
 #include "vehicles/sea/sea_parameters.h"
 #include "vehicles/submarine/io.h"
@@ -20,6 +22,7 @@ struct SubmarineScene {
   bool leak = false;
   double hull_warmth = 0.0;  // K above the water
   double voltage = 0.0, current = 0.0;
+  std::array<double, 4> servos{};
 };
 
 class SubmarineSensors {
@@ -42,6 +45,7 @@ class SubmarineSensors {
   void note();
   void tell_motion(messages::Receiver& receiver) const;
   void tell_water(messages::Receiver& receiver) const;
+  void tell_servos(messages::Receiver& receiver) const;
   void tell_hull(messages::Receiver& receiver) const;
   void tell_place(messages::Receiver& receiver) const;
   void tell_beacons(messages::Receiver& receiver) const;
@@ -54,6 +58,7 @@ class SubmarineSensors {
   Sensor depth_, pressure_, conductivity_cell_, water_temperature_, attitude_, rates_, forces_, compass_, speed_, rpm_,
       gps_, altitude_, leak_, hull_temperature_, voltage_, current_;
   std::array<Sensor, 2> ranges_;
+  std::array<Sensor, 4> servos_;
   messages::Message beacons_;  // where they lie
   SubmarineReadings readings_;
 };

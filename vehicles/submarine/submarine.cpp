@@ -100,6 +100,7 @@ void Submarine::sample() {
   scene.hull_warmth = power_.warmth();
   scene.voltage = power_.voltage();
   scene.current = power_.current();
+  scene.servos = actuation_.servos();
   sensors_.step(steps_, scene);
   outputs_.sensors = sensors_.readings();
 }

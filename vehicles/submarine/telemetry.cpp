@@ -5,7 +5,6 @@
 #include "distributers/messages/imc_announce.h"
 #include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
-#include "vehicles/submarine/io.h"
 
 namespace jarol::vehicles {
 namespace imc = messages::imc;
@@ -18,9 +17,8 @@ Eigen::Matrix3d attitude_of(const imc::SimulatedState& s) { return rotation_of(s
 }  // namespace
 
 // more than a device's readings where DUNE has two that tell the same
-SubmarineTelemetry::SubmarineTelemetry(const Vehicle& vehicle, messages::Receiver& to)
-    : vehicle_(vehicle),
-      to_(to),
+SubmarineTelemetry::SubmarineTelemetry(messages::Receiver& to)
+    : to_(to),
       readings_{{{&imc::Depth::form, 16},
                  {&imc::Pressure::form, 6},
                  {&imc::Conductivity::form, 6},
@@ -39,7 +37,6 @@ void SubmarineTelemetry::receive(messages::MessageRef message) {
   ++states_;
   tell_readings();  // that came with the state before
   to_.receive(message);
-  tell_servos();
   if (is_due(20)) tell_estimate(*truth);
   if (is_due(5)) tell_water(*truth);
   if (is_due(1)) {
@@ -69,13 +66,6 @@ void SubmarineTelemetry::tell_readings() {
     const bool overdue = 2 * (states_ - reading.at) > 3 * reading.interval;
     if (reading.newest.form() != nullptr && !overdue && is_due(reading.rate)) to_.receive(reading.newest);
   }
-}
-
-void SubmarineTelemetry::tell_servos() {
-  const SubmarineActuators& a = static_cast<const SubmarineOutputs*>(vehicle_.outputs())->actuators;
-  const double fins[] = {a.fin0, a.fin1, a.fin2, a.fin3};
-  for (std::uint8_t i = 0; i < 4; ++i)
-    to_.receive(messages::refer_to(imc::ServoPosition{i, static_cast<float>(fins[i])}));
 }
 
 void SubmarineTelemetry::tell_estimate(const imc::SimulatedState& s) {

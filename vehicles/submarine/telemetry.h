@@ -9,14 +9,13 @@
 
 namespace jarol::vehicles {
 
-/// Passes on what the submarine tells, at the rates of DUNE's simulator. With each SimulatedState, one every 10 ms, it
-/// adds four ServoPosition; and, from the true state, 20 EstimatedState, 5 GroundVelocity, an EstimatedStreamVelocity
-/// and a Heartbeat a second. Readings of instruments that DUNE reads at other rates go out at those, the newest each
-/// time, until their sensor is overdue. Voltage and Current, which DUNE's simulator has not, come as the battery tells
-/// them.
+/// Passes on what the submarine tells, at the rates of DUNE's simulator. It
+/// adds, from the true state, 20 EstimatedState, 5 GroundVelocity, an EstimatedStreamVelocity and a Heartbeat a second.
+/// Readings of instruments that DUNE reads at other rates go out at those, the newest each time, until their sensor is
+/// overdue. Voltage and Current, which DUNE's simulator has not, come as the battery tells them.
 class SubmarineTelemetry : public messages::Receiver {
  public:
-  SubmarineTelemetry(const Vehicle& vehicle, messages::Receiver& to);
+  explicit SubmarineTelemetry(messages::Receiver& to);
 
   void receive(messages::MessageRef message) override;
 
@@ -30,12 +29,10 @@ class SubmarineTelemetry : public messages::Receiver {
 
   bool keep(messages::MessageRef message);
   void tell_readings();
-  void tell_servos();
   void tell_estimate(const messages::imc::SimulatedState& truth);
   void tell_water(const messages::imc::SimulatedState& truth);
   bool is_due(std::int64_t rate) const;
 
-  const Vehicle& vehicle_;
   messages::Receiver& to_;
   std::int64_t states_ = 0;  // so far
   std::array<Reading, 8> readings_;

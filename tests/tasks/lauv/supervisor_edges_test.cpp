@@ -253,6 +253,21 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
     }
   }
 
+  TEST_CASE("a climb on which it sinks by a metre and a half ends, unless it is the gauge that is in doubt") {
+    const auto speed_at = [](double sunk, bool gauge_is_right) {
+      Watched w;
+      w.run(20, as_it_is);
+      w.run(1, [](LauvSupervisor::In& in) { in.instruments.leak.value = 1; });
+      if (!gauge_is_right) w.state.alarm = Alarm::depth_gauge;
+      w.run(1, [&](LauvSupervisor::In& in) { in.instruments.depth.value = 5 + sunk; });
+      w.run(1, as_it_is);  // and it stays off
+      return w.out.setpoint.speed;
+    };
+    CHECK(speed_at(1.49, true) == 1);
+    CHECK(speed_at(1.51, true) == 0);
+    CHECK(speed_at(3, false) == 1);
+  }
+
   TEST_CASE("a climb ends after a minute") {
     Watched w;
     const Change leak = [](LauvSupervisor::In& in) { in.instruments.leak.value = 1; };

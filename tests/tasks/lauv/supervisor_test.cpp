@@ -110,6 +110,34 @@ TEST_SUITE("tasks/lauv_supervisor") {
     CHECK(state.since_alarm == doctest::Approx(0.05));
   }
 
+  TEST_CASE(
+      "a fin that is stuck or silent brings it up by its propeller, under its own name; others are none of that") {
+    constexpr Alarm alarms[] = {Alarm::bottom_fin, Alarm::port_fin, Alarm::starboard_fin, Alarm::top_fin};
+    for (std::size_t fin = 0; fin < 4; ++fin) {
+      const auto with = [fin](FinState state) {
+        return after(1.05, [&](LauvSupervisor::In& in) { in.fins.states[fin] = state; });
+      };
+      for (const FinState state : {FinState::stuck, FinState::silent}) {
+        const auto out = with(state);
+        CHECK(out.condition.alarm == alarms[fin]);
+        CHECK(out.setpoint.depth == -1000);
+        CHECK(out.setpoint.speed == 1);
+      }
+      for (const FinState state : {FinState::unknown, FinState::follows})
+        CHECK(with(state).condition.alarm == Alarm::none);
+    }
+  }
+
+  TEST_CASE("it goes on with a fin that is stuck where its parameter says so") {
+    LauvSupervisor::State state;
+    LauvSupervisor::Out out;
+    LauvSupervisor::In in = calm_submarine(1);
+    in.fins.states[1] = FinState::stuck;
+    LauvSupervisor::run({.fins_end_dive = false}, every_50_ms, in, state, out);
+    CHECK(out.condition.alarm == Alarm::none);
+    CHECK(out.setpoint.depth == wanted.depth);
+  }
+
   TEST_CASE("GPS ends the climb, and so does a climb that takes too long or goes blind") {
     const auto climb = [](double seconds, auto change) {
       return after(seconds, [&](LauvSupervisor::In& in) {

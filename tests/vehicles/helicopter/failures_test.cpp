@@ -36,6 +36,18 @@ std::vector<double> begins(double chance) {
 }  // namespace
 
 TEST_SUITE("vehicles/helicopter_failures") {
+  TEST_CASE("a motor that goes hard over turns at full speed, or at a part of it, never backwards") {
+    HelicopterParameters parameters = flying();
+    parameters.failures.front = {.kind = ActuatorFailureKind::hardover, .at = 0.1};
+    parameters.failures.right = {.kind = ActuatorFailureKind::hardover, .at = 0.1, .to = 0.5};
+    parameters.failures.rear = {.kind = ActuatorFailureKind::hardover, .at = 0.1, .to = -1};
+    const HelicopterRotors reached = rotors_after(parameters, 1);
+    CHECK(reached.front > 1.9 * reached.right);
+    CHECK(reached.front < 2.1 * reached.right);
+    CHECK(reached.front > 12'000);
+    CHECK(reached.rear < 1);
+  }
+
   TEST_CASE("a motor that is lost stands, one that is weak gives its part of the thrust, one that is stuck turns on") {
     HelicopterParameters parameters = flying();
     parameters.failures.front = {ActuatorFailureKind::lost, 0.1};

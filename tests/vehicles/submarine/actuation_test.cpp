@@ -126,6 +126,29 @@ TEST_SUITE("vehicles/submarine_actuation") {
     CHECK(actuation.servos()[2] == doctest::Approx(-0.1));
   }
 
+  TEST_CASE("a fin that goes hard over ends at its limit or at a part of it, to either side, whatever is commanded") {
+    SubmarineParameters parameters;
+    const auto over = [](double to) {
+      return ActuatorFailure{.kind = ActuatorFailureKind::hardover, .at = 0.5, .to = to};
+    };
+    parameters.failures.fin0 = over(1);
+    parameters.failures.fin1 = over(-1);
+    parameters.failures.fin2 = over(0.5);
+    SubmarineActuation actuation(parameters);
+    for (std::size_t i = 0; i < 4; ++i) actuation.command_servo(i, 0.1);
+    for (int i = 0; i < 50; ++i) actuation.step();
+    for (const double angle : actuation.servos()) CHECK(angle == doctest::Approx(0.1));
+    actuation.step();
+    CHECK(actuation.servos()[0] == doctest::Approx(0.1 + 0.01 * parameters.servos.slew));  // no faster than it can
+    SubmarineInput seen;
+    for (int i = 0; i < 50; ++i) seen = actuation.step();
+    const double limit = parameters.servos.limit;
+    CHECK(seen.fins[0] == doctest::Approx(limit));
+    CHECK(seen.fins[1] == doctest::Approx(-limit));
+    CHECK(seen.fins[2] == doctest::Approx(limit / 2));
+    CHECK(seen.fins[3] == doctest::Approx(0.1));
+  }
+
   TEST_CASE(
       "a propeller that is lost runs down, one that is stuck turns on while there is power, a weak one gives a part of "
       "its thrust") {
@@ -144,6 +167,8 @@ TEST_SUITE("vehicles/submarine_actuation") {
     CHECK(speed(ActuatorFailureKind::stuck, true) == doctest::Approx(0.8));
     CHECK(speed(ActuatorFailureKind::stuck, false) < 1e-6);
     CHECK(speed(ActuatorFailureKind::weak, true) == doctest::Approx(0.2));
+    CHECK(speed(ActuatorFailureKind::hardover, true) == doctest::Approx(1));
+    CHECK(speed(ActuatorFailureKind::hardover, false) < 1e-6);
   }
 
   TEST_CASE("an actuator fails by chance from its time on, another with each seed") {

@@ -86,6 +86,32 @@ TEST_SUITE("vehicles/submarine") {
     CHECK(sense(once).x > 0.5F);
   }
 
+  TEST_CASE("each servo reports where it is at every step, as its sensor measures, also of a fin that is broken off") {
+    SubmarineParameters parameters;
+    parameters.failures.fin1 = {.kind = ActuatorFailureKind::lost};
+    parameters.failures.fin2 = {.kind = ActuatorFailureKind::stuck};
+    parameters.sensors.servos.bias = 0.01;
+    Submarine submarine(parameters);
+    struct Servos : messages::Receiver {
+      void receive(messages::MessageRef message) override {
+        const auto* servo = message.as<imc::ServoPosition>();
+        if (servo == nullptr) return;
+        angles[servo->id] = servo->value;
+        ++count;
+      }
+      std::array<float, 4> angles{};
+      int count = 0;
+    } servos;
+    command(submarine, 0.5F, {0.1F, 0.2F, 0.3F, -0.1F});
+    for (int i = 0; i < 50; ++i) {
+      submarine.step();
+      submarine.sense(servos);
+    }
+    CHECK(servos.count == 200);
+    const float expected[] = {0.11F, 0.21F, 0.01F, -0.09F};
+    for (std::size_t i = 0; i < 4; ++i) CHECK(servos.angles[i] == doctest::Approx(expected[i]));
+  }
+
   TEST_CASE("without commands for the time-out the propeller stops and the fins go to neutral, each on its own") {
     SubmarineParameters parameters;
     parameters.start.depth = 20;

@@ -60,7 +60,7 @@ TEST_SUITE("vehicles/submarine_telemetry") {
     parameters.sea.beacons.reach = 0;  // there are none where DUNE's simulator is
     Submarine submarine(parameters);
     Peer peer;
-    SubmarineTelemetry telemetry(submarine, peer);
+    SubmarineTelemetry telemetry(peer);
     for (int second = 0; second < 10; ++second) {
       CAPTURE(second);
       peer.counts.clear();
@@ -99,7 +99,7 @@ TEST_SUITE("vehicles/submarine_telemetry") {
     parameters.sensors.depth.failure = {.kind = FailureKind::lost, .at = 2};
     Submarine submarine(parameters);
     Peer peer;
-    SubmarineTelemetry telemetry(submarine, peer);
+    SubmarineTelemetry telemetry(peer);
     for (int i = 0; i < 500; ++i) {
       submarine.sense(telemetry);
       submarine.step();
@@ -119,7 +119,7 @@ TEST_SUITE("vehicles/submarine_telemetry") {
     state.u = 1.5;
     submarine.place(state);
     Peer peer;
-    SubmarineTelemetry telemetry(submarine, peer);
+    SubmarineTelemetry telemetry(peer);
     for (int i = 0; i < 100; ++i) submarine.sense(telemetry);
     CHECK(peer.ground.validity == 7);
     CHECK(peer.ground.x == doctest::Approx(1.5 + 0.25 * std::cos(1.0) + 0.5 * std::sin(1.0)));
@@ -134,7 +134,7 @@ TEST_SUITE("vehicles/submarine_telemetry") {
     for (std::uint8_t i = 0; i < 4; ++i)
       submarine.accept(messages::refer_to(imc::ServoPosition{i, 0.05F * static_cast<float>(i)}));
     Peer peer;
-    SubmarineTelemetry telemetry(submarine, peer);
+    SubmarineTelemetry telemetry(peer);
     for (int i = 0; i < 50; ++i) submarine.step();
     submarine.sense(telemetry);
     const auto& fins = static_cast<const SubmarineOutputs*>(submarine.outputs())->actuators;
@@ -154,7 +154,7 @@ TEST_SUITE("vehicles/submarine_telemetry") {
     state.u = 1.5;
     submarine.place(state);
     Peer peer;
-    SubmarineTelemetry telemetry(submarine, peer);
+    SubmarineTelemetry telemetry(peer);
     for (int i = 0; i < 5; ++i) submarine.sense(telemetry);
     CHECK(peer.estimate.lat == peer.truth.lat);
     CHECK(peer.estimate.depth == 4.0F);

@@ -1,0 +1,81 @@
+#include "tasks/lauv/fins.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tasks/lauv/control.h"
+
+namespace jarol::tasks {
+namespace {
+
+using State = FinWatch::State;
+
+void look(const FinWatch::Param& p, std::size_t i, const ServoReading& servo, double dt, State& state) {
+  FinState& fin = state.fins.states[i];
+  if (servo.count < 1 || fin == FinState::stuck) return;
+  const bool fresh = servo.count > state.counts[i];
+  state.counts[i] = servo.count;
+  state.silences[i] = fresh ? 0 : state.silences[i] + dt;
+  if (state.silences[i] > p.silence) fin = FinState::silent;
+  if (!fresh) return;
+  const double commanded = limited(servo.commanded, max_fin_angle);
+  double& expected = state.expected[i];
+  if (fin == FinState::unknown) expected = servo.angle;
+  fin = FinState::follows;
+  expected += limited(commanded - expected, p.servo_rate * dt);
+  const bool wrong =
+      servo.angle < std::min(expected, commanded) - p.error || servo.angle > std::max(expected, commanded) + p.error;
+  state.wrong_for[i] = wrong ? state.wrong_for[i] + dt : std::max(state.wrong_for[i] - dt, 0.0);
+  if (state.wrong_for[i] <= p.error_time) return;
+  fin = FinState::stuck;
+  state.fins.angles[i] = servo.angle;
+}
+
+struct Pair {
+  std::size_t first, second;
+};
+constexpr Pair rudders{0, 3}, elevators{1, 2};
+// roll to starboard by a positive angle: the lift of 0 and 3 is to starboard, below and above the axis; that of 1 and 2
+// is upwards, to port and to starboard of it
+constexpr std::array<double, 4> roll_sides{-1, 1, -1, 1};
+
+}  // namespace
+
+void FinWatch::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  if (in.contact.stops != state.stops) state = State{.stops = in.contact.stops};
+  for (std::size_t i = 0; i < in.servos.fins.size(); ++i) look(p, i, in.servos.fins[i], seconds(tick.period), state);
+  out.fins = state.fins;
+}
+
+void FaultTolerantAllocator::run(const Param& p, const Tick& tick, const In& in, Out& out) {
+  FinAllocator::Out sound;
+  FinAllocator::run(tick, {in.pitch, in.yaw, in.thrust}, sound);
+  out.actuation = sound.actuation;
+  std::array<double, 4>& fins = out.actuation.fins;
+  const auto stuck = [&](std::size_t i) { return in.fins.states[i] == FinState::stuck; };
+  const auto all_sound = [&](const Pair& pair) { return !stuck(pair.first) && !stuck(pair.second); };
+  if (all_sound(rudders) && all_sound(elevators)) return;
+
+  // the mean of a pair is to be what was demanded of each
+  const auto replace = [&](std::size_t i, std::size_t other) {
+    if (!stuck(i)) return;
+    if (!stuck(other)) fins[other] = limited(2 * fins[other] - limited(in.fins.angles[i], p.limit), p.limit);
+    fins[i] = in.fins.angles[i];
+  };
+  for (const Pair& pair : {rudders, elevators}) {
+    replace(pair.first, pair.second);
+    replace(pair.second, pair.first);
+  }
+  // two that part leave the pair's mean as it is, and roll
+  double roll = 0;
+  for (std::size_t i = 0; i < fins.size(); ++i) roll += roll_sides[i] * limited(fins[i], p.limit);
+  for (const Pair& pair : {rudders, elevators}) {
+    if (!all_sound(pair)) continue;
+    const double room = std::max(p.limit - std::abs(fins[pair.first]), 0.0);
+    const double apart = limited(roll / 2, room);
+    fins[pair.first] -= roll_sides[pair.first] * apart;
+    fins[pair.second] -= roll_sides[pair.second] * apart;
+  }
+}
+
+}  // namespace jarol::tasks
