@@ -117,9 +117,9 @@ TEST_SUITE("tools/surfacing") {
       int number, to;
       Alarm alarm;
     };
-    static constexpr Fin fins[] = {{0, 1, Alarm::bottom_fin},    {0, -1, Alarm::bottom_fin}, {1, 1, Alarm::port_fin},
-                                   {1, -1, Alarm::port_fin},     {2, 1, Alarm::starboard_fin},
-                                   {2, -1, Alarm::starboard_fin}, {3, 1, Alarm::top_fin},    {3, -1, Alarm::top_fin}};
+    static constexpr Fin fins[] = {
+        {0, 1, Alarm::bottom_fin},    {0, -1, Alarm::bottom_fin},    {1, 1, Alarm::port_fin}, {1, -1, Alarm::port_fin},
+        {2, 1, Alarm::starboard_fin}, {2, -1, Alarm::starboard_fin}, {3, 1, Alarm::top_fin},  {3, -1, Alarm::top_fin}};
     for (const Fin& fin : fins) {
       CAPTURE(fin.number);
       CAPTURE(fin.to);

@@ -95,8 +95,7 @@ TEST_SUITE("tasks/lauv_fins") {
       }
   }
 
-  TEST_CASE(
-      "a servo that turns at 200 degrees a second follows whatever it is commanded, one at 50 does not") {
+  TEST_CASE("a servo that turns at 200 degrees a second follows whatever it is commanded, one at 50 does not") {
     const auto follows = [](double rate) {
       Watch w;
       double angle = 0;
