@@ -136,14 +136,19 @@ TEST_SUITE("tools/surfacing") {
     }
   }
 
-  TEST_CASE("a rudder that sticks in the turn ends the dive at the surface, and where it goes on the turn is made") {
-    const std::string stuck = "distributers.dune.link.parameters={failures: {fin3: {kind: stuck, at: 50.4}}}";
-    check_surfaces(dive("specs/exolauv.yaml", {stuck}, 0, 140s), Alarm::top_fin, 53);
-    const Dive on = dive("specs/exolauv.yaml", {stuck, "tasks.supervisor.parameters.fins_end_dive=false"});
-    CHECK(on.alarm == Alarm::none);
-    const tasks::Motion& end = on.samples.back().motion;
-    CHECK(end.psi == doctest::Approx(std::numbers::pi / 2).scale(0).epsilon(0.01));
-    CHECK(end.z == doctest::Approx(3).scale(0).epsilon(0.02));
+  TEST_CASE("a rudder that sticks before or in the turn ends the dive, and where it goes on the turn is made") {
+    // amidships it is missed as soon as the turn begins, turned when it is to turn back
+    for (const auto& [at, alarm_by] : {std::pair{49.0, 51.0}, std::pair{50.4, 60.0}}) {
+      CAPTURE(at);
+      const std::string stuck =
+          fmt::format("distributers.dune.link.parameters={{failures: {{fin3: {{kind: stuck, at: {}}}}}}}", at);
+      check_surfaces(dive("specs/exolauv.yaml", {stuck}, 0, 140s), Alarm::top_fin, alarm_by);
+      const Dive on = dive("specs/exolauv.yaml", {stuck, "tasks.supervisor.parameters.fins_end_dive=false"});
+      CHECK(on.alarm == Alarm::none);
+      const tasks::Motion& end = on.samples.back().motion;
+      CHECK(end.psi == doctest::Approx(std::numbers::pi / 2).scale(0).epsilon(0.01));
+      CHECK(end.z == doctest::Approx(3).scale(0).epsilon(0.02));
+    }
   }
 
   TEST_CASE("a vehicle that never reports its servos dives as it is sent, with a stuck rudder, too") {

@@ -107,38 +107,6 @@ TEST_SUITE("distributers/lauv_vehicle") {
     CHECK(sent.servos[2].value == 0.3F);
   }
 
-  TEST_CASE("a servo's position becomes a reading of that fin, beside where it was sent last") {
-    Typed<LauvVehicle> adapter;
-    Sent sent;
-    tasks::Servos servos;
-    CHECK_FALSE(adapter.take<&In::servos>(servos));
-    adapter.receive(messages::refer_to(imc::ServoPosition{2, 0.05F}));
-    adapter.hand_over<&LauvVehicle::Out::actuation>(tasks::Actuation{0.5, {0.1, 0.2, 0.3, 0.4}}, sent);
-    adapter.receive(messages::refer_to(imc::ServoPosition{0, 0.25F}));
-    adapter.receive(messages::refer_to(imc::ServoPosition{3, 0.5F}));
-    adapter.receive(messages::refer_to(imc::ServoPosition{3, 0.75F}));
-    adapter.receive(messages::refer_to(imc::ServoPosition{4, 0.5F}));  // there is no such fin
-    adapter.receive(messages::refer_to(imc::ServoPosition{1, std::numeric_limits<float>::infinity()}));
-    CHECK(adapter.take<&In::servos>(servos));
-    CHECK(servos.fins[0].angle == 0.25);
-    CHECK(servos.fins[0].commanded == 0.1);
-    CHECK(servos.fins[0].count == 1);
-    CHECK(servos.fins[1].count == 0);
-    CHECK(servos.fins[2].angle == static_cast<double>(0.05F));
-    CHECK(servos.fins[2].commanded == 0);  // it came before any command
-    CHECK(servos.fins[3].angle == 0.75);
-    CHECK(servos.fins[3].commanded == 0.4);
-    CHECK(servos.fins[3].count == 2);
-    CHECK(adapter.non_finite_inputs() == 1);
-  }
-
-  TEST_CASE("servos that are not fitted say so") {
-    LauvVehicleParameters parameters;
-    parameters.servos.fitted = false;
-    const LauvVehicle vehicle(parameters);
-    for (const tasks::ServoReading& servo : vehicle.in.servos->fins) CHECK(servo.count == -1);
-  }
-
   TEST_CASE("readings become instruments, counted; what is no number is none") {
     Typed<LauvVehicle> adapter;
     tasks::Instruments i;
