@@ -51,6 +51,7 @@ Fins sound(double pitch, double yaw) {
 bool is_same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm() < 1e-12; }
 
 struct Watch {
+  FinWatch::Param param{};
   FinWatch::State state{};
   FinWatch::In in{};
   FinWatch::Out out{};
@@ -58,9 +59,9 @@ struct Watch {
   // One step; a reading of each servo.
   void step(const Fins& commanded, const Fins& angles) {
     for (std::size_t i = 0; i < 4; ++i) in.servos.fins[i] = {angles[i], commanded[i], in.servos.fins[i].count + 1};
-    FinWatch::run({}, every_50_ms, in, state, out);
+    FinWatch::run(param, every_50_ms, in, state, out);
   }
-  void silent_step() { FinWatch::run({}, every_50_ms, in, state, out); }
+  void silent_step() { FinWatch::run(param, every_50_ms, in, state, out); }
 };
 
 // Steps of 50 ms until it is found that this fin is further out by `error` than where it is sent; 0: not in 20 s.
@@ -95,20 +96,22 @@ TEST_SUITE("tasks/lauv_fins") {
       }
   }
 
-  TEST_CASE("a servo that turns at 200 degrees a second follows whatever it is commanded, one at 50 does not") {
-    const auto follows = [](double rate) {
+  TEST_CASE("a servo that turns as fast as is said follows whatever it is commanded, a slower one does not") {
+    const auto follows = [](double rate, double said) {
       Watch w;
+      w.param.servo_rate = said;
       double angle = 0;
       for (int i = 0; i < 400; ++i) {
-        const double commanded = (i / 10) % 2 == 0 ? limit : -limit;
+        const double commanded = (i / 20) % 2 == 0 ? limit : -limit;
         angle += std::clamp(commanded - angle, -rate * 0.05, rate * 0.05);
         w.step({commanded, 0, 0, 0}, {angle, 0, 0, 0});
       }
       return w.out.fins.states[0] == FinState::follows;
     };
-    CHECK(follows(200 * degree));
-    CHECK(follows(1000 * degree));
-    CHECK_FALSE(follows(50 * degree));
+    CHECK(follows(200 * degree, 200 * degree));
+    CHECK(follows(1000 * degree, 200 * degree));
+    CHECK_FALSE(follows(60 * degree, 200 * degree));
+    CHECK(follows(60 * degree, 60 * degree));
   }
 
   TEST_CASE("a command beyond what servos can do is no failure of theirs") {
