@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_maneuvers = 1000;
 
-[[noreturn]] void refuse(const std::string& text) { throw std::invalid_argument(text); }
+[[noreturn]] void refuse_plan(const std::string& text) { throw std::invalid_argument(text); }
 
 // Of a list of inline messages, each an M.
 template <class M>
@@ -24,9 +24,9 @@ std::vector<M> read_all(const Sequence<messages::InlineMessage>& list, const cha
     messages::Message message;
     std::string why;
     if (!messages::take_inline(imc::message_set(), each, message, &why))
-      refuse(fmt::format("{} {} can't be read: {}", what, all.size() + 1, why));
+      refuse_plan(fmt::format("{} {} can't be read: {}", what, all.size() + 1, why));
     const M* m = message.as<M>();
-    if (m == nullptr) refuse(fmt::format("{} {} is no {}", what, all.size() + 1, M::form.name));
+    if (m == nullptr) refuse_plan(fmt::format("{} {} is no {}", what, all.size() + 1, M::form.name));
     all.push_back(*m);
   }
   return all;
@@ -56,16 +56,16 @@ std::size_t find(const Plan& plan, std::string_view name, const std::string& who
   const auto found = std::find_if(plan.maneuvers.begin(), plan.maneuvers.end(),
                                   [&](const Maneuver& each) { return each.name == name; });
   if (found == plan.maneuvers.end())
-    refuse(fmt::format("{} '{}' is none of its maneuvers: {}", whose, name, list_of(names_of(plan.maneuvers))));
+    refuse_plan(fmt::format("{} '{}' is none of its maneuvers: {}", whose, name, list_of(names_of(plan.maneuvers))));
   return static_cast<std::size_t>(found - plan.maneuvers.begin());
 }
 
 void connect(Plan& plan, const imc::PlanTransition& transition) {
   for (const std::string& condition : split(transition.conditions))
     if (condition != "ManeuverIsDone")
-      refuse(fmt::format("the condition of a transition is ManeuverIsDone, not '{}'", condition));
+      refuse_plan(fmt::format("the condition of a transition is ManeuverIsDone, not '{}'", condition));
   std::optional<std::size_t> to;
-  if (transition.dest_man == "_error_") refuse("a transition to '_error_' when a maneuver is done");
+  if (transition.dest_man == "_error_") refuse_plan("a transition to '_error_' when a maneuver is done");
   if (!(transition.dest_man == "_done_")) to = find(plan, transition.dest_man, "destination of a transition");
   for (const std::string& source : split(transition.source_man))
     if (source == ".")
@@ -78,16 +78,16 @@ void connect(Plan& plan, const imc::PlanTransition& transition) {
 
 Plan make_plan(const imc::PlanSpecification& plan, const Origin& origin) {
   Plan made{.name = std::string(plan.plan_id.view())};
-  if (plan.maneuvers.empty()) refuse("the plan has no maneuver");
+  if (plan.maneuvers.empty()) refuse_plan("the plan has no maneuver");
   if (plan.maneuvers.size() > most_maneuvers)
-    refuse(fmt::format("the plan has more than {} maneuvers", most_maneuvers));
+    refuse_plan(fmt::format("the plan has more than {} maneuvers", most_maneuvers));
   for (const auto& each : read_all<imc::PlanManeuver>(plan.maneuvers, "maneuver")) {
     const std::string name(each.maneuver_id.view());
     if (std::any_of(made.maneuvers.begin(), made.maneuvers.end(), [&](const Maneuver& m) { return m.name == name; }))
-      refuse(fmt::format("two maneuvers are named '{}'", name));
+      refuse_plan(fmt::format("two maneuvers are named '{}'", name));
     try {
       made.maneuvers.push_back(make_maneuver(each.data, origin));
-    } catch (const std::invalid_argument& error) { refuse(fmt::format("maneuver '{}': {}", name, error.what())); }
+    } catch (const std::invalid_argument& error) { refuse_plan(fmt::format("maneuver '{}': {}", name, error.what())); }
     made.maneuvers.back().name = name;
   }
   made.next.resize(made.maneuvers.size());

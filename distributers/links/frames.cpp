@@ -31,7 +31,7 @@ bool wait_for(int fd, short events, Clock::time_point deadline) {
 }
 
 // 0, or what went wrong.
-int finish_connecting(int fd, std::chrono::milliseconds limit) {
+int connect_within(int fd, std::chrono::milliseconds limit) {
   if (!wait_for(fd, POLLOUT, Clock::now() + limit)) return ETIMEDOUT;
   int error = 0;
   socklen_t size = sizeof error;
@@ -43,7 +43,7 @@ int finish_connecting(int fd, std::chrono::milliseconds limit) {
 FrameStream FrameStream::connect(const Address& peer, std::chrono::milliseconds limit) {
   Descriptor made(socket(peer.family(), SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   int error = made && ::connect(made.get(), peer.get(), peer.size()) == 0 ? 0 : errno;
-  if (error == EINPROGRESS) error = finish_connecting(made.get(), limit);
+  if (error == EINPROGRESS) error = connect_within(made.get(), limit);
   if (error != 0)
     throw FrameError("there is no vehicle at " + peer.text() + ": " + std::strerror(error) +
                      "; start one by 'jarol vehicle NAME --link lockstep --listen " + std::to_string(peer.port()) +

@@ -36,6 +36,8 @@ std::string text_after(const FrameStream::Frame& frame, std::size_t count) {
   return {characters + 8 * count, characters + frame.bytes.size()};
 }
 
+}  // namespace
+
 // Puts messages into frames.
 class Putter : public messages::Receiver {
  public:
@@ -64,8 +66,6 @@ class Taker {
  private:
   messages::PacketReader reader_;
 };
-
-}  // namespace
 
 // The vehicle as its runner sees it: commands and steps go out together with the next look at its sensors.
 class RemoteVehicle : public vehicles::Stepped {

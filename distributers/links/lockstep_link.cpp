@@ -9,7 +9,8 @@ struct LockstepSpec {
   Maybe<std::string> peer, key;
 };
 
-std::unique_ptr<Channels> make_channels(const LockstepSpec& spec, const LinkRequest& request, Problems& problems) {
+std::unique_ptr<Channels> make_lockstep_channels(const LockstepSpec& spec, const LinkRequest& request,
+                                                 Problems& problems) {
   if (!spec.peer) return nullptr;
   LockstepOptions options;
   if (spec.key && !(options.key = read_key_file(*spec.key, problems))) return nullptr;
@@ -34,7 +35,7 @@ LinkType lockstep_link() {
       "lockstep", "a vehicle in another process, on the logical clock",
       {key<&LockstepSpec::peer>("peer", Form::address, "address and port where it listens", true),
        key<&LockstepSpec::key>("key", Form::word, "file of the key that both ends have; default: none")},
-      make_channels);
+      make_lockstep_channels);
   type.for_vehicles = true;
   return type;
 }

@@ -46,10 +46,9 @@ Datagram receive_from(int fd, std::span<std::byte> room) {
 
 // The guardian of a program that crashed has the port for a moment longer.
 bool bind_with_patience(int fd, const Address& address) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::milliseconds(500);
+  const auto end = Ownership::Clock::now() + std::chrono::milliseconds(500);
   while (bind(fd, address.get(), address.size()) != 0) {
-    if (errno != EADDRINUSE || Clock::now() > end) return false;
+    if (errno != EADDRINUSE || Ownership::Clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return true;

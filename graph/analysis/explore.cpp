@@ -8,8 +8,6 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::int64_t most_time = std::int64_t{1} << 60;
-
 // When the core may be free next.
 struct Free {
   std::int64_t earliest = 0, latest = 0;

@@ -1,7 +1,6 @@
 #include "graph/analysis/extremes.h"
 
 #include <algorithm>
-#include <queue>
 #include <tuple>
 
 #include "graph/analysis/readiness.h"
@@ -9,21 +8,15 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::int64_t most_time = std::int64_t{1} << 60;
-constexpr std::size_t most_slices = 200;
-
-struct Job {
+struct UrgentJob {
   std::int64_t urgency = 0;  // less first
   std::size_t task = 0;
   std::int64_t activation = 0;
   std::int64_t arrival = 0;
   std::int64_t left = 0;
   std::tuple<std::int64_t, std::size_t, std::int64_t> key() const { return {urgency, task, activation}; }
-  bool operator>(const Job& other) const { return key() > other.key(); }
+  bool operator>(const UrgentJob& other) const { return key() > other.key(); }
 };
-
-template <class T>
-using LeastFirst = std::priority_queue<T, std::vector<T>, std::greater<>>;
 
 class Walker {
  public:
@@ -65,7 +58,7 @@ class Walker {
 
   using Arrival = std::pair<std::int64_t, std::size_t>;  // when, of which task
 
-  Job job_at(const Arrival& a) const {
+  UrgentJob job_at(const Arrival& a) const {
     const Load& l = loads_[a.second];
     const std::int64_t urgency =
         order_ == Order::by_priority ? static_cast<std::int64_t>(a.second) : a.first + l.deadline;
@@ -78,7 +71,7 @@ class Walker {
     // from then on each repetition leaves no more than the one before it
     const std::int64_t end = start + last_offset_ + 2 * repetition_ + longest_jitter_;
     LeastFirst<Arrival> arrivals;
-    LeastFirst<Job> ready;
+    LeastFirst<UrgentJob> ready;
     std::size_t open = 0;  // that arrived before the end
     const auto arrive = [&](const Arrival& a) {
       ready.push(job_at(a));
@@ -104,7 +97,7 @@ class Walker {
         if (!effort_.spend(10)) return false;
       }
       if (ready.empty()) return true;
-      Job running = ready.top();
+      UrgentJob running = ready.top();
       ready.pop();
       const std::int64_t stop = std::min(now + running.left, arrivals.top().first);
       add(slices, {running.task, running.activation, now, stop});
@@ -131,7 +124,7 @@ class Walker {
   }
 
   // Under EDF what holds up one of an earlier deadline holds up those that wait behind it.
-  std::int64_t blocking_of(const Job& job, std::int64_t start) const {
+  std::int64_t blocking_of(const UrgentJob& job, std::int64_t start) const {
     if (order_ == Order::by_priority) return loads_[job.task].blocking;
     std::int64_t most = 0;
     for (const Load& l : loads_)
@@ -139,7 +132,7 @@ class Walker {
     return most;
   }
 
-  bool close(const Job& job, std::int64_t now, std::int64_t blocking, std::vector<Slice>& slices) {
+  bool close(const UrgentJob& job, std::int64_t now, std::int64_t blocking, std::vector<Slice>& slices) {
     result_.responses[job.task] = std::max(result_.responses[job.task], now - job.arrival);
     const std::int64_t deadline = job.arrival + loads_[job.task].deadline;
     if (now <= deadline) return true;

@@ -7,8 +7,6 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::int64_t most_time = std::int64_t{1} << 60;
-
 // Tasks of cores that wait for each other.
 std::vector<std::vector<std::size_t>> parts_of(const System& system, const std::vector<std::size_t>& core) {
   std::vector<std::size_t> part(static_cast<std::size_t>(system.cores));

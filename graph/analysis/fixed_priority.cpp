@@ -8,8 +8,8 @@ namespace jarol::analysis {
 namespace {
 
 constexpr std::int64_t far = std::int64_t{1} << 61;
-constexpr std::uint64_t most_steps = 2'000'000'000;   // of all tasks together
-constexpr std::int64_t most_activations = 1'000'000;  // of one task in a busy period
+constexpr std::uint64_t most_steps = 2'000'000'000;  // of all tasks together
+constexpr std::int64_t most_in_period = 1'000'000;   // of one task in a busy period
 
 // What more urgent tasks need, those of equal period and jitter together.
 class Interference {
@@ -59,7 +59,7 @@ std::optional<std::int64_t> preemptive_response(const Load& load, const Interfer
   // it does not run before the one above it has ended, and runs then
   std::int64_t response = 0, window = std::max(load.blocking, first_window) + load.wcet;
   for (std::int64_t q = 0;; ++q) {
-    if (q == most_activations) return std::nullopt;
+    if (q == most_in_period) return std::nullopt;
     const Wide own = static_cast<Wide>(load.blocking) + static_cast<Wide>(q + 1) * load.wcet;
     const auto end =
         least_fixed_point(std::max(window, static_cast<std::int64_t>(own)), far, effort, more_urgent.size(),
@@ -80,7 +80,7 @@ std::optional<std::int64_t> nonpreemptive_response(const Load& load, const Inter
   auto length = least_fixed_point(std::max<std::int64_t>(1, blocking), repeats, effort, busy.size(),
                                   [&](std::int64_t w) { return blocking + busy.demand(w, false); });
   if (!length && repeats < far) length = repeats;
-  if (!length || *length / load.period > most_activations) return std::nullopt;
+  if (!length || *length / load.period > most_in_period) return std::nullopt;
   std::int64_t response = 0, start = blocking;
   // those that arrive later end at `length` at the latest, so that they respond within their jitter, as the first can't
   for (std::int64_t q = 0; q * load.period < *length; ++q) {

@@ -9,7 +9,7 @@ namespace jarol::analysis {
 namespace {
 
 // What every activation may take of a core.
-Loads with_blocking(Loads loads) {
+Loads with_blocking_in_wcet(Loads loads) {
   for (Load& l : loads) {
     l.wcet += l.blocking;
     l.blocking = 0;
@@ -93,7 +93,7 @@ System with_edf(System system) {
 
 Result check_globally(const System& system, bool whole, Effort& effort) {
   if (system.cores == 1) return check_partitioned(with_edf(system), whole, effort);
-  const Loads loads = with_blocking(system.loads);
+  const Loads loads = with_blocking_in_wcet(system.loads);
   Result result;
   result.response = bounds_of(system, loads);
   result.core.resize(loads.size());

@@ -13,6 +13,9 @@ namespace jarol::analysis {
 
 __extension__ using Wide = __int128;
 
+/// ns that no instant is beyond.
+inline constexpr std::int64_t most_time = std::int64_t{1} << 60;
+
 struct Load {
   std::int64_t wcet = 0;
   std::int64_t period = 1;

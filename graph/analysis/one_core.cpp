@@ -11,9 +11,8 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::int64_t most_time = std::int64_t{1} << 60;
-constexpr std::uint64_t most_activations = 1'000'000;
-constexpr std::uint64_t steps_of_activation = 10;  // that the simulation takes
+constexpr std::uint64_t most_simulated = 1'000'000;
+constexpr std::uint64_t steps_of_simulated = 10;  // that the simulation takes
 
 bool by_deadline(const Policy& policy) { return policy.urgency == Urgency::deadline; }
 Order order_of(const Policy& policy) { return by_deadline(policy) ? Order::by_deadline : Order::by_priority; }
@@ -76,7 +75,7 @@ std::optional<std::int64_t> end_of_repetition(std::span<const Load> loads) {
   if (!lcm) return std::nullopt;
   const std::int64_t end = largest_offset + 2 * *lcm;
   for (const Load& l : loads) activations += static_cast<double>(end) / static_cast<double>(l.period);
-  return activations <= static_cast<double>(most_activations) ? std::optional(end) : std::nullopt;
+  return activations <= static_cast<double>(most_simulated) ? std::optional(end) : std::nullopt;
 }
 
 bool all_at_once(std::span<const Load> loads) {
@@ -118,7 +117,7 @@ void add_witness(std::span<const Load> loads, const Policy& policy, CoreResult& 
   std::int64_t end = 0;
   for (const Load& l : loads) end = std::max(end, l.offset + 4 * l.period);
   end = std::max(end_of_repetition(loads).value_or(end), result.demand ? result.demand->length : 0);
-  Simulation run = simulate(loads, order_of(policy), policy.interrupts, end, most_activations);
+  Simulation run = simulate(loads, order_of(policy), policy.interrupts, end, most_simulated);
   result.late = run.late;
   if (run.late) result.slices = std::move(run.slices);
 }
@@ -131,8 +130,8 @@ CoreResult walk_preemptive(const CoreTasks& tasks, const Policy& policy, Effort&
   if (!end) return undecided("");
   std::vector<std::int64_t> responses;
   if (!has_jitter(loads) && !has_blocking(loads)) {
-    Simulation run = simulate(loads, order_of(policy), true, *end, 4 * most_activations);
-    effort.spend(run.activations * steps_of_activation);
+    Simulation run = simulate(loads, order_of(policy), true, *end, 4 * most_simulated);
+    effort.spend(run.activations * steps_of_simulated);
     if (run.late) return late_one(run, Standing::proof, std::move(run.slices));
     if (!run.whole) return undecided("");
     responses = std::move(run.responses);
@@ -162,7 +161,7 @@ CoreResult walk_nonpreemptive(const CoreTasks& tasks, const Policy& policy, Effo
     late.reason = "a task is late in an order that is possible when tasks take up to their 'wcet'";
     if (has_jitter(inheriting_loads(tasks)) || !tasks.upward.empty()) return late;
     if (const auto end = end_of_repetition(tasks.loads)) {
-      Simulation run = simulate(tasks.loads, order_of(policy), false, *end, most_activations);
+      Simulation run = simulate(tasks.loads, order_of(policy), false, *end, most_simulated);
       if (run.late) return late_one(run, Standing::proof, std::move(run.slices));
     }
     return late;
@@ -170,8 +169,8 @@ CoreResult walk_nonpreemptive(const CoreTasks& tasks, const Policy& policy, Effo
   if (!found.whole) {
     const auto end = end_of_repetition(tasks.loads);
     if (!end || !tasks.upward.empty()) return undecided("");
-    Simulation run = simulate(tasks.loads, order_of(policy), false, *end, most_activations);
-    effort.spend(run.activations * steps_of_activation);
+    Simulation run = simulate(tasks.loads, order_of(policy), false, *end, most_simulated);
+    effort.spend(run.activations * steps_of_simulated);
     if (run.late && !has_jitter(inheriting_loads(tasks))) return late_one(run, Standing::by_run, std::move(run.slices));
     return undecided("");
   }

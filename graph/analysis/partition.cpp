@@ -49,11 +49,11 @@ std::vector<Together> groups_of(const System& system, bool connected) {
 }
 
 // Tasks by core.
-struct Cores {
+struct Assigned {
   std::vector<std::vector<std::size_t>> tasks;
   std::vector<double> use;
 
-  explicit Cores(std::size_t count) : tasks(count), use(count, 0) {}
+  explicit Assigned(std::size_t count) : tasks(count), use(count, 0) {}
   void put(const Together& group, std::size_t core) {
     tasks[core].insert(tasks[core].end(), group.tasks.begin(), group.tasks.end());
     use[core] += group.use;
@@ -89,7 +89,7 @@ class Assigner {
       const std::vector<std::size_t> core = cores->of_tasks(system_.loads.size());
       if (holds(core)) return found(core);
     }
-    Cores cores(count_);
+    Assigned cores(count_);
     if (search(alone, 0, true, cores)) return found(cores.of_tasks(system_.loads.size()));
     partition.refuted = !open_;
     return partition;
@@ -109,8 +109,8 @@ class Assigner {
     return effort_.spend(10 * tasks.size()) ? fits_(tasks, effort_) : Verdict::unknown;
   }
 
-  Cores by_utilisation(const std::vector<Together>& groups) const {
-    Cores cores(count_);
+  Assigned by_utilisation(const std::vector<Together>& groups) const {
+    Assigned cores(count_);
     for (const Together& group : groups) {
       std::size_t at = group.core.value_or(0);
       while (!group.core && at < count_ && cores.use[at] + group.use > 1) ++at;
@@ -122,8 +122,8 @@ class Assigner {
   }
 
   // Each on the first core that it fits, or on the least used one that it does (`spread`).
-  std::optional<Cores> fit(const std::vector<Together>& groups, bool spread) {
-    Cores cores(count_);
+  std::optional<Assigned> fit(const std::vector<Together>& groups, bool spread) {
+    Assigned cores(count_);
     std::vector<std::size_t> order(count_);
     std::iota(order.begin(), order.end(), std::size_t{0});
     for (const Together& group : groups) {
@@ -145,7 +145,7 @@ class Assigner {
 
   // Depth first; a core that is still empty stands for all empty ones that nothing is bound to. `sure`: every core is
   // known to hold so far.
-  bool search(const std::vector<Together>& groups, std::size_t at, bool sure, Cores& cores) {
+  bool search(const std::vector<Together>& groups, std::size_t at, bool sure, Assigned& cores) {
     if (at == groups.size()) {
       if (sure && holds(cores.of_tasks(system_.loads.size()))) return true;
       open_ = open_ || !sure || open_at_leaf_ || effort_.spent();

@@ -1,13 +1,10 @@
 #include "graph/analysis/simulate.h"
 
 #include <algorithm>
-#include <queue>
 #include <tuple>
 
 namespace jarol::analysis {
 namespace {
-
-constexpr std::size_t most_slices = 200;
 
 struct Arrival {
   std::int64_t time;
@@ -26,9 +23,6 @@ struct Ready {
     return std::tie(urgency, task, activation) > std::tie(other.urgency, other.task, other.activation);
   }
 };
-
-template <class T>
-using LeastFirst = std::priority_queue<T, std::vector<T>, std::greater<>>;
 
 }  // namespace
 

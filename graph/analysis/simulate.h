@@ -1,6 +1,9 @@
 // What happens on one core when every activation takes its WCET and arrives as the offsets say.
 #pragma once
 
+#include <functional>
+#include <queue>
+
 #include "graph/analysis/load.h"
 
 namespace jarol::analysis {
@@ -23,6 +26,11 @@ struct Slice {
   std::int64_t begin = 0;
   std::int64_t end = 0;
 };
+
+template <class T>
+using LeastFirst = std::priority_queue<T, std::vector<T>, std::greater<>>;
+
+inline constexpr std::size_t most_slices = 200;  // before what is late
 
 struct Simulation {
   bool whole = true;  // reached `until`

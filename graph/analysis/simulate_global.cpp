@@ -8,8 +8,7 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::size_t most_slices = 400;
-constexpr std::int64_t most_time = std::int64_t{1} << 60;
+constexpr std::size_t most_slices_of_cores = 400;
 
 struct Job {
   std::int64_t urgency = 0;  // less first
@@ -119,7 +118,8 @@ class Simulator {
     if (same != slices.rend() && same - slices.rbegin() < static_cast<std::ptrdiff_t>(2 * cores_)) {
       same->end = until;
     } else {
-      if (slices.size() >= 2 * most_slices) slices.erase(slices.begin(), slices.begin() + most_slices);
+      if (slices.size() >= 2 * most_slices_of_cores)
+        slices.erase(slices.begin(), slices.begin() + most_slices_of_cores);
       slices.push_back({job.task, job.activation, now_, until});
     }
   }

@@ -9,8 +9,7 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::int64_t most_time = std::int64_t{1} << 60;
-constexpr double most_activations = 300;
+constexpr double most_drawn = 300;
 
 std::int64_t length_of(const Loads& loads) {
   double per_ns = 0;
@@ -20,7 +19,7 @@ std::int64_t length_of(const Loads& loads) {
     offsets = std::max(offsets, l.offset);
   }
   const std::int64_t whole = offsets + hyperperiod(loads, most_time / 4).value_or(most_time / 4);
-  const double filled = most_activations / per_ns;
+  const double filled = most_drawn / per_ns;
   return static_cast<double>(whole) <= filled ? whole : static_cast<std::int64_t>(filled);
 }
 

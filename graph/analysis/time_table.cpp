@@ -10,18 +10,17 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::int64_t most_time = std::int64_t{1} << 60;
-constexpr std::size_t most_slices = 200, most_validated = 50'000;
-constexpr std::uint64_t steps_of_activation = 10, most_after_late = 200'000;
+constexpr std::size_t most_validated = 50'000;
+constexpr std::uint64_t steps_of_walked = 10, most_after_late = 200'000;
 
-struct Job {
+struct TableJob {
   std::int64_t arrival = 0;
   std::size_t turn = 0;  // among those that arrive at one instant
   std::size_t task = 0;
   std::int64_t activation = 0;
 };
 
-bool later(const Job& a, const Job& b) { return std::tie(a.arrival, a.turn) > std::tie(b.arrival, b.turn); }
+bool later(const TableJob& a, const TableJob& b) { return std::tie(a.arrival, a.turn) > std::tie(b.arrival, b.turn); }
 
 // What every activation may take of its core.
 Loads with_blocking(Loads loads) {
@@ -82,7 +81,7 @@ class TableWalk {
 
  private:
   void run_next() {
-    Job job = jobs_.top();
+    TableJob job = jobs_.top();
     jobs_.pop();
     const Load& load = system_.loads[job.task];
     std::int64_t& free = free_[core_[job.task]];
@@ -108,7 +107,7 @@ class TableWalk {
   std::vector<std::vector<std::size_t>> producers_;  // on other cores
   std::vector<std::int64_t> arrived_, ended_, free_;
   std::int64_t latest_ = 0;
-  std::priority_queue<Job, std::vector<Job>, decltype(&later)> jobs_;
+  std::priority_queue<TableJob, std::vector<TableJob>, decltype(&later)> jobs_;
 };
 
 CoreResult result_of(Verdict verdict, Standing standing, std::string reason, std::size_t tasks) {
@@ -158,7 +157,7 @@ CoreResult walk(const System& system, const std::vector<std::size_t>& core, std:
     }
     before = std::move(now);
   }
-  effort.spend(table.activations * steps_of_activation);
+  effort.spend(table.activations * steps_of_walked);
   if (repeats) result.responses.assign(table.responses.begin(), table.responses.end());
   if (table.late || grows) {
     result.verdict = Verdict::not_schedulable;
@@ -195,7 +194,7 @@ CoreResult check_table(const System& system, const std::vector<std::size_t>& cor
   if (!system.offsets_hold)
     return result_of(Verdict::unknown, Standing::none, "a table needs offsets that hold; 'phasing: any' has none", n);
   const auto lcm = hyperperiod(system.loads, most_time / 4);
-  most = std::min(most, effort.left / steps_of_activation);
+  most = std::min(most, effort.left / steps_of_walked);
   if (overloaded(system, core)) {
     // a late one shows why, where there is one soon
     CoreResult result = walk(system, core, lcm, false, effort, std::min<std::uint64_t>(most, 1'000'000));

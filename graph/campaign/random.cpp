@@ -17,6 +17,7 @@ double polynomial(const Coefficients& c, double x) {
   return sum;
 }
 
+namespace as241 {
 constexpr Coefficients a{3.3871328727963666080e0,  1.3314166789178437745e+2, 1.9715909503065514427e+3,
                          1.3731693765509461125e+4, 4.5921953931549871457e+4, 6.7265770927008700853e+4,
                          3.3430575583588128105e+4, 2.5090809287301226727e+3};
@@ -50,6 +51,7 @@ constexpr Coefficients f{1.0,
                          1.84631831751005468180e-5,
                          1.42151175831644588870e-7,
                          2.04426310338993978564e-15};
+}  // namespace as241
 
 }  // namespace
 
@@ -57,11 +59,11 @@ double normal_quantile(double part) {
   const double q = part - 0.5;
   if (std::abs(q) <= 0.425) {
     const double r = 0.180625 - q * q;
-    return q * polynomial(a, r) / polynomial(b, r);
+    return q * polynomial(as241::a, r) / polynomial(as241::b, r);
   }
   const double r = std::sqrt(-std::log(q < 0 ? part : 1 - part));
-  const double size =
-      r <= 5 ? polynomial(c, r - 1.6) / polynomial(d, r - 1.6) : polynomial(e, r - 5) / polynomial(f, r - 5);
+  const double size = r <= 5 ? polynomial(as241::c, r - 1.6) / polynomial(as241::d, r - 1.6)
+                             : polynomial(as241::e, r - 5) / polynomial(as241::f, r - 5);
   return q < 0 ? -size : size;
 }
 

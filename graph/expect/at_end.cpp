@@ -8,7 +8,7 @@
 namespace jarol::expect {
 namespace {
 
-const std::string key = "'at_end'";
+const std::string at_end_key = "'at_end'";
 
 // The paths of a value that YAML which fits it states: those of its scalars.
 void add_stated(const Yaml& yaml, const std::string& path, std::vector<std::string>& paths) {
@@ -44,18 +44,19 @@ void read_command(const Yaml& yaml, Graph& graph, Problems& problems) {
   const std::string choice =
       "; command what comes from an operator" + (names.empty() ? ", of which there is none" : ": " + list_of(names));
   if (found == graph.communicators.end())
-    return problems.add(yaml.key_where, key + " commands '" + yaml.key + "', and there is no such communicator" +
+    return problems.add(yaml.key_where, at_end_key + " commands '" + yaml.key + "', and there is no such communicator" +
                                             did_you_mean(yaml.key, names) + choice);
   if (found->type == nullptr) return;  // reported
   if (const std::string wrong = wrong_with(graph, *found); !wrong.empty())
-    return problems.add(yaml.key_where, key + " commands '" + yaml.key + "', which " + wrong + choice);
+    return problems.add(yaml.key_where, at_end_key + " commands '" + yaml.key + "', which " + wrong + choice);
   EndCommand command{static_cast<std::size_t>(found - graph.communicators.begin()), jarol::Value(*found->type), {}};
-  bind_value(yaml, *found->type, "", command.value.data(), key + " communicator '" + yaml.key + "'", problems);
+  bind_value(yaml, *found->type, "", command.value.data(), at_end_key + " communicator '" + yaml.key + "'", problems);
   std::vector<std::string> stated;
   add_stated(yaml, "", stated);
   for (const Leaf& leaf : leaves_of(*found->type))
     if (std::find(stated.begin(), stated.end(), leaf.path) != stated.end()) command.stated.push_back(leaf);
-  if (stated.empty()) problems.add(yaml.where, key + " commands nothing of '" + yaml.key + "'; state a field of it");
+  if (stated.empty())
+    problems.add(yaml.where, at_end_key + " commands nothing of '" + yaml.key + "'; state a field of it");
   graph.at_end->commands.push_back(std::move(command));
 }
 
@@ -67,13 +68,13 @@ void add_at_end(const GraphSpec& spec, Graph& graph, Problems& problems) {
   if (spec.at_end->longest) graph.at_end->longest = spec.at_end->longest->value;
   if (const auto& command = spec.at_end->command) {
     if (command->value.children.empty())
-      problems.add(command->where, key +
+      problems.add(command->where, at_end_key +
                                        " commands nothing; name a communicator and what it reads as, as in {pilot: "
                                        "{land: true}}");
     for (const Yaml& each : command->value.children) read_command(each, graph, problems);
   }
   if (!spec.at_end->until) return;
-  auto until = parse_state(spec.at_end->until->value, key + " key 'until'", graph, problems);
+  auto until = parse_state(spec.at_end->until->value, at_end_key + " key 'until'", graph, problems);
   if (until) graph.at_end->until = std::move(*until);
 }
 

@@ -8,6 +8,8 @@
 namespace jarol::isolation {
 namespace {
 
+using Form = Instruction::Form;
+
 // Debian's capstone frees what it gave by functions of its own.
 class Disassembler {
  public:
@@ -148,7 +150,6 @@ const char* reason_against(const cs_insn& instruction) {
 }
 
 Instruction::Form form_of(const cs_insn& instruction) {
-  using Form = Instruction::Form;
   switch (instruction.id) {
     case X86_INS_MOV:
     case X86_INS_MOVABS:

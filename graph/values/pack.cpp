@@ -92,8 +92,8 @@ std::string wrong_from(const Type& type, std::span<const std::byte> packed, std:
   std::memcpy(&length, packed.data() + at, sizeof length);
   at += sizeof length;
   const Type& element = element_of(type);
-  const std::size_t least = element.is_deep() ? sizeof length : element.size;
-  if (length > (packed.size() - at) / least) return "has a length of " + std::to_string(length) + " and fewer bytes";
+  const std::size_t size = element.is_deep() ? sizeof length : element.size;
+  if (length > (packed.size() - at) / size) return "has a length of " + std::to_string(length) + " and fewer bytes";
   for (std::uint64_t i = 0; i < length; ++i)
     if (const std::string wrong = wrong_from(element, packed, at); !wrong.empty()) return wrong;
   return "";

@@ -20,14 +20,14 @@
 namespace jarol {
 namespace {
 
-constexpr std::int64_t second = 1'000'000'000;
+constexpr std::int64_t ns_per_second = 1'000'000'000;
 
 // Empty, or why the call failed.
 std::string refusal(int result) { return result == 0 ? "" : std::strerror(errno); }
 
 void on_a_thread(const std::function<void()>& work) { std::thread(work).join(); }
 
-std::int64_t nanoseconds_of(const timespec& time) { return time.tv_sec * second + time.tv_nsec; }
+std::int64_t nanoseconds_of(const timespec& time) { return time.tv_sec * ns_per_second + time.tv_nsec; }
 
 std::string use_fifo(int priority) {
   sched_param parameter{};
@@ -110,7 +110,7 @@ std::optional<Histogram> measure_lateness(std::chrono::nanoseconds period, std::
     lateness.emplace();
     const std::int64_t start = RealClock::monotonic();
     for (std::int64_t due = start + period.count(); due <= start + duration.count(); due += period.count()) {
-      const timespec until{due / second, due % second};
+      const timespec until{due / ns_per_second, due % ns_per_second};
       while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {}
       lateness->add(RealClock::monotonic() - due);
     }

@@ -55,7 +55,7 @@ using Violations = std::map<std::string, nlohmann::json>;  // by the task's name
 
 // `problem`: why there are none.
 Violations violations_in(const std::string& library, std::string& problem) {
-  const auto done = command::jarol("isolation --json " + library, "2>&1");
+  const auto done = command::run_jarol("isolation --json " + library, "2>&1");
   Violations found;
   if (done.exit_code > 1) {
     problem = "exit code " + std::to_string(done.exit_code) + ": " + done.output;

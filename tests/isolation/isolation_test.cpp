@@ -10,7 +10,7 @@
 #include "tests/tools/run_command.h"
 
 namespace {
-using command::jarol;
+using command::run_jarol;
 
 std::string library(const std::string& name) {
   return std::filesystem::absolute(std::string(JAROL_ISOLATION_FOLDER) + "/" + name + ".so").string();
@@ -40,19 +40,19 @@ TEST_SUITE("isolation") {
   }
 
   TEST_CASE("the tasks that are built in are isolated") {
-    const auto done = jarol("isolation");
+    const auto done = run_jarol("isolation");
     CHECK(done.exit_code == 0);
     CHECK(done.output.starts_with("built in: ISOLATED, "));
   }
 
   TEST_CASE("the report shows the way to what offends, with lines, and what can't be seen") {
-    const auto done = jarol("isolation " + library("globals"));
+    const auto done = run_jarol("isolation " + library("globals"));
     CHECK(done.exit_code == 1);
     CHECK(
         done.output.find("  task Calls\n    reaches the writable global 'counter'\n      Calls::run at tests/isolation/"
                          "globals.cpp:") != std::string::npos);
     CHECK(done.output.find("\nnot seen:\n") != std::string::npos);
-    const auto json = nlohmann::json::parse(jarol("isolation --json " + library("globals")).output);
+    const auto json = nlohmann::json::parse(run_jarol("isolation --json " + library("globals")).output);
     CHECK(json["schema"] == "jarol.isolation/1");
     CHECK(json["isolated"] == false);
     for (const auto& task : json["files"][0]["tasks"]) {
@@ -70,7 +70,7 @@ TEST_SUITE("isolation") {
   TEST_CASE("what can't be read is refused with the reason") {
     const command::TemporaryFolder folder;
     const auto refused = [](const std::string& file, const std::string& why) {
-      const auto done = jarol("isolation " + file);
+      const auto done = run_jarol("isolation " + file);
       CHECK(done.exit_code == 2);
       CHECK(done.output == "error: " + why + "\n");
     };
@@ -89,13 +89,13 @@ TEST_SUITE("isolation") {
     const std::string whole = bytes.str();
     for (std::size_t part = 1; part < 10; ++part) {
       const int code =
-          jarol("isolation " + folder.write("cut.so", whole.substr(0, whole.size() * part / 10))).exit_code;
+          run_jarol("isolation " + folder.write("cut.so", whole.substr(0, whole.size() * part / 10))).exit_code;
       CHECK(code == 2);
     }
     for (std::size_t at = 16; at < 4096; at += 97) {
       std::string bent = whole;
       for (std::size_t i = at; i < whole.size(); i += 4096) bent[i] = static_cast<char>(bent[i] ^ 0x55);
-      const int code = jarol("isolation " + folder.write("bent.so", bent)).exit_code;
+      const int code = run_jarol("isolation " + folder.write("bent.so", bent)).exit_code;
       CHECK(code >= 0);
       CHECK(code <= 2);
     }
@@ -107,7 +107,7 @@ TEST_SUITE("isolation") {
     const std::string file = folder.write("g.yaml", graph_of(plugin, "  a: {type: ReadsTime}\n  b: {type: Rounds}\n"));
     for (const std::string command : {"run --for 20ms ", "check ", "graph "}) {
       CAPTURE(command);
-      const auto refused = jarol(command + file + " --set tasks.b.isolation=weak", "2>&1 >/dev/null");
+      const auto refused = run_jarol(command + file + " --set tasks.b.isolation=weak", "2>&1 >/dev/null");
       CHECK(refused.exit_code == 2);
       CHECK(refused.output.find(file +
                                 ":5:13: error: task 'a' (ReadsTime) is not isolated: calls or uses 'time', a clock, in "
@@ -117,7 +117,7 @@ TEST_SUITE("isolation") {
       CHECK(refused.output.find("task 'b'") == std::string::npos);
     }
     const std::string alone = folder.write("weak.yaml", graph_of(plugin, "  a: {type: ReadsTime, isolation: weak}\n"));
-    const auto weak = jarol("run --for 20ms " + alone + " --json", "2>/dev/null");
+    const auto weak = run_jarol("run --for 20ms " + alone + " --json", "2>/dev/null");
     CHECK(weak.exit_code == 0);
     CHECK(nlohmann::json::parse(weak.output)["digest_claimed"] == false);
   }
@@ -125,6 +125,6 @@ TEST_SUITE("isolation") {
   TEST_CASE("a plugin with tasks that offend lends those that don't") {
     const command::TemporaryFolder folder;
     const std::string file = folder.write("g.yaml", graph_of(library("innocent"), "  a: {type: Nothing}\n"));
-    CHECK(jarol("run --for 20ms " + file).exit_code == 0);
+    CHECK(run_jarol("run --for 20ms " + file).exit_code == 0);
   }
 }

@@ -88,8 +88,8 @@ TEST_SUITE("recordings") {
          })
       for (const std::string compression : {"lz4", "zstd", "none"}) {
         const std::string file = folder / (spec + compression);
-        const auto run = command::jarol("run specs/" + spec + ".yaml --for 3s --record " + file + " --trace " + file +
-                                        ".csv --record-compression " + compression);
+        const auto run = command::run_jarol("run specs/" + spec + ".yaml --for 3s --record " + file + " --trace " +
+                                            file + ".csv --record-compression " + compression);
         CAPTURE(run.output);
         REQUIRE(run.exit_code == 0);
         files += " " + file + " " + file + ".csv";
@@ -136,8 +136,8 @@ tasks:
   mean: {type: Mean, period: 30ms}
 connections: [count.out -> sum.in, sum.out -> window.in, window.out -> mean.in]
 )") + " --for 20s --record-checkpoints 7s --record-compression none --record ";
-    REQUIRE(command::jarol(run + (folder / "one.mcap")).exit_code == 0);
-    REQUIRE(command::jarol(run + (folder / "r.mcap") + " --record-split 1MiB").exit_code == 0);
+    REQUIRE(command::run_jarol(run + (folder / "one.mcap")).exit_code == 0);
+    REQUIRE(command::run_jarol(run + (folder / "r.mcap") + " --record-split 1MiB").exit_code == 0);
     const auto lines_of = [](const std::string& file) {
       std::vector<std::string> lines;
       std::istringstream dump(read("dump " + file));

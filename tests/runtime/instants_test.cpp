@@ -35,7 +35,7 @@ class Plant : public Channels {
   std::vector<std::string>* diary_;
 };
 
-tests::Run run(const std::string& text, Duration end, std::vector<std::string>* diary = nullptr) {
+tests::Run run_plant(const std::string& text, Duration end, std::vector<std::string>* diary = nullptr) {
   static const Registry registry = [] {
     Registry made;
     tasks::add_tasks(made);
@@ -59,90 +59,90 @@ tests::Run run(const std::string& text, Duration end, std::vector<std::string>* 
 
 TEST_SUITE("runtime/instants") {
   TEST_CASE("sensors sample before outs act: a command at an instant does not change what is sensed at it") {
-    const auto r = run(R"(communicators: {to: {channel: p.command}, from: {channel: p.held}}
+    const auto r = run_plant(R"(communicators: {to: {channel: p.command}, from: {channel: p.held}}
 tasks: {c: {type: Counter, init: {out: 7}}, r: {type: Relay}}
 connections: [c.out -> to, from -> r.in]
 )",
-                       40ms);
+                             40ms);
     CHECK(lines_of(r, "to") == "0ns to=7; 10ms to=0; 20ms to=1; 30ms to=2");
     CHECK(lines_of(r, "from") == "0ns from=-1; 10ms from=7; 20ms from=0; 30ms from=1");
   }
 
   TEST_CASE("sensors sample before ins act: what is sensed at an instant is taken at it") {
-    const auto r = run(R"(communicators: {from: {channel: p.ms}}
+    const auto r = run_plant(R"(communicators: {from: {channel: p.ms}}
 tasks: {r: {type: Relay}}
 connections: [from -> r.in]
 )",
-                       30ms);
+                             30ms);
     CHECK(lines_of(r, "from") == "0ns from=0; 10ms from=10; 20ms from=20");
   }
 
   TEST_CASE("LETs end before outs act: what is published at an instant is handed over at it") {
-    const auto r = run(R"(communicators: {to: {channel: p.command, offset: 4ms}}
+    const auto r = run_plant(R"(communicators: {to: {channel: p.command, offset: 4ms}}
 tasks: {c: {type: Counter, let: 4ms, init: {out: 7}}}
 connections: [c.out -> to]
 )",
-                       30ms);
+                             30ms);
     CHECK(lines_of(r, "to") == "4ms to=0; 14ms to=1; 24ms to=2");
   }
 
   TEST_CASE("LETs end before tasks latch: one that ends at an instant is read at it, with a LET or without") {
-    const auto r = run(R"(tasks:
+    const auto r = run_plant(R"(tasks:
   c: {type: Counter, let: 4ms, init: {out: 7}}
   flow: {type: Relay, offset: 4ms}
   timed: {type: Relay, offset: 4ms, let: 1ms}
 connections: [c.out -> flow.in, c.out -> timed.in]
 )",
-                       20ms);
+                             20ms);
     CHECK(lines_of(r, "flow.out") == "4ms flow.out=0; 14ms flow.out=1");
     CHECK(lines_of(r, "timed.out") == "5ms timed.out=0; 15ms timed.out=1");
   }
 
   TEST_CASE("outs act before ins: an out that is fed by an in hands over what that published before") {
-    const auto r = run(R"(communicators: {to: {channel: p.command}, from: {channel: p.ms, init: 7}}
+    const auto r = run_plant(R"(communicators: {to: {channel: p.command}, from: {channel: p.ms, init: 7}}
 connections: [from -> to]
 )",
-                       30ms);
+                             30ms);
     CHECK(lines_of(r, "to") == "0ns to=7; 10ms to=0; 20ms to=10");
     CHECK(lines_of(r, "from") == "0ns from=0; 10ms from=10; 20ms from=20");
   }
 
   TEST_CASE("outs act before tasks run: an out hands over what a data-flow task published before") {
-    const auto r = run(R"(communicators: {to: {channel: p.command}}
+    const auto r = run_plant(R"(communicators: {to: {channel: p.command}}
 tasks: {c: {type: Counter, init: {out: 7}}}
 connections: [c.out -> to]
 )",
-                       30ms);
+                             30ms);
     CHECK(lines_of(r, "to") == "0ns to=7; 10ms to=0; 20ms to=1");
   }
 
   TEST_CASE("ins act before tasks latch: what is taken at an instant is read at it, with a LET or without") {
-    const auto r = run(R"(communicators: {from: {channel: p.ms, init: 7}}
+    const auto r = run_plant(R"(communicators: {from: {channel: p.ms, init: 7}}
 tasks:
   flow: {type: Relay}
   timed: {type: Relay, let: 1ms}
 connections: [from -> flow.in, from -> timed.in]
 )",
-                       30ms);
+                             30ms);
     CHECK(lines_of(r, "flow.out") == "0ns flow.out=0; 10ms flow.out=10; 20ms flow.out=20");
     CHECK(lines_of(r, "timed.out") == "1ms timed.out=0; 11ms timed.out=10; 21ms timed.out=20");
   }
 
   TEST_CASE("communicators act at offset + k period") {
-    const auto r = run(R"(communicators:
+    const auto r = run_plant(R"(communicators:
   to: {channel: p.command, period: 5ms, offset: 2ms}
   from: {channel: p.ms, offset: 9999999ns}
 tasks: {c: {type: Counter, period: 5ms, init: {out: 7}}, r: {type: Relay}}
 connections: [c.out -> to, from -> r.in]
 )",
-                       20ms);
+                             20ms);
     CHECK(lines_of(r, "to") == "2ms to=0; 7ms to=1; 12ms to=2; 17ms to=3");
     CHECK(lines_of(r, "from") == "9.999999ms from=9; 19.999999ms from=19");
   }
 
   TEST_CASE("communicators of one step act in bytewise order of name: capitals, underscores, small letters") {
     std::vector<std::string> diary;
-    run(R"(communicators:
+    run_plant(R"(communicators:
   a: {channel: p.command3}
   Z: {channel: p.command}
   _b: {channel: p.command2}
@@ -150,7 +150,7 @@ connections: [c.out -> to, from -> r.in]
   B: {channel: p.held}
 connections: [y -> a, B -> Z, B -> _b]
 )",
-        10ms, &diary);
+              10ms, &diary);
     CHECK(diary == std::vector<std::string>{"hand over 2", "hand over 3", "hand over 4", "take 0", "take 1"});
   }
 

@@ -71,7 +71,7 @@ Graph graph_with(const std::string& tasks, const std::string& connections = "") 
   return tests::graph_of(registry, "graph: t\ntiming: {period: 10ms}\ntasks:\n" + tasks + connections);
 }
 
-tests::Run run(const std::string& tasks, Duration end, const std::string& connections = "") {
+tests::Run run_doubles(const std::string& tasks, Duration end, const std::string& connections = "") {
   return tests::run_graph(graph_with(tasks, connections), end);
 }
 
@@ -84,10 +84,10 @@ std::string faults_of(const Report& report) {
 
 TEST_SUITE("runtime/let_faults") {
   TEST_CASE("of LET tasks that end together the one whose output is not finite is told, the others publish") {
-    const auto r =
-        run("  a: {type: Doubles, let: 5ms}\n  b: {type: Doubles, let: 5ms, parameters: {at: 2, times: -2}}\n"
-            "  c: {type: Doubles, let: 5ms}\n  d: {type: Mixed, let: 5ms}\n",
-            100ms);
+    const auto r = run_doubles(
+        "  a: {type: Doubles, let: 5ms}\n  b: {type: Doubles, let: 5ms, parameters: {at: 2, times: -2}}\n"
+        "  c: {type: Doubles, let: 5ms}\n  d: {type: Mixed, let: 5ms}\n",
+        100ms);
     CHECK(faults_of(r.report) == "task 'b' activation 2 at 0.025 s: output 'second' is -inf");
     CHECK(r.report.stopped);
     CHECK(lines_of(r, "a.second") == "5ms a.second=1; 15ms a.second=1; 25ms a.second=1");
@@ -97,16 +97,16 @@ TEST_SUITE("runtime/let_faults") {
   }
 
   TEST_CASE("readers keep the last finite value of a LET task, also at the instant of its fault") {
-    const auto r =
-        run("  a: {type: Doubles, let: 10ms, parameters: {nan: true}}\n  r: {type: Relay}\n"
-            "  t: {type: Doubles, let: 5ms, offset: 5ms}\n",
-            100ms, "connections: [a.second -> r.in]\n");
+    const auto r = run_doubles(
+        "  a: {type: Doubles, let: 10ms, parameters: {nan: true}}\n  r: {type: Relay}\n"
+        "  t: {type: Doubles, let: 5ms, offset: 5ms}\n",
+        100ms, "connections: [a.second -> r.in]\n");
     CHECK(faults_of(r.report) == "task 'a' activation 1 at 0.02 s: output 'second' is nan");
     CHECK(lines_of(r, "r.out") == "0ns r.out=0; 10ms r.out=1; 20ms r.out=1");
   }
 
   TEST_CASE("a LET task whose outputs are not all doubles is looked at as well") {
-    const auto r = run("  a: {type: Mixed, let: 4ms, offset: 3ms, parameters: {at: 3, times: 2}}\n", 100ms);
+    const auto r = run_doubles("  a: {type: Mixed, let: 4ms, offset: 3ms, parameters: {at: 3, times: 2}}\n", 100ms);
     CHECK(faults_of(r.report) == "task 'a' activation 3 at 0.037 s: output 'number' is inf");
     CHECK(lines_of(r, "a.bits") == "7ms a.bits=-1; 17ms a.bits=-1; 27ms a.bits=-1");
   }
@@ -115,16 +115,16 @@ TEST_SUITE("runtime/let_faults") {
     std::string tasks;
     for (const char* name : {"a", "b", "c"})
       tasks += std::string("  ") + name + ": {type: Doubles, let: 5ms, parameters: {times: 0.5}}\n";
-    const auto r = run(tasks, 30ms);
+    const auto r = run_doubles(tasks, 30ms);
     CHECK(faults_of(r.report).empty());
     CHECK(lines_of(r, "c.second") == "5ms c.second=1; 15ms c.second=8.988465674311579e+307; 25ms c.second=1");
   }
 
   TEST_CASE("a LET task that throws ends its own activation alone") {
-    const auto r =
-        run("  a: {type: Doubles, let: 5ms}\n  b: {type: Doubles, let: 5ms, parameters: {throws: true}}\n"
-            "  c: {type: Mixed, let: 5ms, parameters: {throws: true}}\n  d: {type: Doubles, let: 5ms}\n",
-            100ms);
+    const auto r = run_doubles(
+        "  a: {type: Doubles, let: 5ms}\n  b: {type: Doubles, let: 5ms, parameters: {throws: true}}\n"
+        "  c: {type: Mixed, let: 5ms, parameters: {throws: true}}\n  d: {type: Doubles, let: 5ms}\n",
+        100ms);
     CHECK(faults_of(r.report) ==
           "task 'b' activation 1 at 0.015 s: threw: too hot; task 'c' activation 1 at 0.015 s: threw: too hot");
     CHECK(lines_of(r, "a.second") == "5ms a.second=1; 15ms a.second=1");

@@ -63,7 +63,7 @@ Outcome outcome(const std::string& vehicle_words, const std::string& run_words, 
   vehicle.interrupt();
   vehicle.end();
   all.vehicle = vehicle.json();
-  if (!log.empty()) all.replay = json::parse(command::jarol("replay " + log + " --json", "2>/dev/null").output);
+  if (!log.empty()) all.replay = json::parse(command::run_jarol("replay " + log + " --json", "2>/dev/null").output);
   return all;
 }
 

@@ -7,13 +7,13 @@
 
 #include "runtime/mcap/writer.h"
 #include "runtime/record/recording.h"
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
 namespace {
 using namespace jarol;
+using command::has;
 using command::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
 
 // A message of a topic, counted from 0, and a bit of its data.
 struct Place {
@@ -79,8 +79,8 @@ TEST_SUITE("tools/changed_input") {
   TEST_CASE("one changed bit of one input is found and named by instant and field") {
     const TemporaryFolder folder;
     const std::string file = folder / "r.mcap", other = folder / "changed.mcap";
-    REQUIRE(command::jarol("run specs/exolauv.yaml --for 10s --set expect=null --record " + file).exit_code == 0);
-    CHECK(command::jarol("replay " + file).exit_code == 0);
+    REQUIRE(command::run_jarol("run specs/exolauv.yaml --for 10s --set expect=null --record " + file).exit_code == 0);
+    CHECK(command::run_jarol("replay " + file).exit_code == 0);
     // the third number of what the submarine reported, after four bytes in front
     const std::size_t third = 4 + 2 * 8;
     const std::string topic = "jarol/taken/from_dune";
@@ -88,17 +88,17 @@ TEST_SUITE("tools/changed_input") {
                                Place{topic, 57, third + 6, 7}, Place{topic, 199, third + 5, 2}}) {
       const Changed changed = change(file, other, place);
       CAPTURE(place.message);
-      CHECK(command::jarol("log verify " + other).exit_code == 0);
+      CHECK(command::run_jarol("log verify " + other).exit_code == 0);
       char instant[32];
       std::snprintf(instant, sizeof instant, "%g s", static_cast<double>(changed.instant) * 1e-9);
       const std::string values = " at " + std::string(instant) + ": was ";
-      const auto replay = command::jarol("replay " + other);
+      const auto replay = command::run_jarol("replay " + other);
       CAPTURE(replay.output);
       CHECK(replay.exit_code == 1);
       CHECK(has(replay.output, "  first       from_dune.pressure.value" + values));
       CHECK(has(replay.output, "(" + bits_of(changed.before) + "), is "));
       CHECK(has(replay.output, "(" + bits_of(changed.after) + ")\n"));
-      const auto diff = command::jarol("log diff " + file + " " + other);
+      const auto diff = command::run_jarol("log diff " + file + " " + other);
       CAPTURE(diff.output);
       CHECK(diff.exit_code == 1);
       CHECK(has(diff.output, "  first       jarol/taken/from_dune.pressure.value" + values));

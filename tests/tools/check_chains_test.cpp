@@ -4,15 +4,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::json_of;
 
-using command::jarol;
 using command::Result;
+using command::run_jarol;
 using command::TemporaryFolder;
-
-nlohmann::json json_of(const std::string& arguments) { return nlohmann::json::parse(jarol(arguments).output); }
 
 }  // namespace
 
@@ -27,7 +27,7 @@ communicators:
 tasks: {a: {type: Counter, wcet: 1us}}
 connections: [a.out -> late, a.out -> soon]
 )");
-    const std::string output = jarol("check " + file).output;
+    const std::string output = run_jarol("check " + file).output;
     CHECK(output.find("  note: 'late' reads at the very instant at which 'a' runs, and so one period late; give it an "
                       "'offset'\n") != std::string::npos);
     CHECK(output.find("'soon' reads") == std::string::npos);
@@ -45,13 +45,13 @@ connections: [a.out -> out]
 chains:
   c: {path: [a, out], reaction: 12ms, crossover: 2Hz}
 )");
-    const Result good = jarol("check " + file);
+    const Result good = run_jarol("check " + file);
     CHECK(good.exit_code == 0);
     CHECK(good.output.find("  chain c: reaction 2ms to 12ms, data age at most 12ms, jitter 0ns\n"
                            "    slowest way from 30ms: a 0ns, out 2ms\n"
                            "    at 12.57 rad/s: delay 2ms, jitter 0ns, held for 10ms: 5.0 deg of phase lost\n") !=
           std::string::npos);
-    const Result bad = jarol("check " + file + " --set chains.c.reaction=11ms");
+    const Result bad = run_jarol("check " + file + " --set chains.c.reaction=11ms");
     CHECK(bad.exit_code == 1);
     CHECK(bad.output.starts_with(file +
                                  ": SCHEDULABLE on one core (table), proof, BUT A LIMIT IS BROKEN by chain 'c': "));

@@ -7,22 +7,22 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::json_of;
 
-using command::jarol;
 using command::Result;
+using command::run_jarol;
 using command::TemporaryFolder;
-
-nlohmann::json json_of(const std::string& arguments) { return nlohmann::json::parse(jarol(arguments).output); }
 
 }  // namespace
 
 TEST_SUITE("tools/check") {
   TEST_CASE("check says what is schedulable and exits by the verdict") {
-    CHECK(jarol("check specs/counting.yaml").exit_code == 0);
-    const Result no = jarol("check specs/counting.yaml --set tasks.slow.wcet=19ms");
+    CHECK(run_jarol("check specs/counting.yaml").exit_code == 0);
+    const Result no = run_jarol("check specs/counting.yaml --set tasks.slow.wcet=19ms");
     CHECK(no.exit_code == 1);
     CHECK(no.output.starts_with(
         "specs/counting.yaml: NOT SCHEDULABLE core 0: task 'slow' activation 0 (released 0.000 ms) "
@@ -30,7 +30,7 @@ TEST_SUITE("tools/check") {
   }
 
   TEST_CASE("check --json gives one object per file and line") {
-    const Result result = jarol("check --json specs/counting.yaml");
+    const Result result = run_jarol("check --json specs/counting.yaml");
     const auto check = nlohmann::json::parse(result.output);
     CHECK(check["schema"] == "jarol.check/1");
     CHECK(check["file"] == "specs/counting.yaml");
@@ -84,7 +84,7 @@ tasks:
   b: {type: Work, period: 10ms, wcet: 5ms}
   c: {type: Work, period: 10ms, wcet: 5ms}
 )");
-    const Result bound = jarol("check " + file);
+    const Result bound = run_jarol("check " + file);
     CHECK(bound.exit_code == 3);
     CHECK(bound.output ==
           file +
@@ -103,21 +103,21 @@ tasks:
                   or 'policy: edf', which 'run' does not execute
 )");
     // with offsets that hold it is decided
-    const Result given = jarol("check " + file + " --set platform.phasing=given");
+    const Result given = run_jarol("check " + file + " --set platform.phasing=given");
     CHECK(given.exit_code == 0);
     CHECK(given.output.starts_with(file + ": SCHEDULABLE on 2 cores (global_edf), proof: every activation of the whole "
                                           "repetition ends by its deadline, where "
                                           "those of equal deadlines go in order of name\n"));
-    const Result late = jarol("check " + file + " --set tasks.a.period=11ms");
+    const Result late = run_jarol("check " + file + " --set tasks.a.period=11ms");
     CHECK(late.exit_code == 1);
     CHECK(late.output.starts_with(file +
                                   ": NOT SCHEDULABLE task 'a' activation 0 (released 0.000 ms) finishes 15.000 ms, "
                                   "deadline 11.000 ms (late 4.000 ms)\n"));
-    CHECK(jarol("check " + file + " --set platform.policy=edf").output.find("all 2 cores") == std::string::npos);
+    CHECK(run_jarol("check " + file + " --set platform.policy=edf").output.find("all 2 cores") == std::string::npos);
     // on one core it is edf, which is decided
     const std::string one = file + " --set platform.cores=1 --set tasks.a.wcet=1ms --set tasks.b.wcet=4ms";
-    CHECK(jarol("check " + one).exit_code == 0);
-    CHECK(jarol("check " + one + " --set tasks.c.wcet=5000001ns").exit_code == 1);
+    CHECK(run_jarol("check " + one).exit_code == 0);
+    CHECK(run_jarol("check " + one + " --set tasks.c.wcet=5000001ns").exit_code == 1);
     CHECK(json_of("check --json " + one)["policy"] == "global_edf");
   }
 
@@ -129,7 +129,7 @@ tasks:
   fast: {type: Work, period: 5ms, wcet: 2ms}
   slow: {type: Work, period: 7ms, wcet: 4ms}
 )");
-    const Result no = jarol("check " + file);
+    const Result no = run_jarol("check " + file);
     CHECK(no.exit_code == 1);
     CHECK(
         no.output ==
@@ -152,7 +152,7 @@ tasks:
                   or a 'wcet' of 3ms for 'slow', which has 4ms
                   or 'policy: edf', which 'run' does not execute
 )");
-    CHECK(jarol("check " + file + " --set platform.policy=edf").exit_code == 0);
+    CHECK(run_jarol("check " + file + " --set platform.policy=edf").exit_code == 0);
     const auto late = json_of("check --json --set platform.policy=edf --set tasks.slow.deadline=5ms " + file);
     CHECK(late["witness"] ==
           nlohmann::json{{"core", 0},
@@ -168,7 +168,7 @@ tasks:
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", "{graph: t, tasks: {a: {type: Work, period: 50ms, let: 40ms}}}\n");
     const auto headline = [&](const std::string& wcet) {
-      const std::string output = jarol("check " + file + " --set tasks.a.wcet=" + wcet).output;
+      const std::string output = run_jarol("check " + file + " --set tasks.a.wcet=" + wcet).output;
       return output.substr(0, output.find('\n'));
     };
     const std::string late = file + ": NOT SCHEDULABLE core 0: task 'a' activation 0 (released 0.000 ms) finishes ";
@@ -191,7 +191,7 @@ tasks:
   a: {type: Work, period: 5ms, wcet: 2ms, jitter: 3ms}
   b: {type: Work, period: 10ms, wcet: 3ms, deadline: 6ms}
 )");
-    const Result late = jarol("check " + file);
+    const Result late = run_jarol("check " + file);
     CHECK(late.exit_code == 1);
     CHECK(late.output.starts_with(
         file +
@@ -221,10 +221,10 @@ connections: [a.out -> b.in]
       std::ifstream file(path);
       return std::string{std::istreambuf_iterator<char>(file), {}};
     };
-    CHECK(jarol("check specs/counting.yaml --svg " + (folder / "good.svg")).exit_code == 0);
+    CHECK(run_jarol("check specs/counting.yaml --svg " + (folder / "good.svg")).exit_code == 0);
     const std::string good = text_of(folder / "good.svg");
     CHECK(good.find(">counting: the first 110ms, each task as long as its wcet</text>") != std::string::npos);
-    CHECK(jarol("check specs/counting.yaml --set tasks.slow.wcet=20ms --svg " + (folder / "g.svg")).exit_code == 1);
+    CHECK(run_jarol("check specs/counting.yaml --set tasks.slow.wcet=20ms --svg " + (folder / "g.svg")).exit_code == 1);
     const std::string svg = text_of(folder / "g.svg");
     CHECK(svg.starts_with("<svg xmlns"));
     CHECK(svg.find("counting: activation 0 of slow is 5.05ms late</text>") != std::string::npos);
@@ -233,9 +233,9 @@ connections: [a.out -> b.in]
 
   TEST_CASE("check writes random graphs that it can check, the same for the same seed") {
     const TemporaryFolder folder;
-    CHECK(jarol("check --generate waters --count 2 --seed 7 -o " + (folder / "g")).output ==
+    CHECK(run_jarol("check --generate waters --count 2 --seed 7 -o " + (folder / "g")).output ==
           "2 graphs in " + (folder / "g") + "\n");
-    CHECK(jarol("check --generate waters --seed 7 -o " + (folder / "h")).exit_code == 0);
+    CHECK(run_jarol("check --generate waters --seed 7 -o " + (folder / "h")).exit_code == 0);
     const auto text_of = [](const std::string& path) {
       std::ifstream file(path);
       return std::string{std::istreambuf_iterator<char>(file), {}};
@@ -243,19 +243,19 @@ connections: [a.out -> b.in]
     CHECK(text_of(folder / "g/waters_7.yaml") == text_of(folder / "h/waters_7.yaml"));
     CHECK(text_of(folder / "g/waters_7.yaml") != text_of(folder / "g/waters_8.yaml"));
     for (const std::string kind : {"waters", "uunifast"}) {
-      jarol("check --generate " + kind + " --tasks 12 --utilisation 0.5 -o " + (folder / "k"));
+      run_jarol("check --generate " + kind + " --tasks 12 --utilisation 0.5 -o " + (folder / "k"));
       const auto check = json_of("check --json " + (folder / "k") + "/" + kind + "_0.yaml");
       CHECK(check["tasks"].size() == 12);
       CHECK(check["utilisation"] == doctest::Approx(0.5).scale(0).epsilon(0.001));
     }
-    CHECK(jarol("check --generate waters").output == "error: --generate needs -o DIR, a folder for the graphs\n");
-    CHECK(jarol("check").output == "error: check needs a FILE, a graph\n");
+    CHECK(run_jarol("check --generate waters").output == "error: --generate needs -o DIR, a folder for the graphs\n");
+    CHECK(run_jarol("check").output == "error: check needs a FILE, a graph\n");
   }
 
   TEST_CASE("without a wcet the verdict is open") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", "{graph: t, tasks: {a: {type: Counter, period: 1ms}}}\n");
-    const Result result = jarol("check " + file);
+    const Result result = run_jarol("check " + file);
     CHECK(result.exit_code == 3);
     CHECK(result.output.starts_with(file + ": UNKNOWN on one core (table): no 'wcet' is stated for 'a'\n"));
   }
@@ -264,7 +264,7 @@ connections: [a.out -> b.in]
     const TemporaryFolder folder;
     const std::string bad =
         folder.write("bad.yaml", "{graph: t, tasks: {a: {type: Countr, period: 1ms}}, conections: []}\n");
-    const Result result = jarol("check --json " + bad + " specs/counting.yaml", "2>/dev/null");
+    const Result result = run_jarol("check --json " + bad + " specs/counting.yaml", "2>/dev/null");
     CHECK(result.exit_code == 2);
     const std::size_t second = result.output.find('\n') + 1;
     const auto problems = nlohmann::json::parse(result.output.substr(0, second));
@@ -272,13 +272,13 @@ connections: [a.out -> b.in]
     CHECK(problems["file"] == bad);
     CHECK(problems["problems"].size() == 2);
     CHECK(nlohmann::json::parse(result.output.substr(second))["file"] == "specs/counting.yaml");
-    CHECK(jarol("check " + bad).output.ends_with(bad + ": 2 errors\n"));
+    CHECK(run_jarol("check " + bad).output.ends_with(bad + ": 2 errors\n"));
   }
 
   TEST_CASE("many files are reported in their order, each as it is by itself, however long each takes") {
     const TemporaryFolder folder;
     const std::string bad = folder.write("bad.yaml", "{graph: t, tasks: {a: {type: Countr, period: 1ms}}}\n");
-    REQUIRE(jarol("check --generate uunifast --count 24 --tasks 40 -o " + (folder / "made")).exit_code == 0);
+    REQUIRE(run_jarol("check --generate uunifast --count 24 --tasks 40 -o " + (folder / "made")).exit_code == 0);
     std::string files, reports;
     for (int i = 0; i < 24; ++i) {
       // the long ones first, and one that is wrong between
@@ -286,12 +286,12 @@ connections: [a.out -> b.in]
                                : i % 8 == 5 ? "specs/counting.yaml"
                                             : folder / "made/uunifast_" + std::to_string(i) + ".yaml";
       files += " " + file;
-      reports += jarol("check " + file).output;
+      reports += run_jarol("check " + file).output;
     }
-    const Result all = jarol("check" + files);
+    const Result all = run_jarol("check" + files);
     CHECK(all.exit_code == 2);
     CHECK((all.output == reports));
-    const std::string json = jarol("check --json" + files, "2>/dev/null").output;
+    const std::string json = run_jarol("check --json" + files, "2>/dev/null").output;
     CHECK(std::count(json.begin(), json.end(), '\n') == 24);
   }
 }

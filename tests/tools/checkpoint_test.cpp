@@ -10,12 +10,15 @@
 
 #include "graph/values/seed.h"
 #include "tests/runtime/random_model.h"
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 #include "tools/library/session.h"
 
 namespace {
 using namespace jarol;
 using namespace std::chrono_literals;
+using command::error_of;
+using command::report_of;
 
 struct Mission {
   std::string spec;
@@ -63,23 +66,10 @@ std::vector<Mission> missions() {
   return all;
 }
 
-json report_of(const std::string& arguments) {
-  const command::Result result = command::jarol("run " + arguments + " --json", "");
-  INFO(arguments);
-  CHECK(result.exit_code == 0);
-  return json::parse(result.output);
-}
-
 // What a run reports but for what it takes in real time.
 json lasting(json report) {
   for (const char* key : {"wall_ns", "real_time_factor", "resumed_ns", "saved"}) report.erase(key);
   return report;
-}
-
-std::string error_of(const std::string& arguments, int exit_code = 2) {
-  const command::Result result = command::jarol("run " + arguments);
-  CHECK(result.exit_code == exit_code);
-  return result.output;
 }
 
 const std::string counting = "specs/counting.yaml --for 3s ";
@@ -258,7 +248,7 @@ TEST_SUITE("tools/checkpoint") {
     CHECK(error_of(counting + "--resume " + file + " --save 500ms=" + (folder / "d")) ==
           "error: --save: the run goes on from 1 s, after 0.5 s\n");
     // the run goes on where one can't be written
-    const command::Result result = command::jarol("run " + counting + "--save 1s=" + (folder / "no/where"));
+    const command::Result result = command::run_jarol("run " + counting + "--save 1s=" + (folder / "no/where"));
     CHECK(result.exit_code == 3);
     CHECK(result.output.find("  digest      0x") != std::string::npos);
     CHECK(result.output.find("error: can't write '" + (folder / "no/where") + "': ") != std::string::npos);

@@ -9,17 +9,15 @@
 #include <regex>
 #include <string>
 
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::json_of;
 
-using command::jarol;
 using command::Result;
+using command::run_jarol;
 using command::TemporaryFolder;
-
-nlohmann::json json_of(const std::string& arguments) {
-  return nlohmann::json::parse(jarol(arguments, "2>/dev/null").output);
-}
 
 std::string digest_of(const std::string& arguments) { return json_of("run " + arguments + " --json")["digest"]; }
 
@@ -47,7 +45,7 @@ TEST_SUITE("tools/command") {
     for (int i = 0; i < 9; ++i) CHECK(digest_of("specs/counting.yaml --for 3s") == digest);
     CHECK(digest_of("specs/counting.yaml --for 3000ms --trace " + (folder / "t.csv")) == digest);
     CHECK(digest_of("specs/counting.yaml --for 3s --plot " + (folder / "p.svg")) == digest);
-    CHECK(jarol("run specs/counting.yaml --for 3s").output.find(digest) != std::string::npos);
+    CHECK(run_jarol("run specs/counting.yaml --for 3s").output.find(digest) != std::string::npos);
     CHECK(digest_of("specs/counting.yaml --for 3s --workers 4") == digest);
     CHECK(digest_of("specs/counting.yaml --for 3.1s") != digest);
   }
@@ -72,9 +70,9 @@ tasks:
   }
 
   TEST_CASE("of a graph with a weakly isolated task nothing is claimed, and that is said") {
-    CHECK(jarol("run specs/counting.yaml --for 1s --set tasks.sum.isolation=weak")
+    CHECK(run_jarol("run specs/counting.yaml --for 1s --set tasks.sum.isolation=weak")
               .output.find("nothing is claimed of the digest: task 'sum' is weakly isolated\n") != std::string::npos);
-    CHECK(jarol("run specs/counting.yaml --for 1s").output.find("claimed") == std::string::npos);
+    CHECK(run_jarol("run specs/counting.yaml --for 1s").output.find("claimed") == std::string::npos);
     CHECK(json_of("run specs/counting.yaml --for 1s --json --set tasks.sum.isolation=weak")["digest_claimed"] == false);
     CHECK(json_of("run specs/counting.yaml --for 1s --json")["digest_claimed"] == true);
     CHECK(json_of("run specs/counting.yaml --for 10ms --json --clock real --concurrency threads 2>/dev/null")
@@ -83,8 +81,8 @@ tasks:
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need memory of their own
   TEST_CASE("what a machine has no memory for is reported in words") {
-    const Result run = jarol("schema > /dev/null; ulimit -v 1000000; " JAROL_COMMAND
-                             " run specs/window.yaml --for 1s --set tasks.window.heap=1GiB");
+    const Result run = run_jarol("schema > /dev/null; ulimit -v 1000000; " JAROL_COMMAND
+                                 " run specs/window.yaml --for 1s --set tasks.window.heap=1GiB");
     CHECK(run.exit_code == 3);
     CHECK(run.output == "error: there is not enough memory for this\n");
   }
@@ -95,7 +93,7 @@ tasks:
     const auto run = json_of("run specs/window.yaml --for 1s --json --trace " + (folder / "t.csv"));
     CHECK(run["heaps"] == nlohmann::json{{"window", {{"size", 1024}, {"most_used", 896}}},
                                          {"mean", {{"size", 65536}, {"most_used", 160}}}});
-    CHECK(jarol("run specs/window.yaml --for 1s")
+    CHECK(run_jarol("run specs/window.yaml --for 1s")
               .output.find("  heap        window: at most 896 of 1024 bytes in use\n") != std::string::npos);
     std::ifstream file(folder / "t.csv");
     const std::string trace{std::istreambuf_iterator<char>(file), {}};
@@ -123,9 +121,9 @@ connections: [c.out -> t.in, t.out -> o, c.out -> w.in, w.out -> r.in]
     CHECK(run["faults"][0]["cause"] == "threw: more than three");
     CHECK(run["outputs"]["o"] == 4);
     CHECK(run.at("non_finite_inputs") == 0);
-    CHECK(jarol("tasks Twice --plugin " JAROL_PLUGIN_FOLDER "/twice.so").output ==
+    CHECK(run_jarol("tasks Twice --plugin " JAROL_PLUGIN_FOLDER "/twice.so").output ==
           "Twice: doubles its input\n\ninputs\n  in  double\n\noutputs\n  out  double  twice the input\n");
-    CHECK(jarol("tasks --plugin nowhere.so").output == "error: there is no file 'nowhere.so'\n");
+    CHECK(run_jarol("tasks --plugin nowhere.so").output == "error: there is no file 'nowhere.so'\n");
   }
 
   TEST_CASE("a known digest stays what it was") {
@@ -143,22 +141,23 @@ tasks:
   sum: {type: Accumulate}
 connections: [i -> sum.in]
 )");
-    const Result result = jarol("run " + file + " --for 1s");
+    const Result result = run_jarol("run " + file + " --for 1s");
     CHECK(result.exit_code == 3);
     CHECK(result.output.find("fault: task 'sum' activation 1 at 0.01 s: output 'out' is inf\n") != std::string::npos);
-    const auto run = nlohmann::json::parse(jarol("run " + file + " --for 1s --json").output);
+    const auto run = nlohmann::json::parse(run_jarol("run " + file + " --for 1s --json").output);
     CHECK(run["faults"] ==
           nlohmann::json::parse(
               R"([{"task": "sum", "activation": 1, "instant_ns": 10000000, "cause": "output 'out' is inf"}])"));
-    const Result held = jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold");
+    const Result held = run_jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold");
     CHECK(held.exit_code == 1);
     CHECK(held.output.find("fault: task 'sum' 99 times, from activation 1 at 0.01 s to activation 99 at 0.99 s: output "
                            "'out' is inf\nerror: task 'sum' gave nothing in 99 of 100 activations, 99.0 %, above the "
                            "fault limit of 10 %\n") != std::string::npos);
-    CHECK(jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold --set fault_limit=99%").exit_code == 0);
-    CHECK(jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold --set fault_limit=98.9%").exit_code == 1);
-    const auto summary = nlohmann::json::parse(
-        jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold --json", "2>/dev/null").output)["fault_summary"];
+    CHECK(run_jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold --set fault_limit=99%").exit_code == 0);
+    CHECK(run_jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold --set fault_limit=98.9%").exit_code == 1);
+    const auto summary =
+        nlohmann::json::parse(run_jarol("run " + file + " --for 1s --set tasks.sum.on_fault=hold --json", "2>/dev/null")
+                                  .output)["fault_summary"];
     CHECK(summary == nlohmann::json::parse(R"([{"task": "sum", "cause": "output 'out' is inf", "count": 99,
       "first_instant_ns": 10000000, "last_instant_ns": 990000000}])"));
   }
@@ -174,7 +173,7 @@ tasks:
 connections: [i -> sum.in]
 )");
     // the third sum is the last that is finite
-    const auto end_of = [&](const std::string& options) { return jarol("run " + file + " " + options).exit_code; };
+    const auto end_of = [&](const std::string& options) { return run_jarol("run " + file + " " + options).exit_code; };
     CHECK(end_of("--for 30ms") == 0);
     CHECK(end_of("--for 40ms") == 0);  // 1 of 4
     CHECK(end_of("--for 40ms --set fault_limit=0%") == 1);
@@ -196,23 +195,23 @@ connections: [i -> sum.in]
   }
 
   TEST_CASE("usage errors and unreadable files exit with 2 and a sentence") {
-    const Result command = jarol("chek x");
+    const Result command = run_jarol("chek x");
     CHECK(command.exit_code == 2);
     CHECK(command.output ==
           "error: there is no command 'chek'; did you mean 'check'?; there are: bench, campaign, check, console, "
           "doctor, edit, graph, "
           "help, isolation, log, messages, new, replay, run, schema, tasks, vehicle\n");
-    const Result missing = jarol("run no/such.yaml");
+    const Result missing = run_jarol("run no/such.yaml");
     CHECK(missing.exit_code == 2);
     CHECK(missing.output == "error: can't read 'no/such.yaml': No such file or directory\n1 error\n");
-    const Result endless = jarol("run specs/counting.yaml");
+    const Result endless = run_jarol("run specs/counting.yaml");
     CHECK(endless.exit_code == 2);
     CHECK(endless.output ==
           "error: 'specs/counting.yaml' has no mission that ends; say how long to run, as in --for 10s\n");
-    const Result duration = jarol("run specs/counting.yaml --for 10");
+    const Result duration = run_jarol("run specs/counting.yaml --for 10");
     CHECK(duration.exit_code == 2);
     CHECK(duration.output == "error: --for: '10' has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n");
-    CHECK(jarol("run specs/counting.yaml --for 1s --trace /no/such/x.csv").output ==
+    CHECK(run_jarol("run specs/counting.yaml --for 1s --trace /no/such/x.csv").output ==
           "error: can't write '/no/such/x.csv': No such file or directory\n");
   }
 
@@ -220,26 +219,26 @@ connections: [i -> sum.in]
     for (const std::string command : {"", "bench", "campaign", "check", "console", "doctor", "graph", "isolation",
                                       "log", "messages", "new", "replay", "run", "schema", "tasks", "vehicle"}) {
       CAPTURE(command);
-      const Result help = jarol(command + " --help");
+      const Result help = run_jarol(command + " --help");
       CHECK(help.exit_code == 0);
       CHECK(help.output.find("Usage") != std::string::npos);
-      CHECK(jarol("help " + command).output == help.output);
-      CHECK(jarol("help " + command).exit_code == 0);
+      CHECK(run_jarol("help " + command).output == help.output);
+      CHECK(run_jarol("help " + command).exit_code == 0);
     }
-    CHECK(jarol("help chek").output ==
+    CHECK(run_jarol("help chek").output ==
           "error: there is no command 'chek'; did you mean 'check'?; there are: bench, campaign, check, console, "
           "doctor, edit, graph, "
           "help, isolation, log, messages, new, replay, run, schema, tasks, vehicle\n");
   }
 
   TEST_CASE("without a word it shows its help, and that nothing was done") {
-    CHECK(jarol("").output == jarol("--help").output);
-    CHECK(jarol("").exit_code == 2);
+    CHECK(run_jarol("").output == run_jarol("--help").output);
+    CHECK(run_jarol("").exit_code == 2);
   }
 
   TEST_CASE("the version says of which commit, by which compiler and with which libraries") {
-    const std::string version = jarol("-V").output;
-    CHECK(version == jarol("--version").output);
+    const std::string version = run_jarol("-V").output;
+    CHECK(version == run_jarol("--version").output);
     const std::regex form(
         "jarol \\d+\\.\\d+\\.\\d+(, commit [0-9a-f]{7,}\\+?)?\n"
         "(g\\+\\+|clang) .*, Eigen [\\d.]+, yaml-cpp [\\d.]+, fmt [\\d.]+, CLI11 [\\d.]+, JSON [\\d.]+(, Simbody "
@@ -248,10 +247,10 @@ connections: [i -> sum.in]
   }
 
   TEST_CASE("tasks tells all about one") {
-    CHECK(jarol("tasks Accumulate").output ==
+    CHECK(run_jarol("tasks Accumulate").output ==
           "Accumulate: gives the running sum of its input\n\ninputs\n  in  double\n\noutputs\n  out  double  sum of "
           "all inputs so far\n");
-    CHECK(jarol("tasks Acumulate").exit_code == 2);
+    CHECK(run_jarol("tasks Acumulate").exit_code == 2);
     CHECK(json_of("tasks --json")["tasks"].size() == 31);
     CHECK(json_of("tasks --json")["distributers"].size() == 4);
     CHECK(json_of("tasks LauvVehicle --json")["distributers"][0]["channels"][0] ==
@@ -262,15 +261,15 @@ connections: [i -> sum.in]
   }
 
   TEST_CASE("graph prints the order of tasks and a drawing") {
-    CHECK(jarol("graph specs/counting.yaml").output.find("count (Counter): every 10ms, deadline 10ms\n") !=
+    CHECK(run_jarol("graph specs/counting.yaml").output.find("count (Counter): every 10ms, deadline 10ms\n") !=
           std::string::npos);
-    CHECK(jarol("graph specs/counting.yaml --dot").output.starts_with("digraph \"counting\" {\n"));
-    CHECK(jarol("graph specs/counting.yaml --dot --json").exit_code == 2);
+    CHECK(run_jarol("graph specs/counting.yaml --dot").output.starts_with("digraph \"counting\" {\n"));
+    CHECK(run_jarol("graph specs/counting.yaml --dot --json").exit_code == 2);
   }
 
 #ifdef JAROL_VEHICLES
   TEST_CASE("a drawing shows the core within its boundary, and distributers outside") {
-    const std::string dot = jarol("graph specs/exolauv.yaml --dot").output;
+    const std::string dot = run_jarol("graph specs/exolauv.yaml --dot").output;
     const std::size_t boundary = dot.find("subgraph cluster_core {"), end = dot.find("\n  }\n");
     REQUIRE(boundary < end);
     CHECK(dot.find("\n    \"fins\" [style=\"rounded,filled\"") < end);

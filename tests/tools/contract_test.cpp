@@ -10,11 +10,11 @@
 #include "tests/tools/run_command.h"
 
 namespace {
-using command::jarol;
+using command::run_jarol;
 using command::TemporaryFolder;
 
-nlohmann::json json_of(const std::string& arguments) {
-  return nlohmann::json::parse(jarol("run " + arguments + " --json", "2>/dev/null").output);
+nlohmann::json report_in(const std::string& arguments) {
+  return nlohmann::json::parse(run_jarol("run " + arguments + " --json", "2>/dev/null").output);
 }
 
 std::vector<std::string> lines_of(const std::string& path) {
@@ -59,7 +59,7 @@ TEST_SUITE("tools/contract") {
     const TemporaryFolder folder;
     const std::string graph = folder.write("g.yaml", mixed), trace = folder / "t.csv";
     for (const char* const workers : {"1", "4"}) {
-      const auto run = json_of(graph + " --for 12ms --trace " + trace + " --workers " + workers);
+      const auto run = report_in(graph + " --for 12ms --trace " + trace + " --workers " + workers);
       CHECK(run["simulated_ns"] == 12'000'000);
       CHECK(lines_of(trace) == std::vector<std::string>{"time,B.out,_.out,a.out,a0.out,a_,b",  //
                                                         "0,,0.5,0,,0.5,",                      //
@@ -74,21 +74,21 @@ TEST_SUITE("tools/contract") {
                                                         "0.01,,,,2.5,,"});
     }
     // a nanosecond more, and what is due at 12 ms is there too
-    json_of(graph + " --for 12000001ns --trace " + trace);
+    report_in(graph + " --for 12000001ns --trace " + trace);
     CHECK(lines_of(trace).back() == "0.012,,0.5,4,3,0.5,");
   }
 
   TEST_CASE("tasks have no seed: without vehicles every seed gives the same") {
-    const std::string digest = json_of("specs/counting.yaml --for 1s")["digest"];
+    const std::string digest = report_in("specs/counting.yaml --for 1s")["digest"];
     for (const char* const seed : {"0", "1", "18446744073709551615"})
-      CHECK(json_of(std::string("specs/counting.yaml --for 1s --seed ") + seed)["digest"] == digest);
+      CHECK(report_in(std::string("specs/counting.yaml --for 1s --seed ") + seed)["digest"] == digest);
   }
 
 #ifdef JAROL_VEHICLES
   TEST_CASE("--seed is spread by name: nobody's numbers depend on who else is there, and two of a kind have others") {
     const TemporaryFolder folder;
     const auto told = [&](const std::string& graph, const std::string& name, const std::string& seed) {
-      const auto run = json_of(folder.write("g.yaml", graph) + " --for 500ms --seed " + seed);
+      const auto run = report_in(folder.write("g.yaml", graph) + " --for 500ms --seed " + seed);
       CHECK(run["outputs"].contains(name + "_told"));
       return run["outputs"][name + "_told"].dump();
     };

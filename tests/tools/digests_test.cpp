@@ -24,7 +24,7 @@ const std::vector<std::string> processors{"", "-AVX2,-FMA,-FMA4", "-AVX512F,-AVX
 void choose(const std::string& processor) { setenv("GLIBC_TUNABLES", ("glibc.cpu.hwcaps=" + processor).c_str(), 1); }
 
 std::string digest_of(const std::string& arguments) {
-  const command::Result result = command::jarol(arguments + " --json", "");
+  const command::Result result = command::run_jarol(arguments + " --json", "");
   INFO(arguments);
   CHECK(result.exit_code == 0);
   return json::parse(result.output)["digest"];

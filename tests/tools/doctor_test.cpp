@@ -7,7 +7,7 @@
 #include "tests/tools/run_command.h"
 
 namespace {
-using command::jarol;
+using command::run_jarol;
 
 // Refused, and why; or permitted.
 void check_permission(const nlohmann::json& permission) {
@@ -18,7 +18,7 @@ void check_permission(const nlohmann::json& permission) {
 
 TEST_SUITE("tools/doctor") {
   TEST_CASE("doctor tells facts and lateness as one JSON object") {
-    const auto result = jarol("doctor --for 100ms --json");
+    const auto result = run_jarol("doctor --for 100ms --json");
     CHECK(result.exit_code == 0);
     const auto doctor = nlohmann::json::parse(result.output);
     CHECK(doctor["schema"] == "jarol.doctor/1");
@@ -52,7 +52,7 @@ TEST_SUITE("tools/doctor") {
   }
 
   TEST_CASE("doctor tells the same for people") {
-    const std::string text = jarol("doctor --for 20ms").output;
+    const std::string text = run_jarol("doctor --for 20ms").output;
     for (const char* part : {"this machine\n  kernel        ", "\n  CPUs          ", "\n  affinity      ",
                              "\n  SCHED_FIFO    ", "\n  memory        ", "\n  guardian      ", "\n  timer slack   ",
                              "\n  clock         CLOCK_MONOTONIC with a resolution of ", "\n  governor      ",
@@ -64,10 +64,10 @@ TEST_SUITE("tools/doctor") {
   }
 
   TEST_CASE("what is no duration, or too short a one, is an error") {
-    const auto bare = jarol("doctor --for 10");
+    const auto bare = run_jarol("doctor --for 10");
     CHECK(bare.exit_code == 2);
     CHECK(bare.output == "error: --for: '10' has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n");
-    const auto brief = jarol("doctor --for 10us");
+    const auto brief = run_jarol("doctor --for 10us");
     CHECK(brief.exit_code == 2);
     CHECK(brief.output == "error: --for: '10us' is less than one period of 1ms\n");
   }

@@ -5,24 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::error_of;
+using command::report_of;
 using command::TemporaryFolder;
 using nlohmann::json;
-
-json report_of(const std::string& arguments, int exit_code = 0) {
-  const command::Result result = command::jarol("run " + arguments + " --json", "2>/dev/null");
-  INFO(arguments);
-  CHECK(result.exit_code == exit_code);
-  return json::parse(result.output);
-}
-
-std::string error_of(const std::string& arguments) {
-  const command::Result result = command::jarol("run " + arguments);
-  CHECK(result.exit_code == 2);
-  return result.output;
-}
 
 const std::string counting = "specs/counting.yaml --for 3s ";
 const std::string holds = counting +
@@ -32,7 +22,7 @@ const std::string holds = counting +
 
 TEST_SUITE("tools/execution") {
   TEST_CASE("at its WCETs a schedulable graph is what it is without them, digest and all") {
-    CHECK(command::jarol("check specs/counting.yaml").exit_code == 0);
+    CHECK(command::run_jarol("check specs/counting.yaml").exit_code == 0);
     const json without = report_of(counting);
     for (const std::string execution : {"wcet", "random --seed 7"}) {
       const json with = report_of(counting + "--execution " + execution);
@@ -45,7 +35,7 @@ TEST_SUITE("tools/execution") {
 
   TEST_CASE("what check refuses stops, at the activation that check names") {
     const std::string slow = "--set tasks.slow.wcet=16ms ";
-    CHECK(command::jarol("check specs/counting.yaml " + slow).exit_code == 1);
+    CHECK(command::run_jarol("check specs/counting.yaml " + slow).exit_code == 1);
     const json run = report_of(counting + slow + "--execution wcet", 3);
     REQUIRE(run["faults"].size() == 1);
     CHECK(run["faults"][0] == json::parse(R"({"task": "slow", "activation": 0, "instant_ns": 15000000,
@@ -64,7 +54,7 @@ TEST_SUITE("tools/execution") {
     for (const std::string workers : {"2", "4"})
       CHECK(report_of(run + " --workers " + workers)["digest"] == first["digest"]);
     CHECK(report_of(holds + "--seed 4 --execution " + times)["digest"] != first["digest"]);
-    const command::Result replay = command::jarol("replay " + (folder / "run.mcap") + " --json", "2>/dev/null");
+    const command::Result replay = command::run_jarol("replay " + (folder / "run.mcap") + " --json", "2>/dev/null");
     const json replayed = json::parse(replay.output);
     CHECK(replayed["digest"] == first["digest"]);
     CHECK(replayed["verdict"] == "same");
@@ -116,7 +106,7 @@ connections: [count.out -> recent.in]
   }
 
   TEST_CASE("the report says by what") {
-    const command::Result result = command::jarol("run " + counting + "--execution random");
+    const command::Result result = command::run_jarol("run " + counting + "--execution random");
     CHECK(result.output.find("  execution   random, by table on one core\n") != std::string::npos);
   }
 

@@ -6,9 +6,11 @@
 #include <string>
 
 #include "tests/tools/process.h"
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::report_of;
 using command::TemporaryFolder;
 using jarol::tests::Process;
 using nlohmann::json;
@@ -36,13 +38,6 @@ connections:
 )");
 }
 
-json report_of(const std::string& arguments, int exit_code = 0) {
-  const command::Result result = command::jarol("run " + arguments + " --json", "2>/dev/null");
-  INFO(arguments);
-  CHECK(result.exit_code == exit_code);
-  return json::parse(result.output);
-}
-
 // Without what an address is: it is another one in each process.
 json comparable(json report) {
   for (const char* const name : {"digest", "wall_ns", "real_time_factor", "guard"}) report.erase(name);
@@ -64,7 +59,7 @@ TEST_SUITE("tools/guard") {
       CHECK(comparable(with) == comparable(without));
       CHECK(with["guard"] == true);
     }
-    CHECK(command::jarol("run specs/counting.yaml --for 1s --guard")
+    CHECK(command::run_jarol("run specs/counting.yaml --for 1s --guard")
               .output.find("  guard       no task wrote to memory that is not its own\n") != std::string::npos);
   }
 
@@ -84,7 +79,7 @@ TEST_SUITE("tools/guard") {
     const json whole = report_of(run);
     CHECK(report_of(run + " --guard --record " + log + " --trace " + (folder / "run.csv") +
                     " --save 7s=" + saved)["digest"] == whole["digest"]);
-    CHECK(command::jarol("replay " + log).exit_code == 0);
+    CHECK(command::run_jarol("replay " + log).exit_code == 0);
     CHECK(report_of(run + " --guard --resume " + saved)["digest"] == whole["digest"]);
     CHECK(report_of(run + " --guard --execution random")["digest"] == whole["digest"]);
   }
@@ -114,7 +109,7 @@ TEST_SUITE("tools/guard") {
 
   TEST_CASE("what does not go with it is refused with the reason") {
     const auto error_of = [](const std::string& arguments) {
-      const command::Result result = command::jarol("run specs/counting.yaml --for 1s --guard " + arguments);
+      const command::Result result = command::run_jarol("run specs/counting.yaml --for 1s --guard " + arguments);
       CHECK(result.exit_code == 2);
       return result.output;
     };

@@ -30,14 +30,14 @@ std::vector<Reported> read_recording() {
   return all;
 }
 
-const tests::Flight& the_flight() {
+const tests::Flight& the_original_flight() {
   static const tests::Flight flight = tests::fly({.profile = "original"});
   return flight;
 }
 
-double truth_at(double time) { return the_flight().at(time).altitude; }
+double truth_at(double time) { return the_original_flight().at(time).altitude; }
 
-constexpr double landed = 36.1;  // s, before the operator switches the state
+constexpr double landed_at = 36.1;  // s, before the operator switches the state
 }  // namespace
 
 TEST_SUITE("tools/javiator_original") {
@@ -47,9 +47,9 @@ TEST_SUITE("tools/javiator_original") {
     double altitude = 0, roll = 0, yaw = 0, highest = 0, furthest = 0;
     std::size_t i = 0;
     for (const Reported& r : recording) {
-      if (r.time > landed) break;
-      while (the_flight().estimates[i].first < r.time - 1e-6) ++i;
-      const tasks::FlightEstimate& e = the_flight().estimates[i].second;
+      if (r.time > landed_at) break;
+      while (the_original_flight().estimates[i].first < r.time - 1e-6) ++i;
+      const tasks::FlightEstimate& e = the_original_flight().estimates[i].second;
       altitude = std::max(altitude, std::abs(e.altitude - r.altitude));
       roll = std::max(roll, std::abs(e.roll - r.roll));
       yaw = std::max(yaw, std::abs(e.yaw - r.yaw));
@@ -65,18 +65,19 @@ TEST_SUITE("tools/javiator_original") {
   }
 
   TEST_CASE("what it reports is true within 2 cm in quiet flight") {
-    for (const auto& [time, e] : the_flight().estimates)
+    for (const auto& [time, e] : the_original_flight().estimates)
       if (time > 10 && time < 29) CHECK(std::abs(e.altitude - truth_at(time)) < 0.02);
   }
 
   TEST_CASE("it overshoots as the recorded one did: 124 mm after take-off") {
-    CHECK(the_flight().most(&tests::Glimpse::altitude, 5, 15) == doctest::Approx(0.624).scale(0).epsilon(0.02));
+    CHECK(the_original_flight().most(&tests::Glimpse::altitude, 5, 15) ==
+          doctest::Approx(0.624).scale(0).epsilon(0.02));
   }
 
   TEST_CASE("it ends halted, as the operator's shut-down demands, without a fault") {
-    CHECK(the_flight().last().state == tasks::FlightState::halt);
-    CHECK(the_flight().last().cause == tasks::LandingCause::none);
-    CHECK(the_flight().report.fault_count == 0);
+    CHECK(the_original_flight().last().state == tasks::FlightState::halt);
+    CHECK(the_original_flight().last().cause == tasks::LandingCause::none);
+    CHECK(the_original_flight().report.fault_count == 0);
   }
 
   TEST_CASE("without the operator it stops its motors after 525 ms and drops, as the original does") {

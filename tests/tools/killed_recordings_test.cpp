@@ -98,7 +98,7 @@ TEST_SUITE("tools/killed_recordings") {
         CHECK(wrong_with(file) == "");
         most_chunks = std::max(most_chunks, Recording(file).chunks().size());
         if (real || i % 5 == 0) {
-          const auto replay = command::jarol("replay " + file);
+          const auto replay = command::run_jarol("replay " + file);
           CAPTURE(replay.output);
           CHECK(replay.exit_code == 3);
           CHECK(replay.output.find("DIVERGED") == std::string::npos);

@@ -119,7 +119,8 @@ TEST_SUITE("tools/lockstep") {
   TEST_CASE("tasks are measured with a vehicle in another process, too, and not without it") {
     Process submarine("specs/vehicles/submarine.yaml", 1);
     const auto measure = [](const std::string& link) {
-      return command::jarol("check --measure specs/exolauv.yaml --for 1s --set \"distributers.dune.link" + link + "\"");
+      return command::run_jarol("check --measure specs/exolauv.yaml --for 1s --set \"distributers.dune.link" + link +
+                                "\"");
     };
     const auto measured = measure(submarine.link());
     CHECK(measured.exit_code <= 1);  // a busy machine may need longer than a 'wcet' says
@@ -137,7 +138,7 @@ TEST_SUITE("tools/lockstep") {
                            port);
     REQUIRE(vehicle.says("in lockstep at"));
     const auto fly = [](const std::string& options) {
-      return command::jarol("run specs/javiator.yaml --set expect=null " + options, "2>&1 >/dev/null");
+      return command::run_jarol("run specs/javiator.yaml --set expect=null " + options, "2>&1 >/dev/null");
     };
     const std::string turned = "--set tasks.attitude.parameters.lean.effect=-66 ",
                       there = "--set 'distributers.robostix.link={type: lockstep, peer: " + port + "}'";
@@ -173,7 +174,7 @@ TEST_SUITE("tools/lockstep") {
                             .c_str()) == 0);
     // each leaves something to report: it is too heavy to take off
     for (int runs = 0, tries = 0; runs < 3 && tries < 200; ++tries) {
-      const auto run = command::jarol(
+      const auto run = command::run_jarol(
           "run specs/javiator.yaml --set expect=null --set 'distributers.robostix.link={type: lockstep, peer: " + port +
           "}'");
       if (run.exit_code == 2) std::this_thread::sleep_for(100ms);  // not yet there

@@ -154,7 +154,7 @@ void mutate(Log& log, std::uint64_t seed) {
 }
 
 // What is said of it, or nothing: it was replayed.
-std::string report_on(const std::string& path) {
+std::string refusal_of(const std::string& path) {
   try {
     RecordedRun log(path);
     const std::vector<Miss> misses = log.begin(the_graph());
@@ -186,7 +186,7 @@ TEST_SUITE("tools/log_mutations") {
     Log part = whole;
     std::erase_if(part.records, [&](const Record& r) { return whole.is_value(r) && r.time >= 30'000'000; });
     write(whole, path);
-    REQUIRE(report_on(path) == "");
+    REQUIRE(refusal_of(path) == "");
     const std::uint64_t count = std::getenv("JAROL_FULL") != nullptr ? 200'000 : 20'000;
     std::uint64_t replayed = 0, refused = 0, in_record = 0;
     for (std::uint64_t seed = 0; seed < count; ++seed) {
@@ -194,7 +194,7 @@ TEST_SUITE("tools/log_mutations") {
       Log log = part;
       mutate(log, seed);
       write(log, path);
-      const std::string report = report_on(path);
+      const std::string report = refusal_of(path);
       ++(report.empty() ? replayed : refused);
       in_record += report.find("; it is no recording that jarol run has written") != std::string::npos;
       if (!report.empty()) REQUIRE(report.starts_with("'" + path + "' "));
@@ -211,14 +211,14 @@ TEST_SUITE("tools/log_mutations") {
     const Log whole = read(path);
     write(whole, path);
     const std::uint64_t first_chunk = Recording(path).chunks().at(0).offset;
-    REQUIRE(report_on(path) == "");
+    REQUIRE(refusal_of(path) == "");
     const auto report = [&](const std::string& topic, auto change) {
       Log log = whole;
       change(*std::find_if(log.records.begin(), log.records.end(),
                            [&](const Record& r) { return r.channel == log.channels.at(topic); }));
       write(log, path);
       const std::string begin = "'" + path + "' has in the chunk at byte " + std::to_string(first_chunk) + " ",
-                        end = "; it is no recording that jarol run has written", text = report_on(path);
+                        end = "; it is no recording that jarol run has written", text = refusal_of(path);
       CAPTURE(text);
       REQUIRE(text.starts_with(begin));
       REQUIRE(text.ends_with(end));
@@ -254,7 +254,7 @@ TEST_SUITE("tools/log_mutations") {
     for (Record& r : log.records)
       if (r.channel == log.channels.at(miss)) word(16, 9)(r);
     write(log, path);
-    CHECK(report_on(path) == "'" + path + "' has a miss of task 9, and there are 2");
+    CHECK(refusal_of(path) == "'" + path + "' has a miss of task 9, and there are 2");
   }
 
   TEST_CASE("truth values are 0 or 1, in flat values and in sequences") {

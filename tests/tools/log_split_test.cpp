@@ -5,17 +5,14 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::has;
+using command::json_report;
 using command::TemporaryFolder;
 namespace fs = std::filesystem;
-
-bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
-
-nlohmann::json json_of(const std::string& words) {
-  return nlohmann::json::parse(command::jarol(words + " --json", "2>/dev/null").output);
-}
 
 // Some 4 MB in 30 s, as its windows are deep.
 std::string graph_in(const TemporaryFolder& folder, int length = 500) {
@@ -34,7 +31,7 @@ const std::string split = " --record-compression none --record-split 1MiB";
 
 std::string record(const TemporaryFolder& folder, const std::string& name, const std::string& more) {
   const std::string file = folder / name;
-  REQUIRE(command::jarol("run " + graph_in(folder) + " --for 30s --record " + file + more).exit_code == 0);
+  REQUIRE(command::run_jarol("run " + graph_in(folder) + " --for 30s --record " + file + more).exit_code == 0);
   return file;
 }
 
@@ -52,7 +49,7 @@ TEST_SUITE("tools/log_split") {
     const TemporaryFolder folder;
     const std::string one = record(folder, "one.mcap", " --record-compression none");
     const std::string first = record(folder, "r.mcap", split + " --record-checkpoints 7s");
-    const auto info = json_of("log info " + first);
+    const auto info = json_report("log info " + first);
     CHECK(info["whole"] == true);
     const auto parts = info["parts"].get<std::vector<std::string>>();
     REQUIRE(parts.size() >= 3);
@@ -65,21 +62,23 @@ TEST_SUITE("tools/log_split") {
     }
     CHECK(info["bytes"] == bytes);
     CHECK(!fs::exists(folder / ("r." + std::to_string(parts.size() + 1) + ".mcap")));
-    CHECK(has(command::jarol("log info " + first).output, " chunks of " + std::to_string(parts.size()) + " files\n"));
-    const auto replay = json_of("replay " + first), whole = json_of("replay " + one);
+    CHECK(
+        has(command::run_jarol("log info " + first).output, " chunks of " + std::to_string(parts.size()) + " files\n"));
+    const auto replay = json_report("replay " + first), whole = json_report("replay " + one);
     CHECK(replay["verdict"] == "same");
     CHECK(replay["compared_values"] == whole["compared_values"]);
     CHECK(replay["digest"] == whole["digest"]);
-    const auto from = json_of("replay " + first + " --from 22s");
+    const auto from = json_report("replay " + first + " --from 22s");
     CHECK(from["verdict"] == "same");
     CHECK(from["begun_ns"] == 21'000'000'000);
     CHECK(from["digest"] == whole["digest"]);
-    CHECK(command::jarol("log diff " + one + " " + first).exit_code == 0);
-    CHECK(command::jarol("log verify " + first).exit_code == 0);
+    CHECK(command::run_jarol("log diff " + one + " " + first).exit_code == 0);
+    CHECK(command::run_jarol("log verify " + first).exit_code == 0);
     for (const std::string look : {"csv", "cat"})
-      CHECK(command::jarol("log " + look + " " + first).output == command::jarol("log " + look + " " + one).output);
-    CHECK(command::jarol("log cat --from 25s --until 26s " + first).output ==
-          command::jarol("log cat --from 25s --until 26s " + one).output);
+      CHECK(command::run_jarol("log " + look + " " + first).output ==
+            command::run_jarol("log " + look + " " + one).output);
+    CHECK(command::run_jarol("log cat --from 25s --until 26s " + first).output ==
+          command::run_jarol("log cat --from 25s --until 26s " + one).output);
   }
 
   TEST_CASE("another part than the first is none by itself") {
@@ -87,7 +86,7 @@ TEST_SUITE("tools/log_split") {
     record(folder, "r.mcap", split);
     const std::string second = folder / "r.2.mcap";
     for (const std::string words : {"replay ", "log info ", "log verify "}) {
-      const auto said = command::jarol(words + second);
+      const auto said = command::run_jarol(words + second);
       CHECK(said.exit_code == 2);
       CHECK(said.output == "error: '" + second + "' is part 2 of a recording that is split; give its first part\n");
     }
@@ -99,12 +98,12 @@ TEST_SUITE("tools/log_split") {
     fs::remove(third);
     const std::string breaks =
         "breaks off after '" + folder / "r.2.mcap" + "', and there is no '" + third + "' that follows it";
-    const auto info = command::jarol("log info " + first);
-    CHECK(json_of("log info " + first)["parts"].size() == 2);
-    CHECK(command::jarol("log cat --topic mean.out " + first).output.size() > 10000);
+    const auto info = command::run_jarol("log info " + first);
+    CHECK(json_report("log info " + first)["parts"].size() == 2);
+    CHECK(command::run_jarol("log cat --topic mean.out " + first).output.size() > 10000);
     CHECK(has(info.output, "  " + breaks + "; how the run ended is not known\n"));
-    CHECK(command::jarol("log verify " + first).output == "error: '" + first + "' " + breaks + "\n");
-    const auto replay = command::jarol("replay " + first);
+    CHECK(command::run_jarol("log verify " + first).output == "error: '" + first + "' " + breaks + "\n");
+    const auto replay = command::run_jarol("replay " + first);
     CHECK(replay.exit_code == 3);
     CHECK(has(replay.output, "  log         " + breaks + ", before "));
   }
@@ -112,12 +111,12 @@ TEST_SUITE("tools/log_split") {
   TEST_CASE("what a fast run takes in lies in each part, so that all but a lost last one is replayed") {
     const TemporaryFolder folder;
     const std::string first = folder / "r.mcap";
-    REQUIRE(command::jarol("run " + graph_in(folder) + " --for 300s --record " + first + split).exit_code == 0);
-    const auto parts = json_of("log info " + first)["parts"].get<std::vector<std::string>>();
+    REQUIRE(command::run_jarol("run " + graph_in(folder) + " --for 300s --record " + first + split).exit_code == 0);
+    const auto parts = json_report("log info " + first)["parts"].get<std::vector<std::string>>();
     REQUIRE(parts.size() > 20);
     fs::remove(parts.back());
-    CHECK(json_of("log info " + first)["covered_ns"] > 200'000'000'000);
-    CHECK(json_of("replay " + first)["compared_values"] > 40'000);
+    CHECK(json_report("log info " + first)["covered_ns"] > 200'000'000'000);
+    CHECK(json_report("replay " + first)["compared_values"] > 40'000);
   }
 
   TEST_CASE("a part of another run, or a damaged one, is not taken for what follows") {
@@ -125,28 +124,29 @@ TEST_SUITE("tools/log_split") {
     const std::string first = record(folder, "r.mcap", split), second = folder / "r.2.mcap";
     SUBCASE("of another run") {
       const std::string other = folder / "other.mcap";
-      REQUIRE(command::jarol("run " + graph_in(folder, 499) + " --for 30s --record " + other + split).exit_code == 0);
+      REQUIRE(command::run_jarol("run " + graph_in(folder, 499) + " --for 30s --record " + other + split).exit_code ==
+              0);
       fs::rename(folder / "other.2.mcap", second);
-      CHECK(has(command::jarol("log info " + first).output,
+      CHECK(has(command::run_jarol("log info " + first).output,
                 "breaks off after '" + first + "', and there is no '" + second + "' that follows it"));
     }
     SUBCASE("damaged") {
       flip(second, fs::file_size(second) / 2);
-      const auto verified = command::jarol("log verify " + first);
+      const auto verified = command::run_jarol("log verify " + first);
       CHECK(verified.exit_code == 1);
       CHECK(verified.output.starts_with("error: '" + second + "' at byte "));
-      CHECK(command::jarol("replay " + first).exit_code == 3);
+      CHECK(command::run_jarol("replay " + first).exit_code == 3);
     }
   }
 
   TEST_CASE("what can't be split says why") {
     const TemporaryFolder folder;
     const std::string run = "run " + graph_in(folder) + " --for 1s ", file = folder / "r.mcap";
-    CHECK(command::jarol(run + "--record-split 1MiB").output ==
+    CHECK(command::run_jarol(run + "--record-split 1MiB").output ==
           "error: --record-split is about --record and --log; add one of them, or leave it out\n");
-    CHECK(command::jarol(run + "--record-split 1023KiB --record " + file).output ==
+    CHECK(command::run_jarol(run + "--record-split 1023KiB --record " + file).output ==
           "error: --record-split: '1023KiB' is below 1MiB\n");
-    CHECK(command::jarol(run + "--record-split 10 --record " + file).output ==
+    CHECK(command::run_jarol(run + "--record-split 10 --record " + file).output ==
           "error: --record-split: '10' has no unit; write one of B, KiB, MiB or GiB, as in 64KiB\n");
     CHECK(!fs::exists(file));
   }
@@ -155,7 +155,7 @@ TEST_SUITE("tools/log_split") {
     const TemporaryFolder folder;
     const std::string second = folder.write("r.2.mcap", "somebody's notes");
     const auto run =
-        command::jarol("run " + graph_in(folder) + " --for 30s --record " + folder / "r.mcap" + split, "2>&1");
+        command::run_jarol("run " + graph_in(folder) + " --for 30s --record " + folder / "r.mcap" + split, "2>&1");
     CHECK(run.exit_code == 3);
     CHECK(has(run.output, "error: can't write '" + second +
                               "': it is there and no recording; choose another file, or remove it\n"));

@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/record/recording.h"
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
 namespace {
 using command::content;
+using command::has;
 using command::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
 
 const std::string counting = "run specs/counting.yaml --for 2s --record ";
 }  // namespace
@@ -24,14 +24,14 @@ TEST_SUITE("tools/log") {
                                   "--for 300ms --clock real --force --record-compression zstd"}) {
       CAPTURE(how);
       const std::string file = folder / "r.mcap";
-      const auto run = command::jarol("run specs/counting.yaml --record " + file + " " + how);
+      const auto run = command::run_jarol("run specs/counting.yaml --record " + file + " " + how);
       REQUIRE((run.exit_code == 0 || run.exit_code == 3));  // 3: the machine was late
       CHECK(has(run.output, "  recording   " + file + "\n"));
-      const auto replay = command::jarol("replay " + file);
+      const auto replay = command::run_jarol("replay " + file);
       CHECK(replay.exit_code == 0);
       CHECK(has(replay.output, "  same        as the run on the "));
       CHECK(has(replay.output, " values compared\n"));
-      CHECK(command::jarol("log verify " + file).output == file + ": every byte is as it was written\n");
+      CHECK(command::run_jarol("log verify " + file).output == file + ": every byte is as it was written\n");
     }
   }
 
@@ -43,15 +43,16 @@ tasks:
   sum: {type: Accumulate, period: 100ms}
 connections: [count.out -> sum.in]
 )");
-    REQUIRE(command::jarol("run " + graph + " --for 5s --record " + file).exit_code == 0);
-    CHECK(has(command::jarol("replay " + file).output,
+    REQUIRE(command::run_jarol("run " + graph + " --for 5s --record " + file).exit_code == 0);
+    CHECK(has(command::run_jarol("replay " + file).output,
               "  same        as the run on the virtual clock, 100 values compared\n"));
-    const auto other = command::jarol("replay " + file + " --set tasks.sum.init.out=0 --set tasks.sum.period=200ms");
+    const auto other =
+        command::run_jarol("replay " + file + " --set tasks.sum.init.out=0 --set tasks.sum.period=200ms");
     CAPTURE(other.output);
     CHECK(other.exit_code == 1);
     CHECK(has(other.output, "  first       sum.out at 0.1 s: was published, is nothing\n"));
     const auto json = nlohmann::json::parse(
-        command::jarol("replay " + file + " --json --set tasks.sum.period=200ms", "2>/dev/null").output);
+        command::run_jarol("replay " + file + " --json --set tasks.sum.period=200ms", "2>/dev/null").output);
     CHECK(json["first_difference"]["instant_ns"] == 100'000'000);
     CHECK(json["first_difference"]["output"] == "sum.out");
     CHECK(json["compared_values"] == 100);
@@ -68,30 +69,30 @@ tasks:
   flow: {type: Accumulate, period: 100ms, offset: 10ms}
 connections: [count.out -> sum.in, sum.out -> flow.in]
 )");
-    REQUIRE(command::jarol("run " + graph + " --for 5s --record " + file).exit_code == 0);
+    REQUIRE(command::run_jarol("run " + graph + " --for 5s --record " + file).exit_code == 0);
     for (const auto& [names, values] :
          {std::pair<std::string, std::string>("sum", "100"), {"flow", "50"}, {"sum flow", "150"}, {"count", "49"}}) {
       const std::string tasks = names;
       CAPTURE(tasks);
-      const auto replay = command::jarol("replay " + file + " --only " + tasks);
+      const auto replay = command::run_jarol("replay " + file + " --only " + tasks);
       CAPTURE(replay.output);
       CHECK(replay.exit_code == 0);
       CHECK(has(replay.output, "  same        as the run on the virtual clock, " + values + " values compared\n"));
     }
     // what feeds it is as it was, whatever is changed there
-    CHECK(command::jarol("replay " + file + " --only flow --set tasks.count.init.out=5").exit_code == 0);
-    CHECK(command::jarol("replay " + file + " --set tasks.count.init.out=5").exit_code == 1);
-    const auto changed = command::jarol("replay " + file + " --only sum --set tasks.count.init.out=5");
+    CHECK(command::run_jarol("replay " + file + " --only flow --set tasks.count.init.out=5").exit_code == 0);
+    CHECK(command::run_jarol("replay " + file + " --set tasks.count.init.out=5").exit_code == 1);
+    const auto changed = command::run_jarol("replay " + file + " --only sum --set tasks.count.init.out=5");
     CAPTURE(changed.output);
     CHECK(changed.exit_code == 1);
     CHECK(has(changed.output,
               "  first       sum.out at 0.02 s: was 0 (0x0000000000000000), is 5 (0x4014000000000000)\n"));
     CHECK(!has(changed.output, "  signal      flow.out"));
-    CHECK(has(command::jarol("replay " + file + " --only smu").output,
+    CHECK(has(command::run_jarol("replay " + file + " --only smu").output,
               "error: --only: the graph has no task 'smu'; did you mean 'sum'?; it has: count, flow, sum\n"));
     const std::string part = folder / "part.mcap";
-    REQUIRE(command::jarol("run " + graph + " --for 1s --record-what sum.out --record " + part).exit_code == 0);
-    CHECK(command::jarol("replay " + part + " --only sum").output ==
+    REQUIRE(command::run_jarol("run " + graph + " --for 1s --record-what sum.out --record " + part).exit_code == 0);
+    CHECK(command::run_jarol("replay " + part + " --only sum").output ==
           "error: --only: the recording has no values of 'count.out', which they read; record all that is published: "
           "jarol run --record\n");
   }
@@ -100,22 +101,22 @@ connections: [count.out -> sum.in, sum.out -> flow.in]
     const TemporaryFolder folder;
     const std::string a = folder / "a.mcap", b = folder / "b.mcap";
     const std::string run = "run specs/counting.yaml --for 1s --record-compression none --record ";
-    REQUIRE(command::jarol(run + a).exit_code == 0);
-    REQUIRE(command::jarol(run + b + " --set tasks.loop.init.out=1").exit_code == 0);
-    CHECK(command::jarol("log diff " + a + " " + a).exit_code == 0);
-    const auto diff = command::jarol("log diff " + a + " " + b);
+    REQUIRE(command::run_jarol(run + a).exit_code == 0);
+    REQUIRE(command::run_jarol(run + b + " --set tasks.loop.init.out=1").exit_code == 0);
+    CHECK(command::run_jarol("log diff " + a + " " + a).exit_code == 0);
+    const auto diff = command::run_jarol("log diff " + a + " " + b);
     CAPTURE(diff.output);
     CHECK(diff.exit_code == 1);
     CHECK(diff.output.starts_with("DIFFERENT, "));
     CHECK(has(diff.output, "  first       add.out at 0.01 s: was 0 (0x0000000000000000), is 1 (0x3ff0000000000000)\n"));
     CHECK(has(diff.output, "  signal      sum.out from 0.01 s on, by at most 2 at 0.03 s\n"));
-    const auto json = nlohmann::json::parse(command::jarol("log diff --json " + a + " " + b, "2>/dev/null").output);
+    const auto json = nlohmann::json::parse(command::run_jarol("log diff --json " + a + " " + b, "2>/dev/null").output);
     CHECK(json["verdict"] == "different");
     // with --record-what only what is chosen
     const std::string part = folder / "part.mcap";
-    REQUIRE(command::jarol(run + part + " --record-what 'count.*'").exit_code == 0);
-    CHECK(has(command::jarol("log diff " + a + " " + part).output, "  apart       'add.out' is only in A\n"));
-    const auto nothing = command::jarol(run + part + " --record-what cuont.out");
+    REQUIRE(command::run_jarol(run + part + " --record-what 'count.*'").exit_code == 0);
+    CHECK(has(command::run_jarol("log diff " + a + " " + part).output, "  apart       'add.out' is only in A\n"));
+    const auto nothing = command::run_jarol(run + part + " --record-what cuont.out");
     CHECK(nothing.exit_code == 2);
     CHECK(has(nothing.output,
               "error: --record-what: nothing that is published has the name 'cuont.out'; did you mean 'count.out'?"));
@@ -124,9 +125,9 @@ connections: [count.out -> sum.in, sum.out -> flow.in]
   TEST_CASE("the table of a recording is the trace of the run") {
     const TemporaryFolder folder;
     const std::string file = folder / "r.mcap", trace = folder / "r.csv", rates = folder / "rates";
-    REQUIRE(command::jarol(counting + file + " --trace " + trace).exit_code == 0);
-    CHECK(command::jarol("log csv " + file).output == content(trace));
-    CHECK(command::jarol("log csv " + file + " --by-rate " + rates).exit_code == 0);
+    REQUIRE(command::run_jarol(counting + file + " --trace " + trace).exit_code == 0);
+    CHECK(command::run_jarol("log csv " + file).output == content(trace));
+    CHECK(command::run_jarol("log csv " + file + " --by-rate " + rates).exit_code == 0);
     std::size_t files = 0, rows = 0;
     for (const auto& entry : std::filesystem::directory_iterator(rates)) {
       const std::string text = content(entry.path());
@@ -138,11 +139,11 @@ connections: [count.out -> sum.in, sum.out -> flow.in]
     }
     CHECK(files > 1);
     CHECK(rows > 0);
-    const auto cat = command::jarol("log cat " + file + " --topic count.out --from 500ms --until 520ms");
+    const auto cat = command::run_jarol("log cat " + file + " --topic count.out --from 500ms --until 520ms");
     CHECK(has(cat.output, "0.5 count.out="));
     CHECK(!has(cat.output, "0.52 "));
     CHECK(!has(cat.output, "loop"));
-    const auto info = command::jarol("log info " + file);
+    const auto info = command::run_jarol("log info " + file);
     CHECK(info.exit_code == 0);
     CHECK(info.output.starts_with("counting: 2 s on the virtual clock, "));
     CHECK(has(info.output, "  count.out "));
@@ -153,16 +154,17 @@ connections: [count.out -> sum.in, sum.out -> flow.in]
     const std::string file = folder / "r.mcap", graph = folder.write("g.yaml", R"(graph: g
 tasks: {count: {type: Counter, period: 1ms}}
 )");
-    REQUIRE(command::jarol("run " + graph + " --for 20s --record " + file + " --record-compression none").exit_code ==
-            0);
-    const std::string bytes = content(file), told = command::jarol("log info --json " + file).output;
+    REQUIRE(
+        command::run_jarol("run " + graph + " --for 20s --record " + file + " --record-compression none").exit_code ==
+        0);
+    const std::string bytes = content(file), told = command::run_jarol("log info --json " + file).output;
     CHECK(has(told, R"("messages":20000)"));
     // published values in the middle of the file are not read for it
     std::string damaged = bytes;
     damaged[bytes.size() / 2] = static_cast<char>(damaged[bytes.size() / 2] ^ 1);
-    CHECK(command::jarol("log info --json " + folder.write("damaged", damaged)).output == told);
-    CHECK(command::jarol("log verify " + (folder / "damaged")).exit_code == 1);
-    const auto part = command::jarol("log info " + folder.write("part", bytes.substr(0, bytes.size() - 1)));
+    CHECK(command::run_jarol("log info --json " + folder.write("damaged", damaged)).output == told);
+    CHECK(command::run_jarol("log verify " + (folder / "damaged")).exit_code == 1);
+    const auto part = command::run_jarol("log info " + folder.write("part", bytes.substr(0, bytes.size() - 1)));
     CHECK(part.exit_code == 0);
     CHECK(has(part.output, "  breaks off at byte "));
   }
@@ -172,7 +174,7 @@ tasks: {count: {type: Counter, period: 1ms}}
     const std::string file = folder / "r.mcap", graph = folder.write("g.yaml", R"(graph: g
 tasks: {count: {type: Counter, period: 100ms}}
 )");
-    REQUIRE(command::jarol("run " + graph + " --for 1s --record " + file).exit_code == 0);
+    REQUIRE(command::run_jarol("run " + graph + " --for 1s --record " + file).exit_code == 0);
     std::string bytes = content(file);
     // by the command here and there; byte by byte in tests/runtime/record/mcap_test.cpp
     for (std::size_t i = 0; i < bytes.size(); i += 211) {
@@ -180,13 +182,13 @@ tasks: {count: {type: Counter, period: 100ms}}
       bytes[i] = static_cast<char>(bytes[i] ^ 4);
       folder.write("damaged", bytes);
       bytes[i] = static_cast<char>(bytes[i] ^ 4);
-      const int code = command::jarol("log verify " + (folder / "damaged")).exit_code;
+      const int code = command::run_jarol("log verify " + (folder / "damaged")).exit_code;
       CHECK((code == 1 || code == 2));
     }
   }
 
   TEST_CASE("options that would have no effect are refused") {
-    const auto error = [](const std::string& words) { return command::jarol(words).output; };
+    const auto error = [](const std::string& words) { return command::run_jarol(words).output; };
     const std::string run = "run specs/counting.yaml --for 1s ";
     CHECK(error(run + "--record x --log y") ==
           "error: --log writes what --record with --record-what inputs does; leave one of both out\n");

@@ -46,7 +46,7 @@ json read_trace(const std::string& text) {
 }
 
 json trace_of(const std::string& file) {
-  const auto trace = command::jarol("log trace " + file, "");
+  const auto trace = command::run_jarol("log trace " + file, "");
   CHECK(trace.exit_code == 0);
   return read_trace(trace.output);
 }
@@ -73,7 +73,7 @@ TEST_SUITE("tools/log_trace") {
   TEST_CASE("each release is an event on the track of its task, a span where it has a LET, as many as ran") {
     const TemporaryFolder folder;
     const std::string file = folder / "r.mcap", out = folder / "trace.json";
-    REQUIRE(command::jarol("run specs/counting.yaml --for 1990ms --record " + file).exit_code == 0);
+    REQUIRE(command::run_jarol("run specs/counting.yaml --for 1990ms --record " + file).exit_code == 0);
     const json trace = trace_of(file);
     auto counted = counts(trace);
     CHECK(counted ==
@@ -93,9 +93,9 @@ TEST_SUITE("tools/log_trace") {
     CHECK(trace.at("otherData").at("schema") == "jarol.log_trace/1");
     CHECK(trace.at("otherData").at("graph") == "counting");
     // the same as a file, which appears whole
-    CHECK(command::jarol("log trace " + file + " -o " + out).output == "");
+    CHECK(command::run_jarol("log trace " + file + " -o " + out).output == "");
     std::ifstream written(out);
-    CHECK(json::parse(written) == json::parse(command::jarol("log trace " + file, "").output));
+    CHECK(json::parse(written) == json::parse(command::run_jarol("log trace " + file, "").output));
   }
 
   TEST_CASE("each fault is marked at the instant of the outputs that it lacks") {
@@ -107,7 +107,7 @@ tasks:
   w: {type: Window, period: 10ms, let: 5ms, heap: 96B, on_fault: hold, parameters: {length: 100}}
 connections: [a.out -> w.in]
 )");
-    REQUIRE(command::jarol("run " + graph + " --for 200ms --record " + file).exit_code == 0);
+    REQUIRE(command::run_jarol("run " + graph + " --for 200ms --record " + file).exit_code == 0);
     const json trace = trace_of(file);
     auto counted = counts(trace);
     const RecordedRun run(file);
@@ -154,22 +154,22 @@ connections: [a.out -> b.in]
   }
 
   TEST_CASE("options of other commands are refused, and plugins are loaded only where the user names the graph") {
-    CHECK(command::jarol("log trace a --json", "2>&1 >/dev/null").output ==
+    CHECK(command::run_jarol("log trace a --json", "2>&1 >/dev/null").output ==
           "error: --json belongs to info, verify and diff\n");
-    CHECK(command::jarol("log trace a --topic x").output == "error: --topic belongs to cat, csv and diff\n");
-    CHECK(command::jarol("log cat a -o x").output == "error: --out belongs to trace and report\n");
+    CHECK(command::run_jarol("log trace a --topic x").output == "error: --topic belongs to cat, csv and diff\n");
+    CHECK(command::run_jarol("log cat a -o x").output == "error: --out belongs to trace and report\n");
     const TemporaryFolder folder;
     const std::string plugins = std::filesystem::absolute(JAROL_PLUGIN_FOLDER), file = folder / "r.mcap",
                       graph =
                           folder.write("g.yaml", "graph: g\nplugins: [" + plugins +
                                                      "/low_pass.so]\ntasks:\n  c: {type: Counter, period: 10ms}\n  l: "
                                                      "{type: LowPass, period: 10ms}\nconnections: [c.out -> l.in]\n");
-    REQUIRE(command::jarol("run " + graph + " --for 100ms --record " + file).exit_code == 0);
-    const auto refused = command::jarol("log trace " + file);
+    REQUIRE(command::run_jarol("run " + graph + " --for 100ms --record " + file).exit_code == 0);
+    const auto refused = command::run_jarol("log trace " + file);
     CHECK(refused.exit_code == 2);
     CAPTURE(refused.output);
     CHECK(refused.output.find("name it yourself: jarol log trace FILE GRAPH") != std::string::npos);
-    CHECK(counts(read_trace(command::jarol("log trace " + file + " " + graph, "2>/dev/null").output))["release l"] ==
-          10);
+    CHECK(counts(read_trace(
+              command::run_jarol("log trace " + file + " " + graph, "2>/dev/null").output))["release l"] == 10);
   }
 }

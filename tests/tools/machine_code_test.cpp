@@ -8,13 +8,14 @@
 #include <sstream>
 
 #include "graph/plugins/plugins.h"
+#include "tests/tools/plugin_library.h"
 #include "tests/tools/run_command.h"
 #include "tools/library/built_in.h"
 
 namespace {
 using namespace jarol;
+using jarol::tests::library;
 
-std::string library(const std::string& name) { return std::string(JAROL_PLUGIN_FOLDER) + "/" + name + ".so"; }
 std::string rounds(int how) { return library("rounds_" + std::to_string(how)); }
 
 [[maybe_unused]] bool is_trusted(const std::string& task, const std::string& path) {
@@ -85,7 +86,7 @@ TEST_SUITE("tools/machine_code") {
       const std::string graph =
           folder.write("g.yaml", "graph: g\nplugins: [" + std::filesystem::absolute(rounds(how)).string() +
                                      "]\ntiming: {period: 10ms}\ntasks: {a: {type: Rounds, isolation: weak}}\n");
-      const auto done = command::jarol("run " + graph + " --for 100ms", "2>&1");
+      const auto done = command::run_jarol("run " + graph + " --for 100ms", "2>&1");
       CHECK(done.exit_code == (how == 0 ? 0 : 3));
       CHECK((done.output.find("task 'a' activation 1 at 0.01 s: threw: left another floating-point environment behind: "
                               "rounding upward") != std::string::npos) == (how != 0));

@@ -5,16 +5,16 @@
 
 #include "tests/tools/run_command.h"
 
-using command::jarol;
+using command::run_jarol;
 
 TEST_SUITE("tools/messages") {
   TEST_CASE("sets, messages and fields are listed") {
-    CHECK(jarol("messages").output.find("  javiator  23 messages  JAviator 1: JAviator control protocol\n") !=
+    CHECK(run_jarol("messages").output.find("  javiator  23 messages  JAviator 1: JAviator control protocol\n") !=
           std::string::npos);
-    const std::string imc = jarol("messages imc").output;
+    const std::string imc = run_jarol("messages imc").output;
     CHECK(imc.starts_with("imc: Inter Module Communication, IMC 5.4.31\n\n"));
     CHECK(imc.find("\n  401   DesiredZ") != std::string::npos);
-    const auto one = jarol("messages imc DesiredZ");
+    const auto one = run_jarol("messages imc DesiredZ");
     CHECK(one.exit_code == 0);
     CHECK(one.output ==
           "DesiredZ, id 401, 5 bytes: Reference of depth, altitude or height.\n\n"
@@ -27,7 +27,7 @@ TEST_SUITE("tools/messages") {
   }
 
   TEST_CASE("the same as JSON") {
-    const auto one = nlohmann::json::parse(jarol("messages imc DesiredZ --json").output);
+    const auto one = nlohmann::json::parse(run_jarol("messages imc DesiredZ --json").output);
     CHECK(one["schema"] == "jarol.messages/1");
     REQUIRE(one["messages"].size() == 1);
     CHECK(one["messages"][0]["name"] == "DesiredZ");
@@ -35,23 +35,23 @@ TEST_SUITE("tools/messages") {
     CHECK(one["messages"][0]["fields"][0] ==
           nlohmann::json{{"name", "value"}, {"type", "fp32_t"}, {"unit", "m"}, {"text", "distance"}});
     CHECK(one["messages"][0]["fields"][1]["values"]["DEPTH"] == 1);
-    const auto all = nlohmann::json::parse(jarol("messages --json").output);
+    const auto all = nlohmann::json::parse(run_jarol("messages --json").output);
     CHECK(all["messages"].size() > 100);
   }
 
   TEST_CASE("packets are decoded and encoded from stdin") {
     // the command stands on both sides of the pipes
     const std::string again = " | " + std::string(JAROL_COMMAND) + " messages javiator ";
-    const auto decoded = jarol("--version > /dev/null; echo ffff11000011" + again + "--decode");
+    const auto decoded = run_jarol("--version > /dev/null; echo ffff11000011" + again + "--decode");
     CHECK(decoded.output.find(R"("name":"SWITCH_STATE")") != std::string::npos);
     const auto there_and_back =
-        jarol("--version > /dev/null; echo ffff0f021f400070" + again + "--decode" + again + "--encode");
+        run_jarol("--version > /dev/null; echo ffff0f021f400070" + again + "--decode" + again + "--encode");
     CHECK(there_and_back.output == "ffff0f021f400070\n");
   }
 
   TEST_CASE("what is not there is said") {
     const auto error = [](const std::string& arguments) {
-      const auto result = jarol("messages " + arguments);
+      const auto result = run_jarol("messages " + arguments);
       CHECK(result.exit_code == 2);
       return result.output;
     };

@@ -26,7 +26,7 @@ TEST_SUITE("tools/new") {
   TEST_CASE("a project is named after its folder, and its files are said") {
     const TemporaryFolder folder;
     const std::string place = folder / "pump_2";
-    CHECK(command::jarol("new " + place).output ==
+    CHECK(command::run_jarol("new " + place).output ==
           "made '" + place +
               "' with\n  .gitignore\n  CMakeLists.txt\n  README.md\n  plugin.cpp\n  pump_2.yaml\n  "
               "tasks/hold_level.h\n  tests/graph_test.cpp\nnext: cd " +
@@ -41,8 +41,8 @@ TEST_SUITE("tools/new") {
   TEST_CASE("an empty folder becomes the project, also by the name '.'") {
     const TemporaryFolder folder;
     fs::create_directory(folder / "rover");
-    CHECK(command::jarol("new . --vehicle", "2>&1",
-                         "cd " + (folder / "rover") + " && " + fs::absolute(JAROL_COMMAND).string())
+    CHECK(command::run_jarol("new . --vehicle", "2>&1",
+                             "cd " + (folder / "rover") + " && " + fs::absolute(JAROL_COMMAND).string())
               .exit_code == 0);
     CHECK(names_in(folder / "rover") == std::vector<std::string>{".gitignore", "CMakeLists.txt", "README.md",
                                                                  "distributer", "messages", "plugin.cpp", "rover.yaml",
@@ -71,7 +71,7 @@ TEST_SUITE("tools/new") {
         {"test", "error: 'test' can't name a project, as it names a target of every build; choose another\n"},
     };
     for (const auto& [name, says] : wrong) {
-      const auto result = command::jarol("new " + (folder / name));
+      const auto result = command::run_jarol("new " + (folder / name));
       CHECK(result.output == says);
       CHECK(result.exit_code == 2);
     }
@@ -81,7 +81,7 @@ TEST_SUITE("tools/new") {
   }
 
   TEST_CASE("where it can't be written, nothing is left") {
-    const auto result = command::jarol("new /proc/a");
+    const auto result = command::run_jarol("new /proc/a");
     CHECK(result.output == "error: can't make a folder in '/proc'\n");
     CHECK(result.exit_code != 0);
     CHECK_FALSE(fs::exists("/proc/a"));

@@ -7,12 +7,12 @@
 #include "tests/tools/run_command.h"
 
 namespace {
-using command::jarol;
+using command::run_jarol;
 using command::TemporaryFolder;
 
 void check_refused(const std::string& arguments, const std::string& message) {
   CAPTURE(arguments);
-  const auto refused = jarol(arguments, "2>&1 >/dev/null");
+  const auto refused = run_jarol(arguments, "2>&1 >/dev/null");
   CHECK(refused.exit_code == 2);
   CHECK(refused.output == "error: " + message + "\n");
 }
@@ -49,13 +49,15 @@ TEST_SUITE("tools/options") {
     check_refused(check + "--for 1s",
                   "--for says how long to measure, and a verdict holds for ever; add --measure or --write, or leave it "
                   "out");
-    CHECK(jarol(check + "--measure --for 1s").exit_code == 0);
+    CHECK(run_jarol(check + "--measure --for 1s").exit_code == 0);
   }
 
   TEST_CASE("check: what is asked for and not there is told") {
     const TemporaryFolder folder;
     const std::string svg = folder / "none.svg";
-    const auto note_on = [](const std::string& arguments) { return jarol("check " + arguments, "2>&1 >/dev/null"); };
+    const auto note_on = [](const std::string& arguments) {
+      return run_jarol("check " + arguments, "2>&1 >/dev/null");
+    };
     const std::string without = folder.write("w.yaml", "{graph: w, tasks: {a: {type: Counter, period: 1ms}}}\n");
     const auto good = note_on(without + " --svg " + svg);
     CHECK(good.exit_code == 3);
@@ -85,7 +87,7 @@ TEST_SUITE("tools/options") {
     }
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", text + connections + "  - " + before + " -> o\n");
-    const auto told = jarol("check --chains " + file);
+    const auto told = run_jarol("check --chains " + file);
     CHECK(told.output.starts_with("note: --chains tells 1000 paths, there are more\n"));
     std::size_t count = 0;
     for (std::size_t at = 0; (at = told.output.find("\n  chain i -> ", at)) != std::string::npos; ++at) ++count;
@@ -102,7 +104,7 @@ TEST_SUITE("tools/options") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", text);
     for (const std::string paths : {"", " --chains"}) {
-      const auto told = jarol("check " + file + paths);
+      const auto told = run_jarol("check " + file + paths);
       CHECK(told.exit_code == 1);
       CHECK(told.output.find("    LIMIT BROKEN: reaction 20ms over 19ms\n") != std::string::npos);
       CHECK(told.output.find("there are more") == std::string::npos);
@@ -153,21 +155,21 @@ TEST_SUITE("tools/options") {
 
   TEST_CASE("vehicle: on TCP it listens, unless it is told whom to connect to") {
     const std::string tcp = "vehicle helicopter --for 20ms --link tcp ";
-    CHECK(jarol(tcp + "--listen 0").output.starts_with("helicopter: tcp at 127.0.0.1:0, until Ctrl-C\n"));
-    CHECK(jarol(tcp + "--peer 1").output.starts_with("helicopter: tcp to 127.0.0.1:1, until Ctrl-C\n"));
-    CHECK(jarol(tcp).output.starts_with("--link:1:1: error: link lacks the key 'listen': port to listen at"));
+    CHECK(run_jarol(tcp + "--listen 0").output.starts_with("helicopter: tcp at 127.0.0.1:0, until Ctrl-C\n"));
+    CHECK(run_jarol(tcp + "--peer 1").output.starts_with("helicopter: tcp to 127.0.0.1:1, until Ctrl-C\n"));
+    CHECK(run_jarol(tcp).output.starts_with("--link:1:1: error: link lacks the key 'listen': port to listen at"));
   }
 
   TEST_CASE("vehicle: a key is read before anything else, on each link that can have one") {
     const std::string why = "the key file 'no_such.key' can't be read: No such file or directory; make one by: ";
     for (const std::string link : {"udp --listen 0", "tcp --listen 0", "tcp --peer 1"}) {
-      const auto refused = jarol("vehicle submarine --link " + link + " --key no_such.key");
+      const auto refused = run_jarol("vehicle submarine --link " + link + " --key no_such.key");
       CHECK(refused.exit_code == 2);
       CHECK(refused.output.starts_with("--key:1:1: error: " + why));
     }
     check_refused("vehicle submarine --link lockstep --listen 7010 --key no_such.key",
                   why + "(umask 077; head -c 32 /dev/urandom > no_such.key)");
-    CHECK(jarol("vehicle submarine --link serial --device x --key no_such.key")
+    CHECK(run_jarol("vehicle submarine --link serial --device x --key no_such.key")
               .output.starts_with(
                   "--key:1:1: error: link has no key 'key'; it has: type, device, baud, id, source, port"));
   }

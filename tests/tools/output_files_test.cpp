@@ -96,11 +96,11 @@ TEST_SUITE("tools/output_files") {
       CAPTURE(signal);
       // in the foreground: what a shell starts in the background ignores SIGINT
       const std::string pid = folder / "pid";
-      const auto ended = command::jarol("schema > /dev/null; (for i in $(seq 600); do ls " + csv +
-                                        ".*.part >/dev/null 2>&1 && break; sleep 0.05; done; kill -" + signal +
-                                        " $(cat " + pid + ")) & exec sh -c 'echo $$ > " + pid +
-                                        "; exec " JAROL_COMMAND " vehicle submarine --for 100000s --script " + script +
-                                        " --csv " + csv + "'");
+      const auto ended = command::run_jarol("schema > /dev/null; (for i in $(seq 600); do ls " + csv +
+                                            ".*.part >/dev/null 2>&1 && break; sleep 0.05; done; kill -" + signal +
+                                            " $(cat " + pid + ")) & exec sh -c 'echo $$ > " + pid +
+                                            "; exec " JAROL_COMMAND " vehicle submarine --for 100000s --script " +
+                                            script + " --csv " + csv + "'");
       CHECK(ended.exit_code == -1);  // by the signal
       CHECK(ended.output == "");
       CHECK(partials_in(folder) == 0);
@@ -115,28 +115,28 @@ TEST_SUITE("tools/output_files") {
                       run = "run specs/counting.yaml --for 1s --trace " + (folder / "t.csv");
     const int writer = ::open(live.c_str(), O_WRONLY);
     REQUIRE(::flock(writer, LOCK_EX | LOCK_NB) == 0);
-    CHECK(command::jarol(run).exit_code == 0);
+    CHECK(command::run_jarol(run).exit_code == 0);
     CHECK(content(live) == "half");
     ::close(writer);
-    CHECK(command::jarol(run).exit_code == 0);
+    CHECK(command::run_jarol(run).exit_code == 0);
     CHECK(!fs::exists(live));
   }
 
   TEST_CASE("what a killed run left half written the next one removes that writes the same file, and nothing else") {
     const TemporaryFolder folder;
     const std::string trace = folder / "t.csv";
-    const auto ended = command::jarol("schema > /dev/null; " JAROL_COMMAND
-                                      " run specs/counting.yaml --clock real --for 1h"
-                                      " --trace " +
-                                      trace + " & id=$!; until ls " + trace +
-                                      ".*.part >/dev/null 2>&1; do sleep 0.01; done; kill -KILL $id; wait $id");
+    const auto ended = command::run_jarol("schema > /dev/null; " JAROL_COMMAND
+                                          " run specs/counting.yaml --clock real --for 1h"
+                                          " --trace " +
+                                          trace + " & id=$!; until ls " + trace +
+                                          ".*.part >/dev/null 2>&1; do sleep 0.01; done; kill -KILL $id; wait $id");
     CHECK(ended.exit_code == 128 + 9);
     CHECK(partials_in(folder) == 1);
     CHECK(!fs::exists(trace));
     const std::vector<std::string> others{folder.write("t.csv.part", "other"), folder.write("t.csv.1x.part", "other"),
                                           folder.write("s.csv.12.part", "other"), folder.write("t.csv.12.parts", "x")};
     fs::create_symlink("t.csv.part", folder / "t.csv.12.part");
-    CHECK(command::jarol("run specs/counting.yaml --for 1s --trace " + trace).exit_code == 0);
+    CHECK(command::run_jarol("run specs/counting.yaml --for 1s --trace " + trace).exit_code == 0);
     CHECK(fs::exists(trace));
     for (const std::string& other : others) CHECK(fs::exists(other));
     CHECK(fs::is_symlink(folder / "t.csv.12.part"));
@@ -148,7 +148,7 @@ TEST_SUITE("tools/output_files") {
     // a node of one's own is for root
     const std::string full = folder / "full";
     if (::mknod(full.c_str(), S_IFCHR | 0666, makedev(1, 7)) == 0) {
-      const auto failed = command::jarol("run specs/counting.yaml --for 1s --trace " + full);
+      const auto failed = command::run_jarol("run specs/counting.yaml --for 1s --trace " + full);
       CHECK(failed.exit_code != 0);
       CHECK(failed.output.find("error: can't write '" + full + "': No space left on device\n") != std::string::npos);
       CHECK(fs::is_character_file(full));
@@ -156,15 +156,15 @@ TEST_SUITE("tools/output_files") {
     const std::string fifo = folder / "fifo", copy = folder / "copy", trace = folder / "trace.csv";
     REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
     REQUIRE(std::system(("timeout 60 cat " + fifo + " > " + copy + " &").c_str()) == 0);
-    CHECK(command::jarol("run specs/counting.yaml --for 1s --trace " + fifo).exit_code == 0);
-    CHECK(command::jarol("run specs/counting.yaml --for 1s --trace " + trace).exit_code == 0);
+    CHECK(command::run_jarol("run specs/counting.yaml --for 1s --trace " + fifo).exit_code == 0);
+    CHECK(command::run_jarol("run specs/counting.yaml --for 1s --trace " + trace).exit_code == 0);
     CHECK(fs::is_fifo(fifo));
     for (int i = 0; i < 1000 && content(copy) != content(trace); ++i) ::usleep(20'000);
     CHECK(content(copy) == content(trace));
-    CHECK(command::jarol("run specs/counting.yaml --for 1s --trace /dev/stdout", "2>/dev/null")
+    CHECK(command::run_jarol("run specs/counting.yaml --for 1s --trace /dev/stdout", "2>/dev/null")
               .output.starts_with(content(trace) + "counting: 1 s"));
     // also where that is a file, which then holds both
-    command::jarol("run specs/counting.yaml --for 1s --trace /dev/stdout > " + copy);
+    command::run_jarol("run specs/counting.yaml --for 1s --trace /dev/stdout > " + copy);
     CHECK(content(copy).starts_with(content(trace) + "counting: 1 s"));
   }
 
@@ -174,7 +174,7 @@ TEST_SUITE("tools/output_files") {
     fs::copy_file("specs/counting.yaml", graph, fs::copy_options::overwrite_existing);
     fs::create_symlink(graph, link);
     const auto refusal = [&](const std::string& arguments) {
-      const auto result = command::jarol(arguments);
+      const auto result = command::run_jarol(arguments);
       CHECK(result.exit_code == 2);
       return result.output;
     };
@@ -187,7 +187,7 @@ TEST_SUITE("tools/output_files") {
     CHECK(refusal("check " + graph + " --svg " + graph) ==
           "error: --svg '" + graph + "' would replace what FILE names; choose another file\n");
     CHECK(content(graph) == content("specs/counting.yaml"));
-    CHECK(command::jarol("run " + graph + " --for 1s --trace /dev/null --plot /dev/null").exit_code == 0);
+    CHECK(command::run_jarol("run " + graph + " --for 1s --trace /dev/null --plot /dev/null").exit_code == 0);
   }
 
   TEST_CASE("no output takes the place of a file that the run has read, by whatever name") {
@@ -205,7 +205,7 @@ TEST_SUITE("tools/output_files") {
 #ifndef JAROL_VEHICLES
           if (true) continue;
 #endif
-          const auto refused = command::jarol("run " + graph + " --for 1s " + option + " " + name);
+          const auto refused = command::run_jarol("run " + graph + " --for 1s " + option + " " + name);
           CHECK(refused.exit_code == 2);
           CHECK(refused.output ==
                 "error: can't write '" + name + "': it is '" + path + "', which was read; choose another file\n");
@@ -221,7 +221,7 @@ tasks: {a: {type: Counter, period: 10ms}}
 )");
     fs::permissions(key, fs::perms(0600));
     for (const std::string option : {"--trace", "--plot", "--log", "--record"}) {
-      const auto refused = command::jarol(
+      const auto refused = command::run_jarol(
           "run " + spec + " --clock real --for 50ms --set distributers.v.link.key=" + key + " " + option + " " + key);
       CHECK(refused.exit_code == 2);
       CHECK(refused.output.ends_with("error: can't write '" + key + "': it is '" + key +
@@ -233,14 +233,14 @@ tasks: {a: {type: Counter, period: 10ms}}
                       with = folder.write("w.yaml",
                                           "graph: g\nplugins: [t.so]\ntasks: {a: {type: Counter, period: 10ms}}\n");
     fs::copy_file(std::string(JAROL_PLUGIN_FOLDER) + "/twice.so", so);
-    CHECK(command::jarol("run " + with + " --for 1s --trace " + so, "2>&1 >/dev/null")
+    CHECK(command::run_jarol("run " + with + " --for 1s --trace " + so, "2>&1 >/dev/null")
               .output.ends_with("error: can't write '" + so + "': it is '" + so +
                                 "', which was read; choose another file\n"));
     const std::string log = folder / "log", same = folder / "same";
-    REQUIRE(command::jarol("run specs/counting.yaml --for 1s --log " + log).exit_code == 0);
+    REQUIRE(command::run_jarol("run specs/counting.yaml --for 1s --log " + log).exit_code == 0);
     fs::create_hard_link(log, same);
-    CHECK(command::jarol("replay " + log + " --trace " + same).exit_code == 2);
-    CHECK(command::jarol("replay " + log).exit_code == 0);
+    CHECK(command::run_jarol("replay " + log + " --trace " + same).exit_code == 2);
+    CHECK(command::run_jarol("replay " + log).exit_code == 0);
   }
 
   TEST_CASE("of two runs into one log the second is refused, and the first goes on") {
@@ -250,7 +250,7 @@ tasks: {a: {type: Counter, period: 10ms}}
     const auto loaded = jarol::tools::load_graph("specs/counting.yaml", {});
     jarol::RecordingWriter first(log, header, {}, *loaded.graph);
     first.open();
-    const auto second = command::jarol("run specs/counting.yaml --for 1s --log " + log);
+    const auto second = command::run_jarol("run specs/counting.yaml --for 1s --log " + log);
     CHECK(second.exit_code == 2);
     CHECK(second.output ==
           "error: can't write '" + log + "': another run writes it; choose another file, or wait until that ends\n");
@@ -265,7 +265,7 @@ tasks: {a: {type: Counter, period: 10ms}}
     const auto size = fs::file_size(own);
     for (const std::string option : {"--trace ", "--plot ", "--log "}) {
       CAPTURE(option);
-      const auto refused = command::jarol("run specs/counting.yaml --for 1s " + option + own, "2>&1", own);
+      const auto refused = command::run_jarol("run specs/counting.yaml --for 1s " + option + own, "2>&1", own);
       CHECK(refused.exit_code == 2);
       CHECK(refused.output ==
             "error: can't write '" + own + "': it is '" + own + "', which was read; choose another file\n");
@@ -277,9 +277,9 @@ tasks: {a: {type: Counter, period: 10ms}}
     const TemporaryFolder folder;
     const std::string graphs = folder / "g", third = graphs + "/waters_7.yaml";
     const std::string generate = "check --generate waters -o " + graphs + " --count 3 --seed ";
-    CHECK(command::jarol(generate + "5").exit_code == 0);
+    CHECK(command::run_jarol(generate + "5").exit_code == 0);
     std::ofstream(third) << "mine";
-    const auto refused = command::jarol(generate + "3");
+    const auto refused = command::run_jarol(generate + "3");
     CHECK(refused.exit_code == 2);
     CHECK(refused.output == "error: '" + graphs +
                                 "/waters_5.yaml' is there, and --generate overwrites nothing; choose another folder or "
@@ -300,15 +300,15 @@ tasks: {a: {type: Counter, period: 10ms}}
       for (const std::string command : {"run specs/counting.yaml --for 1s", "run specs/counting.yaml --for 1s --json",
                                         "tasks", "schema", "--help"}) {
         CAPTURE(command + to);
-        const auto failed = command::jarol(command, "2>&1 " + to);
+        const auto failed = command::run_jarol(command, "2>&1 " + to);
         CHECK(failed.exit_code == 3);
         CHECK(failed.output ==
               "error: can't write to stdout, what stands there is not whole; is the disk full, or stdout closed?\n");
       }
-    CHECK(command::jarol("tasks", ">/dev/null 2>&1").exit_code == 0);
+    CHECK(command::run_jarol("tasks", ">/dev/null 2>&1").exit_code == 0);
     // and no other file takes the place of a stdout that is closed
     const TemporaryFolder folder;
-    command::jarol("run specs/counting.yaml --for 1s --trace " + (folder / "t.csv"), ">&- 2>/dev/null");
+    command::run_jarol("run specs/counting.yaml --for 1s --trace " + (folder / "t.csv"), ">&- 2>/dev/null");
     CHECK(content(folder / "t.csv").starts_with("time,"));
     CHECK(content(folder / "t.csv").find("digest") == std::string::npos);
   }

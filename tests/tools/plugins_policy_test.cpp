@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/plugins/plugins.h"
+#include "tests/tools/plugin_library.h"
 #include "tests/tools/run_command.h"
 #include "tools/edit/catalogue.h"
 #include "tools/library/built_in.h"
@@ -13,8 +14,15 @@
 namespace {
 using namespace jarol;
 using command::TemporaryFolder;
+using jarol::tests::library;
 
-std::string library(const std::string& name) { return std::string(JAROL_PLUGIN_FOLDER) + "/" + name + ".so"; }
+std::string refusal(const std::string& arguments) {
+  const auto result = command::run_jarol(arguments, "2>&1 >/dev/null");
+  CHECK(result.exit_code == 2);
+  const std::size_t begin = result.output.find("error: ");
+  return begin == std::string::npos ? result.output
+                                    : result.output.substr(begin, result.output.find('\n', begin) - begin);
+}
 
 // In a table `fast` waits too long for `slow`.
 std::string graph_with(const std::string& plugins) {
@@ -30,14 +38,6 @@ std::string with_plugin() {
 }
 
 // The first line on what is wrong, without its place.
-std::string error_of(const std::string& arguments) {
-  const auto result = command::jarol(arguments, "2>&1 >/dev/null");
-  CHECK(result.exit_code == 2);
-  const std::size_t begin = result.output.find("error: ");
-  return begin == std::string::npos ? result.output
-                                    : result.output.substr(begin, result.output.find('\n', begin) - begin);
-}
-
 const std::string names = "table, fixed_priority, edf, fixed_priority_nonpreemptive, edf_nonpreemptive, global_edf";
 }  // namespace
 
@@ -45,14 +45,14 @@ TEST_SUITE("tools/plugins_policy") {
   TEST_CASE("a plugin brings a policy, and a graph with it is judged by it") {
     const TemporaryFolder folder;
     const std::string graph = folder.write("g.yaml", with_plugin());
-    const auto good = command::jarol("check " + graph, "2>/dev/null");
+    const auto good = command::run_jarol("check " + graph, "2>/dev/null");
     CHECK(good.output.starts_with(
         graph + ": SCHEDULABLE on one core (rate_monotonic), safe: the hyperbolic bound holds (Bini, Buttazzo)\n"));
     CHECK(good.output.find("assumed: the task with the shortest period runs, interrupting others; 'run' does not "
                            "execute this, without overhead\n") != std::string::npos);
     CHECK(good.exit_code == 0);
     const auto json = [&](const std::string& more) {
-      return nlohmann::json::parse(command::jarol("check --json " + graph + more, "2>/dev/null").output);
+      return nlohmann::json::parse(command::run_jarol("check --json " + graph + more, "2>/dev/null").output);
     };
     CHECK(json("")["policy"] == "rate_monotonic");
     CHECK(json("")["tasks"][0]["response_ns"].is_null());
@@ -66,10 +66,10 @@ TEST_SUITE("tools/plugins_policy") {
     const TemporaryFolder folder;
     const std::string graph = folder.write("g.yaml", with_plugin());
     // on a given core, where a second one does not help
-    const auto report = command::jarol("check " + graph +
-                                           " --set platform.policy=edf_nonpreemptive --set tasks.fast.core=0 --set "
-                                           "tasks.slow.core=0",
-                                       "2>/dev/null");
+    const auto report = command::run_jarol("check " + graph +
+                                               " --set platform.policy=edf_nonpreemptive --set tasks.fast.core=0 --set "
+                                               "tasks.slow.core=0",
+                                           "2>/dev/null");
     CAPTURE(report.output);
     CHECK(report.output.find("'policy: rate_monotonic', which 'run' does not execute\n") != std::string::npos);
     CHECK(report.exit_code == 1);
@@ -78,12 +78,12 @@ TEST_SUITE("tools/plugins_policy") {
   TEST_CASE("what runs when follows from its urgency, on the virtual clock and not on the real one") {
     const TemporaryFolder folder;
     const std::string graph = folder.write("g.yaml", with_plugin());
-    const auto ran = command::jarol("run " + graph + " --for 1s --execution wcet", "2>/dev/null");
+    const auto ran = command::run_jarol("run " + graph + " --for 1s --execution wcet", "2>/dev/null");
     CAPTURE(ran.output);
     CHECK(ran.output.find("  execution   wcet, by rate_monotonic on one core\n") != std::string::npos);
     CHECK(ran.output.find("late") == std::string::npos);
     CHECK(ran.exit_code == 0);
-    CHECK(error_of("run " + graph + " --clock real --for 200ms") ==
+    CHECK(refusal("run " + graph + " --clock real --for 200ms") ==
           "error: '" + graph +
               "' has the policy 'rate_monotonic'; the real clock executes 'table' and 'fixed_priority'; choose one by "
               "--set platform.policy=table");
@@ -94,14 +94,14 @@ TEST_SUITE("tools/plugins_policy") {
     const std::string with = folder.write("with.yaml", with_plugin()),
                       without = folder.write("without.yaml", graph_with("")),
                       lost = folder.write("lost.yaml", graph_with("plugins: [lost.so]\n"));
-    CHECK(error_of("check " + without) ==
+    CHECK(refusal("check " + without) ==
           "error: 'platform' key 'policy' can't be 'rate_monotonic'; it is one of " + names);
-    CHECK(error_of("check " + with + " --set platform.policy=rate_monotone") ==
+    CHECK(refusal("check " + with + " --set platform.policy=rate_monotone") ==
           "error: 'platform' key 'policy' can't be 'rate_monotone'; did you mean 'rate_monotonic'?; it is one of " +
               names + ", rate_monotonic");
     // one that is not there may have had it
-    CHECK(error_of("check " + lost) == "error: there is no file '" + (folder / "lost.so") + "'");
-    CHECK(command::jarol("check " + lost).output.find("key 'policy'") == std::string::npos);
+    CHECK(refusal("check " + lost) == "error: there is no file '" + (folder / "lost.so") + "'");
+    CHECK(command::run_jarol("check " + lost).output.find("key 'policy'") == std::string::npos);
     const auto catalogue = tools::edit::catalogue_of(tools::known_with({library("rate_monotonic")}));
     for (const auto& key : catalogue["keys"]["platform"])
       if (key["name"] == "policy") CHECK(key["choices"].back() == "rate_monotonic");

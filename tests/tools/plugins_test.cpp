@@ -8,6 +8,7 @@
 #include "graph/floating_point.h"
 #include "graph/plugins/plugin.h"
 #include "runtime/record/recording_writer.h"
+#include "tests/tools/plugin_library.h"
 #include "tests/tools/run_command.h"
 #include "tools/library/built_in.h"
 #include "tools/run/load_graph.h"
@@ -15,8 +16,7 @@
 namespace {
 using command::content;
 using namespace jarol;
-
-std::string library(const std::string& name) { return std::string(JAROL_PLUGIN_FOLDER) + "/" + name + ".so"; }
+using jarol::tests::library;
 
 // What is said of a library after its name; then nothing of it was added, and nothing changed here.
 std::string report_on(const std::string& name) {
@@ -59,7 +59,7 @@ TEST_SUITE("tools/plugins") {
 tasks: {a: {type: Counter, period: 10ms}, b: {type: Twice, period: 10ms}}
 connections: [a.out -> b.in]
 )");
-      const auto done = command::jarol("run " + graph + " --for 1s --trace -", "2>/dev/null");
+      const auto done = command::run_jarol("run " + graph + " --for 1s --trace -", "2>/dev/null");
       CHECK(done.exit_code == 0);
       return done.output;
     };
@@ -152,22 +152,22 @@ connections: [a.out -> b.in]
     for (const std::string command :
          {"run --for 100ms ", "check ", "check --measure --for 1s ", "graph ", "graph --json "}) {
       CAPTURE(command);
-      const auto loaded = command::jarol(command + graph, "2>&1 >/dev/null");
+      const auto loaded = command::run_jarol(command + graph, "2>&1 >/dev/null");
       CHECK(loaded.exit_code == 0);
       CHECK(loaded.output.starts_with(note));
       CHECK(loaded.output.find(note, 1) == std::string::npos);
-      const auto refused = command::jarol(command + graph + " --no-plugins", "2>&1 >/dev/null");
+      const auto refused = command::run_jarol(command + graph + " --no-plugins", "2>&1 >/dev/null");
       CHECK(refused.exit_code == 2);
       CHECK(refused.output.starts_with(graph + ":2:11: error: plugin '" + so +
                                        "' is not loaded: --no-plugins refuses it; leave that out, or the plugin\n"));
       CHECK(refused.output.find(note) == std::string::npos);
     }
-    REQUIRE(command::jarol("run --for 100ms " + graph + " --log " + log).exit_code == 0);
-    const auto replay = command::jarol("replay " + log + " " + graph, "2>&1 >/dev/null");
+    REQUIRE(command::run_jarol("run --for 100ms " + graph + " --log " + log).exit_code == 0);
+    const auto replay = command::run_jarol("replay " + log + " " + graph, "2>&1 >/dev/null");
     CHECK(replay.exit_code == 0);
     CHECK(replay.output == note);
-    CHECK(command::jarol("replay --no-plugins " + log + " " + graph).exit_code == 2);
-    CHECK(command::jarol("run --no-plugins specs/counting.yaml --for 100ms").exit_code == 0);
+    CHECK(command::run_jarol("replay --no-plugins " + log + " " + graph).exit_code == 2);
+    CHECK(command::run_jarol("run --no-plugins specs/counting.yaml --for 100ms").exit_code == 0);
   }
 
   TEST_CASE("a log never brings code: neither by its overrides nor by the graph that it names") {
@@ -179,24 +179,24 @@ connections: [a.out -> b.in]
 )");
     const std::string log = folder / "log", set = " --set plugins=[" + so + "]",
                       note = "note: loads plugin '" + so + "'\n";
-    const auto run = command::jarol("run --for 100ms " + graph + set + " --log " + log, "2>&1 >/dev/null");
+    const auto run = command::run_jarol("run --for 100ms " + graph + set + " --log " + log, "2>&1 >/dev/null");
     CHECK(run.exit_code == 0);
     CHECK(run.output ==
           note + "note: the recording does not name the plugins of --set; give them again to jarol replay\n");
-    CHECK(command::jarol("replay " + log + set, "2>&1 >/dev/null").output == note);
-    CHECK(command::jarol("replay " + log + " " + graph + set).exit_code == 0);
-    CHECK(command::jarol("replay " + log).exit_code == 2);
+    CHECK(command::run_jarol("replay " + log + set, "2>&1 >/dev/null").output == note);
+    CHECK(command::run_jarol("replay " + log + " " + graph + set).exit_code == 0);
+    CHECK(command::run_jarol("replay " + log).exit_code == 2);
 
     // a graph that was recorded with the plugin that it names
     const std::string naming = folder.write("naming.yaml", content(graph) + "plugins: [" + so + "]\n");
-    REQUIRE(command::jarol("run --for 100ms " + naming + " --log " + log).exit_code == 0);
-    const auto named = command::jarol("replay " + log, "2>&1 >/dev/null");
+    REQUIRE(command::run_jarol("run --for 100ms " + naming + " --log " + log).exit_code == 0);
+    const auto named = command::run_jarol("replay " + log, "2>&1 >/dev/null");
     CHECK(named.exit_code == 2);
     CHECK(named.output.find(naming + ":4:11: error: plugin '" + so +
                             "' is not loaded: the recording names this graph, and a recording names no code; name it "
                             "yourself: jarol replay LOG FILE\n") != std::string::npos);
     CHECK(named.output.find(note) == std::string::npos);
-    CHECK(command::jarol("replay " + log + " " + naming).exit_code == 0);
+    CHECK(command::run_jarol("replay " + log + " " + naming).exit_code == 0);
 
     // whoever writes a log with plugins of its own, and mends its sums
     for (const std::string path : {"plugins", "plugins.x"}) {
@@ -210,7 +210,7 @@ connections: [a.out -> b.in]
       writer.open();
       writer.close({});
       for (const std::string& words : {made, made + " " + graph}) {
-        const auto refused = command::jarol("replay " + words, "2>&1 >/dev/null");
+        const auto refused = command::run_jarol("replay " + words, "2>&1 >/dev/null");
         CHECK(refused.exit_code == 2);
         CHECK(refused.output == "error: '" + made + "' sets '" + path + "=[" + so +
                                     "]', and a recording names no code to load; it is none that jarol run has "

@@ -10,14 +10,14 @@
 #include "distributers/links/descriptor.h"
 #include "distributers/registries.h"
 #include "graph/plugins/plugins.h"
+#include "tests/tools/plugin_library.h"
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
 #include "tools/library/built_in.h"
 
 namespace {
 using namespace jarol;
-
-std::string library(const std::string& name) { return std::string(JAROL_PLUGIN_FOLDER) + "/" + name + ".so"; }
+using jarol::tests::library;
 
 // The other end of a link of local sockets, which answers with what it gets.
 class LocalEnd {
@@ -68,26 +68,26 @@ tasks: {count: {type: Counter, let: 10ms}}
 connections: [count.out -> level]
 expect: [light of lamp within 0.1 of 291]
 )");
-    const auto ran = command::jarol("run " + graph + " --for 1s", "2>/dev/null");
+    const auto ran = command::run_jarol("run " + graph + " --for 1s", "2>/dev/null");
     CHECK(ran.output.find("  expected    light of lamp within 0.1 of 291: holds, 291\n") != std::string::npos);
     CHECK(ran.exit_code == 0);
     // each run of a campaign makes the vehicle again
     const auto campaign =
-        command::jarol("campaign " + graph + " --for 1s --set expect=null --results " + (folder / "r.sqlite") +
-                           " --vary 'distributers.lamp.link.parameters.gain=[1, 2]' --metric "
-                           "'light=light of lamp'",
-                       "2>/dev/null");
+        command::run_jarol("campaign " + graph + " --for 1s --set expect=null --results " + (folder / "r.sqlite") +
+                               " --vary 'distributers.lamp.link.parameters.gain=[1, 2]' --metric "
+                               "'light=light of lamp'",
+                           "2>/dev/null");
     CAPTURE(campaign.output);
     CHECK(campaign.output.find("  least light: 97 in run 0\n") != std::string::npos);
     CHECK(campaign.output.find("  greatest light: 194 in run 1\n") != std::string::npos);
     CHECK(campaign.exit_code == 0);
-    const auto described = command::jarol("vehicle lamp --describe --plugin " + plugin, "2>/dev/null");
+    const auto described = command::run_jarol("vehicle lamp --describe --plugin " + plugin, "2>/dev/null");
     CHECK(described.output.starts_with("lamp: shines\n"));
-    const auto read = command::jarol(
+    const auto read = command::run_jarol(
         "vehicle lamp --describe --parameters " + (folder / "lamp.yaml") + " --plugin " + plugin, "2>/dev/null");
     CHECK(read.output.ends_with("\n  gain  2  of its light\n"));
-    CHECK(command::jarol("tasks LampSwitch --plugin " + plugin).output.starts_with("LampSwitch: a lamp\n"));
-    CHECK(command::jarol("vehicle lamp --describe").output.find("there is no vehicle 'lamp'") != std::string::npos);
+    CHECK(command::run_jarol("tasks LampSwitch --plugin " + plugin).output.starts_with("LampSwitch: a lamp\n"));
+    CHECK(command::run_jarol("vehicle lamp --describe").output.find("there is no vehicle 'lamp'") != std::string::npos);
   }
 
   TEST_CASE("a plugin brings a link type, and a graph speaks over it with what is at the other end") {
@@ -120,7 +120,8 @@ connections: [count.out -> level, echo -> seen.in]
                             ", and a crash leaves the last commands in force there\n") != std::string::npos);
     CHECK(run.json()["guardian"] ==
           nlohmann::json{{"ready", false}, {"safe", nlohmann::json::array()}, {"unreached", {text}}});
-    const auto wrong = command::jarol("run " + graph + " --clock real --for 1s --set distributers.lamp.link.peer=null");
+    const auto wrong =
+        command::run_jarol("run " + graph + " --clock real --for 1s --set distributers.lamp.link.peer=null");
     CHECK(wrong.output.find("lacks the key 'peer'") != std::string::npos);
     CHECK(wrong.exit_code == 2);
   }

@@ -11,7 +11,7 @@
 
 namespace {
 command::Result run_command(const std::string& arguments, const std::string& errors = "2>&1") {
-  return command::jarol(arguments, errors);
+  return command::run_jarol(arguments, errors);
 }
 using command::content;
 using command::TemporaryFolder;

@@ -140,7 +140,7 @@ TEST_SUITE("tools/recorded_run") {
                                 (more.size() == 1 ? " byte" : " bytes") +
                                 " after its end; what was recorded is: head -c " + length + " " + path;
       CHECK(wrong_with(path) == wrong);
-      const auto replay = command::jarol("replay " + path);
+      const auto replay = command::run_jarol("replay " + path);
       CHECK(replay.exit_code == 2);
       CHECK(replay.output == "error: " + wrong + "\n");
     }
@@ -164,7 +164,7 @@ TEST_SUITE("tools/recorded_run") {
     CHECK(no_log(damaged) == x + "is damaged at byte 30, before what was recorded, and can't be replayed");
     const std::string fifo = folder / "fifo";
     REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
-    const auto from_pipe = command::jarol("replay " + fifo);  // where nobody writes, nobody waits
+    const auto from_pipe = command::run_jarol("replay " + fifo);  // where nobody writes, nobody waits
     CHECK(from_pipe.exit_code == 2);
     CHECK(from_pipe.output == "error: '" + fifo + "' is no regular file, and a recording is read twice; give a file\n");
     const auto with_header = [&](const std::string& json) {

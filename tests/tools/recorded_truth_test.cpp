@@ -23,7 +23,7 @@ std::string judged(const std::string& report) {
 // A dive of which one condition about the true values holds and another does not.
 std::string record_dive(const TemporaryFolder& folder) {
   const std::string file = folder / "dive.mcap";
-  const auto run = command::jarol(
+  const auto run = command::run_jarol(
       "run specs/exolauv.yaml --profile at_sea --set 'expect=[depth of dune within 0.3 of 3, max(depth of "
       "dune) < 2]' --record " +
           file,
@@ -41,10 +41,10 @@ TEST_SUITE("tools/recorded_truth") {
     const std::string of_run = content(folder / "judged");
     CHECK(of_run.find("  expected    depth of dune within 0.3 of 3: holds, ") != std::string::npos);
     CHECK(of_run.find("  expected    max(depth of dune) < 2: FAILS: reached 3.") != std::string::npos);
-    const auto replay = command::jarol("replay " + file, "2>/dev/null");
+    const auto replay = command::run_jarol("replay " + file, "2>/dev/null");
     CHECK(judged(replay.output) == of_run);
     CHECK(replay.exit_code == 1);
-    const auto report = command::jarol("log report " + file + " --out " + (folder / "dive.html"));
+    const auto report = command::run_jarol("log report " + file + " --out " + (folder / "dive.html"));
     CHECK(report.exit_code == 0);
     CHECK(content(folder / "dive.html").find(R"("max(depth of dune) \u003c 2","verdict":"fails","reached":3.)") !=
           std::string::npos);
@@ -53,7 +53,7 @@ TEST_SUITE("tools/recorded_truth") {
   TEST_CASE("what is changed might have taken the vehicle elsewhere, and nothing is said of it") {
     const TemporaryFolder folder;
     const std::string file = record_dive(folder);
-    const auto replay = command::jarol("replay " + file + " --set tasks.depth.parameters.kp=0.2", "2>/dev/null");
+    const auto replay = command::run_jarol("replay " + file + " --set tasks.depth.parameters.kp=0.2", "2>/dev/null");
     CHECK(
         judged(replay.output)
             .find("  expected    2 conditions: not judged: the vehicle of 'dune' is not simulated in this process\n") !=
@@ -63,14 +63,15 @@ TEST_SUITE("tools/recorded_truth") {
   TEST_CASE("the true values stand in the recording as topics beside what is published, and only where all is") {
     const TemporaryFolder folder;
     const std::string file = record_dive(folder);
-    const auto info = nlohmann::json::parse(command::jarol("log info --json " + file).output);
+    const auto info = nlohmann::json::parse(command::run_jarol("log info --json " + file).output);
     std::uint64_t messages = 0;
     for (const auto& topic : info["topics"])
       if (topic["name"] == "jarol/truth/dune") messages = topic["messages"];
     CHECK(messages > 100 * 20);
     CHECK(info["truths"][0]["distributer"] == "dune");
-    CHECK(command::jarol("log verify " + file).exit_code == 0);
-    CHECK(command::jarol("run specs/exolauv.yaml --for 2s --record-what 'depth.*' --record " + file).exit_code == 0);
-    CHECK(nlohmann::json::parse(command::jarol("log info --json " + file).output)["truths"].empty());
+    CHECK(command::run_jarol("log verify " + file).exit_code == 0);
+    CHECK(command::run_jarol("run specs/exolauv.yaml --for 2s --record-what 'depth.*' --record " + file).exit_code ==
+          0);
+    CHECK(nlohmann::json::parse(command::run_jarol("log info --json " + file).output)["truths"].empty());
   }
 }

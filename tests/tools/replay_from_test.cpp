@@ -4,16 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
 namespace {
+using command::has;
+using command::json_report;
 using command::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
-
-nlohmann::json json_of(const std::string& words) {
-  return nlohmann::json::parse(command::jarol(words + " --json", "2>/dev/null").output);
-}
 
 // Deep values, LETs under way, and a state that grows.
 std::string graph_in(const TemporaryFolder& folder) {
@@ -32,10 +29,10 @@ TEST_SUITE("tools/replay_from") {
   TEST_CASE("a replay begins at the newest checkpoint before, and is the same from there on") {
     const TemporaryFolder folder;
     const std::string file = folder / "r.mcap", graph = graph_in(folder);
-    const auto run = json_of("run " + graph + " --for 20s --record " + file + " --record-checkpoints 5s");
-    CHECK(json_of("log info " + file)["topics"].dump().find(R"({"messages":3,"name":"jarol/checkpoints")") !=
+    const auto run = json_report("run " + graph + " --for 20s --record " + file + " --record-checkpoints 5s");
+    CHECK(json_report("log info " + file)["topics"].dump().find(R"({"messages":3,"name":"jarol/checkpoints")") !=
           std::string::npos);
-    const auto whole = json_of("replay " + file);
+    const auto whole = json_report("replay " + file);
     CHECK(whole["verdict"] == "same");
     CHECK(whole["compared_values"] == 1000);
     CHECK(whole["digest"] == run["digest"]);
@@ -43,52 +40,54 @@ TEST_SUITE("tools/replay_from") {
          {std::tuple("0s", 0, 1000), {"4.9s", 0, 1000}, {"5s", 5, 750}, {"14s", 10, 500}, {"19.9s", 15, 250}}) {
       const std::string from = asked;
       CAPTURE(from);
-      const auto replay = json_of("replay " + file + " --from " + from);
+      const auto replay = json_report("replay " + file + " --from " + from);
       CHECK(replay["verdict"] == "same");
       CHECK(replay["digest"] == run["digest"]);
       CHECK(replay["activations"] == run["activations"]);
       CHECK(replay["compared_values"] == values);
       CHECK(replay.value("begun_ns", std::int64_t{0}) == std::int64_t{begin} * 1'000'000'000);
     }
-    CHECK(command::jarol("replay " + file + " --from 12s").output.starts_with("g: replay of 20 s, from 10 s on, in "));
+    CHECK(command::run_jarol("replay " + file + " --from 12s")
+              .output.starts_with("g: replay of 20 s, from 10 s on, in "));
     // what is otherwise from there on is shown from there on
-    const auto other = command::jarol("replay " + file + " --from 12s --set tasks.window.parameters.length=9");
+    const auto other = command::run_jarol("replay " + file + " --from 12s --set tasks.window.parameters.length=9");
     CAPTURE(other.output);
     CHECK(other.exit_code == 1);
     CHECK(has(other.output, "  first       mean.out at 10 s: was "));
-    CHECK(command::jarol("log verify " + file).exit_code == 0);
-    CHECK(!has(command::jarol("log cat " + file).output, "jarol/checkpoints"));
+    CHECK(command::run_jarol("log verify " + file).exit_code == 0);
+    CHECK(!has(command::run_jarol("log cat " + file).output, "jarol/checkpoints"));
   }
 
   TEST_CASE("a run that goes on from what was saved is recorded and replayed from there") {
     const TemporaryFolder folder;
     const std::string saved = folder / "saved", file = folder / "r.mcap", graph = graph_in(folder);
-    const auto run = json_of("run " + graph + " --for 20s --save 8.03s=" + saved);
+    const auto run = json_report("run " + graph + " --for 20s --save 8.03s=" + saved);
     for (const std::string option : {"--record ", "--log "}) {
       CAPTURE(option);
-      const auto resumed = json_of("run " + graph + " --for 20s --resume " + saved + " " + option + file);
+      const auto resumed = json_report("run " + graph + " --for 20s --resume " + saved + " " + option + file);
       CHECK(resumed["digest"] == run["digest"]);
-      const auto replay = command::jarol("replay " + file);
+      const auto replay = command::run_jarol("replay " + file);
       CAPTURE(replay.output);
       CHECK(replay.exit_code == 0);
       CHECK(replay.output.starts_with("g: replay of 20 s, from 8.03 s on, in "));
-      CHECK(json_of("replay " + file)["digest"] == run["digest"]);
+      CHECK(json_report("replay " + file)["digest"] == run["digest"]);
     }
-    const std::string trace = command::jarol("log trace " + file).output;
+    const std::string trace = command::run_jarol("log trace " + file).output;
     CHECK(has(trace, "\"count 81\""));
     CHECK(!has(trace, "\"count 80\""));
-    CHECK(command::jarol("replay " + file + " --from 8s").output == "error: --from: the recording begins at 8.03 s\n");
-    CHECK(command::jarol("log report " + file + " --out " + (folder / "page.html")).output ==
+    CHECK(command::run_jarol("replay " + file + " --from 8s").output ==
+          "error: --from: the recording begins at 8.03 s\n");
+    CHECK(command::run_jarol("log report " + file + " --out " + (folder / "page.html")).output ==
           "error: '" + file + "' is of a run that went on from 8.03 s; jarol log report shows whole runs\n");
-    CHECK(command::jarol("replay " + file + " --only sum").output ==
+    CHECK(command::run_jarol("replay " + file + " --only sum").output ==
           "error: --only begins at the start of a run; leave out --from, or replay a recording of that\n");
   }
 
   TEST_CASE("what can't begin there says why") {
     const TemporaryFolder folder;
     const std::string file = folder / "r.mcap", graph = graph_in(folder), run = "run " + graph + " --for 5s ";
-    REQUIRE(command::jarol(run + "--record " + file).exit_code == 0);
-    const auto error = [](const std::string& words) { return command::jarol(words).output; };
+    REQUIRE(command::run_jarol(run + "--record " + file).exit_code == 0);
+    const auto error = [](const std::string& words) { return command::run_jarol(words).output; };
     CHECK(error("replay " + file + " --from 3s") ==
           "error: --from: the recording holds no checkpoints; record it with --record-checkpoints 10s, or replay it as "
           "a whole\n");
@@ -101,7 +100,7 @@ TEST_SUITE("tools/replay_from") {
           "error: --record-checkpoints: '0s' is not above zero\n");
     CHECK(error(run + "--clock real --record " + file + " --record-checkpoints 1s") ==
           "error: --record-checkpoints belongs to the virtual clock\n");
-    REQUIRE(command::jarol(run + "--record-checkpoints 1s --record " + file).exit_code == 0);
+    REQUIRE(command::run_jarol(run + "--record-checkpoints 1s --record " + file).exit_code == 0);
     CHECK(
         error("replay " + file + " --from 3s --set tasks.sum.period=100ms") ==
         "error: the checkpoint at 3 s of '" + file +
@@ -112,13 +111,14 @@ TEST_SUITE("tools/replay_from") {
   TEST_CASE("a dive with noise in every sensor is replayed from its middle, and its vehicle is not needed") {
     const TemporaryFolder folder;
     const std::string file = folder / "r.mcap";
-    const auto run = json_of("run specs/exolauv.yaml --profile at_sea --for 20s --set expect=null --seed 3 --record " +
-                             file + " --record-checkpoints 6s");
-    const auto replay = json_of("replay " + file + " --from 13s");
+    const auto run =
+        json_report("run specs/exolauv.yaml --profile at_sea --for 20s --set expect=null --seed 3 --record " + file +
+                    " --record-checkpoints 6s");
+    const auto replay = json_report("replay " + file + " --from 13s");
     CHECK(replay["verdict"] == "same");
     CHECK(replay["digest"] == run["digest"]);
     CHECK(replay["begun_ns"] == 12'000'000'000);
-    const auto judged = command::jarol("replay " + file + " --from 13s --set 'expect=[depth.moment.angle < 1]'");
+    const auto judged = command::run_jarol("replay " + file + " --from 13s --set 'expect=[depth.moment.angle < 1]'");
     CHECK(has(judged.output, "is of a run without 'expect=[depth.moment.angle < 1]'"));
   }
 #endif

@@ -32,12 +32,12 @@ TEST_SUITE("tools/replay") {
   TEST_CASE("a run in real time is the same again, and its graph need not be named") {
     const TemporaryFolder folder;
     const std::string log = folder / "run.log", trace = folder / "run.csv", again = folder / "again.csv";
-    const auto run =
-        command::jarol("run specs/counting.yaml --clock real --force --for 300ms --log " + log + " --trace " + trace);
+    const auto run = command::run_jarol("run specs/counting.yaml --clock real --force --for 300ms --log " + log +
+                                        " --trace " + trace);
     CAPTURE(run.output);
     REQUIRE((run.exit_code == 0 || run.exit_code == 3));  // 3: the machine was late
     CHECK(line_of(run.output, "log") == "log         " + log);
-    const auto replay = command::jarol("replay " + log + " --trace " + again);
+    const auto replay = command::run_jarol("replay " + log + " --trace " + again);
     CHECK(replay.exit_code == 0);
     CHECK(line_of(replay.output, "same") == "same        as the run on the real clock");
     CHECK(line_of(replay.output, "digest") == line_of(run.output, "digest"));
@@ -48,16 +48,16 @@ TEST_SUITE("tools/replay") {
   TEST_CASE("a replay with something changed says that it diverged") {
     const TemporaryFolder folder;
     const std::string log = folder / "run.log";
-    const auto run = command::jarol("run specs/counting.yaml --for 100ms --log " + log);
+    const auto run = command::run_jarol("run specs/counting.yaml --for 100ms --log " + log);
     REQUIRE(run.exit_code == 0);
     const std::string digest = line_of(run.output, "digest").substr(12);
-    CHECK(command::jarol("replay " + log + " specs/counting.yaml").exit_code == 0);
-    const auto replay = command::jarol("replay " + log + " --set tasks.loop.init.out=7");
+    CHECK(command::run_jarol("replay " + log + " specs/counting.yaml").exit_code == 0);
+    const auto replay = command::run_jarol("replay " + log + " --set tasks.loop.init.out=7");
     CAPTURE(replay.output);
     CHECK(replay.exit_code == 1);
     CHECK(line_of(replay.output, "DIVERGED") == "DIVERGED    from the run on the virtual clock");
     CHECK(line_of(replay.output, "it had") == "it had      activations 27, instants 15, faults 0, digest " + digest);
-    const auto json = command::jarol("replay " + log + " --json --set tasks.loop.init.out=7", "2>/dev/null");
+    const auto json = command::run_jarol("replay " + log + " --json --set tasks.loop.init.out=7", "2>/dev/null");
     CHECK(json.exit_code == 1);
     CHECK(json.output.find("{\"schema\":\"jarol.replay/1\",") == 0);
     CHECK(json.output.find("\"verdict\":\"diverged\"") != std::string::npos);
@@ -74,42 +74,42 @@ tasks:
   sum: {type: Accumulate, period: 100ms, on_fault: hold}
 connections: [count.out -> sum.in]
 )");
-    REQUIRE(command::jarol("run " + graph + " --for 5s --set tasks.count.offset=50ms --log " + log).exit_code == 0);
+    REQUIRE(command::run_jarol("run " + graph + " --for 5s --set tasks.count.offset=50ms --log " + log).exit_code == 0);
     // with the run's own --set it is the same; an offset puts the first difference into the first second
-    CHECK(command::jarol("replay " + log).exit_code == 0);
-    const auto replay = command::jarol("replay " + log + " --set tasks.count.offset=0ms");
+    CHECK(command::run_jarol("replay " + log).exit_code == 0);
+    const auto replay = command::run_jarol("replay " + log + " --set tasks.count.offset=0ms");
     CHECK(replay.exit_code == 1);
     CHECK(line_of(replay.output, "DIVERGED") == "DIVERGED    from the run on the virtual clock, before 1 s");
     // what has changed since is said, and the run is replayed as it was
     const std::string changed =
         "  changed     '" + graph + "' is not what the run has read; it was replayed as it was then\n";
     folder.write("g.yaml", content(graph) + "# w\n");
-    const auto as_it_was = command::jarol("replay " + log);
+    const auto as_it_was = command::run_jarol("replay " + log);
     CHECK(as_it_was.exit_code == 0);
     CHECK(as_it_was.output.ends_with("  same        as the run on the virtual clock\n" + changed));
     // another reader that publishes nothing: the same digest, and more activations
     std::string more = content(graph);
     folder.write("g.yaml", more.insert(more.find("tasks:\n") + 7, "  work: {type: Work, period: 100ms}\n"));
-    CHECK(command::jarol("replay " + log).exit_code == 0);
-    const auto other = command::jarol("replay " + log + " " + graph);
+    CHECK(command::run_jarol("replay " + log).exit_code == 0);
+    const auto other = command::run_jarol("replay " + log + " " + graph);
     CHECK(other.exit_code == 1);
     CHECK(other.output.find("  DIVERGED    from the run on the virtual clock after 4 s\n"
                             "  it had      activations 100, instants 100, faults 0, digest ") != std::string::npos);
     CHECK(other.output.ends_with("\n              the file of the graph is not what it was\n"));
     fs::rename(graph, folder / "moved.yaml");
-    const auto gone = command::jarol("replay " + log);
+    const auto gone = command::run_jarol("replay " + log);
     CHECK(gone.exit_code == 0);
     CHECK(gone.output.ends_with(changed));
-    CHECK(command::jarol("replay " + log + " " + folder / "moved.yaml").exit_code == 1);
+    CHECK(command::run_jarol("replay " + log + " " + folder / "moved.yaml").exit_code == 1);
   }
 
   TEST_CASE("of a log that breaks off the replay does what there is, and ends with 3") {
     const TemporaryFolder folder;
     const std::string log = folder / "run.log";
-    REQUIRE(command::jarol("run specs/counting.yaml --for 2500ms --log " + log).exit_code == 0);
+    REQUIRE(command::run_jarol("run specs/counting.yaml --for 2500ms --log " + log).exit_code == 0);
     const std::string whole = content(log);
     folder.write("part", whole.substr(0, whole.size() - 1));
-    const auto replay = command::jarol("replay " + folder / "part");
+    const auto replay = command::run_jarol("replay " + folder / "part");
     CHECK(replay.exit_code == 3);
     CHECK(replay.output.find("  log         breaks off at byte ") != std::string::npos);
     CHECK(replay.output.find(", before 2 s it is whole; how the run ended is not known\n") != std::string::npos);
@@ -128,7 +128,7 @@ connections: [count.out -> sum.in]
       while (covered() < 1s && std::chrono::steady_clock::now() < patience) std::this_thread::sleep_for(50ms);
       run.kill();
     }
-    const auto replay = command::jarol("replay " + log + " --json", "2>/dev/null");
+    const auto replay = command::run_jarol("replay " + log + " --json", "2>/dev/null");
     CHECK(replay.exit_code == 3);
     const auto told = nlohmann::json::parse(replay.output);
     CHECK(told["verdict"] == "unknown");
@@ -141,26 +141,26 @@ connections: [count.out -> sum.in]
   TEST_CASE("a log that can't be written is an error, and the run's files are apart") {
     const TemporaryFolder folder;
     const std::string other = folder.write("other", "dear"), log = folder / "run.log";
-    CHECK(command::jarol("run specs/counting.yaml --for 1s --log /no/such/place").output ==
+    CHECK(command::run_jarol("run specs/counting.yaml --for 1s --log /no/such/place").output ==
           "error: can't write '/no/such/place': No such file or directory\n");
-    CHECK(command::jarol("run specs/counting.yaml --for 1s --log " + other).output ==
+    CHECK(command::run_jarol("run specs/counting.yaml --for 1s --log " + other).output ==
           "error: can't write '" + other + "': it is there and no recording; choose another file, or remove it\n");
     CHECK(content(other) == "dear");
-    CHECK(command::jarol("run specs/counting.yaml --for 1s --log /dev/full").output ==
+    CHECK(command::run_jarol("run specs/counting.yaml --for 1s --log /dev/full").output ==
           "error: can't write '/dev/full': No space left on device\n");
     // what is refused leaves an older log alone, what can't write its trace has its report
-    REQUIRE(command::jarol("run specs/counting.yaml --for 1s --log " + log).exit_code == 0);
+    REQUIRE(command::run_jarol("run specs/counting.yaml --for 1s --log " + log).exit_code == 0);
     const std::string old = content(log);
-    CHECK(command::jarol("run specs/counting.yaml --for 1s --clock real --workers 2 --log " + log).exit_code == 2);
+    CHECK(command::run_jarol("run specs/counting.yaml --for 1s --clock real --workers 2 --log " + log).exit_code == 2);
     CHECK(content(log) == old);
-    const auto full = command::jarol("run specs/counting.yaml --for 1s --trace /dev/full --log " + log);
+    const auto full = command::run_jarol("run specs/counting.yaml --for 1s --trace /dev/full --log " + log);
     CHECK(full.exit_code == 3);
     CHECK(full.output.find("counting: 1 s on the virtual clock") == 0);
     CHECK(full.output.ends_with("error: can't write '/dev/full': No space left on device\n"));
     CHECK(content(log) == old);
-    CHECK(command::jarol("run specs/counting.yaml --for 1s --log specs/counting.yaml").output ==
+    CHECK(command::run_jarol("run specs/counting.yaml --for 1s --log specs/counting.yaml").output ==
           "error: --log 'specs/counting.yaml' would replace what FILE names; choose another file\n");
-    CHECK(command::jarol("run specs/counting.yaml --for 1s --log x --clock real --concurrency threads").output ==
+    CHECK(command::run_jarol("run specs/counting.yaml --for 1s --log x --clock real --concurrency threads").output ==
           "error: --log belongs to --concurrency exotasks\n");
   }
 
@@ -172,7 +172,7 @@ connections: [count.out -> sum.in]
     for (int blocks = 1; blocks <= most; ++blocks) {
       CAPTURE(blocks);
       // in the middle of a record or between two
-      const auto result = command::jarol(
+      const auto result = command::run_jarol(
           "schema > /dev/null; ulimit -f " + std::to_string(blocks) +
           "; " JAROL_COMMAND " run specs/counting.yaml --for 60s --record-compression none --log " + limited);
       if (result.exit_code == 0) {
@@ -194,11 +194,11 @@ connections: [count.out -> sum.in]
     const TemporaryFolder folder;
     const std::string run = "schema > /dev/null; ulimit -f 4; " JAROL_COMMAND
                             " run specs/counting.yaml --for 60s --set 'expect=[count.out < 3]'";
-    const auto logged = command::jarol(run + " --record-compression none --log " + (folder / "l.log"));
+    const auto logged = command::run_jarol(run + " --record-compression none --log " + (folder / "l.log"));
     CHECK(logged.exit_code == 3);
     CHECK(logged.output.find("count.out < 3") != std::string::npos);
     // what was not seen to its end can't hold, and says why
-    const auto traced = command::jarol(run + " --set 'expect=[count.out < 1e9]' --trace " + (folder / "t.csv"));
+    const auto traced = command::run_jarol(run + " --set 'expect=[count.out < 1e9]' --trace " + (folder / "t.csv"));
     CHECK(traced.exit_code == 3);
     CHECK(traced.output.find("not judged: can't write '" + (folder / "t.csv") + "': File too large\n") !=
           std::string::npos);

@@ -19,8 +19,8 @@ struct Result {
 };
 
 /// Runs `jarol ARGUMENTS` in the root of the tree, by default with errors and output in one.
-inline Result jarol(const std::string& arguments, const std::string& errors = "2>&1",
-                    const std::string& program = JAROL_COMMAND) {
+inline Result run_jarol(const std::string& arguments, const std::string& errors = "2>&1",
+                        const std::string& program = JAROL_COMMAND) {
   Result result;
   std::FILE* pipe = popen((program + " " + arguments + " " + errors).c_str(), "r");
   std::array<char, 4096> chunk{};

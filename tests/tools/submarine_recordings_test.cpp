@@ -23,8 +23,8 @@ constexpr double degrees = std::numbers::pi / 180;
 void check_follows(const std::string& recording, const std::string& initial) {
   const TemporaryFolder folder;
   const std::string data = "tests/data/lauv-" + recording;
-  const auto run = command::jarol("vehicle submarine --parameters specs/vehicles/submarine_vsim.yaml --initial " +
-                                  initial + " --script " + data + "-commands.csv --csv " + folder / "out.csv");
+  const auto run = command::run_jarol("vehicle submarine --parameters specs/vehicles/submarine_vsim.yaml --initial " +
+                                      initial + " --script " + data + "-commands.csv --csv " + folder / "out.csv");
   REQUIRE(run.output == "");
   const auto out = command::rows_of(folder / "out.csv"), recorded = command::rows_of(data + "-motion.csv");
   double distance = 0, turned = 0;

@@ -18,7 +18,7 @@ constexpr const char* on_threads = " --clock real --concurrency threads --for ";
 
 TEST_SUITE("tools/threads") {
   TEST_CASE("a run on threads tells the time covered, and what was commanded and reached, as one of exotasks does") {
-    const auto run = command::jarol(std::string("run specs/exolauv.yaml") + on_threads + "1.2s", "2>/dev/null");
+    const auto run = command::run_jarol(std::string("run specs/exolauv.yaml") + on_threads + "1.2s", "2>/dev/null");
     CHECK(run.exit_code == 0);
     CHECK(
         run.output.starts_with("exolauv: 1.2 s in real time on threads\n"
@@ -28,7 +28,8 @@ TEST_SUITE("tools/threads") {
   TEST_CASE("a run on threads tells lateness, what each task took, and the last outputs, as one of exotasks does") {
     const auto told_of = [](const std::string& concurrency) {
       return nlohmann::json::parse(
-          command::jarol("run specs/exolauv.yaml --for 1s --json --clock real" + concurrency, "2>/dev/null").output);
+          command::run_jarol("run specs/exolauv.yaml --for 1s --json --clock real" + concurrency, "2>/dev/null")
+              .output);
     };
     const auto threads = told_of(" --concurrency threads"), exotasks = told_of("");
     for (const auto& [key, value] : exotasks.items()) {
@@ -60,7 +61,7 @@ TEST_SUITE("tools/threads") {
     }
     CHECK(activations == threads["activations"]);
     const std::string text =
-        command::jarol(std::string("run specs/exolauv.yaml") + on_threads + "200ms", "2>/dev/null").output;
+        command::run_jarol(std::string("run specs/exolauv.yaml") + on_threads + "200ms", "2>/dev/null").output;
     CHECK(text.find("\n              nothing is claimed of the digest: its tasks ran on threads\n") !=
           std::string::npos);
     CHECK(text.find("\n  rounds      ") < text.find("\n  outputs     "));
@@ -72,7 +73,7 @@ TEST_SUITE("tools/threads") {
     const std::string mission = " --set distributers.neptus.link.file=" +
                                 folder.write("short.csv", "time,setpoint.depth,setpoint.speed\n0,1,1.2\n1.5,1,1.2\n");
     const auto run = [&](const std::string& expect, const std::string& options) {
-      return command::jarol("run specs/exolauv_bare.yaml --clock real --set 'expect=[" + expect + "]' " + options);
+      return command::run_jarol("run specs/exolauv_bare.yaml --clock real --set 'expect=[" + expect + "]' " + options);
     };
     for (const std::string concurrency : {"exotasks", "threads"}) {
       CAPTURE(concurrency);
@@ -143,9 +144,9 @@ TEST_SUITE("tools/threads") {
       std::size_t more = std::string::npos;
       for (int ms = 100; more == std::string::npos && ms < 60'000; ms *= 2) {
         const std::string time = std::to_string(ms) + "ms";
-        json = nlohmann::json::parse(command::jarol(arguments + time + " --json", "2>/dev/null").output);
+        json = nlohmann::json::parse(command::run_jarol(arguments + time + " --json", "2>/dev/null").output);
         if (json["fault_count"] <= 1000) continue;
-        told = command::jarol(arguments + time, "2>&1 >/dev/null").output;
+        told = command::run_jarol(arguments + time, "2>&1 >/dev/null").output;
         more = told.find(" times, from activation ");
       }
       CHECK(json["faults"].size() == 1000);

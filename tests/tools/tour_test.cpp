@@ -49,7 +49,7 @@ TEST_SUITE("tools/tour") {
     for (const Shown& shown : commands) {
       REQUIRE(shown.command.starts_with("build/release/jarol "));
       const std::string output =
-          command::jarol("", "2>/dev/null", "cd " + (folder / "") + " && " + shown.command).output;
+          command::run_jarol("", "2>/dev/null", "cd " + (folder / "") + " && " + shown.command).output;
       CAPTURE(shown.command);
       CAPTURE(output);
       std::size_t at = 0;

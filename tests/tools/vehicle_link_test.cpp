@@ -19,7 +19,7 @@ namespace links = jarol::distributers;
 TEST_SUITE("tools/vehicle_link") {
   TEST_CASE("over a link its motion is written, too, up to where it is ended") {
     const TemporaryFolder folder;
-    const auto run = command::jarol(
+    const auto run = command::run_jarol(
         "vehicle submarine --initial z=4 --link udp --listen 0 --for 200ms --rate 20 --csv " + folder / "out.csv",
         "2>/dev/null");
     CHECK(run.exit_code == 0);
@@ -35,9 +35,9 @@ TEST_SUITE("tools/vehicle_link") {
     const links::Address any = links::Address::parse("0");
     REQUIRE(::bind(socket.get(), any.get(), any.size()) == 0);
     const std::string port = jarol::tests::free_port(SOCK_DGRAM);
-    CHECK(command::jarol("vehicle submarine --link udp --listen " + port + " --for 300ms --announce " +
-                             std::to_string(links::port_of(socket)),
-                         "2>/dev/null")
+    CHECK(command::run_jarol("vehicle submarine --link udp --listen " + port + " --for 300ms --announce " +
+                                 std::to_string(links::port_of(socket)),
+                             "2>/dev/null")
               .exit_code == 0);
     std::vector<std::string> heard;
     char room[1024];

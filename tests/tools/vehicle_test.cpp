@@ -9,7 +9,7 @@
 #include "tests/tools/run_command.h"
 
 namespace {
-using command::jarol;
+using command::run_jarol;
 using command::TemporaryFolder;
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -30,7 +30,7 @@ const std::string title = "time,x,y,z,phi,theta,psi,u,v,w,p,q,r";
 void check_refused(const std::string& script, const std::string& options, const std::string& message) {
   const TemporaryFolder folder;
   const auto path = folder.write("script.csv", script);
-  auto refused = jarol("vehicle submarine --script " + path + " --csv " + folder / "out.csv" + " " + options);
+  auto refused = run_jarol("vehicle submarine --script " + path + " --csv " + folder / "out.csv" + " " + options);
   CHECK(refused.exit_code == 2);
   for (std::size_t at = 0; (at = refused.output.find(path)) != std::string::npos;)
     refused.output.replace(at, path.size(), "FILE");
@@ -45,10 +45,10 @@ TEST_SUITE("tools/vehicle") {
     const auto script = folder.write("script.csv", "time,thruster\n0,0\n0.1,0\n");
     const std::string over = "vehicle submarine --set hull.z_g=-0.01 --initial phi=100deg ",
                       line = "error: the submarine has capsized: tilted by 100 deg, beyond 90 deg, at 0.01 s\n";
-    const auto driven = jarol(over + "--script " + script + " --csv " + folder / "out.csv");
+    const auto driven = run_jarol(over + "--script " + script + " --csv " + folder / "out.csv");
     CHECK(driven.output == line);
     CHECK(driven.exit_code == 1);
-    const auto served = jarol(over + "--link udp --listen 0 --for 50ms", "2>&1 >/dev/null");
+    const auto served = run_jarol(over + "--link udp --listen 0 --for 50ms", "2>&1 >/dev/null");
     CHECK(served.output.ends_with(line));
     CHECK(served.exit_code == 1);
   }
@@ -57,8 +57,8 @@ TEST_SUITE("tools/vehicle") {
     const TemporaryFolder folder;
     const auto script = folder.write(
         "script.csv", "time,thruster,fin0,fin1,fin2,fin3\n0,0.5,0,0,0,0\n2,0.5,0.1,0,0,0.1\n4,0,0,0,0,0\n");
-    const auto run = jarol("vehicle submarine --initial z=4,theta=0.1,psi=90deg --script " + script + " --csv " +
-                           folder / "out.csv");
+    const auto run = run_jarol("vehicle submarine --initial z=4,theta=0.1,psi=90deg --script " + script + " --csv " +
+                               folder / "out.csv");
     CHECK(run.output == "");
     CHECK(run.exit_code == 0);
     const auto lines = lines_of_file(folder / "out.csv");
@@ -78,8 +78,8 @@ TEST_SUITE("tools/vehicle") {
   TEST_CASE("--rate thins the rows and changes none of them") {
     const TemporaryFolder folder;
     const auto script = folder.write("script.csv", "time,thruster,fin1\n0,0.5,0\n0.105,1,0.2\n1,0,0\n");
-    CHECK(jarol("vehicle submarine --script " + script + " --csv " + folder / "all.csv").exit_code == 0);
-    CHECK(jarol("vehicle submarine --rate 20 --script " + script + " --csv " + folder / "some.csv").exit_code == 0);
+    CHECK(run_jarol("vehicle submarine --script " + script + " --csv " + folder / "all.csv").exit_code == 0);
+    CHECK(run_jarol("vehicle submarine --rate 20 --script " + script + " --csv " + folder / "some.csv").exit_code == 0);
     const auto all = lines_of_file(folder / "all.csv"), some = lines_of_file(folder / "some.csv");
     REQUIRE(all.size() == 102);
     REQUIRE(some.size() == 22);
@@ -93,15 +93,15 @@ TEST_SUITE("tools/vehicle") {
     for (int i = 0; i < 200; ++i) text += std::to_string(i) + "e-1,0.5,0.1,0,0,0\n";
     for (int i = 200; i <= 250; ++i) text += std::to_string(i) + "e-1,0.2,0.1,0,0,0\n";
     const auto full = folder.write("full.csv", text);
-    CHECK(jarol("vehicle submarine --script " + brief + " --csv " + folder / "brief_out.csv").exit_code == 0);
-    CHECK(jarol("vehicle submarine --script " + full + " --csv " + folder / "full_out.csv").exit_code == 0);
+    CHECK(run_jarol("vehicle submarine --script " + brief + " --csv " + folder / "brief_out.csv").exit_code == 0);
+    CHECK(run_jarol("vehicle submarine --script " + full + " --csv " + folder / "full_out.csv").exit_code == 0);
     CHECK(lines_of_file(folder / "brief_out.csv") == lines_of_file(folder / "full_out.csv"));
   }
 
   TEST_CASE("--for goes on after the last row") {
     const TemporaryFolder folder;
     const auto script = folder.write("script.csv", "time,thruster\n0,0.5\n");
-    CHECK(jarol("vehicle submarine --for 3s --script " + script + " --csv " + folder / "out.csv").exit_code == 0);
+    CHECK(run_jarol("vehicle submarine --for 3s --script " + script + " --csv " + folder / "out.csv").exit_code == 0);
     CHECK(lines_of_file(folder / "out.csv").size() == 302);
   }
 
@@ -146,11 +146,11 @@ TEST_SUITE("tools/vehicle") {
         "or leave it out for 100\n");
     check_refused(script, "--for 3",
                   "error: --for: '3' has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n");
-    const auto unknown = jarol("vehicle submarin --describe");
+    const auto unknown = run_jarol("vehicle submarin --describe");
     CHECK(unknown.exit_code == 2);
     CHECK(unknown.output.rfind("error: there is no vehicle 'submarin'; did you mean 'submarine'?; this build has: ",
                                0) == 0);
-    const auto idle = jarol("vehicle submarine");
+    const auto idle = run_jarol("vehicle submarine");
     CHECK(idle.exit_code == 2);
     CHECK(idle.output ==
           "error: say --describe; or --script and --csv: what to do, and where the motion goes; or --link: who "
@@ -160,18 +160,20 @@ TEST_SUITE("tools/vehicle") {
   TEST_CASE("a motion that no number can tell ends with exit code 3 and without a file") {
     const TemporaryFolder folder;
     const auto script = folder.write("script.csv", "time,thruster\n0,0\n1,0\n");
-    const auto run = jarol("vehicle submarine --initial u=1e200 --script " + script + " --csv " + folder / "out.csv");
+    const auto run =
+        run_jarol("vehicle submarine --initial u=1e200 --script " + script + " --csv " + folder / "out.csv");
     CHECK(run.exit_code == 3);
     CHECK(run.output.rfind("error: submarine: no state at t = 0.010000 s: ", 0) == 0);
     CHECK(!std::filesystem::exists(folder / "out.csv"));
   }
 
   TEST_CASE("--describe tells state, inputs, outputs and parameters with their units, as text and as JSON") {
-    const auto text = jarol("vehicle submarine --describe --set hull.mass=19");
+    const auto text = run_jarol("vehicle submarine --describe --set hull.mass=19");
     CHECK(text.exit_code == 0);
     CHECK(text.output.find("\nstate\n  x       [m]      north of the origin\n") != std::string::npos);
     CHECK(text.output.find("\ninputs\n  thruster  -1 to 1 ") != std::string::npos);
-    const auto whole = nlohmann::json::parse(jarol("vehicle submarine --describe --set hull.mass=19 --json").output);
+    const auto whole =
+        nlohmann::json::parse(run_jarol("vehicle submarine --describe --set hull.mass=19 --json").output);
     CHECK(whole["schema"] == "jarol.vehicle/1");
     CHECK(whole["name"] == "submarine");
     CHECK(whole["state"].size() == 12);
@@ -187,7 +189,7 @@ TEST_SUITE("tools/vehicle") {
   }
 
   TEST_CASE("the helicopter's sensors are described") {
-    const auto described = jarol("vehicle helicopter --describe");
+    const auto described = run_jarol("vehicle helicopter --describe");
     CHECK(described.output.find("\nsensors\n") != std::string::npos);
     CHECK(described.output.find("  sensors.sonar         [m]      range to the ground\n") != std::string::npos);
   }

@@ -5,25 +5,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
 namespace {
 using command::content;
+using command::error_of;
+using command::report_of;
 using command::TemporaryFolder;
 using nlohmann::json;
-
-json report_of(const std::string& arguments) {
-  const command::Result result = command::jarol("run " + arguments + " --json", "");
-  INFO(arguments);
-  CHECK(result.exit_code == 0);
-  return json::parse(result.output);
-}
-
-std::string error_of(const std::string& arguments, int exit_code = 2) {
-  const command::Result result = command::jarol("run " + arguments);
-  CHECK(result.exit_code == exit_code);
-  return result.output;
-}
 
 std::string line_with(const std::string& text, const std::string& begin) {
   const std::size_t at = text.find("\n" + begin);
@@ -70,7 +60,7 @@ TEST_SUITE("tools/what_if") {
   }
 
   TEST_CASE("the report has runs side by side, and where and by how much each parts") {
-    const command::Result result = command::jarol(
+    const command::Result result = command::run_jarol(
         "run " + window + "--what-if 'at=1s set=tasks.window.parameters.length=20' --what-if 'at=2s " + longer + "'");
     CHECK(result.exit_code == 0);
     CHECK(line_with(result.output, "  what if 2 ") == "  what if 2   at 2 s tasks.window.parameters.length=30");

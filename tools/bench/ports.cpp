@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t slots = 1024;  // a power of two
 // few enough that both threads mostly keep their processors for as long
 constexpr int messages = 4000;
-constexpr int round_trips = 400;
+constexpr int port_round_trips = 400;
 
 inline void pause() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -95,25 +95,25 @@ double ns_per_message() {
 }
 
 template <class Between>
-double ns_per_round_trip() {
+double ns_per_port_round_trip() {
   Between there, back;
   const auto answer = [&] {
     Message message;
-    for (int i = 0; i < round_trips; ++i) {
+    for (int i = 0; i < port_round_trips; ++i) {
       while (!there.read(message)) pause();
       back.write(message);
     }
   };
   const auto ask = [&] {
     Message message;
-    for (int i = 0; i < round_trips; ++i) {
+    for (int i = 0; i < port_round_trips; ++i) {
       message.words[0] = i;
       there.write(message);
       while (!back.read(message)) pause();
     }
     keep(message.words[0]);
   };
-  return 1e9 * together(answer, ask) / round_trips;
+  return 1e9 * together(answer, ask) / port_round_trips;
 }
 
 }  // namespace
@@ -130,12 +130,12 @@ Figure measure_push_port_throughput(const std::string& name, int repeats) {
 
 Figure measure_port_round_trip(const std::string& name, int repeats) {
   return compare(name, "64 bytes there and back through ports / plain rings", 1.0, repeats,
-                 ns_per_round_trip<BenchPort>, ns_per_round_trip<PlainRing>);
+                 ns_per_port_round_trip<BenchPort>, ns_per_port_round_trip<PlainRing>);
 }
 
 Figure measure_push_port_round_trip(const std::string& name, int repeats) {
   return compare(name, "64 bytes there and back through push ports / plain rings", 1.0, repeats,
-                 ns_per_round_trip<BenchPushPort>, ns_per_round_trip<PlainRing>);
+                 ns_per_port_round_trip<BenchPushPort>, ns_per_port_round_trip<PlainRing>);
 }
 
 }  // namespace jarol::bench

@@ -26,7 +26,7 @@
 namespace jarol::bench {
 namespace {
 
-constexpr int ticks = 1000;  // of a slice
+constexpr int watched_ticks = 1000;  // of a slice
 
 // Sockets of pages in a process of their own, which ends with this.
 class Watchers {
@@ -104,7 +104,7 @@ void run(const Graph& graph, RecordSink* sink, std::vector<std::int64_t>& latene
   Stamp::clock = &clock;
   Stamp::begun.clear();
   clock.start();
-  executor.run_until(std::chrono::milliseconds(ticks + 1));
+  executor.run_until(std::chrono::milliseconds(watched_ticks + 1));
   if (recorder) recorder->close();
   // before activation 0 nobody sleeps
   lateness.insert(lateness.end(), Stamp::begun.begin() + 1, Stamp::begun.end());
@@ -124,7 +124,7 @@ void run_watched(const Graph& graph, int watchers, bool reads, std::vector<std::
 Figure measure_watched(const std::string& name, int watchers, bool reads, int repeats) {
   const Graph graph = graph_of(text_of_graph());
   std::vector<std::int64_t> watched, alone;
-  Stamp::begun.reserve(ticks + 1);
+  Stamp::begun.reserve(watched_ticks + 1);
   // a thread of its own: the figures after this one keep their timer slack
   std::thread([&] {
     static_cast<void>(RealClock(0).prepare_thread());

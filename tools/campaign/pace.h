@@ -14,9 +14,9 @@
 namespace jarol::tools {
 
 /// Counted by the threads that run, read by the one that shows it.
-class Pace {
+class CampaignPace {
  public:
-  Pace(std::uint64_t done, std::uint64_t all, std::uint64_t to_run) : done_(done), all_(all), to_run_(to_run) {}
+  CampaignPace(std::uint64_t done, std::uint64_t all, std::uint64_t to_run) : done_(done), all_(all), to_run_(to_run) {}
 
   void count(const campaign::Result& result) {
     ran_.fetch_add(1, std::memory_order_relaxed);

@@ -65,8 +65,6 @@ std::string gantt_text(const Graph& graph, const analysis::Result& result, std::
 
 namespace {
 
-constexpr double left = 120, width = 760, row = 28, top = 50, below = 40, bar = 20;
-
 // A picture with a row for each task, over the time of a window.
 class Chart {
  public:
@@ -114,6 +112,8 @@ class Chart {
     text_ += fmt::format("<line x1=\"{0:.2f}\" y1=\"{1:.0f}\" x2=\"{0:.2f}\" y2=\"{2:.0f}\" stroke=\"{3}\"/>\n", at,
                          from, to, colour);
   }
+
+  static constexpr double left = 120, width = 760, row = 28, top = 50, below = 40, bar = 20;
 
   const Graph& graph_;
   const Window& window_;

@@ -23,32 +23,33 @@ class Random {
   std::uint64_t count_ = 0;
 };
 
-struct Row {
+struct Share {
   std::int64_t period_us;
   double share;              // of all tasks, in percent
   double least, mean, most;  // average execution times, us
 };
 
 // Kramer, Ziegenbein, Hamann 2015, tables III and IV, without the angle-synchronous row.
-constexpr std::array<Row, 9> rows{{{1'000, 3, .34, 5.00, 30.11},
-                                   {2'000, 2, .32, 4.20, 40.69},
-                                   {5'000, 2, .36, 11.04, 83.38},
-                                   {10'000, 25, .21, 10.09, 309.87},
-                                   {20'000, 25, .25, 8.74, 291.42},
-                                   {50'000, 3, .29, 17.56, 92.98},
-                                   {100'000, 20, .21, 10.53, 420.43},
-                                   {200'000, 1, .22, 2.56, 21.95},
-                                   {1'000'000, 4, .37, .43, .46}}};
+constexpr std::array<Share, 9> waters_shares{{{1'000, 3, .34, 5.00, 30.11},
+                                              {2'000, 2, .32, 4.20, 40.69},
+                                              {5'000, 2, .36, 11.04, 83.38},
+                                              {10'000, 25, .21, 10.09, 309.87},
+                                              {20'000, 25, .25, 8.74, 291.42},
+                                              {50'000, 3, .29, 17.56, 92.98},
+                                              {100'000, 20, .21, 10.53, 420.43},
+                                              {200'000, 1, .22, 2.56, 21.95},
+                                              {1'000'000, 4, .37, .43, .46}}};
 
-struct Task {
+struct GeneratedTask {
   std::int64_t period_us;
   double utilisation;
 };
 
-std::vector<Task> waters(const Generation& g, Random& random) {
-  std::vector<Task> tasks;
+std::vector<GeneratedTask> waters(const Generation& g, Random& random) {
+  constexpr const auto& rows = waters_shares;
+  std::vector<GeneratedTask> tasks;
   double sum = 0, shares = 0;
-  for (const Row& row : rows) shares += row.share;
+  for (const Share& row : rows) shares += row.share;
   for (int i = 0; i < g.tasks; ++i) {
     double pick = random.unit() * shares;
     std::size_t r = 0;
@@ -59,12 +60,12 @@ std::vector<Task> waters(const Generation& g, Random& random) {
     tasks.push_back({rows[r].period_us, time / static_cast<double>(rows[r].period_us)});
     sum += tasks.back().utilisation;
   }
-  for (Task& t : tasks) t.utilisation *= g.utilisation / sum;
+  for (GeneratedTask& t : tasks) t.utilisation *= g.utilisation / sum;
   return tasks;
 }
 
-std::vector<Task> uunifast(const Generation& g, Random& random) {
-  std::vector<Task> tasks;
+std::vector<GeneratedTask> uunifast(const Generation& g, Random& random) {
+  std::vector<GeneratedTask> tasks;
   double left = g.utilisation;
   for (int i = 0; i < g.tasks; ++i) {
     const int after = g.tasks - 1 - i;
@@ -80,14 +81,14 @@ std::vector<Task> uunifast(const Generation& g, Random& random) {
 
 std::string generate_graph(const Generation& g) {
   Random random(g.seed);
-  const std::vector<Task> tasks = g.kind == "waters" ? waters(g, random) : uunifast(g, random);
+  const std::vector<GeneratedTask> tasks = g.kind == "waters" ? waters(g, random) : uunifast(g, random);
   std::string text = fmt::format(
       "# {} by seed {}: {} tasks, utilisation {}\ngraph: {}_{}\n"
       "platform: {{cores: {}, policy: {}}}\ntasks:\n",
       g.kind, g.seed, g.tasks, g.utilisation, g.kind, g.seed, g.cores, g.policy);
   std::string connections;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    const Task& t = tasks[i];
+    const GeneratedTask& t = tasks[i];
     const auto wcet_ns = std::clamp<std::int64_t>(std::llround(t.utilisation * static_cast<double>(t.period_us) * 1e3),
                                                   1, t.period_us * 1000);
     // every third reads one before it; a LET of a period keeps deadlines as long as periods

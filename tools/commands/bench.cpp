@@ -15,13 +15,13 @@
 namespace jarol::tools {
 namespace {
 
-struct Options {
+struct BenchOptions {
   std::vector<std::string> names;
   int repeats = 60;
   bool json = false;
 };
 
-int run_bench(const Options& options) {
+int run_bench(const BenchOptions& options) {
   const std::vector<std::string> names = options.names.empty() ? bench::figure_names() : options.names;
   const auto known = bench::figure_names();
   for (const std::string& name : names)
@@ -59,7 +59,7 @@ int run_bench(const Options& options) {
 }  // namespace
 
 void add_bench(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchOptions>();
   Command* command =
       line.add_subcommand("bench",
                           "Measure what running costs, each figure beside the best plain code for the same work.\n"

@@ -36,7 +36,7 @@ namespace {
 
 using campaign::Shard;
 
-struct Options {
+struct CampaignOptions {
   std::string file;
   Overrides overrides;
   std::vector<std::string> vary, metrics;
@@ -67,7 +67,7 @@ Shard shard_of(const std::string& text) {
   return shard;
 }
 
-std::string results_of(const Options& options) {
+std::string results_of(const CampaignOptions& options) {
   if (!options.results.empty()) return options.results;
   const std::string stem = std::filesystem::path(options.file).stem().string();
   return (options.file == "-" ? "graph" : stem) + ".campaign.sqlite";
@@ -84,7 +84,7 @@ void write_table(const std::string& path, const campaign::Results& results, cons
   file.commit();
 }
 
-campaign::Wishes wishes_of(const Options& options) {
+campaign::Wishes wishes_of(const CampaignOptions& options) {
   campaign::Wishes wishes{.vary = options.vary};
   if (!options.duration.empty()) wishes.length = length_of("--for", options.duration);
   if (options.runs > 0) wishes.runs = options.runs;
@@ -94,7 +94,7 @@ campaign::Wishes wishes_of(const Options& options) {
 
 // Ready to be run. Throws where it can't be.
 struct Stated {
-  explicit Stated(const Options& options)
+  explicit Stated(const CampaignOptions& options)
       : source{read_source(options.file), built_in(), options.overrides, options.metrics, note_once},
         graphs(source),
         campaign(state_campaign(graphs, wishes_of(options))) {
@@ -114,7 +114,7 @@ struct Stated {
   std::optional<campaign::Draws> draws;
 };
 
-std::size_t workers_of(const Options& options) {
+std::size_t workers_of(const CampaignOptions& options) {
   return options.workers > 0 ? static_cast<std::size_t>(options.workers)
                              : std::max(1U, std::thread::hardware_concurrency());
 }
@@ -127,7 +127,7 @@ std::string text_of(const campaign::Identity& identity) {
 }
 
 // Of a rank that is not the first: it does what that gives it, and has nothing to report.
-int take_part(const Options& options, campaign::Messages& messages) {
+int take_part(const CampaignOptions& options, campaign::Messages& messages) {
   std::optional<Stated> stated;
   std::string wrong;
   try {
@@ -150,7 +150,7 @@ struct Finish {
   }
 };
 
-int run(const Options& options) {
+int run(const CampaignOptions& options) {
   std::unique_ptr<campaign::Messages> messages = campaign::messages_of_mpirun();
   if (messages && messages->rank() > 0) return take_part(options, *messages);
   std::optional<campaign::FirstRank> ranks;
@@ -169,7 +169,7 @@ int run(const Options& options) {
   campaign::Results results(results_file, stated.identity, campaign);
   const std::vector<std::uint64_t> done = results.done();
   const std::vector<std::uint64_t> to_run = missing(done, shard, draws.runs());
-  Pace pace(done.size(), draws.runs(), to_run.size());
+  CampaignPace pace(done.size(), draws.runs(), to_run.size());
   {
     const Interruptible interruptible;
     const Progress progress(!options.json && isatty(STDERR_FILENO) != 0, [&] { return pace.line(); });
@@ -236,7 +236,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_campaign(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CampaignOptions>();
   Command* command = line.add_subcommand(
       "campaign",
       "Run a graph many times on the virtual clock, with other values and seeds each time, and judge what comes of "

@@ -33,7 +33,7 @@ namespace {
 
 using analysis::Verdict;
 
-struct Options {
+struct CheckOptions {
   std::vector<std::string> files;
   Overrides overrides;
   std::string generate;
@@ -68,7 +68,7 @@ int worst(int a, int b) {
 }
 
 // Options that would have no effect.
-void require_effect(const Command& command, const Options& options) {
+void require_effect(const Command& command, const CheckOptions& options) {
   if (!options.generate.empty()) {
     command.refuse({"FILE", "--set", "--profile", "--sensitivity", "--chains", "--measure", "--write", "--lower",
                     "--for", "--margin", "--svg", "--json"},
@@ -100,7 +100,7 @@ struct Checked {
 };
 
 // What was asked for and is not there.
-void note_what_lacks(const CheckReport& report, const Options& options, std::vector<std::string>& notes) {
+void note_what_lacks(const CheckReport& report, const CheckOptions& options, std::vector<std::string>& notes) {
   if (!options.svg.empty() && gantt_svg(*report.graph, report.result).empty())
     notes.push_back("no picture in '" + options.svg + "', as it needs a 'wcet' of every task");
   if (options.sensitivity && !report.sensitivity)
@@ -110,7 +110,7 @@ void note_what_lacks(const CheckReport& report, const Options& options, std::vec
   if (report.more_paths) notes.push_back("--chains tells " + std::to_string(most_paths) + " paths, there are more");
 }
 
-void check_file(const std::string& file, const Options& options, Checked& checked) {
+void check_file(const std::string& file, const CheckOptions& options, Checked& checked) {
   std::optional<Measurement> measured;
   if (options.measuring.measure || options.measuring.write)
     measured = measure_file(file, options.overrides, options.measuring);
@@ -134,7 +134,7 @@ void check_file(const std::string& file, const Options& options, Checked& checke
 }
 
 // One bad file does not hide the others.
-Checked check_or_fail(const std::string& file, const Options& options) {
+Checked check_or_fail(const std::string& file, const CheckOptions& options) {
   Checked checked;
   try {
     check_file(file, options, checked);
@@ -142,7 +142,7 @@ Checked check_or_fail(const std::string& file, const Options& options) {
   return checked;
 }
 
-int print(const std::string& file, const Checked& checked, const Options& options) {
+int print(const std::string& file, const Checked& checked, const CheckOptions& options) {
   for (const std::string& note : checked.notes) print_note(note);
   if (checked.failure) return report(failure_of(checked.failure, file), options.json, file);
   std::cout << checked.text << std::flush;
@@ -150,7 +150,7 @@ int print(const std::string& file, const Checked& checked, const Options& option
 }
 
 // On all processors at once, and reported in the order of the files.
-int check_at_once(const Options& options) {
+int check_at_once(const CheckOptions& options) {
   int exit_code = exit_good;
   // as deep as that of the main thread
   const tbb::global_control stack(tbb::global_control::thread_stack_size, std::size_t{8} << 20);
@@ -175,7 +175,7 @@ int check_at_once(const Options& options) {
   return exit_code;
 }
 
-int check_files(const Options& options) {
+int check_files(const CheckOptions& options) {
   for (const std::string& file : options.files) require_apart({{"FILE", file}}, {{"--svg", options.svg}});
   // what is measured would be disturbed by others
   if (options.files.size() > 1 && !options.measuring.measure && !options.measuring.write) return check_at_once(options);
@@ -185,7 +185,7 @@ int check_files(const Options& options) {
   return exit_code;
 }
 
-int write_graphs(const Options& options) {
+int write_graphs(const CheckOptions& options) {
   if (options.folder.empty()) throw std::invalid_argument("--generate needs -o DIR, a folder for the graphs");
   std::filesystem::create_directories(options.folder);
   Generation generation = options.generation;
@@ -210,7 +210,7 @@ int write_graphs(const Options& options) {
 }  // namespace
 
 void add_check(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckOptions>();
   Command* command =
       line.add_subcommand("check",
                           "Check structure, types and timing of graphs, and whether they can be scheduled.\n"

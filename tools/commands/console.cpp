@@ -25,7 +25,7 @@ namespace {
 // Of each output, evenly spread: as much as a screen is wide, and a few times as much for those who look closely.
 constexpr std::int64_t most_samples = 8192;
 
-struct Options {
+struct ConsoleOptions {
   std::string log;
   std::string file;
   ConsoleArguments console;
@@ -72,7 +72,7 @@ std::string text_of(const RecordedRun& log, const Comparison& comparison) {
   return text;
 }
 
-int show(const Options& options) {
+int show(const ConsoleOptions& options) {
   console::ServerOptions server = server_of(options.console);
   // it ends, and is there as a whole
   server.skips = false;
@@ -105,7 +105,7 @@ int show(const Options& options) {
 }  // namespace
 
 void add_console(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConsoleOptions>();
   Command* command = line.add_subcommand(
       "console",
       "Look at a recording of jarol run --record or --log on a web page, whose address is printed; as with jarol "

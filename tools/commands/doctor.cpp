@@ -19,9 +19,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration period = 1ms;
+constexpr Duration probe_period = 1ms;
 
-struct Options {
+struct DoctorOptions {
   std::string duration = "1s";
   bool json = false;
 };
@@ -54,7 +54,7 @@ void print_json(const MachineFacts& m, const Arithmetic& a, const std::string& g
       {"clock_resolution_ns", m.resolution.count()},
       {"governors", m.governors},
       {"math", {{"foreign_calls", a.foreign_calls}, {"blas", a.blas}, {"blas_varies", a.blas_varies}}},
-      {"period_ns", period.count()},
+      {"period_ns", probe_period.count()},
       {"lateness", nlohmann::ordered_json::array()}};
   whole["sched_fifo"]["highest_priority"] = m.fifo_priority;
   for (const Lateness& l : measured)
@@ -106,16 +106,17 @@ void print_text(const MachineFacts& m, const Arithmetic& a, const std::string& g
                      l.of.count()));
 }
 
-int examine(const Options& options) {
+int examine(const DoctorOptions& options) {
   Duration duration{};
   std::string wrong = parse_duration(options.duration, duration);
-  if (wrong.empty() && duration < period) wrong = "is less than one period of 1ms";
+  if (wrong.empty() && duration < probe_period) wrong = "is less than one period of 1ms";
   if (!wrong.empty()) throw std::invalid_argument("--for: '" + options.duration + "' " + wrong);
   const MachineFacts facts = find_machine_facts();
   std::vector<Lateness> measured;
-  if (const auto ordinary = measure_lateness(period, duration, {})) measured.push_back({"other", *ordinary});
+  if (const auto ordinary = measure_lateness(probe_period, duration, {})) measured.push_back({"other", *ordinary});
   if (facts.fifo_priority > 0)
-    if (const auto fifo = measure_lateness(period, duration, facts.fifo_priority)) measured.push_back({"fifo", *fifo});
+    if (const auto fifo = measure_lateness(probe_period, duration, facts.fifo_priority))
+      measured.push_back({"fifo", *fifo});
   const Arithmetic arithmetic = find_arithmetic();
   const std::string guardian = guardian_refused();
   options.json ? print_json(facts, arithmetic, guardian, measured) : print_text(facts, arithmetic, guardian, measured);
@@ -125,7 +126,7 @@ int examine(const Options& options) {
 }  // namespace
 
 void add_doctor(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DoctorOptions>();
   Command* command = line.add_subcommand(
       "doctor",
       "Tell what this machine allows a program with deadlines, and how late its bare sleeps at 1 kHz end:\n"

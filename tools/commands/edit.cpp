@@ -15,13 +15,13 @@
 namespace jarol::tools {
 namespace {
 
-struct Options {
+struct EditOptions {
   std::string file;
   Overrides overrides;
   ConsoleArguments console;
 };
 
-int edit_graph(const Options& options) {
+int edit_graph(const EditOptions& options) {
   if (options.file == "-") throw std::invalid_argument("'-' is stdin, which can't be written; name the graph's file");
   const Interruptible interruptible;
   const edit::Editor editor({.file = options.file,
@@ -38,7 +38,7 @@ int edit_graph(const Options& options) {
 }  // namespace
 
 void add_edit(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EditOptions>();
   Command* command = line.add_subcommand(
       "edit",
       "Edit a graph on a web page, whose address is printed: its drawing, forms, and its text beside them, in which "

@@ -17,7 +17,7 @@
 namespace jarol::tools {
 namespace {
 
-struct Options {
+struct GraphOptions {
   std::string file;
   Overrides overrides;
   bool dot = false;
@@ -175,7 +175,7 @@ void print_dot(const Graph& graph) {
 }  // namespace
 
 void add_graph(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GraphOptions>();
   Command* command = line.add_subcommand("graph", "Print a graph as text, as a picture, or as a drawing for Graphviz");
   command->add_option("FILE", options->file, "The graph, a YAML file")->file({"yaml"})->required();
   command->add_option("--set", options->overrides.set, "Change a value: path=value, as in tasks.depth.period=100ms")

@@ -16,9 +16,9 @@
 namespace jarol::tools {
 namespace {
 
-using isolation::Frame, isolation::Verdict, isolation::Violation;
+using isolation::Frame, isolation::Violation;
 
-struct Options {
+struct IsolationOptions {
   std::vector<std::string> files;
   bool json = false;
 };
@@ -27,7 +27,7 @@ struct Options {
 struct Judged {
   std::string name;  // as it is printed
   std::string path;
-  std::vector<Verdict> verdicts;
+  std::vector<isolation::Verdict> verdicts;
 };
 
 Judged judge(const std::string& file) {
@@ -49,14 +49,15 @@ Judged judge_built_in() {
 }
 
 std::size_t count_isolated(const Judged& judged) {
-  return static_cast<std::size_t>(std::count_if(judged.verdicts.begin(), judged.verdicts.end(),
-                                                [](const Verdict& verdict) { return verdict.violations.empty(); }));
+  return static_cast<std::size_t>(
+      std::count_if(judged.verdicts.begin(), judged.verdicts.end(),
+                    [](const isolation::Verdict& verdict) { return verdict.violations.empty(); }));
 }
 
 nlohmann::ordered_json json_of(const Judged& judged) {
   const isolation::SourceLines lines(judged.path);
   auto tasks = nlohmann::ordered_json::array();
-  for (const Verdict& verdict : judged.verdicts) {
+  for (const isolation::Verdict& verdict : judged.verdicts) {
     auto violations = nlohmann::ordered_json::array();
     for (const Violation& violation : verdict.violations) {
       auto path = nlohmann::ordered_json::array();
@@ -75,7 +76,7 @@ void print(const Judged& judged) {
   const std::size_t good = count_isolated(judged), all = judged.verdicts.size();
   std::cout << judged.name << ": " << (good == all ? "ISOLATED" : "NOT ISOLATED") << ", " << good << " of " << all
             << (all == 1 ? " task is\n" : " tasks are\n");
-  for (const Verdict& verdict : judged.verdicts) {
+  for (const isolation::Verdict& verdict : judged.verdicts) {
     if (verdict.violations.empty()) continue;
     std::cout << "  task " << verdict.task << "\n";
     for (const Violation& violation : verdict.violations) {
@@ -85,7 +86,7 @@ void print(const Judged& judged) {
   }
 }
 
-int run_isolation(const Options& options) {
+int run_isolation(const IsolationOptions& options) {
   std::vector<Judged> all;
   for (const std::string& file : options.files) all.push_back(judge(file));
   if (options.files.empty()) all.push_back(judge_built_in());
@@ -109,7 +110,7 @@ int run_isolation(const Options& options) {
 }  // namespace
 
 void add_isolation(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IsolationOptions>();
   Command* command = line.add_subcommand(
       "isolation",
       "Do tasks reach nothing but their own? Follows their machine code; without a file, of those built in");

@@ -21,7 +21,7 @@ using messages::MessageSet;
 using Json = nlohmann::ordered_json;
 using Rows = std::vector<std::vector<std::string>>;
 
-struct Options {
+struct MessagesOptions {
   std::string set, name;
   std::vector<std::string> plugins;
   bool json = false, decode = false, encode = false;
@@ -118,7 +118,7 @@ void print_json(const std::vector<const MessageForm*>& listed) {
   std::cout << json_line(whole);
 }
 
-int list_messages(const Options& options) {
+int list_messages(const MessagesOptions& options) {
   const std::vector<const MessageSet*> sets = sets_of(known_with(options.plugins));
   std::vector<std::string> names;
   std::vector<const MessageForm*> listed;
@@ -158,7 +158,7 @@ int list_messages(const Options& options) {
 }  // namespace
 
 void add_messages(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MessagesOptions>();
   Command* command =
       line.add_subcommand("messages", "List message sets, their messages and fields, or turn packets to JSON and back");
   command->add_option("SET", options->set, "A message set, as in imc");

@@ -11,12 +11,12 @@
 namespace jarol::tools {
 namespace {
 
-struct Options {
+struct NewOptions {
   std::string folder;
   bool vehicle = false;
 };
 
-int make(const Options& options) {
+int make(const NewOptions& options) {
   const auto files = make_project(options.folder, options.vehicle ? "rover" : "base");
   const std::string folder = printable(options.folder);
   std::cout << "made '" << folder << "' with\n";
@@ -28,7 +28,7 @@ int make(const Options& options) {
 }  // namespace
 
 void add_new(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<NewOptions>();
   Command* command = line.add_subcommand(
       "new", "Make a project of one's own: a task, a graph, tests, built by CMake with find_package(jarol)");
   command->add_option("DIR", options->folder, "The folder to make; its name is the project's")->folder()->required();

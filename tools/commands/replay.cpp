@@ -36,7 +36,7 @@
 namespace jarol::tools {
 namespace {
 
-struct Options {
+struct ReplayOptions {
   std::string log;
   std::string file;
   Overrides overrides;
@@ -80,7 +80,7 @@ std::string text_of(const Comparison& comparison, const Report& report, const Re
 }
 
 nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comparison, const RecordedRun& log,
-                               const Differences& differences, const Options& options, std::size_t misses) {
+                               const Differences& differences, const ReplayOptions& options, std::size_t misses) {
   auto json = to_json(outcome);
   const auto or_null = [](bool known, const auto& value) {
     return known ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
@@ -107,13 +107,13 @@ nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comp
 }
 
 // What is changed might have taken the vehicle elsewhere; where values are missing nobody knows where it was then.
-RecordedWorld world_of(const Options& options, Duration begin, const RecordedRun& log) {
+RecordedWorld world_of(const ReplayOptions& options, Duration begin, const RecordedRun& log) {
   if (begin > Duration{}) return RecordedWorld::systems;
   const bool is_changed = !options.overrides.set.empty() || !options.overrides.profile.empty() || !options.only.empty();
   return is_changed || !log.gaps().empty() ? RecordedWorld::nothing : RecordedWorld::truth;
 }
 
-int replay(const Options& options) {
+int replay(const ReplayOptions& options) {
   RecordedRun log(options.log);
   const Duration begin = replay_begin(options.from, log);
   const Overrides overrides = overrides_of(log.recording(), options.file, options.overrides);
@@ -231,7 +231,7 @@ int replay(const Options& options) {
 }  // namespace
 
 void add_replay(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayOptions>();
   Command* command = line.add_subcommand(
       "replay",
       "Run again what jarol run --record or --log has recorded: on the virtual clock, without vehicles or links, "

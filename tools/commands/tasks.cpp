@@ -13,7 +13,7 @@
 namespace jarol::tools {
 namespace {
 
-struct Options {
+struct TasksOptions {
   std::string name;
   std::vector<std::string> plugins;
   bool json = false;
@@ -172,7 +172,7 @@ std::vector<std::string> names_in(const Registry& known) {
   return names;
 }
 
-int list_tasks(const Options& options) {
+int list_tasks(const TasksOptions& options) {
   const Registry known = known_with(options.plugins).graph;
   if (options.name.empty()) {
     options.json ? print_json(known.tasks(), known.distributers()) : print_all(known);
@@ -194,7 +194,7 @@ int list_tasks(const Options& options) {
 }  // namespace
 
 void add_tasks(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TasksOptions>();
   Command* command = line.add_subcommand("tasks", "List task types and distributers, or tell all about one");
   command->add_option("NAME", options->name, "A task type or distributer, as in DepthControl")
       ->suggests(names_in(built_in().graph));

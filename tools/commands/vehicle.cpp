@@ -22,7 +22,7 @@
 namespace jarol::tools {
 namespace {
 
-struct Options {
+struct VehicleCommandOptions {
   std::string name;
   std::vector<std::string> plugins;
   bool describe = false;
@@ -38,7 +38,7 @@ struct Options {
   std::vector<std::pair<std::string, std::string>> link;  // as its keys are written in a graph
 };
 
-Duration period_of(const Options& options, Duration grid, Duration end) {
+Duration period_of(const VehicleCommandOptions& options, Duration grid, Duration end) {
   const double nanoseconds = 1e9 / options.rate;
   const auto period = Duration(std::llround(std::min(nanoseconds, 1e18)));
   if (!(options.rate > 0) || std::abs(nanoseconds - static_cast<double>(period.count())) > 1e-6 * nanoseconds ||
@@ -55,7 +55,7 @@ Duration period_of(const Options& options, Duration grid, Duration end) {
   return period;
 }
 
-Duration end_of(const Options& options, const std::vector<Commands>& commands) {
+Duration end_of(const VehicleCommandOptions& options, const std::vector<Commands>& commands) {
   Duration end = commands.empty() ? Duration{} : commands.back().time;
   if (options.duration.empty()) return end;
   end = duration_of("--for", options.duration);
@@ -63,7 +63,7 @@ Duration end_of(const Options& options, const std::vector<Commands>& commands) {
   return end;
 }
 
-int drive(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
+int drive(const VehicleCommandOptions& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
           Problems& problems) {
   const auto commands = read_commands(read_source(options.script), vehicle_class, problems);
   const auto vehicle =
@@ -79,7 +79,7 @@ int drive(const Options& options, const vehicles::VehicleClass& vehicle_class, c
 }
 
 // The options of a link as the mapping that a graph would have.
-Yaml link_of(const Options& options) {
+Yaml link_of(const VehicleCommandOptions& options) {
   Yaml mapping;
   mapping.kind = Yaml::Kind::mapping;
   mapping.where = {std::make_shared<Source>(Source{"--link", "--link"}), 1, 1};
@@ -95,8 +95,8 @@ Yaml link_of(const Options& options) {
   return mapping;
 }
 
-int serve_in_lockstep(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
-                      Problems& problems) {
+int serve_in_lockstep(const VehicleCommandOptions& options, const vehicles::VehicleClass& vehicle_class,
+                      const Value& parameters, Problems& problems) {
   std::string listen;
   distributers::LockstepOptions lockstep;
   for (const auto& [key, text] : options.link) {
@@ -119,7 +119,7 @@ int serve_in_lockstep(const Options& options, const vehicles::VehicleClass& vehi
       lockstep);
 }
 
-int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
+int serve(const VehicleCommandOptions& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,
           Problems& problems) {
   if (options.link.front().second == "lockstep") return serve_in_lockstep(options, vehicle_class, parameters, problems);
   const distributers::LinkType& type = *built_in().links.find(options.link.front().second);
@@ -140,7 +140,7 @@ int serve(const Options& options, const vehicles::VehicleClass& vehicle_class, c
 }
 
 // A vehicle on TCP is the one that listens, unless it is told whom to connect to.
-void choose_tcp_end(Options& options) {
+void choose_tcp_end(VehicleCommandOptions& options) {
   if (options.link.empty() || options.link.front().second != "tcp") return;
   const bool dials =
       std::any_of(options.link.begin(), options.link.end(), [](const auto& k) { return k.first == "peer"; });
@@ -148,7 +148,7 @@ void choose_tcp_end(Options& options) {
 }
 
 // Options that would have no effect.
-void require_effect(const Command& command, const Options& options) {
+void require_effect(const Command& command, const VehicleCommandOptions& options) {
   const bool linked = !options.link.empty(), scripted = !options.script.empty();
   const bool in_lockstep = linked && options.link.front().second == "lockstep";
   if (linked && options.link.front().first != "type")
@@ -178,7 +178,7 @@ void require_effect(const Command& command, const Options& options) {
     command.refuse({"--initial", "--for", "--seed"}, "needs --script or --link: --describe does not move it");
 }
 
-int vehicle(const Options& options) {
+int vehicle(const VehicleCommandOptions& options) {
   const auto known = known_with(options.plugins).vehicles;
   const vehicles::VehicleClass* const found = known.find(options.name);
   if (found == nullptr) {
@@ -205,7 +205,7 @@ int vehicle(const Options& options) {
 }  // namespace
 
 void add_vehicle(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VehicleCommandOptions>();
   Command* command = line.add_subcommand("vehicle",
                                          "Describe a simulated vehicle, drive it by a script, or let another\n"
                                          "process steer it in real time over a link");

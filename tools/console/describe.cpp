@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string kind_of(const Type& type) {
+std::string plot_kind_of(const Type& type) {
   switch (type.kind) {
     case Kind::boolean: return "bool";
     case Kind::enumeration: return "enum";
@@ -33,7 +33,7 @@ std::string kind_of(const Type& type) {
 }
 
 Json leaf_json(const Type& type, const Leaf& leaf) {
-  Json json{{"path", leaf.path}, {"unit", leaf.unit}, {"kind", kind_of(*leaf.type)}};
+  Json json{{"path", leaf.path}, {"unit", leaf.unit}, {"kind", plot_kind_of(*leaf.type)}};
   if (leaf.type->kind == Kind::duration) json["unit"] = "ns";
   if (const std::string text = text_of_leaf(type, leaf.path); !text.empty()) json["text"] = text;
   for (std::size_t i = 0; i < leaf.type->enumerators.size(); ++i) {

@@ -13,9 +13,9 @@
 namespace jarol::tools::console {
 namespace {
 
-using Json = nlohmann::json;
+using Received = nlohmann::json;
 
-std::string text_of(const Json& message, const char* key) {
+std::string text_of(const Received& message, const char* key) {
   const auto found = message.find(key);
   if (found == message.end() || !found->is_string())
     throw std::invalid_argument(fmt::format("expected a text as \"{}\"", key));
@@ -23,7 +23,7 @@ std::string text_of(const Json& message, const char* key) {
 }
 
 // What a take-over could jerk the vehicle by.
-void require_centred(const Json& message) {
+void require_centred(const Received& message) {
   const auto sticks = message.find("sticks");
   if (sticks == message.end() || !sticks->is_object())
     throw std::invalid_argument("expected the sticks' places as \"sticks\", as in {\"roll\": 0}");
@@ -45,7 +45,7 @@ nlohmann::ordered_json Desk::describe() const {
   return desks;
 }
 
-void Desk::obey(std::uint64_t page, const Json& message, Clock::time_point now) {
+void Desk::obey(std::uint64_t page, const Received& message, Clock::time_point now) {
   const std::string what = text_of(message, "do");
   Seat& seat = find(message);
   if (what == "take") {
@@ -99,7 +99,7 @@ nlohmann::ordered_json Desk::answers() {
   return answers;
 }
 
-Desk::Seat& Desk::find(const Json& message) {
+Desk::Seat& Desk::find(const Received& message) {
   const std::string name = text_of(message, "desk");
   std::vector<std::string> names;
   for (Seat& seat : seats_) {
@@ -109,7 +109,7 @@ Desk::Seat& Desk::find(const Json& message) {
   throw std::invalid_argument(fmt::format("there is no desk of '{}'; there are: {}", name, list_of(names)));
 }
 
-void Desk::take(Seat& seat, std::uint64_t page, const Json& message) {
+void Desk::take(Seat& seat, std::uint64_t page, const Received& message) {
   if (seat.page && seat.page != page)
     throw std::invalid_argument(
         fmt::format("another page commands '{}'; it has to release it, or to fall silent", seat.of.name));
@@ -123,7 +123,7 @@ void Desk::take(Seat& seat, std::uint64_t page, const Json& message) {
 }
 
 // One that is no newer than another was held up on its way: what it commands is past.
-void Desk::send(Seat& seat, const Json& message) {
+void Desk::send(Seat& seat, const Received& message) {
   const auto sequence = message.find("sequence");
   if (sequence == message.end() || !sequence->is_number_unsigned())
     throw std::invalid_argument("expected a number that grows as \"sequence\"");

@@ -27,25 +27,25 @@
 namespace jarol::tools {
 namespace {
 
-struct Kind {
+struct CrashSignal {
   int signal;
   std::string_view name;
   bool tells_address;
 };
-constexpr std::array kinds{Kind{SIGSEGV, "segmentation fault", true},
-                           Kind{SIGBUS, "bus error", true},
-                           Kind{SIGILL, "illegal instruction", false},
-                           Kind{SIGFPE, "arithmetic exception", false},
-                           Kind{SIGABRT, "abort", false},
-                           Kind{SIGTRAP, "trap", false},
-                           Kind{SIGSYS, "forbidden system call", false}};
+constexpr std::array kinds{CrashSignal{SIGSEGV, "segmentation fault", true},
+                           CrashSignal{SIGBUS, "bus error", true},
+                           CrashSignal{SIGILL, "illegal instruction", false},
+                           CrashSignal{SIGFPE, "arithmetic exception", false},
+                           CrashSignal{SIGABRT, "abort", false},
+                           CrashSignal{SIGTRAP, "trap", false},
+                           CrashSignal{SIGSYS, "forbidden system call", false}};
 
-std::atomic<const Graph*> graph{nullptr};
+std::atomic<const Graph*> running_graph{nullptr};
 std::atomic<const distributers::Guardian*> guardian{nullptr};
 std::atomic<bool> crashed{false};
 std::string about_log;  // a line, or nothing
 pid_t own_process = 0;  // not that of a child which a task has made
-std::array<struct sigaction, kinds.size()> before;
+std::array<struct sigaction, kinds.size()> handlers_before;
 
 // All that follows may run in a signal handler: it allocates nothing and locks nothing.
 class Line {
@@ -94,7 +94,7 @@ class Line {
 
 void name_task(Line& line) {
   const TaskMemory* const memory = running_task.memory.load(std::memory_order_relaxed);
-  const Graph* const of = graph.load();
+  const Graph* const of = running_graph.load();
   if (memory == nullptr || of == nullptr) {
     line << "crash: no task ran in this thread: ";
     return;
@@ -134,7 +134,7 @@ bool is_stack_used_up(void* context) {
 
 // What a task wrote to under guard.
 void name_forbidden(Line& line, const void* address) {
-  const Graph* const of = graph.load();
+  const Graph* const of = running_graph.load();
   if (const auto owner = TaskGuard::find_owner(address); owner && of != nullptr) {
     line << "wrote to the memory of task '" << of->tasks[*owner].name << "'";
     return;
@@ -158,7 +158,8 @@ extern "C" void on_crash(int signal, siginfo_t* info, void* context) {
     return;
   }
   wait_if_second();
-  const Kind& kind = *std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.signal == signal; });
+  const CrashSignal& kind =
+      *std::find_if(kinds.begin(), kinds.end(), [&](const CrashSignal& k) { return k.signal == signal; });
   Line line;
   if (info->si_code == SI_USER && info->si_pid != ::getpid()) {
     line << "crash: " << kind.name << ", sent by process " << info->si_pid;
@@ -188,7 +189,7 @@ extern "C" void on_crash(int signal, siginfo_t* info, void* context) {
 // In the thread that called it, before anything else is torn down.
 void on_exit_called(std::string_view call, std::optional<int> code = {}) {
   PageGuard::lift();
-  if (graph.load() == nullptr || running_task.memory.load(std::memory_order_relaxed) == nullptr) return;
+  if (running_graph.load() == nullptr || running_task.memory.load(std::memory_order_relaxed) == nullptr) return;
   if (::getpid() != own_process) return;
   wait_if_second();
   Line line;
@@ -218,7 +219,7 @@ CrashLine::CrashLine(const Graph& of, const distributers::Guardian* awake, const
     about_log = "note: the recording '" + printable(log) + "' is good up to its last chunk: jarol replay " +
                 printable(log) + "\n";
   own_process = ::getpid();
-  graph.store(&of);
+  running_graph.store(&of);
   guardian.store(awake);
   watch_exit();
   for (std::size_t i = 0; i < kinds.size(); ++i) {
@@ -226,14 +227,14 @@ CrashLine::CrashLine(const Graph& of, const distributers::Guardian* awake, const
     action.sa_sigaction = on_crash;
     action.sa_flags = SA_SIGINFO | SA_ONSTACK;
     sigfillset(&action.sa_mask);
-    ::sigaction(kinds[i].signal, &action, &before[i]);
+    ::sigaction(kinds[i].signal, &action, &handlers_before[i]);
   }
 }
 
 CrashLine::~CrashLine() {
-  for (std::size_t i = 0; i < kinds.size(); ++i) ::sigaction(kinds[i].signal, &before[i], nullptr);
+  for (std::size_t i = 0; i < kinds.size(); ++i) ::sigaction(kinds[i].signal, &handlers_before[i], nullptr);
   guardian.store(nullptr);
-  graph.store(nullptr);
+  running_graph.store(nullptr);
 }
 
 }  // namespace jarol::tools

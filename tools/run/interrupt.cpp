@@ -11,7 +11,7 @@ namespace jarol::tools {
 namespace {
 
 std::atomic<bool> flag{false};
-std::atomic<int> number{0};
+std::atomic<int> last_signal{0};
 std::atomic<bool> alive{false};
 std::atomic<bool> may_hasten{false}, hastened{false};
 std::atomic<std::int64_t> counted_at{0};  // ns, of the newest that counts; 0: none has come
@@ -29,7 +29,7 @@ extern "C" void interrupt(int signal) {
   // another thread may take the second signal before this one has done more
   std::int64_t before = 0;
   if (counted_at.compare_exchange_strong(before, now())) {
-    number.store(signal);
+    last_signal.store(signal);
     flag.store(true);
     if (alive.load()) call();
     return;
@@ -53,7 +53,7 @@ Interruptible::Interruptible(std::function<void()> at_once, HaltKey halt_key, Se
     : count_(signals.size() - (halt_key == HaltKey::halts ? 1 : 0)) {
   call = std::move(at_once);
   flag.store(false);
-  number.store(0);
+  last_signal.store(0);
   may_hasten.store(second_signal == SecondSignal::hastens);
   hastened.store(false);
   counted_at.store(0);
@@ -74,9 +74,9 @@ Interruptible::~Interruptible() {
 
 const std::atomic<bool>& Interruptible::interrupted() { return flag; }
 
-int Interruptible::signal() { return number.load(); }
+int Interruptible::signal() { return last_signal.load(); }
 
-Wish Interruptible::wish() { return {number.load(), hastened.load()}; }
+Wish Interruptible::wish() { return {last_signal.load(), hastened.load()}; }
 
 void Interruptible::forbid_haste() { may_hasten.store(false); }
 

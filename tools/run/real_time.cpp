@@ -40,7 +40,7 @@ void add_cpus(const std::string& part, const std::string& list, std::vector<int>
   }
 }
 
-const RealTimeWords words{"--rt-priority", "--cpus", "--set"};
+const RealTimeWords real_time_words{"--rt-priority", "--cpus", "--set"};
 
 // The safe value as a graph has it: {signals: [0, 0, 0, 0], unlocked: false}.
 std::string value_text(const Communicator& out) {
@@ -90,11 +90,11 @@ RealTimeOptions options_of(const RealTimeArguments& arguments) {
 }
 
 std::vector<analysis::TaskThread> threads_for(const std::string& file, const Graph& graph, RealTimeOptions& options) {
-  return jarol::threads_for(file, graph, options, words);
+  return jarol::threads_for(file, graph, options, real_time_words);
 }
 
 void require_executable(const std::string& file, const Graph& graph, const RealTimeArguments& arguments) {
-  require_executed(file, graph, words);
+  require_executed(file, graph, real_time_words);
   const CheckFindings found = find_against(graph);
   if (!found.against.empty() && !arguments.force)
     throw NegativeVerdict("'" + file + "' " + found.against +

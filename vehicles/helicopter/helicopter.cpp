@@ -13,10 +13,8 @@
 namespace jarol::vehicles {
 namespace {
 
-constexpr double most_signal = 16000.0;
-
 double setting_of(const HelicopterParameters& p, double signal, double voltage) {
-  return signal / most_signal * voltage / p.rotors.reference_voltage;
+  return signal / max_signal * voltage / p.rotors.reference_voltage;
 }
 
 std::unique_ptr<HelicopterDynamics> make_plant(const HelicopterParameters& p, const HelicopterMotion& start) {
@@ -103,7 +101,7 @@ void Helicopter::step() {
   command.wind_n = wind_.now(-plant_->motion().p_n[2]);
   const double time = 1e-9 * static_cast<double>(nanoseconds_);
   for (std::size_t i = 0; i < 4; ++i) {
-    const double signal = std::max(motors_[i].command(time, robostix_.signals()[i], most_signal), 0.0);
+    const double signal = std::max(motors_[i].command(time, robostix_.signals()[i], max_signal), 0.0);
     if (!motors_[i].is_stuck(time)) settings_[i] = setting_of(parameters_, signal, voltage_);
     const double part = motors_[i].part(time);
     const double slower = part == 1.0 ? 1.0 : std::pow(part, 1.0 / parameters_.rotors.thrust_exponent);
@@ -132,8 +130,8 @@ void Helicopter::step() {
 
 void Helicopter::tell_outputs(double current) {
   const std::array<double, 4>& reached = plant_->settings();
-  outputs_.rotors = {most_signal * reached[0], most_signal * reached[1], most_signal * reached[2],
-                     most_signal * reached[3]};
+  outputs_.rotors = {max_signal * reached[0], max_signal * reached[1], max_signal * reached[2],
+                     max_signal * reached[3]};
   outputs_.battery = {voltage_, current};
 }
 

@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "vehicles/helicopter/coefficients.h"
+#include "vehicles/helicopter/robostix.h"
 
 namespace jarol::vehicles {
 namespace {
 
-constexpr double most_signal = 16000.0;
 constexpr double airborne = 0.02;  // m, of the lowest foot above the ground
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
@@ -59,7 +59,7 @@ void HelicopterJudge::look(std::chrono::nanoseconds instant, const HelicopterMot
   if (!mishap_) find_capsize(instant);
   has_flown_ = has_flown_ || height() > airborne;
   const double mean = (settings[0] + settings[1] + settings[2] + settings[3]) / 4;
-  if (!has_flown_ && most_signal * mean >= limits_.take_off_signal)
+  if (!has_flown_ && max_signal * mean >= limits_.take_off_signal)
     driven_ += std::chrono::duration<double>(instant - last_instant_).count();
   last_instant_ = instant;
 }

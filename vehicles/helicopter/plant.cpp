@@ -24,9 +24,12 @@ HelicopterMotion motion_of(const SimTK::MobilizedBody& body, const State& state)
   return motion;
 }
 
-class Loads : public ForceWithInput<HelicopterInput> {
+}  // namespace
+
+class HelicopterLoads : public ForceWithInput<HelicopterInput> {
  public:
-  Loads(const SimTK::GeneralForceSubsystem& forces, const SimTK::MobilizedBody& mobilized, const HelicopterBody& body)
+  HelicopterLoads(const SimTK::GeneralForceSubsystem& forces, const SimTK::MobilizedBody& mobilized,
+                  const HelicopterBody& body)
       : ForceWithInput(forces, mobilized), body_(body) {}
 
   void calcForce(const State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces, SimTK::Vector_<Vec3>&,
@@ -42,8 +45,6 @@ class Loads : public ForceWithInput<HelicopterInput> {
   const HelicopterBody& body_;
 };
 
-}  // namespace
-
 struct HelicopterPlant::Simulation {
   Simulation(const HelicopterBody& properties, const HelicopterMotion& start)
       : matter(system),
@@ -53,7 +54,7 @@ struct HelicopterPlant::Simulation {
                  properties.mass, Vec3(0),
                  SimTK::Inertia(properties.inertia[0], properties.inertia[1], properties.inertia[2]))),
              SimTK::Transform()),
-        loads(new Loads(forces, body, properties)),  // adopted by the force
+        loads(new HelicopterLoads(forces, body, properties)),  // adopted by the force
         force(forces, loads),
         integrator(system),
         stepper(system, integrator) {
@@ -74,7 +75,7 @@ struct HelicopterPlant::Simulation {
   SimTK::SimbodyMatterSubsystem matter;
   SimTK::GeneralForceSubsystem forces;
   SimTK::MobilizedBody::Free body;
-  Loads* loads;
+  HelicopterLoads* loads;
   SimTK::Force::Custom force;
   SimTK::RungeKutta3Integrator integrator;
   SimTK::TimeStepper stepper;

@@ -3,8 +3,6 @@
 namespace jarol::vehicles {
 namespace {
 
-fossen::Vector3 plain(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }
-
 HelicopterMotion motion_of(const RigidState& s, const Eigen::Matrix3d& R_nb) {
   HelicopterMotion motion;
   motion.p_n = plain(s.p_n);

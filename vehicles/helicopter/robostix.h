@@ -9,6 +9,8 @@
 
 namespace jarol::vehicles {
 
+inline constexpr double max_signal = 16000.0;  // of a motor
+
 /// Motors are locked until a SwitchState, and again after a ShutDown. Without MotorSignals for 100 ms the signals fall
 /// by 5 each 100 ms.
 class Robostix {

@@ -38,8 +38,8 @@ std::int16_t to_int16(double value) {
   return static_cast<std::int16_t>(std::lround(std::clamp(value, -32768.0, 32767.0)));
 }
 
-std::uint16_t to_counts(double value, double most) {
-  return static_cast<std::uint16_t>(std::clamp(std::floor(value), 0.0, most));
+std::uint16_t to_counts(double value, double limit) {
+  return static_cast<std::uint16_t>(std::clamp(std::floor(value), 0.0, limit));
 }
 
 // an angle's 16 bits go all the way round

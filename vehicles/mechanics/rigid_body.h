@@ -26,6 +26,9 @@ struct RigidState {
   }
 };
 
+/// As forces are computed with it.
+inline fossen::Vector3 plain(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }
+
 /// Rates of a state.
 struct RigidRates {
   Eigen::Vector3d p_dot;

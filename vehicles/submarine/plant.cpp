@@ -15,12 +15,20 @@ namespace {
 using SimTK::State;
 using SimTK::Vec3;
 
+SimTK::MassProperties mass_properties(const SubmarineBody& body) {
+  const fossen::Matrix6& M = body.M_rb;
+  const fossen::Vector3& r = body.hull.r_bg;
+  return {M[0][0], Vec3(r[0], r[1], r[2]), SimTK::Inertia(M[3][3], M[4][4], M[5][5])};
+}
+
+}  // namespace
+
 // Added mass depends on direction, which no Simbody inertia can express. So the whole equation is solved for nu_dot
 // here, and Simbody's rigid body gets the one force that gives it this acceleration: M_rb nu_dot + C_rb nu.
-class Hydrodynamics : public ForceWithInput<SubmarineInput> {
+class SubmarineHydrodynamics : public ForceWithInput<SubmarineInput> {
  public:
-  Hydrodynamics(const SimTK::GeneralForceSubsystem& forces, const SimTK::MobilizedBody& mobilized,
-                const SubmarineBody& body, const Waves& waves)
+  SubmarineHydrodynamics(const SimTK::GeneralForceSubsystem& forces, const SimTK::MobilizedBody& mobilized,
+                         const SubmarineBody& body, const Waves& waves)
       : ForceWithInput(forces, mobilized), body_(body), waves_(waves) {}
 
   void calcForce(const State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces, SimTK::Vector_<Vec3>&,
@@ -49,20 +57,12 @@ class Hydrodynamics : public ForceWithInput<SubmarineInput> {
   Waves waves_;
 };
 
-SimTK::MassProperties mass_properties(const SubmarineBody& body) {
-  const fossen::Matrix6& M = body.M_rb;
-  const fossen::Vector3& r = body.hull.r_bg;
-  return {M[0][0], Vec3(r[0], r[1], r[2]), SimTK::Inertia(M[3][3], M[4][4], M[5][5])};
-}
-
-}  // namespace
-
 struct SubmarinePlant::Simulation {
   Simulation(const SubmarineBody& properties, const Waves& waves, const PlantState& start)
       : matter(system),
         forces(system),
         body(matter.Ground(), SimTK::Transform(), SimTK::Body::Rigid(mass_properties(properties)), SimTK::Transform()),
-        hydrodynamics(new Hydrodynamics(forces, body, properties, waves)),  // adopted by the force
+        hydrodynamics(new SubmarineHydrodynamics(forces, body, properties, waves)),  // adopted by the force
         force(forces, hydrodynamics),
         integrator(system),
         stepper(system, integrator) {
@@ -93,7 +93,7 @@ struct SubmarinePlant::Simulation {
   SimTK::SimbodyMatterSubsystem matter;
   SimTK::GeneralForceSubsystem forces;
   SimTK::MobilizedBody::Free body;
-  Hydrodynamics* hydrodynamics;
+  SubmarineHydrodynamics* hydrodynamics;
   SimTK::Force::Custom force;
   SimTK::RungeKuttaMersonIntegrator integrator;
   SimTK::TimeStepper stepper;

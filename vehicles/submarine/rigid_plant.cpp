@@ -10,7 +10,6 @@ namespace jarol::vehicles {
 namespace {
 
 fossen::Vector6 plain(const Vector6d& x) { return {x[0], x[1], x[2], x[3], x[4], x[5]}; }
-fossen::Vector3 plain(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }
 
 }  // namespace
 

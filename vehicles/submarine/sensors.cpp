@@ -14,7 +14,6 @@ namespace {
 
 namespace imc = messages::imc;
 
-constexpr double step_seconds = SubmarineMotion::step_seconds;
 constexpr double air_pressure = 1013.25;                       // hPa
 constexpr double longest_range = 100.0, shortest_range = 0.1;  // m, of the altimeter
 
@@ -95,7 +94,7 @@ void SubmarineSensors::step(std::int64_t step, const SubmarineScene& scene) {
   const fossen::Vector6 &eta = scene.at.eta, &nu = scene.at.nu, &nu_dot = scene.at.nu_dot;
   const double c_theta = std::cos(eta[4]);
   const fossen::Vector3 down_b = {-std::sin(eta[4]), c_theta * std::sin(eta[3]), c_theta * std::cos(eta[3])};
-  seconds_ = static_cast<double>(step) * step_seconds;
+  seconds_ = static_cast<double>(step) * SubmarineMotion::step_seconds;
   step_ = step;
 
   // both gauges feel pressure

@@ -14,8 +14,6 @@
 namespace jarol::vehicles {
 namespace {
 
-constexpr double step_seconds = SubmarineMotion::step_seconds;
-
 double floating_depth(const SubmarineParameters& parameters) { return calc_floating_depth(make_body(parameters).hull); }
 
 VehicleState start_of(const SubmarineParameters& parameters) {
@@ -76,14 +74,14 @@ void Submarine::step() {
   const auto& servos = actuation_.servos();
   outputs_.actuators = {actuation_.propeller(), servos[0], servos[1], servos[2], servos[3]};
   judge_.look(steps_ * grid(), state());
-  power_.draw(actuation_.propeller() / parameters_.thruster.full_speed, step_seconds);
+  power_.draw(actuation_.propeller() / parameters_.thruster.full_speed, SubmarineMotion::step_seconds);
   sample();
 }
 
 void Submarine::sample() {
   const VehicleState over_ground = state();
   const fossen::Vector6& eta = at_.eta;
-  const double t = static_cast<double>(steps_) * step_seconds;
+  const double t = static_cast<double>(steps_) * SubmarineMotion::step_seconds;
   const Water water = waves_.at({eta[0], eta[1], eta[2]}, t);
 
   SubmarineScene scene;
@@ -107,7 +105,7 @@ void Submarine::sample() {
 
 // the plant moves in water that the current carries along
 VehicleState Submarine::state() const {
-  const double t = static_cast<double>(steps_) * step_seconds;
+  const double t = static_cast<double>(steps_) * SubmarineMotion::step_seconds;
   return {at_.eta[0] + parameters_.sea.current_north * t,
           at_.eta[1] + parameters_.sea.current_east * t,
           at_.eta[2],

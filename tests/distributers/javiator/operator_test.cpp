@@ -16,13 +16,13 @@ using namespace jarol::distributers;
 using namespace std::chrono_literals;
 namespace javiator = messages::javiator;
 
-struct Sent : messages::Receiver {
+struct SentToOperator : messages::Receiver {
   void receive(messages::MessageRef message) override { all.emplace_back(message); }
   std::vector<messages::Message> all;
 };
 
 template <class M>
-void send(Typed<JaviatorOperator>& adapter, const M& message = {}) {
+void send_to(Typed<JaviatorOperator>& adapter, const M& message = {}) {
   adapter.receive(messages::refer_to(message));
 }
 
@@ -38,7 +38,7 @@ struct Told {
 };
 
 Told tell(Typed<JaviatorOperator>& adapter, const tasks::HelicopterReport& report) {
-  Sent sent;
+  SentToOperator sent;
   adapter.hand_over<&JaviatorOperator::Out::report>(report, sent);
   REQUIRE(sent.all.size() == 2);
   REQUIRE(sent.all[0].as<javiator::GroundReport>() != nullptr);
@@ -47,7 +47,7 @@ Told tell(Typed<JaviatorOperator>& adapter, const tasks::HelicopterReport& repor
 }
 
 void reach(Typed<JaviatorOperator>& adapter, Duration instant) {
-  Sent sent;
+  SentToOperator sent;
   adapter.reach(instant, sent);
   CHECK(sent.all.empty());
 }
@@ -57,43 +57,43 @@ TEST_SUITE("distributers/javiator_operator") {
   TEST_CASE("the first switch of a new peer is a hello; the next one counts") {
     Typed<JaviatorOperator> adapter;
     adapter.peer_changed();
-    send<javiator::SwitchState>(adapter);
+    send_to<javiator::SwitchState>(adapter);
     CHECK(take(adapter).state_switches == 0);
-    send<javiator::SwitchState>(adapter);
+    send_to<javiator::SwitchState>(adapter);
     CHECK(take(adapter).state_switches == 1);
     SUBCASE("and so it is after the terminal's restart") {
       adapter.peer_changed();
-      send<javiator::SwitchState>(adapter);
+      send_to<javiator::SwitchState>(adapter);
       CHECK(take(adapter).state_switches == 1);
-      send<javiator::SwitchState>(adapter);
+      send_to<javiator::SwitchState>(adapter);
       CHECK(take(adapter).state_switches == 2);
     }
   }
 
   TEST_CASE("in a stream, which knows no peers, every switch counts") {
     Typed<JaviatorOperator> adapter;
-    send<javiator::SwitchState>(adapter);
+    send_to<javiator::SwitchState>(adapter);
     CHECK(take(adapter).state_switches == 1);
   }
 
   TEST_CASE("a new peer whose hello was lost is obeyed from its first switch after a command on") {
     Typed<JaviatorOperator> adapter;
     adapter.peer_changed();
-    send(adapter, javiator::CommandData{});
-    send(adapter, javiator::SwitchState{});
+    send_to(adapter, javiator::CommandData{});
+    send_to(adapter, javiator::SwitchState{});
     CHECK(take(adapter).state_switches == 1);
   }
 
   TEST_CASE("a hello does not keep a shut-down from counting") {
     Typed<JaviatorOperator> adapter;
     adapter.peer_changed();
-    send<javiator::ShutDown>(adapter);
+    send_to<javiator::ShutDown>(adapter);
     CHECK(take(adapter).shut_downs == 1);
   }
 
   TEST_CASE("commands are radians and metres; the first two may mean a place") {
     Typed<JaviatorOperator> adapter;
-    send(adapter, javiator::CommandData{75, -30, -200, 515});
+    send_to(adapter, javiator::CommandData{75, -30, -200, 515});
     const tasks::PilotCommand command = take(adapter);
     CHECK(command.roll == doctest::Approx(0.075));
     CHECK(command.pitch == doctest::Approx(-0.03));
@@ -106,9 +106,9 @@ TEST_SUITE("distributers/javiator_operator") {
   TEST_CASE("the operator is heard in a period in which a command came; keys alone are not enough") {
     Typed<JaviatorOperator> adapter;
     CHECK_FALSE(take(adapter).heard);
-    send(adapter, javiator::CommandData{0, 0, 0, 500});
+    send_to(adapter, javiator::CommandData{0, 0, 0, 500});
     CHECK(take(adapter).heard);
-    send<javiator::SwitchMode>(adapter);
+    send_to<javiator::SwitchMode>(adapter);
     const tasks::PilotCommand silent = take(adapter);
     CHECK_FALSE(silent.heard);
     CHECK(silent.altitude == doctest::Approx(0.5));
@@ -116,15 +116,15 @@ TEST_SUITE("distributers/javiator_operator") {
 
   TEST_CASE("every key counts, however many come between two periods") {
     Typed<JaviatorOperator> adapter;
-    send<javiator::SwitchState>(adapter);
-    send<javiator::SwitchState>(adapter);
-    send<javiator::SwitchMode>(adapter);
-    send<javiator::SwitchMode>(adapter);
-    send<javiator::SwitchMode>(adapter);
-    send<javiator::ShutDown>(adapter);
-    send<javiator::StoreTrim>(adapter);
-    send<javiator::StoreTrim>(adapter);
-    send<javiator::ClearTrim>(adapter);
+    send_to<javiator::SwitchState>(adapter);
+    send_to<javiator::SwitchState>(adapter);
+    send_to<javiator::SwitchMode>(adapter);
+    send_to<javiator::SwitchMode>(adapter);
+    send_to<javiator::SwitchMode>(adapter);
+    send_to<javiator::ShutDown>(adapter);
+    send_to<javiator::StoreTrim>(adapter);
+    send_to<javiator::StoreTrim>(adapter);
+    send_to<javiator::ClearTrim>(adapter);
     const tasks::PilotCommand command = take(adapter);
     CHECK(command.state_switches == 2);
     CHECK(command.mode_switches == 3);
@@ -138,8 +138,8 @@ TEST_SUITE("distributers/javiator_operator") {
     Typed<JaviatorOperator> adapter;
     tasks::OperatorGains gains;
     CHECK_FALSE(adapter.take<&JaviatorOperator::In::gains>(gains));
-    send(adapter, javiator::RollPitchParams{1700, 0, 500, -70});
-    send(adapter, javiator::AltParams{1500, 500, 1000, 50});
+    send_to(adapter, javiator::RollPitchParams{1700, 0, 500, -70});
+    send_to(adapter, javiator::AltParams{1500, 500, 1000, 50});
     REQUIRE(adapter.take<&JaviatorOperator::In::gains>(gains));
     CHECK(gains.lean.told);
     CHECK(gains.lean.gains.kp == doctest::Approx(1.7));
@@ -150,9 +150,9 @@ TEST_SUITE("distributers/javiator_operator") {
     CHECK_FALSE(gains.yaw.told);
     CHECK_FALSE(gains.idle.told);
     CHECK_FALSE(adapter.take<&JaviatorOperator::In::gains>(gains));
-    send(adapter, javiator::YawParams{1500, 0, 500, 0});
-    send(adapter, javiator::XYParams{210, 30, -60, 1});
-    send(adapter, javiator::IdleLimit{8000});
+    send_to(adapter, javiator::YawParams{1500, 0, 500, 0});
+    send_to(adapter, javiator::XYParams{210, 30, -60, 1});
+    send_to(adapter, javiator::IdleLimit{8000});
     REQUIRE(adapter.take<&JaviatorOperator::In::gains>(gains));
     CHECK(gains.yaw.gains.kp == doctest::Approx(1.5));
     CHECK(gains.position.gains.kdd == doctest::Approx(0.001));
@@ -171,7 +171,7 @@ TEST_SUITE("distributers/javiator_operator") {
     report.signals = {2850, 2850, 2850, 2850};
     report.state = tasks::FlightState::flying;
     for (int i = 1; i < 692; ++i) tell(adapter, report);
-    Sent sent;
+    SentToOperator sent;
     adapter.hand_over<&JaviatorOperator::Out::report>(report, sent);
     std::vector<std::byte> packet;
     REQUIRE(messages::write_packet(messages::Message(*javiator::message_set().header), sent.all[0],
@@ -270,9 +270,9 @@ TEST_SUITE("distributers/javiator_operator") {
     CHECK(state(FlightState::flying) == 2);
     CHECK(state(FlightState::landing) == 2);
     CHECK(tell(adapter, report).report.state_mode.mode == 1);
-    send<javiator::SwitchMode>(adapter);
+    send_to<javiator::SwitchMode>(adapter);
     CHECK(tell(adapter, report).report.state_mode.mode == 2);
-    send<javiator::SwitchMode>(adapter);
+    send_to<javiator::SwitchMode>(adapter);
     CHECK(tell(adapter, report).report.state_mode.mode == 1);
   }
 

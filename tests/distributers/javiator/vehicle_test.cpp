@@ -15,7 +15,7 @@ namespace javiator = messages::javiator;
 using Flags = javiator::JaviatorData::Flags;
 
 // What went out, in its order.
-struct Sent : messages::Receiver {
+struct SentInOrder : messages::Receiver {
   void receive(messages::MessageRef message) override {
     if (const auto* motors = message.as<javiator::MotorSignals>()) {
       order += "m";
@@ -45,7 +45,7 @@ struct Vehicle {
     return std::string(sensors.new_imu ? "i" : "") + (sensors.new_bmu ? "b" : "") + (sensors.new_sonar ? "s" : "") +
            (sensors.new_x ? "x" : "") + (sensors.new_y ? "y" : "");
   }
-  void command(Sent& sent, bool unlocked, std::array<double, 4> signals) {
+  void command(SentInOrder& sent, bool unlocked, std::array<double, 4> signals) {
     const tasks::MotorCommand motors{.signals = signals, .unlocked = unlocked};
     distributer.hand_over<&JaviatorVehicle::Out::motors>(motors, sent);
   }
@@ -68,7 +68,7 @@ TEST_SUITE("distributers/javiator_vehicle") {
   TEST_CASE(
       "an answer to earlier signals than the last answer's is late, and left out; numbers begin again after 65535") {
     Vehicle v;
-    Sent sent;
+    SentInOrder sent;
     for (int i = 0; i < 3; ++i) v.command(sent, true, {});
     v.hear(Flags::IMU, 2);
     CHECK(v.take() == "i");
@@ -92,7 +92,7 @@ TEST_SUITE("distributers/javiator_vehicle") {
   TEST_CASE("after any time without answers those that come again are not late") {
     for (const int silent : {1, 999, 30000, 32768, 40000, 65535, 70000}) {
       Vehicle v;
-      Sent sent;
+      SentInOrder sent;
       v.command(sent, true, {});
       v.hear(Flags::IMU, 1);
       for (int i = 0; i < silent; ++i) v.command(sent, true, {});
@@ -105,7 +105,7 @@ TEST_SUITE("distributers/javiator_vehicle") {
 
   TEST_CASE("an answer to signals that were not sent yet is believed, but nothing after it is late for that") {
     Vehicle v;
-    Sent sent;
+    SentInOrder sent;
     v.command(sent, true, {});
     v.hear(Flags::IMU, 700);  // to a controller that flew it before
     CHECK(v.take() == "i");
@@ -124,7 +124,7 @@ TEST_SUITE("distributers/javiator_vehicle") {
 
   TEST_CASE("motors are unlocked once before the first signals, and shut down once before the signals that follow") {
     Vehicle v;
-    Sent sent;
+    SentInOrder sent;
     v.command(sent, false, {});
     v.command(sent, true, {});
     v.command(sent, true, {});
@@ -135,7 +135,7 @@ TEST_SUITE("distributers/javiator_vehicle") {
 
   TEST_CASE("signals are whole numbers from 0 to 16000, each command has the next number") {
     Vehicle v;
-    Sent sent;
+    SentInOrder sent;
     v.command(sent, true, {-1, 0.999, 16000, 16001});
     v.command(sent, true, {1, 2, 3, 4});
     REQUIRE(sent.signals.size() == 2);

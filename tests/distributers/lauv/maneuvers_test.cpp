@@ -13,6 +13,7 @@
 #include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
 #include "tests/distributers/lauv/inline_messages.h"
+#include "tests/distributers/lauv/origin.h"
 
 namespace {
 using namespace jarol;
@@ -21,7 +22,7 @@ namespace imc = messages::imc;
 using jarol::tests::packed;
 using tasks::Course;
 
-const Origin origin{41.185 * degree, -8.7062 * degree};
+using tests::origin;
 
 template <class M>
 Maneuver made(const M& m) {

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "graph/math/geometry.h"
 #include "tests/distributers/lauv_console.h"
 
 namespace {
@@ -11,7 +12,6 @@ using namespace jarol::tests;
 using tasks::Drive;
 using tasks::Turn;
 
-constexpr double degree = std::numbers::pi / 180;
 }  // namespace
 
 TEST_SUITE("distributers/lauv_operator_hand") {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "graph/math/geometry.h"
 #include "tests/distributers/lauv_console.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tests;
 
-constexpr double degree = std::numbers::pi / 180;
 }  // namespace
 
 TEST_SUITE("distributers/lauv_operator") {

@@ -7,6 +7,7 @@
 
 #include "graph/math/geometry.h"
 #include "tests/distributers/lauv/inline_messages.h"
+#include "tests/distributers/lauv/origin.h"
 
 namespace {
 using namespace jarol;
@@ -14,7 +15,7 @@ using namespace jarol::distributers;
 namespace imc = messages::imc;
 using jarol::tests::packed;
 
-const Origin origin{41.185 * degree, -8.7062 * degree};
+using tests::origin;
 
 imc::Goto go_there() {
   imc::Goto m;

@@ -8,6 +8,7 @@
 
 #include "graph/math/geometry.h"
 #include "tests/distributers/lauv/inline_messages.h"
+#include "tests/distributers/lauv/origin.h"
 
 namespace {
 using namespace jarol;
@@ -17,7 +18,7 @@ using jarol::tests::packed;
 using Flags = imc::Reference::Flags;
 using tasks::Course;
 
-const Origin origin{41.185 * degree, -8.7062 * degree};
+using tests::origin;
 const tasks::Motion motion = [] {
   tasks::Motion m;
   m.x = 12;

@@ -18,7 +18,7 @@ using namespace jarol::distributers;
 using In = LauvVehicle::In;
 namespace imc = messages::imc;
 
-struct Sent : messages::Receiver {
+struct SentToSubmarine : messages::Receiver {
   void receive(messages::MessageRef message) override {
     if (const auto* t = message.as<imc::SetThrusterActuation>()) {
       thruster.push_back(*t);
@@ -96,7 +96,7 @@ TEST_SUITE("distributers/lauv_vehicle") {
 
   TEST_CASE("an actuation becomes one thruster and four servo messages, in that order") {
     Typed<LauvVehicle> adapter;
-    Sent sent;
+    SentToSubmarine sent;
     const tasks::Actuation actuation{0.5, {0.1, 0.2, 0.3, 0.4}};
     adapter.hand_over<&LauvVehicle::Out::actuation>(actuation, sent);
     CHECK(sent.order == "t0123");

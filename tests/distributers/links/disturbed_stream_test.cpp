@@ -98,7 +98,7 @@ struct Payloads : Receiver {
   std::vector<Bytes> all;
 };
 
-struct Outcome {
+struct SentThrough {
   std::size_t sent = 0, hit = 0;  // packets
   std::vector<Bytes> due, came;   // payloads
   std::uint64_t bytes = 0;        // written
@@ -106,13 +106,13 @@ struct Outcome {
 };
 
 // Sends recorded packets, and so many zeros behind them.
-Outcome send_through(Route& route, const Protocol& protocol, std::size_t count, std::size_t zeros) {
+SentThrough send_through(Route& route, const Protocol& protocol, std::size_t count, std::size_t zeros) {
   const MessageSet& set = protocol.set;
   std::vector<Bytes> packets = protocol.packets();
   std::erase_if(packets, [&](const Bytes& bytes) { return order_of(set, bytes.data()) != set.order; });
   Random random(6);
   Payloads payloads(set.order);
-  Outcome o;
+  SentThrough o;
   std::vector<std::uint64_t> ends;
   std::vector<Bytes> sent;
   for (; o.sent < count; ++o.sent) {
@@ -162,7 +162,7 @@ bool is_within(const std::vector<Bytes>& due, const std::vector<Bytes>& came) {
 void check_cut(const std::string& kind) {
   for (const Protocol& protocol : protocols()) {
     Route route(kind, protocol.set, {.delay = 100us, .longest_piece = 1});
-    const Outcome o = send_through(route, protocol, full() ? 1000 : 80, 0);
+    const SentThrough o = send_through(route, protocol, full() ? 1000 : 80, 0);
     CHECK(o.hit == 0);
     CHECK(o.came == o.due);
     CHECK(o.counts.lost == 0);
@@ -184,7 +184,7 @@ TEST_SUITE("distributers/links/disturbed_stream") {
       const MessageSet& set = protocol.set;
       // a length that is wrong makes it wait for as many bytes
       const std::size_t longest = set.header_size() + set.most_payload + set.footer_size();
-      const Outcome o = send_through(route, protocol, full() ? 200'000 : 3000, longest);
+      const SentThrough o = send_through(route, protocol, full() ? 200'000 : 3000, longest);
       CHECK(o.hit > o.sent / 10);
       CHECK(is_within(o.due, o.came));
       // two bytes damaged in one packet may leave the sum right

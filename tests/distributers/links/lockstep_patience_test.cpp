@@ -97,7 +97,7 @@ std::string said_with(const Address& address, std::optional<SecretKey> key = {})
   return "";
 }
 
-class Box : public vehicles::Vehicle {
+class EmptyBox : public vehicles::Vehicle {
  public:
   std::chrono::nanoseconds grid() const override { return 5ms; }
   void accept(messages::MessageRef) override {}
@@ -122,7 +122,7 @@ struct Server {
         try {
           serve_lockstep(
               FrameStream(std::move(runner), who, patience), javiator::message_set(),
-              [](std::uint64_t) { return std::make_unique<Box>(); }, interrupter, options, socket);
+              [](std::uint64_t) { return std::make_unique<EmptyBox>(); }, interrupter, options, socket);
         } catch (const FrameEnd&) { add("end"); } catch (const FrameError& error) {
           add(error.what());
         }

@@ -15,7 +15,7 @@ const DistributerClass& operator_class() {
   return made;
 }
 
-std::string report_on(const std::string& text) {
+std::string report_on_script(const std::string& text) {
   Problems problems;
   ScriptChannels(std::make_shared<Source>(Source{"m.csv", text}), operator_class(), problems);
   try {
@@ -76,7 +76,7 @@ TEST_SUITE("distributers/links/script") {
   }
 
   TEST_CASE("everything wrong with a script is reported with its place") {
-    CHECK(report_on("time,setpoint.deep\n0,1\n") ==
+    CHECK(report_on_script("time,setpoint.deep\n0,1\n") ==
           "m.csv:1:6: error: column 'setpoint.deep' is no field of an 'in' channel of LauvOperator; did you mean "
           "'setpoint.depth'?; "
           "there are: setpoint.depth, setpoint.heading, setpoint.speed, setpoint.turn, setpoint.rate, "
@@ -87,7 +87,7 @@ TEST_SUITE("distributers/links/script") {
           "leg.thrust, contact.silence, contact.stops\n"
           "  time,setpoint.deep\n"
           "       ^");
-    CHECK(report_on("t,setpoint.depth\n0,x\n0,1\n1,1,1\n-1,2\n") ==
+    CHECK(report_on_script("t,setpoint.depth\n0,x\n0,1\n1,1,1\n-1,2\n") ==
           "m.csv:1:1: error: the first column is 't'; it has to be 'time'\n"
           "  t,setpoint.depth\n"
           "  ^\n"
@@ -103,14 +103,14 @@ TEST_SUITE("distributers/links/script") {
           "m.csv:5:1: error: time '-1' is no number of seconds from 0 on\n"
           "  -1,2\n"
           "  ^");
-    CHECK(report_on("") ==
+    CHECK(report_on_script("") ==
           "m.csv:1:1: error: a script needs a title row and at least one row with a time\n"
           "  \n"
           "  ^");
   }
 
   TEST_CASE("a table of more cells than anyone drives by is an error") {
-    CHECK(report_on(std::string(1'000'001, ','))
+    CHECK(report_on_script(std::string(1'000'001, ','))
               .starts_with("m.csv:1:1: error: the table has more than 1000000 cells; leave rows out\n"));
   }
 }

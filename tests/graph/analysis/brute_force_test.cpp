@@ -11,7 +11,7 @@ namespace {
 using namespace jarol;
 using namespace jarol::analysis;
 
-struct Set {
+struct TimedSet {
   std::vector<std::int64_t> wcet, period, deadline, offset;
   std::size_t size() const { return wcet.size(); }
 };
@@ -31,7 +31,7 @@ class Random {
   std::uint64_t state_;
 };
 
-std::string text_of(const Set& set) {
+std::string text_of(const TimedSet& set) {
   std::string text;
   for (std::size_t i = 0; i < set.size(); ++i)
     text += "C " + std::to_string(set.wcet[i]) + " T " + std::to_string(set.period[i]) + " D " +
@@ -39,9 +39,9 @@ std::string text_of(const Set& set) {
   return text;
 }
 
-Set random_set(std::uint64_t seed) {
+TimedSet random_set(std::uint64_t seed) {
   Random random(seed);
-  Set set;
+  TimedSet set;
   const std::int64_t n = random.up_to(1, 3);
   for (std::int64_t i = 0; i < n; ++i) {
     const std::int64_t period = random.up_to(2, 7), wcet = random.up_to(1, std::max<std::int64_t>(1, period / 2 + 1));
@@ -53,7 +53,7 @@ Set random_set(std::uint64_t seed) {
   return set;
 }
 
-System system_of(const Set& set, const Policy& policy, bool offsets_hold) {
+System timed_system(const TimedSet& set, const Policy& policy, bool offsets_hold) {
   System system;
   system.policy = policy;
   system.offsets_hold = offsets_hold;
@@ -71,7 +71,7 @@ bool is_preemptive(const Policy& policy) { return policy == policies::edf || pol
 bool is_edf(const Policy& policy) { return policy == policies::edf || policy == policies::edf_nonpreemptive; }
 
 // Unit by unit; `takes(task, activation)` is how long an activation runs. Longest responses, or nothing on a miss.
-std::optional<std::vector<std::int64_t>> run(const Set& set, const std::vector<std::int64_t>& offset,
+std::optional<std::vector<std::int64_t>> run(const TimedSet& set, const std::vector<std::int64_t>& offset,
                                              const Policy& policy,
                                              const std::function<std::int64_t(std::size_t, std::int64_t)>& takes) {
   struct Job {
@@ -117,7 +117,7 @@ std::optional<std::vector<std::int64_t>> run(const Set& set, const std::vector<s
 }
 
 // Worst responses over every shift of the tasks, or nothing if one misses.
-std::optional<std::vector<std::int64_t>> over_all_offsets(const Set& set, const Policy& policy) {
+std::optional<std::vector<std::int64_t>> over_all_offsets(const TimedSet& set, const Policy& policy) {
   std::vector<std::int64_t> offset(set.size(), 0), worst(set.size(), 0);
   while (true) {
     const auto found = run(set, offset, policy, [&](std::size_t i, std::int64_t) { return set.wcet[i]; });
@@ -138,7 +138,7 @@ std::uint64_t count_of_sets() {
 }
 
 // Each task's activations take all, one unit or none, as `choice` says.
-bool some_shorter_execution_misses(const Set& set, const Policy& policy) {
+bool some_shorter_execution_misses(const TimedSet& set, const Policy& policy) {
   for (std::uint64_t choice = 0; choice < 729; ++choice) {
     const auto takes = [&](std::size_t i, std::int64_t k) -> std::int64_t {
       std::uint64_t digit = choice;
@@ -154,14 +154,14 @@ bool some_shorter_execution_misses(const Set& set, const Policy& policy) {
 TEST_SUITE("graph/analysis/brute_force") {
   TEST_CASE("whatever the offsets: verdicts are exact, responses too under preemptive priorities") {
     for (std::uint64_t seed = 0; seed < count_of_sets(); ++seed) {
-      const Set set = random_set(seed);
+      const TimedSet set = random_set(seed);
       const std::string tasks = text_of(set);
       CAPTURE(tasks);
       for (const Policy& policy : {policies::fixed_priority, policies::edf, policies::fixed_priority_nonpreemptive,
                                    policies::edf_nonpreemptive}) {
         CAPTURE(policy.name);
         const auto truth = over_all_offsets(set, policy);
-        const Result result = check(system_of(set, policy, false));
+        const Result result = check(timed_system(set, policy, false));
         REQUIRE(result.verdict == (truth ? Verdict::schedulable : Verdict::not_schedulable));
         REQUIRE(result.standing == Standing::proof);
         if (!truth) continue;
@@ -178,14 +178,14 @@ TEST_SUITE("graph/analysis/brute_force") {
   TEST_CASE("with offsets that hold: exact where it can be, never an unsafe yes") {
     int undecided = 0, by_shorter = 0, by_few_shorter = 0;
     for (std::uint64_t seed = 0; seed < count_of_sets(); ++seed) {
-      const Set set = random_set(seed);
+      const TimedSet set = random_set(seed);
       const std::string tasks = text_of(set);
       CAPTURE(tasks);
       for (const Policy& policy : {policies::table, policies::fixed_priority, policies::edf,
                                    policies::fixed_priority_nonpreemptive, policies::edf_nonpreemptive}) {
         CAPTURE(policy.name);
         const auto truth = run(set, set.offset, policy, [&](std::size_t i, std::int64_t) { return set.wcet[i]; });
-        const Result result = check(system_of(set, policy, true));
+        const Result result = check(timed_system(set, policy, true));
         if (result.verdict == Verdict::unknown) {
           ++undecided;
           continue;

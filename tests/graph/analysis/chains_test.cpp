@@ -2,15 +2,16 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/graph/analysis/milliseconds.h"
 #include "tests/graph/graph_of.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::analysis;
 
-constexpr std::int64_t ms = 1'000'000;
+using tests::ms;
 
-std::string name_of(std::size_t i) { return (i < 10 ? "t0" : "t") + std::to_string(i); }
+std::string task_name(std::size_t i) { return (i < 10 ? "t0" : "t") + std::to_string(i); }
 
 // A chain of LET tasks whose LETs are their periods.
 Graph let_chain(const std::vector<int>& periods) {
@@ -18,8 +19,8 @@ Graph let_chain(const std::vector<int>& periods) {
   for (std::size_t i = 0; i < periods.size(); ++i) {
     const std::string p = std::to_string(periods[i]) + "ms";
     tasks +=
-        "  " + name_of(i) + ": {type: " + (i == 0 ? "Counter" : "Relay") + ", period: " + p + ", let: " + p + "}\n";
-    if (i > 0) connections += "  - " + name_of(i - 1) + ".out -> " + name_of(i) + ".in\n";
+        "  " + task_name(i) + ": {type: " + (i == 0 ? "Counter" : "Relay") + ", period: " + p + ", let: " + p + "}\n";
+    if (i > 0) connections += "  - " + task_name(i - 1) + ".out -> " + task_name(i) + ".in\n";
   }
   return tests::graph_of("graph: t\ntasks:\n" + tasks + "connections:\n" + connections);
 }

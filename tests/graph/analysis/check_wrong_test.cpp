@@ -4,13 +4,14 @@
 #include "graph/analysis/check.h"
 #include "graph/analysis/sensitivity.h"
 #include "graph/language/yaml.h"
+#include "tests/graph/analysis/milliseconds.h"
 #include "tests/graph/graph_of.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::analysis;
 
-constexpr std::int64_t ms = 1'000'000;
+using tests::ms;
 
 struct Judged {
   Graph graph;

@@ -2,13 +2,14 @@
 #include <doctest/doctest.h>
 
 #include "graph/analysis/sensitivity.h"
+#include "tests/graph/analysis/milliseconds.h"
 
 namespace {
 using namespace jarol::analysis;
 using jarol::Policy;
 namespace policies = jarol::policies;
 
-constexpr std::int64_t ms = 1'000'000;
+using jarol::tests::ms;
 
 // 1 - 2.5e-9 of a core, and so as long as the last task takes no longer.
 System nearly_full(const Policy& policy, std::int64_t last) {

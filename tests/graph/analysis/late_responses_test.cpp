@@ -14,8 +14,6 @@
 namespace {
 using namespace jarol;
 using analysis::Verdict;
-using truth::Judged;
-using truth::Set;
 
 struct Job {
   std::size_t task;
@@ -34,7 +32,7 @@ bool is_by_priority(const Policy& policy) {
 // response of each task.
 class Trial {
  public:
-  Trial(const Set& set, const std::vector<std::optional<std::size_t>>& core, std::uint64_t seed)
+  Trial(const truth::Set& set, const std::vector<std::optional<std::size_t>>& core, std::uint64_t seed)
       : set_(set), core_(core), random_(seed), order_(truth::places_in(graph_of(set)).order) {}
 
   std::vector<int> run() {
@@ -110,7 +108,7 @@ class Trial {
     return runs;
   }
 
-  const Set& set_;
+  const truth::Set& set_;
   const std::vector<std::optional<std::size_t>>& core_;
   std::mt19937_64 random_;
   std::vector<std::size_t> order_;
@@ -120,7 +118,7 @@ struct Tally {
   std::uint64_t sets = 0, reported = 0, reached = 0, short_ones = 0;
   std::string first;
 
-  void add(const Set& set, std::uint64_t seed) {
+  void add(const truth::Set& set, std::uint64_t seed) {
     const analysis::Result said = analysis::check(graph_of(set));
     const bool global = set.policy == policies::global_edf;
     const bool placed = std::all_of(said.core.begin(), said.core.end(), [](const auto& c) { return c.has_value(); });
@@ -138,8 +136,8 @@ struct Tally {
       if (*said.response[i] >= longest[i]) continue;
       ++short_ones;
       if (first.empty())
-        first = Judged{set, said, {}}.text() + "\nbut task " + std::string(1, static_cast<char>('a' + i)) + " took " +
-                std::to_string(longest[i]);
+        first = truth::Judged{set, said, {}}.text() + "\nbut task " + std::string(1, static_cast<char>('a' + i)) +
+                " took " + std::to_string(longest[i]);
     }
   }
 };

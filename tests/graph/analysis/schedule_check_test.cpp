@@ -12,7 +12,7 @@ namespace {
 using namespace jarol;
 using analysis::ExecutionTimes, analysis::Fate, analysis::Schedule, analysis::Verdict;
 
-std::uint64_t count_of_sets() {
+std::uint64_t count_of_schedules() {
   if (std::getenv("JAROL_FULL") != nullptr) return 20'000;
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_THREAD__)
   return 400;
@@ -51,7 +51,7 @@ TEST_SUITE("graph/analysis/schedule") {
           policies::edf_nonpreemptive, policies::global_edf}) {
       CAPTURE(policy.name);
       std::uint64_t yes = 0;
-      for (std::uint64_t seed = 0; seed < count_of_sets(); ++seed) {
+      for (std::uint64_t seed = 0; seed < count_of_schedules(); ++seed) {
         CAPTURE(seed);
         const Graph graph = truth::graph_of(truth::random_set(seed, policy, {.any_phasing = false}));
         if (analysis::check(graph).verdict != Verdict::schedulable) continue;
@@ -60,7 +60,7 @@ TEST_SUITE("graph/analysis/schedule") {
         for (std::uint64_t run = 0; run < 3; ++run)
           REQUIRE(first_miss(graph, ExecutionTimes::random(graph, run), 3) == "");
       }
-      CHECK(yes > count_of_sets() / 20);
+      CHECK(yes > count_of_schedules() / 20);
     }
   }
 
@@ -68,7 +68,7 @@ TEST_SUITE("graph/analysis/schedule") {
     for (const Policy& policy : {policies::table, policies::fixed_priority, policies::edf}) {
       CAPTURE(policy.name);
       std::uint64_t no = 0;
-      for (std::uint64_t seed = 0; seed < count_of_sets(); ++seed) {
+      for (std::uint64_t seed = 0; seed < count_of_schedules(); ++seed) {
         CAPTURE(seed);
         const Graph graph = truth::graph_of(truth::random_set(
             seed, policy, {.jitter = false, .blocking = false, .data_flow = false, .any_phasing = false, .cores = 1}));
@@ -83,7 +83,7 @@ TEST_SUITE("graph/analysis/schedule") {
         REQUIRE(fate.kind == Fate::Kind::late);
         if (fate.response) REQUIRE(*fate.response == said.late->finish - said.late->release);
       }
-      CHECK(no > count_of_sets() / 20);
+      CHECK(no > count_of_schedules() / 20);
     }
   }
 }

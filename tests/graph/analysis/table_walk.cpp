@@ -12,7 +12,7 @@ TableWalk walk_table(const Graph& graph, const std::vector<std::size_t>& core) {
   const std::vector<std::size_t> turns = turns_of(graph);
   std::vector<std::vector<std::size_t>> producers(n);
   std::int64_t hyperperiod = 1;
-  for (const Task& t : graph.tasks) hyperperiod = std::lcm(hyperperiod, t.period.count());
+  for (const jarol::Task& t : graph.tasks) hyperperiod = std::lcm(hyperperiod, t.period.count());
   for (const Connection& c : graph.connections)
     if (c.from.kind == End::Kind::task && c.to.kind == End::Kind::task && !graph.tasks[c.from.index].let)
       producers[c.to.index].push_back(c.from.index);
@@ -29,7 +29,7 @@ TableWalk walk_table(const Graph& graph, const std::vector<std::size_t>& core) {
     ++walk.hyperperiods;
     for (std::int64_t now = begin; now < begin + hyperperiod; ++now)
       for (const std::size_t i : turns) {
-        const Task& t = graph.tasks[i];
+        const jarol::Task& t = graph.tasks[i];
         if (now < t.offset.count() || (now - t.offset.count()) % t.period.count() != 0) continue;
         std::int64_t start = std::max(now + t.jitter.count(), free[core[i]]);
         for (const std::size_t p : producers[i])

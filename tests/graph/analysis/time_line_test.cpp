@@ -20,7 +20,7 @@ std::string line_text(const std::string& text) {
 }
 
 // The second is released while the first runs, for the second time.
-std::string two(const std::string& platform) {
+std::string two_tasks(const std::string& platform) {
   return "graph: t\nplatform: {" + platform +
          "}\ntasks:\n"
          "  a: {type: Counter, period: 10ms, wcet: 2ms}\n"
@@ -30,20 +30,20 @@ std::string two(const std::string& platform) {
 
 TEST_SUITE("graph/analysis/time_line") {
   TEST_CASE("a table goes in the order of releases, and nothing interrupts") {
-    CHECK(line_text(two("policy: table")) == "a 0-2, b 2-11, a 11-13, until 20");
+    CHECK(line_text(two_tasks("policy: table")) == "a 0-2, b 2-11, a 11-13, until 20");
     // at one instant the one that is due sooner
     CHECK(line_text("graph: t\ntasks:\n  a: {type: Counter, period: 20ms, wcet: 4ms}\n"
                     "  b: {type: Counter, period: 10ms, wcet: 2ms}\n") == "b 0-2, a 2-6, b 10-12, until 20");
   }
 
   TEST_CASE("the more urgent task interrupts under fixed priorities, but not without preemption") {
-    CHECK(line_text(two("policy: fixed_priority")) == "a 0-2, b 2-10, a 10-12, b 12-13, until 20");
-    CHECK(line_text(two("policy: fixed_priority_nonpreemptive")) == "a 0-2, b 2-11, a 11-13, until 20");
+    CHECK(line_text(two_tasks("policy: fixed_priority")) == "a 0-2, b 2-10, a 10-12, b 12-13, until 20");
+    CHECK(line_text(two_tasks("policy: fixed_priority_nonpreemptive")) == "a 0-2, b 2-11, a 11-13, until 20");
   }
 
   TEST_CASE("the earlier deadline goes first, on one core or on any") {
-    CHECK(line_text(two("policy: edf")) == "a 0-2, b 2-11, a 11-13, until 20");
-    CHECK(line_text(two("policy: global_edf, cores: 2")) == "a 0-2, b 0-9, a 10-12, until 20");
+    CHECK(line_text(two_tasks("policy: edf")) == "a 0-2, b 2-11, a 11-13, until 20");
+    CHECK(line_text(two_tasks("policy: global_edf, cores: 2")) == "a 0-2, b 0-9, a 10-12, until 20");
   }
 
   TEST_CASE("tasks on cores of their own do not wait for each other, readers wait for what they follow") {

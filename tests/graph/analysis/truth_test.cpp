@@ -18,7 +18,7 @@ using truth::Set;
 using Answer = truth::Truth::Answer;
 
 // JAROL_SETS of each policy, else as many as there is time for.
-std::uint64_t count_of_sets() {
+std::uint64_t count_of_judged() {
   if (const char* count = std::getenv("JAROL_SETS")) return std::strtoull(count, nullptr, 10);
 #ifdef __OPTIMIZE__
   return std::getenv("JAROL_FULL") != nullptr ? 100'000 : 20'000;
@@ -78,7 +78,7 @@ TEST_SUITE("graph/analysis/truth") {
   TEST_CASE("no yes is unsafe, and no proof of a no is false") {
     for (const Policy& policy : analysis::built_in_policies()) {
       Tally tally;
-      for (std::uint64_t seed = 0; seed < count_of_sets(); ++seed)
+      for (std::uint64_t seed = 0; seed < count_of_judged(); ++seed)
         tally.add(truth::judge(truth::random_set(seed, policy, {})));
       tally.print(policy);
       CHECK(tally.unknown <= most_unknown(policy) * tally.sets / 100);

@@ -6,7 +6,6 @@
 
 namespace {
 using namespace jarol::expect;
-using Kind = Comparison::Kind;
 
 // Whether it holds below, at and above 2, and of what is no number.
 std::string held(const Comparison& comparison) {
@@ -19,14 +18,14 @@ std::string held(const Comparison& comparison) {
 
 TEST_SUITE("graph/expect/condition") {
   TEST_CASE("each comparison at its edge; what is no number meets none") {
-    CHECK(held({Kind::less, 2}) == "ynnn");
-    CHECK(held({Kind::at_most, 2}) == "yynn");
-    CHECK(held({Kind::greater, 2}) == "nnyn");
-    CHECK(held({Kind::at_least, 2}) == "nyyn");
-    CHECK(held({Kind::is, 2}) == "nynn");
-    CHECK(held({Kind::is_not, 2}) == "ynyn");
-    CHECK(held({Kind::within, 0.5, 2}) == "yyyn");
-    CHECK(held({Kind::within, 0.4, 2}) == "nynn");
-    CHECK(held({Kind::within, 0.5, 2.25}) == "nyyn");
+    CHECK(held({Comparison::Kind::less, 2}) == "ynnn");
+    CHECK(held({Comparison::Kind::at_most, 2}) == "yynn");
+    CHECK(held({Comparison::Kind::greater, 2}) == "nnyn");
+    CHECK(held({Comparison::Kind::at_least, 2}) == "nyyn");
+    CHECK(held({Comparison::Kind::is, 2}) == "nynn");
+    CHECK(held({Comparison::Kind::is_not, 2}) == "ynyn");
+    CHECK(held({Comparison::Kind::within, 0.5, 2}) == "yyyn");
+    CHECK(held({Comparison::Kind::within, 0.4, 2}) == "nynn");
+    CHECK(held({Comparison::Kind::within, 0.5, 2.25}) == "nyyn");
   }
 }

@@ -56,7 +56,7 @@ Condition parse(const std::string& words, const std::vector<expect::TrueValues>&
   return *condition;
 }
 
-std::string wrong(const std::string& words) {
+std::string wrong_condition(const std::string& words) {
   Problems problems;
   const auto condition = expect::parse_condition(yaml(words), graph(), here(), problems);
   CHECK(!condition.has_value());
@@ -112,13 +112,13 @@ TEST_SUITE("graph/expect/parse") {
 
   TEST_CASE("the end of a name suffices where only one output has it") {
     CHECK(parse("never alarm is leak").signals[0].name == "watch.condition.alarm");
-    CHECK(wrong("out > 3") ==
+    CHECK(wrong_condition("out > 3") ==
           "c:1:1: error: 'expect': 'out' may be any of these; write one of: a.out, b.out\n  out > 3\n  ^");
   }
 
   TEST_CASE("a place within the text is shown by its column, in quotes too") {
-    CHECK(wrong("max(a.out) afer 3s < 2").starts_with("c:1:12: error: "));
-    CHECK(wrong("\"max(a.out) afer 3s < 2\"").starts_with("c:1:13: error: "));
+    CHECK(wrong_condition("max(a.out) afer 3s < 2").starts_with("c:1:12: error: "));
+    CHECK(wrong_condition("\"max(a.out) afer 3s < 2\"").starts_with("c:1:13: error: "));
   }
 
   TEST_CASE("what is true elsewhere is not judged, whatever it is compared with") {

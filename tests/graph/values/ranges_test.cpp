@@ -37,10 +37,12 @@ struct Ranged {
   }
 };
 
-struct Deep {
+struct DeepInRange {
   Sequence<double> weights{};
   Sequence<Fin> fins{};
-  static constexpr auto fields() { return describe(field<&Deep::weights>().in(0, 1), field<&Deep::fins>()); }
+  static constexpr auto fields() {
+    return describe(field<&DeepInRange::weights>().in(0, 1), field<&DeepInRange::fins>());
+  }
 };
 
 struct Free {
@@ -107,9 +109,9 @@ TEST_SUITE("graph/values/ranges") {
     CHECK_FALSE(is_good_with([](Ranged& v) { v.fins[1].angle = 0.7; }));
     CHECK(is_good_with([](Ranged& v) { v.fins[1].angle = 0.6; }));
 
-    const Type& deep = type_of<Deep>();
+    const Type& deep = type_of<DeepInRange>();
     REQUIRE(is_looked_at(deep));
-    Deep value;
+    DeepInRange value;
     value.weights.resize(3);
     value.fins.resize(2);
     CHECK(deep.in_range(&value));

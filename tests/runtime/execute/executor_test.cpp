@@ -16,9 +16,9 @@ using tests::run_graph;
 using tests::run_text;
 
 // An external system that writes down what happens to it, in its order.
-class Diary : public Channels {
+class LineDiary : public Channels {
  public:
-  explicit Diary(std::vector<std::string>& lines) : lines_(lines) {}
+  explicit LineDiary(std::vector<std::string>& lines) : lines_(lines) {}
   void reach(Duration instant) override { lines_.push_back(duration_text(instant) + " reach"); }
   bool take(std::size_t channel, void* value) override {
     lines_.push_back("take " + std::to_string(channel));
@@ -170,7 +170,7 @@ tasks: {r: {type: Relay}}
 connections: [i -> r.in]
 )");
     std::vector<std::string> lines;
-    auto diary = std::make_unique<Diary>(lines);
+    auto diary = std::make_unique<LineDiary>(lines);
     std::vector<std::unique_ptr<Channels>> channels;
     SUBCASE("none ever came") {
       channels.push_back(std::move(diary));
@@ -207,7 +207,7 @@ connections: [l.out -> o1, d.out -> o2, i1 -> r.a, i2 -> r.b]
 )");
     std::vector<std::string> lines;
     std::vector<std::unique_ptr<Channels>> channels;
-    channels.push_back(std::make_unique<Diary>(lines));
+    channels.push_back(std::make_unique<LineDiary>(lines));
     const auto run = run_graph(graph, 20ms, std::move(channels));
     // o1 hands over the LET output that ends at 10 ms; o2 what the data-flow task published one period before
     CHECK(lines == std::vector<std::string>{"0ns reach", "hand over 3 -1", "hand over 2 -2", "take 1", "take 0",
@@ -230,7 +230,7 @@ connections: [i1 -> o1, i2 -> o2]
 )");
     std::vector<std::string> lines;
     std::vector<std::unique_ptr<Channels>> channels;
-    channels.push_back(std::make_unique<Diary>(lines));
+    channels.push_back(std::make_unique<LineDiary>(lines));
     run_graph(graph, 21ms, std::move(channels));
     CHECK(lines == std::vector<std::string>{"0ns reach", "hand over 3 0", "hand over 2 0", "take 1", "take 0",
                                             "20ms reach", "hand over 2 0", "take 0"});

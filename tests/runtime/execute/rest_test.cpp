@@ -94,8 +94,9 @@ const Registry& registry() {
 
 constexpr const char* lands = "{command: {wish: {height: 0}}, until: climb.height < 0.5, longest: 10s}";
 
-Graph graph_with(const std::string& at_end, const std::string& let = "", const std::string& platform = "{cores: 1}",
-                 const std::string& timeout = ", timeout: 1h", const std::string& period = "10ms") {
+Graph graph_of_flight(const std::string& at_end, const std::string& let = "",
+                      const std::string& platform = "{cores: 1}", const std::string& timeout = ", timeout: 1h",
+                      const std::string& period = "10ms") {
   const std::string text = "graph: t\ntiming: {period: " + period + R"(}
 platform: )" + platform + R"(
 distributers: {pilot: {type: Pilot, link: {type: test}}, plant: {type: Plant, link: {type: test}}}
@@ -142,7 +143,7 @@ TEST_SUITE("runtime/execute/rest") {
       for (const char* platform : {"{cores: 1}", "{cores: 2}", "{cores: 1, policy: fixed_priority}"}) {
         CAPTURE(let);
         CAPTURE(platform);
-        const Graph graph = graph_with(lands, let, platform);
+        const Graph graph = graph_of_flight(lands, let, platform);
         World world;
         Plant& plant = *world.plant;
         RealClock clock(graph.tasks.size());
@@ -174,7 +175,7 @@ TEST_SUITE("runtime/execute/rest") {
   TEST_CASE("fields that are not commanded go by the operator; a mission is over") {
     for (const bool mission : {false, true}) {
       CAPTURE(mission);
-      const Graph graph = graph_with("{command: {wish: {height: 0}}, until: climb.height < -1, longest: 100ms}");
+      const Graph graph = graph_of_flight("{command: {wish: {height: 0}}, until: climb.height < -1, longest: 100ms}");
       World world(mission ? std::optional<Duration>(1s) : std::nullopt);
       Pilot& pilot = *world.pilot;
       RealClock clock(graph.tasks.size());
@@ -194,7 +195,7 @@ TEST_SUITE("runtime/execute/rest") {
   }
 
   TEST_CASE("who asks for it has it from the next instant on; what a fault or an interrupt ended has none") {
-    const Graph graph = graph_with(lands);
+    const Graph graph = graph_of_flight(lands);
     RealClock clock(graph.tasks.size());
     World world;
     Executor executor(graph, std::move(world.channels), {.clock = &clock});
@@ -226,7 +227,7 @@ TEST_SUITE("runtime/execute/rest") {
   TEST_CASE("what is published on the way there counts as published: a LET's value at its end") {
     // at 150 ms a height of 5 is published, and 4 is computed: it is not below 4.5 yet
     const Graph graph =
-        graph_with("{command: {wish: {height: 0}}, until: climb.height < 4.5, longest: 1s}", ", let: 10ms");
+        graph_of_flight("{command: {wish: {height: 0}}, until: climb.height < 4.5, longest: 1s}", ", let: 10ms");
     CHECK(tests::at_some_speed([&](int) {
       World world;
       RealClock clock(graph.tasks.size());
@@ -247,7 +248,7 @@ TEST_SUITE("runtime/execute/rest") {
       for (const bool mission : {false, true}) {
         CAPTURE(asked);
         CAPTURE(mission);
-        const Graph graph = graph_with(lands);
+        const Graph graph = graph_of_flight(lands);
         World world(mission ? std::optional<Duration>(1s) : std::nullopt);
         Plant& plant = *world.plant;
         ThreadsCore core(graph, std::move(world.channels));
@@ -279,8 +280,8 @@ TEST_SUITE("runtime/execute/rest") {
           Case{"", 0ms, 20ms, true}, Case{", timeout: 30ms", 0ms, 2h, true}}) {
       CAPTURE(each.timeout);
       CAPTURE(each.until.count());
-      const Graph graph = graph_with("{command: {wish: {height: 0}}, until: climb.height < 9, longest: 60ms}", "",
-                                     "{cores: 1}", each.timeout);
+      const Graph graph = graph_of_flight("{command: {wish: {height: 0}}, until: climb.height < 9, longest: 60ms}", "",
+                                          "{cores: 1}", each.timeout);
       World world({}, Plant(each.from, each.until));
       RealClock clock(graph.tasks.size());
       Executor executor(graph, std::move(world.channels), {.clock = &clock});
@@ -299,8 +300,8 @@ TEST_SUITE("runtime/execute/rest") {
       CHECK(core.rest()->heard == each.heard);
     }
     // published before, and not again before the end of its LET
-    const Graph slow = graph_with("{command: {wish: {height: 0}}, until: climb.height < 9, longest: 30ms}",
-                                  ", let: 90ms", "{cores: 1}", ", timeout: 1h", "100ms");
+    const Graph slow = graph_of_flight("{command: {wish: {height: 0}}, until: climb.height < 9, longest: 30ms}",
+                                       ", let: 90ms", "{cores: 1}", ", timeout: 1h", "100ms");
     World world;
     RealClock clock(slow.tasks.size());
     Executor executor(slow, std::move(world.channels), {.clock = &clock});
@@ -313,7 +314,7 @@ TEST_SUITE("runtime/execute/rest") {
   }
 
   TEST_CASE("threads give it up after the longest time") {
-    const Graph graph = graph_with("{command: {wish: {height: 0}}, until: climb.height < -1, longest: 55ms}");
+    const Graph graph = graph_of_flight("{command: {wish: {height: 0}}, until: climb.height < -1, longest: 55ms}");
     World world;
     ThreadsCore core(graph, std::move(world.channels));
     core.run_for(50ms);

@@ -147,7 +147,7 @@ struct Waits {
   }
 };
 
-Graph graph_with(const std::string& text) {
+Graph graph_of_stages(const std::string& text) {
   static const Registry registry = [] {
     Registry made = tests::generic_tasks();
     made.add(task_class<Lengths>());
@@ -190,14 +190,14 @@ TEST_SUITE("runtime/stage_team") {
     std::uint64_t faults = 0;
     for (int heap = 400; heap <= 800; heap += 48) {
       CAPTURE(heap);
-      const Graph graph = graph_with(R"(graph: t
+      const Graph graph = graph_of_stages(R"(graph: t
 tasks:
   w: {type: Counter, period: 10ms}
   x: {type: Lengths, period: 10ms, heap: 64KiB, parameters: {salt: 1}}
   s: {type: Counter, period: 20ms, let: 20ms}
   y: {type: Lengths, period: 20ms, heap: 64KiB, parameters: {salt: 2}}
   r: {type: Both, period: 20ms, on_fault: hold, heap: )" +
-                                     std::to_string(heap) + R"(B}
+                                          std::to_string(heap) + R"(B}
 connections: [w.out -> x.in, s.out -> y.in, x.out -> r.a, y.out -> r.b]
 )");
       const Result one = run_with(graph, 1, Sharing::if_it_pays, 4s);
@@ -208,7 +208,7 @@ connections: [w.out -> x.in, s.out -> y.in, x.out -> r.a, y.out -> r.b]
   }
 
   TEST_CASE("faults of one instant stand in the same order for any number of workers") {
-    const Graph graph = graph_with(R"(graph: t
+    const Graph graph = graph_of_stages(R"(graph: t
 tasks:
   w: {type: Counter, period: 10ms}
   x: {type: Fails, period: 10ms, on_fault: hold}
@@ -226,7 +226,7 @@ connections: [w.out -> x.in, l.out -> y.in]
   }
 
   TEST_CASE("what does not end is known by name, whichever worker runs it") {
-    const Graph graph = graph_with(
+    const Graph graph = graph_of_stages(
         "{graph: t, tasks: {a: {type: Waits, period: 10ms}, b: {type: Waits, period: 10ms}, "
         "c: {type: Counter, period: 10ms}}}");
     Executor executor(graph, {}, {.workers = 3, .sharing = Sharing::always});

@@ -5,13 +5,13 @@
 #include <array>
 #include <string>
 
+#include "tests/runtime/jarol/bytes_of.h"
 #include "tests/runtime/model/port_program.h"
 #include "tests/runtime/port_stress.h"
 
 namespace {
 using namespace jarol;
 
-std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 }  // namespace
 
 TEST_SUITE("runtime/port") {
@@ -60,17 +60,17 @@ TEST_SUITE("runtime/port") {
     PacketPort port(3, 65536);
     std::vector<std::byte> room(65536);
     CHECK(port.longest() == 65536);
-    CHECK(port.write(bytes_of("")));
-    CHECK(port.write(bytes_of("abc")));
-    CHECK(port.write(bytes_of(std::string(65536, 'x'))));
-    CHECK(!port.write(bytes_of("full")));
+    CHECK(port.write(tests::bytes_of("")));
+    CHECK(port.write(tests::bytes_of("abc")));
+    CHECK(port.write(tests::bytes_of(std::string(65536, 'x'))));
+    CHECK(!port.write(tests::bytes_of("full")));
     CHECK(port.read(room) == 0);
     CHECK(port.read(room) == 3);
     CHECK(std::memcmp(room.data(), "abc", 3) == 0);
     CHECK(port.read(room) == 65536);
     CHECK(room.back() == std::byte{'x'});
     CHECK(port.read(room) == std::nullopt);
-    CHECK_THROWS_WITH_AS(port.write(bytes_of(std::string(65537, 'x'))),
+    CHECK_THROWS_WITH_AS(port.write(tests::bytes_of(std::string(65537, 'x'))),
                          "a packet of 65537 bytes does not fit into a port for at most 65536", std::length_error);
     CHECK_THROWS_WITH_AS(port.read(std::span(room).first(100)),
                          "a room of 100 bytes is too small for packets of up to 65536", std::length_error);

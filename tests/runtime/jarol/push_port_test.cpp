@@ -6,13 +6,13 @@
 
 #include <string>
 
+#include "tests/runtime/jarol/bytes_of.h"
 #include "tests/runtime/model/port_program.h"
 #include "tests/runtime/port_stress.h"
 
 namespace {
 using namespace jarol;
 
-std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 }  // namespace
 
 TEST_SUITE("runtime/push_port") {
@@ -65,9 +65,9 @@ TEST_SUITE("runtime/push_port") {
   TEST_CASE("packets have any length up to the longest") {
     PushPacketPort port(2, 65536);
     std::vector<std::byte> room(65536);
-    port.write(bytes_of("gone"));
-    CHECK(port.write(bytes_of(std::string(65536, 'x'))));
-    CHECK(port.write(bytes_of("abc")));
+    port.write(tests::bytes_of("gone"));
+    CHECK(port.write(tests::bytes_of(std::string(65536, 'x'))));
+    CHECK(port.write(tests::bytes_of("abc")));
     CHECK(port.read(room) == 65536);
     CHECK(room.back() == std::byte{'x'});
     CHECK(port.read(room) == 3);

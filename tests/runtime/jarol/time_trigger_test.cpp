@@ -15,7 +15,7 @@
 namespace {
 using namespace jarol;
 using namespace std::chrono_literals;
-using Explored = BasicTimeTrigger<model::ModelFutex>;
+using ExploredTrigger = BasicTimeTrigger<model::ModelFutex>;
 
 // A clock that stands still but while somebody sleeps, who wakes up a little late.
 struct Sleeper {
@@ -143,7 +143,7 @@ TEST_SUITE("runtime/time_trigger") {
 
   TEST_CASE("each tick is awaited or counted, however time and threads go" * doctest::skip(!model::available)) {
     struct Run {
-      Explored trigger{2, 2};  // ticks at 2, 4, 6
+      ExploredTrigger trigger{2, 2};  // ticks at 2, 4, 6
       std::array<std::vector<Awaiting>, 2> told;
 
       void await(std::size_t thread, std::optional<std::int64_t> deadline = {}) {

@@ -29,7 +29,7 @@ tasks:
 connections: [a.out -> w.in]
 )";
 
-Report run(const Graph& graph, std::vector<RecordSink*> sinks, Duration end) {
+Report run_into(const Graph& graph, std::vector<RecordSink*> sinks, Duration end) {
   Recorder recorder(std::move(sinks));
   Executor executor(graph, {}, {.recorder = &recorder});
   executor.run_until(end);
@@ -42,7 +42,7 @@ TEST_SUITE("runtime/events") {
   TEST_CASE("faults come between publications, in the order in which they took place, with what the report says") {
     const Graph graph = tests::graph_of(text);
     Seen seen(graph);
-    const Report report = run(graph, {&seen}, 100ms);
+    const Report report = run_into(graph, {&seen}, 100ms);
     REQUIRE(report.fault_count > 1);
     const Fault& first = report.faults.front();
     const std::string line =
@@ -63,9 +63,9 @@ tasks:
   c: {type: Counter, period: 10ms}
 )");
     Seen a(graph, 0), b(graph, 1);
-    const Report report = run(graph, {&a, &b}, 20ms);
+    const Report report = run_into(graph, {&a, &b}, 20ms);
     CHECK(a.lines == std::vector<std::string>{"0ns a.out=0", "0ns b.out=0", "10ms a.out=1", "10ms b.out=1"});
     CHECK(b.lines == a.lines);
-    CHECK(report.digest == run(graph, {}, 20ms).digest);
+    CHECK(report.digest == run_into(graph, {}, 20ms).digest);
   }
 }

@@ -84,7 +84,7 @@ std::string first_difference(const std::vector<std::string>& is, const std::vect
 }
 
 // How many misses there were.
-std::size_t check_replay(const std::string& text, Duration end, bool has_outside) {
+std::size_t misses_replayed(const std::string& text, Duration end, bool has_outside) {
   const Graph graph = graph_of(text);
   KeptLog log(graph);
   Recorder recorder({&log});
@@ -186,7 +186,7 @@ tasks:
 connections: [i -> flow.in, flow.out -> timed.in, timed.out -> reader.a, flow.out -> reader.b, reader.out -> o, throws.out -> throws.in]
 )";
         for (std::size_t at; (at = text.find("FAULT")) != std::string::npos;) text.replace(at, 5, on_fault);
-        CHECK(check_replay(on(mode, text), 60ms, true) > 0);
+        CHECK(misses_replayed(on(mode, text), 60ms, true) > 0);
       }
   }
 
@@ -269,7 +269,7 @@ connections: [i -> a.in, a.out -> b.in, b.out -> o, a.out -> under_way.in]
         CAPTURE(mode_name);
         const std::string text = oracle::hurried_random_graph(seed);
         CAPTURE(text);
-        misses += check_replay(on(mode, text), 2ms, false);
+        misses += misses_replayed(on(mode, text), 2ms, false);
       }
     CHECK(misses > 0);
     MESSAGE(misses << " misses");

@@ -16,10 +16,10 @@ using namespace jarol;
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
-class File {
+class IndexedFile {
  public:
-  File() : path_(fs::temp_directory_path() / ("recording_index_" + std::to_string(::getpid()))) {}
-  ~File() { fs::remove(path_); }
+  IndexedFile() : path_(fs::temp_directory_path() / ("recording_index_" + std::to_string(::getpid()))) {}
+  ~IndexedFile() { fs::remove(path_); }
   std::string path() const { return path_.string(); }
   std::string content() const {
     std::ifstream file(path_, std::ios::binary);
@@ -72,7 +72,7 @@ std::vector<bool> topic_of(const Recording& recording, const std::string& name) 
 
 TEST_SUITE("runtime/recording_index") {
   TEST_CASE("what the index says is what the whole file says") {
-    const File file;
+    const IndexedFile file;
     record(file.path());
     const Recording by_index(file.path());
     CHECK(by_index.is_whole());
@@ -81,7 +81,7 @@ TEST_SUITE("runtime/recording_index") {
   }
 
   TEST_CASE("an instant is found by the index, and only the chunks that have it are read") {
-    const File file;
+    const IndexedFile file;
     record(file.path());
     std::string bytes = file.content();
     const Recording whole(file.path());
@@ -105,7 +105,7 @@ TEST_SUITE("runtime/recording_index") {
   }
 
   TEST_CASE("an index that is damaged anywhere, or lacks, is not believed") {
-    const File file;
+    const IndexedFile file;
     record(file.path());
     const std::string bytes = file.content(), should = text_of(Recording(file.path()));
     const std::size_t data_end = Recording(file.path(), nobody).chunks().back().offset;
@@ -128,7 +128,7 @@ TEST_SUITE("runtime/recording_index") {
   }
 
   TEST_CASE("a chunk that was made with a right check sum, and breaks off within, is refused") {
-    const File file;
+    const IndexedFile file;
     std::FILE* const out = std::fopen(file.path().c_str(), "wb");
     mcap::Writer writer(out, mcap::Compression::none, "jarol");
     writer.write(

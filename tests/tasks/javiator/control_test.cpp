@@ -4,12 +4,14 @@
 
 #include <cmath>
 
+#include "tests/tasks/javiator/every_15_ms.h"
+
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
 using namespace std::chrono_literals;
 
-constexpr Tick tick{.now = 0ms, .activation = 0, .period = 15ms};
+using tests::tick;
 
 FlightEstimate level() { return {.lift = 9.81, .rates_known = true, .attitude_known = true}; }
 }  // namespace

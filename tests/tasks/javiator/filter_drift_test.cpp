@@ -12,7 +12,6 @@ using namespace jarol::tasks;
 using jarol::tests::HeardHelicopter;
 using jarol::tests::hovering;
 
-constexpr double dt = HeardHelicopter::dt;
 }  // namespace
 
 TEST_SUITE("tasks/javiator_filter/drift") {
@@ -36,21 +35,23 @@ TEST_SUITE("tasks/javiator_filter/drift") {
       heard.state.climb_off = heard.state.climb_was_off = 0;
       heard.state.z_slow.speed -= 0.1 * side;
       heard.run(1);
-      CHECK(heard.state.climb_off == doctest::Approx(0.1 * side * dt).scale(0).epsilon(0.01));
-      CHECK(heard.state.climb_was_off == doctest::Approx(0.1 * dt).scale(0).epsilon(0.01));
+      CHECK(heard.state.climb_off == doctest::Approx(0.1 * side * HeardHelicopter::dt).scale(0).epsilon(0.01));
+      CHECK(heard.state.climb_was_off == doctest::Approx(0.1 * HeardHelicopter::dt).scale(0).epsilon(0.01));
       heard.state.climb_was_off = 1;
       heard.run(1);
-      CHECK(heard.state.climb_was_off == doctest::Approx(1 - dt / 10).scale(0).epsilon(1e-6));
+      CHECK(heard.state.climb_was_off == doctest::Approx(1 - HeardHelicopter::dt / 10).scale(0).epsilon(1e-6));
     }
   }
 
   TEST_CASE("the observer that hardly trusts the sonar has its poles at 0.3 rad/s") {
     HeardHelicopter heard = hovering();
     heard.state.z_slow = {.place = heard.state.z.place - 0.01};
-    const double speed = heard.state.z_slow.speed, pole = std::exp(-0.3 * dt);
+    const double speed = heard.state.z_slow.speed, pole = std::exp(-0.3 * HeardHelicopter::dt);
     heard.run(1);
     CHECK(heard.state.z_slow.speed - speed ==
-          doctest::Approx(1.5 * (1 - pole) * (1 - pole) * (1 + pole) * 0.01 / dt).scale(0).epsilon(0.05));
+          doctest::Approx(1.5 * (1 - pole) * (1 - pole) * (1 + pole) * 0.01 / HeardHelicopter::dt)
+              .scale(0)
+              .epsilon(0.05));
   }
 
   TEST_CASE("without its sonar it goes on with the climb and the bias that were hardly the sonar's") {
@@ -99,7 +100,7 @@ TEST_SUITE("tasks/javiator_filter/drift") {
       heard.run(1);
       return Eigen::Vector2d(heard.state.roll_off, heard.state.pitch_off);
     };
-    const double part = dt / 1.5 * 0.1 / 9.81;
+    const double part = HeardHelicopter::dt / 1.5 * 0.1 / 9.81;
     CHECK((off_at(0, 0, 0.1) - Eigen::Vector2d(part, 0)).norm() < 1e-9);
     CHECK((off_at(0, 0.1, 0) - Eigen::Vector2d(0, -part)).norm() < 1e-9);
     CHECK((off_at(M_PI / 2, 0.1, 0) - Eigen::Vector2d(-part, 0)).norm() < 1e-9);
@@ -118,7 +119,7 @@ TEST_SUITE("tasks/javiator_filter/drift") {
     Eigen::Matrix2d step;
     step.col(0) = (next(0.01, 0) - next(0, 0)) / 0.01;
     step.col(1) = (next(0, 0.01) - next(0, 0)) / 0.01;
-    const double pole = std::exp(-0.25 * dt);
+    const double pole = std::exp(-0.25 * HeardHelicopter::dt);
     CHECK(step.trace() == doctest::Approx(2 * pole).epsilon(1e-9));
     CHECK(step.determinant() == doctest::Approx(pole * pole).epsilon(1e-9));
   }
@@ -164,7 +165,7 @@ TEST_SUITE("tasks/javiator_filter/drift") {
           heard.run(1);
         }
         rate = 2;
-        (rolls ? heard.sensors.roll : heard.sensors.pitch) = 4 * dt * (4 + 2) / 2 + off;
+        (rolls ? heard.sensors.roll : heard.sensors.pitch) = 4 * HeardHelicopter::dt * (4 + 2) / 2 + off;
         heard.run(1);
         CHECK((heard.state.angles.silent == 0) == (std::abs(off) < 0.1));
       }

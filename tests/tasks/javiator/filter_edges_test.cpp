@@ -12,7 +12,6 @@ using namespace jarol::tasks;
 using jarol::tests::HeardHelicopter;
 using jarol::tests::hovering;
 
-constexpr double dt = HeardHelicopter::dt;
 }  // namespace
 
 TEST_SUITE("tasks/javiator_filter/edges") {
@@ -27,7 +26,7 @@ TEST_SUITE("tasks/javiator_filter/edges") {
       far.sensors.laser_x += 0.301 * side;
       far.sensors.laser_y += 0.301 * side;
       far.run(1);
-      CHECK(far.state.laser_x.silent + far.state.laser_y.silent == doctest::Approx(2 * dt));
+      CHECK(far.state.laser_x.silent + far.state.laser_y.silent == doctest::Approx(2 * HeardHelicopter::dt));
       for (const double part : {0.299, 0.301}) {
         HeardHelicopter blind = hovering();
         blind.state.imu.lost = true;
@@ -42,7 +41,7 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     for (const double side : {-1.0, 1.0}) {
       for (const int silent : {0, 10}) {
         CAPTURE(silent);
-        const double most = 0.08 + 0.1 * dt * (silent + 1);
+        const double most = 0.08 + 0.1 * HeardHelicopter::dt * (silent + 1);
         HeardHelicopter near = hovering();
         near.sensors.new_sonar = false;
         near.run(silent);
@@ -53,7 +52,7 @@ TEST_SUITE("tasks/javiator_filter/edges") {
         CHECK(near.state.sonar.silent == 0);
         far.sensors.sonar += (most + 1e-3) * side;
         CHECK(far.run(1).altitude == doctest::Approx(1).scale(0).epsilon(1e-3));
-        CHECK(far.state.sonar.silent == doctest::Approx(dt * (silent + 1)));
+        CHECK(far.state.sonar.silent == doctest::Approx(HeardHelicopter::dt * (silent + 1)));
       }
     }
   }
@@ -66,11 +65,11 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     CHECK(heard.state.x.since == 0);
     for (int i = 1; i <= 4; ++i) {
       heard.run(1);
-      CHECK(heard.state.x.since == doctest::Approx(i * dt));
+      CHECK(heard.state.x.since == doctest::Approx(i * HeardHelicopter::dt));
       CHECK(heard.state.laser_x.silent == 0);
     }
     heard.run(1);
-    CHECK(heard.state.laser_x.silent == doctest::Approx(dt));
+    CHECK(heard.state.laser_x.silent == doctest::Approx(HeardHelicopter::dt));
   }
 
   TEST_CASE("a sonar's range is used six times, and not again") {
@@ -80,7 +79,7 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     heard.run(6);
     CHECK(heard.state.z.since == 0);
     heard.run(1);
-    CHECK(heard.state.z.since == doctest::Approx(dt));
+    CHECK(heard.state.z.since == doctest::Approx(HeardHelicopter::dt));
     CHECK(heard.state.sonar.silent == 0);
   }
 
@@ -107,7 +106,7 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     // what a step makes of each error alone; (lambda - pole)^3 is its characteristic polynomial
     Eigen::Matrix3d step;
     for (int i = 0; i < 3; ++i) step.col(i) = (next(0.01 * Eigen::Vector3d::Unit(i)) - next({0, 0, 0})) / 0.01;
-    const double pole = std::exp(-6 * dt), trace = step.trace();
+    const double pole = std::exp(-6 * HeardHelicopter::dt), trace = step.trace();
     CHECK(trace == doctest::Approx(3 * pole));
     CHECK((trace * trace - (step * step).trace()) / 2 == doctest::Approx(3 * pole * pole));
     CHECK(step.determinant() == doctest::Approx(pole * pole * pole));
@@ -178,7 +177,7 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     const AxisObserver before = heard.state.z;
     heard.sensors.pressure -= 1.2;  // ten centimetres
     heard.run(1);
-    const double residual = 1.1 - before.place - before.speed * dt;
+    const double residual = 1.1 - before.place - before.speed * HeardHelicopter::dt;
     CHECK(heard.state.z.place - before.place == doctest::Approx(0.05 * residual).scale(0).epsilon(1e-3));
     CHECK(heard.state.z.speed - before.speed == doctest::Approx(0.02 * residual).scale(0).epsilon(1e-3));
   }
@@ -211,7 +210,7 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     CHECK(heard.run(3).rates_known);
     CHECK(heard.state.imu.silent == 0);
     heard.run(1);
-    CHECK(heard.state.imu.silent == doctest::Approx(dt));
+    CHECK(heard.state.imu.silent == doctest::Approx(HeardHelicopter::dt));
   }
 
   TEST_CASE("attitude is turned on by the rates for 20 ms") {
@@ -221,9 +220,9 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     heard.sensors.q = -0.25;
     heard.sensors.r = 0.125;
     const FlightEstimate& e = heard.run(1);
-    CHECK(e.roll == doctest::Approx(0.5 * (dt + 0.02)));
-    CHECK(e.pitch == doctest::Approx(-0.25 * (dt + 0.02)));
-    CHECK(e.yaw == doctest::Approx(0.125 * (dt + 0.02)));
+    CHECK(e.roll == doctest::Approx(0.5 * (HeardHelicopter::dt + 0.02)));
+    CHECK(e.pitch == doctest::Approx(-0.25 * (HeardHelicopter::dt + 0.02)));
+    CHECK(e.yaw == doctest::Approx(0.125 * (HeardHelicopter::dt + 0.02)));
   }
 
   TEST_CASE(
@@ -244,14 +243,14 @@ TEST_SUITE("tasks/javiator_filter/edges") {
       } else {
         --heard.sensors.answers;  // none since
       }
-      const double left = std::exp(-dt / 0.05);
+      const double left = std::exp(-HeardHelicopter::dt / 0.05);
       const FlightEstimate& e = heard.run(1);
       CHECK(e.p == doctest::Approx(0.5 * left));
       CHECK(e.q == doctest::Approx(-0.25 * left));
       CHECK(e.r == doctest::Approx(0.125 * left));
-      CHECK(e.roll - before.roll == doctest::Approx(0.5 * (left * (dt + 0.02) - 0.02)));
+      CHECK(e.roll - before.roll == doctest::Approx(0.5 * (left * (HeardHelicopter::dt + 0.02) - 0.02)));
       CHECK(e.lift == doctest::Approx(8 * left + 9.81 * (1 - left)).scale(0).epsilon(1e-2));
-      CHECK(e.v_x - before.v_x > 0.9 * 2 * left * dt);
+      CHECK(e.v_x - before.v_x > 0.9 * 2 * left * HeardHelicopter::dt);
       if (answered) heard.run(2);
       CHECK((answered ? e.p : 0.0) == 0);  // it is lost, and nothing of it is believed
     }
@@ -260,7 +259,7 @@ TEST_SUITE("tasks/javiator_filter/edges") {
   TEST_CASE("the battery is averaged over a second") {
     HeardHelicopter heard = hovering();
     heard.sensors.battery = 14;
-    CHECK(heard.run(1).battery == doctest::Approx(15 - dt));
+    CHECK(heard.run(1).battery == doctest::Approx(15 - HeardHelicopter::dt));
   }
 
   TEST_CASE("before the first flight a tenth of what is measured is taken for zero, after it for the place") {

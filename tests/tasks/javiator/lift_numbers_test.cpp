@@ -5,14 +5,16 @@
 #include <cmath>
 
 #include "tasks/javiator/control.h"
+#include "tests/tasks/javiator/every_15_ms.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
 using namespace std::chrono_literals;
 
-constexpr Tick tick{.now = 0ms, .activation = 0, .period = 15ms};
-constexpr double dt = 0.015, gravity = 9.81;
+using tests::dt;
+using tests::gravity;
+using tests::tick;
 
 // Hovering at 1 m.
 struct Altitude {

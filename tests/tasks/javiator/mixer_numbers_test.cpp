@@ -4,14 +4,15 @@
 #include <cmath>
 
 #include "tasks/javiator/control.h"
+#include "tests/tasks/javiator/every_15_ms.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
 using namespace std::chrono_literals;
 
-constexpr Tick tick{.now = 0ms, .activation = 0, .period = 15ms};
-constexpr double dt = 0.015;
+using tests::dt;
+using tests::tick;
 
 struct Mixer {
   MotorMixer::Param param{.quick_lag = 0.05};  // signals as they are due

@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "tasks/lauv/control.h"
+#include "tests/tasks/lauv/every_50_ms.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
 using namespace std::chrono_literals;
 
-const Tick every_50_ms{0ms, 0, 50ms};
+using tests::every_50_ms;
 
 // R_nb from roll, pitch and yaw: turned about z, then y, then x (Fossen 2011, 2.18)
 Eigen::Matrix3d rotation(const Motion& m) {

@@ -7,13 +7,14 @@
 #include <cmath>
 
 #include "tasks/lauv/control.h"
+#include "tests/tasks/lauv/every_50_ms.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
 using namespace std::chrono_literals;
 
-const Tick every_50_ms{0ms, 0, 50ms};
+using tests::every_50_ms;
 using Fins = std::array<double, 4>;
 constexpr double limit = 25 * degree;
 

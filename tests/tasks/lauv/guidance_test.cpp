@@ -4,11 +4,13 @@
 
 #include <cmath>
 
+#include "tests/tasks/lauv/every_50_ms.h"
+
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
 
-const Tick every_50_ms{.period = std::chrono::milliseconds(50)};
+using tests::every_50_ms;
 
 // A vehicle that goes ahead at once where it is steered, at a speed through a stream.
 struct Vehicle {

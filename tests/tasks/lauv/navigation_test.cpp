@@ -5,11 +5,13 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "tests/tasks/lauv/every_50_ms.h"
+
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
 
-const Tick every_50_ms{.period = std::chrono::milliseconds(50)};
+using tests::every_50_ms;
 
 // Instruments of a vehicle that goes ahead at 1 m/s, 5 m deep, turning by 0.1 rad/s.
 Instruments turning(int k) {

@@ -8,13 +8,14 @@
 #include <string>
 
 #include "tests/tasks/calm_submarine.h"
+#include "tests/tasks/lauv/every_50_ms.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
 using tests::calm_submarine;
 
-const Tick every_50_ms{.period = std::chrono::milliseconds(50)};
+using tests::every_50_ms;
 constexpr double degrees = std::numbers::pi / 180;
 
 using Change = std::function<void(LauvSupervisor::In&)>;

@@ -3,13 +3,14 @@
 #include <doctest/doctest.h>
 
 #include "tests/tasks/calm_submarine.h"
+#include "tests/tasks/lauv/every_50_ms.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
 using tests::calm_submarine;
 
-const Tick every_50_ms{.period = std::chrono::milliseconds(50)};
+using tests::every_50_ms;
 const Setpoint wanted{3, 1.5, 1.2};
 
 // After some seconds in which `change` spoils the instruments from the first second on.

@@ -20,7 +20,7 @@ namespace tools = jarol::tools;
 namespace campaign = jarol::campaign;
 
 [[maybe_unused]] json json_of(const std::string& arguments, int exit_code = 0) {
-  const command::Result result = command::jarol(arguments + " --json", "");
+  const command::Result result = command::run_jarol(arguments + " --json", "");
   CAPTURE(arguments);
   CHECK(result.exit_code == exit_code);
   return json::parse(result.output);
@@ -63,7 +63,7 @@ TEST_SUITE("tools/campaign") {
     const TemporaryFolder folder;
     const auto wrong = [&](const std::string& arguments) {
       const command::Result result =
-          command::jarol("campaign specs/counting.yaml --results " + (folder / "r") + " " + arguments);
+          command::run_jarol("campaign specs/counting.yaml --results " + (folder / "r") + " " + arguments);
       CHECK(result.exit_code == 2);
       return result.output;
     };
@@ -94,7 +94,7 @@ TEST_SUITE("tools/campaign") {
         "campaign specs/counting.yaml --for 1000s --vary tasks.slow.let='[5ms, 10ms, 15ms]' --vary "
         "seed=1..20 --metric 'last=final(sum.out)' --workers 2 ";
     const command::Result whole =
-        command::jarol(of + "--results " + (folder / "whole") + " --csv " + (folder / "whole.csv"));
+        command::run_jarol(of + "--results " + (folder / "whole") + " --csv " + (folder / "whole.csv"));
     CHECK(whole.exit_code == 0);
     const std::string table = content(folder / "whole.csv");
     CHECK(lines_of(table).size() == 61);
@@ -104,7 +104,7 @@ TEST_SUITE("tools/campaign") {
       int pieces = 0;
       for (bool done = false; !done && pieces < 200; ++pieces) {
         // the signal comes once runs are being added
-        const command::Result part = command::jarol(
+        const command::Result part = command::run_jarol(
             of + "--results " + results + " --csv " + csv,
             "2>&1 & id=$!; until [ -s " + results + "-wal ] || ! kill -0 $id 2>&-; do sleep 0.01; done; sleep " +
                 std::to_string(0.1 * pieces) + "; kill -" + signal + " $id 2>&-; wait $id; echo code $?");
@@ -128,13 +128,13 @@ TEST_SUITE("tools/campaign") {
         "campaign specs/counting.yaml --for 20000s --vary tasks.slow.let='[5ms, 10ms]' --metric "
         "'last=final(sum.out) < 1' --results " +
         results;
-    REQUIRE(command::jarol(of).exit_code == 1);
+    REQUIRE(command::run_jarol(of).exit_code == 1);
     bool interrupted = false;
     for (int piece = 0; piece < 100 && !interrupted; ++piece) {
       // the search begins at once, as all runs are there; a signal before it ends the program as ever
       const command::Result part =
-          command::jarol(of + " --shrink", "2>&1 & id=$!; sleep " + std::to_string(0.02 * piece) +
-                                               "; kill -INT $id 2>&-; wait $id; echo code $?");
+          command::run_jarol(of + " --shrink", "2>&1 & id=$!; sleep " + std::to_string(0.02 * piece) +
+                                                   "; kill -INT $id 2>&-; wait $id; echo code $?");
       interrupted = part.output.find("interrupted: ") != std::string::npos;
       if (!interrupted) continue;
       CHECK(part.output.find("2 of 2 runs, 0 good, 2 bad") != std::string::npos);
@@ -144,7 +144,7 @@ TEST_SUITE("tools/campaign") {
     }
     CHECK(interrupted);
     CHECK(!std::filesystem::exists(results + "-wal"));
-    const command::Result whole = command::jarol(of + " --shrink");
+    const command::Result whole = command::run_jarol(of + " --shrink");
     CHECK(whole.exit_code == 1);
     CHECK(whole.output.find("  run 0 is no worse than one in the middle of all ranges: metric 'last'") !=
           std::string::npos);

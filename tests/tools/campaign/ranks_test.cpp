@@ -15,10 +15,10 @@ using command::TemporaryFolder;
 
 // So many ranks on this machine, however few processors it has.
 command::Result ranks(int count, const std::string& arguments, const std::string& after = "2>&1") {
-  return command::jarol(arguments, after,
-                        "mpirun --allow-run-as-root --oversubscribe --bind-to none --mca btl self,vader --mca "
-                        "btl_vader_single_copy_mechanism none -n " +
-                            std::to_string(count) + " " JAROL_COMMAND);
+  return command::run_jarol(arguments, after,
+                            "mpirun --allow-run-as-root --oversubscribe --bind-to none --mca btl self,vader --mca "
+                            "btl_vader_single_copy_mechanism none -n " +
+                                std::to_string(count) + " " JAROL_COMMAND);
 }
 
 const std::string counting =
@@ -29,9 +29,8 @@ const std::string counting =
 TEST_SUITE("tools/campaign/ranks") {
   TEST_CASE("for any number of ranks the table is the same, byte for byte, and the results hold the same") {
     const TemporaryFolder folder;
-    REQUIRE(
-        command::jarol(counting + "--results " + (folder / "alone") + " --csv " + (folder / "alone.csv")).exit_code ==
-        0);
+    REQUIRE(command::run_jarol(counting + "--results " + (folder / "alone") + " --csv " + (folder / "alone.csv"))
+                .exit_code == 0);
     const std::string table = content(folder / "alone.csv"), results = database_content(folder / "alone");
     CHECK(std::count(results.begin(), results.end(), '\n') > 120);
     for (const int count : {1, 2, 4}) {
@@ -52,7 +51,8 @@ TEST_SUITE("tools/campaign/ranks") {
     const std::string of =
         "campaign specs/counting.yaml --for 1000s --vary seed=1..60 --metric 'last=final(sum.out)' "
         "--workers 1 ";
-    REQUIRE(command::jarol(of + "--results " + (folder / "alone") + " --csv " + (folder / "alone.csv")).exit_code == 0);
+    REQUIRE(command::run_jarol(of + "--results " + (folder / "alone") + " --csv " + (folder / "alone.csv")).exit_code ==
+            0);
     const std::string results = folder / "r", csv = folder / "r.csv";
     int killed = 0;
     for (int piece = 0; piece < 100 && !std::filesystem::exists(csv); ++piece) {
@@ -80,7 +80,7 @@ TEST_SUITE("tools/campaign/ranks") {
     CHECK(wrong.output.find(text) != std::string::npos);
     CHECK(wrong.output.find(text) == wrong.output.rfind(text));
     // of ranks that do not agree
-    const auto apart = command::jarol(
+    const auto apart = command::run_jarol(
         counting + "--results " + (folder / "r") + " : --allow-run-as-root --oversubscribe -n 1 " JAROL_COMMAND " " +
             counting + "--seed 7 --results " + (folder / "r"),
         "2>&1", "mpirun --allow-run-as-root --oversubscribe --mca btl self,vader -n 1 " JAROL_COMMAND);

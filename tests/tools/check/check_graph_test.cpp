@@ -133,13 +133,13 @@ void check_texts(const CheckReport& r) {
   for (const Task& t : r.graph->tasks) CHECK(text.find("\n  " + t.name + " ") != std::string::npos);
   for (const char* wrong : {" nan", " inf", "nan%", "inf%", "please report"})
     CHECK(text.find(wrong) == std::string::npos);
-  const auto json = to_json(r);
-  CHECK(json["verdict"] == (word == "NOT SCHEDULABLE" ? "not_schedulable"
-                            : word == "UNKNOWN"       ? "unknown"
-                                                      : "schedulable"));
-  CHECK(json["tasks"].size() == r.graph->tasks.size());
-  CHECK(json["chains"].size() == r.chains.size());
-  CHECK(nlohmann::ordered_json::parse(json.dump()) == json);
+  const auto reported = to_json(r);
+  CHECK(reported["verdict"] == (word == "NOT SCHEDULABLE" ? "not_schedulable"
+                                : word == "UNKNOWN"       ? "unknown"
+                                                          : "schedulable"));
+  CHECK(reported["tasks"].size() == r.graph->tasks.size());
+  CHECK(reported["chains"].size() == r.chains.size());
+  CHECK(nlohmann::ordered_json::parse(reported.dump()) == reported);
 }
 
 // What holds for every shift of the tasks holds for the one that is given.

@@ -116,7 +116,7 @@ connections: [a.out -> b.in]
   TEST_CASE("check --write writes what lacks or is too short, keeps what is longer, and says so") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", file_text);
-    const auto told = command::jarol("check --write --for 1s --margin 50 " + file, "2>&1 >/dev/null").output;
+    const auto told = command::run_jarol("check --write --for 1s --margin 50 " + file, "2>&1 >/dev/null").output;
     const auto row = [&](const std::string& task) {
       const std::size_t begin = told.find("  " + task + " ");
       return told.substr(begin, told.find('\n', begin) - begin);
@@ -154,14 +154,14 @@ connections: [a.out -> b.in]
         if (task.name == name) return *task.wcet;
       return Duration{};
     };
-    const std::string told = command::jarol("check --write --lower --for 1s " + file, "2>&1 >/dev/null").output;
+    const std::string told = command::run_jarol("check --write --lower --for 1s " + file, "2>&1 >/dev/null").output;
     CHECK(told.find("\n  a 'wcet' was kept that leaves no more than the margin over a disturbance of 100us\n") !=
           std::string::npos);
     CHECK(wcet("long") >= 120us);  // 100 us and 20 %
     CHECK(wcet("long") < 40ms);
     CHECK(wcet("tight") >= 90us);  // more only if it was measured
     // so that nobody who measures again finds it broken
-    const auto again = command::jarol("check --measure --for 1s " + file, "2>&1 >/dev/null").output;
+    const auto again = command::run_jarol("check --measure --for 1s " + file, "2>&1 >/dev/null").output;
     CHECK(again.substr(again.find("  long "), 80).find("LONGER") == std::string::npos);
   }
 
@@ -169,14 +169,14 @@ connections: [a.out -> b.in]
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", file_text);
     const std::string stated = "check " + file + " --set tasks.fresh.wcet=10ms";
-    CHECK(command::jarol(stated).exit_code == 0);
-    const auto measured = command::jarol(stated + " --measure --for 1s", "2>/dev/null");
+    CHECK(command::run_jarol(stated).exit_code == 0);
+    const auto measured = command::run_jarol(stated + " --measure --for 1s", "2>/dev/null");
     CHECK(measured.exit_code == 1);
     CHECK(measured.output.starts_with(file + ": A WCET DOES NOT HOLD HERE: task 'short' took "));
     CHECK(measured.output.find(", its 'wcet' is 1ns; with the times as stated:\n" + file + ": SCHEDULABLE ") !=
           std::string::npos);
     const auto json =
-        nlohmann::json::parse(command::jarol(stated + " --measure --for 1s --json", "2>/dev/null").output);
+        nlohmann::json::parse(command::run_jarol(stated + " --measure --for 1s --json", "2>/dev/null").output);
     CHECK(json["measured"]["over_ns"] == 1'000'000'000);
     CHECK(json["measured"]["wcets_hold"] == false);
     CHECK(json["measured"]["tasks"][3]["name"] == "short");
@@ -184,8 +184,8 @@ connections: [a.out -> b.in]
     CHECK(json["measured"]["tasks"][2]["longer_than_wcet"] == false);
     // with times that hold here
     const std::string good = stated + " --set tasks.short.wcet=20ms --set tasks.tight.wcet=20ms --measure --for 1s";
-    CHECK(command::jarol(good).exit_code == 0);
-    CHECK(nlohmann::json::parse(command::jarol(good + " --json", "2>/dev/null").output)["measured"]["wcets_hold"] ==
+    CHECK(command::run_jarol(good).exit_code == 0);
+    CHECK(nlohmann::json::parse(command::run_jarol(good + " --json", "2>/dev/null").output)["measured"]["wcets_hold"] ==
           true);
   }
 
@@ -196,13 +196,13 @@ tasks: {loop: {type: Accumulate, period: 10ms, on_fault: hold, wcet: 40ms}}
 connections: [big -> loop.in]
 communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
 )");
-    const std::string told = command::jarol("check --measure --for 100ms " + file, "2>&1 >/dev/null").output;
+    const std::string told = command::run_jarol("check --measure --for 100ms " + file, "2>&1 >/dev/null").output;
     CHECK(told.find("\nfault: task 'loop' 9 times, from activation 1 at 0.01 s") != std::string::npos);
     CHECK(told.ends_with("\n  the times of faulty activations are among those above\n"));
   }
 
   TEST_CASE("what comes on stdin is measured, and not written") {
-    CHECK(command::jarol("check - --write < specs/counting.yaml").output ==
+    CHECK(command::run_jarol("check - --write < specs/counting.yaml").output ==
           "error: --write: '-' is stdin, which can't be written; name the graph's file\n");
     CHECK(!std::filesystem::exists("-"));
   }
@@ -211,11 +211,11 @@ communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", file_text);
     const std::string measured = "check --json --write --for 1s --set tasks.long.wcet=200ms " + file;
-    const auto verdict = command::jarol(measured, "2>/dev/null");
+    const auto verdict = command::run_jarol(measured, "2>/dev/null");
     CHECK(verdict.exit_code == 0);
-    CHECK(verdict.output == command::jarol("check --json " + file).output);
+    CHECK(verdict.output == command::run_jarol("check --json " + file).output);
     CHECK(nlohmann::json::parse(verdict.output)["tasks"][2]["wcet_ns"] == 40'000'000);
-    CHECK(command::jarol(measured, "2>&1 >/dev/null")
+    CHECK(command::run_jarol(measured, "2>&1 >/dev/null")
               .output.ends_with("  measured with --set or --profile; what follows is said of the file as it stands, "
                                 "without them\n"));
   }
@@ -225,13 +225,14 @@ communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
     const std::string text = "graph: t\ntasks: {a: {type: Counter, period: 100ms, wcet: 90ms}}\n";
     const std::string file = folder.write("t.yaml", text);
     const auto before = std::filesystem::last_write_time(file);
-    CHECK(command::jarol("check --write --for 1s " + file).output.find("  nothing is written into " + file + "\n") !=
-          std::string::npos);
+    CHECK(
+        command::run_jarol("check --write --for 1s " + file).output.find("  nothing is written into " + file + "\n") !=
+        std::string::npos);
     CHECK(content(file) == text);
     CHECK(std::filesystem::last_write_time(file) == before);
     const std::string shared = "graph: t\ntasks:\n  a: &one {type: Counter, period: 1ms}\n  b: *one\n";
     folder.write("t.yaml", shared);
-    const auto refused = command::jarol("check --write --for 1s " + file);
+    const auto refused = command::run_jarol("check --write --for 1s " + file);
     CHECK(refused.exit_code == 2);
     CHECK(refused.output.starts_with(file + ": measured over 1s of logical time"));
     CHECK(refused.output.ends_with(
@@ -245,13 +246,13 @@ communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
     const std::string shared =
         folder.write("s.yaml", "graph: t\ntasks:\n  a: &one {type: Counter, period: 1ms}\n  b: *one\n");
     const std::string good = folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 100ms}}\n");
-    const auto told = command::jarol("check --write --for 1s " + shared + " specs/missing.yaml " + good);
+    const auto told = command::run_jarol("check --write --for 1s " + shared + " specs/missing.yaml " + good);
     CHECK(told.exit_code == 2);
     CHECK(told.output.find("\n  b            1000 ") < told.output.find("\nerror: two tasks share one place"));
     CHECK(told.output.find("\nerror: can't read 'specs/missing.yaml': No such file or directory\n") !=
           std::string::npos);
     CHECK(told.output.find("\n" + good + ": SCHEDULABLE on one core") != std::string::npos);
-    CHECK(command::jarol("check --measure --for 1 " + good + " " + shared).output ==
+    CHECK(command::run_jarol("check --measure --for 1 " + good + " " + shared).output ==
           "error: --for: '1' has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n");
   }
 
@@ -262,7 +263,7 @@ communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
     command::Result refused;
     for (int attempt = 0; attempt < 10 && refused.exit_code != 2; ++attempt) {
       folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 1ms}}\n");
-      refused = command::jarol(
+      refused = command::run_jarol(
           "check --write --for 500s " + file,
           "2>&1 & id=$!; while kill -0 $id 2>&-; do echo '# more' >> " + file + "; sleep 0.01; done; wait $id");
     }
@@ -277,7 +278,7 @@ communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
   }
 
   TEST_CASE("tasks that hear from a link to what goes on by itself are not measured") {
-    const auto refused = command::jarol("check --measure specs/exolauv.yaml --profile dune");
+    const auto refused = command::run_jarol("check --measure specs/exolauv.yaml --profile dune");
     CHECK(refused.exit_code == 2);
     CHECK(refused.output ==
           "error: distributer 'dune' has a link to what goes on by itself, from which nothing comes while tasks are "

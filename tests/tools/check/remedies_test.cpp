@@ -12,7 +12,7 @@ namespace {
 using command::TemporaryFolder;
 
 nlohmann::json check(const std::string& file, const std::string& options = "") {
-  return nlohmann::json::parse(command::jarol("check --json " + options + " " + file, "2>/dev/null").output);
+  return nlohmann::json::parse(command::run_jarol("check --json " + options + " " + file, "2>/dev/null").output);
 }
 
 // The proposals, each of which holds.
@@ -25,7 +25,7 @@ std::vector<std::string> proposals(const std::string& file, const std::string& o
     std::string with = options;
     for (const std::string set : sets[i]) with += " --set '" + set + "'";
     CAPTURE(with);
-    CHECK(command::jarol("check " + with + " " + file).exit_code == 0);
+    CHECK(command::run_jarol("check " + with + " " + file).exit_code == 0);
     texts.push_back(report["suggestions"][i]);
   }
   return texts;
@@ -103,7 +103,7 @@ tasks:
   b: {type: Work, period: 10ms, wcet: 9ms}
   c: {type: Work, period: 10ms, wcet: 9ms}
 )");
-    CHECK(command::jarol("check " + file)
+    CHECK(command::run_jarol("check " + file)
               .output.starts_with(
                   file + ": NOT SCHEDULABLE utilisation 270.00% of one core: there is more to do than time; core 0: "));
     CHECK(proposes(proposals(file), "'cores: 3'"));
@@ -133,8 +133,8 @@ chains:
     const TemporaryFolder folder;
     std::size_t proposed = 0, refused = 0;
     for (const std::string policy : {"table", "fixed_priority", "edf"}) {
-      command::jarol("check --generate uunifast --count 8 --tasks 6 --utilisation 1.05 --policy " + policy + " -o " +
-                     (folder / policy));
+      command::run_jarol("check --generate uunifast --count 8 --tasks 6 --utilisation 1.05 --policy " + policy +
+                         " -o " + (folder / policy));
       for (int seed = 0; seed < 8; ++seed) {
         const std::string file = (folder / policy) + "/uunifast_" + std::to_string(seed) + ".yaml";
         const auto texts = proposals(file);

@@ -145,10 +145,10 @@ TEST_SUITE("console/console") {
 
   TEST_CASE("run: watched or not, at any pace, a run is the same") {
     const std::string run = "run specs/counting.yaml --for 2s";
-    const std::string digest = digest_in(command::jarol(run).output);
+    const std::string digest = digest_in(command::run_jarol(run).output);
     CHECK(digest.starts_with("0x"));
     for (const std::string options : {" --console --pace max", " --pace 100", " --console --pace 50"}) {
-      const auto watched = command::jarol(run + options);
+      const auto watched = command::run_jarol(run + options);
       CHECK(watched.exit_code == 0);
       CHECK(digest_in(watched.output) == digest);
       CHECK((watched.output.find("console: http://127.0.0.1:") != std::string::npos) ==
@@ -159,8 +159,8 @@ TEST_SUITE("console/console") {
   TEST_CASE("run: what is recorded of a watched run is what is recorded of any") {
     const TemporaryFolder folder;
     const std::string run = "run specs/counting.yaml --for 1s --trace ";
-    CHECK(command::jarol(run + (folder / "plain")).exit_code == 0);
-    CHECK(command::jarol(run + (folder / "watched") + " --console --pace max").exit_code == 0);
+    CHECK(command::run_jarol(run + (folder / "plain")).exit_code == 0);
+    CHECK(command::run_jarol(run + (folder / "watched") + " --console --pace max").exit_code == 0);
     std::ifstream plain(folder / "plain"), watched(folder / "watched");
     CHECK(std::string(std::istreambuf_iterator<char>(plain), {}) ==
           std::string(std::istreambuf_iterator<char>(watched), {}));
@@ -168,7 +168,7 @@ TEST_SUITE("console/console") {
 
   TEST_CASE("run: options of the console that make no sense are refused") {
     const auto refused = [](const std::string& options) {
-      const auto result = command::jarol("run specs/counting.yaml --for 1s " + options, "2>&1 >/dev/null");
+      const auto result = command::run_jarol("run specs/counting.yaml --for 1s " + options, "2>&1 >/dev/null");
       CHECK(result.exit_code == 2);
       return result.output;
     };
@@ -189,7 +189,8 @@ TEST_SUITE("console/console") {
   TEST_CASE("console: a recording is shown as its run published it, until Ctrl-C") {
     const TemporaryFolder folder;
     const std::string file = folder / "counting.mcap";
-    const std::string digest = digest_in(command::jarol("run specs/counting.yaml --for 2s --record " + file).output);
+    const std::string digest =
+        digest_in(command::run_jarol("run specs/counting.yaml --for 2s --record " + file).output);
     tests::Process shown("console " + file);
     const std::string url = shown.rest_of_line("console: ");
     REQUIRE(url.starts_with("http://127.0.0.1:"));
@@ -215,9 +216,9 @@ TEST_SUITE("console/console") {
   TEST_CASE("console: what is no recording is refused with its name") {
     const TemporaryFolder folder;
     const std::string file = folder.write("none.mcap", "garbage");
-    const auto refused = command::jarol("console " + file);
+    const auto refused = command::run_jarol("console " + file);
     CHECK(refused.exit_code == 2);
-    CHECK(refused.output == command::jarol("replay " + file).output);
-    CHECK(command::jarol("console " + (folder / "nowhere.mcap")).exit_code == 2);
+    CHECK(refused.output == command::run_jarol("replay " + file).output);
+    CHECK(command::run_jarol("console " + (folder / "nowhere.mcap")).exit_code == 2);
   }
 }

@@ -88,7 +88,7 @@ TEST_SUITE("drawing/layout") {
   }
 
   TEST_CASE("the picture is XML that needs nothing from elsewhere") {
-    const auto svg = command::jarol("graph specs/counting.yaml --svg");
+    const auto svg = command::run_jarol("graph specs/counting.yaml --svg");
     CHECK(svg.exit_code == 0);
     CHECK(svg.output.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 "));
     CHECK(svg.output.ends_with("</svg>\n"));

@@ -126,13 +126,13 @@ TEST_SUITE("editor/editor") {
   }
 
   TEST_CASE("what can't be edited is refused with its name") {
-    const auto nowhere = command::jarol("edit nowhere.yaml");
+    const auto nowhere = command::run_jarol("edit nowhere.yaml");
     CHECK(nowhere.exit_code == 2);
     CHECK(nowhere.output.find("nowhere.yaml") != std::string::npos);
-    const auto in = command::jarol("edit -");
+    const auto in = command::run_jarol("edit -");
     CHECK(in.exit_code == 2);
     CHECK(in.output == "error: '-' is stdin, which can't be written; name the graph's file\n");
-    CHECK(command::jarol("edit specs/counting.yaml --port 0").output ==
+    CHECK(command::run_jarol("edit specs/counting.yaml --port 0").output ==
           "error: the console's port '0' is no number from 1 to 65535\n");
   }
 }

@@ -69,7 +69,7 @@ TEST_SUITE("editor/trial") {
         Tried({.file = "specs/counting.yaml", .text = content("specs/counting.yaml"), .length = "1s"}).end();
     CHECK(end.exit_code == 0);
     CHECK_FALSE(end.ended);
-    CHECK(digest_in(end.text) == digest_in(command::jarol("run specs/counting.yaml --for 1s").output));
+    CHECK(digest_in(end.text) == digest_in(command::run_jarol("run specs/counting.yaml --for 1s").output));
   }
 
 #ifdef JAROL_VEHICLES
@@ -81,7 +81,7 @@ TEST_SUITE("editor/trial") {
     std::filesystem::copy("specs/vehicles/submarine.yaml", folder / "vehicles");
     const std::string text = content("specs/exolauv.yaml");
     const TrialEnd end = Tried({.file = folder / "edited.yaml", .text = text, .length = "1s"}).end();
-    CHECK(digest_in(end.text) == digest_in(command::jarol("run specs/exolauv.yaml --for 1s").output));
+    CHECK(digest_in(end.text) == digest_in(command::run_jarol("run specs/exolauv.yaml --for 1s").output));
     CHECK_FALSE(std::filesystem::exists(folder / "edited.yaml"));
   }
 #endif

@@ -80,8 +80,8 @@ TEST_SUITE("tools/pages") {
                       graph = folder.write("g.yaml",
                                            "graph: g\ntasks:\n  a: {type: Counter, period: 1ms}\n"
                                            "  b: {type: Counter, period: 10ms}\n");
-    REQUIRE(command::jarol("run " + graph + " --for 10s --record " + file).exit_code == 0);
-    REQUIRE(command::jarol("log report " + file).output == "  report      " + (folder / "r.html") + "\n");
+    REQUIRE(command::run_jarol("run " + graph + " --for 10s --record " + file).exit_code == 0);
+    REQUIRE(command::run_jarol("log report " + file).output == "  report      " + (folder / "r.html") + "\n");
     const json data = data_of(content(folder / "r.html"));
     REQUIRE(data.at("signals").size() == 2);
     const json& a = data["signals"][0];
@@ -130,16 +130,16 @@ TEST_SUITE("tools/pages") {
                           folder.write("g.yaml", "graph: g\nplugins: [" + plugins +
                                                      "/low_pass.so]\ntasks:\n  c: {type: Counter, period: 10ms}\n  l: "
                                                      "{type: LowPass, period: 10ms}\nconnections: [c.out -> l.in]\n");
-    REQUIRE(command::jarol("run " + graph + " --for 100ms --record " + file).exit_code == 0);
-    CHECK(command::jarol("log report " + file).exit_code == 0);
+    REQUIRE(command::run_jarol("run " + graph + " --for 100ms --record " + file).exit_code == 0);
+    CHECK(command::run_jarol("log report " + file).exit_code == 0);
     const json data = data_of(content(out));
     CHECK(data["no_graph"].get<std::string>().find("name it yourself: jarol log report FILE GRAPH") !=
           std::string::npos);
     CHECK(data["signals"].size() == 2);
     CHECK(!data.contains("drawing"));
-    CHECK(command::jarol("log report " + file + " " + graph).exit_code == 0);
+    CHECK(command::run_jarol("log report " + file + " " + graph).exit_code == 0);
     CHECK(data_of(content(out))["tasks"].size() == 2);
     // no page replaces what it is made of
-    CHECK(command::jarol("log report " + file + " -o " + file).exit_code == 2);
+    CHECK(command::run_jarol("log report " + file + " -o " + file).exit_code == 2);
   }
 }

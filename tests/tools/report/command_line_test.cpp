@@ -7,7 +7,7 @@
 
 namespace {
 std::string refusal_of(const std::string& arguments) {
-  const command::Result result = command::jarol(arguments);
+  const command::Result result = command::run_jarol(arguments);
   CHECK(result.exit_code == 2);
   return result.output;
 }
@@ -80,7 +80,8 @@ TEST_SUITE("tools/command_line") {
 
   TEST_CASE("a seed is a whole number of 64 bits in decimal, nothing else") {
     const std::string run = "run specs/counting.yaml --for 10ms --seed ";
-    for (const char* const seed : {"0", "7", "18446744073709551615"}) CHECK(command::jarol(run + seed).exit_code == 0);
+    for (const char* const seed : {"0", "7", "18446744073709551615"})
+      CHECK(command::run_jarol(run + seed).exit_code == 0);
     for (const std::string seed : {"-1", "18446744073709551616", "010", "0x10", "1.5", "seven", "''", "+7", "-0"}) {
       CAPTURE(seed);
       CHECK(refusal_of(run + seed) ==

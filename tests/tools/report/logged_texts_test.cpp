@@ -25,12 +25,12 @@ TEST_SUITE("tools/report/logged_texts") {
   TEST_CASE("a text that a task publishes is an event: when it is another one than before, and not empty") {
     const command::TemporaryFolder folder;
     const std::string graph = graph_in(folder);
-    const auto done = command::jarol("run " + graph + " --for 90ms", "2>&1");
+    const auto done = command::run_jarol("run " + graph + " --for 90ms", "2>&1");
     CHECK(lines_with("logged", done.output) ==
           "  logged      t.log at 0.02 s: two\\x1b[31m\n"
           "  logged      t.log at 0.06 s: two\\x1b[31m\n"
           "  logged      t.log at 0.08 s: even\n");
-    const std::string printed = command::jarol("run " + graph + " --for 90ms --json", "2>/dev/null").output;
+    const std::string printed = command::run_jarol("run " + graph + " --for 90ms --json", "2>/dev/null").output;
     const auto json = nlohmann::json::parse(printed);
     REQUIRE(json["logged"].size() == 3);
     // escaped once, as JSON does it
@@ -41,7 +41,7 @@ TEST_SUITE("tools/report/logged_texts") {
 
   TEST_CASE("of an output that never stops talking the first hundred texts are shown, and how many there were more") {
     const command::TemporaryFolder folder;
-    const auto done = command::jarol("run " + graph_in(folder) + " --for 2s", "2>&1");
+    const auto done = command::run_jarol("run " + graph_in(folder) + " --for 2s", "2>&1");
     const std::string logged = lines_with("logged", done.output);
     CHECK(std::count(logged.begin(), logged.end(), '\n') == 101);
     CHECK(logged.ends_with("\n  logged      t.log: and 94 texts more\n"));
@@ -50,12 +50,12 @@ TEST_SUITE("tools/report/logged_texts") {
   TEST_CASE("a replay and a run on threads show what tasks log, too") {
     const command::TemporaryFolder folder;
     const std::string graph = graph_in(folder), log = folder / "run.log";
-    const auto run = command::jarol("run " + graph + " --for 90ms --log " + log, "2>&1");
-    const auto replay = command::jarol("replay " + log + " " + graph, "2>&1");
+    const auto run = command::run_jarol("run " + graph + " --for 90ms --log " + log, "2>&1");
+    const auto replay = command::run_jarol("replay " + log + " " + graph, "2>&1");
     CHECK(lines_with("logged", replay.output) == lines_with("logged", run.output));
     CHECK(lines_with("logged", run.output) != "");
     const auto threads =
-        command::jarol("run " + graph + " --for 200ms --clock real --concurrency threads --json", "2>/dev/null");
+        command::run_jarol("run " + graph + " --for 200ms --clock real --concurrency threads --json", "2>/dev/null");
     CHECK(nlohmann::json::parse(threads.output)["logged"].size() >= 1);
   }
 }

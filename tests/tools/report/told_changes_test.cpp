@@ -106,19 +106,19 @@ TEST_SUITE("tools/told_changes") {
 
 #ifdef JAROL_VEHICLES
   TEST_CASE("of a flight or a dive without an event nothing is told") {
-    CHECK(told_in(command::jarol("run specs/javiator.yaml").output).empty());
-    CHECK(told_in(command::jarol("run specs/exolauv.yaml").output).empty());
-    CHECK(nlohmann::json::parse(command::jarol("run specs/exolauv.yaml --for 2s --json").output)["told"] ==
+    CHECK(told_in(command::run_jarol("run specs/javiator.yaml").output).empty());
+    CHECK(told_in(command::run_jarol("run specs/exolauv.yaml").output).empty());
+    CHECK(nlohmann::json::parse(command::run_jarol("run specs/exolauv.yaml --for 2s --json").output)["told"] ==
           nlohmann::json::array());
   }
 
   TEST_CASE("a landing that nobody wanted is told with its instant and its cause, and how it ended") {
     const std::string run = "run specs/javiator.yaml" + sonar + "kind=lost" + sonar + "at=12s";
-    CHECK(told_in(command::jarol(run).output) ==
+    CHECK(told_in(command::run_jarol(run).output) ==
           std::vector<std::string>{
               "to_terminal at 12.28 s: state landing, cause sonar_lost: the sonar tells nothing credible",
               "to_terminal at 18.19 s: state ground", "to_terminal at 28.03 s: cause none"});
-    CHECK(nlohmann::json::parse(command::jarol(run + " --json", "2>/dev/null").output)["told"][0] ==
+    CHECK(nlohmann::json::parse(command::run_jarol(run + " --json", "2>/dev/null").output)["told"][0] ==
           nlohmann::json{{"communicator", "to_terminal"},
                          {"instant_ns", 12'280'000'000},
                          {"values", {{"state", "landing"}, {"cause", "sonar_lost"}}},
@@ -128,21 +128,22 @@ TEST_SUITE("tools/told_changes") {
   TEST_CASE("water in the hull is told, on any clock and by threads too") {
     const std::string line = "alarm leak: it comes up, as there is water in the hull, or the leak detector is silent";
     const std::string run = "run specs/exolauv.yaml" + leak + " --for ";
-    CHECK(told_in(command::jarol(run + "1200ms").output) == std::vector<std::string>{"to_neptus at 1.02 s: " + line});
+    CHECK(told_in(command::run_jarol(run + "1200ms").output) ==
+          std::vector<std::string>{"to_neptus at 1.02 s: " + line});
     for (const std::string concurrency : {"exotasks", "threads"}) {
       // longer where the machine was late
       std::vector<std::string> told;
       for (int ms = 1200; told.empty() && ms < 60'000; ms *= 2)
-        told =
-            told_in(command::jarol(run + std::to_string(ms) + "ms --clock real --concurrency " + concurrency).output);
+        told = told_in(
+            command::run_jarol(run + std::to_string(ms) + "ms --clock real --concurrency " + concurrency).output);
       REQUIRE(told.size() == 1);
       CHECK(told[0].ends_with(" s: " + line));
     }
   }
 
   TEST_CASE("an alarm that is over is told, too") {
-    const auto told = told_in(command::jarol("run specs/exolauv.yaml --for 110s --set "
-                                             "distributers.neptus.link.file=../tests/data/lauv-recovered.csv")
+    const auto told = told_in(command::run_jarol("run specs/exolauv.yaml --for 110s --set "
+                                                 "distributers.neptus.link.file=../tests/data/lauv-recovered.csv")
                                   .output);
     CHECK(told ==
           std::vector<std::string>{"to_neptus at 36.02 s: alarm operator_lost: it comes up, as the operator is silent",

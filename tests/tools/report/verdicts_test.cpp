@@ -15,7 +15,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 // The shipped graph without what it expects: its vehicle alone is judged.
 Result run_without_expect(const std::string& spec, const std::string& options) {
-  return command::jarol("run specs/" + spec + ".yaml --set expect=null " + options);
+  return command::run_jarol("run specs/" + spec + ".yaml --set expect=null " + options);
 }
 
 // The hover, with the motors stopped by its pilot at 10 s.
@@ -34,8 +34,8 @@ TEST_SUITE("tools/verdicts") {
           "javiator --profile v2", "javiator --profile original"}) {
       CAPTURE(run);
       const std::size_t space = run.find(' ');
-      const Result result = command::jarol("run specs/" + run.substr(0, space) + ".yaml" +
-                                           (space == std::string::npos ? "" : run.substr(space)));
+      const Result result = command::run_jarol("run specs/" + run.substr(0, space) + ".yaml" +
+                                               (space == std::string::npos ? "" : run.substr(space)));
       CHECK(result.exit_code == 0);
       CHECK(contains(result.output, ": holds"));
       CHECK(!contains(result.output, "not judged"));
@@ -44,14 +44,14 @@ TEST_SUITE("tools/verdicts") {
   }
 
   TEST_CASE("a wrong gain, and a sensor that brings it down early, end with 1 and a line for each condition") {
-    const Result gain = command::jarol("run specs/exolauv.yaml --set tasks.depth.parameters.kp=0.02");
+    const Result gain = command::run_jarol("run specs/exolauv.yaml --set tasks.depth.parameters.kp=0.02");
     CHECK(gain.exit_code == 1);
     CHECK(contains(gain.output, "error: expected 'depth of dune within 0.05 of 3', but it reached 1.9"));
     const std::string sonar = " --set distributers.robostix.link.parameters.failures.sonar.";
-    const Result early = command::jarol("run specs/javiator.yaml" + sonar + "kind=lost" + sonar + "at=12s");
+    const Result early = command::run_jarol("run specs/javiator.yaml" + sonar + "kind=lost" + sonar + "at=12s");
     CHECK(early.exit_code == 1);
     CHECK(contains(early.output, "error: expected 'never logic.directive.cause is not none', but it was so at 12.2"));
-    const Result alarm = command::jarol(
+    const Result alarm = command::run_jarol(
         "run specs/exolauv.yaml --set "
         "'distributers.dune.link.parameters={sensors: {depth: {failure: {kind: lost, at: 30 s}}}}'");
     CHECK(alarm.exit_code == 1);
@@ -100,7 +100,7 @@ TEST_SUITE("tools/verdicts") {
   }
 
   TEST_CASE("a run that is cut short is not judged by what was still to come") {
-    const Result result = command::jarol("run specs/exolauv.yaml --for 10s");
+    const Result result = command::run_jarol("run specs/exolauv.yaml --for 10s");
     CHECK(result.exit_code == 0);
     CHECK(contains(result.output,
                    "  expected    5 conditions: not judged: the run ended at 10 s, its mission ends at 100 s\n"));
@@ -108,7 +108,7 @@ TEST_SUITE("tools/verdicts") {
 
   TEST_CASE("a verdict as JSON has each condition, the true values and the mishaps, and the exit code is the same") {
     const TemporaryFolder folder;
-    const Result result = command::jarol(
+    const Result result = command::run_jarol(
         "run specs/javiator.yaml --json --set 'expect=[height of robostix < 1cm, once y of "
         "robostix > 2]' --set distributers.terminal.link.file=" +
             mission_that_stops(folder),
@@ -135,8 +135,8 @@ TEST_SUITE("tools/verdicts") {
       CAPTURE(expect);
       const std::string log = folder / ("run" + std::to_string(++number) + ".log");
       const std::string set = " --set 'expect=[" + expect + "]'";
-      const Result run = command::jarol("run specs/exolauv.yaml --log " + log + set);
-      const Result again = command::jarol("replay " + log);
+      const Result run = command::run_jarol("run specs/exolauv.yaml --log " + log + set);
+      const Result again = command::run_jarol("replay " + log);
       CHECK(again.exit_code == run.exit_code);
       CHECK(contains(again.output,
                      "  expected    speed of dune < 3: not judged: the vehicle of 'dune' is not simulated "

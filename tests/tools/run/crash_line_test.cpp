@@ -105,7 +105,7 @@ TEST_SUITE("tools/crash_line") {
       CHECK(run.process->errors().find("note: the recording '" + run.log +
                                        "' is good up to its last chunk: jarol replay " + run.log + "\n") !=
             std::string::npos);
-      const auto replay = command::jarol("replay --json " + run.log + " " + file, "2>/dev/null");
+      const auto replay = command::run_jarol("replay --json " + run.log + " " + file, "2>/dev/null");
       CHECK(replay.exit_code == 3);
       const auto json = nlohmann::json::parse(replay.output);
       CHECK(json["verdict"] == "unknown");
@@ -116,7 +116,7 @@ TEST_SUITE("tools/crash_line") {
   TEST_CASE("a replay names the task as well") {
     const TemporaryFolder folder;
     const std::string log = folder / "good.log", file = crashing(folder, "none");
-    REQUIRE(command::jarol("run " + file + " --for 1s --log " + log).exit_code == 0);
+    REQUIRE(command::run_jarol("run " + file + " --for 1s --log " + log).exit_code == 0);
     crashing(folder, "segmentation");  // the same file, changed
     Process replay("replay " + log + " " + file);
     CHECK(replay.end() == -SIGSEGV);
@@ -125,8 +125,8 @@ TEST_SUITE("tools/crash_line") {
 
   TEST_CASE("a text that is thrown may have any bytes, and the report is JSON all the same") {
     const TemporaryFolder folder;
-    const auto run = command::jarol("run " + crashing(folder, "bytes") + " --for 1s --json --set tasks.b.on_fault=stop",
-                                    "2>/dev/null");
+    const auto run = command::run_jarol(
+        "run " + crashing(folder, "bytes") + " --for 1s --json --set tasks.b.on_fault=stop", "2>/dev/null");
     CHECK(run.exit_code == 3);
     const auto json = nlohmann::json::parse(run.output);
     CHECK(json["faults"][0]["task"] == "b");

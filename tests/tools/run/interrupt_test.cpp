@@ -11,7 +11,7 @@
 
 namespace {
 using command::content;
-using command::jarol;
+using command::run_jarol;
 using command::TemporaryFolder;
 
 // Waits, in a shell, until process $id takes the signals HUP, INT and TERM, or is gone.
@@ -38,11 +38,12 @@ TEST_SUITE("tools/interrupt") {
       // they may have come half a second apart
       std::string text, took = "500";  // ms
       for (int attempt = 0; attempt < 20 && std::stoi(took) >= 500; ++attempt) {
-        took = jarol("run " + graph + " --clock real --for 1h --trace " + trace + " > " + report,
-                     "2>&1 & id=$!; " + until_taken + "sleep 0.05; begin=$(date +%s%N); " + kill + "; sleep 0.005; " +
-                         kill + " 2>&-; wait $id; code=$?; echo $((($(date +%s%N) - begin) / 1000000)); " +
-                         "echo \"exit code $code\" >> " + report)
-                   .output;
+        took =
+            run_jarol("run " + graph + " --clock real --for 1h --trace " + trace + " > " + report,
+                      "2>&1 & id=$!; " + until_taken + "sleep 0.05; begin=$(date +%s%N); " + kill + "; sleep 0.005; " +
+                          kill + " 2>&-; wait $id; code=$?; echo $((($(date +%s%N) - begin) / 1000000)); " +
+                          "echo \"exit code $code\" >> " + report)
+                .output;
         text = content(report);
       }
       CHECK(text.find("real time (interrupted)\n") != std::string::npos);
@@ -61,10 +62,11 @@ TEST_SUITE("tools/interrupt") {
     const std::string report = folder / "report.txt", trace = folder / "t.csv";
     std::string took = "1000";  // ms
     for (int attempt = 0; attempt < 20 && std::stoi(took) >= 1000; ++attempt)
-      took = jarol("run " + graph + " --for 1s --trace " + trace + " > " + report,
-                   "2>&1 & id=$!; " + until_taken + "sleep 0.05; begin=$(date +%s%N); kill -INT $id; wait $id; " +
-                       "code=$?; echo $((($(date +%s%N) - begin) / 1000000)); echo \"exit code $code\" >> " + report)
-                 .output;
+      took =
+          run_jarol("run " + graph + " --for 1s --trace " + trace + " > " + report,
+                    "2>&1 & id=$!; " + until_taken + "sleep 0.05; begin=$(date +%s%N); kill -INT $id; wait $id; " +
+                        "code=$?; echo $((($(date +%s%N) - begin) / 1000000)); echo \"exit code $code\" >> " + report)
+              .output;
     CHECK(std::stoi(took) < 1000);
     const std::string text = content(report);
     CHECK(text.find("g: 0 s on the virtual clock in ") != std::string::npos);
@@ -89,10 +91,11 @@ TEST_SUITE("tools/interrupt") {
     std::string took = "1000", text;  // ms
     // again where the machine was so busy that it took long, or was asked to end too early
     for (int attempt = 0; attempt < 20 && (std::stoi(took) >= 1000 || text.find("not ended") == text.npos); ++attempt) {
-      took = jarol("run " + graph + " --for 1h --workers 2 > " + report,
-                   "2>&1 & id=$!; " + until_taken + "sleep 0.3; begin=$(date +%s%N); kill -INT $id; wait $id; " +
-                       "code=$?; echo $((($(date +%s%N) - begin) / 1000000)); echo \"exit code $code\" >> " + report)
-                 .output;
+      took =
+          run_jarol("run " + graph + " --for 1h --workers 2 > " + report,
+                    "2>&1 & id=$!; " + until_taken + "sleep 0.3; begin=$(date +%s%N); kill -INT $id; wait $id; " +
+                        "code=$?; echo $((($(date +%s%N) - begin) / 1000000)); echo \"exit code $code\" >> " + report)
+              .output;
       text = content(report);
     }
     CHECK(std::stoi(took) < 1000);
@@ -105,27 +108,27 @@ TEST_SUITE("tools/interrupt") {
 
   TEST_CASE("under nohup a run goes on when its terminal is gone") {
     const command::DefaultSignals taken;
-    const auto run = jarol("run specs/counting.yaml --clock real --for 300ms",
-                           "2>&1 & id=$!; sleep 0.1; kill -HUP $id; wait $id; echo \"exit code $?\"");
+    const auto run = run_jarol("run specs/counting.yaml --clock real --for 300ms",
+                               "2>&1 & id=$!; sleep 0.1; kill -HUP $id; wait $id; echo \"exit code $?\"");
     CHECK(run.output.ends_with("exit code 129\n"));
     const auto kept =
-        jarol("schema > /dev/null; trap '' HUP; " JAROL_COMMAND " run specs/counting.yaml --clock real --for 300ms",
-              "2>&1 & id=$!; sleep 0.1; kill -HUP $id; wait $id; echo \"exit code $?\"");
+        run_jarol("schema > /dev/null; trap '' HUP; " JAROL_COMMAND " run specs/counting.yaml --clock real --for 300ms",
+                  "2>&1 & id=$!; sleep 0.1; kill -HUP $id; wait $id; echo \"exit code $?\"");
     CHECK(kept.output.ends_with("exit code 0\n"));
   }
 
   TEST_CASE("a pipe that nobody reads, or a file at its limit, is an error of writing and ends no run") {
     const TemporaryFolder folder;
     const std::string report = folder / "report.txt", trace = folder / "t.csv";
-    jarol("run specs/counting.yaml --clock real --for 1s --trace /dev/stdout", "2> " + report + " | true");
+    run_jarol("run specs/counting.yaml --clock real --for 1s --trace /dev/stdout", "2> " + report + " | true");
     CHECK(content(report).find("error: can't write '/dev/stdout': Broken pipe\n") != std::string::npos);
     const std::string log = folder / "c.log", picture = folder / "p.svg";
-    jarol("run specs/counting.yaml --for 100s --log " + log);
-    jarol("replay " + log + " --trace /dev/stdout --plot " + picture, "2> " + report + " | true");
+    run_jarol("run specs/counting.yaml --for 100s --log " + log);
+    run_jarol("replay " + log + " --trace /dev/stdout --plot " + picture, "2> " + report + " | true");
     CHECK(content(report).find("error: can't write '/dev/stdout': Broken pipe\n") != std::string::npos);
     // it comes to its end all the same: one that a signal ended has no report
-    const auto limited =
-        jarol("schema > /dev/null; ulimit -f 1; " JAROL_COMMAND " run specs/counting.yaml --for 100s --trace " + trace);
+    const auto limited = run_jarol(
+        "schema > /dev/null; ulimit -f 1; " JAROL_COMMAND " run specs/counting.yaml --for 100s --trace " + trace);
     CHECK(limited.output.starts_with("counting: 100 s on the virtual clock"));
     CHECK(limited.output.find("error: can't write '" + trace + "': File too large\n") != std::string::npos);
     CHECK(limited.exit_code == 3);

@@ -47,10 +47,10 @@ TEST_SUITE("tools/run/known_with") {
 
   TEST_CASE("commands that list what there is list what a plugin brings, or say why it can't be used") {
     const std::string plugin = std::filesystem::absolute(JAROL_PLUGIN_FOLDER "/world.so");
-    CHECK(command::jarol("messages --plugin " + plugin).output == command::jarol("messages").output);
-    CHECK(command::jarol("tasks --plugin " + plugin).output.find("\n  LampSwitch") != std::string::npos);
+    CHECK(command::run_jarol("messages --plugin " + plugin).output == command::run_jarol("messages").output);
+    CHECK(command::run_jarol("tasks --plugin " + plugin).output.find("\n  LampSwitch") != std::string::npos);
     for (const std::string of : {"messages", "tasks", "vehicle lamp --describe"}) {
-      const auto refused = command::jarol(of + " --plugin nowhere.so");
+      const auto refused = command::run_jarol(of + " --plugin nowhere.so");
       CHECK(refused.output == "error: there is no file 'nowhere.so'\n");
       CHECK(refused.exit_code == 2);
     }

@@ -35,21 +35,21 @@ std::string on_core(int core) {
   return text.replace(text.find("CORE"), 4, std::to_string(core));
 }
 
-struct Run {
+struct BothRuns {
   nlohmann::json real, should;  // on the real clock, on the virtual one
   std::string real_trace, virtual_trace;
 };
 
 // For 200 ms without a fault; on a machine that is late more slowly.
-Run run_undisturbed(const std::string& text, const std::string& more = "", bool traced = false) {
+BothRuns run_undisturbed(const std::string& text, const std::string& more = "", bool traced = false) {
   const TemporaryFolder folder;
-  Run run;
+  BothRuns run;
   CHECK(jarol::tests::at_some_speed([&](int times) {
     const std::string file = folder.write("t.yaml", jarol::tests::slowed(text, times));
     const auto json_of = [&](const std::string& clock, std::string& trace) {
       const std::string run_it = "run " + file + more + clock + " --for " + std::to_string(200 * times) + "ms --json" +
                                  (traced ? " --trace " + folder / "t.csv" : "");
-      const auto json = nlohmann::json::parse(command::jarol(run_it, "2>/dev/null").output);
+      const auto json = nlohmann::json::parse(command::run_jarol(run_it, "2>/dev/null").output);
       std::ifstream written(folder / "t.csv");
       trace.assign(std::istreambuf_iterator<char>(written), {});
       return json;
@@ -74,7 +74,7 @@ TEST_SUITE("tools/real_time") {
     for (const auto& [core, mode] : modes) {
       const std::string its = mode;
       CAPTURE(its);
-      const Run run = run_undisturbed(on_core(core), mode);
+      const BothRuns run = run_undisturbed(on_core(core), mode);
       CHECK(run.real["faults"].size() == 0);
       CHECK(run.real["digest"] == run.should["digest"]);
       CHECK(run.real["activations"] == run.should["activations"]);
@@ -91,7 +91,7 @@ TEST_SUITE("tools/real_time") {
   }
 
   TEST_CASE("the trace has its rows in order of time, whoever runs the tasks") {
-    const Run run = run_undisturbed(on_core(0), " --set platform.policy=fixed_priority", true);
+    const BothRuns run = run_undisturbed(on_core(0), " --set platform.policy=fixed_priority", true);
     CHECK(run.virtual_trace.size() > 100);
     CHECK(run.real_trace == run.virtual_trace);
   }
@@ -139,13 +139,13 @@ TEST_SUITE("tools/real_time") {
     const TemporaryFolder folder;
     const std::string one = folder.write("one.yaml", on_core(0));
     const std::string run = "run " + one + " --clock real --for 40ms --set tasks.flow.wcet=30ms";
-    const auto refused = command::jarol(run);
+    const auto refused = command::run_jarol(run);
     CHECK(refused.exit_code == 1);
     CHECK(refused.output ==
           "error: '" + one +
               "' is not schedulable: the tasks need more than the whole core; 'jarol check' says more, --force runs it "
               "all the same\n");
-    const auto forced = command::jarol(run + " --force");
+    const auto forced = command::run_jarol(run + " --force");
     CHECK(forced.exit_code == 0);
     CHECK(forced.output.find("note: run by force: '" + one +
                              "' is not schedulable: the tasks need more than the whole core\n") != std::string::npos);
@@ -155,26 +155,26 @@ TEST_SUITE("tools/real_time") {
     const TemporaryFolder folder;
     const std::string one = folder.write("one.yaml", on_core(0) + "chains:\n  c: {path: [flow, timed, to]}\n");
     const std::string run = "run " + one + " --clock real --for 40ms";
-    CHECK(command::jarol(run).exit_code == 0);
+    CHECK(command::run_jarol(run).exit_code == 0);
     const std::string late = run + " --set chains.c.reaction=80ms --set chains.c.age=85ms";
-    const auto refused = command::jarol(late);
+    const auto refused = command::run_jarol(late);
     CHECK(refused.exit_code == 1);
     CHECK(refused.output == "error: '" + one +
                                 "' breaks a limit of chain 'c': reaction 90ms over 80ms, data age 90ms over 85ms; "
                                 "'jarol check' says more, --force runs it all the same\n");
     CHECK(
-        command::jarol(late + " --set tasks.flow.wcet=30ms").output ==
+        command::run_jarol(late + " --set tasks.flow.wcet=30ms").output ==
         "error: '" + one +
             "' is not schedulable: the tasks need more than the whole core, and breaks a limit of chain 'c': reaction "
             "90ms over 80ms, data age 90ms over 85ms; 'jarol check' says more, "
             "--force runs it all the same\n");
-    const auto forced = command::jarol(late + " --force");
+    const auto forced = command::run_jarol(late + " --force");
     CHECK(forced.exit_code == 0);
     CHECK(forced.output.find("note: run by force: '" + one +
                              "' breaks a limit of chain 'c': reaction 90ms over 80ms, "
                              "data age 90ms over 85ms\n") != std::string::npos);
     // on the virtual clock it is logical time that is short, whatever the limit
-    CHECK(command::jarol("run " + one + " --for 40ms --set chains.c.reaction=80ms").exit_code == 0);
+    CHECK(command::run_jarol("run " + one + " --for 40ms --set chains.c.reaction=80ms").exit_code == 0);
   }
 
   TEST_CASE("a vehicle that never answers was not there: the run is not brought to an end, and says so") {
@@ -182,7 +182,7 @@ TEST_SUITE("tools/real_time") {
         "--set 'distributers.dune.link={type: udp, peer: \"127.0.0.1:9\"}' --for 200ms --clock real";
     for (const std::string concurrency : {"exotasks", "threads"}) {
       const std::string run = "run specs/exolauv_bare.yaml " + udp + " --concurrency " + concurrency;
-      const auto [exit_code, text] = command::jarol(run);
+      const auto [exit_code, text] = command::run_jarol(run);
       CHECK(exit_code == 3);
       CHECK(text.find("error: nothing came from the vehicle of 'dune' in the whole run; is it there?\n") !=
             std::string::npos);
@@ -190,7 +190,7 @@ TEST_SUITE("tools/real_time") {
       REQUIRE(link != std::string::npos);
       CHECK(text.substr(text.find('\n', link) + 1)
                 .starts_with("              NO PACKET HAS COME over udp 127.0.0.1:0 with 127.0.0.1:9\n"));
-      const auto json = nlohmann::json::parse(command::jarol(run + " --json", "2>/dev/null").output);
+      const auto json = nlohmann::json::parse(command::run_jarol(run + " --json", "2>/dev/null").output);
       CHECK(json["links"][0]["heard"] == false);
       CHECK(json["judgement"]["unheard"] == nlohmann::json::array({"dune"}));
     }
@@ -208,7 +208,7 @@ TEST_SUITE("tools/real_time") {
 
 #ifdef JAROL_VEHICLES
   TEST_CASE("an operator that never speaks may not be there") {
-    const auto [exit_code, json] = command::jarol(
+    const auto [exit_code, json] = command::run_jarol(
         "run specs/javiator.yaml --set 'distributers.terminal.link={type: udp, peer: 9}' --set at_end=null "
         "--set expect=null --set fault_limit=100% --clock real --for 100ms --json",
         "2>/dev/null");
@@ -241,7 +241,7 @@ TEST_SUITE("tools/real_time") {
     const TemporaryFolder folder;
     const std::string one = folder.write("one.yaml", on_core(0));
     const auto refusal = [&](const std::string& more) {
-      const auto result = command::jarol("run " + one + " --clock real --for 200ms " + more);
+      const auto result = command::run_jarol("run " + one + " --clock real --for 200ms " + more);
       CHECK(result.exit_code == 2);
       return result.output;
     };

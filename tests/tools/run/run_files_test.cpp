@@ -12,7 +12,7 @@
 
 namespace {
 using command::content;
-using command::jarol;
+using command::run_jarol;
 using command::TemporaryFolder;
 using Titles = std::vector<std::string>;
 
@@ -31,24 +31,24 @@ TEST_SUITE("tools/run_files") {
   TEST_CASE("a picture shows the fields that --signals names, in its order, each once") {
     const TemporaryFolder folder;
     const std::string picture = folder / "p.svg";
-    CHECK(jarol(counting + "--plot " + picture + " --signals 'total,*.out,count.out'").exit_code == 0);
+    CHECK(run_jarol(counting + "--plot " + picture + " --signals 'total,*.out,count.out'").exit_code == 0);
     CHECK(titles_of(content(picture)) == Titles{"total", "add.out", "count.out", "loop.out", "slow.out", "sum.out"});
   }
 
   TEST_CASE("names that nothing has are refused with those that there are") {
-    CHECK(jarol(counting + "--plot /dev/null --signals 'total,cuont.out'").output ==
+    CHECK(run_jarol(counting + "--plot /dev/null --signals 'total,cuont.out'").output ==
           "error: --signals: nothing that is published has the name 'cuont.out'; did you mean 'count.out'?; there are: "
           "add.out, count.out, loop.out, slow.out, sum.out, total\n");
-    CHECK(jarol(counting + "--plot /dev/null --signals 'total,,add.out'").output ==
+    CHECK(run_jarol(counting + "--plot /dev/null --signals 'total,,add.out'").output ==
           "error: --signals: 'total,,add.out' has an empty name; write them as in depth.*,fins.*\n");
-    CHECK(jarol(counting + "--signals total").output ==
+    CHECK(run_jarol(counting + "--signals total").output ==
           "error: --signals says what --plot draws; add --plot FILE, or leave it out\n");
   }
 
   TEST_CASE("without commands to show, a picture of what is published first says so") {
     const TemporaryFolder folder;
     const std::string picture = folder / "p.svg";
-    CHECK(jarol(counting + "--plot " + picture, "2>&1 >/dev/null").output ==
+    CHECK(run_jarol(counting + "--plot " + picture, "2>&1 >/dev/null").output ==
           "note: no 'out' communicator of an operator reports what one of its 'in' communicators commands, so the "
           "picture shows what is published first; name fields by --signals\n");
     CHECK(titles_of(content(picture)) == Titles{"add.out", "count.out", "loop.out", "slow.out", "sum.out", "total"});
@@ -57,13 +57,13 @@ TEST_SUITE("tools/run_files") {
   TEST_CASE("a filled trace repeats what was published last, from when it first was") {
     const TemporaryFolder folder;
     const std::string trace = folder / "t.csv", filled = folder / "f.csv";
-    CHECK(jarol("run specs/counting.yaml --for 20ms --trace " + trace).exit_code == 0);
-    CHECK(jarol("run specs/counting.yaml --for 20ms --trace-fill --trace " + filled).exit_code == 0);
+    CHECK(run_jarol("run specs/counting.yaml --for 20ms --trace " + trace).exit_code == 0);
+    CHECK(run_jarol("run specs/counting.yaml --for 20ms --trace-fill --trace " + filled).exit_code == 0);
     CHECK(content(trace) ==
           "time,add.out,count.out,loop.out,slow.out,sum.out,total\n0,,0,,,,0\n0.01,0,1,,,0,\n0.015,,,,0,,\n");
     CHECK(content(filled) ==
           "time,add.out,count.out,loop.out,slow.out,sum.out,total\n0,,0,,,,0\n0.01,0,1,,,0,0\n0.015,0,1,,0,0,0\n");
-    CHECK(jarol(counting + "--trace-fill").output ==
+    CHECK(run_jarol(counting + "--trace-fill").output ==
           "error: --trace-fill is about --trace; add --trace FILE, or leave it out\n");
   }
 
@@ -73,8 +73,8 @@ TEST_SUITE("tools/run_files") {
       "differs in") {
     const TemporaryFolder folder;
     const std::string picture = folder / "p.svg", recording = folder / "r.mcap", replayed = folder / "q.svg";
-    CHECK(jarol("run specs/exolauv.yaml --profile at_sea --seed 7 --for 20s --set expect=null --record " + recording +
-                " --plot " + picture)
+    CHECK(run_jarol("run specs/exolauv.yaml --profile at_sea --seed 7 --for 20s --set expect=null --record " +
+                    recording + " --plot " + picture)
               .exit_code == 0);
     const std::string svg = content(picture);
     CHECK(titles_of(svg) ==
@@ -89,15 +89,16 @@ TEST_SUITE("tools/run_files") {
     CHECK(count(">none</text>") == 1);
     for (const std::string fin : {"fins.0", "fins.1", "fins.2", "fins.3"}) CHECK(count(">" + fin + "</text>") == 1);
     CHECK(count(">profile at_sea, seed 7, expect=null</text>") == 1);
-    CHECK(jarol("replay " + recording + " --plot " + replayed).exit_code == 0);
+    CHECK(run_jarol("replay " + recording + " --plot " + replayed).exit_code == 0);
     CHECK(content(replayed) == svg);
   }
 
   TEST_CASE("a trace in words has a row of units, and names what enumerators and truth values mean") {
     const TemporaryFolder folder;
     const std::string plain = folder / "p.csv", words = folder / "w.csv";
-    CHECK(jarol("run specs/javiator.yaml --for 40ms --set expect=null --trace-fill --trace " + plain).exit_code == 0);
-    CHECK(jarol("run specs/javiator.yaml --for 40ms --set expect=null --trace-fill --trace-words --trace " + words)
+    CHECK(run_jarol("run specs/javiator.yaml --for 40ms --set expect=null --trace-fill --trace " + plain).exit_code ==
+          0);
+    CHECK(run_jarol("run specs/javiator.yaml --for 40ms --set expect=null --trace-fill --trace-words --trace " + words)
               .exit_code == 0);
     const auto table = [](const std::string& path) {
       std::vector<std::vector<std::string>> rows;
@@ -121,29 +122,29 @@ TEST_SUITE("tools/run_files") {
     CHECK(numbers.back().at(column("logic.directive.state")) == "0");
     CHECK(named.back().at(column("logic.directive.state")) == "halt");
     CHECK(numbers[1].at(column("filter.estimate.roll")) == named[2].at(column("filter.estimate.roll")));
-    CHECK(jarol(counting + "--trace-words").output ==
+    CHECK(run_jarol(counting + "--trace-words").output ==
           "error: --trace-words is about --trace; add --trace FILE, or leave it out\n");
   }
 #endif
 
   TEST_CASE("SVG is not written under the name of another kind of picture") {
     for (const std::string name : {"p.png", "p.pdf", "p.SVG"}) {
-      CHECK(jarol(counting + "--plot " + name).output ==
+      CHECK(run_jarol(counting + "--plot " + name).output ==
             "error: --plot: '" + name + "' would hold an SVG picture; name it p.svg\n");
       CHECK(!std::filesystem::exists(name));
     }
   }
 
   TEST_CASE("- is stdout, which holds nothing else then") {
-    const std::string trace = jarol(counting + "--trace -", "2>/dev/null").output;
+    const std::string trace = run_jarol(counting + "--trace -", "2>/dev/null").output;
     CHECK(trace.starts_with("time,add.out,count.out,loop.out,slow.out,sum.out,total\n0,,0,,,,0\n"));
     CHECK(trace.find("digest") == std::string::npos);
-    const std::string report = jarol(counting + "--trace -", "2>&1 >/dev/null").output;
+    const std::string report = run_jarol(counting + "--trace -", "2>&1 >/dev/null").output;
     CHECK(report.find("\n  trace       stdout\n") != std::string::npos);
-    CHECK(jarol(counting + "--plot - --signals total", "2>/dev/null").output.starts_with("<?xml "));
+    CHECK(run_jarol(counting + "--plot - --signals total", "2>/dev/null").output.starts_with("<?xml "));
     CHECK(!std::filesystem::exists("-"));
-    CHECK(jarol(counting + "--trace - --plot -").output ==
+    CHECK(run_jarol(counting + "--trace - --plot -").output ==
           "error: --trace and --plot both name '-'; choose another file for one of them\n");
-    CHECK(jarol(counting + "--log -").output == "error: --log: '-' is no file; a recording is read by its name\n");
+    CHECK(run_jarol(counting + "--log -").output == "error: --log: '-' is no file; a recording is read by its name\n");
   }
 }

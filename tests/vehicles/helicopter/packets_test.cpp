@@ -29,7 +29,7 @@ std::multimap<int, std::int64_t> delays_of(const PacketParameters& parameters, s
   return all;
 }
 
-struct Answers : messages::Receiver {
+struct PacketAnswers : messages::Receiver {
   void receive(messages::MessageRef message) override { ids.push_back(message.as<javiator::JaviatorData>()->id); }
   std::vector<int> ids;
 };
@@ -40,7 +40,7 @@ std::vector<int> answers_over(const PacketParameters& packets, int count, std::u
   parameters.dynamics = Dynamics::rigid;
   parameters.packets = packets;
   Helicopter helicopter(parameters, seed);
-  Answers answers;
+  PacketAnswers answers;
   for (int i = 0; i < 3 * count; ++i) {
     if (i % 3 == 0)
       helicopter.accept(messages::refer_to(javiator::MotorSignals{0, 0, 0, 0, static_cast<std::uint16_t>(i / 3)}));
