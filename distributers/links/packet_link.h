@@ -63,7 +63,8 @@ LinkType packet_link(std::string name, std::string summary, CommonKeys common, s
   if (common.key)
     keys.push_back(key_for<S, &PacketLinkSpec::key>(
         "key", Form::word, "file of the key that both ends have; default: none, anyone is believed"));
-  keys.push_back(key_for<S, &PacketLinkSpec::id>("id", Form::id, "the sender's id in what is sent, as in 0x00D1"));
+  keys.push_back(key_for<S, &PacketLinkSpec::id>(
+      "id", Form::id, "the sender's id in what is sent, as in 0x00D1; packets to another id are dropped"));
   keys.push_back(key_for<S, &PacketLinkSpec::source>("source", Form::id,
                                                      "the sender's id in what counts, as in 0x00D1; default: any"));
   keys.push_back(key_for<S, &PacketLinkSpec::port>("port", Form::mapping, "kind and size of the link's ports")

@@ -246,20 +246,6 @@ connections: [i -> sum.in]
     CHECK_MESSAGE(std::regex_match(version, form), version);
   }
 
-  TEST_CASE("tasks tells all about one") {
-    CHECK(run_jarol("tasks Accumulate").output ==
-          "Accumulate: gives the running sum of its input\n\ninputs\n  in  double\n\noutputs\n  out  double  sum of "
-          "all inputs so far\n");
-    CHECK(run_jarol("tasks Acumulate").exit_code == 2);
-    CHECK(json_of("tasks --json")["tasks"].size() == 31);
-    CHECK(json_of("tasks --json")["distributers"].size() == 4);
-    CHECK(json_of("tasks LauvVehicle --json")["distributers"][0]["channels"][0] ==
-          nlohmann::json{{"name", "motion"},
-                         {"direction", "in"},
-                         {"type", "Motion"},
-                         {"text", "position, attitude and velocities"}});
-  }
-
   TEST_CASE("graph prints the order of tasks and a drawing") {
     CHECK(run_jarol("graph specs/counting.yaml").output.find("count (Counter): every 10ms, deadline 10ms\n") !=
           std::string::npos);

@@ -5,6 +5,7 @@
 
 #include "graph/values/bind.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/other_parts.h"
 #include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
@@ -126,13 +127,13 @@ nlohmann::ordered_json distributer_json(const DistributerClass& distributer) {
       {"name", distributer.name}, {"summary", distributer.summary}, {"parameters", parameters}, {"channels", channels}};
 }
 
-void print_json(const std::vector<TaskClass>& tasks, const std::vector<DistributerClass>& distributers) {
+nlohmann::ordered_json json_of(const std::vector<TaskClass>& tasks, const std::vector<DistributerClass>& distributers) {
   nlohmann::ordered_json whole{{"schema", "jarol.tasks/1"},
                                {"tasks", nlohmann::ordered_json::array()},
                                {"distributers", nlohmann::ordered_json::array()}};
   for (const TaskClass& t : tasks) whole["tasks"].push_back(task_json(t));
   for (const DistributerClass& d : distributers) whole["distributers"].push_back(distributer_json(d));
-  std::cout << json_line(whole);
+  return whole;
 }
 
 void print_task(const TaskClass& task) {
@@ -153,51 +154,81 @@ void print_distributer(const DistributerClass& distributer) {
               << (c.direction == Direction::in ? "in   " : "out  ") << c.type->name << "  " << c.text << "\n";
 }
 
-void print_all(const Registry& known) {
-  std::size_t width = 0;
-  for (const auto& name : names_of(known.tasks())) width = std::max(width, name.size());
-  for (const auto& name : names_of(known.distributers())) width = std::max(width, name.size());
-  std::cout << "tasks\n";
-  for (const TaskClass& t : known.tasks())
-    std::cout << "  " << t.name << std::string(width - t.name.size() + 2, ' ') << t.summary << "\n";
-  std::cout << "\ndistributers\n";
-  for (const DistributerClass& d : known.distributers())
-    std::cout << "  " << d.name << std::string(width - d.name.size() + 2, ' ') << d.summary << "\n";
-  std::cout << "\njarol tasks NAME tells parameters, inputs, outputs and channels\n";
+std::vector<ListedParts> all_parts(const distributers::Registries& known) {
+  std::vector<ListedParts> all{{"tasks", {}}, {"distributers", {}}};
+  for (const TaskClass& t : known.graph.tasks()) all[0].parts.emplace_back(t.name, t.summary);
+  for (const DistributerClass& d : known.graph.distributers()) all[1].parts.emplace_back(d.name, d.summary);
+  for (ListedParts& other : other_parts(known)) all.push_back(std::move(other));
+  return all;
 }
 
-std::vector<std::string> names_in(const Registry& known) {
-  std::vector<std::string> names = names_of(known.tasks());
-  for (const auto& name : names_of(known.distributers())) names.push_back(name);
+void print_all(const distributers::Registries& known) {
+  const std::vector<ListedParts> all = all_parts(known);
+  std::size_t width = 0;
+  for (const ListedParts& listed : all)
+    for (const auto& [name, what] : listed.parts) width = std::max(width, name.size());
+  for (const ListedParts& listed : all) {
+    if (listed.parts.empty()) continue;
+    std::cout << listed.title << "\n";
+    for (const auto& [name, what] : listed.parts)
+      std::cout << "  " << name << std::string(width - name.size() + 2, ' ') << what << "\n";
+    std::cout << "\n";
+  }
+  std::cout << "jarol tasks NAME tells parameters, inputs, outputs, channels and keys\n";
+}
+
+std::vector<std::string> names_in(const distributers::Registries& known) {
+  std::vector<std::string> names;
+  for (const ListedParts& listed : all_parts(known))
+    for (const auto& [name, what] : listed.parts) names.push_back(name);
   return names;
 }
 
-int list_tasks(const TasksOptions& options) {
-  const Registry known = known_with(options.plugins).graph;
-  if (options.name.empty()) {
-    options.json ? print_json(known.tasks(), known.distributers()) : print_all(known);
-    return exit_good;
-  }
-  if (const TaskClass* task = known.find_task(options.name)) {
-    options.json ? print_json({*task}, {}) : print_task(*task);
-    return exit_good;
-  }
-  if (const DistributerClass* distributer = known.find_distributer(options.name)) {
-    options.json ? print_json({}, {*distributer}) : print_distributer(*distributer);
-    return exit_good;
-  }
+[[noreturn]] void refuse(const std::string& name, const distributers::Registries& known) {
   const std::vector<std::string> names = names_in(known);
-  throw std::invalid_argument("there is no task or distributer '" + options.name + "'" +
-                              did_you_mean(options.name, names) + "; there are: " + list_of(names));
+  throw std::invalid_argument("there is no task, distributer, vehicle, link or policy '" + name + "'" +
+                              did_you_mean(name, names) + "; there are: " + list_of(names));
+}
+
+int list_tasks(const TasksOptions& options) {
+  const distributers::Registries known = known_with(options.plugins);
+  const TaskClass* task = known.graph.find_task(options.name);
+  const DistributerClass* distributer = known.graph.find_distributer(options.name);
+  if (options.json) {
+    nlohmann::ordered_json whole;
+    if (options.name.empty()) {
+      whole = json_of(known.graph.tasks(), known.graph.distributers());
+      add_other_parts(known, whole);
+    } else if (task != nullptr) {
+      whole = json_of({*task}, {});
+    } else if (distributer != nullptr) {
+      whole = json_of({}, {*distributer});
+    } else if (whole = json_of({}, {}); !add_other_part(known, options.name, whole)) {
+      refuse(options.name, known);
+    }
+    std::cout << json_line(whole);
+  } else if (options.name.empty()) {
+    print_all(known);
+  } else if (task != nullptr) {
+    print_task(*task);
+  } else if (distributer != nullptr) {
+    print_distributer(*distributer);
+  } else if (!print_other_part(known, options.name)) {
+    refuse(options.name, known);
+  }
+  return exit_good;
 }
 
 }  // namespace
 
 void add_tasks(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<TasksOptions>();
-  Command* command = line.add_subcommand("tasks", "List task types and distributers, or tell all about one");
-  command->add_option("NAME", options->name, "A task type or distributer, as in DepthControl")
-      ->suggests(names_in(built_in().graph));
+  Command* command = line.add_subcommand(
+      "tasks", "List task types, distributers, vehicles, links and policies, or show all about one");
+  command
+      ->add_option("NAME", options->name,
+                   "A task type, distributer, vehicle, link or policy, as in DepthControl or udp")
+      ->suggests(names_in(built_in()));
   command->add_option("--plugin", options->plugins, "Also those of this shared library")->file({"so"})->one_value();
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->callback([options, &exit_code] { exit_code = list_tasks(*options); });

@@ -244,7 +244,8 @@ void add_vehicle(CommandLine& line, int& exit_code) {
       {"key", "Link: file of the key that both ends have"},
       {"silence", "Link: of the peer, after which another may take its place; default 5 s"},
       {"announce", "Link: where it tells that it is there, as in 127.0.0.1:30100-30104; default: nowhere"},
-      {"id", "Link: the sender's id in what is sent, in hex or decimal, as in 0x00D1"},
+      {"id",
+       "Link: the sender's id in what is sent, in hex or decimal, as in 0x00D1; packets to another id are dropped"},
   };
   command
       ->add_option(

@@ -1,0 +1,104 @@
+#include "tools/commands/other_parts.h"
+
+#include <algorithm>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "graph/policy.h"
+
+namespace jarol::tools {
+namespace {
+using distributers::LinkType;
+using Json = nlohmann::ordered_json;
+
+std::string who_joins(const LinkType& link) {
+  return link.for_vehicles ? "of vehicles" : link.for_operators ? "of operators" : "of vehicles and operators";
+}
+
+Json vehicle_json(const vehicles::VehicleClass& vehicle) {
+  return {{"name", vehicle.name}, {"summary", vehicle.summary}};
+}
+
+Json link_json(const LinkType& link) {
+  auto keys = Json::array();
+  for (const KeyDescription& key : link.keys)
+    keys.push_back({{"name", key.name}, {"required", key.required}, {"text", key.text}});
+  return {{"name", link.name},
+          {"summary", link.summary},
+          {"vehicles", !link.for_operators},
+          {"operators", !link.for_vehicles},
+          {"needs_one_of", link.needs_one_of},
+          {"keys", std::move(keys)}};
+}
+
+Json policy_json(const Policy& policy) {
+  return {{"name", policy.name},
+          {"how", policy.how},
+          {"interrupts", policy.interrupts},
+          {"keeps_core", policy.keeps_core},
+          {"executed_on_real_clock", policy.executed}};
+}
+
+void print_link(const LinkType& link) {
+  std::cout << "link " << link.name << ": " << link.summary << ", " << who_joins(link) << "\n\nkeys\n";
+  std::size_t width = 0;
+  for (const KeyDescription& key : link.keys) width = std::max(width, key.name.size());
+  for (const KeyDescription& key : link.keys) {
+    if (key.name == "type") continue;  // its own name
+    std::cout << "  " << key.name << std::string(width - key.name.size() + 2, ' ') << key.text
+              << (key.required ? "; required" : "") << "\n";
+  }
+}
+
+void print_policy(const Policy& policy) {
+  std::cout << "policy " << policy.name << ": " << policy.how << "\n\n"
+            << "  a task that runs " << (policy.interrupts ? "is interrupted by" : "ends before")
+            << " a more urgent one\n"
+            << "  a task " << (policy.keeps_core ? "keeps its core" : "may change its core") << "\n"
+            << "  jarol run " << (policy.executed ? "executes it" : "does not execute it") << " on the real clock\n";
+}
+
+}  // namespace
+
+std::vector<ListedParts> other_parts(const distributers::Registries& known) {
+  std::vector<ListedParts> all{{"vehicles", {}}, {"links", {}}, {"policies", {}}};
+  for (const auto& vehicle : known.vehicles.entries()) all[0].parts.emplace_back(vehicle.name, vehicle.summary);
+  for (const LinkType& link : known.links.entries())
+    all[1].parts.emplace_back(link.name, link.summary + ", " + who_joins(link));
+  for (const Policy& policy : known.graph.policies()) all[2].parts.emplace_back(policy.name, policy.how);
+  return all;
+}
+
+void add_other_parts(const distributers::Registries& known, Json& to) {
+  for (const char* title : {"vehicles", "links", "policies"}) to[title] = Json::array();
+  for (const auto& vehicle : known.vehicles.entries()) to["vehicles"].push_back(vehicle_json(vehicle));
+  for (const LinkType& link : known.links.entries()) to["links"].push_back(link_json(link));
+  for (const Policy& policy : known.graph.policies()) to["policies"].push_back(policy_json(policy));
+}
+
+bool print_other_part(const distributers::Registries& known, const std::string& name) {
+  if (const auto* vehicle = known.vehicles.find(name))
+    std::cout << "vehicle " << vehicle->name << ": " << vehicle->summary << "\n\njarol vehicle " << vehicle->name
+              << " --describe has its state, inputs and parameters\n";
+  else if (const LinkType* link = known.links.find(name))
+    print_link(*link);
+  else if (const Policy* policy = known.graph.find_policy(name))
+    print_policy(*policy);
+  else
+    return false;
+  return true;
+}
+
+bool add_other_part(const distributers::Registries& known, const std::string& name, Json& to) {
+  if (const auto* vehicle = known.vehicles.find(name))
+    to["vehicles"] = Json::array({vehicle_json(*vehicle)});
+  else if (const LinkType* link = known.links.find(name))
+    to["links"] = Json::array({link_json(*link)});
+  else if (const Policy* policy = known.graph.find_policy(name))
+    to["policies"] = Json::array({policy_json(*policy)});
+  else
+    return false;
+  return true;
+}
+
+}  // namespace jarol::tools
