@@ -86,6 +86,10 @@ PageGuard::PageGuard() {
   // of the main thread: what the system writes when it stops and goes on lies beside its own data
   leave_out(reinterpret_cast<const void*>(::pthread_self()), page);
   leave_out_stacks();
+  // what handlers call is bound now, as that writes
+  const timespec no_time{};
+  ::nanosleep(&no_time, nullptr);
+  ::mprotect(flags, page, PROT_READ | PROT_WRITE);
   guard.store(this);
 }
 
@@ -127,15 +131,18 @@ void PageGuard::close(std::span<std::byte> own) {
     flags_->changing.store(false);
   }
   flags_->suspended.store(false);
+  flags_->to_open.store(true);
   flags_->closed.store(true);
   protect(false);
 }
 
 void PageGuard::open() {
   flags_->suspended.store(false);
-  if (!flags_->closed.load()) return;
+  if (!flags_->to_open.load()) return;
+  // also where another thread has lifted it: that may have been while it was being closed
   protect(true);
   flags_->closed.store(false);
+  flags_->to_open.store(false);
 }
 
 // Reading must allocate nothing that changes what is read: the text has room from the first time on.
@@ -240,7 +247,10 @@ const PageGuard::Region* PageGuard::find(const void* address) const {
 void PageGuard::wait_for_others() const {
   constexpr int looks = 1000;
   const timespec look{0, 1'000'000};
-  for (int i = 0; i < looks && flags_->closed.load(); ++i) ::nanosleep(&look, nullptr);
+  for (int i = 0; i < looks; ++i) {
+    if (!flags_->closed.load()) return;
+    ::nanosleep(&look, nullptr);
+  }
   lift();
 }
 

@@ -60,6 +60,7 @@ class PageGuard {
   // stays writable itself
   struct Flags {
     std::atomic<bool> closed{false};
+    std::atomic<bool> to_open{false};  // it was closed since it was opened last, whoever has lifted it meanwhile
     std::atomic<bool> suspended{false};
     std::atomic<bool> changing{false};  // the regions
     std::atomic<pid_t> thread{0};

@@ -160,7 +160,7 @@ test('the report of a dive draws graph, time lines, plots and path, and answers 
   for (const colours of canvases) assert.ok(colours > 10, canvases.join());
   for (const pixels of (await drawn(page, 'series-0')).slice(2, 5)) assert.ok(pixels > 300, 'a commanded signal is drawn');
   for (const pixels of (await drawn(page, 'series-1')).slice(2, 5)) assert.ok(pixels > 300, 'what it reached is drawn');
-  assert.equal(await page.evaluate(`document.querySelectorAll('.graph .node.task').length`), 8);
+  assert.equal(await page.evaluate(`document.querySelectorAll('.graph .node.task').length`), 9);
   // one layout for all
   const svg = run('graph', 'specs/exolauv.yaml', '--svg');
   assert.equal(svg.split('<g class="node').length - 1, await page.evaluate(`document.querySelectorAll('.graph .node').length`));
