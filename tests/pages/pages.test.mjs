@@ -165,7 +165,7 @@ test('the report of a dive draws graph, time lines, plots and path, and answers 
   const svg = run('graph', 'specs/exolauv.yaml', '--svg');
   assert.equal(svg.split('<g class="node').length - 1, await page.evaluate(`document.querySelectorAll('.graph .node').length`));
   assert.equal(svg.match(/viewBox="0 0 ([0-9]+)/)[1], data.drawing.width.toFixed(0));
-  assert.equal(await page.evaluate(`document.querySelectorAll('#tasks tbody tr').length`), 8);
+  assert.equal(await page.evaluate(`document.querySelectorAll('#tasks tbody tr').length`), 9);
 
   // dragging across a plot comes closer, and all plots with it; a key shows all again
   assert.equal(await shows(page), '0 to 100 s');
