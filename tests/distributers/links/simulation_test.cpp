@@ -64,7 +64,7 @@ TEST_SUITE("distributers/links/simulation") {
     auto channels = make();
     channels.reach(10ms);
     const tasks::Actuation actuation{0, {4, 0, 0, 0}};
-    channels.hand_over(2, &actuation);
+    channels.hand_over(3, &actuation);  // after motion, instruments and servos
     CHECK(depth_of(channels) == 1);
     channels.reach(30ms);
     CHECK(depth_of(channels) == 11);
