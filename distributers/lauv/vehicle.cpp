@@ -224,7 +224,7 @@ void LauvVehicle::range(const imc::LblRange& m, const messages::MessageRef& from
        std::max<std::int64_t>(r.count, 0) + 1};
 }
 
-// and where it was sent last
+// Of one fin, beside where it was sent last.
 void LauvVehicle::servo(const imc::ServoPosition& m, const messages::MessageRef& from) {
   if (m.id >= sent_fins_.size() || !is(parameters_.servos, from)) return;
   double angle = m.value;

@@ -46,7 +46,7 @@ TEST_SUITE("tools/parts") {
 #endif
   }
 
-  TEST_CASE("tasks tells the keys of a link, and what distinguishes a policy") {
+  TEST_CASE("tasks shows the keys of a link, and what distinguishes a policy") {
     CHECK(run_jarol("tasks lockstep").output ==
           "link lockstep: a vehicle in another process, on the logical clock, of vehicles\n\nkeys\n"
           "  peer  address and port where it listens; required\n"

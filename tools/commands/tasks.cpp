@@ -174,7 +174,7 @@ void print_all(const distributers::Registries& known) {
       std::cout << "  " << name << std::string(width - name.size() + 2, ' ') << what << "\n";
     std::cout << "\n";
   }
-  std::cout << "jarol tasks NAME tells parameters, inputs, outputs, channels and keys\n";
+  std::cout << "jarol tasks NAME shows parameters, inputs, outputs, channels and keys\n";
 }
 
 std::vector<std::string> names_in(const distributers::Registries& known) {
