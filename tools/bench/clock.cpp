@@ -15,7 +15,7 @@
 namespace jarol::bench {
 namespace {
 
-constexpr std::int64_t ns_of_second = 1'000'000'000;
+constexpr std::int64_t ns_per_second = 1'000'000'000;
 constexpr std::int64_t period = 1'000'000;  // ns
 constexpr int ticks = 25;                   // of a slice
 
@@ -25,7 +25,7 @@ void sleep_bare(Samples& lateness) {
   const std::int64_t start = RealClock::monotonic();
   for (int tick = 1; tick <= ticks; ++tick) {
     const std::int64_t due = start + tick * period;
-    const timespec until{due / ns_of_second, due % ns_of_second};
+    const timespec until{due / ns_per_second, due % ns_per_second};
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
     lateness.push_back(RealClock::monotonic() - due);
   }
