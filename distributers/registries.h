@@ -11,7 +11,7 @@ namespace jarol::distributers {
 /// A description and a factory for each; loader, help, reference and JSON Schema read them. Filled by `add_policies`,
 /// `add_tasks`, `add_distributers`, `add_links`, `add_vehicles` and whoever has more.
 struct Registries {
-  Registry graph;  // task types, distributers and policies
+  Registry graph;  // task types, distributers, policies and grammars
   NamedList<LinkType> links;
   NamedList<vehicles::VehicleClass> vehicles;
 };

@@ -1,4 +1,4 @@
-// The task types, distributer classes and scheduling policies that graphs may name.
+// The task types, distributer classes, scheduling policies and timing grammars that graphs may name.
 #pragma once
 
 #include <memory>
@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "graph/language/grammar.h"
 #include "graph/language/spec.h"
 #include "graph/named_list.h"
 #include "graph/policy.h"
@@ -49,10 +50,12 @@ class Registry {
   void add(TaskClass task);
   void add(DistributerClass distributer);
   void add(const Policy& policy) { policies_.add(policy); }
+  void add(const Grammar& grammar) { grammars_.add(grammar); }
 
   const TaskClass* find_task(std::string_view name) const;
   const DistributerClass* find_distributer(std::string_view name) const;
   const Policy* find_policy(std::string_view name) const { return policies_.find(name); }
+  const Grammar* find_grammar(std::string_view name) const { return grammars_.find(name); }
   /// A type that some input, output or channel has, or null.
   const Type* find_type(std::string_view name) const;
 
@@ -66,6 +69,7 @@ class Registry {
   std::vector<std::string> type_names() const;
   /// In the order in which they were added.
   const std::vector<Policy>& policies() const { return policies_.entries(); }
+  const std::vector<Grammar>& grammars() const { return grammars_.entries(); }
 
  private:
   void add_type(const Type& type);
@@ -74,6 +78,7 @@ class Registry {
   std::vector<DistributerClass> distributers_;
   std::vector<const Type*> types_;  // in bytewise order of name
   NamedList<Policy> policies_;
+  NamedList<Grammar> grammars_;
   bool complete_ = true;
 };
 

@@ -10,6 +10,7 @@
 #include "graph/expect/at_end.h"
 #include "graph/expect/parse.h"
 #include "graph/model/build.h"
+#include "graph/plugins/isolated.h"
 #include "graph/plugins/plugins.h"
 #include "graph/text/escape.h"
 
@@ -57,16 +58,18 @@ void add_conditions(Loaded& loaded, Problems& problems, const RecordingHeader* r
 }
 
 // What is loaded runs as the user: who it is stands there first.
-Loaded load(GraphSpec read, const distributers::Registries& known, const NoteSink& note, Problems& problems) {
+Loaded load(const GraphText& text, const distributers::Registries& known, const NoteSink& note, Problems& problems) {
   Loaded loaded;
-  const GraphSpec& spec = loaded.spec = std::move(read);
-  for (const Located<std::string>& plugin : spec.plugins)
-    note("loads plugin '" + printable(plugin_path(spec, plugin.value)) + "'");
+  for (const Located<std::string>& plugin : text.plugins)
+    note("loads plugin '" + printable(plugin_path(text.where, plugin.value)) + "'");
   PluginParts parts{known.graph, {}};
-  load_plugins(
-      spec, parts, [&](const Extension& extension) { return distributers::has(known, extension); }, problems);
+  const std::vector<LoadedPlugin> plugins = load_plugins(
+      text, parts, [&](const Extension& extension) { return distributers::has(known, extension); }, problems);
   loaded.known = std::make_unique<distributers::Registries>(distributers::with_plugins(known, std::move(parts)));
-  loaded.graph = std::make_unique<Graph>(build_graph(spec, loaded.known->graph, problems));
+  const Registry& registry = loaded.known->graph;
+  const GraphSpec& spec = loaded.spec = read_spec(text, registry.grammars(), registry.is_complete(), problems);
+  for (const LoadedPlugin& plugin : plugins) check_isolation(spec, registry, plugin.types, plugin.path, problems);
+  loaded.graph = std::make_unique<Graph>(build_graph(spec, registry, problems));
   expect::add_at_end(spec, *loaded.graph, problems);
   return loaded;
 }
@@ -76,7 +79,7 @@ Loaded load(GraphSpec read, const distributers::Registries& known, const NoteSin
 Loaded load_without_channels(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
                              const Overrides& overrides, const NoteSink& note, const RecordingHeader* recorded) {
   Problems problems;
-  Loaded loaded = load(load_spec(source, overrides, problems), known, note, problems);
+  Loaded loaded = load(read_text(source, overrides, problems), known, note, problems);
   add_conditions(loaded, problems, recorded);
   return loaded;
 }
@@ -90,7 +93,7 @@ Loaded load_graph(const std::shared_ptr<const Source>& source, const distributer
                   const Overrides& overrides, std::uint64_t seed, const NoteSink& note,
                   const std::vector<std::string>& without_link) {
   Problems problems;
-  Loaded loaded = load(load_spec(source, overrides, problems), known, note, problems);
+  Loaded loaded = load(read_text(source, overrides, problems), known, note, problems);
   for (Distributer& distributer : loaded.graph->distributers)
     if (fits(distributer.name, without_link)) distributer.link = {};
   loaded.files = {source};

@@ -7,19 +7,26 @@
 namespace jarol::isolation {
 namespace {
 
-std::vector<unsigned char> read_bytes(const std::string& path) {
+// With debug data ours has 0.2 GB.
+constexpr std::streamoff most_bytes = std::streamoff{2} << 30;
+
+}  // namespace
+
+std::vector<unsigned char> read_elf(const std::string& path) {
   std::ifstream in(path, std::ios::binary | std::ios::ate);
-  if (!in || in.tellg() <= 0) return {};
-  std::vector<unsigned char> bytes(static_cast<std::size_t>(in.tellg()));
+  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : 0;
+  char mark[SELFMAG] = {};
+  in.seekg(0);
+  if (size < SELFMAG || size > most_bytes || !in.read(mark, SELFMAG) || std::memcmp(mark, ELFMAG, SELFMAG) != 0)
+    return {};
+  std::vector<unsigned char> bytes(static_cast<std::size_t>(size));
   in.seekg(0);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
   return bytes;
 }
 
-}  // namespace
-
-ElfFile::ElfFile(const std::string& path) : bytes_(read_bytes(path)) {
+ElfFile::ElfFile(const std::string& path) : bytes_(read_elf(path)) {
   const auto head = read<Elf64_Ehdr>(0);
   if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0 || head->e_ident[EI_CLASS] != ELFCLASS64 ||
       head->e_machine != EM_X86_64)

@@ -14,6 +14,9 @@ namespace jarol::isolation {
 
 using Bytes = std::span<const unsigned char>;
 
+/// The bytes of a file; none if it does not begin as an ELF file does, or has more than 2 GiB.
+std::vector<unsigned char> read_elf(const std::string& path);
+
 /// A file whose numbers may be anything; what lies outside of it is not there.
 class ElfFile {
  public:

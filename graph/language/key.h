@@ -87,10 +87,6 @@ struct Words<Isolation> {
   static std::vector<std::string> list() { return {"strong", "weak"}; }
 };
 template <>
-struct Words<Grammar> {
-  static std::vector<std::string> list() { return {"let"}; }
-};
-template <>
 struct Words<Phasing> {
   static std::vector<std::string> list() { return {"given", "any"}; }
 };

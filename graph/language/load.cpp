@@ -1,5 +1,9 @@
 #include "graph/language/load.h"
 
+#include <algorithm>
+#include <exception>
+#include <optional>
+
 #include "graph/language/override.h"
 #include "graph/language/tables.h"
 
@@ -114,13 +118,34 @@ void refuse_later_keys(Yaml& graph, Problems& problems) {
     problems.add(found->key_where, "'" + key + "' is not there yet; leave it out");
     std::erase_if(graph.children, [&](const Yaml& child) { return child.key == key; });
   }
-  for (Yaml& timing : graph.children) {
-    const Yaml* grammar = timing.key == "timing" ? timing.find("grammar") : nullptr;
-    if (grammar == nullptr || (grammar->text != "tt" && grammar->text != "htl" && grammar->text != "reactive"))
-      continue;
-    problems.add(grammar->where, "timing grammar '" + grammar->text + "' is not there yet; write let");
-    std::erase_if(timing.children, [](const Yaml& child) { return child.key == "grammar"; });
+}
+
+// The one that the graph states, or null. Throws SpecError where it is none of these.
+const Grammar* find_grammar(const Yaml& graph, const std::vector<Grammar>& grammars, bool all_known,
+                            Problems& problems) {
+  const Yaml* timing = graph.find("timing");
+  const Yaml* stated = timing != nullptr && timing->kind == Yaml::Kind::mapping ? timing->find("grammar") : nullptr;
+  if (stated == nullptr || stated->text == language_itself) return nullptr;
+  std::vector<std::string> names;
+  for (const Grammar& grammar : grammars) names.emplace_back(grammar.name);
+  // else it may be one that could not be loaded, and that was reported
+  const bool judged = all_known || std::find(names.begin(), names.end(), stated->text) != names.end();
+  std::size_t which = 0;
+  if (judged && read_choice(*stated, names, which, "'timing' key 'grammar'", problems)) return &grammars[which];
+  problems.throw_if_any();
+  return nullptr;
+}
+
+// Throws SpecError where it can't, as words that stay would be reported as unknown.
+void lower(Yaml& graph, const Grammar& grammar, Problems& problems) {
+  const Location where = graph.find("timing")->find("grammar")->where;
+  const std::size_t before = problems.size();
+  try {
+    grammar.lower(graph, problems);
+  } catch (const std::exception& failed) {
+    problems.add(where, "timing grammar '" + std::string(grammar.name) + "' can't read this graph: " + failed.what());
   }
+  if (problems.size() > before) problems.throw_if_any();
 }
 
 // What varies is an override like any other.
@@ -135,32 +160,44 @@ void require_varied_paths(const Yaml& graph, const CampaignSpec& campaign, Probl
 
 }  // namespace
 
-GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides& overrides, Problems& problems) {
-  GraphSpec spec;
-  Yaml graph = read_yaml(source, problems);
-  spec.where = {source, 1, 1};
-  if (!problems.empty() && graph.kind == Yaml::Kind::null) return spec;  // syntax: nothing was read
+GraphText read_text(const std::shared_ptr<const Source>& source, const Overrides& overrides, Problems& problems) {
+  GraphText text{read_yaml(source, problems), {source, 1, 1}, {}, false};
+  Yaml& graph = text.tree;
+  if (!problems.empty() && graph.kind == Yaml::Kind::null) return text;  // syntax: nothing was read
   if (graph.kind == Yaml::Kind::null) {
     problems.add(graph.where, "there is no graph in it; a graph is a mapping that begins with 'graph: name'");
-    return spec;
+    return text;
   }
   if (graph.kind != Yaml::Kind::mapping) {
     problems.add(graph.where,
                  "a graph is a mapping that begins with 'graph: name', not " + std::string(kind_name(graph)));
-    return spec;
+    return text;
   }
+  text.readable = true;
   if (!overrides.profile.empty()) apply_profile(graph, overrides.profile, problems);
   for (const std::string& argument : overrides.set) apply_set(graph, argument, problems);
   refuse_later_keys(graph, problems);
+  read_plugins(graph, overrides.no_plugins, text.plugins, problems);
+  return text;
+}
+
+GraphSpec read_spec(const GraphText& text, const std::vector<Grammar>& grammars, bool all_known, Problems& problems) {
+  GraphSpec spec;
+  spec.where = text.where;
+  spec.plugins = text.plugins;
+  if (!text.readable) return spec;
+  std::optional<Yaml> lowered;
+  const Grammar* const grammar = find_grammar(text.tree, grammars, all_known, problems);
+  if (grammar != nullptr && grammar->lower != nullptr) lower(lowered.emplace(text.tree), *grammar, problems);
+  const Yaml& graph = lowered ? *lowered : text.tree;
   read_keys(graph, graph_keys(), spec, "a graph", problems);
   read_section(graph, "timing", timing_keys(), spec.timing, problems);
-  read_plugins(graph, overrides.no_plugins, spec.plugins, problems);
   read_section(graph, "platform", platform_keys(), spec.platform, problems);
   if (const Yaml* at_end = graph.find("at_end"); at_end != nullptr && at_end->kind != Yaml::Kind::null)
     read_keys(*at_end, at_end_keys(), spec.at_end.emplace(), "'at_end'", problems);
   if (const Yaml* campaign = graph.find("campaign"); campaign != nullptr && campaign->kind != Yaml::Kind::null) {
     read_keys(*campaign, campaign_keys(), spec.campaign.emplace(), "'campaign'", problems);
-    require_varied_paths(graph, *spec.campaign, problems);
+    require_varied_paths(text.tree, *spec.campaign, problems);
   }
   read_entries(graph, "distributers", "distributer", distributer_keys(), spec.distributers, problems);
   read_entries(graph, "communicators", "communicator", communicator_keys(), spec.communicators, problems);
@@ -168,6 +205,11 @@ GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides
   read_entries(graph, "tasks", "task", task_keys(), spec.tasks, problems);
   read_connections(graph, spec.connections, problems);
   return spec;
+}
+
+GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides& overrides, Problems& problems,
+                    const std::vector<Grammar>& grammars) {
+  return read_spec(read_text(source, overrides, problems), grammars, true, problems);
 }
 
 }  // namespace jarol

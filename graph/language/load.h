@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "graph/language/grammar.h"
 #include "graph/language/spec.h"
 
 namespace jarol {
@@ -20,7 +21,21 @@ struct Overrides {
 /// Letters, digits and _, no digit first: what tasks and the like may be called.
 bool is_name(std::string_view text);
 
-/// Reads a graph. All that is wrong goes to `problems`; what could be read is returned.
-GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides& overrides, Problems& problems);
+/// A graph with what a run changes of it, in the words of its timing grammar, which a plugin of its own may bring.
+struct GraphText {
+  Yaml tree;
+  Location where;                             // of the whole
+  std::vector<Located<std::string>> plugins;  // paths, relative to the graph's file
+  bool readable = false;                      // else there is no more to read
+};
+GraphText read_text(const std::shared_ptr<const Source>& source, const Overrides& overrides, Problems& problems);
+
+/// Reads a graph. All that is wrong goes to `problems`; what could be read is returned. Throws SpecError where the
+/// grammar is none of these or can't read it, as nothing else can be said then; `all_known`: it is no other's.
+GraphSpec read_spec(const GraphText& text, const std::vector<Grammar>& grammars, bool all_known, Problems& problems);
+
+/// Both, of what is known without the graph's plugins.
+GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides& overrides, Problems& problems,
+                    const std::vector<Grammar>& grammars = built_in_grammars());
 
 }  // namespace jarol

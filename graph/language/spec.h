@@ -78,10 +78,7 @@ struct DistributerSpec {
   Maybe<Yaml> link, parameters;
 };
 
-enum class Grammar { let };
-
 struct TimingSpec {
-  Maybe<Grammar> grammar;
   Maybe<Duration> period;
 };
 

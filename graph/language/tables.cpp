@@ -3,10 +3,22 @@
 namespace jarol {
 namespace {
 
-constexpr char policy_key[] = "policy";
+constexpr char policy_key[] = "policy", grammar_key[] = "grammar";
 
 Key<GraphSpec> section(std::string name, std::string text) {
   return key_read_elsewhere<GraphSpec>(std::move(name), Form::section, std::move(text));
+}
+
+// One of them is a choice.
+template <class S>
+std::vector<Key<S>> with_choices(std::vector<Key<S>> keys, const std::string& name,
+                                 const std::vector<std::string>& choices) {
+  for (Key<S>& key : keys) {
+    if (key.name != name) continue;
+    key.form = Form::choice;
+    key.choices = choices;
+  }
+  return keys;
 }
 
 }  // namespace
@@ -35,7 +47,7 @@ const std::vector<Key<GraphSpec>>& graph_keys() {
 
 const std::vector<Key<TimingSpec>>& timing_keys() {
   static const std::vector<Key<TimingSpec>> keys{
-      key<&TimingSpec::grammar>("grammar", Form::choice, "the timing grammar, default let"),
+      key_read_elsewhere<TimingSpec>(grammar_key, Form::word, "the timing grammar, default let"),
       key<&TimingSpec::period>("period", Form::positive_duration,
                                "a multiple of every period, and the period of whatever states none"),
   };
@@ -122,14 +134,12 @@ const std::vector<Key<PlatformSpec>>& platform_keys() {
   return keys;
 }
 
+std::vector<Key<TimingSpec>> timing_keys(const std::vector<std::string>& grammars) {
+  return with_choices(timing_keys(), grammar_key, grammars);
+}
+
 std::vector<Key<PlatformSpec>> platform_keys(const std::vector<std::string>& policies) {
-  std::vector<Key<PlatformSpec>> keys = platform_keys();
-  for (Key<PlatformSpec>& key : keys) {
-    if (key.name != policy_key) continue;
-    key.form = Form::choice;
-    key.choices = policies;
-  }
-  return keys;
+  return with_choices(platform_keys(), policy_key, policies);
 }
 
 const std::vector<Key<AtEndSpec>>& at_end_keys() {

@@ -9,7 +9,10 @@ namespace jarol {
 inline constexpr std::int64_t most_cores = 1024;
 
 const std::vector<Key<GraphSpec>>& graph_keys();
+/// Without the names of grammars, which registries have.
 const std::vector<Key<TimingSpec>>& timing_keys();
+/// With these.
+std::vector<Key<TimingSpec>> timing_keys(const std::vector<std::string>& grammars);
 const std::vector<Key<DistributerSpec>>& distributer_keys();
 const std::vector<Key<CommunicatorSpec>>& communicator_keys();
 const std::vector<Key<TaskSpec>>& task_keys();

@@ -17,7 +17,7 @@ struct Extension {
 };
 
 struct PluginParts {
-  Registry graph{};  // task types, distributers and policies
+  Registry graph{};  // task types, distributers, policies and grammars
   std::vector<Extension> extensions{};
 };
 

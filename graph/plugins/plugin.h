@@ -1,6 +1,6 @@
 // What a shared library with tasks of its own includes; its whole interface to Jarol (with distributers, vehicles, link
-// types and policies: distributers/interfaces/plugin_distributer.h, plugin_vehicle.h, distributers/links/plugin_link.h,
-// graph/plugins/plugin_policy.h):
+// types, policies and grammars: distributers/interfaces/plugin_distributer.h, plugin_vehicle.h,
+// distributers/links/plugin_link.h, graph/plugins/plugin_policy.h, plugin_grammar.h):
 //
 //   #include "graph/plugins/plugin.h"
 //   struct Twice { static constexpr std::string_view summary = "doubles"; struct In { ... }; ... };
@@ -25,8 +25,8 @@ static_assert(sizeof(JarolUnpacked) == 2 * sizeof(double), "a plugin can't be bu
 
 namespace jarol {
 
-/// How what a plugin names is added: a task. The headers of distributers, vehicles, link types and policies say how
-/// those are.
+/// How what a plugin names is added: a task. The headers of distributers, vehicles, link types, policies and grammars
+/// say how those are.
 template <class T>
 struct PluginPart {
   static void add(PluginParts& parts) { parts.graph.add(task_class<T>()); }
@@ -42,7 +42,7 @@ void add_parts_of_plugin(PluginParts& parts) {
 /// Visible also in a library that is built with -fvisibility=hidden.
 #define JAROL_VISIBLE extern "C" [[gnu::used, gnu::visibility("default")]]
 
-/// Names what the library brings, tasks, distributers, vehicles, link types and policies, once in a library.
+/// Names what the library brings, tasks, distributers, vehicles, link types, policies and grammars.
 #define JAROL_PLUGIN(...)                                                                                    \
   JAROL_VISIBLE const jarol::PluginBuild jarol_plugin_build = jarol::build_of_this_file();                   \
   JAROL_VISIBLE bool jarol_plugin_rounds_products(const volatile double& x, const volatile double& square) { \

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 
 #include "graph/floating_point.h"
+#include "graph/isolation/elf_file.h"
 #include "graph/language/inputs.h"
-#include "graph/plugins/isolated.h"
 #include "graph/plugins/judged_files.h"
 #include "graph/plugins/machine_code.h"
 #include "graph/plugins/plugin_build.h"
@@ -22,8 +21,8 @@ namespace fs = std::filesystem;
 
 // The note that JAROL_PLUGIN leaves in the file.
 std::optional<PluginBuild> read_build(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const std::vector<unsigned char> read = isolation::read_elf(path);
+  const std::string_view bytes(reinterpret_cast<const char*>(read.data()), read.size());
   PluginBuild build;
   const std::size_t at = bytes.find(std::string_view(build.magic, sizeof build.magic));
   if (at == std::string::npos || bytes.size() - at < sizeof build) return std::nullopt;
@@ -84,6 +83,8 @@ std::string find_clash(const PluginParts& added, const PluginParts& known, const
     if (known.graph.find_distributer(distributer.name) != nullptr) return "a distributer '" + distributer.name + "'";
   for (const Policy& policy : added.graph.policies())
     if (known.graph.find_policy(policy.name) != nullptr) return "a policy '" + std::string(policy.name) + "'";
+  for (const Grammar& grammar : added.graph.grammars())
+    if (known.graph.find_grammar(grammar.name) != nullptr) return "a grammar '" + std::string(grammar.name) + "'";
   for (const Extension& extension : added.extensions) {
     const bool added_before = std::any_of(
         known.extensions.begin(), known.extensions.end(),
@@ -119,6 +120,7 @@ std::string add_plugin(const std::string& path, PluginParts& known, const IsTher
   }
   for (const DistributerClass& distributer : added.graph.distributers()) known.graph.add(distributer);
   for (const Policy& policy : added.graph.policies()) known.graph.add(policy);
+  for (const Grammar& grammar : added.graph.grammars()) known.graph.add(grammar);
   known.extensions.insert(known.extensions.end(), added.extensions.begin(), added.extensions.end());
   return "";
 }
@@ -137,23 +139,25 @@ std::string load_plugin(const std::string& path, Registry& registry) {
   return wrong;
 }
 
-std::string plugin_path(const GraphSpec& spec, const std::string& plugin) {
-  const fs::path folder = spec.where.source ? fs::path(spec.where.source->name).parent_path() : "";
+std::string plugin_path(const Location& graph, const std::string& plugin) {
+  const fs::path folder = graph.source ? fs::path(graph.source->name).parent_path() : "";
   return (folder / plugin).string();
 }
 
-void load_plugins(const GraphSpec& spec, PluginParts& known, const IsThere& is_there, Problems& problems) {
-  for (const Located<std::string>& plugin : spec.plugins) {
-    std::vector<std::string> types;
-    const std::string path = plugin_path(spec, plugin.value);
-    const std::string wrong = add_plugin(path, known, is_there, types);
+std::vector<LoadedPlugin> load_plugins(const GraphText& graph, PluginParts& known, const IsThere& is_there,
+                                       Problems& problems) {
+  std::vector<LoadedPlugin> loaded;
+  for (const Located<std::string>& plugin : graph.plugins) {
+    LoadedPlugin one{plugin_path(graph.where, plugin.value), {}};
+    const std::string wrong = add_plugin(one.path, known, is_there, one.types);
     if (wrong.empty()) {
-      check_isolation(spec, known.graph, types, path, problems);
+      loaded.push_back(std::move(one));
       continue;
     }
     problems.add(plugin.where, wrong);
     known.graph.mark_incomplete();
   }
+  return loaded;
 }
 
 }  // namespace jarol

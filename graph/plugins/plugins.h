@@ -1,9 +1,11 @@
-// Task types, distributers and policies from shared libraries, and on their way what layers above keep.
+// Task types, distributers, policies and grammars from shared libraries, and on their way what layers above keep.
 #pragma once
 
 #include <functional>
 #include <string>
+#include <vector>
 
+#include "graph/language/load.h"
 #include "graph/plugins/parts.h"
 
 namespace jarol {
@@ -17,10 +19,17 @@ std::string load_plugin(const std::string& path, PluginParts& known, const IsThe
 std::string load_plugin(const std::string& path, Registry& registry);
 
 /// Where a plugin stands that a graph names: paths are relative to its file.
-std::string plugin_path(const GraphSpec& spec, const std::string& plugin);
+std::string plugin_path(const Location& graph, const std::string& plugin);
+
+/// A plugin that a graph names, with the task types that it brought.
+struct LoadedPlugin {
+  std::string path;
+  std::vector<std::string> types;
+};
 
 /// Adds what all plugins that a graph names bring, and reports what is wrong.
-void load_plugins(const GraphSpec& spec, PluginParts& known, const IsThere& is_there, Problems& problems);
+std::vector<LoadedPlugin> load_plugins(const GraphText& graph, PluginParts& known, const IsThere& is_there,
+                                       Problems& problems);
 
 /// What a library with tasks exports.
 struct PluginLibrary {

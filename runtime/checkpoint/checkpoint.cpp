@@ -22,6 +22,27 @@ std::string_view text_of(const std::byte* bytes, std::size_t size) {
   return {reinterpret_cast<const char*>(bytes), size};
 }
 
+// Looks at the first bytes of a checkpoint that has so many in all.
+void require_head(const Archive::Bytes& bytes, std::uint64_t whole) {
+  if (text_of(bytes.data(), std::min(bytes.size(), magic.size())) != magic)
+    throw CheckpointError("is no checkpoint of this version, " + std::string(magic.substr(0, magic.size() - 1)));
+  if (bytes.size() < head) throw CheckpointError("is damaged: it is cut off");
+  std::uint64_t size = 0;
+  std::memcpy(&size, bytes.data() + magic.size(), sizeof size);
+  if (size != whole - head)
+    throw CheckpointError("is damaged: it should have " + std::to_string(size) + " bytes after its first " +
+                          std::to_string(head) + ", and has " + std::to_string(whole - head));
+}
+
+// Its first bytes, so many at most.
+Archive::Bytes first_bytes(const std::string& path, std::uintmax_t most) {
+  std::ifstream file(path, std::ios::binary);
+  Archive::Bytes bytes(std::min(most, std::filesystem::file_size(path)));
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
+    throw CheckpointError("can't be read");
+  return bytes;
+}
+
 }  // namespace
 
 const Archive::Bytes* Checkpoint::find(std::string_view part) const {
@@ -50,15 +71,9 @@ Archive::Bytes Checkpoint::to_bytes() const {
 }
 
 Checkpoint Checkpoint::from_bytes(const Archive::Bytes& bytes) {
-  if (text_of(bytes.data(), std::min(bytes.size(), magic.size())) != magic)
-    throw CheckpointError("is no checkpoint of this version, " + std::string(magic.substr(0, magic.size() - 1)));
-  if (bytes.size() < head) throw CheckpointError("is damaged: it is cut off");
-  std::uint64_t size = 0, sum = 0;
-  std::memcpy(&size, bytes.data() + magic.size(), sizeof size);
-  std::memcpy(&sum, bytes.data() + magic.size() + sizeof size, sizeof sum);
-  if (size != bytes.size() - head)
-    throw CheckpointError("is damaged: it should have " + std::to_string(size) + " bytes after its first " +
-                          std::to_string(head) + ", and has " + std::to_string(bytes.size() - head));
+  require_head(bytes, bytes.size());
+  std::uint64_t sum = 0;
+  std::memcpy(&sum, bytes.data() + magic.size() + sizeof(std::uint64_t), sizeof sum);
   if (sum != digest::name_hash(text_of(bytes.data() + head, bytes.size() - head)))
     throw CheckpointError("is damaged: its bytes do not have the sum that it says");
   try {
@@ -94,13 +109,11 @@ Checkpoint Checkpoint::read(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) throw CheckpointError("can't read '" + path + "': it is no file");
   if (std::filesystem::file_size(path) > most_bytes) throw CheckpointError(name + "is larger than 4 GiB");
-  std::ifstream file(path, std::ios::binary);
-  Archive::Bytes bytes(std::filesystem::file_size(path));
-  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
-    throw CheckpointError("can't read '" + path + "'");
   note_input(path);
   try {
-    return from_bytes(bytes);
+    // what is no checkpoint is not read to its end
+    require_head(first_bytes(path, head), std::filesystem::file_size(path));
+    return from_bytes(first_bytes(path, most_bytes));
   } catch (const CheckpointError& wrong) { throw CheckpointError(name + wrong.what()); }
 }
 

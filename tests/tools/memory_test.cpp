@@ -1,6 +1,8 @@
 // Memory that runs out while a graph is loaded: said so, whatever it was taken for.
 #include <doctest/doctest.h>
 
+#include <filesystem>
+
 #include "tests/tools/run_command.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -45,6 +47,21 @@ command::Result within(int size, const std::string& arguments) {
 
 TEST_SUITE("tools/memory") {
 #ifndef JAROL_SANITIZED
+  TEST_CASE("a large file that is not what it should be is not read to its end") {
+    const command::TemporaryFolder folder;
+    const std::string large = folder.write("large", ""), graph = folder.write("g.yaml", "graph: g\nplugins: [large]\n");
+    std::filesystem::resize_file(large, std::uintmax_t{1} << 30);
+    const int size = size_at_start() + 200'000;
+    const auto has = [](const command::Result& result, const std::string& text) {
+      CAPTURE(result.output);
+      CHECK(result.exit_code == 2);
+      CHECK(result.output.find(text) != std::string::npos);
+    };
+    has(within(size, "run specs/counting.yaml --for 1s --resume " + large), "is no checkpoint of this version");
+    has(within(size, "check " + graph), "is no shared library with tasks");
+    has(within(size, "isolation " + large), "is no object file for x86-64 that can be read");
+  }
+
   TEST_CASE("where memory runs out while a graph is loaded, that is said, and the exit code is 3") {
     const command::TemporaryFolder folder;
     const std::string graph = folder.write("g.yaml", large_graph());

@@ -27,13 +27,15 @@ TEST_SUITE("tools/parts") {
                          {"text", "position, attitude and velocities"}});
   }
 
-  TEST_CASE("tasks lists vehicles, links and policies, too") {
+  TEST_CASE("tasks lists vehicles, links, policies and grammars, too") {
     const std::string all = run_jarol("tasks").output;
     CHECK(has(all, "\nlinks\n"));
     CHECK(has(all, "\n  lockstep "));
     CHECK(has(all, " a vehicle in another process, on the logical clock, of vehicles\n"));
     CHECK(has(all, "\npolicies\n  table "));
     const auto json = json_of("tasks --json");
+    CHECK(has(all, "\ngrammars\n  let "));
+    CHECK(json["grammars"].size() == 1);
     CHECK(json["policies"].size() == 6);
     CHECK(json["policies"][0]["name"] == "table");
     CHECK(json["policies"][0]["executed_on_real_clock"] == true);
@@ -59,7 +61,8 @@ TEST_SUITE("tools/parts") {
     CHECK(json_of("tasks edf --json")["policies"][0]["interrupts"] == true);
     const auto wrong = run_jarol("tasks edff");
     CHECK(wrong.exit_code == 2);
-    CHECK(wrong.output.starts_with(
-        "error: there is no task, distributer, vehicle, link or policy 'edff'; did you mean 'edf'?; there are: "));
+    CHECK(
+        wrong.output.starts_with("error: there is no task, distributer, vehicle, link, policy or grammar 'edff'; did "
+                                 "you mean 'edf'?; there are: "));
   }
 }

@@ -154,7 +154,7 @@ TEST_SUITE("tools/printed") {
     CHECK(text_of("graph --json no.yaml") == "can't read 'no.yaml': No such file or directory");
     CHECK(text_of("messages --json nonsense").starts_with("there is no message set 'nonsense'"));
     CHECK(text_of("tasks --json Nonsense")
-              .starts_with("there is no task, distributer, vehicle, link or policy 'Nonsense'"));
+              .starts_with("there is no task, distributer, vehicle, link, policy or grammar 'Nonsense'"));
     CHECK(text_of("vehicle --json").find("NAME") != std::string::npos);
     CHECK(text_of("doctor --json --for 1us") == "--for: '1us' is less than one period of 1ms");
     CHECK(text_of("bench --json nonsense").starts_with("there is no figure 'nonsense'"));

@@ -91,15 +91,13 @@ void choose_written(const Graph& in_file, const MeasureOptions& options, std::ve
 }
 
 void write_wcets(const std::string& file, const std::shared_ptr<const Source>& source, const Overrides& overrides,
-                 const Graph& in_file, const std::vector<Row>& rows) {
-  Problems none;
-  const GraphSpec spec = load_spec(source, overrides, none);
+                 const Loaded& in_file, const std::vector<Row>& rows) {
   std::vector<std::optional<Duration>> wcets;
-  for (const Task& task : in_file.tasks) {
+  for (const Task& task : in_file.graph->tasks) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == task.name; });
     wcets.push_back(row == rows.end() ? std::nullopt : row->written);
   }
-  const std::string edited = with_wcets(source->text, spec, in_file, wcets);
+  const std::string edited = with_wcets(source->text, in_file.spec, *in_file.graph, wcets);
   if (read_source(file)->text != source->text)
     throw std::invalid_argument("'" + file + "' was changed while it was measured; nothing is written, measure again");
   load_graph(std::make_shared<Source>(Source{file, edited}), overrides);
@@ -131,7 +129,7 @@ Measurement measure_file(const std::string& file, const Overrides& overrides, co
     if (!measurement.faults.empty()) std::cerr << "  the times of faulty activations are among those above\n";
   };
   try {
-    if (writes) write_wcets(file, source, without_changes(overrides), *in_file.graph, rows);
+    if (writes) write_wcets(file, source, without_changes(overrides), in_file, rows);
   } catch (...) {
     // what was measured is worth its time, also where it can't be written
     tell(false);

@@ -50,7 +50,7 @@ class Search {
     Overrides changed = overrides_;
     changed.set.insert(changed.set.end(), set.begin(), set.end());
     Problems problems;
-    const GraphSpec spec = load_spec(source_, changed, problems);
+    const GraphSpec spec = load_spec(source_, changed, problems, registry_.grammars());
     const Graph graph = build_graph(spec, registry_, problems);
     if (!problems.empty()) return false;
     if (analysis::verdict_of(analysis::system_of(graph), effort_) != Verdict::schedulable) return false;
@@ -124,7 +124,7 @@ class Search {
   // Deadlines that were declared earlier than needed.
   void deadlines() {
     Problems problems;
-    const GraphSpec spec = load_spec(source_, overrides_, problems);
+    const GraphSpec spec = load_spec(source_, overrides_, problems, registry_.grammars());
     for (const TaskSpec& task : spec.tasks)
       if (task.deadline && add({"no 'deadline' of '" + task.name + "'", {"tasks." + task.name + ".deadline=null"}}))
         return;

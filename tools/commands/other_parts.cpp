@@ -39,6 +39,13 @@ Json policy_json(const Policy& policy) {
           {"executed_on_real_clock", policy.executed}};
 }
 
+Json grammar_json(const Grammar& grammar) {
+  auto keys = Json::array();
+  for (const GrammarKey& key : grammar.keys)
+    keys.push_back({{"section", key.section}, {"name", key.name}, {"text", key.text}});
+  return {{"name", grammar.name}, {"how", grammar.how}, {"keys", std::move(keys)}};
+}
+
 void print_link(const LinkType& link) {
   std::cout << "link " << link.name << ": " << link.summary << ", " << who_joins(link) << "\n\nkeys\n";
   std::size_t width = 0;
@@ -58,22 +65,31 @@ void print_policy(const Policy& policy) {
             << "  jarol run " << (policy.executed ? "executes it" : "does not execute it") << " on the real clock\n";
 }
 
+void print_grammar(const Grammar& grammar) {
+  std::cout << "grammar " << grammar.name << ": " << grammar.how << "\n\n";
+  if (grammar.lower == nullptr) std::cout << "  the keys of specs/README.md, and no others\n";
+  for (const GrammarKey& key : grammar.keys)
+    std::cout << "  " << key.name << " of '" << key.section << "': " << key.text << "\n";
+}
+
 }  // namespace
 
 std::vector<ListedParts> other_parts(const distributers::Registries& known) {
-  std::vector<ListedParts> all{{"vehicles", {}}, {"links", {}}, {"policies", {}}};
+  std::vector<ListedParts> all{{"vehicles", {}}, {"links", {}}, {"policies", {}}, {"grammars", {}}};
   for (const auto& vehicle : known.vehicles.entries()) all[0].parts.emplace_back(vehicle.name, vehicle.summary);
   for (const LinkType& link : known.links.entries())
     all[1].parts.emplace_back(link.name, link.summary + ", " + who_joins(link));
   for (const Policy& policy : known.graph.policies()) all[2].parts.emplace_back(policy.name, policy.how);
+  for (const Grammar& grammar : known.graph.grammars()) all[3].parts.emplace_back(grammar.name, grammar.how);
   return all;
 }
 
 void add_other_parts(const distributers::Registries& known, Json& to) {
-  for (const char* title : {"vehicles", "links", "policies"}) to[title] = Json::array();
+  for (const char* title : {"vehicles", "links", "policies", "grammars"}) to[title] = Json::array();
   for (const auto& vehicle : known.vehicles.entries()) to["vehicles"].push_back(vehicle_json(vehicle));
   for (const LinkType& link : known.links.entries()) to["links"].push_back(link_json(link));
   for (const Policy& policy : known.graph.policies()) to["policies"].push_back(policy_json(policy));
+  for (const Grammar& grammar : known.graph.grammars()) to["grammars"].push_back(grammar_json(grammar));
 }
 
 bool print_other_part(const distributers::Registries& known, const std::string& name) {
@@ -84,6 +100,8 @@ bool print_other_part(const distributers::Registries& known, const std::string& 
     print_link(*link);
   else if (const Policy* policy = known.graph.find_policy(name))
     print_policy(*policy);
+  else if (const Grammar* grammar = known.graph.find_grammar(name))
+    print_grammar(*grammar);
   else
     return false;
   return true;
@@ -96,6 +114,8 @@ bool add_other_part(const distributers::Registries& known, const std::string& na
     to["links"] = Json::array({link_json(*link)});
   else if (const Policy* policy = known.graph.find_policy(name))
     to["policies"] = Json::array({policy_json(*policy)});
+  else if (const Grammar* grammar = known.graph.find_grammar(name))
+    to["grammars"] = Json::array({grammar_json(*grammar)});
   else
     return false;
   return true;

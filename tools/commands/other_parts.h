@@ -1,4 +1,4 @@
-// Vehicles, link types and policies, as `jarol tasks` shows them beside task types and distributers.
+// Vehicles, link types, policies and timing grammars, as `jarol tasks` shows them beside task types and distributers.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -18,7 +18,7 @@ struct ListedParts {
 
 std::vector<ListedParts> other_parts(const distributers::Registries& known);
 
-/// "vehicles", "links" and "policies" of the JSON.
+/// "vehicles", "links", "policies" and "grammars" of the JSON.
 void add_other_parts(const distributers::Registries& known, nlohmann::ordered_json& to);
 
 /// All about the one of that name; false: there is none.

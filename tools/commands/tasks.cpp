@@ -186,7 +186,7 @@ std::vector<std::string> names_in(const distributers::Registries& known) {
 
 [[noreturn]] void refuse(const std::string& name, const distributers::Registries& known) {
   const std::vector<std::string> names = names_in(known);
-  throw std::invalid_argument("there is no task, distributer, vehicle, link or policy '" + name + "'" +
+  throw std::invalid_argument("there is no task, distributer, vehicle, link, policy or grammar '" + name + "'" +
                               did_you_mean(name, names) + "; there are: " + list_of(names));
 }
 
@@ -224,10 +224,10 @@ int list_tasks(const TasksOptions& options) {
 void add_tasks(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<TasksOptions>();
   Command* command = line.add_subcommand(
-      "tasks", "List task types, distributers, vehicles, links and policies, or show all about one");
+      "tasks", "List task types, distributers, vehicles, links, policies and grammars, or show all about one");
   command
       ->add_option("NAME", options->name,
-                   "A task type, distributer, vehicle, link or policy, as in DepthControl or udp")
+                   "A task type, distributer, vehicle, link, policy or grammar, as in DepthControl or udp")
       ->suggests(names_in(built_in()));
   command->add_option("--plugin", options->plugins, "Also those of this shared library")->file({"so"})->one_value();
   command->add_flag("--json", options->json, "One JSON object instead of text");

@@ -145,7 +145,7 @@ Json catalogue_of(const distributers::Registries& known) {
           {"links", std::move(links)},
           {"types", known.graph.type_names()},
           {"keys",
-           {{"timing", keys_json(timing_keys())},
+           {{"timing", keys_json(timing_keys(names_of(known.graph.grammars())))},
             {"platform", keys_json(platform_keys(names_of(known.graph.policies())))},
             {"distributers", keys_json(distributer_keys())},
             {"communicators", keys_json(communicator_keys())},

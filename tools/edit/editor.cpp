@@ -44,10 +44,9 @@ bool can_be_helped(const Json& verdict) {
 // With what the file's plugins bring; where they can't be loaded, without.
 Json catalogue_for(const EditorOptions& options, const std::vector<std::string>& plugins) {
   if (plugins.empty() || !options.no_plugins.empty()) return catalogue_of(built_in());
-  GraphSpec spec;
-  spec.where.source = std::make_shared<Source>(Source{options.file, ""});
+  const Location graph{std::make_shared<Source>(Source{options.file, ""}), 1, 1};
   std::vector<std::string> paths;
-  for (const std::string& plugin : plugins) paths.push_back(plugin_path(spec, plugin));
+  for (const std::string& plugin : plugins) paths.push_back(plugin_path(graph, plugin));
   try {
     return catalogue_of(known_with(paths));
   } catch (const std::exception&) { return catalogue_of(built_in()); }

@@ -37,18 +37,26 @@ Json problems_json(const std::exception_ptr& error) {
   return problems;
 }
 
-// What it says, as far as it can be read.
-GraphSpec spec_of(const EditedText& text) {
+// As far as it can be read.
+GraphText text_of(const EditedText& edited) {
   Problems problems;
   try {
-    return load_spec(text.source, text.overrides, problems);
+    return read_text(edited.source, edited.overrides, problems);
+  } catch (const SpecError&) { return {}; }
+}
+
+// What it says, as far as it can be read.
+GraphSpec spec_of(const GraphText& text, const Registry& known) {
+  Problems problems;
+  try {
+    return read_spec(text, known.grammars(), known.is_complete(), problems);
   } catch (const SpecError&) { return {}; }
 }
 
 // With what plugins bring; one that can't be loaded brings nothing.
-distributers::Registries known_to(const GraphSpec& spec) {
+distributers::Registries known_to(const GraphText& text) {
   std::vector<std::string> paths;
-  for (const auto& plugin : spec.plugins) paths.push_back(plugin_path(spec, plugin.value));
+  for (const auto& plugin : text.plugins) paths.push_back(plugin_path(text.where, plugin.value));
   try {
     return known_with(paths);
   } catch (const std::exception&) { return known_with({}); }
@@ -58,7 +66,7 @@ distributers::Registries known_to(const GraphSpec& spec) {
 
 std::vector<std::string> plugins_of(const std::shared_ptr<const Source>& source) {
   std::vector<std::string> plugins;
-  for (const auto& plugin : spec_of({source, {}}).plugins) plugins.push_back(plugin.value);
+  for (const auto& plugin : text_of({source, {}}).plugins) plugins.push_back(plugin.value);
   return plugins;
 }
 
@@ -78,7 +86,9 @@ Json judge(const EditedText& text) {
 }
 
 Json draw(const EditedText& text) {
-  const GraphSpec spec = spec_of(text);
+  const GraphText words = text_of(text);
+  const Registry known = words.plugins.empty() ? built_in().graph : known_to(words).graph;
+  const GraphSpec spec = spec_of(words, known);
   auto connections = Json::array();
   const auto end_json = [](const EndSpec& end) { return end.name + (end.field.empty() ? "" : "." + end.field); };
   for (const ConnectionSpec& c : spec.connections)
@@ -91,7 +101,7 @@ Json draw(const EditedText& text) {
     return json;
   }
   try {
-    json["drawing"] = to_json(lay_out(spec, spec.plugins.empty() ? built_in().graph : known_to(spec).graph));
+    json["drawing"] = to_json(lay_out(spec, known));
   } catch (const std::runtime_error& failed) { json["why"] = failed.what(); }
   return json;
 }

@@ -12,6 +12,7 @@ namespace {
 
 distributers::Registries make_registries() {
   distributers::Registries made;
+  for (const Grammar& grammar : built_in_grammars()) made.graph.add(grammar);
   analysis::add_policies(made.graph);
   tasks::add_tasks(made.graph);
   distributers::add_distributers(made.graph);

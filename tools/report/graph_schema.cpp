@@ -102,12 +102,24 @@ Json chain_schema() {
   return schema;
 }
 
-// Other policies may be a plugin's.
-Json platform_schema(const Registry& known) {
-  Json schema = mapping_schema(platform_keys()), names = Json::array();
-  for (const Policy& policy : known.policies()) names.push_back({{"const", policy.name}, {"description", policy.how}});
+// Policies or grammars; others may be a plugin's.
+template <class C>
+Json names_schema(const std::vector<C>& classes) {
+  Json names = Json::array();
+  for (const C& c : classes) names.push_back({{"const", c.name}, {"description", c.how}});
   names.push_back({{"type", "string"}});
-  schema["properties"]["policy"]["anyOf"] = std::move(names);
+  return names;
+}
+
+Json platform_schema(const Registry& known) {
+  Json schema = mapping_schema(platform_keys());
+  schema["properties"]["policy"]["anyOf"] = names_schema(known.policies());
+  return schema;
+}
+
+Json timing_schema(const Registry& known) {
+  Json schema = mapping_schema(timing_keys());
+  schema["properties"]["grammar"]["anyOf"] = names_schema(known.grammars());
   return schema;
 }
 
@@ -137,25 +149,40 @@ Json some_of(const std::string& section) {
   return {{"required", Json::array({section})}, {"properties", {{section, {{"minProperties", 1}}}}}};
 }
 
-// Without plugins there are no task types, types of values and policies but those that are known here.
+// Without plugins there are no task types, types of values, policies and grammars but those that are known here.
 Json without_plugins(const Registry& known) {
   Json tasks{{"type", {{"enum", names_of(known.tasks())}}}}, values{{"type", {{"enum", known.type_names()}}}};
   const auto each = [](Json properties) {
     return Json{{"additionalProperties", {{"properties", std::move(properties)}}}};
   };
   const Json platform{{"properties", {{"policy", {{"enum", names_of(known.policies())}}}}}};
-  return {
-      {"if", {{"required", {"plugins"}}}},
-      {"else",
-       {{"properties",
-         {{"tasks", each(std::move(tasks))}, {"communicators", each(std::move(values))}, {"platform", platform}}}}}};
+  const Json timing{{"properties", {{"grammar", {{"enum", names_of(known.grammars())}}}}}};
+  return {{"if", {{"required", {"plugins"}}}},
+          {"else",
+           {{"properties",
+             {{"tasks", each(std::move(tasks))},
+              {"communicators", each(std::move(values))},
+              {"platform", platform},
+              {"timing", timing}}}}}};
+}
+
+// Those of grammars take any value: each says itself what is wrong with it.
+void add_grammar_keys(Json& schema, const Registry& known) {
+  for (const Grammar& grammar : known.grammars())
+    for (const GrammarKey& key : grammar.keys) {
+      const std::string section(key.section);
+      if (!schema["properties"].contains(section)) continue;
+      Json& of = schema["properties"][section];
+      Json& holder = of.contains("patternProperties") ? of["patternProperties"][name_pattern] : of;
+      holder["properties"][std::string(key.name)] = {{"description", key.text}};
+    }
 }
 
 }  // namespace
 
 std::string graph_schema(const distributers::Registries& known) {
   Json schema = mapping_schema(graph_keys()), definitions = link_schemas(known);
-  describe_section(schema, "timing", mapping_schema(timing_keys()));
+  describe_section(schema, "timing", timing_schema(known.graph));
   describe_section(schema, "plugins", texts());
   describe_section(schema, "distributers", entries_schema(distributer_schema(known)));
   describe_section(schema, "communicators", entries_schema(communicator_schema(known.graph, definitions)));
@@ -168,6 +195,7 @@ std::string graph_schema(const distributers::Registries& known) {
   describe_section(schema, "campaign", campaign_schema());
   describe_section(schema, "expect", texts());
   describe_section(schema, "profiles", {{"type", "object"}, {"additionalProperties", {{"type", "object"}}}});
+  add_grammar_keys(schema, known.graph);
   schema["anyOf"] = Json::array({some_of("tasks"), some_of("communicators"), some_of("distributers")});
   schema["allOf"] = Json::array({without_plugins(known.graph)});
   schema["definitions"] = std::move(definitions);

@@ -1,15 +1,25 @@
 #include "tools/run/replay_start.h"
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 
+#include "graph/language/read_source.h"
 #include "graph/language/source_set.h"
 #include "runtime/checkpoint/checkpoint.h"
 #include "tools/report/duration_option.h"
 #include "tools/run/load_graph.h"
 
 namespace jarol::tools {
+namespace {
+
+// A recording may come from anybody: what is no regular file, or larger than a source may be, is not read.
+bool is_on_disk(const RecordedFile& file) {
+  try {
+    return read_source(file.path)->text == file.text;
+  } catch (const SpecError&) { return false; }
+}
+
+}  // namespace
 
 Overrides overrides_of(const Recording& recording, const std::string& file, const Overrides& given) {
   Overrides overrides = recording.header().overrides;
@@ -36,11 +46,8 @@ Loaded load_recorded(const Recording& recording, const std::string& file, const 
 
 std::vector<std::string> changed_files(const Recording& recording) {
   std::vector<std::string> changed;
-  for (const RecordedFile& file : recording.files()) {
-    std::ifstream in(file.path, std::ios::binary);
-    if (file.path != "-" && (!in || std::string(std::istreambuf_iterator<char>(in), {}) != file.text))
-      changed.push_back(file.path);
-  }
+  for (const RecordedFile& file : recording.files())
+    if (file.path != "-" && !is_on_disk(file)) changed.push_back(file.path);
   return changed;
 }
 
