@@ -7,7 +7,7 @@
 namespace jarol::isolation {
 namespace {
 
-// With debug data ours has 0.2 GB.
+// Far more than a library has, debug data and all.
 constexpr std::streamoff most_bytes = std::streamoff{2} << 30;
 
 }  // namespace

@@ -34,7 +34,7 @@ GraphText read_text(const std::shared_ptr<const Source>& source, const Overrides
 /// grammar is none of these or can't read it, as nothing else can be said then; `all_known`: it is no other's.
 GraphSpec read_spec(const GraphText& text, const std::vector<Grammar>& grammars, bool all_known, Problems& problems);
 
-/// Both, of what is known without the graph's plugins.
+/// Both, where the grammars are known before the text is read.
 GraphSpec load_spec(const std::shared_ptr<const Source>& source, const Overrides& overrides, Problems& problems,
                     const std::vector<Grammar>& grammars = built_in_grammars());
 

@@ -7,7 +7,7 @@
 //   };
 //
 // A graph that states `timing: {grammar: rates}` is rewritten by lower() before anything else looks at it, so that all
-// know the words of the language alone. specs/README.md has one.
+// know the words of the language alone. graph/README.md has one.
 #pragma once
 
 #include <concepts>
