@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "graph/language/grammar.h"
 #include "graph/language/tables.h"
 
 namespace jarol {
@@ -24,12 +25,6 @@ std::vector<std::string> split(const std::string& path) {
     }
   }
   return parts;
-}
-
-Yaml* find_child(Yaml& mapping, const std::string& key) {
-  for (Yaml& child : mapping.children)
-    if (child.key == key) return &child;
-  return nullptr;
 }
 
 // Sections whose entries the graph must already have: an override changes a graph, it does not add to it.
