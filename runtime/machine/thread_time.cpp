@@ -3,7 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
-#include <limits>
+#include <vector>
 
 namespace jarol {
 
@@ -14,12 +14,14 @@ std::int64_t thread_time() {
 }
 
 std::int64_t thread_time_between_readings(int tries) {
-  std::int64_t least = std::numeric_limits<std::int64_t>::max();
-  for (int i = 0; i < tries; ++i) {
+  std::vector<std::int64_t> differences(static_cast<std::size_t>(tries));
+  for (std::int64_t& difference : differences) {
     const std::int64_t before = thread_time();
-    least = std::min(least, thread_time() - before);
+    difference = thread_time() - before;
   }
-  return least;
+  const auto quarter = differences.begin() + tries / 4;
+  std::nth_element(differences.begin(), quarter, differences.end());
+  return *quarter;
 }
 
 }  // namespace jarol

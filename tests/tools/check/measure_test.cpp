@@ -233,6 +233,7 @@ communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
     const std::string shared = "graph: t\ntasks:\n  a: &one {type: Counter, period: 1ms}\n  b: *one\n";
     folder.write("t.yaml", shared);
     const auto refused = command::run_jarol("check --write --for 1s " + file);
+    CAPTURE(refused.output);
     CHECK(refused.exit_code == 2);
     CHECK(refused.output.starts_with(file + ": measured over 1s of logical time"));
     CHECK(refused.output.ends_with(
