@@ -8,8 +8,8 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <span>
 #include <system_error>
+#include <vector>
 
 namespace jarol::distributers {
 
@@ -59,6 +59,17 @@ Interrupter::Either Interrupter::wait_for_either(int one, int other, std::chrono
   std::array<pollfd, 3> polled{{{event_.get(), POLLIN, 0}, {one, POLLIN, 0}, {other, POLLIN, 0}}};
   if (poll_for(polled, time) <= 0) return {};
   return {polled[0].revents != 0, polled[1].revents != 0, polled[2].revents != 0};
+}
+
+Interrupter::Any Interrupter::wait_for_any(std::span<const int> descriptors, std::chrono::milliseconds time) const {
+  std::vector<pollfd> polled;
+  for (const int descriptor : descriptors) polled.push_back({descriptor, POLLIN, 0});
+  polled.push_back({event_.get(), POLLIN, 0});
+  if (poll_for(polled, time) <= 0) return {};
+  const auto first = std::find_if(polled.begin(), polled.end(), [](const pollfd& p) { return p.revents != 0; });
+  const auto place = static_cast<std::size_t>(first - polled.begin());
+  if (polled.back().revents != 0) return {.interrupted = true};
+  return {.ready = place};
 }
 
 }  // namespace jarol::distributers

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace jarol::distributers {
@@ -42,6 +45,13 @@ class Interrupter {
     bool interrupted = false, one = false, other = false;
   };
   Either wait_for_either(int one, int other, std::chrono::milliseconds time) const;
+
+  /// Waits until one of several can be read or has failed: the first of those, by its place.
+  struct Any {
+    bool interrupted = false;
+    std::optional<std::size_t> ready{};
+  };
+  Any wait_for_any(std::span<const int> descriptors, std::chrono::milliseconds time) const;
 
  private:
   Descriptor event_;

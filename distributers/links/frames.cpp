@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "graph/language/quantities.h"
+#include "runtime/machine/asked_to_end.h"
 
 namespace jarol::distributers {
 namespace {
@@ -19,20 +20,24 @@ constexpr std::size_t longest = std::size_t{1} << 20;
 
 using Clock = FrameStream::Clock;
 
-bool wait_for(int fd, short events, Clock::time_point deadline) {
+enum class Waited { ready, too_long, asked_to_end };
+
+Waited wait_for(int fd, short events, Clock::time_point since, Clock::time_point deadline) {
   pollfd polled{fd, events, 0};
-  int ready = 0;
-  do {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
-    if (left <= 0) return false;
-    ready = poll(&polled, 1, static_cast<int>(left));
-  } while (ready < 0 && errno == EINTR);
-  return ready > 0;
+  for (;;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+    if (left.count() <= 0) return Waited::too_long;
+    const int ready = poll(&polled, 1, static_cast<int>(std::min(left, look_at_end).count()));
+    if (ready > 0) return Waited::ready;
+    if (ready < 0 && errno != EINTR) return Waited::too_long;
+    if (has_waited_enough(since)) return Waited::asked_to_end;
+  }
 }
 
 // 0, or what went wrong.
 int connect_within(int fd, std::chrono::milliseconds limit) {
-  if (!wait_for(fd, POLLOUT, Clock::now() + limit)) return ETIMEDOUT;
+  const auto since = Clock::now();
+  if (wait_for(fd, POLLOUT, since, since + limit) != Waited::ready) return ETIMEDOUT;
   int error = 0;
   socklen_t size = sizeof error;
   return getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) == 0 ? error : errno;
@@ -68,15 +73,19 @@ void FrameStream::flush() {
 }
 
 void FrameStream::write_raw(std::span<const std::byte> bytes) {
-  const auto until = Clock::now() + patience_;
+  const auto since = Clock::now();
   while (!bytes.empty()) {
     const auto length = ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (length > 0)
+    if (length > 0) {
       bytes = bytes.subspan(static_cast<std::size_t>(length));
-    else if (errno == EAGAIN && !wait_for(socket_.get(), POLLOUT, until))
-      fail("has taken nothing for " + duration_text(patience_));
-    else if (errno != EINTR && errno != EAGAIN)
-      fail_ended(errno);
+      continue;
+    }
+    if (errno != EINTR && errno != EAGAIN) fail_ended(errno);
+    switch (wait_for(socket_.get(), POLLOUT, since, since + patience_)) {
+      case Waited::ready: break;
+      case Waited::too_long: fail("has taken nothing for " + duration_text(patience_));
+      case Waited::asked_to_end: fail("took nothing when the run was to end");
+    }
   }
 }
 
@@ -88,9 +97,13 @@ void FrameStream::fail_ended(int error) const {
 
 void FrameStream::read_raw(std::span<std::byte> to, Clock::time_point deadline) {
   while (!to.empty()) {
-    if (!wait_for(socket_.get(), POLLIN, deadline))
-      fail(heard_ ? "has not come to an end within " + duration_text(patience_)
-                  : "has been silent for " + duration_text(patience_));
+    switch (wait_for(socket_.get(), POLLIN, waits_since_, deadline)) {
+      case Waited::ready: break;
+      case Waited::too_long:
+        fail(heard_ ? "has not come to an end within " + duration_text(patience_)
+                    : "has been silent for " + duration_text(patience_));
+      case Waited::asked_to_end: fail("was silent when the run was to end");
+    }
     const auto length = ::read(socket_.get(), to.data(), to.size());
     if (length == 0) fail_ended(0);
     if (length < 0 && errno != EINTR && errno != EAGAIN) fail_ended(errno);
@@ -100,9 +113,12 @@ void FrameStream::read_raw(std::span<std::byte> to, Clock::time_point deadline) 
   }
 }
 
-void FrameStream::secure(const SecretKey& key, std::string_view context) {
+void FrameStream::offer_seal(const SecretKey& key, std::string_view context) {
   seal_ = std::make_unique<Seal>(key, "lockstep " + std::string(context));
   write_raw(seal_->hello());
+}
+
+void FrameStream::await_seal() {
   for (const auto until = begin_wait(); !seal_->knows_peer();) read_sealed(until);
 }
 
@@ -110,6 +126,8 @@ void FrameStream::secure(const SecretKey& key, std::string_view context) {
 void FrameStream::read_sealed(Clock::time_point deadline) {
   sealed_.resize(Seal::head_size);
   read_raw(sealed_, deadline);
+  const bool is_busy = static_cast<FrameKind>(sealed_[4]) == FrameKind::busy;
+  if (!Seal::is_sealed(sealed_) && is_busy) fail("is busy: it is with another");
   if (!Seal::is_sealed(sealed_)) fail("has no key; both ends need the same, or none");
   const std::size_t size = Seal::size_of(sealed_);
   if (size > Seal::overhead + 2 * longest) fail("does not speak the lockstep protocol");

@@ -38,7 +38,8 @@ enum class FrameKind : std::uint8_t {
   busy,         // vehicle to runner: it has another; a text
 };
 
-/// Waits for the other end as long as `patience` says, for the whole of what it waits for, and throws FrameError then.
+/// Waits for the other end as long as `patience` says, for the whole of what it waits for, and throws FrameError then;
+/// sooner where the process has been asked to end (asked_to_end.h).
 class FrameStream {
  public:
   using Clock = std::chrono::steady_clock;
@@ -53,14 +54,22 @@ class FrameStream {
   static FrameStream connect(const Address& peer, std::chrono::milliseconds limit = usual_patience);
 
   /// All that follows is sealed, both ways, once the other end has proved that it has the key.
-  void secure(const SecretKey& key, std::string_view context);
+  void secure(const SecretKey& key, std::string_view context) {
+    offer_seal(key, context);
+    await_seal();
+  }
+  /// The two halves of that: what is sent, and the wait for the answer.
+  void offer_seal(const SecretKey& key, std::string_view context);
+  void await_seal();
 
   const std::string& who() const { return who_; }
-  std::chrono::milliseconds patience() const { return patience_; }
+  int descriptor() const { return socket_.get(); }
+  void set_patience(std::chrono::milliseconds patience) { patience_ = patience; }
   /// When the patience with what is waited for from now on is over.
   Clock::time_point begin_wait() {
     heard_ = false;
-    return Clock::now() + patience_;
+    waits_since_ = Clock::now();
+    return waits_since_ + patience_;
   }
 
   /// Adds a frame to those that `flush` sends.
@@ -90,6 +99,7 @@ class FrameStream {
   std::chrono::milliseconds patience_;
   std::vector<std::byte> out_, in_;
   bool heard_ = false;  // within what is waited for
+  Clock::time_point waits_since_{};
 
   std::unique_ptr<Seal> seal_;
   std::vector<std::byte> sealed_, plain_;

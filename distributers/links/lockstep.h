@@ -23,10 +23,6 @@ struct LockstepOptions {
   std::optional<SecretKey> key{};
   /// With the whole answer to a question, and with a silence.
   std::chrono::milliseconds patience = FrameStream::usual_patience;
-  /// What people should know that is no error.
-  std::function<void(const std::string&)> note = [](const std::string&) {};
-  /// At the end with a runner: what has become of its vehicle that no mission wants.
-  std::function<void(const vehicles::Mishap&)> mishap = [](const vehicles::Mishap&) {};
 };
 
 class RemoteVehicle;
@@ -60,12 +56,5 @@ class LockstepChannels : public Channels {
   std::unique_ptr<SimulationChannels> simulation_;
   std::string mishap_;  // of the vehicle, when it is left
 };
-
-/// The other end: what a vehicle's process does with one runner, until that one has gone or it is interrupted. `make`
-/// gives a vehicle with that seed. Who comes to the `door` meanwhile is turned away, unless the runner has been silent
-/// for too long: then FrameError is thrown, and the next can be served.
-void serve_lockstep(FrameStream stream, const messages::MessageSet& set,
-                    const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
-                    const Interrupter& interrupter, const LockstepOptions& options = {}, const Descriptor& door = {});
 
 }  // namespace jarol::distributers

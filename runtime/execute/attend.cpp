@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <memory>
 #include <thread>
 
@@ -68,6 +69,40 @@ class HoldupWatch {
   Futex::Time::duration stood_{};
 };
 
+// What has run since it was first seen: looked at now and then, and told of once.
+class StuckWatch {
+ public:
+  StuckWatch(const AttendedRun& run, const StuckNote& note)
+      : run_(run), note_(note), between_(std::min<Futex::Time::duration>(note.after / 4, std::chrono::seconds(1))) {}
+
+  void look() {
+    const Futex::Time now = Futex::now();
+    if (now < next_) return;
+    next_ = now + between_;
+    std::vector<Seen> seen;
+    for (HangingTask& task : run_.running()) {
+      const auto before = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) { return s.task == task; });
+      seen.push_back(before == seen_.end() ? Seen{std::move(task), now, false} : std::move(*before));
+      if (seen.back().told || now - seen.back().since < note_.after) continue;
+      seen.back().told = true;
+      note_.tell(seen.back().task);
+    }
+    seen_ = std::move(seen);
+  }
+
+ private:
+  struct Seen {
+    HangingTask task;
+    Futex::Time since;
+    bool told;
+  };
+  const AttendedRun& run_;
+  const StuckNote& note_;
+  Futex::Time::duration between_;
+  Futex::Time next_ = Futex::now() + between_;
+  std::vector<Seen> seen_;
+};
+
 // The way of a vehicle to rest, once the run has ended in good order.
 class RestWatch {
  public:
@@ -105,7 +140,8 @@ Ending ending_of(const AttendedRun& run, const Worker& worker, const std::option
 }  // namespace
 
 RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std::function<Wish()>& wish,
-              const std::function<void(const Ending&)>& on_rest, const std::function<void()>& on_end) {
+              const std::function<void(const Ending&)>& on_rest, const std::function<void()>& on_end,
+              const StuckNote& on_stuck) {
   const auto worker = std::make_shared<Worker>();
   worker->thread = std::thread([&run, &prepare, worker] {
     leave_signals_to_others();
@@ -120,10 +156,12 @@ RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std:
   RunEnd end;
   HoldupWatch watch;
   RestWatch rest(run, on_rest);
+  StuckWatch stuck(run, on_stuck);
   for (std::optional<Ending> why; !why;) {
     const bool ended = worker->has_ended();
     const Wish wished = wish();
     if (!ended) rest.look();
+    if (!ended) stuck.look();
     if (ended)
       why = ending_of(run, *worker, rest.before());
     else if (rest.before() && wished.at_once)

@@ -71,11 +71,17 @@ struct Wish {
   bool at_once = false;
 };
 
+/// Who wants to know of activations that take so long that they may never end; each is told of once.
+struct StuckNote {
+  std::function<void(const HangingTask&)> tell = [](const HangingTask&) {};
+  std::chrono::milliseconds after{10'000};
+};
+
 /// `prepare` is called on the run's thread before it covers anything; `on_rest` when it is seen to
 /// bring its vehicle to rest; `on_end` when it ends, and no wish is asked for any more.
 RunEnd attend(
     AttendedRun& run, const std::function<void()>& prepare, const std::function<Wish()>& wish,
     const std::function<void(const Ending&)>& on_rest = [](const Ending&) {},
-    const std::function<void()>& on_end = [] {});
+    const std::function<void()>& on_end = [] {}, const StuckNote& on_stuck = {});
 
 }  // namespace jarol

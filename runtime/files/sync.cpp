@@ -10,7 +10,8 @@ namespace jarol {
 bool sync(std::FILE* file) {
   if (std::fflush(file) != 0) return false;
   // a device or a FIFO has nothing to sync
-  return ::fsync(::fileno(file)) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
+  const int descriptor = ::fileno(file);
+  return descriptor < 0 || ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 }
 
 void sync_folder_of(const std::filesystem::path& path) {

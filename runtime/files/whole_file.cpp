@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "graph/language/inputs.h"
+#include "runtime/files/in_place.h"
 #include "runtime/files/partial_files.h"
 #include "runtime/files/sync.h"
 
@@ -83,9 +84,9 @@ WholeFile::WholeFile(std::string path, Replaces replaces)
   const int stream = exists ? own_stream(there) : -1;
   if (exists && replaces == Replaces::nothing) fail(path_, EEXIST);
   if (stream >= 0) {
-    file_ = ::fdopen(::dup(stream), "wb");  // goes on where that is
+    file_ = open_in_place(stream);  // goes on where that is
   } else if (exists && !S_ISREG(there.st_mode)) {
-    file_ = std::fopen(path_.c_str(), "wb");
+    file_ = open_in_place(path_);
   } else {
     lock_ = OutputLock(target_);
     remove_what_killed_ones_left(target_);

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "runtime/files/in_place.h"
 #include "runtime/files/sync.h"
 #include "runtime/files/whole_file.h"
 
@@ -68,7 +69,10 @@ void RecordingParts::open_part() {
   require_no_input(part_path_);
   lock_ = OutputLock(target_of(part_path_));
   if (!may_be_replaced(part_path_)) fail("it is there and no recording; choose another file, or remove it");
-  file_ = std::fopen(part_path_.c_str(), "wb");
+  std::error_code none;
+  const bool in_place =
+      std::filesystem::exists(part_path_, none) && !std::filesystem::is_regular_file(part_path_, none);
+  file_ = in_place ? open_in_place(part_path_) : std::fopen(part_path_.c_str(), "wb");
   if (file_ == nullptr) fail(std::strerror(errno));
   try {
     writer_.emplace(file_, compression_, library);

@@ -12,6 +12,7 @@
 
 #include "distributers/links/link.h"
 #include "distributers/links/lockstep.h"
+#include "distributers/links/lockstep_server.h"
 #include "distributers/links/serial.h"
 #include "distributers/links/tcp.h"
 #include "distributers/links/udp.h"
@@ -122,18 +123,10 @@ class LockstepPeer : public ActuatorPeer {
  public:
   LockstepPeer() {
     thread_ = std::thread([this] {
-      Descriptor runner;
-      while (!runner) {
-        if (interrupter_.wait(socket_.get(), -1ms) == Interrupter::Woken::interrupted) return;
-        runner = accept_from(socket_);
-      }
-      try {
-        serve_lockstep(
-            FrameStream(std::move(runner)), imc::message_set(),
-            [&](std::uint64_t) { return std::make_unique<Still>(notes_); }, interrupter_);
-      } catch (const FrameError&) {
-        // the run is over
-      }
+      serve_lockstep(
+          socket_,
+          {.set = imc::message_set(), .make = [this](std::uint64_t) { return std::make_unique<Still>(notes_); }},
+          interrupter_);
     });
   }
   ~LockstepPeer() override { vanish(); }

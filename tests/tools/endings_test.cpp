@@ -176,6 +176,8 @@ std::optional<double> end_one(const Ending& ending, const Way& way, const std::s
   if (rests) CHECK(json["rest"]["reached"] == true);
   CHECK(json["safe_commands"]["to_dune"]["at_end"] == true);
   CHECK(json["safe_commands"]["to_dune"]["at_end_value"]["thruster"] == safe);
+  // the virtual clock has no time that a peer could measure
+  if (!ending.act && way.clock == "virtual") return 0;
   if (!ending.act) ended = thrusts.front().at + ending.at;
   return std::chrono::duration_cast<Milliseconds>(last->at - ended).count();
 }
@@ -192,9 +194,9 @@ void check_one(const Ending& ending, const Way& way, const std::string& at_end) 
   CHECK(least <= Milliseconds(in_time).count());
 }
 
-// On the virtual clock what ends a run by itself has no time that a peer could measure, and nothing holds it up.
+// On the virtual clock no task is late: one that never ends waits for a signal, after a note.
 bool exists(const Ending& ending, const Way& way) {
-  if (way.clock == "virtual") return ending.act && ending.task.empty();
+  if (way.clock == "virtual") return ending.act != nullptr || ending.task.find("Hangs") == std::string::npos;
   // whether a task comes in time is not looked at there: it ends the run after a second
   if (way.policy == "threads" && ending.name == "a task that never ends") return false;
   return true;

@@ -1,4 +1,4 @@
-#include "distributers/links/lockstep.h"
+#include "distributers/links/lockstep_server.h"
 
 #include <doctest/doctest.h>
 #include <sys/socket.h>
@@ -21,22 +21,16 @@ using namespace std::chrono_literals;
 // A vehicle's process, as a thread; each runner gets a vehicle from the start.
 class Process {
  public:
-  Process(const std::string& file, std::size_t runners) {
+  explicit Process(const std::string& file) {
     Problems problems;
     file_ = read_vehicle_file(read_source(file), built_in().vehicles, problems);
     problems.throw_if_any();
-    thread_ = std::thread([this, runners] {
-      for (std::size_t i = 0; i < runners; ++i) {
-        Descriptor runner;
-        while (!runner && interrupter_.wait(socket_.get(), -1ms) != Interrupter::Woken::interrupted)
-          runner = accept_from(socket_);
-        if (!runner) return;
-        try {
-          serve_lockstep(
-              FrameStream(std::move(runner)), *file_->vehicle->message_set,
-              [&](std::uint64_t seed) { return file_->vehicle->make(file_->parameters.data(), seed); }, interrupter_);
-        } catch (const FrameError& error) { ended.push_back(error.what()); }
-      }
+    thread_ = std::thread([this] {
+      LockstepService service{.set = *file_->vehicle->message_set, .make = [this](std::uint64_t seed) {
+                                return file_->vehicle->make(file_->parameters.data(), seed);
+                              }};
+      service.note = [this](const std::string& text) { noted.push_back(text); };
+      serve_lockstep(socket_, service, interrupter_);
     });
   }
   ~Process() { end(); }
@@ -48,7 +42,7 @@ class Process {
 
   std::string link() const { return "={type: lockstep, peer: '127.0.0.1:" + std::to_string(port_of(socket_)) + "'}"; }
 
-  std::vector<std::string> ended;
+  std::vector<std::string> noted;
 
  private:
   std::optional<VehicleFile> file_;
@@ -69,8 +63,8 @@ std::uint64_t digest_of(const std::string& graph, const std::vector<std::string>
 
 TEST_SUITE("tools/lockstep") {
   TEST_CASE("a vehicle in another process gives the digest of the same vehicle in this one, run after run") {
-    Process submarine("specs/vehicles/submarine.yaml", 2);
-    Process helicopter("specs/vehicles/helicopter.yaml", 2);
+    Process submarine("specs/vehicles/submarine.yaml");
+    Process helicopter("specs/vehicles/helicopter.yaml");
     for (const std::uint64_t seed : {0, 7}) {
       CAPTURE(seed);
       CHECK(digest_of("specs/exolauv.yaml", {"distributers.dune.link" + submarine.link()}, seed, 3s) ==
@@ -79,11 +73,11 @@ TEST_SUITE("tools/lockstep") {
             digest_of("specs/javiator.yaml", {}, seed, 2s));
     }
     submarine.end();
-    CHECK(submarine.ended == std::vector<std::string>(2, "the other end has ended the connection"));
+    CHECK(submarine.noted.empty());
   }
 
   TEST_CASE("a vehicle that is lost ends the run, and is told") {
-    auto process = std::make_unique<Process>("specs/vehicles/submarine.yaml", 1);
+    auto process = std::make_unique<Process>("specs/vehicles/submarine.yaml");
     Loaded loaded = tools::load_graph("specs/exolauv.yaml",
                                       {.profile = "", .set = {"distributers.dune.link" + process->link()}}, 0);
     for (const auto& channels : loaded.channels) channels->begin();
@@ -98,7 +92,7 @@ TEST_SUITE("tools/lockstep") {
   }
 
   TEST_CASE("a vehicle that does not fit is refused, and so is no vehicle at all") {
-    Process helicopter("specs/vehicles/helicopter.yaml", 1);
+    Process helicopter("specs/vehicles/helicopter.yaml");
     const auto begin = [](const std::string& link) {
       Loaded loaded =
           tools::load_graph("specs/exolauv.yaml", {.profile = "", .set = {"distributers.dune.link" + link}}, 0);
@@ -117,7 +111,7 @@ TEST_SUITE("tools/lockstep") {
   }
 
   TEST_CASE("tasks are measured with a vehicle in another process, too, and not without it") {
-    Process submarine("specs/vehicles/submarine.yaml", 1);
+    Process submarine("specs/vehicles/submarine.yaml");
     const auto measure = [](const std::string& link) {
       return command::run_jarol("check --measure specs/exolauv.yaml --for 1s --set \"distributers.dune.link" + link +
                                 "\"");
@@ -128,7 +122,7 @@ TEST_SUITE("tools/lockstep") {
         "specs/exolauv.yaml: measured over 1s of logical time on this machine, in processor time\n"));
     const std::string port = std::to_string(port_of(listen_at(Address::parse("0"))));  // free again at once
     const auto refused = measure("={type: lockstep, peer: " + port + "}");
-    CHECK(refused.exit_code == 2);
+    CHECK(refused.exit_code == 3);
     CHECK(refused.output.starts_with("error: there is no vehicle at 127.0.0.1:" + port + ": Connection refused; "));
   }
 
@@ -177,8 +171,8 @@ TEST_SUITE("tools/lockstep") {
       const auto run = command::run_jarol(
           "run specs/javiator.yaml --set expect=null --set 'distributers.robostix.link={type: lockstep, peer: " + port +
           "}'");
-      if (run.exit_code == 2) std::this_thread::sleep_for(100ms);  // not yet there
-      if (run.exit_code == 2 && runs == 0) continue;
+      if (run.exit_code == 3) std::this_thread::sleep_for(100ms);  // not yet there
+      if (run.exit_code == 3 && runs == 0) continue;
       ++runs;
       CHECK(run.exit_code == 1);
       CHECK(run.output.find("error: the vehicle of 'robostix' has never taken off: ") != std::string::npos);
@@ -187,7 +181,7 @@ TEST_SUITE("tools/lockstep") {
   }
 
   TEST_CASE("periods that do not fall on the vehicle's steps are refused") {
-    Process helicopter("specs/vehicles/helicopter.yaml", 1);
+    Process helicopter("specs/vehicles/helicopter.yaml");
     Loaded loaded = tools::load_graph(
         "specs/javiator.yaml",
         {.profile = "",

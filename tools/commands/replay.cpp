@@ -29,6 +29,7 @@
 #include "tools/run/interrupt.h"
 #include "tools/run/no_plugins.h"
 #include "tools/run/panels.h"
+#include "tools/run/prompt_line.h"
 #include "tools/run/replay_start.h"
 #include "tools/run/run_files.h"
 #include "tools/run/run_report.h"
@@ -161,7 +162,7 @@ int replay(const ReplayOptions& options) {
   std::optional<Progress> progress;
   progress.emplace(!options.json && isatty(STDERR_FILENO) != 0, log.covered(), [&] { return executor.now(); });
   const RunEnd run_end = attend(
-      attended, [] {}, Interruptible::wish);
+      attended, [] {}, Interruptible::wish, [](const Ending&) {}, [] {}, {.tell = tell_of_stuck});
   progress.reset();
   if (run_end.failure) std::rethrow_exception(run_end.failure);
   Comparison& comparison = attended.comparison;

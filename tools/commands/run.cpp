@@ -22,6 +22,7 @@
 #include "tools/report/rest_report.h"
 #include "tools/report/run_end.h"
 #include "tools/run/at_console.h"
+#include "tools/run/connect.h"
 #include "tools/run/crash_line.h"
 #include "tools/run/execution.h"
 #include "tools/run/guard_option.h"
@@ -173,8 +174,8 @@ int run(RunOptions options) {
   progress.emplace(shown, end, [&] { return executor.now(); });
   const std::optional<int> priority = clock ? clock->options().priority : std::nullopt;
   if (clock) take_priority(priority);
-  graph_run.connect(print_note);
-  if (log) log->open();
+  connect_unless_ended([&] { graph_run.connect(print_note); });
+  if (log) connect_unless_ended([&] { log->open(); });
   if (log && resumed) save_in_recording(*resumed);
   take_priority_above(priority);
   auto start = std::chrono::steady_clock::now();
@@ -187,7 +188,7 @@ int run(RunOptions options) {
         start = std::chrono::steady_clock::now();
       },
       Interruptible::wish, [&](const Ending& why) { write_promptly(printable_lines(rest_begins_text(graph, why))); },
-      Interruptible::forbid_haste);
+      Interruptible::forbid_haste, {.tell = tell_of_stuck});
   progress.reset();
   // a link that is in use can't be finished, and what it has to be handed is left to the guardian
   if (run_end.links_are_free()) {

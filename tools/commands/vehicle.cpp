@@ -98,12 +98,12 @@ Yaml link_of(const VehicleCommandOptions& options) {
 int serve_in_lockstep(const VehicleCommandOptions& options, const vehicles::VehicleClass& vehicle_class,
                       const Value& parameters, Problems& problems) {
   std::string listen;
-  distributers::LockstepOptions lockstep;
+  std::optional<distributers::SecretKey> sealed;
   for (const auto& [key, text] : options.link) {
     if (key == "listen")
       listen = text;
     else if (key == "key")
-      lockstep.key = distributers::read_key(text);
+      sealed = distributers::read_key(text);
     else if (key != "type")
       throw std::invalid_argument("--link lockstep has no --" + key + "; it needs --listen");
   }
@@ -116,7 +116,7 @@ int serve_in_lockstep(const VehicleCommandOptions& options, const vehicles::Vehi
         Problems none;
         return make_vehicle(options.made, vehicle_class, parameters, seed, none);
       },
-      lockstep);
+      sealed);
 }
 
 int serve(const VehicleCommandOptions& options, const vehicles::VehicleClass& vehicle_class, const Value& parameters,

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "distributers/links/frames.h"
 #include "graph/text/escape.h"
 #include "tools/report/exit_code.h"
 #include "tools/report/json_line.h"
@@ -58,6 +59,10 @@ Failure failure_of(const std::exception_ptr& error, const std::string& file) {
     return {exit_input, {{{}, wrong.what(), {}}}, begin + printable(wrong.what()) + "\n" + wrong.more};
   } catch (const NegativeVerdict& negative) {
     failure = of_one(exit_negative, negative.what());
+  } catch (const EndedEarly& ended) {
+    failure = of_one(exit_of_signal(ended.signal), ended.what());
+  } catch (const distributers::FrameError& lost) {
+    failure = of_one(exit_unfinished, lost.what());
   } catch (const std::bad_alloc&) {
     failure = of_one(exit_unfinished, "there is not enough memory for this");
   } catch (const std::system_error& refused) {

@@ -22,6 +22,12 @@ struct NegativeVerdict : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A signal ended the command before it had anything to report.
+struct EndedEarly : std::runtime_error {
+  EndedEarly(int by, const std::string& text) : std::runtime_error(text), signal(by) {}
+  int signal;
+};
+
 struct Failure {
   int exit_code = 0;
   std::vector<Problem> problems;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "runtime/files/partial_files.h"
+#include "runtime/machine/asked_to_end.h"
 #include "tools/run/prompt_line.h"
 
 namespace jarol::tools {
@@ -29,6 +30,7 @@ extern "C" void interrupt(int signal) {
   // another thread may take the second signal before this one has done more
   std::int64_t before = 0;
   if (counted_at.compare_exchange_strong(before, now())) {
+    ask_to_end();
     last_signal.store(signal);
     flag.store(true);
     if (alive.load()) call();
@@ -57,6 +59,7 @@ Interruptible::Interruptible(std::function<void()> at_once, HaltKey halt_key, Se
   may_hasten.store(second_signal == SecondSignal::hastens);
   hastened.store(false);
   counted_at.store(0);
+  forget_asked_to_end();
   alive.store(true);
   for (std::size_t i = 0; i < count_; ++i) {
     before_[i] = std::signal(signals[i], interrupt);

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "graph/text/escape.h"
+
 namespace jarol::tools {
 
 void write_promptly(std::string_view line) {
@@ -14,6 +16,10 @@ void write_promptly(std::string_view line) {
   // a pipe that takes anything takes as much
   [[maybe_unused]] const auto written =
       ::write(STDERR_FILENO, line.data(), std::min<std::size_t>(line.size(), PIPE_BUF));
+}
+
+void tell_of_stuck(const HangingTask& task) {
+  write_promptly(printable_lines("note: " + to_text(task) + " for a while; if it never does, Ctrl-C ends the run\n"));
 }
 
 }  // namespace jarol::tools

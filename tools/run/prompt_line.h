@@ -3,10 +3,15 @@
 
 #include <string_view>
 
+#include "runtime/run/ending.h"
+
 namespace jarol::tools {
 
 /// Writes the line, or no more than its first 4096 bytes, where that does not block now: not to a full pipe, nor to a
 /// terminal that is halted. May be called by a signal handler.
 void write_promptly(std::string_view line);
+
+/// Likewise, of an activation that has run for long.
+void tell_of_stuck(const HangingTask& task);
 
 }  // namespace jarol::tools

@@ -14,6 +14,7 @@
 #include "tools/report/rest_report.h"
 #include "tools/report/run_end.h"
 #include "tools/report/verdicts.h"
+#include "tools/run/connect.h"
 #include "tools/run/crash_line.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/print_run.h"
@@ -71,7 +72,8 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
   const std::optional<Duration> rest = longest_rest(*loaded.graph);
   const Interruptible interruptible([] {}, HaltKey::ends, rest ? SecondSignal::hastens : SecondSignal::ends);
   take_priority(options.priority);
-  Linked linked(channels, print_note);
+  std::optional<Linked> linked;
+  connect_unless_ended([&] { linked.emplace(channels, print_note); });
   take_priority_above(options.priority);
   ThreadsRun attended(core, end, rest, options);
   auto start = std::chrono::steady_clock::now();
@@ -83,9 +85,9 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
       },
       Interruptible::wish,
       [&](const Ending& why) { write_promptly(printable_lines(rest_begins_text(*loaded.graph, why))); },
-      Interruptible::forbid_haste);
+      Interruptible::forbid_haste, {.tell = tell_of_stuck});
   if (run_end.links_are_free()) {
-    linked.finish();
+    linked->finish();
     guard.close();
   }
   halt_if_asked(run_end);
@@ -106,7 +108,7 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
       .end = run_end,
       .threads = &core,
       .guard = &guard,
-      .links = linked.reports(),
+      .links = linked->reports(),
       .seconds = seconds,
       .simulated = core.report().simulated,
       .verdict = verdict,

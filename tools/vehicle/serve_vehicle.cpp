@@ -3,6 +3,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "distributers/links/lockstep_server.h"
 #include "distributers/links/tcp.h"
 #include "distributers/messages/imc_announce.h"
 #include "graph/language/quantities.h"
@@ -145,26 +146,19 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
 
 int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,
                               const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
-                              distributers::LockstepOptions options) {
-  options.note = [](const std::string& text) { std::cerr << "note: " << text << "\n"; };
-  const distributers::Descriptor socket = distributers::listen_at(listen);
+                              const std::optional<distributers::SecretKey>& key) {
+  constexpr int backlog = 16;
+  const distributers::Descriptor door = distributers::listen_at(listen, backlog);
+  distributers::LockstepService service{.set = *vehicle_class.message_set, .make = make, .key = key};
+  service.note = [](const std::string& text) { std::cerr << "note: " << text << "\n"; };
+  service.mishap = [&](const vehicles::Mishap& mishap, const std::string& runner) {
+    report(mishap, vehicle_class.name + " of " + runner);
+  };
   distributers::Interrupter interrupter;
   let_writing_fail();
   const Interruptible interruptible([&] { interrupter.interrupt(); });
   std::cerr << vehicle_class.name << ": in lockstep at " << listen.text() << ", until Ctrl-C\n";
-  using Woken = distributers::Interrupter::Woken;
-  while (interrupter.wait(socket.get(), std::chrono::milliseconds(-1)) != Woken::interrupted) {
-    distributers::Descriptor runner = distributers::accept_from(socket);
-    if (!runner) continue;
-    const std::string who = "the runner at " + peer_of(runner).text();
-    options.mishap = [&](const vehicles::Mishap& mishap) { report(mishap, vehicle_class.name + " of " + who); };
-    try {
-      serve_lockstep(distributers::FrameStream(std::move(runner), who, options.patience), *vehicle_class.message_set,
-                     make, interrupter, options, socket);
-    } catch (const distributers::FrameEnd&) {
-      // the run is over
-    } catch (const distributers::FrameError& error) { std::cerr << "note: " << error.what() << "\n"; }
-  }
+  serve_lockstep(door, service, interrupter);
   return exit_of_signal(Interruptible::signal());
 }
 

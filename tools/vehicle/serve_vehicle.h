@@ -3,11 +3,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "distributers/interfaces/vehicle.h"
 #include "distributers/links/address.h"
 #include "distributers/links/link.h"
-#include "distributers/links/lockstep.h"
+#include "distributers/links/secret_key.h"
 #include "runtime/machine/real_clock.h"
 #include "tools/vehicle/motion_file.h"
 
@@ -35,6 +36,6 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
 /// until Ctrl-C. Throws std::runtime_error if it can't listen there.
 int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,
                               const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
-                              distributers::LockstepOptions options = {});
+                              const std::optional<distributers::SecretKey>& key = {});
 
 }  // namespace jarol::tools

@@ -13,6 +13,7 @@
 #include "distributers/interfaces/typed.h"
 #include "distributers/javiator/vehicle.h"
 #include "distributers/links/lockstep.h"
+#include "distributers/links/lockstep_server.h"
 #include "distributers/links/tcp.h"
 #include "distributers/messages/javiator.h"
 #include "distributers/messages/packet.h"
@@ -186,9 +187,9 @@ TEST_SUITE("distributers/links/lockstep_garbage") {
       ::shutdown(runner.get(), SHUT_WR);
       std::size_t accepted = 0;
       try {
-        serve_lockstep(
-            FrameStream(Descriptor(ends[1])), protocol().set,
-            [&](std::uint64_t) { return std::make_unique<Box>(accepted); }, interrupter);
+        serve_runner(FrameStream(Descriptor(ends[1])),
+                     {.set = protocol().set, .make = [&](std::uint64_t) { return std::make_unique<Box>(accepted); }},
+                     interrupter);
         FAIL("it has not noticed the end");
       } catch (const FrameEnd&) { ++taken; } catch (const FrameError&) {
         ++refused;

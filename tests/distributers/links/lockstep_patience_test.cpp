@@ -15,6 +15,7 @@
 #include "distributers/interfaces/typed.h"
 #include "distributers/javiator/vehicle.h"
 #include "distributers/links/lockstep.h"
+#include "distributers/links/lockstep_server.h"
 #include "distributers/links/tcp.h"
 #include "distributers/messages/javiator.h"
 #include "distributers/messages/packet.h"
@@ -111,22 +112,14 @@ class EmptyBox : public vehicles::Vehicle {
 
 // A vehicle's process; what it says of its runners.
 struct Server {
-  explicit Server(std::optional<SecretKey> key = {}) {
-    thread = std::thread([this, key] {
-      LockstepOptions options{.key = key, .patience = patience};
-      options.note = [this](const std::string& text) { add(text); };
-      while (interrupter.wait(socket.get(), -1ms) != Interrupter::Woken::interrupted) {
-        Descriptor runner = accept_from(socket);
-        if (!runner) continue;
-        const std::string who = "the runner at " + peer_of(runner).text();
-        try {
-          serve_lockstep(
-              FrameStream(std::move(runner), who, patience), javiator::message_set(),
-              [](std::uint64_t) { return std::make_unique<EmptyBox>(); }, interrupter, options, socket);
-        } catch (const FrameEnd&) { add("end"); } catch (const FrameError& error) {
-          add(error.what());
-        }
-      }
+  explicit Server(std::optional<SecretKey> key = {}, std::chrono::milliseconds patience = ::patience) {
+    thread = std::thread([this, key, patience] {
+      LockstepService service{.set = javiator::message_set(),
+                              .make = [](std::uint64_t) { return std::make_unique<EmptyBox>(); },
+                              .key = key,
+                              .patience = patience};
+      service.note = [this](const std::string& text) { add(text); };
+      serve_lockstep(socket, service, interrupter);
     });
   }
   ~Server() {
@@ -137,18 +130,19 @@ struct Server {
     const std::lock_guard lock(mutex);
     said += text + "\n";
   }
-  bool says(const std::string& text) {
+  bool says(const std::string& text) { return says_begin(text + "\n"); }
+  bool says_begin(const std::string& text) {
     for (const auto end = std::chrono::steady_clock::now() + 20s; std::chrono::steady_clock::now() < end;) {
       {
         const std::lock_guard lock(mutex);
-        if (said.find(text + "\n") != std::string::npos) return true;
+        if (said.find(text) != std::string::npos) return true;
       }
       std::this_thread::sleep_for(1ms);
     }
     MESSAGE(said);
     return false;
   }
-  Descriptor socket = listen_at(Address::parse("0"));
+  Descriptor socket = listen_at(Address::parse("0"), 16);
   Address address = Address::parse(std::to_string(port_of(socket)));
   Interrupter interrupter;
   std::mutex mutex;
@@ -207,6 +201,17 @@ TEST_SUITE("distributers/links/lockstep_patience") {
     const Runner mute(server.address);
     CHECK(server.says(mute.name + " has been silent for 400ms"));
     CHECK(said_with(server.address) == "");
+  }
+
+  TEST_CASE("those who connect and say nothing keep the vehicle from nobody, with a key or without, however many") {
+    for (const auto& key : {std::optional<SecretKey>(), std::optional(key_of(1))}) {
+      Server server(key, 1h);
+      std::vector<Runner> mute;
+      for (int i = 0; i < 20; ++i) mute.emplace_back(server.address);
+      CHECK(said_with(server.address, key) == "");
+      CHECK(server.says(mute[0].name + " has said nothing and makes room for another"));
+      CHECK(server.says_begin(mute[19].name + " was turned away: the vehicle is with the runner at 127.0.0.1:"));
+    }
   }
 
   TEST_CASE("a second runner is turned away with the address of the first, whom that does not disturb") {

@@ -27,12 +27,13 @@ class Run : public AttendedRun {
   void ask_for_rest() override { asked = true; }
   bool resting() const override { return rests; }
   void close(const Ending&, Futex::Time) override { closed = true; }
-  std::vector<HangingTask> running() const override { return {}; }
+  std::vector<HangingTask> running() const override { return now_running; }
   Finish finish(Futex::Time) override { return {}; }
 
   std::optional<Duration> longest = 1h;
   Duration takes = 30ms;
   bool fails = false;
+  std::vector<HangingTask> now_running;
   std::atomic<bool> over{false}, has_fault{false}, asked{false}, rests{false}, closed{false};
 };
 
@@ -55,6 +56,24 @@ TEST_SUITE("runtime/execute/attend") {
     REQUIRE(end.before_rest.has_value());
     CHECK(end.before_rest->reason == "SIGTERM ended the run");
     CHECK(said == std::vector<std::string>{"SIGTERM ended the run"});
+  }
+
+  TEST_CASE("an activation that takes long is told of, once, and the run goes on") {
+    Run run;
+    run.longest.reset();
+    run.now_running = {{"slow", 3, 30ms}};
+    std::vector<std::string> told;
+    const auto begin = std::chrono::steady_clock::now();
+    const RunEnd end = attend(
+        run, [] {},
+        [&] {
+          if (!told.empty() && std::chrono::steady_clock::now() - begin > 400ms) run.over = true;
+          return Wish{};
+        },
+        [](const Ending&) {}, [] {},
+        {.tell = [&](const HangingTask& task) { told.push_back(to_text(task)); }, .after = 100ms});
+    CHECK(told == std::vector<std::string>{"task 'slow' activation 3 at 0.03 s has not ended"});
+    CHECK(end.ending.cause == Ending::Cause::over);
   }
 
   TEST_CASE("what is not brought to rest ends at the first signal") {
