@@ -69,7 +69,7 @@ class HoldupWatch {
   Futex::Time::duration stood_{};
 };
 
-// What has run since it was first seen: looked at now and then, and told of once.
+// What has run since it was first seen: looked at now and then, and reported once.
 class StuckWatch {
  public:
   StuckWatch(const AttendedRun& run, const StuckNote& note)
@@ -83,9 +83,9 @@ class StuckWatch {
     for (HangingTask& task : run_.running()) {
       const auto before = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) { return s.task == task; });
       seen.push_back(before == seen_.end() ? Seen{std::move(task), now, false} : std::move(*before));
-      if (seen.back().told || now - seen.back().since < note_.after) continue;
-      seen.back().told = true;
-      note_.tell(seen.back().task);
+      if (seen.back().reported || now - seen.back().since < note_.after) continue;
+      seen.back().reported = true;
+      note_.report(seen.back().task);
     }
     seen_ = std::move(seen);
   }
@@ -94,7 +94,7 @@ class StuckWatch {
   struct Seen {
     HangingTask task;
     Futex::Time since;
-    bool told;
+    bool reported;
   };
   const AttendedRun& run_;
   const StuckNote& note_;

@@ -71,9 +71,9 @@ struct Wish {
   bool at_once = false;
 };
 
-/// Who wants to know of activations that take so long that they may never end; each is told of once.
+/// Who wants to know of activations that take so long that they may never end; each is reported once.
 struct StuckNote {
-  std::function<void(const HangingTask&)> tell = [](const HangingTask&) {};
+  std::function<void(const HangingTask&)> report = [](const HangingTask&) {};
   std::chrono::milliseconds after{10'000};
 };
 

@@ -152,7 +152,7 @@ TEST_SUITE("tools/plugins_grammar") {
     CHECK(known.graph.grammars().size() == 2);
   }
 
-  TEST_CASE("jarol tasks tells what it adds") {
+  TEST_CASE("jarol tasks shows what it adds") {
     CHECK(command::run_jarol("tasks rates --plugin " + library("rates")).output ==
           "grammar rates: tasks state how often they run in the graph's period\n\n"
           "  runs of 'tasks': so often in the graph's period, as in 4; the period follows, and the LET is all of it\n");

@@ -162,7 +162,7 @@ int replay(const ReplayOptions& options) {
   std::optional<Progress> progress;
   progress.emplace(!options.json && isatty(STDERR_FILENO) != 0, log.covered(), [&] { return executor.now(); });
   const RunEnd run_end = attend(
-      attended, [] {}, Interruptible::wish, [](const Ending&) {}, [] {}, {.tell = tell_of_stuck});
+      attended, [] {}, Interruptible::wish, [](const Ending&) {}, [] {}, {.report = report_stuck});
   progress.reset();
   if (run_end.failure) std::rethrow_exception(run_end.failure);
   Comparison& comparison = attended.comparison;

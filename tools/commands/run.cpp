@@ -188,7 +188,7 @@ int run(RunOptions options) {
         start = std::chrono::steady_clock::now();
       },
       Interruptible::wish, [&](const Ending& why) { write_promptly(printable_lines(rest_begins_text(graph, why))); },
-      Interruptible::forbid_haste, {.tell = tell_of_stuck});
+      Interruptible::forbid_haste, {.report = report_stuck});
   progress.reset();
   // a link that is in use can't be finished, and what it has to be handed is left to the guardian
   if (run_end.links_are_free()) {

@@ -18,7 +18,7 @@ void write_promptly(std::string_view line) {
       ::write(STDERR_FILENO, line.data(), std::min<std::size_t>(line.size(), PIPE_BUF));
 }
 
-void tell_of_stuck(const HangingTask& task) {
+void report_stuck(const HangingTask& task) {
   write_promptly(printable_lines("note: " + to_text(task) + " for a while; if it never does, Ctrl-C ends the run\n"));
 }
 

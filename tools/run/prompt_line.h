@@ -12,6 +12,6 @@ namespace jarol::tools {
 void write_promptly(std::string_view line);
 
 /// Likewise, of an activation that has run for long.
-void tell_of_stuck(const HangingTask& task);
+void report_stuck(const HangingTask& task);
 
 }  // namespace jarol::tools

@@ -85,7 +85,7 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
       },
       Interruptible::wish,
       [&](const Ending& why) { write_promptly(printable_lines(rest_begins_text(*loaded.graph, why))); },
-      Interruptible::forbid_haste, {.tell = tell_of_stuck});
+      Interruptible::forbid_haste, {.report = report_stuck});
   if (run_end.links_are_free()) {
     linked->finish();
     guard.close();

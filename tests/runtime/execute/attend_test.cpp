@@ -58,21 +58,21 @@ TEST_SUITE("runtime/execute/attend") {
     CHECK(said == std::vector<std::string>{"SIGTERM ended the run"});
   }
 
-  TEST_CASE("an activation that takes long is told of, once, and the run goes on") {
+  TEST_CASE("an activation that takes long is reported, once, and the run goes on") {
     Run run;
     run.longest.reset();
     run.now_running = {{"slow", 3, 30ms}};
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     const auto begin = std::chrono::steady_clock::now();
     const RunEnd end = attend(
         run, [] {},
         [&] {
-          if (!told.empty() && std::chrono::steady_clock::now() - begin > 400ms) run.over = true;
+          if (!reported.empty() && std::chrono::steady_clock::now() - begin > 400ms) run.over = true;
           return Wish{};
         },
         [](const Ending&) {}, [] {},
-        {.tell = [&](const HangingTask& task) { told.push_back(to_text(task)); }, .after = 100ms});
-    CHECK(told == std::vector<std::string>{"task 'slow' activation 3 at 0.03 s has not ended"});
+        {.report = [&](const HangingTask& task) { reported.push_back(to_text(task)); }, .after = 100ms});
+    CHECK(reported == std::vector<std::string>{"task 'slow' activation 3 at 0.03 s has not ended"});
     CHECK(end.ending.cause == Ending::Cause::over);
   }
 
