@@ -64,29 +64,25 @@ Duration longest_disturbance(const std::vector<Row>& rows) {
   return longest;
 }
 
-// A measurement that met no disturbance is no reason to lower a WCET that one before it set: tasks of a microsecond
-// were seen to take 40 us of processor time on a busy machine.
-constexpr Duration least_disturbance_when_lowered = std::chrono::microseconds(100);
+// A measurement that met no disturbance does not know how long one is, and what it writes must hold when the next one
+// meets it: tasks of a microsecond were seen to take 40 us of processor time on a busy machine.
+constexpr Duration least_disturbance = std::chrono::microseconds(100);
 
 // Decides what is written for the tasks of the file as it stands, without overrides.
 void choose_written(const Graph& in_file, const MeasureOptions& options, std::vector<Row>& rows) {
-  const Duration disturbance = longest_disturbance(rows);
-  const auto wcet_with = [&](const Row& row, Duration disturbed) {
-    return with_margin(std::max(row.measured.most, row.measured.most_of_999 + disturbed), options.margin / 100);
+  const Duration met = longest_disturbance(rows), expected = std::max(met, least_disturbance);
+  const auto wcet_with = [&](const Row& row, Duration disturbance) {
+    return with_margin(std::max(row.measured.most, row.measured.most_of_999 + disturbance), options.margin / 100);
   };
   for (Row& row : rows) {
     const auto task =
         std::find_if(in_file.tasks.begin(), in_file.tasks.end(), [&](const Task& t) { return t.name == row.name; });
     row.stated = task == in_file.tasks.end() ? std::nullopt : task->wcet;
     if (task == in_file.tasks.end() || row.measured.activations == 0) continue;
-    const Duration wcet = wcet_with(row, disturbance);
-    if (!row.stated || *row.stated < wcet) {
-      row.written = wcet;
-      continue;
-    }
-    const Duration lowered = wcet_with(row, std::max(disturbance, least_disturbance_when_lowered));
-    row.kept = !options.lower || *row.stated <= lowered;
-    if (!row.kept) row.written = lowered;
+    const Duration wcet = wcet_with(row, expected);
+    // one that is stated need not have room for what was not met
+    row.kept = row.stated && *row.stated >= wcet_with(row, met) && (!options.lower || *row.stated <= wcet);
+    if (!row.kept) row.written = wcet;
   }
 }
 
@@ -138,14 +134,15 @@ Measurement measure_file(const std::string& file, const Overrides& overrides, co
   tell(options.write);
   if (!options.write) return measurement;
   std::cerr << (writes ? fmt::format(
-                             "  written into {}: 99.9 % and the longest disturbance of any task, with {:g} % on top\n",
-                             file, options.margin)
+                             "  written into {}: 99.9 % and the longest disturbance of any task, but no less than {}, "
+                             "with {:g} % on top\n",
+                             file, duration_text(least_disturbance), options.margin)
                        : fmt::format("  nothing is written into {}\n", file));
   if (any([](const Row& row) { return row.kept; }))
     std::cerr << (options.lower
                       ? fmt::format("  a 'wcet' was kept that leaves no more than the margin over a disturbance "
                                     "of {}\n",
-                                    duration_text(least_disturbance_when_lowered))
+                                    duration_text(least_disturbance))
                       : "  a 'wcet' that is no shorter than that was kept; --lower lowers it\n");
   if (!overrides.set.empty() || !overrides.profile.empty())
     std::cerr << "  measured with --set or --profile; what follows is said of the file as it stands, without them\n";

@@ -19,10 +19,10 @@ struct MeasureOptions {
 
 /// Runs the file's graph with these overrides and tells on stderr how much processor time its tasks took. Then, where
 /// that is asked for, writes into the file, which is left as it is if it would not load afterwards: per task what 99.9
-/// % of its activations stayed below, and the longest disturbance that any task met, with the margin on top. A `wcet`
-/// that is stated and longer stays; where it may be lowered, for a disturbance of at least 100 us. Throws SpecError, or
-/// std::invalid_argument for what can't be measured or edited; what was measured is shown by then. Returns what was
-/// measured.
+/// % of its activations stayed below, and the longest disturbance that any task met, but no less than 100 us, with the
+/// margin on top. A `wcet` that is stated stays if it is longer than what was met, unless it may be lowered. Throws
+/// SpecError, or std::invalid_argument for what can't be measured or edited; what was measured is shown by then.
+/// Returns what was measured.
 Measurement measure_file(const std::string& file, const Overrides& overrides, const MeasureOptions& options);
 
 }  // namespace jarol::tools
