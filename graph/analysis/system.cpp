@@ -41,4 +41,14 @@ System system_of(const Graph& graph) {
   return system;
 }
 
+std::optional<std::size_t> overfull_core(const System& system) {
+  for (std::int64_t core = 0; system.policy.keeps_core && system.cores > 1 && core < system.cores; ++core) {
+    Loads stated;
+    for (std::size_t i = 0; i < system.loads.size(); ++i)
+      if (system.core[i] == core) stated.push_back(system.loads[i]);
+    if (compare_utilisation(stated, 1) == std::strong_ordering::greater) return static_cast<std::size_t>(core);
+  }
+  return std::nullopt;
+}
+
 }  // namespace jarol::analysis

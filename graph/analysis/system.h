@@ -26,6 +26,9 @@ struct System {
 /// Of a valid graph; WCETs include the platform's overheads. A task without a WCET has 0 here.
 System system_of(const Graph& graph);
 
+/// A core that the tasks that state it fill beyond all time, whatever goes beside them; the first of several.
+std::optional<std::size_t> overfull_core(const System& system);
+
 enum class Verdict { schedulable, not_schedulable, unknown };
 
 /// What a verdict rests on: a test that decides both ways; a sufficient one, which may refuse what would hold; a run

@@ -56,6 +56,23 @@ std::string broken_limits(const CheckReport& r) {
   return names.empty() ? "" : ", BUT A LIMIT IS BROKEN by chain " + names;
 }
 
+// The plainest reason of all: of all cores, or of one for the tasks that state it.
+std::string overload_text(const Graph& graph) {
+  const analysis::System system = analysis::system_of(graph);
+  analysis::Loads loads = system.loads;
+  std::string of = system.cores == 1 ? "one core" : fmt::format("{} cores", system.cores);
+  if (compare_utilisation(loads, system.cores) != std::strong_ordering::greater) {
+    const auto core = analysis::overfull_core(system);
+    if (!core) return "";
+    of = fmt::format("core {}", *core);
+    loads.clear();
+    for (std::size_t i = 0; i < system.loads.size(); ++i)
+      if (system.core[i] == static_cast<std::int64_t>(*core)) loads.push_back(system.loads[i]);
+  }
+  return fmt::format(" utilisation {:.2f}% of {}: there is more to do than time", 100 * analysis::utilisation(loads),
+                     of);
+}
+
 std::string headline(const CheckReport& r) {
   switch (r.result.verdict) {
     case Verdict::schedulable:
@@ -67,12 +84,8 @@ std::string headline(const CheckReport& r) {
     case Verdict::not_schedulable: break;
   }
   std::string text = printable(r.file) + ": NOT SCHEDULABLE";
-  // the plainest reason of all
-  if (compare_utilisation(analysis::system_of(*r.graph).loads, r.graph->platform.cores) ==
-      std::strong_ordering::greater)
-    text += fmt::format(" utilisation {:.2f}% of {}: there is more to do than time{}", 100 * r.result.utilisation,
-                        r.graph->platform.cores == 1 ? "one core" : fmt::format("{} cores", r.graph->platform.cores),
-                        r.result.late || !worst_response(r).empty() ? ";" : "");
+  if (const std::string overload = overload_text(*r.graph); !overload.empty())
+    text += overload + (r.result.late || !worst_response(r).empty() ? ";" : "");
   if (r.result.late) {
     const analysis::Late& l = *r.result.late;
     // under a global policy it is no single core's

@@ -24,11 +24,20 @@ class Search {
  public:
   Search(const std::shared_ptr<const Source>& source, const Overrides& overrides, const Registry& registry,
          const CheckReport& report, analysis::Effort& effort)
-      : source_(source), overrides_(overrides), registry_(registry), report_(report), effort_(effort) {}
+      : source_(source),
+        overrides_(overrides),
+        registry_(registry),
+        report_(report),
+        effort_(effort),
+        overfull_(analysis::overfull_core(analysis::system_of(*report.graph))) {}
 
   std::vector<Remedy> run() {
-    try_all({&Search::offsets, &Search::deadlines, &Search::priorities, &Search::executable_policies, &Search::unpinned,
-             &Search::cores, &Search::lets, &Search::periods});
+    std::vector<Kind> kinds{&Search::offsets,  &Search::deadlines, &Search::priorities, &Search::executable_policies,
+                            &Search::unpinned, &Search::cores,     &Search::lets,       &Search::without_lets,
+                            &Search::periods};
+    // nothing else takes work away from a core
+    if (overfull_) std::rotate(kinds.begin(), kinds.begin() + 4, kinds.begin() + 5);
+    try_all(kinds);
     if (found_.empty()) try_pairs();
     if (found_.size() > max_executable) found_.resize(max_executable);
     wcets();
@@ -80,7 +89,7 @@ class Search {
     return true;
   }
 
-  void try_all(std::initializer_list<Kind> kinds) {
+  void try_all(const std::vector<Kind>& kinds) {
     for (const Kind kind : kinds)
       if (found_.size() < max_executable) (this->*kind)();
   }
@@ -101,9 +110,11 @@ class Search {
   }
 
   // Tasks that a shift may help, longest first: their work is what others wait for.
-  std::vector<const Task*> longest_tasks() const {
+  template <class Of>
+  std::vector<const Task*> longest_tasks(const Of& of) const {
     std::vector<const Task*> tasks;
-    for (const Task& task : graph().tasks) tasks.push_back(&task);
+    for (const Task& task : graph().tasks)
+      if (of(task)) tasks.push_back(&task);
     std::stable_sort(tasks.begin(), tasks.end(), [](const Task* a, const Task* b) { return *a->wcet > *b->wcet; });
     if (tasks.size() > 6) tasks.resize(6);
     return tasks;
@@ -111,7 +122,7 @@ class Search {
 
   void offsets() {
     if (graph().platform.phasing != Phasing::given) return;
-    for (const Task* task : longest_tasks())
+    for (const Task* task : longest_tasks([](const Task&) { return true; }))
       for (int eighth = 1; eighth < 8; ++eighth) {
         const Duration offset = task->period * eighth / 8;
         if (offset == task->offset || offset <= Duration{}) continue;
@@ -150,14 +161,17 @@ class Search {
       if (policy.executed) add(policy_remedy(policy));
   }
 
-  // Tasks that stand on a core by `core:`.
+  // Tasks that stand on a core by `core:`, on one with more to do than time first of all.
   void unpinned() {
     if (graph().platform.cores < 2) return;
     Remedy all{"no 'core', so that check assigns them", {}};
     for (const Task& task : graph().tasks)
       if (task.core) all.set.push_back("tasks." + task.name + ".core=null");
-    for (const Task* task : longest_tasks())
-      for (std::int64_t core = 0; task->core && core < graph().platform.cores; ++core)
+    const auto may_move = [&](const Task& task) {
+      return task.core && (!overfull_ || *task.core == static_cast<std::int64_t>(*overfull_));
+    };
+    for (const Task* task : longest_tasks(may_move))
+      for (std::int64_t core = 0; core < graph().platform.cores; ++core)
         if (core != *task->core && add({quoted("core", std::to_string(core)) + " of '" + task->name + "'",
                                         {"tasks." + task->name + ".core=" + std::to_string(core)}}))
           return;
@@ -194,6 +208,36 @@ class Search {
           return;
       }
     }
+  }
+
+  // Without a LET what a task publishes is there at once: of one task in a chain that is too slow, else of two, else of
+  // all but those that need not.
+  void without_lets() {
+    constexpr std::size_t max_paired = 8;
+    std::vector<const Task*> tasks;
+    for (const Task& task : graph().tasks)
+      if (task.let && is_in_broken_chain(task)) tasks.push_back(&task);
+    for (const Task* task : tasks)
+      if (add(without_lets_of({task}))) return;
+    for (std::size_t i = 0; i < std::min(tasks.size(), max_paired); ++i)
+      for (std::size_t j = i + 1; j < std::min(tasks.size(), max_paired); ++j)
+        if (add(without_lets_of({tasks[i], tasks[j]}))) return;
+    if (tasks.size() < 3 || !holds(with(without_lets_of(tasks).set))) return;
+    for (std::size_t i = tasks.size(); i-- > 0;) {
+      std::vector<const Task*> fewer = tasks;
+      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+      if (holds(with(without_lets_of(fewer).set))) tasks = std::move(fewer);
+    }
+    add(without_lets_of(tasks));
+  }
+
+  static Remedy without_lets_of(const std::vector<const Task*>& tasks) {
+    Remedy remedy{"no 'let' of ", {}};
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      remedy.text += (i == 0 ? "'" : i + 1 < tasks.size() ? ", '" : " and '") + tasks[i]->name + "'";
+      remedy.set.push_back("tasks." + tasks[i]->name + ".let=null");
+    }
+    return remedy;
   }
 
   // Of a chain that is too slow: a task of it twice as often, or all of it.
@@ -236,6 +280,7 @@ class Search {
   const Registry& registry_;
   const CheckReport& report_;
   analysis::Effort& effort_;
+  const std::optional<std::size_t> overfull_;
   Remedy beside_;
   std::vector<Remedy> found_;
 };

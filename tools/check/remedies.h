@@ -18,9 +18,10 @@ struct Remedy {
   std::vector<std::string> set;  // the same as `--set` takes it
 };
 
-/// The best few. First what `run` executes with no other code: an offset, a LET or a deadline, priorities by deadline,
-/// another policy, more cores, two of these together; then shorter WCETs and policies that are analysed only. Each
-/// keeps the limits of all chains, too. Fewer where it would take more effort.
+/// The best few. First what `run` executes with no other code: an offset, a deadline, priorities by deadline, another
+/// policy, another core, more cores, a LET or tasks without theirs, periods, two of these together; then shorter WCETs
+/// and policies that are analysed only. Where the tasks that state a core fill it beyond all time, another core comes
+/// first. Each keeps the limits of all chains, too. Fewer where it would take more effort.
 std::vector<Remedy> find_remedies(const std::shared_ptr<const Source>& source, const Overrides& overrides,
                                   const Registry& registry, const CheckReport& report, analysis::Effort& effort);
 

@@ -82,6 +82,32 @@ tasks:
     CHECK(proposes(proposals(file), "'core: 1' of 'a'"));
   }
 
+  TEST_CASE("of a core that the tasks on it fill beyond all time one is moved, and that comes first") {
+    const TemporaryFolder folder;
+    // the longer ones stand elsewhere
+    std::string text = "graph: t\nplatform: {cores: 3, policy: edf}\ntasks:\n";
+    for (const std::string name : {"d", "e", "f", "g", "h", "i"})
+      text += "  " + name + ": {type: Work, period: 100ms, wcet: 13ms, core: 1}\n";
+    text +=
+        "  a: {type: Work, period: 10ms, wcet: 6ms, core: 0}\n  b: {type: Work, period: 10ms, wcet: 6ms, core: 0}\n";
+    const auto texts = proposals(folder.write("t.yaml", text));
+    CHECK(texts.front() == "'core: 2' of 'a'");
+    const std::string two = folder.write("u.yaml", R"(graph: t
+platform: {cores: 3}
+tasks:
+  a: {type: Work, period: 10ms, wcet: 6ms, core: 0}
+  b: {type: Work, period: 10ms, wcet: 6ms, core: 0}
+  c: {type: Work, period: 10ms, wcet: 6ms, core: 0}
+)");
+    CHECK(proposals(two).front() == "no 'core', so that check assigns them");
+    // of many tasks what can't help is not looked for until there is no more effort
+    std::string many = "graph: t\nplatform: {cores: 2}\ntasks:\n";
+    for (int i = 0; i < 900; ++i)
+      many += "  t" + std::to_string(i) + ": {type: Work, period: 10ms, wcet: " + (i < 2 ? "6ms" : "1us") +
+              ", core: " + (i < 2 ? "0" : "1") + "}\n";
+    CHECK(proposals(folder.write("v.yaml", many)).front() == "'core: 1' of 't0'");
+  }
+
   TEST_CASE("where no single change helps, two together are looked for") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t
@@ -127,6 +153,45 @@ chains:
   loop: {path: [i, a, b, o], reaction: 35ms}
 )");
     CHECK(proposes(proposals(file), "half the periods of all of chain 'loop'"));
+  }
+
+  TEST_CASE("a chain that is too slow by its LETs gets those named that are too many, and no other") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+communicators:
+  i: {type: double, direction: in, period: 10ms}
+  o: {type: double, direction: out, period: 10ms}
+timing: {period: 10ms}
+tasks:
+  a: {type: Relay, let: 10ms, wcet: 1ms}
+  b: {type: Relay, let: 10ms, wcet: 1ms}
+  c: {type: Relay, let: 10ms, wcet: 1ms}
+  d: {type: Relay, let: 10ms, wcet: 1ms}
+connections: [i -> a.in, a.out -> b.in, b.out -> c.in, c.out -> d.in, d.out -> o]
+chains:
+  loop: {path: [i, a, b, c, d, o]}
+)");
+    const auto with_limit = [&](const std::string& limit) {
+      return proposals(file, "--set chains.loop.reaction=" + limit);
+    };
+    CHECK(proposes(with_limit("40ms"), "no 'let' of 'a'"));
+    CHECK(proposes(with_limit("35ms"), "no 'let' of 'a' and 'b'"));
+    CHECK(proposes(with_limit("30ms"), "no 'let' of 'a' and 'b'"));
+    CHECK(with_limit("20ms") == std::vector<std::string>{"no 'let' of 'a', 'b' and 'c'"});
+    CHECK(check(file, "--set chains.loop.reaction=30ms")["suggested_sets"].back() ==
+          nlohmann::json{"tasks.a.let=null", "tasks.b.let=null"});
+    CHECK(with_limit("10ms").empty());
+    // where values go round, a LET has to stay
+    const std::string round = folder.write("u.yaml", R"(graph: t
+timing: {period: 10ms}
+tasks:
+  a: {type: Relay, let: 10ms, wcet: 1ms}
+  b: {type: Relay, wcet: 1ms}
+connections: [a.out -> b.in, b.out -> a.in]
+chains:
+  loop: {path: [a, b], reaction: 15ms}
+)");
+    CHECK(!proposes(proposals(round), "no 'let' of 'a'"));
   }
 
   TEST_CASE("whatever is proposed for random graphs holds") {
