@@ -18,6 +18,7 @@ Result check(const System& system) {
   Result result = system.policy.check(system, true, effort);
   // the policy of a plugin may leave them out
   result.response.resize(system.loads.size());
+  result.exact.resize(system.loads.size());
   result.core.resize(system.loads.size());
   result.utilisation = utilisation(system.loads);
   return result;
@@ -35,6 +36,7 @@ Result check(const Graph& graph) {
   result.reason = "no 'wcet' is stated for " + list_of(missing);
   result.utilisation = utilisation(system.loads);
   result.response.resize(graph.tasks.size());
+  result.exact.resize(graph.tasks.size());
   result.core.resize(graph.tasks.size());
   return result;
 }

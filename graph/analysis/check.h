@@ -16,7 +16,8 @@ struct Result {
   std::string reason;  // one sentence
   double utilisation = 0;
   // per task, in the order of the graph
-  std::vector<std::optional<std::int64_t>> response;  // ns from the arrival; an upper bound
+  std::vector<std::optional<std::int64_t>> response;  // ns from the arrival, whatever is late; an upper bound
+  std::vector<bool> exact;                            // that bound is reached
   std::vector<std::optional<std::size_t>> core;       // where one runs it always
   // why not
   std::optional<std::size_t> core_at_fault;

@@ -20,8 +20,13 @@ struct UrgentJob {
 
 class Walker {
  public:
-  Walker(const CoreTasks& tasks, Order order, Effort& effort)
-      : tasks_(tasks), loads_(inheriting_loads(tasks)), order_(order), effort_(effort), ready_at_(tasks) {
+  Walker(const CoreTasks& tasks, Order order, bool beyond_late, Effort& effort)
+      : tasks_(tasks),
+        loads_(inheriting_loads(tasks)),
+        order_(order),
+        beyond_late_(beyond_late),
+        effort_(effort),
+        ready_at_(tasks) {
     result_.responses.resize(loads_.size(), 0);
     for (const Load& l : loads_) {
       longest_jitter_ = std::max(longest_jitter_, l.jitter);
@@ -110,6 +115,7 @@ class Walker {
       open -= running.arrival < end ? 1U : 0U;
       if (blocking <= blocking_of(running, start) && !close(running, now, blocking, slices)) return false;
     }
+    result_.idle = false;
     return true;
   }
 
@@ -140,14 +146,17 @@ class Walker {
     const std::int64_t own = tasks_.loads[job.task].blocking;
     const std::int64_t sure = longest_jitter_ > 0 ? own : ready_at_(job.task, job.arrival).blocking;
     if (blocking > sure) return doubtful_ = true;
-    result_.late = Late{job.task, job.activation, job.arrival, now, deadline};
-    result_.slices = std::move(slices);
-    return false;
+    if (!result_.late) {
+      result_.late = Late{job.task, job.activation, job.arrival, now, deadline};
+      result_.slices = std::move(slices);
+    }
+    return beyond_late_;
   }
 
   const CoreTasks& tasks_;
   Loads loads_;
   Order order_;
+  bool beyond_late_;
   Effort& effort_;
   ReadinessAt ready_at_;
   bool doubtful_ = false;  // late by what another is held up for
@@ -158,9 +167,9 @@ class Walker {
 
 }  // namespace
 
-Extremes walk_extremes(const CoreTasks& tasks, Order order, Effort& effort) {
+Extremes walk_extremes(const CoreTasks& tasks, Order order, bool beyond_late, Effort& effort) {
   constexpr std::uint64_t most_steps = 100'000'000;
-  return within(effort, most_steps, [&](Effort& own) { return Walker(tasks, order, own).run(); });
+  return within(effort, most_steps, [&](Effort& own) { return Walker(tasks, order, beyond_late, own).run(); });
 }
 
 }  // namespace jarol::analysis

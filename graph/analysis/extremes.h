@@ -7,7 +7,8 @@
 namespace jarol::analysis {
 
 struct Extremes {
-  bool whole = false;  // every busy period was looked at, and none is late
+  bool whole = false;  // every busy period was looked at, and none is late in doubt
+  bool idle = true;    // each came to its end
   std::optional<Late> late;
   std::vector<std::int64_t> responses;  // per load, the longest
   std::vector<Slice> slices;            // before the late activation ended
@@ -19,7 +20,8 @@ struct Extremes {
 /// Tindell 1994 and Palencia, Gonzalez 1998 do for transactions, with all their combinations). `blocking` comes at t,
 /// as long as it can be for the activation that is looked at; under EDF what holds up one with an earlier deadline
 /// holds up those behind it, so that these are looked at with the longest, though late for sure only with their own.
-/// Loads are most urgent first; each that follows another is less urgent than it.
-Extremes walk_extremes(const CoreTasks& tasks, Order order, Effort& effort);
+/// Loads are most urgent first; each that follows another is less urgent than it. Up to the first late activation,
+/// unless `beyond_late`.
+Extremes walk_extremes(const CoreTasks& tasks, Order order, bool beyond_late, Effort& effort);
 
 }  // namespace jarol::analysis

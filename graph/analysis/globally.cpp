@@ -67,6 +67,7 @@ void walk(const System& system, const Loads& loads, Result& result, Effort& effo
         "every activation of the whole repetition ends by its deadline, where those of equal deadlines go in "
         "order of name";
     result.response.assign(latest.responses.begin(), latest.responses.end());
+    result.exact.assign(loads.size(), true);
     return;
   }
   Loads soonest = loads;

@@ -42,6 +42,7 @@ Result check_on_table(const System& system, bool whole, Effort& effort) {
   result.standing = table.standing;
   result.reason = table.reason;
   result.response = table.responses;
+  result.exact.assign(system.loads.size(), table.exact);
   qualify_no(system, partition, result.verdict, result.standing, result.reason);
   if (result.verdict != Verdict::schedulable) result.late = table.late;
   if (table.late) {

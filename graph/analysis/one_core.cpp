@@ -18,7 +18,10 @@ bool by_deadline(const Policy& policy) { return policy.urgency == Urgency::deadl
 Order order_of(const Policy& policy) { return by_deadline(policy) ? Order::by_deadline : Order::by_priority; }
 
 CoreResult undecided(std::string reason, std::vector<std::optional<std::int64_t>> responses = {}) {
-  return {Verdict::unknown, Standing::none, std::move(reason), std::move(responses), {}, {}, {}};
+  CoreResult result;
+  result.reason = std::move(reason);
+  result.responses = std::move(responses);
+  return result;
 }
 
 template <class T>
@@ -33,6 +36,14 @@ CoreResult late_one(const T& run, Standing standing, std::vector<Slice> slices) 
 
 std::vector<std::optional<std::int64_t>> optional(const std::vector<std::int64_t>& responses) {
   return {responses.begin(), responses.end()};
+}
+
+CoreResult on_time(std::string reason, const std::vector<std::int64_t>& responses, bool exact) {
+  CoreResult result = undecided(std::move(reason), optional(responses));
+  result.verdict = Verdict::schedulable;
+  result.standing = Standing::proof;
+  result.exact = exact;
+  return result;
 }
 
 // For sporadic tasks: every shift, every jitter.
@@ -122,32 +133,37 @@ void add_witness(std::span<const Load> loads, const Policy& policy, CoreResult& 
   if (run.late) result.slices = std::move(run.slices);
 }
 
+// Of a walk through all that can happen, to the first late activation or, with `whole`, beyond it.
+template <class T>
+CoreResult result_of_walk(T walk, bool exact) {
+  if (walk.late) {
+    CoreResult late = late_one(walk, Standing::proof, std::move(walk.slices));
+    late.exact = exact;
+    if (exact) late.responses = optional(walk.responses);
+    return late;
+  }
+  if (!walk.whole) return undecided("");
+  return on_time("every activation of the whole repetition ends by its deadline", walk.responses, exact);
+}
+
 // With offsets that hold, interrupting: without jitter and blocking one run decides, else one from each worst start.
-CoreResult walk_preemptive(const CoreTasks& tasks, const Policy& policy, Effort& effort) {
+// What holds up one activation at most is not known of those behind it, so that these may never respond so late.
+CoreResult walk_preemptive(const CoreTasks& tasks, const Policy& policy, bool whole, Effort& effort) {
   if (effort.spent()) return undecided("");
   const Loads loads = inheriting_loads(tasks);
-  const auto end = end_of_repetition(loads);
-  if (!end) return undecided("");
-  std::vector<std::int64_t> responses;
-  if (!has_jitter(loads) && !has_blocking(loads)) {
-    Simulation run = simulate(loads, order_of(policy), true, *end, 4 * most_simulated);
-    effort.spend(run.activations * steps_of_simulated);
-    if (run.late) return late_one(run, Standing::proof, std::move(run.slices));
-    if (!run.whole) return undecided("");
-    responses = std::move(run.responses);
-  } else {
-    Extremes walk = walk_extremes(tasks, order_of(policy), effort);
-    if (walk.late) return late_one(walk, Standing::proof, std::move(walk.slices));
-    if (!walk.whole) return undecided("");
-    responses = std::move(walk.responses);
+  if (!end_of_repetition(loads)) return undecided("");
+  if (has_jitter(loads) || has_blocking(loads)) {
+    Extremes walk = walk_extremes(tasks, order_of(policy), whole, effort);
+    // a reader that waits beyond its next arrival holds that up too, which the walk does not know
+    const bool each_alone = tasks.follows.empty() || (!walk.late && !has_blocking(loads));
+    const bool blocked_alone = !has_blocking(loads) || (!by_deadline(policy) && !walk.late);
+    const bool exact = whole && walk.whole && walk.idle && each_alone && blocked_alone;
+    return result_of_walk(std::move(walk), exact);
   }
-  return {Verdict::schedulable,
-          Standing::proof,
-          "every activation of the whole repetition ends by its deadline",
-          optional(responses),
-          {},
-          {},
-          {}};
+  Simulation run = simulate_repetition(loads, order_of(policy), whole, 4 * most_simulated);
+  effort.spend(run.activations * steps_of_simulated);
+  const bool exact = whole && run.whole;
+  return result_of_walk(std::move(run), exact);
 }
 
 // With offsets that hold, not interrupting: shorter execution may change the order and so make others late.
@@ -174,19 +190,49 @@ CoreResult walk_nonpreemptive(const CoreTasks& tasks, const Policy& policy, Effo
     if (run.late && !has_jitter(inheriting_loads(tasks))) return late_one(run, Standing::by_run, std::move(run.slices));
     return undecided("");
   }
-  return {Verdict::schedulable,
-          Standing::proof,
-          "every activation ends by its deadline in every order that is possible (schedule-abstraction graph)",
-          optional(found.responses),
-          {},
-          {},
-          {}};
+  return on_time("every activation ends by its deadline in every order that is possible (schedule-abstraction graph)",
+                 found.responses, !has_blocking(inheriting_loads(tasks)));
+}
+
+// Does what is said of every shift come about, with each task's worst at the same time as that of those before it?
+// Under EDF of equal deadlines the others are taken to go first.
+bool is_reached(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Verdict verdict) {
+  const Loads loads = inheriting_loads(tasks);
+  if (by_deadline(policy) || (!tasks.follows.empty() && (has_jitter(loads) || !policy.interrupts))) return false;
+  if (has_blocking(loads) && (!tasks.follows.empty() || !policy.interrupts || verdict != Verdict::schedulable))
+    return false;
+  return !offsets_hold || (policy.interrupts && all_at_once(loads) && !has_jitter(loads));
+}
+
+// Where the offsets are worst the test of every shift decides; what the tasks really take, a short run says.
+void take_responses_of_run(std::span<const Load> loads, const Policy& policy, CoreResult& result, Effort& effort) {
+  constexpr std::uint64_t most_activations = 50'000;
+  const auto end = end_of_repetition(loads);
+  if (!end || has_blocking(loads)) return;
+  double activations = 0;
+  for (const Load& l : loads) activations += static_cast<double>(*end) / static_cast<double>(l.period);
+  if (activations > static_cast<double>(most_activations)) return;
+  const Simulation run = simulate_repetition(loads, order_of(policy), true, 2 * most_activations);
+  effort.spend(run.activations * steps_of_simulated);
+  if (!run.whole) return;
+  result.responses = optional(run.responses);
+  result.exact = true;
+}
+
+// Where the test of every shift decides at once: how late anything ends with these offsets, if a short search says.
+void take_responses_of_orders(const CoreTasks& tasks, const Policy& policy, CoreResult& result, Effort& effort) {
+  constexpr std::uint64_t most_steps = 1'000'000;
+  CoreResult found = within(effort, most_steps, [&](Effort& own) { return walk_nonpreemptive(tasks, policy, own); });
+  if (found.verdict != Verdict::schedulable || !found.exact) return;
+  result.responses = std::move(found.responses);
+  result.exact = true;
 }
 
 CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Effort& effort) {
-  const bool responses = detail != Detail::verdict, tight = detail == Detail::tight;
+  const bool responses = detail != Detail::verdict, tight = detail == Detail::tight, whole = detail == Detail::whole;
   const Loads loads = inheriting_loads(tasks);
   CoreResult any = check_any_phasing(loads, policy, responses, effort);
+  any.exact = responses && is_reached(tasks, policy, offsets_hold, any.verdict);
   const auto order = compare_utilisation(loads, 1);
   if (order && *order > 0) return any;
   // exact for every shift, but for readers that do not always wait for what they inherited
@@ -195,14 +241,19 @@ CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hol
   const bool worst_at_once = policy.interrupts && all_at_once(loads) && !has_jitter(loads) && !inherited &&
                              !(by_deadline(policy) && has_blocking(loads));
   const bool sure = any.verdict != Verdict::not_schedulable || is_sure(tasks.loads, policy, effort);
-  if (sure && !inherited && (!offsets_hold || (worst_at_once && !(tight && any.verdict == Verdict::schedulable))))
+  if (sure && !inherited && (!offsets_hold || (worst_at_once && !(tight && any.verdict == Verdict::schedulable)))) {
+    if (whole && offsets_hold && !any.exact) take_responses_of_run(loads, policy, any, effort);
     return any;
+  }
   // what holds for every shift holds for the one that is given
-  if (any.verdict == Verdict::schedulable && !(offsets_hold && responses && (policy.interrupts || tight))) return any;
-  CoreResult given =
-      policy.interrupts ? walk_preemptive(tasks, policy, effort) : walk_nonpreemptive(tasks, policy, effort);
+  if (any.verdict == Verdict::schedulable && !(offsets_hold && responses && (policy.interrupts || tight))) {
+    if (whole && offsets_hold) take_responses_of_orders(tasks, policy, any, effort);
+    return any;
+  }
+  CoreResult given = policy.interrupts ? walk_preemptive(tasks, policy, whole && offsets_hold, effort)
+                                       : walk_nonpreemptive(tasks, policy, effort);
   // what bounds every shift bounds this one
-  if (given.verdict == Verdict::not_schedulable) given.responses = any.responses;
+  if (given.verdict == Verdict::not_schedulable && !given.exact) given.responses = any.responses;
   if (given.verdict == Verdict::not_schedulable || (offsets_hold && given.verdict == Verdict::schedulable))
     return given;
   if (any.verdict == Verdict::schedulable) return any;
@@ -232,6 +283,8 @@ CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets
   if (detail == Detail::whole && result.verdict == Verdict::not_schedulable && !result.late)
     add_witness(tasks.loads, policy, result);
   result.responses.resize(tasks.loads.size());
+  // of readers that go first nothing is said here but what they add
+  result.exact = result.exact && tasks.upward.empty();
   return result;
 }
 

@@ -24,6 +24,7 @@ struct CoreResult {
   std::optional<Demand> demand;                        // why not, under EDF
   std::optional<Late> late;                            // why not
   std::vector<Slice> slices;                           // before that
+  bool exact = false;                                  // each response is reached
 };
 
 /// The verdict alone; with responses and witness; or with responses that are as short as offsets and the order of equal

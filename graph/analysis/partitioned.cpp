@@ -61,9 +61,20 @@ class Cores {
       for (const std::size_t task : tasks_[core_[follow.second]]) result.response[task].reset();
   }
 
+  // Where nobody waits, a core's responses are those that it has by itself.
+  void take_responses_without_waits(Result by_itself, Result& result) const {
+    forget_responses_with_waits(by_itself);
+    for (std::size_t i = 0; i < core_.size(); ++i) {
+      if (!by_itself.response[i]) continue;
+      result.response[i] = by_itself.response[i];
+      result.exact[i] = by_itself.exact[i];
+    }
+  }
+
   Result check(const std::vector<std::int64_t>& waits, Detail detail, Effort& effort) const {
     Result result;
     result.response.resize(system_.loads.size());
+    result.exact.resize(system_.loads.size());
     result.verdict = Verdict::schedulable;
     result.standing = Standing::proof;
     if (system_.loads.empty()) result.reason = "there is no task to be late";
@@ -88,6 +99,7 @@ class Cores {
       }
       if (changed) continue;
       result.standing = Standing::safe;
+      result.exact.assign(system_.loads.size(), false);
       result.reason += ", with the longest waits for those that they follow (holistic analysis)";
       return result;
     }
@@ -105,8 +117,10 @@ class Cores {
       for (Load& l : of_core.loads) l.blocking = longest;
     }
     CoreResult core = check_core(of_core, system_.policy, system_.offsets_hold, detail, effort);
-    for (std::size_t i = 0; i < tasks.size() && detail != Detail::verdict; ++i)
+    for (std::size_t i = 0; i < tasks.size() && detail != Detail::verdict; ++i) {
       result.response[tasks[i]] = core.responses[i];
+      result.exact[tasks[i]] = core.exact;
+    }
     if (result.reason.empty() || (result.verdict == Verdict::schedulable && core.verdict != Verdict::schedulable))
       result.reason = core.reason;
     if (core.verdict == Verdict::schedulable || result.verdict == Verdict::not_schedulable) return;
@@ -138,6 +152,7 @@ Result run_with_waits(const System& system, const std::vector<std::size_t>& core
   constexpr std::uint64_t most_activations = 100'000, steps_of_activation = 40;
   Result result;
   result.response.resize(system.loads.size());
+  result.exact.resize(system.loads.size());
   std::vector<std::size_t> all(system.loads.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   RunRules rules{system.follows, core, std::vector<std::size_t>(all.size()), {}, false};
@@ -167,17 +182,19 @@ Result run_with_waits(const System& system, const std::vector<std::size_t>& core
 // With waits a "yes" is safe; a "no" is one without them, as those waited for may take no time.
 Result check_assigned(const System& system, const std::vector<std::size_t>& core, Detail detail, Effort& effort) {
   const Cores cores(system, core);
-  Result result = cores.check(std::vector<std::int64_t>(system.loads.size(), 0), detail, effort);
-  if (!cores.waits()) return result;
-  if (result.verdict == Verdict::not_schedulable) {
-    if (detail != Detail::verdict) cores.forget_responses_with_waits(result);
-    return result;
+  Result by_itself = cores.check(std::vector<std::int64_t>(system.loads.size(), 0), detail, effort);
+  if (!cores.waits()) return by_itself;
+  if (by_itself.verdict == Verdict::not_schedulable) {
+    if (detail != Detail::verdict) cores.forget_responses_with_waits(by_itself);
+    return by_itself;
   }
-  Result with_waits = cores.check_holistically(effort);
-  if (with_waits.verdict == Verdict::schedulable) return with_waits;
-  result = run_with_waits(system, core, effort);
-  if (result.verdict == Verdict::not_schedulable) return result;
-  result.reason = "tasks that wait for those that they follow on another core, or of lower priority, may be late";
+  Result result = cores.check_holistically(effort);
+  if (result.verdict != Verdict::schedulable) {
+    result = run_with_waits(system, core, effort);
+    if (result.verdict != Verdict::not_schedulable)
+      result.reason = "tasks that wait for those that they follow on another core, or of lower priority, may be late";
+  }
+  if (detail != Detail::verdict) cores.take_responses_without_waits(std::move(by_itself), result);
   return result;
 }
 

@@ -6,6 +6,8 @@
 namespace jarol::analysis {
 namespace {
 
+constexpr std::int64_t no_time = std::numeric_limits<std::int64_t>::max();
+
 struct Arrival {
   std::int64_t time;
   std::size_t task;
@@ -24,67 +26,134 @@ struct Ready {
   }
 };
 
+struct CoreRules {
+  Order order = Order::by_priority;
+  bool preemptive = true;
+  bool beyond_late = false;
+  std::int64_t last = no_time;  // nothing arrives from then on
+  std::uint64_t most_activations = 0;
+};
+
+class CoreSimulator {
+ public:
+  CoreSimulator(std::span<const Load> loads, const CoreRules& rules) : loads_(loads), rules_(rules) {
+    result_.responses.resize(loads.size(), 0);
+    for (std::size_t i = 0; i < loads.size(); ++i) arrivals_.push({loads[i].offset, i, 0});
+  }
+
+  // Up to what arrives at that instant. False if an activation is late that ends the run, or there are too many.
+  bool run_until(std::int64_t end) {
+    while (now_ < end) {
+      arrive();
+      if (result_.activations > rules_.most_activations) {
+        result_.whole = false;
+        return false;
+      }
+      if (ready_.empty()) {
+        if (next_arrival() == no_time) return true;
+        now_ = std::min(end, next_arrival());
+        continue;
+      }
+      Ready running = ready_.top();
+      ready_.pop();
+      const std::int64_t finish = now_ + running.left;
+      const std::int64_t stop = rules_.preemptive ? std::min({finish, next_arrival(), end}) : finish;
+      if (!result_.late) add_slice(running, stop);
+      running.left -= stop - now_;
+      now_ = stop;
+      if (running.left > 0) {
+        ready_.push(running);
+      } else if (!close(running)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // Activations that have yet to end, and their work: with the arrivals all that the future depends on, as those of one
+  // task run in turn.
+  std::vector<std::pair<std::int64_t, std::int64_t>> left() const {
+    std::vector<std::pair<std::int64_t, std::int64_t>> sum(loads_.size());
+    for (LeastFirst<Ready> ready = ready_; !ready.empty(); ready.pop()) {
+      ++sum[ready.top().task].first;
+      sum[ready.top().task].second += ready.top().left;
+    }
+    return sum;
+  }
+
+  Simulation& result() { return result_; }
+
+ private:
+  std::int64_t next_arrival() const {
+    return arrivals_.empty() || arrivals_.top().time >= rules_.last ? no_time : arrivals_.top().time;
+  }
+
+  void arrive() {
+    while (next_arrival() <= now_ && result_.activations <= rules_.most_activations) {
+      const Arrival a = arrivals_.top();
+      arrivals_.pop();
+      const Load& l = loads_[a.task];
+      const std::int64_t urgency =
+          rules_.order == Order::by_priority ? static_cast<std::int64_t>(a.task) : a.time + l.deadline;
+      ready_.push({urgency, a.task, a.activation, a.time, l.wcet});
+      arrivals_.push({a.time + l.period, a.task, a.activation + 1});
+      ++result_.activations;
+    }
+  }
+
+  void add_slice(const Ready& running, std::int64_t stop) {
+    std::vector<Slice>& slices = result_.slices;
+    if (slices.size() >= 2 * most_slices) slices.erase(slices.begin(), slices.begin() + most_slices);
+    if (!slices.empty() && slices.back().task == running.task && slices.back().activation == running.activation &&
+        slices.back().end == now_) {
+      slices.back().end = stop;
+    } else {
+      slices.push_back({running.task, running.activation, now_, stop});
+    }
+  }
+
+  bool close(const Ready& ended) {
+    const std::int64_t deadline = ended.release + loads_[ended.task].deadline;
+    std::int64_t& response = result_.responses[ended.task];
+    response = std::max(response, now_ - ended.release);
+    if (now_ > deadline && !result_.late)
+      result_.late = Late{ended.task, ended.activation, ended.release, now_, deadline};
+    return !result_.late || rules_.beyond_late;
+  }
+
+  std::span<const Load> loads_;
+  const CoreRules rules_;
+  std::int64_t now_ = 0;
+  LeastFirst<Arrival> arrivals_;
+  LeastFirst<Ready> ready_;
+  Simulation result_;
+};
+
 }  // namespace
 
 Simulation simulate(std::span<const Load> loads, Order order, bool preemptive, std::int64_t until,
                     std::uint64_t most_activations) {
-  Simulation result;
-  result.responses.resize(loads.size(), 0);
-  LeastFirst<Arrival> arrivals;
-  LeastFirst<Ready> ready;
-  for (std::size_t i = 0; i < loads.size(); ++i) arrivals.push({loads[i].offset, i, 0});
-  std::int64_t now = 0;
-  const auto arrive = [&](std::int64_t time) {
-    while (!arrivals.empty() && arrivals.top().time <= time && arrivals.top().time < until &&
-           result.activations <= most_activations) {
-      const Arrival a = arrivals.top();
-      arrivals.pop();
-      const Load& l = loads[a.task];
-      const std::int64_t urgency =
-          order == Order::by_priority ? static_cast<std::int64_t>(a.task) : a.time + l.deadline;
-      ready.push({urgency, a.task, a.activation, a.time, l.wcet});
-      arrivals.push({a.time + l.period, a.task, a.activation + 1});
-      ++result.activations;
-    }
-  };
-  while (true) {
-    arrive(now);
-    if (result.activations > most_activations) {
-      result.whole = false;
-      return result;
-    }
-    if (ready.empty()) {
-      if (arrivals.empty() || arrivals.top().time >= until) return result;
-      now = arrivals.top().time;
-      continue;
-    }
-    Ready running = ready.top();
-    ready.pop();
-    const std::int64_t end = now + running.left;
-    const std::int64_t next = arrivals.empty() || arrivals.top().time >= until ? end : arrivals.top().time;
-    const std::int64_t stop = preemptive ? std::min(end, next) : end;
-    if (result.slices.size() >= 2 * most_slices)
-      result.slices.erase(result.slices.begin(), result.slices.begin() + most_slices);
-    if (!result.slices.empty() && result.slices.back().task == running.task &&
-        result.slices.back().activation == running.activation && result.slices.back().end == now) {
-      result.slices.back().end = stop;
-    } else {
-      result.slices.push_back({running.task, running.activation, now, stop});
-    }
-    running.left -= stop - now;
-    now = stop;
-    if (running.left > 0) {
-      ready.push(running);
-      continue;
-    }
-    const std::int64_t deadline = running.release + loads[running.task].deadline;
-    std::int64_t& response = result.responses[running.task];
-    response = std::max(response, now - running.release);
-    if (now > deadline) {
-      result.late = Late{running.task, running.activation, running.release, now, deadline};
-      return result;
-    }
+  CoreSimulator simulator(loads, {order, preemptive, false, until, most_activations});
+  simulator.run_until(no_time);
+  return std::move(simulator.result());
+}
+
+Simulation simulate_repetition(std::span<const Load> loads, Order order, bool beyond_late,
+                               std::uint64_t most_activations) {
+  CoreSimulator simulator(loads, {order, true, beyond_late, no_time, most_activations});
+  const auto lcm = hyperperiod(loads, most_time / 4);
+  std::int64_t end = 0;
+  for (const Load& l : loads) end = std::max(end, l.offset);
+  bool on = lcm && simulator.run_until(end), repeats = false;
+  for (auto before = simulator.left(); on && !repeats && end <= most_time - *lcm;) {
+    end += *lcm;
+    on = simulator.run_until(end);
+    auto after = simulator.left();
+    repeats = on && after == before;
+    before = std::move(after);
   }
+  simulator.result().whole = repeats;
+  return std::move(simulator.result());
 }
 
 }  // namespace jarol::analysis

@@ -33,7 +33,7 @@ using LeastFirst = std::priority_queue<T, std::vector<T>, std::greater<>>;
 inline constexpr std::size_t most_slices = 200;  // before what is late
 
 struct Simulation {
-  bool whole = true;  // reached `until`
+  bool whole = true;  // reached its end
   std::uint64_t activations = 0;
   std::optional<Late> late;
   std::vector<std::int64_t> responses;  // per task, the longest of those that ended
@@ -43,5 +43,10 @@ struct Simulation {
 /// Runs all releases before `until`, or up to the first late activation, or so many. Ties: the task that stands first.
 Simulation simulate(std::span<const Load> loads, Order order, bool preemptive, std::int64_t until,
                     std::uint64_t most_activations = 2'000'000);
+
+/// Interrupting, until one hyperperiod after all offsets leaves the same work as the one before: responses are of all
+/// activations there will ever be. Up to the first late activation, unless `beyond_late`: what is late runs to its end.
+Simulation simulate_repetition(std::span<const Load> loads, Order order, bool beyond_late,
+                               std::uint64_t most_activations);
 
 }  // namespace jarol::analysis

@@ -159,6 +159,7 @@ CoreResult walk(const System& system, const std::vector<std::size_t>& core, std:
   }
   effort.spend(table.activations * steps_of_walked);
   if (repeats) result.responses.assign(table.responses.begin(), table.responses.end());
+  result.exact = repeats;
   if (table.late || grows) {
     result.verdict = Verdict::not_schedulable;
     result.standing = Standing::proof;

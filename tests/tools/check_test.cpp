@@ -42,6 +42,7 @@ TEST_SUITE("tools/check") {
                                               {"wcet_ns", 50'000},
                                               {"core", 0},
                                               {"response_ns", 100'000},
+                                              {"response_exact", true},
                                               {"slack_ns", 9'900'000},
                                               {"max_wcet_ns", 9'850'000},
                                               {"min_deadline_ns", 100'000}});
@@ -94,7 +95,7 @@ tasks:
   b          10ms        0ns       10ms        5ms  50.00%          -          -     -
   c          10ms        0ns       10ms        5ms  50.00%          -          -     -
   all 2 cores: utilisation 200.00% of 200%
-  utilisation 200.00%; a task's response is its longest time from release to end when each takes its wcet;
+  utilisation 200.00%; a task's response is its longest time from arrival to end;
   assumed: the earliest deadlines run, on any core; 'run' does not execute this, without overhead; whatever the offsets
   all WCETs together may be 0.666666 times as long; alone, 'a' has least room: up to 5ms
   it would hold with 'policy: fixed_priority'
@@ -143,7 +144,7 @@ tasks:
   task     period     offset   deadline       wcet     use   response      slack
   fast        5ms        0ns        5ms        2ms  40.00%        2ms        3ms
   slow        7ms        0ns        7ms        4ms  57.14%        8ms       -1ms
-  utilisation 97.14%; a task's response is its longest time from release to end when each takes its wcet;
+  utilisation 97.14%; a task's response is its longest time from arrival to end;
   assumed: the most urgent task runs, interrupting others, as under 'run --clock real', without overhead
   all WCETs together may be 0.875 times as long; alone, 'fast' has least room: up to 1.5ms
   it would hold with 'policy: table'

@@ -44,6 +44,7 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
               {"wcet_ns", t.wcet ? Json(t.wcet->count()) : Json(nullptr)},
               {"core", or_null(r.result.core[i])},
               {"response_ns", or_null(response)},
+              {"response_exact", response ? Json(static_cast<bool>(r.result.exact[i])) : Json(nullptr)},
               {"slack_ns", response ? Json(t.deadline.count() - *response) : Json(nullptr)},
               {"max_wcet_ns", r.sensitivity ? or_null(r.sensitivity->most_wcet[i]) : Json(nullptr)},
               {"min_deadline_ns", r.sensitivity ? or_null(r.sensitivity->least_deadline[i]) : Json(nullptr)}};

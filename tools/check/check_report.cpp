@@ -43,9 +43,10 @@ std::string worst_response(const CheckReport& r) {
   }
   if (!worst) return "";
   const Task& t = r.graph->tasks[*worst];
-  return fmt::format(" core {}: task '{}' responds within {} at worst, deadline {} (late {})",
+  return fmt::format(" core {}: task '{}' responds within {} at {}, deadline {} (late {}{})",
                      r.result.core[*worst].value_or(0), t.name, milliseconds(*r.result.response[*worst]),
-                     milliseconds(t.deadline.count()), milliseconds(over));
+                     r.result.exact[*worst] ? "worst" : "most", milliseconds(t.deadline.count()),
+                     r.result.exact[*worst] ? "" : "by at most ", milliseconds(over));
 }
 
 // Schedulable or not, a chain may be too slow: that stands in the first line too.
@@ -155,14 +156,26 @@ std::string task_table(const CheckReport& r) {
                                                                 static_cast<double>(t.period.count()))
                                    : "-";
     const auto& response = r.result.response[i];
+    const bool exact = r.result.exact[i];
     text +=
         fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>6}  {:>9}  {:>9}", t.name, width, duration_text(t.period),
                     duration_text(t.offset), duration_text(t.deadline), t.wcet ? duration_text(*t.wcet) : "-", use,
-                    response ? duration(*response) : "-", response ? duration(t.deadline.count() - *response) : "-");
+                    response ? (exact ? "" : "<=") + duration(*response) : "-",
+                    response ? (exact ? "" : ">=") + duration(t.deadline.count() - *response) : "-");
     if (cores) text += r.result.core[i] ? fmt::format("  {:>4}", *r.result.core[i]) : "     -";
     text += "\n";
   }
   return text;
+}
+
+// What the column 'response' has.
+std::string response_line(const CheckReport& r) {
+  bool bounds = false;
+  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i)
+    bounds = bounds || (r.result.response[i] && !r.result.exact[i]);
+  return fmt::format("  utilisation {:.2f}%; a task's response is its longest time from arrival to end{};\n",
+                     100 * r.result.utilisation,
+                     bounds ? "; after '<=' it is no longer than that, and may be shorter" : "");
 }
 
 std::string core_lines(const CheckReport& r) {
@@ -258,11 +271,7 @@ std::string sensitivity_lines(const CheckReport& r) {
 
 std::string to_text(const CheckReport& r) {
   std::string text = measured_headline(r) + headline(r) + demand_text(r) + gantt_text(*r.graph, r.result) +
-                     task_table(r) + core_lines(r);
-  text += fmt::format(
-      "  utilisation {:.2f}%; a task's response is its longest time from release to end when each takes "
-      "its wcet;\n",
-      100 * r.result.utilisation);
+                     task_table(r) + core_lines(r) + response_line(r);
   text += "  assumed: " + assumption(r.graph->platform) + "\n" + sensitivity_lines(r) + chain_lines(r) +
           late_outs(*r.graph);
   if (r.result.verdict == Verdict::unknown &&

@@ -54,12 +54,16 @@ std::string Judged::wrong() const {
   if (says(Verdict::unknown)) return "";
   for (std::size_t i = 0; i < set.tasks.size(); ++i)
     if (said.response[i] && *said.response[i] < truth.longest[i]) return "short response";
+  for (std::size_t i = 0; i < set.tasks.size(); ++i)
+    if (said.response[i] && said.exact[i] && *said.response[i] > truth.longest[i])
+      return "response that is not reached";
   return "";
 }
 
 std::string Judged::text() const {
   std::string text = yaml_of(set, "ms") + "said: " + said.reason + "; responses";
-  for (const auto& response : said.response) text += " " + (response ? std::to_string(*response) : "-");
+  for (std::size_t i = 0; i < said.response.size(); ++i)
+    text += (said.exact[i] ? " " : " <=") + (said.response[i] ? std::to_string(*said.response[i]) : "-");
   text += ", cores";
   for (const auto& c : said.core) text += " " + (c ? std::to_string(*c) : "-");
   text += truth.answer == Answer::late ? "\ntrue: late\n" + truth.witness : "\ntrue: schedulable, longest responses";

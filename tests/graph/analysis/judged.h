@@ -13,7 +13,7 @@ struct Judged {
   bool decidable() const { return truth.answer != Truth::Answer::too_large; }
   bool says(analysis::Verdict verdict) const { return said.verdict == verdict; }
 
-  /// "unsafe yes", "false proof", "short response" (of a yes), or nothing.
+  /// "unsafe yes", "false proof", "short response" or "response that is not reached" (of a yes), or nothing.
   std::string wrong() const;
   /// The graph, what is said, what is true, and how a late activation comes about.
   std::string text() const;

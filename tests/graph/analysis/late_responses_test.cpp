@@ -3,12 +3,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <deque>
 #include <numeric>
 #include <random>
 #include <tuple>
 
 #include "tests/graph/analysis/judged.h"
+#include "tests/graph/analysis/late_truth.h"
 #include "tests/graph/graph_of.h"
 
 namespace {
@@ -141,6 +143,45 @@ struct Tally {
     }
   }
 };
+
+// As far as a set can be tried out whole.
+struct WholeTally {
+  std::uint64_t sets = 0, late = 0, responses = 0, exact = 0, reached = 0, wrong = 0;
+  std::string first;
+
+  void add(const truth::Set& set) {
+    const Graph graph = graph_of(set);
+    const analysis::Result said = analysis::check(graph);
+    std::vector<std::size_t> core;
+    for (const auto& c : said.core) core.push_back(c.value_or(0));
+    const auto longest = late_truth_of(set, core, truth::places_in(graph), 5000);
+    if (!longest) return;
+    ++sets;
+    late += said.verdict == Verdict::schedulable ? 0U : 1U;
+    for (std::size_t i = 0; i < longest->size(); ++i) {
+      if (!said.response[i]) continue;
+      ++responses;
+      const bool same = *said.response[i] == (*longest)[i];
+      exact += said.exact[i] ? 1U : 0U;
+      reached += same && !said.exact[i] ? 1U : 0U;
+      if (said.exact[i] ? same : *said.response[i] >= (*longest)[i]) continue;
+      ++wrong;
+      if (first.empty())
+        first = truth::Judged{set, said, {}}.text() + "\nbut task " + std::string(1, static_cast<char>('a' + i)) +
+                " took up to " + std::to_string((*longest)[i]);
+    }
+  }
+};
+
+// JAROL_SETS of each policy, else as many as there is time for.
+std::uint64_t count_of_tried() {
+  if (const char* count = std::getenv("JAROL_SETS")) return std::strtoull(count, nullptr, 10);
+#ifdef __OPTIMIZE__
+  return std::getenv("JAROL_FULL") != nullptr ? 100'000 : 20'000;
+#else
+  return 100;
+#endif
+}
 }  // namespace
 
 TEST_SUITE("graph/analysis/late_responses") {
@@ -155,6 +196,23 @@ TEST_SUITE("graph/analysis/late_responses") {
       MESSAGE(tally.sets << " sets, " << tally.reported << " responses, " << tally.reached << " of these reached");
       CHECK(tally.sets > 100);
       CHECK_MESSAGE(tally.short_ones == 0, tally.first);
+    }
+  }
+
+  TEST_CASE("a response that is exact is reached, and no other exceeded, whatever is late") {
+    for (const Policy& policy : {policies::table, policies::fixed_priority, policies::edf,
+                                 policies::fixed_priority_nonpreemptive, policies::edf_nonpreemptive}) {
+      const truth::Features features{
+          .jitter = true, .blocking = false, .data_flow = true, .any_phasing = true, .cores = 2};
+      WholeTally tally;
+      for (std::uint64_t seed = 0; seed < count_of_tried(); ++seed)
+        tally.add(truth::random_set(seed, policy, features));
+      CAPTURE(policy.name);
+      MESSAGE(tally.sets << " sets, " << tally.late << " with something late; " << tally.responses << " responses, "
+                         << tally.exact << " exact, " << tally.reached << " bounds that are reached");
+      CHECK(tally.late > count_of_tried() / 50);
+      CHECK(tally.exact > tally.sets / 10);
+      CHECK_MESSAGE(tally.wrong == 0, tally.first);
     }
   }
 

@@ -42,7 +42,7 @@ std::size_t size_of(const Set& set) {
 }
 
 struct Tally {
-  std::uint64_t sets = 0, decidable = 0, schedulable = 0, unknown = 0, safe_no = 0;
+  std::uint64_t sets = 0, decidable = 0, schedulable = 0, unknown = 0, safe_no = 0, responses = 0, exact = 0;
   std::map<std::string, std::uint64_t> wrong;          // by kind
   std::map<std::string, std::optional<Judged>> least;  // the smallest of each kind
 
@@ -52,6 +52,10 @@ struct Tally {
     ++decidable;
     schedulable += judged.truth.answer == Answer::schedulable ? 1U : 0U;
     unknown += judged.says(Verdict::unknown) ? 1U : 0U;
+    for (std::size_t i = 0; i < judged.set.tasks.size() && judged.says(Verdict::schedulable); ++i) {
+      responses += judged.said.response[i] ? 1U : 0U;
+      exact += judged.said.response[i] && judged.said.exact[i] ? 1U : 0U;
+    }
     const std::string kind = judged.wrong();
     safe_no +=
         kind.empty() && judged.says(Verdict::not_schedulable) && judged.truth.answer == Answer::schedulable ? 1U : 0U;
@@ -64,18 +68,19 @@ struct Tally {
   void print(const Policy& policy) {
     std::printf(
         "%s: %llu sets, %llu decidable, %llu schedulable; unsafe yes %llu, false proofs %llu, short responses "
-        "%llu; unknown %llu, no without proof that is yes %llu\n",
+        "%llu; unknown %llu, no without proof that is yes %llu; %llu responses, %llu exact, not reached %llu\n",
         std::string(policy.name).c_str(), static_cast<unsigned long long>(sets),
         static_cast<unsigned long long>(decidable), static_cast<unsigned long long>(schedulable),
         static_cast<unsigned long long>(wrong["unsafe yes"]), static_cast<unsigned long long>(wrong["false proof"]),
         static_cast<unsigned long long>(wrong["short response"]), static_cast<unsigned long long>(unknown),
-        static_cast<unsigned long long>(safe_no));
+        static_cast<unsigned long long>(safe_no), static_cast<unsigned long long>(responses),
+        static_cast<unsigned long long>(exact), static_cast<unsigned long long>(wrong["response that is not reached"]));
   }
 };
 }  // namespace
 
 TEST_SUITE("graph/analysis/truth") {
-  TEST_CASE("no yes is unsafe, and no proof of a no is false") {
+  TEST_CASE("no yes is unsafe, no proof of a no is false, and a response that is exact is reached") {
     for (const Policy& policy : analysis::built_in_policies()) {
       Tally tally;
       for (std::uint64_t seed = 0; seed < count_of_judged(); ++seed)

@@ -31,6 +31,8 @@ std::vector<std::string> proposals(const std::string& file, const std::string& o
   return texts;
 }
 
+std::string first_of(const std::vector<std::string>& texts) { return texts.empty() ? "" : texts.front(); }
+
 bool proposes(const std::vector<std::string>& texts, const std::string& text) {
   return std::find(texts.begin(), texts.end(), text) != texts.end();
 }
@@ -91,7 +93,7 @@ tasks:
     text +=
         "  a: {type: Work, period: 10ms, wcet: 6ms, core: 0}\n  b: {type: Work, period: 10ms, wcet: 6ms, core: 0}\n";
     const auto texts = proposals(folder.write("t.yaml", text));
-    CHECK(texts.front() == "'core: 2' of 'a'");
+    CHECK(first_of(texts) == "'core: 2' of 'a'");
     const std::string two = folder.write("u.yaml", R"(graph: t
 platform: {cores: 3}
 tasks:
@@ -99,13 +101,13 @@ tasks:
   b: {type: Work, period: 10ms, wcet: 6ms, core: 0}
   c: {type: Work, period: 10ms, wcet: 6ms, core: 0}
 )");
-    CHECK(proposals(two).front() == "no 'core', so that check assigns them");
+    CHECK(first_of(proposals(two)) == "no 'core', so that check assigns them");
     // of many tasks what can't help is not looked for until there is no more effort
     std::string many = "graph: t\nplatform: {cores: 2}\ntasks:\n";
     for (int i = 0; i < 900; ++i)
       many += "  t" + std::to_string(i) + ": {type: Work, period: 10ms, wcet: " + (i < 2 ? "6ms" : "1us") +
               ", core: " + (i < 2 ? "0" : "1") + "}\n";
-    CHECK(proposals(folder.write("v.yaml", many)).front() == "'core: 1' of 't0'");
+    CHECK(first_of(proposals(folder.write("v.yaml", many))) == "'core: 1' of 't0'");
   }
 
   TEST_CASE("where no single change helps, two together are looked for") {

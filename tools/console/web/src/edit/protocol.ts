@@ -72,7 +72,7 @@ export interface Checked {
   limits_hold: boolean;
   reason: string;
   utilisation: number;
-  tasks: { name: string; slack_ns: number | null; response_ns: number | null; core: number | null }[];
+  tasks: { name: string; slack_ns: number | null; response_ns: number | null; response_exact: boolean | null; core: number | null }[];
   chains: { name: string; holds: boolean; max_reaction_ns: number; reaction_limit_ns: number | null }[];
 }
 export interface Verdict {
