@@ -37,16 +37,18 @@ void add_links(NamedList<LinkType>& links) {
     links.add(type());
 }
 
-std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph, const Registries& known, std::uint64_t seed,
-                                                     Problems& problems,
-                                                     std::vector<std::shared_ptr<const Source>>* files) {
-  return make_channels(graph, graph.distributers, known, seed, problems, files);
+std::vector<std::unique_ptr<ExternalSystem>> make_external_systems(const Graph& graph, const Registries& known,
+                                                                   std::uint64_t seed, Problems& problems,
+                                                                   std::vector<std::shared_ptr<const Source>>* files) {
+  return make_external_systems(graph, graph.distributers, known, seed, problems, files);
 }
 
-std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph, const std::vector<Distributer>& distributers,
-                                                     const Registries& known, std::uint64_t seed, Problems& problems,
-                                                     std::vector<std::shared_ptr<const Source>>* files) {
-  std::vector<std::unique_ptr<Channels>> all;
+std::vector<std::unique_ptr<ExternalSystem>> make_external_systems(const Graph& graph,
+                                                                   const std::vector<Distributer>& distributers,
+                                                                   const Registries& known, std::uint64_t seed,
+                                                                   Problems& problems,
+                                                                   std::vector<std::shared_ptr<const Source>>* files) {
+  std::vector<std::unique_ptr<ExternalSystem>> all;
   for (std::size_t i = 0; i < distributers.size(); ++i) {
     const Distributer& distributer = distributers[i];
     all.emplace_back();
@@ -61,7 +63,7 @@ std::vector<std::unique_ptr<Channels>> make_channels(const Graph& graph, const s
       problems.add(type->where,
                    request.subject() + " has type '" + type->text + "'" + did_you_mean(type->text, links) + can);
     else
-      all.back() = known.links.find(type->text)->make_channels(request, problems);
+      all.back() = known.links.find(type->text)->make_external_systems(request, problems);
   }
   return all;
 }

@@ -6,7 +6,7 @@
 namespace jarol {
 
 namespace analysis {
-struct Effort;
+struct Budget;
 struct Result;
 struct System;
 }  // namespace analysis
@@ -27,7 +27,7 @@ struct Policy {
   bool keeps_core = true;   // a task runs on one core always
   bool executed = false;    // by jarol run, on the real clock
   /// `whole`: with witness and responses.
-  analysis::Result (*check)(const analysis::System& system, bool whole, analysis::Effort& effort) = nullptr;
+  analysis::Result (*check)(const analysis::System& system, bool whole, analysis::Budget& budget) = nullptr;
 
   /// Names are unique in a registry.
   bool operator==(const Policy& other) const { return name == other.name; }

@@ -16,7 +16,7 @@ VehicleClass submarine() {
   made.make_telemetry = [](const Vehicle&, messages::Receiver& to) -> std::unique_ptr<messages::Receiver> {
     return std::make_unique<SubmarineTelemetry>(to);
   };
-  made.true_state = &messages::imc::SimulatedState::form;
+  made.true_state = &messages::imc::SimulatedState::descriptor;
   made.make_announcement = announcement_of;
   return made;
 }

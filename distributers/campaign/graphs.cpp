@@ -34,7 +34,7 @@ std::shared_ptr<const MeasuredGraph> Graphs::of(const Start& start) {
   // what two threads load at once is loaded twice, and nobody waits
   auto made = std::make_shared<const MeasuredGraph>(source_, changes);
   const std::lock_guard lock(mutex_);
-  if (others_.size() >= most_kept) others_.clear();
+  if (others_.size() >= max_kept) others_.clear();
   return others_.emplace(changes, std::move(made)).first->second;
 }
 

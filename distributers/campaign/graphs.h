@@ -40,7 +40,7 @@ class Graphs {
   std::shared_ptr<const MeasuredGraph> of(const Start& start);
 
  private:
-  static constexpr std::size_t most_kept = 64;
+  static constexpr std::size_t max_kept = 64;
 
   const GraphSource& source_;
   std::shared_ptr<const MeasuredGraph> base_;

@@ -20,7 +20,7 @@ std::string text_of(const SpecError& error) {
 }
 
 // What a campaign can't do with those channels; empty: it can run them.
-std::string wrong_with(const Graph& graph, const std::vector<std::unique_ptr<Channels>>& channels) {
+std::string wrong_with(const Graph& graph, const std::vector<std::unique_ptr<ExternalSystem>>& channels) {
   for (std::size_t i = 0; i < channels.size(); ++i)
     if (channels[i]->needs_real_clock() || channels[i]->link_report())
       return "distributer '" + graph.distributers[i].name +

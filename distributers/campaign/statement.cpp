@@ -10,7 +10,7 @@
 namespace jarol::campaign {
 namespace {
 
-constexpr std::size_t most_tried = 100;  // of a list
+constexpr std::size_t max_tried = 100;  // of a list
 
 // Values that runs can have: those that were written, and one within a range.
 std::vector<std::string> samples_of(const Variation& v) {
@@ -20,7 +20,7 @@ std::vector<std::string> samples_of(const Variation& v) {
       return {text(v.from), text(v.from + (v.to - v.from) * 0.3819660112501051), text(v.to)};
     case Variation::Kind::normal: return {text(v.from), text(v.from + v.to * normal_quantile(0.3819660112501051))};
     case Variation::Kind::list:
-      return {v.values.begin(), v.values.begin() + static_cast<std::ptrdiff_t>(std::min(v.values.size(), most_tried))};
+      return {v.values.begin(), v.values.begin() + static_cast<std::ptrdiff_t>(std::min(v.values.size(), max_tried))};
     case Variation::Kind::seeds: break;
   }
   return {};

@@ -53,8 +53,8 @@ class MetricFolder {
     ++made_.count;
     numbers_.push_back(number);
     // the first of equals
-    if (is_beyond(made_.least, number, std::less<>())) made_.least = Case{index, number};
-    if (is_beyond(made_.greatest, number, std::greater<>())) made_.greatest = Case{index, number};
+    if (is_beyond(made_.min, number, std::less<>())) made_.min = Case{index, number};
+    if (is_beyond(made_.max, number, std::greater<>())) made_.max = Case{index, number};
     if (!metric_.is_limit || condition_.kind != expect::Condition::Kind::metric) return;
     const std::optional<double> bad = badness(condition_, number);
     if (!bad || (made_.worst && rank_of(*bad) <= worst_)) return;
@@ -100,7 +100,7 @@ Summary summarise(const Results& results, const Measures& measures) {
   results.for_each([&](const Result& result) {
     ++summary.runs;
     ++summary.outcomes[static_cast<std::size_t>(result.outcome)];
-    if (result.outcome != Outcome::good && summary.not_good.size() < most_not_good) summary.not_good.push_back(result);
+    if (result.outcome != Outcome::good && summary.not_good.size() < max_not_good) summary.not_good.push_back(result);
     for (std::size_t i = 0; i < folders.size(); ++i) folders[i].add(result.index, result.metrics[i]);
   });
   for (MetricFolder& folder : folders) summary.metrics.push_back(folder.finish());

@@ -21,7 +21,7 @@ struct MetricSummary {
   std::uint64_t missing = 0;  // runs that have none
   double mean = 0, deviation = 0;
   std::array<double, 5> percentiles{};           // 5, 25, 50, 75, 95: a number that a run has, by nearest rank
-  std::optional<Case> least{}, greatest{};       // of all numbers
+  std::optional<Case> min{}, max{};              // of all numbers
   std::optional<Case> worst{};                   // by its limit
   std::map<std::string, std::uint64_t> words{};  // of what is no number: runs that have each
 };
@@ -35,7 +35,7 @@ struct Summary {
 };
 
 inline constexpr std::array<int, 5> percents{5, 25, 50, 75, 95};
-inline constexpr std::size_t most_not_good = 10;
+inline constexpr std::size_t max_not_good = 10;
 
 /// Of all that is in the results.
 Summary summarise(const Results& results, const Measures& measures);

@@ -83,8 +83,8 @@ Holder* Guardian::add(const messages::MessageSet& set, const std::string& text,
                       std::span<const std::vector<std::byte>> packets, const GuardianKey* key) {
   const auto link = static_cast<std::uint32_t>(holders_.size());
   const Stamping stamping = stamping_of(set);
-  const auto form = bytes_of(stamping), name = std::as_bytes(std::span(text));
-  std::vector<std::byte> words(form.begin(), form.end());
+  const auto descriptor = bytes_of(stamping), name = std::as_bytes(std::span(text));
+  std::vector<std::byte> words(descriptor.begin(), descriptor.end());
   words.insert(words.end(), name.begin(), name.end());
   said_all_ &= say(socket_.get(), {Word::link, link}, words);
   if (key != nullptr) said_all_ &= say(socket_.get(), {Word::key, link}, bytes_of(*key));

@@ -11,9 +11,9 @@ namespace jarol::distributers {
 Stamping stamping_of(const messages::MessageSet& set) {
   Stamping stamping{.checksum = set.checksum, .order = set.order};
   if (set.checksum != messages::Checksum::none) stamping.checksum_from = static_cast<std::uint32_t>(set.checksum_from);
-  const messages::FieldForm* const time = find_timestamp(set);
+  const messages::FieldDescriptor* const time = find_timestamp(set);
   std::uint32_t offset = 0;  // the header is packed, and of fixed size
-  for (const messages::FieldForm& field : set.header->fields) {
+  for (const messages::FieldDescriptor& field : set.header->fields) {
     if (&field == time) stamping.time_at = offset;
     offset += static_cast<std::uint32_t>(messages::size_of(field.wire));
   }

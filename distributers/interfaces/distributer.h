@@ -85,7 +85,7 @@ constexpr Field<Member> channel(std::string_view text) {
 template <class M>
 concept SomeMessage = requires {
   { M::message_id } -> std::convertible_to<std::uint32_t>;
-  { &M::form } -> std::same_as<const messages::MessageForm*>;
+  { &M::descriptor } -> std::same_as<const messages::MessageDescriptor*>;
 };
 
 template <class M, class F>

@@ -5,7 +5,7 @@
 
 namespace jarol::vehicles {
 
-/// A vehicle's motion has left what numbers can tell; it can't be stepped any more.
+/// A vehicle's motion has left what numbers can express; it can't be stepped any more.
 class NoState : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -32,8 +32,8 @@ class Typed final : public AnyDistributer {
   const messages::MessageSet& message_set() const override { return D::message_set(); }
   void receive(messages::MessageRef message) override {
     if constexpr (detail::has_any_message<D>) distributer_.any_message();
-    for (auto handler = find_handler(message.form->id); handler->id == message.form->id; ++handler)
-      if (handler->form == message.form) return handler->call(distributer_, message);
+    for (auto handler = find_handler(message.descriptor->id); handler->id == message.descriptor->id; ++handler)
+      if (handler->descriptor == message.descriptor) return handler->call(distributer_, message);
   }
   void peer_changed() override {
     if constexpr (detail::has_peer_changed<D>) distributer_.peer_changed();
@@ -138,7 +138,7 @@ class Typed final : public AnyDistributer {
   using Call = void (*)(D&, const messages::MessageRef&);
   struct Handler {
     std::uint32_t id = 0;
-    const messages::MessageForm* form = nullptr;
+    const messages::MessageDescriptor* descriptor = nullptr;
     Call call = nullptr;
   };
 
@@ -164,7 +164,7 @@ class Typed final : public AnyDistributer {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       const auto add = [&]<std::size_t J>(std::integral_constant<std::size_t, J>) {
         if constexpr (detail::EntryOf<Entry<J>>::kind == detail::EntryKind::on)
-          all[count++] = {Entry<J>::Message::message_id, &Entry<J>::Message::form, &call<J>};
+          all[count++] = {Entry<J>::Message::message_id, &Entry<J>::Message::descriptor, &call<J>};
       };
       (add(std::integral_constant<std::size_t, I>{}), ...);
     }

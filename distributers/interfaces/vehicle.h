@@ -46,9 +46,9 @@ struct Mishap {
 };
 
 /// What stands at a whole number of its own grid steps since the start. Who looks, or how often, changes nothing.
-class Stepped {
+class SteppedVehicle {
  public:
-  virtual ~Stepped() = default;
+  virtual ~SteppedVehicle() = default;
 
   /// Length of one step; instants at which anything touches the vehicle are multiples of it.
   virtual std::chrono::nanoseconds grid() const = 0;
@@ -59,7 +59,7 @@ class Stepped {
   /// Advances by one grid step with the commands it holds. Throws NoState if its state is not finite then.
   virtual void step() = 0;
 
-  /// Sends what its sensors tell at the present instant.
+  /// Sends what its sensors report at the present instant.
   virtual void sense(messages::Receiver& receiver) const = 0;
 
   /// Describes the true values, a struct of numbers; null: they are not known here.
@@ -75,7 +75,7 @@ class Stepped {
 };
 
 /// A simulated vehicle in this process.
-class Vehicle : public Stepped {
+class Vehicle : public SteppedVehicle {
  public:
   /// The true state.
   virtual VehicleState state() const = 0;
@@ -86,13 +86,13 @@ class Vehicle : public Stepped {
   /// Gives all commands at once: a value of its class' type of inputs.
   virtual void command(const void* inputs) = 0;
 
-  /// What its actuators do and its sensors told last: a value of its class' type of outputs. NaN: never told.
+  /// What its actuators do and its sensors reported last: a value of its class' type of outputs. NaN: never reported.
   virtual const void* outputs() const = 0;
 };
 
 /// What a number may be, both ends included.
 struct Range {
-  double least = 0;
+  double min = 0;
   double greatest = 0;
 };
 
@@ -108,9 +108,9 @@ struct VehicleClass {
   const Type* truth = nullptr;    // of its true values, as operators name them
   // from a value of the type of parameters; throws std::runtime_error if there can be no such vehicle
   std::unique_ptr<Vehicle> (*make)(const void* parameters, std::uint64_t seed) = nullptr;
-  // passes on what the vehicle tells and adds what a peer expects beside it; null: nothing
+  // passes on what the vehicle reports and adds what a peer expects beside it; null: nothing
   std::unique_ptr<messages::Receiver> (*make_telemetry)(const Vehicle& vehicle, messages::Receiver& to) = nullptr;
-  const messages::MessageForm* true_state = nullptr;  // the message that tells it; null: there is none
+  const messages::MessageDescriptor* true_state = nullptr;  // the message that reports it; null: there is none
   // what tells those who look for systems that it can be reached at an address, as in "udp://127.0.0.1:6002"; null:
   // nobody looks for it
   messages::Message (*make_announcement)(const Vehicle& vehicle, const std::string& address) = nullptr;

@@ -37,9 +37,9 @@ javiator::MotorOffsets effort(const std::array<double, 4>& signals) {
           to_wire((front + right + rear + left) / 4)};
 }
 
-// all of them are told as thousandths
+// all of them are reported as thousandths
 template <class Params>
-tasks::ToldGains gains_of(const Params& p) {
+tasks::ReceivedGains gains_of(const Params& p) {
   return {{1e-3 * p.kp, 1e-3 * p.ki, 1e-3 * p.kd, 1e-3 * p.kdd}, true};
 }
 

@@ -33,9 +33,9 @@ double read_line(std::istream& file, const std::string& name, const std::string&
 
 Trim read_trim(const std::string& path) {
   if (!std::filesystem::exists(path)) return {};
-  constexpr std::size_t most_bytes = 4096;
-  const bool may_be_one = std::filesystem::is_regular_file(path) && std::filesystem::file_size(path) <= most_bytes;
-  std::istringstream file(may_be_one ? read_source(path, most_bytes)->text : "");
+  constexpr std::size_t max_bytes = 4096;
+  const bool may_be_one = std::filesystem::is_regular_file(path) && std::filesystem::file_size(path) <= max_bytes;
+  std::istringstream file(may_be_one ? read_source(path, max_bytes)->text : "");
   Trim trim;
   trim.roll = read_line(file, "roll", path);
   trim.pitch = read_line(file, "pitch", path);

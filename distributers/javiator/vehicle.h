@@ -17,7 +17,7 @@ class JaviatorVehicle {
 
   struct In {
     Newest<tasks::JaviatorSensors> sensors;
-    static constexpr auto fields() { return describe(channel<&In::sensors>("what its sensors tell")); }
+    static constexpr auto fields() { return describe(channel<&In::sensors>("what its sensors report")); }
   };
   struct Out {
     tasks::MotorCommand motors;

@@ -20,7 +20,7 @@ class Entities {
   /// Who sent a message, by the header of its packet.
   static std::uint8_t sender_of(const messages::MessageRef& message);
 
-  /// As EntityInfo and EntityList tell.
+  /// As EntityInfo and EntityList report.
   void note(const messages::imc::EntityInfo& info);
   void note(const messages::imc::EntityList& list);
   void forget() { labels_ = {}; }

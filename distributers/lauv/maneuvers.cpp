@@ -16,9 +16,9 @@ namespace {
 using tasks::Course;
 using tasks::Leg;
 
-constexpr double furthest = 100e3;   // m, from the origin: the ground is flat there
-constexpr double least_step = 1e-3;  // m across, of a curve of rows
-constexpr std::size_t most_legs = 1000;
+constexpr double furthest = 100e3;  // m, from the origin: the ground is flat there
+constexpr double min_step = 1e-3;   // m across, of a curve of rows
+constexpr std::size_t max_legs = 1000;
 
 [[noreturn]] void refuse(const std::string& text) { throw std::invalid_argument(text); }
 
@@ -92,7 +92,7 @@ Legs legs_of(const imc::Rows& m, const Origin& origin) {
                across = along + side * (pi / 2 + finite(m.cross_angle, "cross_angle"));
   Legs legs;
   const auto go_to = [&](double a, double b) {
-    if (legs.size() == most_legs) refuse(fmt::format("more than {} lines", most_legs));
+    if (legs.size() == max_legs) refuse(fmt::format("more than {} lines", max_legs));
     Leg leg = corner;
     leg.north += a * std::cos(along) + b * std::cos(across);
     leg.east += a * std::sin(along) + b * std::sin(across);
@@ -107,7 +107,7 @@ Legs legs_of(const imc::Rows& m, const Origin& origin) {
     const double far = away ? length : 0, beyond = away ? length + out : -out;
     go_to(beyond, b);
     const double across_by = step * (away ? share : 2 - share);
-    const bool is_curve = std::abs(across_by) > least_step;
+    const bool is_curve = std::abs(across_by) > min_step;
     if (is_curve && curves-- < 1) return legs;
     b += across_by;
     if (is_curve || !square) go_to(square ? beyond : far, b);
@@ -236,11 +236,11 @@ Maneuver make_maneuver(const messages::InlineMessage& message, const Origin& ori
   messages::Message opened;
   std::string why;
   if (!messages::take_inline(imc::message_set(), message, opened, &why)) refuse("it can't be read: " + why);
-  if (opened.form() == nullptr) refuse("there is no maneuver in it");
+  if (opened.descriptor() == nullptr) refuse("there is no maneuver in it");
   Maneuver made{.type = message.id};
   if (!take_any<imc::Goto, imc::FollowPath, imc::Rows, imc::Loiter, imc::StationKeeping, imc::YoYo, imc::Elevator,
                 imc::PopUp, imc::IdleManeuver, imc::Teleoperation, imc::FollowReference>(opened, origin, made))
-    refuse(fmt::format("{} is not flown here", opened.form()->name));
+    refuse(fmt::format("{} is not flown here", opened.descriptor()->name));
   return made;
 }
 

@@ -182,7 +182,7 @@ class LauvOperator {
   Duration heard_{};
   std::uint32_t stops_ = 0;  // demanded by the operator
   tasks::Alarm alarm_ = tasks::Alarm::none;
-  double heading_ = 0;        // of the vehicle, as told last
+  double heading_ = 0;        // of the vehicle, as reported last
   tasks::Motion motion_;      // likewise
   bool motion_sent_ = false;  // by channel `motion`, which has more than `report`
   bool mode_changed_ = true;

@@ -61,7 +61,7 @@ std::string LauvOperator::load_plan(const imc::PlanControl& request, std::uint16
   std::string why;
   if (!messages::take_inline(imc::message_set(), request.arg, opened, &why)) return "the plan can't be read: " + why;
   const auto* plan = opened.as<imc::PlanSpecification>();
-  if (plan == nullptr) return fmt::format("{} is no plan", opened.form()->name);
+  if (plan == nullptr) return fmt::format("{} is no plan", opened.descriptor()->name);
   try {
     static_cast<void>(make_plan(*plan, origin()));
   } catch (const std::invalid_argument& error) { return error.what(); }

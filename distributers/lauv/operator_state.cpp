@@ -14,7 +14,7 @@ using tasks::Turn;
 
 constexpr std::string_view actions_known =
     "Exit=Button;Accelerate=Button;Decelerate=Button;Stop=Button;Heading=Axis;Thrust=Axis;Ranges=Range127";
-constexpr std::size_t most_kept = 100, longest_line = 500;  // of the log book: all fit into one answer
+constexpr std::size_t max_kept = 100, longest_line = 500;  // of the log book: all fit into one answer
 
 // From an entity, to all.
 template <class M>
@@ -34,7 +34,7 @@ void LauvOperator::log(std::uint8_t type, const std::string& text) {
   entry.context = "operator";
   entry.text = std::string_view(text).substr(0, longest_line);
   answer(entry, operator_entity);
-  if (log_book_.size() == most_kept) log_book_.erase(log_book_.begin());
+  if (log_book_.size() == max_kept) log_book_.erase(log_book_.begin());
   log_book_.push_back(entry);
 }
 

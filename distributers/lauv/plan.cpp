@@ -12,7 +12,7 @@ namespace jarol::distributers {
 namespace imc = messages::imc;
 namespace {
 
-constexpr std::size_t most_maneuvers = 1000;
+constexpr std::size_t max_maneuvers = 1000;
 
 [[noreturn]] void refuse_plan(const std::string& text) { throw std::invalid_argument(text); }
 
@@ -26,7 +26,7 @@ std::vector<M> read_all(const Sequence<messages::InlineMessage>& list, const cha
     if (!messages::take_inline(imc::message_set(), each, message, &why))
       refuse_plan(fmt::format("{} {} can't be read: {}", what, all.size() + 1, why));
     const M* m = message.as<M>();
-    if (m == nullptr) refuse_plan(fmt::format("{} {} is no {}", what, all.size() + 1, M::form.name));
+    if (m == nullptr) refuse_plan(fmt::format("{} {} is no {}", what, all.size() + 1, M::descriptor.name));
     all.push_back(*m);
   }
   return all;
@@ -79,8 +79,8 @@ void connect(Plan& plan, const imc::PlanTransition& transition) {
 Plan make_plan(const imc::PlanSpecification& plan, const Origin& origin) {
   Plan made{.name = std::string(plan.plan_id.view())};
   if (plan.maneuvers.empty()) refuse_plan("the plan has no maneuver");
-  if (plan.maneuvers.size() > most_maneuvers)
-    refuse_plan(fmt::format("the plan has more than {} maneuvers", most_maneuvers));
+  if (plan.maneuvers.size() > max_maneuvers)
+    refuse_plan(fmt::format("the plan has more than {} maneuvers", max_maneuvers));
   for (const auto& each : read_all<imc::PlanManeuver>(plan.maneuvers, "maneuver")) {
     const std::string name(each.maneuver_id.view());
     if (std::any_of(made.maneuvers.begin(), made.maneuvers.end(), [&](const Maneuver& m) { return m.name == name; }))

@@ -8,7 +8,7 @@ namespace jarol::distributers {
 namespace imc = messages::imc;
 namespace {
 
-constexpr std::size_t most_plans = 1000;
+constexpr std::size_t max_plans = 1000;
 
 std::string lacks(std::string_view name) { return fmt::format("no plan '{}' is stored here", name); }
 
@@ -28,8 +28,8 @@ imc::PlanDB PlanStore::answer(const imc::PlanDB& request, std::uint16_t system, 
 std::string PlanStore::set(std::string_view name, const imc::PlanSpecification& plan, std::uint16_t system,
                            double time) {
   if (name.empty()) return "the plan has no name";
-  if (plans_.size() == most_plans && plans_.find(name) == plans_.end())
-    return fmt::format("{} plans are stored; no more are kept", most_plans);
+  if (plans_.size() == max_plans && plans_.find(name) == plans_.end())
+    return fmt::format("{} plans are stored; no more are kept", max_plans);
   messages::InlineMessage written;
   std::string why;
   if (!messages::put_inline(messages::refer_to(plan), written, &why)) return "the plan can't be stored: " + why;

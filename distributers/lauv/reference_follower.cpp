@@ -23,7 +23,7 @@ template <class M>
 M read(const messages::InlineMessage& field, const char* name) {
   messages::Message message;
   if (!messages::take_inline(imc::message_set(), field, message) || message.as<M>() == nullptr)
-    throw std::invalid_argument(std::string("the reference's ") + name + " is no " + std::string(M::form.name));
+    throw std::invalid_argument(std::string("the reference's ") + name + " is no " + std::string(M::descriptor.name));
   return *message.as<M>();
 }
 

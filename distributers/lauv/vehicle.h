@@ -76,7 +76,7 @@ class LauvVehicle {
     Newest<tasks::Servos> servos;
     static constexpr auto fields() {
       return describe(channel<&In::motion>("position, attitude and velocities"),
-                      channel<&In::instruments>("what the instruments tell"),
+                      channel<&In::instruments>("what the instruments report"),
                       channel<&In::servos>("where the fins are, and where they were sent"));
     }
   };

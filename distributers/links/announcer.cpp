@@ -8,7 +8,7 @@
 namespace jarol::distributers {
 namespace {
 
-constexpr int most_addresses = 64;
+constexpr int max_addresses = 64;
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(' ');
@@ -22,9 +22,9 @@ void add_addresses(const std::string& text, std::vector<Address>& to) {
   if (dash == std::string::npos) return;
   const std::string host = colon == std::string::npos ? "" : text.substr(0, colon + 1);
   const int first = to.back().port(), last = Address::parse(host + text.substr(dash + 1)).port();
-  if (last < first || last - first >= most_addresses)
+  if (last < first || last - first >= max_addresses)
     throw std::invalid_argument("'" + text + "' is no range of ports; write the first and the last of no more than " +
-                                std::to_string(most_addresses));
+                                std::to_string(max_addresses));
   for (int port = first + 1; port <= last; ++port) to.push_back(Address::parse(host + std::to_string(port)));
 }
 

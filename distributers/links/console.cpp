@@ -10,8 +10,8 @@ namespace jarol::distributers {
 ConsolePort::ConsolePort(const messages::MessageSet& set)
     : set_(set),
       header_(*set.header),
-      port_(most_packets, longest_packet(set)),
-      answers_(most_packets, longest_packet(set)),
+      port_(max_packets, longest_packet(set)),
+      answers_(max_packets, longest_packet(set)),
       answers_read_{std::vector<std::byte>(longest_packet(set)), messages::PacketReader(set)},
       read_{std::vector<std::byte>(longest_packet(set)), messages::PacketReader(set)} {}
 
@@ -42,20 +42,20 @@ void ConsolePort::read_all(PacketPort& port, Reading& reading, messages::Receive
   for (std::size_t left = port.capacity(); left > 0; --left) {
     const std::optional<std::size_t> size = port.read(reading.room);
     if (!size) return;
-    if (reading.reader.read(std::span(reading.room).first(*size)) == messages::Flaw::none)
+    if (reading.reader.read(std::span(reading.room).first(*size)) == messages::PacketError::none)
       receiver.receive(reading.reader.message());
   }
 }
 
-ConsoleChannels::ConsoleChannels(std::unique_ptr<AnyDistributer> distributer)
+ConsoleSystem::ConsoleSystem(std::unique_ptr<AnyDistributer> distributer)
     : distributer_(std::move(distributer)), port_(std::make_shared<ConsolePort>(distributer_->message_set())) {}
 
-void ConsoleChannels::reach(Duration instant) {
+void ConsoleSystem::reach(Duration instant) {
   port_->receive(*distributer_);
   distributer_->reach(instant, answers_);
 }
 
-std::optional<LinkReport> ConsoleChannels::link_report() const {
+std::optional<LinkReport> ConsoleSystem::link_report() const {
   LinkReport report;
   report.link = "console";
   report.heard = port_->given();
@@ -71,9 +71,9 @@ LinkType console_link() {
   struct ConsoleSpec {};
   LinkType type = link_type<ConsoleSpec>(
       "console", "an operator at the page of this run's console", {},
-      [](const ConsoleSpec&, const LinkRequest& request, Problems& problems) -> std::unique_ptr<Channels> {
+      [](const ConsoleSpec&, const LinkRequest& request, Problems& problems) -> std::unique_ptr<ExternalSystem> {
         try {
-          return std::make_unique<ConsoleChannels>(request.make_distributer());
+          return std::make_unique<ConsoleSystem>(request.make_distributer());
         } catch (const std::invalid_argument& error) {
           problems.add(request.yaml().where, "distributer '" + request.whose().name + "': " + error.what());
           return nullptr;

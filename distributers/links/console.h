@@ -9,7 +9,7 @@
 
 #include "distributers/interfaces/any_distributer.h"
 #include "distributers/messages/packet.h"
-#include "runtime/channels.h"
+#include "runtime/external_system.h"
 #include "runtime/jarol/port.h"
 
 namespace jarol::distributers {
@@ -42,7 +42,7 @@ class ConsolePort {
   std::uint64_t answered() const { return answered_.load(std::memory_order_relaxed); }
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
-  static constexpr std::size_t most_packets = 64;  // on their way, each way
+  static constexpr std::size_t max_packets = 64;  // on their way, each way
 
  private:
   const messages::MessageSet& set_;
@@ -62,9 +62,9 @@ class ConsolePort {
   Reading read_;
 };
 
-class ConsoleChannels : public Channels {
+class ConsoleSystem : public ExternalSystem {
  public:
-  explicit ConsoleChannels(std::unique_ptr<AnyDistributer> distributer);
+  explicit ConsoleSystem(std::unique_ptr<AnyDistributer> distributer);
 
   const std::shared_ptr<ConsolePort>& port() const { return port_; }
 

@@ -45,7 +45,7 @@ Link::Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set
   packet_.reserve(longest_);
   room_.resize(Translator::peer_size + longest_);
   for (const auto& [name, value] : options.header) {
-    const messages::FieldForm& field = find_header_field(*set.header, name, value);
+    const messages::FieldDescriptor& field = find_header_field(*set.header, name, value);
     std::memcpy(static_cast<std::byte*>(header_.value()) + field.offset, &value, size_of(field.wire));
   }
 }
@@ -95,7 +95,7 @@ void Link::receive(messages::Receiver& receiver) {
     const auto length = std::visit(read, input_);
     if (!length) return;
     const auto packet = std::span<const std::byte>(room_).first(*length).subspan(Translator::peer_size);
-    if (reader_.read(packet) != messages::Flaw::none) continue;  // it was valid when it arrived
+    if (reader_.read(packet) != messages::PacketError::none) continue;  // it was valid when it arrived
     std::memcpy(&peer_, room_.data(), Translator::peer_size);
     receiver.receive(reader_.message());
   }
@@ -104,7 +104,7 @@ void Link::receive(messages::Receiver& receiver) {
 // What the header of a message leaves as it is by default, the link says.
 messages::Message& Link::header_of(messages::MessageRef message) {
   if (message.header == nullptr) return header_;
-  for (const messages::FieldForm& field : set_.header->fields) {
+  for (const messages::FieldDescriptor& field : set_.header->fields) {
     const auto at = [&](const void* header) { return static_cast<const std::byte*>(header) + field.offset; };
     const std::size_t size = size_of(field.wire);
     const bool its_own = std::memcmp(at(message.header), at(default_header_.value()), size) != 0;

@@ -75,10 +75,10 @@ class Link {
 
   // of the thread that sends and receives
   messages::PacketReader reader_;
-  messages::Message header_;              // what the link says of all that it sends
-  messages::Message default_header_;      // of the set
-  messages::Message own_header_;          // of a message that says something itself
-  const messages::FieldForm* timestamp_;  // of the header
+  messages::Message header_;                    // what the link says of all that it sends
+  messages::Message default_header_;            // of the set
+  messages::Message own_header_;                // of a message that says something itself
+  const messages::FieldDescriptor* timestamp_;  // of the header
   std::vector<std::byte> packet_, room_;
   std::uint32_t peer_ = 0;
   std::uint64_t given_ = 0;

@@ -11,7 +11,7 @@
 #include "graph/language/key.h"
 #include "graph/model/graph.h"
 #include "graph/named_list.h"
-#include "runtime/channels.h"
+#include "runtime/external_system.h"
 
 namespace jarol::distributers {
 
@@ -52,7 +52,8 @@ struct LinkType {
   bool without_messages = false;
 
   /// What is wrong goes to `problems`, and then there are no channels.
-  std::function<std::unique_ptr<Channels>(const LinkRequest& request, Problems& problems)> make_channels{};
+  std::function<std::unique_ptr<ExternalSystem>(const LinkRequest& request, Problems& problems)>
+      make_external_systems{};
 
   /// The link alone, for packets of that set; `subject` is what messages call it. Of those types that carry packets in
   /// real time; others have none.
@@ -74,7 +75,8 @@ LinkType link_type(std::string name, std::string summary, std::vector<Key<S>> ow
   LinkType type{std::move(name), summary};
   const std::vector<Key<S>> keys = with_type_key(std::move(summary), std::move(own_keys));
   type.keys.assign(keys.begin(), keys.end());
-  type.make_channels = [keys, make](const LinkRequest& request, Problems& problems) -> std::unique_ptr<Channels> {
+  type.make_external_systems = [keys, make](const LinkRequest& request,
+                                            Problems& problems) -> std::unique_ptr<ExternalSystem> {
     S spec;
     read_keys(request.yaml(), keys, spec, request.subject(), problems);
     return make(spec, request, problems);

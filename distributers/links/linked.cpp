@@ -2,37 +2,37 @@
 
 namespace jarol::distributers {
 
-LinkedChannels::LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<AnyDistributer> distributer)
+LinkedSystem::LinkedSystem(std::unique_ptr<Link> link, std::unique_ptr<AnyDistributer> distributer)
     : link_(std::move(link)),
       distributer_(std::move(distributer)),
       from_peer_(*link_, *distributer_),
       to_link_(*link_),
       to_all_(*link_) {}
 
-void LinkedChannels::FromPeer::receive(messages::MessageRef message) {
+void LinkedSystem::FromPeer::receive(messages::MessageRef message) {
   if (link.peer() != peer) distributer.peer_changed();
   peer = link.peer();
   distributer.receive(message);
 }
 
-void LinkedChannels::begin() {
+void LinkedSystem::begin() {
   link_->connect();
   distributer_->listen_at(link_->transport().address());
 }
 
-void LinkedChannels::finish() {
+void LinkedSystem::finish() {
   link_->disconnect();
   distributer_->finish();
 }
 
-void LinkedChannels::reach(Duration instant) {
+void LinkedSystem::reach(Duration instant) {
   link_->receive(from_peer_);
   distributer_->reach(instant, to_link_);
   if (link_->announces()) distributer_->announce(instant, to_all_);
   link_->flush();
 }
 
-void LinkedChannels::hand_over(std::size_t channel, const void* value) {
+void LinkedSystem::hand_over(std::size_t channel, const void* value) {
   distributer_->hand_over(channel, value, to_link_);
   link_->flush();
 }

@@ -8,9 +8,9 @@
 
 namespace jarol::distributers {
 
-class LinkedChannels : public Channels {
+class LinkedSystem : public ExternalSystem {
  public:
-  LinkedChannels(std::unique_ptr<Link> link, std::unique_ptr<AnyDistributer> distributer);
+  LinkedSystem(std::unique_ptr<Link> link, std::unique_ptr<AnyDistributer> distributer);
 
   Link& link() { return *link_; }
   const Link& link() const { return *link_; }

@@ -15,7 +15,7 @@ constexpr std::size_t longest_mishap = 200;
 }  // namespace
 
 // The vehicle as its runner sees it: commands and steps go out together with the next look at its sensors.
-class RemoteVehicle : public vehicles::Stepped {
+class RemoteVehicle : public vehicles::SteppedVehicle {
  public:
   RemoteVehicle(FrameStream stream, Duration grid, const messages::MessageSet& set)
       : stream_(std::move(stream)), grid_(grid), putter_(set, stream_), taker_(set) {}
@@ -56,17 +56,17 @@ class RemoteVehicle : public vehicles::Stepped {
   mutable Taker taker_;
 };
 
-LockstepChannels::LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<AnyDistributer> distributer,
-                                   CheckGrid check_grid, LockstepOptions options)
+LockstepSystem::LockstepSystem(const Address& peer, std::uint64_t seed, std::unique_ptr<AnyDistributer> distributer,
+                               CheckGrid check_grid, LockstepOptions options)
     : peer_(peer),
       seed_(seed),
       distributer_(std::move(distributer)),
       check_grid_(std::move(check_grid)),
       options_(std::move(options)) {}
 
-LockstepChannels::~LockstepChannels() = default;
+LockstepSystem::~LockstepSystem() = default;
 
-void LockstepChannels::begin() {
+void LockstepSystem::begin() {
   FrameStream stream = FrameStream::connect(peer_, options_.patience);
   if (options_.key) stream.secure(*options_.key, distributer_->message_set().name);
   const FrameStream::Frame welcome = stream.read();
@@ -85,16 +85,16 @@ void LockstepChannels::begin() {
   stream.put(FrameKind::begin, numbers({seed_}));
   auto vehicle = std::make_unique<RemoteVehicle>(std::move(stream), grid, distributer_->message_set());
   vehicle_ = vehicle.get();
-  simulation_ = std::make_unique<SimulationChannels>(std::move(vehicle), std::move(distributer_));
+  simulation_ = std::make_unique<SimulatedSystem>(std::move(vehicle), std::move(distributer_));
 }
 
-void LockstepChannels::finish() {
+void LockstepSystem::finish() {
   if (simulation_) mishap_ = simulation_->mishap();
   vehicle_ = nullptr;
   simulation_.reset();
 }
 
-void LockstepChannels::flush() {
+void LockstepSystem::flush() {
   if (vehicle_ != nullptr) vehicle_->flush();
 }
 

@@ -27,11 +27,11 @@ struct LockstepOptions {
 
 class RemoteVehicle;
 
-class LockstepChannels : public Channels {
+class LockstepSystem : public ExternalSystem {
  public:
-  LockstepChannels(const Address& peer, std::uint64_t seed, std::unique_ptr<AnyDistributer> distributer,
-                   CheckGrid check_grid, LockstepOptions options = {});
-  ~LockstepChannels() override;
+  LockstepSystem(const Address& peer, std::uint64_t seed, std::unique_ptr<AnyDistributer> distributer,
+                 CheckGrid check_grid, LockstepOptions options = {});
+  ~LockstepSystem() override;
 
   /// Connects, and has the vehicle begin. Throws FrameError, also if it is not one for this distributer and grid.
   void begin() override;
@@ -53,7 +53,7 @@ class LockstepChannels : public Channels {
   CheckGrid check_grid_;
   LockstepOptions options_;
   RemoteVehicle* vehicle_ = nullptr;  // the simulation's, while it runs
-  std::unique_ptr<SimulationChannels> simulation_;
+  std::unique_ptr<SimulatedSystem> simulation_;
   std::string mishap_;  // of the vehicle, when it is left
 };
 

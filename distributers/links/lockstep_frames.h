@@ -42,7 +42,7 @@ class Taker {
  public:
   explicit Taker(const messages::MessageSet& set) : reader_(set) {}
   messages::MessageRef message(const FrameStream::Frame& frame) {
-    if (reader_.read(frame.bytes) != messages::Flaw::none)
+    if (reader_.read(frame.bytes) != messages::PacketError::none)
       throw FrameError("a frame of the lockstep protocol has a message that can't be read");
     return reader_.message();
   }

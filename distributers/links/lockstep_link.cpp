@@ -9,13 +9,13 @@ struct LockstepSpec {
   Maybe<std::string> peer, key;
 };
 
-std::unique_ptr<Channels> make_lockstep_channels(const LockstepSpec& spec, const LinkRequest& request,
-                                                 Problems& problems) {
+std::unique_ptr<ExternalSystem> make_lockstep_channels(const LockstepSpec& spec, const LinkRequest& request,
+                                                       Problems& problems) {
   if (!spec.peer) return nullptr;
   LockstepOptions options;
   if (spec.key && !(options.key = read_key_file(*spec.key, problems))) return nullptr;
   try {
-    return std::make_unique<LockstepChannels>(
+    return std::make_unique<LockstepSystem>(
         Address::parse(spec.peer->value), request.seed, request.make_distributer(),
         [&graph = request.graph, index = request.distributer](Duration grid) {
           const std::vector<Problem> wrong = off_grid(graph, index, grid);

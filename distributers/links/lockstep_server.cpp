@@ -74,7 +74,7 @@ class Callers {
     FrameStream stream;
     Clock::time_point since;
   };
-  static constexpr std::size_t most = 16;
+  static constexpr std::size_t max = 16;
   static constexpr std::chrono::milliseconds look{100};
 
   std::optional<FrameStream> accept() const {
@@ -92,7 +92,7 @@ class Callers {
     } catch (const FrameError&) {
       return;  // it has gone by itself
     }
-    if (callers_.size() == most) {
+    if (callers_.size() == max) {
       service_.note(callers_.front().stream.who() + " has said nothing and makes room for another");
       callers_.erase(callers_.begin());
     }

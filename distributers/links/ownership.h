@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "distributers/links/address.h"
-#include "runtime/channels.h"
+#include "runtime/external_system.h"
 
 namespace jarol::distributers {
 

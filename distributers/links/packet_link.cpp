@@ -15,7 +15,7 @@ struct Words<distributers::PortKind> {
 namespace distributers {
 namespace {
 
-constexpr std::int64_t most_packets = 4096;
+constexpr std::int64_t max_packets = 4096;
 
 struct PortSpec {
   Maybe<PortKind> kind;
@@ -26,7 +26,7 @@ const std::vector<Key<PortSpec>>& port_keys() {
   static const std::vector<Key<PortSpec>> keys{
       key<&PortSpec::kind>("kind", Form::choice, "push: the newest overwrites the oldest; plain: what is full refuses"),
       key<&PortSpec::packets>("packets", Form::integer, "how many it holds; default 256 in, 64 out")
-          .within(1, most_packets),
+          .within(1, max_packets),
   };
   return keys;
 }
@@ -37,8 +37,8 @@ void read_port(const Maybe<Yaml>& yaml, PortOptions& to, const std::string& subj
   read_keys(yaml->value, port_keys(), spec, subject, problems);
   if (spec.kind) to.kind = spec.kind->value;
   if (!spec.packets) return;
-  if (spec.packets->value < 1 || spec.packets->value > most_packets)
-    problems.add(spec.packets->where, subject + " holds from 1 to " + std::to_string(most_packets) + " packets, not " +
+  if (spec.packets->value < 1 || spec.packets->value > max_packets)
+    problems.add(spec.packets->where, subject + " holds from 1 to " + std::to_string(max_packets) + " packets, not " +
                                           std::to_string(spec.packets->value));
   else
     to.packets = static_cast<std::size_t>(spec.packets->value);
@@ -102,13 +102,14 @@ std::unique_ptr<Link> make_packet_link(std::unique_ptr<Transport> transport, con
   }
 }
 
-std::unique_ptr<Channels> make_packet_channels(const LinkType& type, const LinkRequest& request, Problems& problems) {
+std::unique_ptr<ExternalSystem> make_packet_channels(const LinkType& type, const LinkRequest& request,
+                                                     Problems& problems) {
   try {
     auto distributer = request.make_distributer();
     const messages::MessageSet& set = distributer->message_set();
     auto link = type.make_link(request.yaml(), set, request.subject(), problems);
     if (!link) return nullptr;
-    return std::make_unique<LinkedChannels>(std::move(link), std::move(distributer));
+    return std::make_unique<LinkedSystem>(std::move(link), std::move(distributer));
   } catch (const std::invalid_argument& error) {
     problems.add(request.yaml().where, "distributer '" + request.whose().name + "': " + error.what());
     return nullptr;

@@ -38,8 +38,8 @@ bool find_column(const Table::Cell& title, const DistributerClass& distributer, 
 
 }  // namespace
 
-ScriptChannels::ScriptChannels(const std::shared_ptr<const Source>& script, const DistributerClass& distributer,
-                               Problems& problems)
+ScriptSystem::ScriptSystem(const std::shared_ptr<const Source>& script, const DistributerClass& distributer,
+                           Problems& problems)
     : distributer_(distributer) {
   playing_.resize(distributer.channels.size());
   const Table table = read_table(script, problems);
@@ -69,17 +69,17 @@ ScriptChannels::ScriptChannels(const std::shared_ptr<const Source>& script, cons
   if (!rows_.empty()) end_ = rows_.back().time;
 }
 
-void ScriptChannels::reach(Duration instant) {
+void ScriptSystem::reach(Duration instant) {
   while (next_ < rows_.size() && rows_[next_].time <= instant) play_next();
 }
 
-void ScriptChannels::play_next() {
+void ScriptSystem::play_next() {
   for (const auto& [channel, value] : rows_[next_].values) playing_[channel] = {value.data(), true};
   ++next_;
 }
 
 // What plays follows from the rows until then.
-void ScriptChannels::serialize(Archive& archive) {
+void ScriptSystem::serialize(Archive& archive) {
   std::uint64_t next = next_;
   archive(next);
   archive.require(next <= rows_.size(), "has a row that is not there");
@@ -93,7 +93,7 @@ void ScriptChannels::serialize(Archive& archive) {
   }
 }
 
-bool ScriptChannels::take(std::size_t channel, void* value) {
+bool ScriptSystem::take(std::size_t channel, void* value) {
   if (!playing_[channel].fresh) return false;
   playing_[channel].fresh = false;
   std::memcpy(value, playing_[channel].value, distributer_.channels[channel].type->size);
@@ -103,11 +103,11 @@ bool ScriptChannels::take(std::size_t channel, void* value) {
 LinkType script_link() {
   LinkType type = link_type<ScriptSpec>(
       "script", "rows of a CSV", {key<&ScriptSpec::file>("file", Form::word, "the CSV, relative to this file", true)},
-      [](const ScriptSpec& spec, const LinkRequest& request, Problems& problems) -> std::unique_ptr<Channels> {
+      [](const ScriptSpec& spec, const LinkRequest& request, Problems& problems) -> std::unique_ptr<ExternalSystem> {
         if (!spec.file) return nullptr;
         const auto source = request.read_beside(*spec.file, problems);
         if (!source) return nullptr;
-        return std::make_unique<ScriptChannels>(source, *request.whose().distributer_class, problems);
+        return std::make_unique<ScriptSystem>(source, *request.whose().distributer_class, problems);
       });
   type.without_messages = true;
   return type;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "graph/model/graph.h"
-#include "runtime/channels.h"
+#include "runtime/external_system.h"
 
 namespace jarol::distributers {
 
@@ -16,10 +16,10 @@ LinkType script_link();
 
 /// Columns: `time` (s), then `channel.field` of the distributer's `in` channels. A row holds until the next, an empty
 /// cell keeps what was. The mission ends at the time of the last row.
-class ScriptChannels : public Channels {
+class ScriptSystem : public ExternalSystem {
  public:
   /// Reads the rows; what is wrong goes to `problems` with file, line and column.
-  ScriptChannels(const std::shared_ptr<const Source>& script, const DistributerClass& distributer, Problems& problems);
+  ScriptSystem(const std::shared_ptr<const Source>& script, const DistributerClass& distributer, Problems& problems);
 
   void reach(Duration instant) override;
   bool take(std::size_t channel, void* value) override;

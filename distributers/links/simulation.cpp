@@ -13,8 +13,8 @@ struct SimulationSpec {
   Maybe<Yaml> parameters;
 };
 
-std::unique_ptr<Channels> make_simulation_channels(const SimulationSpec& spec, const LinkRequest& request,
-                                                   Problems& problems) {
+std::unique_ptr<ExternalSystem> make_simulation_channels(const SimulationSpec& spec, const LinkRequest& request,
+                                                         Problems& problems) {
   if (!spec.vehicle) return nullptr;
   const auto source = request.read_beside(*spec.vehicle, problems);
   if (!source) return nullptr;
@@ -30,7 +30,7 @@ std::unique_ptr<Channels> make_simulation_channels(const SimulationSpec& spec, c
     auto made = file->vehicle->make(file->parameters.data(), request.seed);
     for (const Problem& problem : off_grid(request.graph, request.distributer, made->grid()))
       problems.add(problem.where, problem.text);
-    return std::make_unique<SimulationChannels>(std::move(made), request.make_distributer());
+    return std::make_unique<SimulatedSystem>(std::move(made), request.make_distributer());
   } catch (const std::exception& error) {
     problems.add(spec.vehicle->where, name + " can't be made: " + error.what());
     return nullptr;
@@ -50,11 +50,11 @@ LinkType simulation_link() {
   return type;
 }
 
-SimulationChannels::SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle,
-                                       std::unique_ptr<AnyDistributer> distributer)
+SimulatedSystem::SimulatedSystem(std::unique_ptr<vehicles::SteppedVehicle> vehicle,
+                                 std::unique_ptr<AnyDistributer> distributer)
     : vehicle_(std::move(vehicle)), distributer_(std::move(distributer)), to_vehicle_(*vehicle_) {}
 
-void SimulationChannels::reach(Duration instant) {
+void SimulatedSystem::reach(Duration instant) {
   // sensors speak at every step of the grid, whether or not anyone listens: nothing depends on who looks
   if (!sensed_) {
     vehicle_->sense(*distributer_);
@@ -67,18 +67,18 @@ void SimulationChannels::reach(Duration instant) {
   }
 }
 
-std::string SimulationChannels::mishap() const {
+std::string SimulatedSystem::mishap() const {
   const auto mishap = vehicle_->mishap();
   return mishap ? mishap->text + ", at " + seconds_text(mishap->instant) + " s" : "";
 }
 
-bool SimulationChannels::take(std::size_t channel, void* value) { return distributer_->take(channel, value); }
+bool SimulatedSystem::take(std::size_t channel, void* value) { return distributer_->take(channel, value); }
 
-void SimulationChannels::hand_over(std::size_t channel, const void* value) {
+void SimulatedSystem::hand_over(std::size_t channel, const void* value) {
   distributer_->hand_over(channel, value, to_vehicle_);
 }
 
-void SimulationChannels::serialize(Archive& archive) {
+void SimulatedSystem::serialize(Archive& archive) {
   archive(at_, sensed_);
   archive.require(at_ >= Duration{} && at_ <= longest_duration, "has a vehicle at no time of a run");
   vehicle_->serialize(archive);

@@ -5,7 +5,7 @@
 
 #include "distributers/interfaces/any_distributer.h"
 #include "distributers/interfaces/vehicle.h"
-#include "runtime/channels.h"
+#include "runtime/external_system.h"
 
 namespace jarol::distributers {
 
@@ -14,9 +14,9 @@ struct LinkType;
 /// The link type `simulation`.
 LinkType simulation_link();
 
-class SimulationChannels : public Channels {
+class SimulatedSystem : public ExternalSystem {
  public:
-  SimulationChannels(std::unique_ptr<vehicles::Stepped> vehicle, std::unique_ptr<AnyDistributer> distributer);
+  SimulatedSystem(std::unique_ptr<vehicles::SteppedVehicle> vehicle, std::unique_ptr<AnyDistributer> distributer);
 
   std::uint64_t non_finite_inputs() const override { return distributer_->non_finite_inputs(); }
   const Type* true_type() const override { return vehicle_->true_type(); }
@@ -30,12 +30,12 @@ class SimulationChannels : public Channels {
  private:
   // What the distributer sends goes straight to the vehicle.
   struct ToVehicle : messages::Receiver {
-    explicit ToVehicle(vehicles::Stepped& to) : vehicle(to) {}
+    explicit ToVehicle(vehicles::SteppedVehicle& to) : vehicle(to) {}
     void receive(messages::MessageRef message) override { vehicle.accept(message); }
-    vehicles::Stepped& vehicle;
+    vehicles::SteppedVehicle& vehicle;
   };
 
-  std::unique_ptr<vehicles::Stepped> vehicle_;
+  std::unique_ptr<vehicles::SteppedVehicle> vehicle_;
   std::unique_ptr<AnyDistributer> distributer_;
   ToVehicle to_vehicle_;
   Duration at_{};

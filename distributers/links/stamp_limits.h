@@ -1,4 +1,4 @@
-// Whether stamps can be: a sender's clock may tell any time, but goes on about as fast as this machine's.
+// Whether stamps can be: a sender's clock may report any time, but goes on about as fast as this machine's.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace jarol::distributers {
 
-/// A stamp is held against the clock of its source, as the latest of its stamps that were taken tells it. One that is
+/// A stamp is held against the clock of its source, as the latest of its stamps that were taken reports it. One that is
 /// far ahead of that is refused, unless it is nearer to this machine's own time (then the one before was old); so is
 /// one that is far behind. Systems do send again what they said long ago: DUNE answers a new peer with a message that
 /// it made when it began to log. When nothing of a source was taken for as long as a peer may be silent, its clock was
@@ -43,8 +43,8 @@ class StampLimits {
   Source& find(std::uint64_t id);
 
   std::chrono::nanoseconds silence_;
-  const messages::FieldForm* time_ = nullptr;
-  const messages::FieldForm* source_ = nullptr;
+  const messages::FieldDescriptor* time_ = nullptr;
+  const messages::FieldDescriptor* source_ = nullptr;
   std::array<Source, 16> sources_{};  // the one that was heard longest ago makes room
 };
 

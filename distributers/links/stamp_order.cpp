@@ -9,7 +9,7 @@ namespace jarol::distributers {
 using messages::Wire;
 
 StampOrder::StampOrder(const messages::MessageSet& set) {
-  for (const messages::FieldForm& field : set.header->fields) {
+  for (const messages::FieldDescriptor& field : set.header->fields) {
     if (field.name == "timestamp" && field.wire == Wire::fp64) time_ = &field;
     if (field.name == "src" && field.wire <= Wire::uint64) source_ = &field;
   }

@@ -25,8 +25,8 @@ class StampOrder {
     std::uint64_t source = 0;
     std::uint32_t peer = 0;
   };
-  const messages::FieldForm* time_ = nullptr;
-  const messages::FieldForm* source_ = nullptr;
+  const messages::FieldDescriptor* time_ = nullptr;
+  const messages::FieldDescriptor* source_ = nullptr;
   Stamp newest_;
 };
 

@@ -40,10 +40,10 @@ bool parse_time(const std::string& text, Duration& time) {
 
 Table read_table(const std::shared_ptr<const Source>& source, Problems& problems) {
   Table table;
-  constexpr std::ptrdiff_t most_cells = 1'000'000;
+  constexpr std::ptrdiff_t max_cells = 1'000'000;
   if (std::count_if(source->text.begin(), source->text.end(), [](char c) { return c == ',' || c == '\n'; }) >
-      most_cells) {
-    problems.add({source, 1, 1}, "the table has more than " + std::to_string(most_cells) + " cells; leave rows out");
+      max_cells) {
+    problems.add({source, 1, 1}, "the table has more than " + std::to_string(max_cells) + " cells; leave rows out");
     return table;
   }
   bool titled = false;

@@ -9,9 +9,9 @@ namespace jarol::distributers {
 double seconds_since_1970();
 
 /// The field of a set's header that is the time, in s since 1970; null: there is none.
-const messages::FieldForm* find_timestamp(const messages::MessageSet& set);
+const messages::FieldDescriptor* find_timestamp(const messages::MessageSet& set);
 
 /// Has the header that lies there say that it is now; nothing without a field.
-void set_timestamp(const messages::FieldForm* field, void* header);
+void set_timestamp(const messages::FieldDescriptor* field, void* header);
 
 }  // namespace jarol::distributers

@@ -9,18 +9,18 @@
 
 namespace jarol::distributers {
 
-using messages::Flaw;
+using messages::PacketError;
 
 namespace {
 
-std::vector<std::string> names_of_fields(const messages::MessageForm& form) {
+std::vector<std::string> names_of_fields(const messages::MessageDescriptor& descriptor) {
   std::vector<std::string> names;
-  for (const messages::FieldForm& field : form.fields) names.emplace_back(field.name);
+  for (const messages::FieldDescriptor& field : descriptor.fields) names.emplace_back(field.name);
   return names;
 }
 
-std::uint64_t default_of(const messages::MessageForm& form, const messages::FieldForm& field) {
-  messages::Message made(form);
+std::uint64_t default_of(const messages::MessageDescriptor& descriptor, const messages::FieldDescriptor& field) {
+  messages::Message made(descriptor);
   std::uint64_t value = 0;
   std::memcpy(&value, static_cast<const std::byte*>(made.value()) + field.offset, size_of(field.wire));
   return value;
@@ -33,9 +33,9 @@ auto& count_of(Array& counts, Finding finding) {
 
 }  // namespace
 
-const messages::FieldForm& find_header_field(const messages::MessageForm& form, const std::string& name,
-                                             std::uint64_t value) {
-  for (const messages::FieldForm& field : form.fields) {
+const messages::FieldDescriptor& find_header_field(const messages::MessageDescriptor& descriptor,
+                                                   const std::string& name, std::uint64_t value) {
+  for (const messages::FieldDescriptor& field : descriptor.fields) {
     if (field.name != name || field.wire > messages::Wire::uint64) continue;
     const std::size_t size = size_of(field.wire);
     if (size < 8 && value >> (8 * size) != 0)
@@ -43,11 +43,11 @@ const messages::FieldForm& find_header_field(const messages::MessageForm& form, 
     return field;
   }
   throw std::invalid_argument("the header has no integer field '" + name +
-                              "'; it has: " + list_of(names_of_fields(form)));
+                              "'; it has: " + list_of(names_of_fields(descriptor)));
 }
 
 std::size_t longest_packet(const messages::MessageSet& set) {
-  return set.header_size() + set.most_payload + set.footer_size();
+  return set.header_size() + set.max_payload + set.footer_size();
 }
 
 // What a field of a header has to be; little-endian machines only.
@@ -67,7 +67,7 @@ Translator::Translator(const messages::MessageSet& set, const LinkOptions& optio
   for (const auto& [name, value] : options.accept)
     accepted_.push_back({&find_header_field(*set.header, name, value), value, value});
   for (const auto& [name, id] : options.header)
-    for (const messages::FieldForm& field : set.header->fields)
+    for (const messages::FieldDescriptor& field : set.header->fields)
       if (name == "src" && field.name == "dst") destination_ = {&field, id, default_of(*set.header, field)};
 }
 
@@ -82,7 +82,7 @@ void Translator::begin_stream() {
     stream_->give_up();
     while (stream_->next()) write(stream_->header(), stream_->packet(), 0);
     store(stream_->counts());
-    before_ = told_;
+    before_ = reported_;
   }
   streams_ = begins_ = true;
   broken_ = false;
@@ -108,14 +108,14 @@ bool Translator::is_valid_begin(std::span<const std::byte> bytes) const {
 }
 
 bool Translator::take_datagram(std::span<const std::byte> bytes, std::uint32_t peer) {
-  const Flaw flaw = datagrams_.read(bytes);
-  if (flaw != Flaw::none && seal_ == nullptr && Seal::is_sealed(bytes)) {
+  const PacketError packet_error = datagrams_.read(bytes);
+  if (packet_error != PacketError::none && seal_ == nullptr && Seal::is_sealed(bytes)) {
     ++counts_.sealed;
     return false;
   }
-  told_.count(flaw, bytes.size());
-  const bool counts = flaw == Flaw::none && write(datagrams_.header(), bytes, peer);
-  store(told_);
+  reported_.count(packet_error, bytes.size());
+  const bool counts = packet_error == PacketError::none && write(datagrams_.header(), bytes, peer);
+  store(reported_);
   return counts;
 }
 
@@ -193,17 +193,17 @@ bool Translator::write(messages::MessageRef header, std::span<const std::byte> p
 // After what is counted is in the port: who sees the count finds the packets.
 void Translator::store(const messages::PacketCounts& now) {
   if (stream_) {
-    told_ = before_;
-    told_.packets += now.packets;
-    told_.bytes += now.bytes;
-    told_.dropped_bytes += now.dropped_bytes;
-    for (std::size_t i = 0; i < now.dropped.size(); ++i) told_.dropped[i] += now.dropped[i];
+    reported_ = before_;
+    reported_.packets += now.packets;
+    reported_.bytes += now.bytes;
+    reported_.dropped_bytes += now.dropped_bytes;
+    for (std::size_t i = 0; i < now.dropped.size(); ++i) reported_.dropped[i] += now.dropped[i];
   }
-  counts_.bytes.store(told_.bytes, std::memory_order_relaxed);
-  counts_.dropped_bytes.store(told_.dropped_bytes, std::memory_order_relaxed);
-  for (std::size_t i = 0; i < told_.dropped.size(); ++i)
-    counts_.dropped[i].store(told_.dropped[i], std::memory_order_relaxed);
-  counts_.packets.store(told_.packets, std::memory_order_release);
+  counts_.bytes.store(reported_.bytes, std::memory_order_relaxed);
+  counts_.dropped_bytes.store(reported_.dropped_bytes, std::memory_order_relaxed);
+  for (std::size_t i = 0; i < reported_.dropped.size(); ++i)
+    counts_.dropped[i].store(reported_.dropped[i], std::memory_order_relaxed);
+  counts_.packets.store(reported_.packets, std::memory_order_release);
 }
 
 void Translator::add_carried_to(LinkReport& report) const {
@@ -221,8 +221,8 @@ void Translator::add_dropped_to(LinkReport& report) const {
     report.counts.emplace_back("dropped: " + why, count);
     report.dropped += count;
   };
-  for (std::size_t i = 1; i < messages::flaw_count; ++i)
-    add_dropped(std::string(name_of(static_cast<Flaw>(i))), counts_.dropped[i]);
+  for (std::size_t i = 1; i < messages::packet_error_count; ++i)
+    add_dropped(std::string(name_of(static_cast<PacketError>(i))), counts_.dropped[i]);
   add_dropped("other source", counts_.others);
   add_dropped("other destination", counts_.elsewhere);
   add_dropped("stamp is no time", count_of(counts_.stamps, StampLimits::Finding::no_time));

@@ -15,7 +15,7 @@
 #include "distributers/links/transport.h"
 #include "distributers/messages/packet.h"
 #include "distributers/messages/stream_reader.h"
-#include "runtime/channels.h"
+#include "runtime/external_system.h"
 #include "runtime/jarol/port.h"
 #include "runtime/jarol/push_port.h"
 
@@ -24,8 +24,8 @@ namespace jarol::distributers {
 using PacketPorts = std::variant<PacketPort, PushPacketPort>;
 
 /// The integer field of a set's header that has room for the value. Throws std::invalid_argument if there is none.
-const messages::FieldForm& find_header_field(const messages::MessageForm& form, const std::string& name,
-                                             std::uint64_t value);
+const messages::FieldDescriptor& find_header_field(const messages::MessageDescriptor& descriptor,
+                                                   const std::string& name, std::uint64_t value);
 
 /// Bytes of the longest packet of a set.
 std::size_t longest_packet(const messages::MessageSet& set);
@@ -50,7 +50,7 @@ class Translator : public ByteSink {
 
  private:
   struct Accepted {
-    const messages::FieldForm* field;
+    const messages::FieldDescriptor* field;
     std::uint64_t value, other;
     bool accepts(messages::MessageRef header) const;
   };
@@ -66,7 +66,7 @@ class Translator : public ByteSink {
   struct Counts {
     std::atomic<std::uint64_t> packets{0}, bytes{0}, dropped_bytes{0}, refused{0}, others{0}, late{0}, sealed{0},
         elsewhere{0};
-    std::array<std::atomic<std::uint64_t>, messages::flaw_count> dropped{};
+    std::array<std::atomic<std::uint64_t>, messages::packet_error_count> dropped{};
     std::array<std::atomic<std::uint64_t>, StampLimits::finding_count> stamps{};
     std::array<std::atomic<std::uint64_t>, Seal::finding_count> seals{};
   };
@@ -86,8 +86,8 @@ class Translator : public ByteSink {
   StampOrder order_;
   std::vector<std::byte> entry_;
   std::vector<Accepted> accepted_;
-  std::optional<Accepted> destination_;   // this system, or any
-  messages::PacketCounts told_, before_;  // before_: of the streams that have ended
+  std::optional<Accepted> destination_;       // this system, or any
+  messages::PacketCounts reported_, before_;  // before_: of the streams that have ended
   Counts counts_;
 };
 

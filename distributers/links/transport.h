@@ -32,7 +32,7 @@ class ByteSink {
   virtual void begin_stream() = 0;
 };
 
-/// Counted by the transport, told by its link.
+/// Counted by the transport, reported by its link.
 struct TransportCounts {
   std::atomic<std::uint64_t> connected{0};     // how often there was a new peer
   std::atomic<std::uint64_t> disconnected{0};  // how often a stream ended or failed

@@ -16,7 +16,7 @@ LinkType udp_link();
 /// (ownership.h), until its port is closed.
 ///
 /// The peer has a socket of its own beside that at which all arrive: the same port, but connected. So the system keeps
-/// its datagrams apart, whatever flood there is of others', and tells when its port is closed.
+/// its datagrams apart, whatever flood there is of others', and reports when its port is closed.
 class UdpTransport : public Transport {
  public:
   /// `announce`: to whom. All are sent the same: the address at which the first of them sees this end.
@@ -40,7 +40,7 @@ class UdpTransport : public Transport {
  private:
   struct Receiving {
     Descriptor socket;
-    std::uint32_t overflown = 0;  // datagrams that the system had no room for, as last told
+    std::uint32_t overflown = 0;  // datagrams that the system had no room for, as last reported
   };
 
   void associate(const Address& peer);

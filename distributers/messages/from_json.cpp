@@ -54,7 +54,7 @@ void read_hex(const Json& json, std::size_t size, Bytes& to) {
 }
 
 // The integer that a name, or a list of names of bits, stands for.
-std::optional<std::int64_t> named_value(const FieldForm& field, const Json& json) {
+std::optional<std::int64_t> named_value(const FieldDescriptor& field, const Json& json) {
   const auto find = [&](const Json& name) -> std::optional<std::int64_t> {
     if (!name.is_string()) return std::nullopt;
     for (const NamedValue& v : field.values)
@@ -71,7 +71,7 @@ std::optional<std::int64_t> named_value(const FieldForm& field, const Json& json
   return sum;
 }
 
-std::string names_text(const FieldForm& field) {
+std::string names_text(const FieldDescriptor& field) {
   if (field.values.empty()) return "";
   std::vector<std::string> names;
   for (const NamedValue& v : field.values) names.emplace_back(v.name);
@@ -79,8 +79,8 @@ std::string names_text(const FieldForm& field) {
 }
 
 template <class Integer>
-void read_integer(const FieldForm& field, const Json& json, void* to) {
-  constexpr auto least = std::numeric_limits<Integer>::min(), most = std::numeric_limits<Integer>::max();
+void read_integer(const FieldDescriptor& field, const Json& json, void* to) {
+  constexpr auto min = std::numeric_limits<Integer>::min(), max = std::numeric_limits<Integer>::max();
   std::optional<Integer> integer;
   if (const auto named = named_value(field, json)) {
     if (std::in_range<Integer>(*named)) integer = static_cast<Integer>(*named);
@@ -91,8 +91,7 @@ void read_integer(const FieldForm& field, const Json& json, void* to) {
     const auto value = json.get<std::int64_t>();
     if (std::in_range<Integer>(value)) integer = static_cast<Integer>(value);
   }
-  if (!integer)
-    fail(json, "an integer from " + std::to_string(least) + " to " + std::to_string(most) + names_text(field));
+  if (!integer) fail(json, "an integer from " + std::to_string(min) + " to " + std::to_string(max) + names_text(field));
   std::memcpy(to, &*integer, sizeof(Integer));
 }
 
@@ -123,7 +122,7 @@ void read_floating(const Json& json, void* to) {
   std::memcpy(to, &number, sizeof number);
 }
 
-void read_number(const FieldForm& field, const Json& json, void* to) {
+void read_number(const FieldDescriptor& field, const Json& json, void* to) {
   switch (field.wire) {
     case Wire::int8: return read_integer<std::int8_t>(field, json, to);
     case Wire::uint8: return read_integer<std::uint8_t>(field, json, to);
@@ -138,7 +137,7 @@ void read_number(const FieldForm& field, const Json& json, void* to) {
   }
 }
 
-void read_array(const FieldForm& field, const Json& json, void* to) {
+void read_array(const FieldDescriptor& field, const Json& json, void* to) {
   auto* const bytes = static_cast<std::byte*>(to);
   if (field.digits && json.is_object() && json.contains("hex")) {
     Bytes read;
@@ -163,24 +162,24 @@ void read_array(const FieldForm& field, const Json& json, void* to) {
 void read_inline(const MessageSet& set, const Json& json, InlineMessage& to, int depth) {
   to = {};
   if (json.is_null()) return;
-  if (depth == most_nested) throw Wrong{"is nested deeper than " + std::to_string(most_nested) + " messages"};
+  if (depth == max_nested) throw Wrong{"is nested deeper than " + std::to_string(max_nested) + " messages"};
   if (!json.is_object() || !json.contains("abbrev") || !json["abbrev"].is_string())
     fail(json, R"(null or {"abbrev": the name of a message, "fields": {...}})");
   const auto& name = json["abbrev"].get_ref<const std::string&>();
-  const MessageForm* const form = set.find(std::string_view(name));
-  if (form == nullptr) {
+  const MessageDescriptor* const descriptor = set.find(std::string_view(name));
+  if (descriptor == nullptr) {
     std::vector<std::string> names;
-    for (const MessageForm* m : set.messages) names.emplace_back(m->name);
+    for (const MessageDescriptor* m : set.messages) names.emplace_back(m->name);
     throw Wrong{"holds '" + name + "', which is no message of set " + std::string(set.name) +
                 did_you_mean(name, names)};
   }
-  Message message(*form);
+  Message message(*descriptor);
   if (json.contains("fields")) read_object(json["fields"], message, depth + 1);
   std::string why;
   if (!put_inline(message, to, &why)) throw Wrong{"can't be written: " + why};
 }
 
-void read_field(const MessageSet& set, const FieldForm& field, const Json& json, void* to, int depth) {
+void read_field(const MessageSet& set, const FieldDescriptor& field, const Json& json, void* to, int depth) {
   switch (field.wire) {
     case Wire::plaintext: {
       Bytes bytes;
@@ -208,21 +207,22 @@ void read_field(const MessageSet& set, const FieldForm& field, const Json& json,
 }
 
 void read_object(const Json& object, Message& message, int depth) {
-  const MessageForm& form = *message.form();
-  const std::string owner(form.name);
+  const MessageDescriptor& descriptor = *message.descriptor();
+  const std::string owner(descriptor.name);
   if (!object.is_object())
     throw Wrong{"the fields of " + owner + " are " + shown(object) + "; they need to be an object"};
   for (const auto& item : object.items()) {
     const std::string& name = item.key();
     const auto field =
-        std::find_if(form.fields.begin(), form.fields.end(), [&](const auto& f) { return f.name == name; });
-    if (field == form.fields.end()) {
+        std::find_if(descriptor.fields.begin(), descriptor.fields.end(), [&](const auto& f) { return f.name == name; });
+    if (field == descriptor.fields.end()) {
       std::vector<std::string> names;
-      for (const FieldForm& f : form.fields) names.emplace_back(f.name);
+      for (const FieldDescriptor& f : descriptor.fields) names.emplace_back(f.name);
       throw Wrong{owner + " has no field '" + name + "'" + did_you_mean(name, names) + "; it has: " + list_of(names)};
     }
     try {
-      read_field(form.set(), *field, item.value(), static_cast<std::byte*>(message.value()) + field->offset, depth);
+      read_field(descriptor.set(), *field, item.value(), static_cast<std::byte*>(message.value()) + field->offset,
+                 depth);
     } catch (const Wrong& wrong) { throw Wrong{"field '" + name + "' of " + owner + " " + wrong.text}; }
   }
 }

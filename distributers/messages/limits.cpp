@@ -38,16 +38,16 @@ std::string text_of(Integer integer) {
 class Finder {
  public:
   void look_at(MessageRef message, const std::string& before) {
-    for (const FieldForm& field : message.form->fields) {
+    for (const FieldDescriptor& field : message.descriptor->fields) {
       const auto* const value = static_cast<const std::byte*>(message.value) + field.offset;
       const std::string path = before + std::string(field.name);
-      const MessageSet& set = message.form->set();
+      const MessageSet& set = message.descriptor->set();
       if (field.wire == Wire::message) look_inside(set, *reinterpret_cast<const InlineMessage*>(value), path);
       if (field.wire == Wire::message_list) {
         const auto& list = *reinterpret_cast<const Sequence<InlineMessage>*>(value);
         for (std::size_t i = 0; i < list.size(); ++i) look_inside(set, list[i], path + "[" + std::to_string(i) + "]");
       }
-      if (field.least.empty() && field.most.empty()) continue;
+      if (field.min.empty() && field.max.empty()) continue;
       for (std::size_t i = 0; i < std::max(field.count, 1U); ++i)
         look_at_number(field, value + i * size_of(field.wire),
                        field.count > 0 ? path + "[" + std::to_string(i) + "]" : path);
@@ -62,7 +62,7 @@ class Finder {
     if (!from.empty() && take_inline(set, from, message)) look_at(message, path + ".");
   }
 
-  void look_at_number(const FieldForm& field, const std::byte* value, const std::string& path) {
+  void look_at_number(const FieldDescriptor& field, const std::byte* value, const std::string& path) {
     switch (field.wire) {
       case Wire::int8: return compare<std::int8_t>(field, value, path);
       case Wire::uint8: return compare<std::uint8_t>(field, value, path);
@@ -83,13 +83,12 @@ class Finder {
   }
 
   template <class Number>
-  void compare(const FieldForm& field, const std::byte* from, const std::string& path) {
+  void compare(const FieldDescriptor& field, const std::byte* from, const std::string& path) {
     Number number;
     std::memcpy(&number, from, sizeof number);
-    const std::optional<Number> least = limit_of<Number>(field.least), most = limit_of<Number>(field.most);
-    if (least && number < *least)
-      found.push_back(path + ": " + text_of(number) + " is below " + std::string(field.least));
-    if (most && number > *most) found.push_back(path + ": " + text_of(number) + " is above " + std::string(field.most));
+    const std::optional<Number> min = limit_of<Number>(field.min), max = limit_of<Number>(field.max);
+    if (min && number < *min) found.push_back(path + ": " + text_of(number) + " is below " + std::string(field.min));
+    if (max && number > *max) found.push_back(path + ": " + text_of(number) + " is above " + std::string(field.max));
   }
 };
 

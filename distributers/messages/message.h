@@ -4,28 +4,28 @@
 
 #include <memory>
 
-#include "distributers/messages/form.h"
+#include "distributers/messages/descriptor.h"
 
 namespace jarol::messages {
 
 /// A message where it lies; whoever keeps it copies it.
 struct MessageRef {
-  const MessageForm* form = nullptr;
+  const MessageDescriptor* descriptor = nullptr;
   const void* value = nullptr;
   const void* header = nullptr;  // of its packet, in the form that its set has; null: it came in none
 
   /// The message as an M, or null if it is another.
   template <class M>
   const M* as() const {
-    return static_cast<const M*>(if_of(M::form));
+    return static_cast<const M*>(if_of(M::descriptor));
   }
   // out of line: g++ 12 would look at the value as the wrong type, and warn
-  const void* if_of(const MessageForm& wanted) const;
+  const void* if_of(const MessageDescriptor& wanted) const;
 };
 
 template <class M>
 MessageRef refer_to(const M& message) {
-  return {&M::form, &message, nullptr};
+  return {&M::descriptor, &message, nullptr};
 }
 
 /// A message of a form known at run time only, in memory of its own.
@@ -33,7 +33,7 @@ class Message {
  public:
   Message() = default;
   /// The default message of that form.
-  explicit Message(const MessageForm& form);
+  explicit Message(const MessageDescriptor& descriptor);
   explicit Message(MessageRef message);
   Message(const Message& other) : Message(MessageRef(other)) {}
   Message& operator=(const Message& other) { return *this = Message(other); }
@@ -41,10 +41,10 @@ class Message {
   Message& operator=(Message&&) = default;
   ~Message() = default;
 
-  const MessageForm* form() const { return form_; }
+  const MessageDescriptor* descriptor() const { return descriptor_; }
   void* value() { return memory_.get(); }
   const void* value() const { return memory_.get(); }
-  operator MessageRef() const { return {form_, memory_.get(), nullptr}; }
+  operator MessageRef() const { return {descriptor_, memory_.get(), nullptr}; }
 
   template <class M>
   const M* as() const {
@@ -53,10 +53,10 @@ class Message {
 
  private:
   struct Release {
-    const MessageForm* form;  // not initialized here: a nested deleter must be complete without it
+    const MessageDescriptor* descriptor;  // not initialized here: a nested deleter must be complete without it
     void operator()(std::byte* memory) const;
   };
-  const MessageForm* form_ = nullptr;
+  const MessageDescriptor* descriptor_ = nullptr;
   std::unique_ptr<std::byte, Release> memory_;
 };
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "distributers/messages/form.h"
+#include "distributers/messages/descriptor.h"
 
 namespace jarol::messages {
 
@@ -23,7 +23,7 @@ struct MessageSet {
   std::string_view version;
   std::string_view text;
 
-  const MessageForm* header = nullptr;
+  const MessageDescriptor* header = nullptr;
   // which fields of the header they are
   std::size_t sync_field = 0;  // always the first
   std::size_t id_field = 0;
@@ -31,20 +31,20 @@ struct MessageSet {
   std::uint64_t sync = 0;      // written in the packet's byte order
 
   ByteOrder order = ByteOrder::little;
-  bool either_order = false;  // the sync of a packet tells its order; `order` is what we send
+  bool either_order = false;  // the sync of a packet reports its order; `order` is what we send
   Checksum checksum = Checksum::none;
   std::size_t checksum_from = 0;  // offset of the first byte summed
   std::string_view checksum_name;
-  std::size_t most_payload = 0;  // bytes
+  std::size_t max_payload = 0;  // bytes
 
-  std::span<const MessageForm* const> messages;  // by id, then by size
+  std::span<const MessageDescriptor* const> messages;  // by id, then by size
 
   /// The message of that id, or null. Where messages of fixed sizes share an id, that of the payload's size, else the
   /// first of them.
-  const MessageForm* find(std::uint32_t id, std::size_t payload) const;
-  const MessageForm* find(std::string_view name) const;
+  const MessageDescriptor* find(std::uint32_t id, std::size_t payload) const;
+  const MessageDescriptor* find(std::string_view name) const;
   /// The message of that id that may stand in another, or null: one alone in its id, with an end of its own.
-  const MessageForm* find_nested(std::uint32_t id) const;
+  const MessageDescriptor* find_nested(std::uint32_t id) const;
 
   std::size_t header_size() const { return static_cast<std::size_t>(header->wire_size); }
   std::size_t footer_size() const { return checksum == Checksum::none ? 0 : 2; }

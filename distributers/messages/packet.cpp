@@ -7,7 +7,7 @@
 namespace jarol::messages {
 namespace {
 
-const FieldForm& field_at(const MessageSet& set, std::size_t index) { return set.header->fields[index]; }
+const FieldDescriptor& field_at(const MessageSet& set, std::size_t index) { return set.header->fields[index]; }
 
 // Where a field of the header stands on the wire: the header is packed and of fixed size.
 std::size_t wire_offset(const MessageSet& set, std::size_t index) {
@@ -35,22 +35,22 @@ std::string bytes_text(std::size_t bytes) { return std::to_string(bytes) + (byte
 
 // Text is made only where someone wants to read it.
 template <class Text>
-Flaw flawed(Flaw flaw, std::string* why, Text text) {
+PacketError fail(PacketError packet_error, std::string* why, Text text) {
   if (why != nullptr) *why = text();
-  return flaw;
+  return packet_error;
 }
 
 }  // namespace
 
-std::string_view name_of(Flaw flaw) {
-  switch (flaw) {
-    case Flaw::none: break;
-    case Flaw::garbage: return "garbage";
-    case Flaw::truncated: return "truncated";
-    case Flaw::oversized: return "oversized";
-    case Flaw::checksum: return "bad checksum";
-    case Flaw::unknown_id: return "unknown id";
-    case Flaw::payload: return "bad payload";
+std::string_view name_of(PacketError packet_error) {
+  switch (packet_error) {
+    case PacketError::none: break;
+    case PacketError::garbage: return "garbage";
+    case PacketError::truncated: return "truncated";
+    case PacketError::oversized: return "oversized";
+    case PacketError::checksum: return "bad checksum";
+    case PacketError::unknown_id: return "unknown id";
+    case PacketError::payload: return "bad payload";
   }
   return "none";
 }
@@ -67,88 +67,88 @@ Announced read_header(const MessageSet& set, const std::byte* header, ByteOrder 
           header_field(set, set.size_field, header, order)};
 }
 
-Flaw read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& to, std::string* why) {
+PacketError read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& to, std::string* why) {
   const std::size_t around = set.header_size() + set.footer_size();
   if (bytes.size() < around)
-    return flawed(Flaw::truncated, why, [&] {
+    return fail(PacketError::truncated, why, [&] {
       return "the packet has " + bytes_text(bytes.size()) + "; header and checksum alone take " +
              std::to_string(around);
     });
   const auto order = order_of(set, bytes.data());
   if (!order)
-    return flawed(Flaw::garbage, why, [&] {
+    return fail(PacketError::garbage, why, [&] {
       const std::size_t size = set.sync_size();
       return "the packet begins with " + hex(header_field(set, set.sync_field, bytes.data(), set.order), size) +
              ", not with " + hex(set.sync, size);
     });
   const Announced announced = read_header(set, bytes.data(), *order);
   const std::size_t whole = around + announced.payload;
-  if (announced.payload > set.most_payload)
-    return flawed(Flaw::oversized, why, [&] {
-      return "the header tells of " + bytes_text(announced.payload) + " of payload; at most " +
-             std::to_string(set.most_payload) + " are allowed";
+  if (announced.payload > set.max_payload)
+    return fail(PacketError::oversized, why, [&] {
+      return "the header states " + bytes_text(announced.payload) + " of payload; at most " +
+             std::to_string(set.max_payload) + " are allowed";
     });
   if (bytes.size() != whole)
-    return flawed(bytes.size() < whole ? Flaw::truncated : Flaw::oversized, why, [&] {
+    return fail(bytes.size() < whole ? PacketError::truncated : PacketError::oversized, why, [&] {
       return "the packet has " + bytes_text(bytes.size()) + "; by its header it has " + std::to_string(whole);
     });
   to.order = *order;
   to.id = announced.id;
   to.header = bytes.first(set.header_size());
   to.payload = bytes.subspan(set.header_size(), announced.payload);
-  if (set.checksum == Checksum::none) return Flaw::none;
+  if (set.checksum == Checksum::none) return PacketError::none;
   const auto summed = bytes.first(whole - set.footer_size());
-  const std::uint64_t told = load_unsigned(bytes.data() + summed.size(), set.footer_size(), *order);
+  const std::uint64_t reported = load_unsigned(bytes.data() + summed.size(), set.footer_size(), *order);
   const std::uint64_t right = checksum_of(set, summed);
-  if (told == right) return Flaw::none;
-  return flawed(Flaw::checksum, why, [&] {
-    return "the checksum is " + hex(told, set.footer_size()) + "; " + hex(right, set.footer_size()) + " would be right";
+  if (reported == right) return PacketError::none;
+  return fail(PacketError::checksum, why, [&] {
+    return "the checksum is " + hex(reported, set.footer_size()) + "; " + hex(right, set.footer_size()) +
+           " would be right";
   });
 }
 
 PacketReader::PacketReader(const MessageSet& set) : set_(set), header_(*set.header), kept_(set.messages.size()) {}
 
-Flaw PacketReader::read(std::span<const std::byte> bytes, std::string* why) {
+PacketError PacketReader::read(std::span<const std::byte> bytes, std::string* why) {
   message_ = {};
   Frame frame;
-  const Flaw flaw = read_frame(set_, bytes, frame, why);
-  if (flaw != Flaw::none && flaw != Flaw::checksum) return flaw;
-  const MessageForm* const form = set_.find(frame.id, frame.payload.size());
-  if (form == nullptr && flaw != Flaw::none) return flaw;
-  if (form == nullptr)
-    return flawed(Flaw::unknown_id, why, [&] {
-      return "message id " + std::to_string(frame.id) + " is not in set " + std::string(set_.name);
-    });
-  Message& kept = kept_[form->index];
-  if (kept.form() == nullptr) kept = Message(*form);
+  const PacketError packet_error = read_frame(set_, bytes, frame, why);
+  if (packet_error != PacketError::none && packet_error != PacketError::checksum) return packet_error;
+  const MessageDescriptor* const descriptor = set_.find(frame.id, frame.payload.size());
+  if (descriptor == nullptr && packet_error != PacketError::none) return packet_error;
+  if (descriptor == nullptr)
+    return fail(PacketError::unknown_id, why,
+                [&] { return "message id " + std::to_string(frame.id) + " is not in set " + std::string(set_.name); });
+  Message& kept = kept_[descriptor->index];
+  if (kept.descriptor() == nullptr) kept = Message(*descriptor);
   order_ = frame.order;
-  std::string* const more = flaw == Flaw::none ? why : nullptr;  // of two flaws the checksum says more
+  std::string* const more = packet_error == PacketError::none ? why : nullptr;  // of two flaws the checksum says more
   if (!read_payload(*set_.header, frame.order, frame.header, header_.value(), more) ||
-      !read_payload(*form, frame.order, frame.payload, kept.value(), more))
-    return flaw == Flaw::none ? Flaw::payload : flaw;
+      !read_payload(*descriptor, frame.order, frame.payload, kept.value(), more))
+    return packet_error == PacketError::none ? PacketError::payload : packet_error;
   message_ = kept;
   message_.header = header_.value();
-  return flaw;
+  return packet_error;
 }
 
 bool write_packet(MessageRef header, MessageRef message, ByteOrder order, std::vector<std::byte>& to,
                   std::string* why) {
-  const MessageSet& set = message.form->set();
+  const MessageSet& set = message.descriptor->set();
   to.clear();
   bool good = write_payload(header, order, to, why) && write_payload(message, order, to, why);
   const std::size_t payload = to.size() - std::min(to.size(), set.header_size());
-  if (good && payload > set.most_payload) {
+  if (good && payload > set.max_payload) {
     good = false;
     if (why != nullptr)
-      *why = std::string(message.form->name) + " has " + bytes_text(payload) + " of payload; at most " +
-             std::to_string(set.most_payload) + " are allowed";
+      *why = std::string(message.descriptor->name) + " has " + bytes_text(payload) + " of payload; at most " +
+             std::to_string(set.max_payload) + " are allowed";
   }
   if (!good) {
     to.clear();
     return false;
   }
   set_header_field(set, set.sync_field, to.data(), order, set.sync);
-  set_header_field(set, set.id_field, to.data(), order, message.form->id);
+  set_header_field(set, set.id_field, to.data(), order, message.descriptor->id);
   set_header_field(set, set.size_field, to.data(), order, payload);
   if (set.checksum != Checksum::none) append_unsigned(to, set.footer_size(), order, checksum_of(set, to));
   return true;

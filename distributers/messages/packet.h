@@ -13,11 +13,11 @@
 namespace jarol::messages {
 
 /// Why bytes are no packet that can be used.
-enum class Flaw : std::uint8_t { none, garbage, truncated, oversized, checksum, unknown_id, payload };
-constexpr std::size_t flaw_count = 7;
+enum class PacketError : std::uint8_t { none, garbage, truncated, oversized, checksum, unknown_id, payload };
+constexpr std::size_t packet_error_count = 7;
 
 /// In words, as in "bad checksum".
-std::string_view name_of(Flaw flaw);
+std::string_view name_of(PacketError packet_error);
 
 /// The parts of a packet where they lie.
 struct Frame {
@@ -28,9 +28,9 @@ struct Frame {
 
 /// Looks at bytes that should be one packet and nothing else, but not at its fields. With a wrong checksum the frame is
 /// told all the same. `why`, where given, says what is wrong.
-Flaw read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& to, std::string* why = nullptr);
+PacketError read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& to, std::string* why = nullptr);
 
-/// The byte order that the sync at the begin of the bytes tells, if it is one; there are bytes enough for it.
+/// The byte order that the sync at the begin of the bytes reports, if it is one; there are bytes enough for it.
 std::optional<ByteOrder> order_of(const MessageSet& set, const std::byte* bytes);
 
 /// What a header says of its packet.
@@ -50,7 +50,7 @@ class PacketReader {
 
   /// Reads bytes that should be one packet and nothing else. With a wrong checksum, header and message are there all
   /// the same, so that they can be shown, if they could be read; with any other flaw the message has no form.
-  Flaw read(std::span<const std::byte> bytes, std::string* why = nullptr);
+  PacketError read(std::span<const std::byte> bytes, std::string* why = nullptr);
 
   const MessageSet& set() const { return set_; }
   ByteOrder order() const { return order_; }

@@ -12,13 +12,13 @@
 namespace jarol::messages {
 
 /// Messages within messages, at most.
-constexpr int most_nested = 16;
+constexpr int max_nested = 16;
 
 /// Reads a payload into a message that exists; all its bytes have to be used. Flat messages need no memory, others keep
 /// what they have. False if it can't be read: then the message may be half read, and `why`, where given, says what is
 /// wrong.
-bool read_payload(const MessageForm& form, ByteOrder order, std::span<const std::byte> payload, void* message,
-                  std::string* why = nullptr);
+bool read_payload(const MessageDescriptor& descriptor, ByteOrder order, std::span<const std::byte> payload,
+                  void* message, std::string* why = nullptr);
 
 /// Appends the payload of the message. False if it can't be written: then `to` is as it was.
 bool write_payload(MessageRef message, ByteOrder order, std::vector<std::byte>& to, std::string* why = nullptr);

@@ -2,7 +2,7 @@
 
 #include "distributers/messages/bytes.h"
 #include "distributers/messages/payload.h"
-#include "distributers/messages/walk.h"
+#include "distributers/messages/payload_cursor.h"
 
 namespace jarol::messages {
 namespace {
@@ -13,27 +13,28 @@ using List = Sequence<InlineMessage>;
 class Reader {
  public:
   Reader(const MessageSet& set, ByteOrder order, std::span<const std::byte> bytes, std::string* why)
-      : set_(set), order_(order), bytes_(bytes), walk_(set, order, bytes, why), why_(why) {}
+      : set_(set), order_(order), bytes_(bytes), cursor_(set, order, bytes, why), why_(why) {}
 
-  std::size_t left() const { return walk_.left(); }
+  std::size_t left() const { return cursor_.left(); }
 
-  bool read_fields(const MessageForm& form, void* message) {
-    for (const FieldForm& field : form.fields)
-      if (!read_field(field, static_cast<std::byte*>(message) + field.offset)) return walk_.fail_in(form, field);
+  bool read_fields(const MessageDescriptor& descriptor, void* message) {
+    for (const FieldDescriptor& field : descriptor.fields)
+      if (!read_field(field, static_cast<std::byte*>(message) + field.offset))
+        return cursor_.fail_in(descriptor, field);
     return true;
   }
 
  private:
-  bool read_field(const FieldForm& field, void* to) {
+  bool read_field(const FieldDescriptor& field, void* to) {
     std::size_t count = 0;
     switch (field.wire) {
       case Wire::plaintext: {
-        if (!walk_.over_count(count, 1)) return false;
+        if (!cursor_.over_count(count, 1)) return false;
         char* const text = static_cast<String*>(to)->resize(count);
-        if (count > 0) std::memcpy(text, walk_.take(count), count);
+        if (count > 0) std::memcpy(text, cursor_.take(count), count);
         return true;
       }
-      case Wire::rawdata: return walk_.over_count(count, 1) && read_bytes(*static_cast<Bytes*>(to), count);
+      case Wire::rawdata: return cursor_.over_count(count, 1) && read_bytes(*static_cast<Bytes*>(to), count);
       case Wire::rest: return read_bytes(*static_cast<Bytes*>(to), left());
       case Wire::message: return read_inline(field, *static_cast<InlineMessage*>(to));
       case Wire::message_list: return read_list(field, *static_cast<List*>(to));
@@ -41,58 +42,58 @@ class Reader {
     }
     const std::size_t size = size_of(field.wire);
     count = std::max(field.count, 1U);
-    const std::byte* const from = walk_.take(size * count);
+    const std::byte* const from = cursor_.take(size * count);
     if (from != nullptr) copy_numbers(to, from, size, count, order_ == ByteOrder::big);
     return from != nullptr;
   }
 
   bool read_bytes(Bytes& to, std::size_t count) {
     to.resize(count);
-    if (count > 0) std::memcpy(to.data(), walk_.take(count), count);
+    if (count > 0) std::memcpy(to.data(), cursor_.take(count), count);
     return true;
   }
 
-  bool read_list(const FieldForm& field, List& to) {
+  bool read_list(const FieldDescriptor& field, List& to) {
     std::size_t count = 0;
-    if (!walk_.over_count(count, size_of(set_.id_wire()))) return false;
+    if (!cursor_.over_count(count, size_of(set_.id_wire()))) return false;
     to.resize(count);
     for (InlineMessage& element : to)
       if (!read_inline(field, element)) return false;
     return true;
   }
 
-  bool read_inline(const FieldForm& field, InlineMessage& to) {
+  bool read_inline(const FieldDescriptor& field, InlineMessage& to) {
     const std::size_t begin = bytes_.size() - left();
-    const MessageForm* form = nullptr;
-    if (!walk_.over_inline(field, 0, form)) return false;
-    to.id = form == nullptr ? InlineMessage::none : form->id;
+    const MessageDescriptor* descriptor = nullptr;
+    if (!cursor_.over_inline(field, 0, descriptor)) return false;
+    to.id = descriptor == nullptr ? InlineMessage::none : descriptor->id;
     to.payload.clear();
-    if (form == nullptr) return true;
+    if (descriptor == nullptr) return true;
     const auto payload = bytes_.first(bytes_.size() - left()).subspan(begin + size_of(set_.id_wire()));
     to.payload.resize(payload.size());
     if (payload.empty()) return true;
     std::memcpy(to.payload.data(), payload.data(), payload.size());
     if (order_ == ByteOrder::little) return true;
-    return Walk<true>(set_, order_, std::as_writable_bytes(std::span(to.payload.data(), payload.size())), why_)
-        .over_fields(*form, 1);
+    return PayloadCursor<true>(set_, order_, std::as_writable_bytes(std::span(to.payload.data(), payload.size())), why_)
+        .over_fields(*descriptor, 1);
   }
 
   const MessageSet& set_;
   const ByteOrder order_;
   const std::span<const std::byte> bytes_;
-  Walk<false> walk_;
+  PayloadCursor<false> cursor_;
   std::string* const why_;
 };
 
 }  // namespace
 
-bool read_payload(const MessageForm& form, ByteOrder order, std::span<const std::byte> payload, void* message,
-                  std::string* why) {
-  Reader reader(form.set(), order, payload, why);
-  if (!reader.read_fields(form, message)) return false;
+bool read_payload(const MessageDescriptor& descriptor, ByteOrder order, std::span<const std::byte> payload,
+                  void* message, std::string* why) {
+  Reader reader(descriptor.set(), order, payload, why);
+  if (!reader.read_fields(descriptor, message)) return false;
   if (reader.left() == 0) return true;
   if (why != nullptr)
-    *why = std::string(form.name) + " has " + std::to_string(payload.size() - reader.left()) +
+    *why = std::string(descriptor.name) + " has " + std::to_string(payload.size() - reader.left()) +
            " bytes of fields, but " + std::to_string(payload.size()) + " of payload";
   return false;
 }
@@ -100,11 +101,11 @@ bool read_payload(const MessageForm& form, ByteOrder order, std::span<const std:
 bool take_inline(const MessageSet& set, const InlineMessage& from, Message& to, std::string* why) {
   to = Message();
   if (from.empty()) return true;
-  const MessageForm* const form = set.find_nested(from.id);
-  if (!may_hold({}, form, from.id, why)) return false;
-  to = Message(*form);
-  return read_payload(*form, ByteOrder::little, std::as_bytes(std::span(from.payload.data(), from.payload.size())),
-                      to.value(), why);
+  const MessageDescriptor* const descriptor = set.find_nested(from.id);
+  if (!may_hold({}, descriptor, from.id, why)) return false;
+  to = Message(*descriptor);
+  return read_payload(*descriptor, ByteOrder::little,
+                      std::as_bytes(std::span(from.payload.data(), from.payload.size())), to.value(), why);
 }
 
 }  // namespace jarol::messages

@@ -5,20 +5,20 @@
 
 namespace jarol::messages {
 
-void PacketCounts::count(Flaw flaw, std::size_t size) {
-  if (flaw == Flaw::none) {
+void PacketCounts::count(PacketError packet_error, std::size_t size) {
+  if (packet_error == PacketError::none) {
     ++packets;
     bytes += size;
   } else {
-    ++dropped[static_cast<std::size_t>(flaw)];
+    ++dropped[static_cast<std::size_t>(packet_error)];
     dropped_bytes += size;
   }
 }
 
-StreamReader::StreamReader(const MessageSet& set, std::size_t most_packet) : reader_(set) {
-  const std::size_t most_of_set = set.header_size() + set.most_payload + set.footer_size();
-  most_packet_ = most_packet == 0 ? most_of_set : std::min(most_packet, most_of_set);
-  buffer_.resize(2 * std::max(most_packet_, set.header_size()));
+StreamReader::StreamReader(const MessageSet& set, std::size_t max_packet) : reader_(set) {
+  const std::size_t max_of_set = set.header_size() + set.max_payload + set.footer_size();
+  max_packet_ = max_packet == 0 ? max_of_set : std::min(max_packet, max_of_set);
+  buffer_.resize(2 * std::max(max_packet_, set.header_size()));
 }
 
 std::span<std::byte> StreamReader::room() {
@@ -36,17 +36,17 @@ std::span<std::byte> StreamReader::room() {
 bool StreamReader::next() {
   std::size_t size = 0;
   while (find_packet(size)) {
-    const Flaw flaw = reader_.read(bytes().first(size));
-    if (flaw == Flaw::checksum) {
-      drop_candidate(flaw, size);
+    const PacketError packet_error = reader_.read(bytes().first(size));
+    if (packet_error == PacketError::checksum) {
+      drop_candidate(packet_error, size);
       continue;
     }
-    counts_.count(flaw, size);
+    counts_.count(packet_error, size);
     packet_ = bytes().first(size);
     begin_ += size;
     candidate_left_ = 0;
     in_garbage_ = false;
-    if (flaw == Flaw::none) return true;
+    if (packet_error == PacketError::none) return true;
   }
   if (giving_up_)
     while (held() > 0) drop_byte();
@@ -60,18 +60,18 @@ bool StreamReader::find_packet(std::size_t& size) {
   while (skip_to_sync()) {
     if (held() < set.header_size()) {
       if (!giving_up_) return false;
-      drop_candidate(Flaw::truncated, held());
+      drop_candidate(PacketError::truncated, held());
       continue;
     }
     const Announced announced = read_header(set, bytes().data(), *order_of(set, bytes().data()));
     size = set.header_size() + announced.payload + set.footer_size();
-    const Flaw flaw = impossible(announced, size);
-    if (flaw != Flaw::none) {
-      drop_candidate(flaw, size);
+    const PacketError packet_error = impossible(announced, size);
+    if (packet_error != PacketError::none) {
+      drop_candidate(packet_error, size);
     } else if (held() >= size) {
       return true;
     } else if (giving_up_) {
-      drop_candidate(Flaw::truncated, held());
+      drop_candidate(PacketError::truncated, held());
     } else {
       return false;
     }
@@ -80,12 +80,12 @@ bool StreamReader::find_packet(std::size_t& size) {
 }
 
 // What can't become a message is not waited for: its length may be as wrong as the rest.
-Flaw StreamReader::impossible(const Announced& announced, std::size_t size) const {
-  if (size > most_packet_) return Flaw::oversized;
-  const MessageForm* const form = reader_.set().find(announced.id, announced.payload);
-  if (form == nullptr) return Flaw::unknown_id;
-  const bool fits = form->wire_size < 0 || form->wire_size == static_cast<std::int64_t>(announced.payload);
-  return fits ? Flaw::none : Flaw::payload;
+PacketError StreamReader::impossible(const Announced& announced, std::size_t size) const {
+  if (size > max_packet_) return PacketError::oversized;
+  const MessageDescriptor* const descriptor = reader_.set().find(announced.id, announced.payload);
+  if (descriptor == nullptr) return PacketError::unknown_id;
+  const bool fits = descriptor->wire_size < 0 || descriptor->wire_size == static_cast<std::int64_t>(announced.payload);
+  return fits ? PacketError::none : PacketError::payload;
 }
 
 // False: less than a sync is there.
@@ -102,16 +102,16 @@ void StreamReader::drop_byte() {
     --candidate_left_;
   } else if (!in_garbage_) {
     in_garbage_ = true;
-    ++counts_.dropped[static_cast<std::size_t>(Flaw::garbage)];
+    ++counts_.dropped[static_cast<std::size_t>(PacketError::garbage)];
   }
   ++counts_.dropped_bytes;
   ++begin_;
 }
 
 // The sync was not that of a packet, or of one that is broken.
-void StreamReader::drop_candidate(Flaw flaw, std::size_t size) {
+void StreamReader::drop_candidate(PacketError packet_error, std::size_t size) {
   if (candidate_left_ == 0) {
-    ++counts_.dropped[static_cast<std::size_t>(flaw)];
+    ++counts_.dropped[static_cast<std::size_t>(packet_error)];
     candidate_left_ = std::max<std::size_t>(size, 1);
     in_garbage_ = false;
   }

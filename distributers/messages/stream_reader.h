@@ -15,12 +15,13 @@ struct PacketCounts {
   std::uint64_t packets = 0;  // taken
   std::uint64_t bytes = 0;    // of these
   std::uint64_t dropped_bytes = 0;
-  std::array<std::uint64_t, flaw_count> dropped{};  // packets by flaw; in a stream, garbage counts its stretches
+  std::array<std::uint64_t, packet_error_count>
+      dropped{};  // packets by flaw; in a stream, garbage counts its stretches
 
-  std::uint64_t dropped_for(Flaw flaw) const { return dropped[static_cast<std::size_t>(flaw)]; }
+  std::uint64_t dropped_for(PacketError packet_error) const { return dropped[static_cast<std::size_t>(packet_error)]; }
 
   /// Counts a packet of so many bytes that was read with that result.
-  void count(Flaw flaw, std::size_t size);
+  void count(PacketError packet_error, std::size_t size);
 };
 
 /// Finds packets in what arrives piece by piece. Only what has a sync, an id of the set, a size that its message can
@@ -28,8 +29,8 @@ struct PacketCounts {
 /// memory is taken once, that of its messages when the first of a form comes.
 class StreamReader {
  public:
-  /// Packets of more than `most_packet` bytes are dropped; 0 is what the set allows.
-  explicit StreamReader(const MessageSet& set, std::size_t most_packet = 0);
+  /// Packets of more than `max_packet` bytes are dropped; 0 is what the set allows.
+  explicit StreamReader(const MessageSet& set, std::size_t max_packet = 0);
 
   /// Room for bytes that arrive, at least for one packet once `next` has returned false.
   std::span<std::byte> room();
@@ -53,15 +54,15 @@ class StreamReader {
 
  private:
   bool find_packet(std::size_t& size);
-  Flaw impossible(const Announced& announced, std::size_t size) const;
+  PacketError impossible(const Announced& announced, std::size_t size) const;
   bool skip_to_sync();
   void drop_byte();
-  void drop_candidate(Flaw flaw, std::size_t size);
+  void drop_candidate(PacketError packet_error, std::size_t size);
   std::size_t held() const { return end_ - begin_; }
   std::span<const std::byte> bytes() const { return std::span(buffer_).subspan(begin_, held()); }
 
   PacketReader reader_;
-  std::size_t most_packet_;
+  std::size_t max_packet_;
   std::vector<std::byte> buffer_;
   std::size_t begin_ = 0, end_ = 0;
   std::span<const std::byte> packet_;

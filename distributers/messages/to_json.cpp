@@ -62,7 +62,7 @@ Json json_of_number(Wire wire, const void* from) {
   }
 }
 
-Json json_of_array(const FieldForm& field, const void* from) {
+Json json_of_array(const FieldDescriptor& field, const void* from) {
   if (field.digits) {
     // a number only if writing that number gives the same bytes
     const auto* const digits = static_cast<const unsigned char*>(from);
@@ -93,10 +93,10 @@ Json json_of_inline(const MessageSet& set, const InlineMessage& from) {
   std::string why;
   if (!take_inline(set, from, message, &why))
     return {{"mgid", from.id}, {"hex", hex_of(from.payload.data(), from.payload.size())}, {"error", why}};
-  return {{"abbrev", message.form()->name}, {"mgid", from.id}, {"fields", json_of(message)}};
+  return {{"abbrev", message.descriptor()->name}, {"mgid", from.id}, {"fields", json_of(message)}};
 }
 
-Json json_of_field(const MessageSet& set, const FieldForm& field, const void* from) {
+Json json_of_field(const MessageSet& set, const FieldDescriptor& field, const void* from) {
   switch (field.wire) {
     case Wire::plaintext: {
       const std::string text(static_cast<const String*>(from)->view());
@@ -119,9 +119,9 @@ Json json_of_field(const MessageSet& set, const FieldForm& field, const void* fr
 
 Json json_of(MessageRef message) {
   Json object = Json::object();
-  for (const FieldForm& field : message.form->fields)
+  for (const FieldDescriptor& field : message.descriptor->fields)
     object[std::string(field.name)] =
-        json_of_field(message.form->set(), field, static_cast<const std::byte*>(message.value) + field.offset);
+        json_of_field(message.descriptor->set(), field, static_cast<const std::byte*>(message.value) + field.offset);
   return object;
 }
 

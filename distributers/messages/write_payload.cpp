@@ -2,7 +2,7 @@
 
 #include "distributers/messages/bytes.h"
 #include "distributers/messages/payload.h"
-#include "distributers/messages/walk.h"
+#include "distributers/messages/payload_cursor.h"
 
 namespace jarol::messages {
 namespace {
@@ -15,15 +15,15 @@ class Writer {
   Writer(const MessageSet& set, ByteOrder order, std::vector<std::byte>& to, std::string* why)
       : set_(set), order_(order), to_(to), why_(why) {}
 
-  bool write_fields(const MessageForm& form, const void* message) {
-    for (const FieldForm& field : form.fields)
+  bool write_fields(const MessageDescriptor& descriptor, const void* message) {
+    for (const FieldDescriptor& field : descriptor.fields)
       if (!write_field(field, static_cast<const std::byte*>(message) + field.offset))
-        return fail_in_field(form, field, why_);
+        return fail_in_field(descriptor, field, why_);
     return true;
   }
 
  private:
-  bool write_field(const FieldForm& field, const void* from) {
+  bool write_field(const FieldDescriptor& field, const void* from) {
     switch (field.wire) {
       case Wire::plaintext: {
         const std::string_view text = static_cast<const String*>(from)->view();
@@ -49,7 +49,7 @@ class Writer {
   }
 
   bool write_counted(const void* from, std::size_t length) {
-    if (length > most_count) return fail_too_many(length, "bytes", why_);
+    if (length > max_count) return fail_too_many(length, "bytes", why_);
     append_unsigned(to_, count_size, order_, length);
     write_bytes(from, length);
     return true;
@@ -60,8 +60,8 @@ class Writer {
     to_.insert(to_.end(), bytes, bytes + length);
   }
 
-  bool write_list(const FieldForm& field, const List& list) {
-    if (list.size() > most_count) return fail_too_many(list.size(), "messages", why_);
+  bool write_list(const FieldDescriptor& field, const List& list) {
+    if (list.size() > max_count) return fail_too_many(list.size(), "messages", why_);
     append_unsigned(to_, count_size, order_, list.size());
     for (const InlineMessage& element : list)
       if (!write_inline(field, element)) return false;
@@ -69,25 +69,26 @@ class Writer {
   }
 
   // whoever filled the field: it is looked through before it leaves
-  bool write_inline(const FieldForm& field, const InlineMessage& from) {
+  bool write_inline(const FieldDescriptor& field, const InlineMessage& from) {
     append_unsigned(to_, size_of(set_.id_wire()), order_, from.empty() ? set_.no_id() : from.id);
     if (from.empty()) return true;
-    const MessageForm* const form = set_.find_nested(from.id);
-    if (!may_hold(field, form, from.id, why_)) return false;
+    const MessageDescriptor* const descriptor = set_.find_nested(from.id);
+    if (!may_hold(field, descriptor, from.id, why_)) return false;
     const auto payload = std::as_bytes(std::span(from.payload.data(), from.payload.size()));
-    Walk<false> walk(set_, ByteOrder::little, payload, why_);
-    if (!walk.over_fields(*form, 1)) {
+    PayloadCursor<false> cursor(set_, ByteOrder::little, payload, why_);
+    if (!cursor.over_fields(*descriptor, 1)) {
       if (why_ != nullptr) *why_ = "holds a message that can't be read: " + *why_;
       return false;
     }
-    if (walk.left() > 0) {
+    if (cursor.left() > 0) {
       if (why_ != nullptr)
-        *why_ = "holds " + std::string(form->name) + " with " + std::to_string(walk.left()) + " bytes too many";
+        *why_ = "holds " + std::string(descriptor->name) + " with " + std::to_string(cursor.left()) + " bytes too many";
       return false;
     }
     write_bytes(payload.data(), payload.size());
     if (order_ == ByteOrder::little) return true;
-    return Walk<true>(set_, ByteOrder::little, std::span(to_).last(payload.size()), why_).over_fields(*form, 1);
+    return PayloadCursor<true>(set_, ByteOrder::little, std::span(to_).last(payload.size()), why_)
+        .over_fields(*descriptor, 1);
   }
 
   const MessageSet& set_;
@@ -100,7 +101,7 @@ class Writer {
 
 bool write_payload(MessageRef message, ByteOrder order, std::vector<std::byte>& to, std::string* why) {
   const std::size_t before = to.size();
-  if (Writer(message.form->set(), order, to, why).write_fields(*message.form, message.value)) return true;
+  if (Writer(message.descriptor->set(), order, to, why).write_fields(*message.descriptor, message.value)) return true;
   to.resize(before);
   return false;
 }
@@ -108,7 +109,7 @@ bool write_payload(MessageRef message, ByteOrder order, std::vector<std::byte>& 
 bool put_inline(MessageRef message, InlineMessage& to, std::string* why) {
   std::vector<std::byte> payload;
   if (!write_payload(message, ByteOrder::little, payload, why)) return false;
-  to.id = message.form->id;
+  to.id = message.descriptor->id;
   to.payload.resize(payload.size());
   if (!payload.empty()) std::memcpy(to.payload.data(), payload.data(), payload.size());
   return true;

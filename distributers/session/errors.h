@@ -56,7 +56,7 @@ struct CheckpointRefused : SessionError {
   using SessionError::SessionError;
 };
 
-/// A vehicle whose motion has left what numbers can tell, or one in another process that is gone.
+/// A vehicle whose motion has left what numbers can express, or one in another process that is gone.
 struct SystemLost : SessionError {
   using SessionError::SessionError;
 };

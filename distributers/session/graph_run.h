@@ -38,7 +38,7 @@ class GraphRun {
   GraphRun(const PlannedGraph& of, RunStart start, const GraphRunOptions& options);
 
   const Graph& graph() const { return graph_; }
-  const std::vector<Channels*>& channels() const { return channels_; }
+  const std::vector<ExternalSystem*>& channels() const { return channels_; }
   Executor& executor() { return executor_; }
   const Executor& executor() const { return executor_; }
   RunSinks& sinks() { return sinks_; }
@@ -70,7 +70,7 @@ class GraphRun {
 
   Loaded loaded_;  // empty: others run the graph too
   const Graph& graph_;
-  std::vector<Channels*> channels_;
+  std::vector<ExternalSystem*> channels_;
   RunSinks sinks_;
   Executor executor_;
   std::optional<Linked> linked_;

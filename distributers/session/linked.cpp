@@ -5,19 +5,19 @@
 
 namespace jarol {
 
-std::vector<Channels*> pointers_to(const std::vector<std::unique_ptr<Channels>>& all) {
-  std::vector<Channels*> pointers;
+std::vector<ExternalSystem*> pointers_to(const std::vector<std::unique_ptr<ExternalSystem>>& all) {
+  std::vector<ExternalSystem*> pointers;
   for (const auto& channels : all) pointers.push_back(channels.get());
   return pointers;
 }
 
-Linked::Linked(std::vector<Channels*> channels, NoteSink note)
+Linked::Linked(std::vector<ExternalSystem*> channels, NoteSink note)
     : channels_(std::move(channels)), note_(std::move(note)) {
-  for (Channels* each : channels_) each->begin();
+  for (ExternalSystem* each : channels_) each->begin();
 }
 
 void Linked::finish() {
-  for (Channels* channels : channels_) {
+  for (ExternalSystem* channels : channels_) {
     try {
       channels->finish();
     } catch (const std::runtime_error& error) { note_(error.what()); }
@@ -26,7 +26,7 @@ void Linked::finish() {
 
 std::vector<LinkReport> Linked::reports() const {
   std::vector<LinkReport> reports;
-  for (const Channels* channels : channels_)
+  for (const ExternalSystem* channels : channels_)
     if (auto report = channels->link_report()) reports.push_back(std::move(*report));
   return reports;
 }

@@ -5,17 +5,17 @@
 #include <vector>
 
 #include "distributers/session/note_sink.h"
-#include "runtime/channels.h"
+#include "runtime/external_system.h"
 
 namespace jarol {
 
-std::vector<Channels*> pointers_to(const std::vector<std::unique_ptr<Channels>>& all);
+std::vector<ExternalSystem*> pointers_to(const std::vector<std::unique_ptr<ExternalSystem>>& all);
 
 /// Channels that are on links run while this lives.
 class Linked {
  public:
   /// Throws std::runtime_error if there is no way to an external system.
-  Linked(std::vector<Channels*> channels, NoteSink note);
+  Linked(std::vector<ExternalSystem*> channels, NoteSink note);
   ~Linked() { finish(); }
   Linked(const Linked&) = delete;
   Linked& operator=(const Linked&) = delete;
@@ -25,7 +25,7 @@ class Linked {
   std::vector<LinkReport> reports() const;
 
  private:
-  std::vector<Channels*> channels_;
+  std::vector<ExternalSystem*> channels_;
   NoteSink note_;
 };
 

@@ -97,7 +97,7 @@ Loaded load_graph(const std::shared_ptr<const Source>& source, const distributer
   for (Distributer& distributer : loaded.graph->distributers)
     if (fits(distributer.name, without_link)) distributer.link = {};
   loaded.files = {source};
-  loaded.channels = distributers::make_channels(*loaded.graph, *loaded.known, seed, problems, &loaded.files);
+  loaded.channels = distributers::make_external_systems(*loaded.graph, *loaded.known, seed, problems, &loaded.files);
   add_conditions(loaded, problems);
   return loaded;
 }

@@ -11,7 +11,7 @@
 #include "graph/expect/names.h"
 #include "graph/language/load.h"
 #include "graph/model/graph.h"
-#include "runtime/channels.h"
+#include "runtime/external_system.h"
 #include "runtime/record/recording_format.h"
 
 namespace jarol {
@@ -19,7 +19,7 @@ namespace jarol {
 struct Loaded {
   std::unique_ptr<distributers::Registries> known;  // with what the graph's plugins bring
   std::unique_ptr<Graph> graph;
-  std::vector<std::unique_ptr<Channels>> channels;
+  std::vector<std::unique_ptr<ExternalSystem>> channels;
   std::vector<std::shared_ptr<const Source>> files{};  // the graph's, then what its links name
   campaign::Campaign campaign{};                       // of the key of that name
   std::vector<expect::TrueValues> true_values{};       // what is known of the vehicle of each distributer

@@ -14,9 +14,9 @@ namespace {
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 // Gives each channel what was published under its name at the instant.
-class PublishedChannels : public Channels {
+class PublishedSystem : public ExternalSystem {
  public:
-  PublishedChannels(const Recording& recording, const std::vector<ChannelClass>& channels) {
+  PublishedSystem(const Recording& recording, const std::vector<ChannelClass>& channels) {
     for (const ChannelClass& channel : channels) {
       const ReadTopic& topic = *recording.find(channel.name);
       sources_.push_back({MessageCursor(recording, topic), channel.type});
@@ -63,7 +63,7 @@ OnlyTasks::OnlyTasks(const Graph& graph, const std::vector<std::string>& tasks, 
   recorded_.name = "recorded";
   made_.graph->distributers.push_back(
       {.name = "recorded", .where = {}, .distributer_class = &recorded_, .link = {}, .parameters = {}});
-  made_.channels.push_back(std::make_unique<PublishedChannels>(recording, recorded_.channels));
+  made_.channels.push_back(std::make_unique<PublishedSystem>(recording, recorded_.channels));
 }
 
 void OnlyTasks::keep_tasks(const Graph& graph, const std::vector<std::string>& names) {

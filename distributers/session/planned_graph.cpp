@@ -97,7 +97,7 @@ RunStart PlannedGraph::start(const std::vector<std::string>& set, std::uint64_t 
   change_tasks(set, start, problems);
   const std::vector<Distributer> distributers = change_distributers(set, problems);
   if (problems.empty())
-    start.channels = distributers::make_channels(graph(), distributers, *loaded_.known, seed, problems);
+    start.channels = distributers::make_external_systems(graph(), distributers, *loaded_.known, seed, problems);
   problems.throw_if_any();
   return start;
 }

@@ -18,7 +18,7 @@ struct RunStart {
     Value values;
   };
   std::vector<Parameters> parameters;
-  std::vector<std::unique_ptr<Channels>> channels;  // one per distributer of the graph
+  std::vector<std::unique_ptr<ExternalSystem>> channels;  // one per distributer of the graph
 };
 
 /// Constant: threads may start runs at once.

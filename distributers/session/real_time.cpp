@@ -43,10 +43,10 @@ std::vector<analysis::TaskThread> threads_for(const std::string& name, const Gra
     levels = std::max(levels, thread.urgency + 1);
   }
   const int needed = static_cast<int>(levels) + 1;  // and one above, for the thread that keeps the time
-  const int most = sched_get_priority_max(SCHED_FIFO);
-  if (needed > most)
+  const int max = sched_get_priority_max(SCHED_FIFO);
+  if (needed > max)
     throw NotExecutable("'" + name + "' takes " + std::to_string(needed) + " priorities and SCHED_FIFO has " +
-                        std::to_string(most) + "; use more cores, or choose " + words.set + " platform.policy=table");
+                        std::to_string(max) + "; use more cores, or choose " + words.set + " platform.policy=table");
   if (options.priority && *options.priority < needed)
     throw NotExecutable(words.priority + " " + std::to_string(*options.priority) + ": the tasks of '" + name +
                         "' take " + std::to_string(levels) + " priorities below it; choose " + std::to_string(needed) +

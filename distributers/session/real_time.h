@@ -27,7 +27,7 @@ std::vector<analysis::TaskThread> threads_for(const std::string& name, const Gra
 
 struct CheckFindings {
   std::string against;  // "is not schedulable: ...", "breaks a limit of chain ..."; empty: nothing
-  std::string unknown;  // why it can't be told
+  std::string unknown;  // why it is not known
 };
 
 CheckFindings find_against(const Graph& graph);

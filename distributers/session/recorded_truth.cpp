@@ -8,9 +8,10 @@
 namespace jarol {
 namespace {
 
-class WithTruth : public Channels {
+class WithTruth : public ExternalSystem {
  public:
-  WithTruth(std::unique_ptr<Channels> replayed, const Recording& recording, const ReadTopic& topic, const Type& type)
+  WithTruth(std::unique_ptr<ExternalSystem> replayed, const Recording& recording, const ReadTopic& topic,
+            const Type& type)
       : replayed_(std::move(replayed)), topic_(topic), next_(recording, topic), value_(type) {}
 
   void reach(Duration instant) override {
@@ -30,7 +31,7 @@ class WithTruth : public Channels {
       fail_in_chunk(next_.spot(), "a value of '" + topic_.channel.topic + "' that " + wrong);
   }
 
-  std::unique_ptr<Channels> replayed_;
+  std::unique_ptr<ExternalSystem> replayed_;
   const ReadTopic& topic_;
   MessageCursor next_;
   Value value_;
@@ -44,8 +45,8 @@ std::vector<const Type*> types_of_truth(const Loaded& loaded) {
   return types;
 }
 
-std::vector<std::unique_ptr<Channels>> recorded_channels(const Loaded& loaded, RecordedRun& run) {
-  std::vector<std::unique_ptr<Channels>> channels = replayed_channels(*loaded.graph, run);
+std::vector<std::unique_ptr<ExternalSystem>> recorded_channels(const Loaded& loaded, RecordedRun& run) {
+  std::vector<std::unique_ptr<ExternalSystem>> channels = replayed_channels(*loaded.graph, run);
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const Type* const type = loaded.true_values[i].type;
     const ReadTopic* const topic =

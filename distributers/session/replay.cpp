@@ -5,9 +5,9 @@
 namespace jarol {
 namespace {
 
-class ReplayedFromState : public Channels {
+class ReplayedFromState : public ExternalSystem {
  public:
-  ReplayedFromState(std::unique_ptr<Channels> system, std::unique_ptr<Channels> replayed)
+  ReplayedFromState(std::unique_ptr<ExternalSystem> system, std::unique_ptr<ExternalSystem> replayed)
       : system_(std::move(system)), replayed_(std::move(replayed)) {}
   void reach(Duration instant) override { replayed_->reach(instant); }
   bool take(std::size_t channel, void* value) override { return replayed_->take(channel, value); }
@@ -15,14 +15,14 @@ class ReplayedFromState : public Channels {
   void serialize(Archive& archive) override { system_->serialize(archive); }
 
  private:
-  std::unique_ptr<Channels> system_, replayed_;
+  std::unique_ptr<ExternalSystem> system_, replayed_;
 };
 
 }  // namespace
 
-std::vector<std::unique_ptr<Channels>> with_state_of(std::vector<std::unique_ptr<Channels>> systems,
-                                                     std::vector<std::unique_ptr<Channels>> replayed) {
-  std::vector<std::unique_ptr<Channels>> both;
+std::vector<std::unique_ptr<ExternalSystem>> with_state_of(std::vector<std::unique_ptr<ExternalSystem>> systems,
+                                                           std::vector<std::unique_ptr<ExternalSystem>> replayed) {
+  std::vector<std::unique_ptr<ExternalSystem>> both;
   for (std::size_t i = 0; i < systems.size(); ++i)
     both.push_back(std::make_unique<ReplayedFromState>(std::move(systems[i]), std::move(replayed[i])));
   return both;
@@ -48,9 +48,9 @@ void ReplayRun::cover() {
                     (report.digest == end->digest && report.activations == end->activations &&
                      report.instants == end->instants && report.fault_count == end->faults);
   if (comparison.diverged_until || !same) {
-    comparison.standing = Standing::diverged;
+    comparison.evidence = Evidence::diverged;
   } else if (end) {
-    comparison.standing = Standing::same;
+    comparison.evidence = Evidence::same;
   }
 }
 

@@ -10,11 +10,11 @@
 
 namespace jarol {
 
-enum class Standing { same, diverged, unknown };
+enum class Evidence { same, diverged, unknown };
 
 /// What the replay shows beside the run.
 struct Comparison {
-  Standing standing = Standing::unknown;
+  Evidence evidence = Evidence::unknown;
   std::optional<Duration> same_until;      // the newest digest up to which it was
   std::optional<Duration> diverged_until;  // the first one up to which it was not
   bool interrupted = false;
@@ -22,8 +22,8 @@ struct Comparison {
 
 /// Replayed channels of a run that goes on from what was saved of it: the state of its external systems is restored
 /// with all else, and nobody looks at it. One for one.
-std::vector<std::unique_ptr<Channels>> with_state_of(std::vector<std::unique_ptr<Channels>> systems,
-                                                     std::vector<std::unique_ptr<Channels>> replayed);
+std::vector<std::unique_ptr<ExternalSystem>> with_state_of(std::vector<std::unique_ptr<ExternalSystem>> systems,
+                                                           std::vector<std::unique_ptr<ExternalSystem>> replayed);
 
 /// To the end of what the recording covers, from digest to digest, so that it shows where the two diverge.
 class ReplayRun : public ExecutorRun {

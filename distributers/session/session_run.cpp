@@ -113,7 +113,7 @@ Loaded Session::Run::feed_in_place_of_links(Loaded loaded, const std::vector<std
   fed_.resize(loaded.channels.size());
   for (std::size_t i = 0; i < fed_.size(); ++i) {
     if (loaded.channels[i] != nullptr) continue;
-    auto made = std::make_unique<FedChannels>(*graph.distributers[i].distributer_class);
+    auto made = std::make_unique<FedSystem>(*graph.distributers[i].distributer_class);
     fed_[i] = made.get();
     loaded.channels[i] = std::move(made);
   }

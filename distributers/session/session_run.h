@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "distributers/session/fed_channels.h"
+#include "distributers/session/fed_system.h"
 #include "distributers/session/graph_run.h"
 #include "distributers/session/guard.h"
 #include "distributers/session/observed.h"
@@ -39,7 +39,7 @@ class Session::Run {
   Loaded feed_in_place_of_links(Loaded loaded, const std::vector<std::string>& patterns);
 
   DistributerClass without_channel_;  // of communicators that the program feeds
-  std::vector<FedChannels*> fed_;     // per distributer, null: it has its link
+  std::vector<FedSystem*> fed_;       // per distributer, null: it has its link
   // on the real clock
   std::optional<RealClock> clock_;
   std::vector<analysis::TaskThread> threads_;

@@ -2,7 +2,7 @@
 
 namespace jarol {
 
-std::vector<TrueState> find_true_states(const Graph& graph, const std::vector<Channels*>& channels) {
+std::vector<TrueState> find_true_states(const Graph& graph, const std::vector<ExternalSystem*>& channels) {
   std::vector<TrueState> found;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const Type* type = channels[i]->true_type();

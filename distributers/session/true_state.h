@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "graph/model/graph.h"
-#include "runtime/channels.h"
+#include "runtime/external_system.h"
 
 namespace jarol {
 
@@ -16,6 +16,6 @@ struct TrueState {
 };
 
 /// Of each vehicle that is simulated on these channels, one per distributer of the graph.
-std::vector<TrueState> find_true_states(const Graph& graph, const std::vector<Channels*>& channels);
+std::vector<TrueState> find_true_states(const Graph& graph, const std::vector<ExternalSystem*>& channels);
 
 }  // namespace jarol

@@ -23,7 +23,7 @@ bool RunVerdict::is_negative() const {
                      [](const Verdict& v) { return v.outcome == Verdict::Outcome::fails; });
 }
 
-std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<Channels*>& channels) {
+std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& channels) {
   std::vector<RunVerdict::VehicleMishap> found;
   for (std::size_t i = 0; i < channels.size(); ++i)
     if (const std::string mishap = channels[i]->mishap(); !mishap.empty())
@@ -31,7 +31,7 @@ std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const st
   return found;
 }
 
-std::vector<std::string> find_unheard(const Graph& graph, const std::vector<Channels*>& channels) {
+std::vector<std::string> find_unheard(const Graph& graph, const std::vector<ExternalSystem*>& channels) {
   std::vector<std::string> found;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const auto takes = [i](const Communicator& c) { return c.distributer == i && c.direction == Direction::in; };
@@ -52,9 +52,9 @@ std::string why_cut_short(Duration reached, Duration until, Duration mission) {
   return "";
 }
 
-Duration end_of_mission(const std::vector<Channels*>& channels) {
+Duration end_of_mission(const std::vector<ExternalSystem*>& channels) {
   Duration end{};
-  for (const Channels* each : channels) end = std::max(end, each->end().value_or(Duration{}));
+  for (const ExternalSystem* each : channels) end = std::max(end, each->end().value_or(Duration{}));
   return end;
 }
 
@@ -76,7 +76,7 @@ std::vector<std::string> find_left_out(const Graph& graph, const Report& report)
   return lines;
 }
 
-RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector<Channels*>& channels,
+RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector<ExternalSystem*>& channels,
                      const RunSinks& sinks, const std::optional<RestReport>& rest, Duration until, const RunEnd& end,
                      const std::string& unseen) {
   RunVerdict verdict;

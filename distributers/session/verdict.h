@@ -7,9 +7,9 @@
 
 #include "distributers/session/run_sinks.h"
 #include "graph/model/graph.h"
-#include "runtime/channels.h"
 #include "runtime/execute/executor.h"
 #include "runtime/execute/expectations.h"
+#include "runtime/external_system.h"
 
 namespace jarol {
 
@@ -28,10 +28,10 @@ struct RunVerdict {
 };
 
 /// What became of the vehicles that are simulated on these channels, one per distributer of the graph.
-std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<Channels*>& channels);
+std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& channels);
 
 /// The distributers of vehicles from which nothing came over their links, though the graph takes something from them.
-std::vector<std::string> find_unheard(const Graph& graph, const std::vector<Channels*>& channels);
+std::vector<std::string> find_unheard(const Graph& graph, const std::vector<ExternalSystem*>& channels);
 
 /// A line for each task that faults left without outputs more often than the graph allows.
 std::vector<std::string> find_left_out(const Graph& graph, const Report& report);
@@ -41,11 +41,11 @@ std::vector<std::string> find_left_out(const Graph& graph, const Report& report)
 std::string why_cut_short(Duration reached, Duration until, Duration mission);
 
 /// Of all scripts on these channels; zero: there is none.
-Duration end_of_mission(const std::vector<Channels*>& channels);
+Duration end_of_mission(const std::vector<ExternalSystem*>& channels);
 
 /// All of that, of a run that was to go on `until`, came to rest or not, and ended like that; its sinks are closed.
 /// `unseen`: why they have not got all that was published.
-RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector<Channels*>& channels,
+RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector<ExternalSystem*>& channels,
                      const RunSinks& sinks, const std::optional<RestReport>& rest, Duration until, const RunEnd& end,
                      const std::string& unseen = "");
 

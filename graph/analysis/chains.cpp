@@ -67,7 +67,7 @@ std::int64_t backward(const std::vector<Hop>& hops, std::int64_t k) {
 }  // namespace
 
 ChainLatency latency_of(const Graph& graph, const std::vector<End>& path) {
-  constexpr std::int64_t most_activations = 2'000'000;
+  constexpr std::int64_t max_activations = 2'000'000;
   std::vector<Hop> hops;
   for (const End& end : path) hops.push_back(hop_of(graph, end));
   ChainLatency result;
@@ -80,7 +80,7 @@ ChainLatency latency_of(const Graph& graph, const std::vector<End>& path) {
     lcm = std::min<Wide>(next, static_cast<Wide>(1) << 62);
   }
   const Hop &first = hops.front(), &last = hops.back();
-  if (lcm / first.period > most_activations || lcm / last.period > most_activations) {
+  if (lcm / first.period > max_activations || lcm / last.period > max_activations) {
     result.exact = false;
     result.max_reaction = result.max_reduced = result.max_age = result.max_reduced_age = result.bound;
     return result;

@@ -14,17 +14,17 @@ const char* word_of(Verdict verdict) {
 }
 
 Result check(const System& system) {
-  Effort effort;
-  Result result = system.policy.check(system, true, effort);
+  Budget budget;
+  Result result = system.policy.check(system, true, budget);
   // the policy of a plugin may leave them out
-  result.response.resize(system.loads.size());
-  result.exact.resize(system.loads.size());
-  result.core.resize(system.loads.size());
-  result.utilisation = utilisation(system.loads);
+  result.response.resize(system.models.size());
+  result.exact.resize(system.models.size());
+  result.core.resize(system.models.size());
+  result.utilisation = utilisation(system.models);
   return result;
 }
 
-Verdict verdict_of(const System& system, Effort& effort) { return system.policy.check(system, false, effort).verdict; }
+Verdict verdict_of(const System& system, Budget& budget) { return system.policy.check(system, false, budget).verdict; }
 
 Result check(const Graph& graph) {
   std::vector<std::string> missing;
@@ -34,7 +34,7 @@ Result check(const Graph& graph) {
   if (missing.empty()) return check(system);
   Result result;
   result.reason = "no 'wcet' is stated for " + list_of(missing);
-  result.utilisation = utilisation(system.loads);
+  result.utilisation = utilisation(system.models);
   result.response.resize(graph.tasks.size());
   result.exact.resize(graph.tasks.size());
   result.core.resize(graph.tasks.size());

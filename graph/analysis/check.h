@@ -12,7 +12,7 @@ namespace jarol::analysis {
 
 struct Result {
   Verdict verdict = Verdict::unknown;
-  Standing standing = Standing::none;
+  Evidence evidence = Evidence::none;
   std::string reason;  // one sentence
   double utilisation = 0;
   // per task, in the order of the graph
@@ -21,7 +21,7 @@ struct Result {
   std::vector<std::optional<std::size_t>> core;       // where one runs it always
   // why not
   std::optional<std::size_t> core_at_fault;
-  std::optional<Late> late;
+  std::optional<DeadlineMiss> late;
   std::vector<Slice> slices;  // on that core, before that
   std::optional<Demand> demand;
 };
@@ -32,7 +32,7 @@ const char* word_of(Verdict verdict);
 Result check(const System& system);
 
 /// The verdict alone; unknown where it would take more effort.
-Verdict verdict_of(const System& system, Effort& effort);
+Verdict verdict_of(const System& system, Budget& budget);
 
 /// The same of a graph; a task without a WCET leaves it open and is named.
 Result check(const Graph& graph);

@@ -9,14 +9,14 @@ namespace jarol::analysis {
 namespace {
 
 // A length beyond which demand can't exceed it, where utilisation is below one.
-std::optional<std::int64_t> linear_bound(std::span<const Load> loads, std::int64_t blocking) {
+std::optional<std::int64_t> linear_bound(std::span<const TaskModel> models, std::int64_t blocking) {
   long double total = 0, sum = static_cast<long double>(blocking);
   std::int64_t latest = 0;
-  for (const Load& l : loads) {
-    const long double u = static_cast<long double>(l.wcet) / static_cast<long double>(l.period);
+  for (const TaskModel& m : models) {
+    const long double u = static_cast<long double>(m.wcet) / static_cast<long double>(m.period);
     total += u;
-    sum += u * static_cast<long double>(std::max<std::int64_t>(0, l.period - l.deadline + l.jitter));
-    latest = std::max(latest, l.deadline - l.jitter);
+    sum += u * static_cast<long double>(std::max<std::int64_t>(0, m.period - m.deadline + m.jitter));
+    latest = std::max(latest, m.deadline - m.jitter);
   }
   const long double slack = 1 - total;
   if (slack < 1e-15L) return std::nullopt;
@@ -25,90 +25,91 @@ std::optional<std::int64_t> linear_bound(std::span<const Load> loads, std::int64
   return std::max(latest, static_cast<std::int64_t>(bound)) + 1;
 }
 
-std::optional<std::int64_t> one_repetition(std::span<const Load> loads) {
-  const auto lcm = hyperperiod(loads, far / 2);
+std::optional<std::int64_t> one_repetition(std::span<const TaskModel> models) {
+  const auto lcm = hyperperiod(models, far / 2);
   std::int64_t latest = 0;
-  for (const Load& l : loads) latest = std::max(latest, l.deadline);
+  for (const TaskModel& m : models) latest = std::max(latest, m.deadline);
   return lcm ? std::optional(*lcm + latest) : std::nullopt;
 }
 
-std::optional<std::int64_t> least_of(std::optional<std::int64_t> a, std::optional<std::int64_t> b) {
+std::optional<std::int64_t> min_of(std::optional<std::int64_t> a, std::optional<std::int64_t> b) {
   return a && b ? std::min(*a, *b) : a ? a : b;
 }
 
 // The latest absolute deadline before `length`, or nothing.
-std::optional<std::int64_t> deadline_before(std::span<const Load> loads, std::int64_t length) {
+std::optional<std::int64_t> deadline_before(std::span<const TaskModel> models, std::int64_t length) {
   std::optional<std::int64_t> latest;
-  for (const Load& l : loads) {
-    const std::int64_t first = std::max<std::int64_t>(0, l.deadline - l.jitter);
+  for (const TaskModel& m : models) {
+    const std::int64_t first = std::max<std::int64_t>(0, m.deadline - m.jitter);
     if (first >= length) continue;
     // jitter may pull the first ones to 0
-    const std::int64_t k = (length - 1 - (l.deadline - l.jitter)) / l.period;
-    latest = std::max(latest.value_or(0), std::max<std::int64_t>(0, k * l.period + l.deadline - l.jitter));
+    const std::int64_t k = (length - 1 - (m.deadline - m.jitter)) / m.period;
+    latest = std::max(latest.value_or(0), std::max<std::int64_t>(0, k * m.period + m.deadline - m.jitter));
   }
   return latest;
 }
 
 // As far as demand goes, tasks of equal timing are one.
-Loads merged(std::span<const Load> loads) {
-  Loads sorted(loads.begin(), loads.end());
-  const auto timing = [](const Load& l) { return std::tuple(l.period, l.deadline, l.jitter, l.blocking); };
-  std::sort(sorted.begin(), sorted.end(), [&](const Load& a, const Load& b) { return timing(a) < timing(b); });
-  Loads result;
-  for (const Load& l : sorted) {
-    if (!result.empty() && timing(result.back()) == timing(l)) {
-      result.back().wcet += l.wcet;
+TaskModels merged(std::span<const TaskModel> models) {
+  TaskModels sorted(models.begin(), models.end());
+  const auto timing = [](const TaskModel& m) { return std::tuple(m.period, m.deadline, m.jitter, m.blocking); };
+  std::sort(sorted.begin(), sorted.end(),
+            [&](const TaskModel& a, const TaskModel& b) { return timing(a) < timing(b); });
+  TaskModels result;
+  for (const TaskModel& m : sorted) {
+    if (!result.empty() && timing(result.back()) == timing(m)) {
+      result.back().wcet += m.wcet;
     } else {
-      result.push_back(l);
+      result.push_back(m);
     }
   }
   return result;
 }
 
-EdfResult check_edf_of(std::span<const Load> loads, bool preemptive, Effort& effort) {
+EdfResult check_edf_of(std::span<const TaskModel> models, bool preemptive, Budget& budget) {
   EdfResult result;
-  const auto order = compare_utilisation(loads, 1);
+  const auto order = compare_utilisation(models, 1);
   std::int64_t blocking = 0;
-  for (const Load& l : loads) blocking = std::max({blocking, l.blocking, preemptive ? 0 : l.wcet - 1});
+  for (const TaskModel& m : models) blocking = std::max({blocking, m.blocking, preemptive ? 0 : m.wcet - 1});
   std::optional<std::int64_t> end;
   if (order && *order <= 0) {
     // from one hyperperiod to the next demand grows no more than time does
-    end = one_repetition(loads);
-    if (*order < 0) end = least_of(end, linear_bound(loads, blocking));
+    end = one_repetition(models);
+    if (*order < 0) end = min_of(end, linear_bound(models, blocking));
     // close to full utilisation it may take very long to find the busy period: no further than it helps
-    if (*order < 0 || blocking == 0) end = least_of(end, busy_period(loads, blocking, end.value_or(far), effort));
+    if (*order < 0 || blocking == 0) end = min_of(end, busy_period(models, blocking, end.value_or(far), budget));
     if (end) *end += 1;
   } else if (order) {
     // demand grows beyond any line: look from short intervals on until it does
     std::int64_t length = 1;
-    for (const Load& l : loads) length = std::max(length, l.deadline);
-    while (length < far / 2 && demand_bound(loads, length) <= length) length *= 2;
+    for (const TaskModel& m : models) length = std::max(length, m.deadline);
+    while (length < far / 2 && demand_bound(models, length) <= length) length *= 2;
     end = length + 1;
   }
   if (!end) return {false, std::nullopt};
-  const auto total = [&](std::int64_t t) { return demand_bound(loads, t) + blocking_bound(loads, t, preemptive); };
-  auto at = deadline_before(loads, *end);
-  if (order && *order > 0 && demand_bound(loads, *end - 1) > *end - 1) at = *end - 1;
+  const auto total = [&](std::int64_t t) { return demand_bound(models, t) + blocking_bound(models, t, preemptive); };
+  auto at = deadline_before(models, *end);
+  if (order && *order > 0 && demand_bound(models, *end - 1) > *end - 1) at = *end - 1;
   while (at) {
-    if (!effort.spend(loads.size())) return {false, std::nullopt};
+    if (!budget.spend(models.size())) return {false, std::nullopt};
     const Wide need = total(*at);
     if (need > *at) {
-      const std::int64_t held = blocking_bound(loads, *at, preemptive);
+      const std::int64_t held = blocking_bound(models, *at, preemptive);
       result.over = Demand{*at, static_cast<std::int64_t>(std::min<Wide>(need - held, far)), held};
       return result;
     }
     // shorter intervals have no more due, though perhaps more blocking: down to there none can exceed its length
-    const Wide most = demand_bound(loads, *at) + blocking;
-    at = deadline_before(loads, most < *at ? static_cast<std::int64_t>(most) + 1 : *at);
+    const Wide max = demand_bound(models, *at) + blocking;
+    at = deadline_before(models, max < *at ? static_cast<std::int64_t>(max) + 1 : *at);
   }
   return result;
 }
 
 }  // namespace
 
-EdfResult check_edf(std::span<const Load> loads, bool preemptive, Effort& effort) {
-  return within(effort, most_edf_steps, [&](Effort& own) {
-    return preemptive ? check_edf_of(merged(loads), true, own) : check_edf_of(loads, false, own);
+EdfResult check_edf(std::span<const TaskModel> models, bool preemptive, Budget& budget) {
+  return within(budget, max_edf_steps, [&](Budget& own) {
+    return preemptive ? check_edf_of(merged(models), true, own) : check_edf_of(models, false, own);
   });
 }
 

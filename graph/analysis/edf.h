@@ -1,7 +1,7 @@
 // Earliest deadline first on one core.
 #pragma once
 
-#include "graph/analysis/load.h"
+#include "graph/analysis/task_model.h"
 
 namespace jarol::analysis {
 
@@ -20,6 +20,6 @@ struct EdfResult {
 /// Processor demand (Baruah, Rosier, Howell 1990; with jitter Spuri 1996), by QPA (Zhang, Burns 2009). Exact for
 /// sporadic tasks, and for synchronous periodic ones without jitter. Non-preemptive: Jeffay, Stanat, Martel 1991, where
 /// a task does not hold up its own activations; exact for sporadic tasks.
-EdfResult check_edf(std::span<const Load> loads, bool preemptive, Effort& effort);
+EdfResult check_edf(std::span<const TaskModel> models, bool preemptive, Budget& budget);
 
 }  // namespace jarol::analysis

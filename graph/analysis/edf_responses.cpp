@@ -9,28 +9,28 @@ namespace jarol::analysis {
 namespace {
 
 // With the longest `blocking` that may be felt and equal deadlines against the task, or what is sure.
-enum class Count { most, sure };
+enum class Count { max, sure };
 
 // Of `own`, arriving so that it is released at `a` after the beginning of a busy period, at the latest.
-std::optional<std::int64_t> response_at(std::span<const Load> loads, std::size_t own, std::int64_t a, bool preemptive,
-                                        Count what, Effort& effort) {
-  const Load& task = loads[own];
+std::optional<std::int64_t> response_at(std::span<const TaskModel> models, std::size_t own, std::int64_t a,
+                                        bool preemptive, Count what, Budget& budget) {
+  const TaskModel& task = models[own];
   const std::int64_t due_at = a - task.jitter + task.deadline;
-  const Wide held = what == Count::most ? blocking_bound(loads, due_at, preemptive) : task.blocking;
+  const Wide held = what == Count::max ? blocking_bound(models, due_at, preemptive) : task.blocking;
   const Wide before = held + static_cast<Wide>(a / task.period) * task.wcet;
   // preemptive: up to its end; else up to its start, from where on nothing interrupts it
   std::int64_t length = preemptive ? task.wcet : 0;
   while (true) {
     Wide next = before + (preemptive ? task.wcet : 0);
-    for (std::size_t j = 0; j < loads.size(); ++j) {
-      const Load& l = loads[j];
+    for (std::size_t j = 0; j < models.size(); ++j) {
+      const TaskModel& m = models[j];
       const std::int64_t until = what == Count::sure && j > own ? due_at - 1 : due_at;
-      if (j == own || until - l.deadline + l.jitter < 0) continue;
-      const Wide window = static_cast<Wide>(length) + l.jitter;
-      const Wide by_time = preemptive ? ceil_div(window, l.period) : window / l.period + 1;
-      next += std::min<Wide>(by_time, releases_due(l, until)) * l.wcet;
+      if (j == own || until - m.deadline + m.jitter < 0) continue;
+      const Wide window = static_cast<Wide>(length) + m.jitter;
+      const Wide by_time = preemptive ? ceil_div(window, m.period) : window / m.period + 1;
+      next += std::min<Wide>(by_time, releases_due(m, until)) * m.wcet;
     }
-    if (!effort.spend(loads.size()) || next > far) return std::nullopt;
+    if (!budget.spend(models.size()) || next > far) return std::nullopt;
     if (next == length) break;
     length = static_cast<std::int64_t>(next);
   }
@@ -38,23 +38,23 @@ std::optional<std::int64_t> response_at(std::span<const Load> loads, std::size_t
 }
 
 // The longest over all releases in a busy period whose deadline coincides with that of another.
-std::vector<std::int64_t> responses_by_deadlines(std::span<const Load> loads, bool preemptive, std::int64_t busy,
-                                                 Count what, Effort& effort) {
+std::vector<std::int64_t> responses_by_deadlines(std::span<const TaskModel> models, bool preemptive, std::int64_t busy,
+                                                 Count what, Budget& budget) {
   std::vector<std::int64_t> responses;
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    const Load& own = loads[i];
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const TaskModel& own = models[i];
     std::int64_t response = own.wcet + own.jitter + own.blocking;
-    for (const Load& other : loads) {
+    for (const TaskModel& other : models) {
       const std::int64_t first = other.deadline - other.jitter - (own.deadline - own.jitter);
       for (std::int64_t k = first < 0 ? (-first + other.period - 1) / other.period : 0; k * other.period + first < busy;
            ++k) {
-        const auto found = response_at(loads, i, k * other.period + first, preemptive, what, effort);
+        const auto found = response_at(models, i, k * other.period + first, preemptive, what, budget);
         if (!found) return {};
         response = std::max(response, *found);
       }
     }
     // what holds it up most may be what has a later deadline than the first ones
-    const auto first = response_at(loads, i, 0, preemptive, what, effort);
+    const auto first = response_at(models, i, 0, preemptive, what, budget);
     if (!first) return {};
     responses.push_back(std::max(response, *first));
   }
@@ -63,19 +63,19 @@ std::vector<std::int64_t> responses_by_deadlines(std::span<const Load> loads, bo
 
 // An activation due `t` after the beginning of a busy period ends with the work that is due by then, and with the busy
 // period: that much before its deadline.
-std::vector<std::int64_t> responses_by_slack(std::span<const Load> loads, bool preemptive, std::int64_t busy,
-                                             Effort& effort) {
+std::vector<std::int64_t> responses_by_slack(std::span<const TaskModel> models, bool preemptive, std::int64_t busy,
+                                             Budget& budget) {
   std::int64_t longest = 0;
-  for (const Load& l : loads) longest = std::max(longest, l.deadline);
+  for (const TaskModel& m : models) longest = std::max(longest, m.deadline);
   std::vector<std::pair<std::int64_t, std::int64_t>> dues;  // when, how much
   std::vector<std::pair<std::int64_t, std::int64_t>> held;  // by how much up to when: non-preemptive
   std::int64_t blocking = 0;
-  for (const Load& l : loads) {
-    blocking = std::max(blocking, l.blocking);
-    if (!preemptive) held.emplace_back(l.deadline - l.jitter, l.wcet - 1);
-    for (std::int64_t t = l.deadline - l.jitter; t <= busy + longest; t += l.period) {
-      if (!effort.spend(20)) return {};
-      dues.emplace_back(std::max<std::int64_t>(0, t), l.wcet);
+  for (const TaskModel& m : models) {
+    blocking = std::max(blocking, m.blocking);
+    if (!preemptive) held.emplace_back(m.deadline - m.jitter, m.wcet - 1);
+    for (std::int64_t t = m.deadline - m.jitter; t <= busy + longest; t += m.period) {
+      if (!budget.spend(20)) return {};
+      dues.emplace_back(std::max<std::int64_t>(0, t), m.wcet);
     }
   }
   std::sort(dues.begin(), dues.end());
@@ -93,64 +93,64 @@ std::vector<std::int64_t> responses_by_slack(std::span<const Load> loads, bool p
   }
   for (std::size_t i = left.size(); i-- > 1;) left[i - 1].second = std::min(left[i - 1].second, left[i].second);
   std::vector<std::int64_t> responses;
-  for (const Load& l : loads) {
+  for (const TaskModel& m : models) {
     const auto from =
-        std::lower_bound(left.begin(), left.end(), std::pair(std::max<std::int64_t>(0, l.deadline - l.jitter), -far));
-    const std::int64_t response = std::min(busy + l.jitter, l.deadline - from->second);
+        std::lower_bound(left.begin(), left.end(), std::pair(std::max<std::int64_t>(0, m.deadline - m.jitter), -far));
+    const std::int64_t response = std::min(busy + m.jitter, m.deadline - from->second);
     responses.push_back(response);
   }
   return responses;
 }
 
 // How long a busy period lasts at most, and at how many instants in it something arrives; nothing if that is open.
-std::optional<std::pair<std::int64_t, long double>> longest_busy(std::span<const Load> loads, bool preemptive,
-                                                                 Effort& effort) {
-  const auto order = compare_utilisation(loads, 1);
-  if (!order || *order > 0 || loads.empty()) return std::nullopt;
+std::optional<std::pair<std::int64_t, long double>> longest_busy(std::span<const TaskModel> models, bool preemptive,
+                                                                 Budget& budget) {
+  const auto order = compare_utilisation(models, 1);
+  if (!order || *order > 0 || models.empty()) return std::nullopt;
   // from one hyperperiod to the next demand grows no more than time does
-  const auto lcm = hyperperiod(loads, far / 4);
+  const auto lcm = hyperperiod(models, far / 4);
   std::int64_t blocking = 0, longest = 0;
-  for (const Load& l : loads) {
-    blocking = std::max({blocking, l.blocking, preemptive ? 0 : l.wcet - 1});
-    longest = std::max(longest, l.deadline);
+  for (const TaskModel& m : models) {
+    blocking = std::max({blocking, m.blocking, preemptive ? 0 : m.wcet - 1});
+    longest = std::max(longest, m.deadline);
   }
-  const std::int64_t most = lcm ? *lcm + longest : far / 2;
+  const std::int64_t max = lcm ? *lcm + longest : far / 2;
   std::optional<std::int64_t> busy;
-  if (*order < 0 || blocking == 0) busy = busy_period(loads, blocking, most, effort);
-  if (!busy && (!lcm || effort.spent())) return std::nullopt;
-  const std::int64_t length = busy.value_or(most);
+  if (*order < 0 || blocking == 0) busy = busy_period(models, blocking, max, budget);
+  if (!busy && (!lcm || budget.spent())) return std::nullopt;
+  const std::int64_t length = busy.value_or(max);
   long double points = 0;
-  for (const Load& l : loads)
-    points += static_cast<long double>(length + l.jitter) / static_cast<long double>(l.period) + 1;
+  for (const TaskModel& m : models)
+    points += static_cast<long double>(length + m.jitter) / static_cast<long double>(m.period) + 1;
   return std::pair(length, points);
 }
 
-bool is_quick(long double points, std::size_t tasks, const Effort& effort) {
+bool is_quick(long double points, std::size_t tasks, const Budget& budget) {
   const auto n = static_cast<long double>(tasks);
-  return points * n * n <= static_cast<long double>(std::min<std::uint64_t>(effort.left, most_edf_steps)) / 4;
+  return points * n * n <= static_cast<long double>(std::min<std::uint64_t>(budget.left, max_edf_steps)) / 4;
 }
 
 }  // namespace
 
-std::vector<std::int64_t> edf_responses(std::span<const Load> loads, bool preemptive, Effort& effort) {
-  return within(effort, most_edf_steps, [&](Effort& own) -> std::vector<std::int64_t> {
-    const auto busy = longest_busy(loads, preemptive, own);
+std::vector<std::int64_t> edf_responses(std::span<const TaskModel> models, bool preemptive, Budget& budget) {
+  return within(budget, max_edf_steps, [&](Budget& own) -> std::vector<std::int64_t> {
+    const auto busy = longest_busy(models, preemptive, own);
     if (!busy) return {};
-    if (is_quick(busy->second, loads.size(), own)) {
-      auto responses = responses_by_deadlines(loads, preemptive, busy->first, Count::most, own);
+    if (is_quick(busy->second, models.size(), own)) {
+      auto responses = responses_by_deadlines(models, preemptive, busy->first, Count::max, own);
       if (!responses.empty()) return responses;
     }
-    return busy->second < 1e6L ? responses_by_slack(loads, preemptive, busy->first, own) : std::vector<std::int64_t>{};
+    return busy->second < 1e6L ? responses_by_slack(models, preemptive, busy->first, own) : std::vector<std::int64_t>{};
   });
 }
 
-bool is_late_by_own_blocking(std::span<const Load> loads, bool preemptive, Effort& effort) {
-  return within(effort, most_edf_steps, [&](Effort& own) {
-    const auto busy = longest_busy(loads, preemptive, own);
-    if (!busy || !is_quick(busy->second, loads.size(), own)) return false;
-    const auto responses = responses_by_deadlines(loads, preemptive, busy->first, Count::sure, own);
+bool is_late_by_own_blocking(std::span<const TaskModel> models, bool preemptive, Budget& budget) {
+  return within(budget, max_edf_steps, [&](Budget& own) {
+    const auto busy = longest_busy(models, preemptive, own);
+    if (!busy || !is_quick(busy->second, models.size(), own)) return false;
+    const auto responses = responses_by_deadlines(models, preemptive, busy->first, Count::sure, own);
     for (std::size_t i = 0; i < responses.size(); ++i)
-      if (responses[i] > loads[i].deadline) return true;
+      if (responses[i] > models[i].deadline) return true;
     return false;
   });
 }

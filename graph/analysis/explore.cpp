@@ -37,25 +37,25 @@ bool add(std::vector<Free>& intervals, Free added) {
 
 class Explorer {
  public:
-  Explorer(const CoreTasks& tasks, Order order, Effort& effort)
-      : loads_(tasks.loads),
+  Explorer(const CoreTasks& tasks, Order order, Budget& budget)
+      : loads_(tasks.models),
         order_(order),
-        effort_(effort),
-        producers_(tasks.loads.size()),
+        budget_(budget),
+        producers_(tasks.models.size()),
         inherited_(inheriting_loads(tasks)),
         ready_at_(tasks) {
     result_.responses.resize(loads_.size(), 0);
-    jitters_ = std::any_of(loads_.begin(), loads_.end(), [](const Load& l) { return l.jitter > 0; });
+    jitters_ = std::any_of(loads_.begin(), loads_.end(), [](const TaskModel& m) { return m.jitter > 0; });
     for (const auto& [producer, reader] : tasks.follows) producers_[reader].push_back(producer);
   }
 
   Exploration run() {
-    const auto lcm = hyperperiod(loads_, most_time / 8);
+    const auto lcm = hyperperiod(loads_, max_time / 8);
     if (!lcm || loads_.empty()) return std::move(result_);
     repetition_ = *lcm;
     std::vector<std::int64_t> lengths{0};
-    for (const Load& l : loads_)
-      if (std::find(lengths.begin(), lengths.end(), l.blocking) == lengths.end()) lengths.push_back(l.blocking);
+    for (const TaskModel& m : loads_)
+      if (std::find(lengths.begin(), lengths.end(), m.blocking) == lengths.end()) lengths.push_back(m.blocking);
     for (const std::int64_t length : lengths)
       if (!run_with(length)) return std::move(result_);
     result_.whole = true;
@@ -88,15 +88,15 @@ class Explorer {
   void find_candidates(const Started& started) {
     candidates_.clear();
     for (std::size_t i = 0; i < loads_.size(); ++i) {
-      const Load& l = loads_[i];
-      const std::int64_t arrival = l.offset + started[i] * l.period;
+      const TaskModel& m = loads_[i];
+      const std::int64_t arrival = m.offset + started[i] * m.period;
       const auto waits_for = [&](std::size_t p) {
         const std::int64_t since = arrival - loads_[p].offset;
         return since >= 0 && since % loads_[p].period == 0 && started[p] <= since / loads_[p].period;
       };
       if (std::any_of(producers_[i].begin(), producers_[i].end(), waits_for)) continue;
-      candidates_.push_back({i, arrival, arrival + l.jitter,
-                             order_ == Order::by_priority ? static_cast<std::int64_t>(i) : arrival + l.deadline});
+      candidates_.push_back({i, arrival, arrival + m.jitter,
+                             order_ == Order::by_priority ? static_cast<std::int64_t>(i) : arrival + m.deadline});
     }
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Next& a, const Next& b) { return std::pair(a.urgency, a.task) < std::pair(b.urgency, b.task); });
@@ -104,9 +104,9 @@ class Explorer {
 
   // Everything that can start when the core is free; false if one may be late, or there is no more effort.
   bool go_on(const Started& started, const Free& free) {
-    if (!effort_.spend(20 * loads_.size())) return false;
+    if (!budget_.spend(20 * loads_.size())) return false;
     find_candidates(started);
-    std::int64_t any = most_time;  // by then one is released for sure
+    std::int64_t any = max_time;  // by then one is released for sure
     for (const Next& c : candidates_) any = std::min(any, c.latest);
     const std::int64_t busy = std::max(free.latest, any);
     const bool was_held = started.back() != 0;
@@ -115,22 +115,22 @@ class Explorer {
       held.back() = 1;
       put(std::move(held), {free.earliest + 1, any + blocking_, free.repetitions});
     }
-    std::int64_t more_urgent = most_time;  // by then one that goes before is
+    std::int64_t more_urgent = max_time;  // by then one that goes before is
     for (const Next& c : candidates_) {
       const std::int64_t from = std::max(free.earliest, c.arrival), to = std::min(busy, more_urgent - 1);
       more_urgent = std::min(more_urgent, c.latest);
       if (from > to) continue;
-      const Load& l = loads_[c.task];
-      const std::int64_t finish = to + l.wcet;
+      const TaskModel& m = loads_[c.task];
+      const std::int64_t finish = to + m.wcet;
       const bool counts = !was_held || blocking_ <= inherited_[c.task].blocking;
       if (counts) result_.responses[c.task] = std::max(result_.responses[c.task], finish - c.arrival);
-      if (counts && finish > c.arrival + l.deadline) {
+      if (counts && finish > c.arrival + m.deadline) {
         // for sure only by what holds up those of its instant
-        const std::int64_t sure = jitters_ ? l.blocking : ready_at_(c.task, c.arrival).blocking;
+        const std::int64_t sure = jitters_ ? m.blocking : ready_at_(c.task, c.arrival).blocking;
         if (was_held && blocking_ > sure) return !(doubtful_ = true);
         const std::int64_t shift = free.repetitions * repetition_;
-        result_.late = Late{c.task, started[c.task] + shift / l.period, c.arrival + shift, finish + shift,
-                            c.arrival + l.deadline + shift};
+        result_.late = DeadlineMiss{c.task, started[c.task] + shift / m.period, c.arrival + shift, finish + shift,
+                                    c.arrival + m.deadline + shift};
         result_.whole = true;
         return false;
       }
@@ -152,13 +152,13 @@ class Explorer {
     if (add(known_[started], free)) add(next_[started], free);
   }
 
-  Loads loads_;
+  TaskModels loads_;
   Order order_;
-  Effort& effort_;
+  Budget& budget_;
   std::vector<std::vector<std::size_t>> producers_;
   std::vector<Next> candidates_;
   std::int64_t repetition_ = 0, blocking_ = 0;
-  Loads inherited_;
+  TaskModels inherited_;
   ReadinessAt ready_at_;
   bool jitters_ = false, doubtful_ = false;
   States known_, next_;
@@ -167,9 +167,9 @@ class Explorer {
 
 }  // namespace
 
-Exploration explore(const CoreTasks& tasks, Order order, Effort& effort) {
-  constexpr std::uint64_t most_steps = 30'000'000;
-  return within(effort, most_steps, [&](Effort& own) { return Explorer(tasks, order, own).run(); });
+Exploration explore(const CoreTasks& tasks, Order order, Budget& budget) {
+  constexpr std::uint64_t max_steps = 30'000'000;
+  return within(budget, max_steps, [&](Budget& own) { return Explorer(tasks, order, own).run(); });
 }
 
 }  // namespace jarol::analysis

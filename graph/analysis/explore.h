@@ -7,8 +7,8 @@ namespace jarol::analysis {
 
 struct Exploration {
   bool whole = false;  // every state was looked at, or a late activation found
-  std::optional<Late> late;
-  std::vector<std::int64_t> responses;  // per load, the longest
+  std::optional<DeadlineMiss> late;
+  std::vector<std::int64_t> responses;  // per model, the longest
 };
 
 /// The schedule-abstraction graph of one core (Nasri, Brandenburg 2017), exact: a state is which activations have
@@ -17,6 +17,6 @@ struct Exploration {
 /// hyperperiod later, so that it ends where no new one is left. What holds up an activation with a `blocking` begins
 /// once while the core is idle: for each length there is such a state more, behind which only those count that can be
 /// held up so long.
-Exploration explore(const CoreTasks& tasks, Order order, Effort& effort);
+Exploration explore(const CoreTasks& tasks, Order order, Budget& budget);
 
 }  // namespace jarol::analysis

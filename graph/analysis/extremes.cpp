@@ -20,28 +20,28 @@ struct UrgentJob {
 
 class Walker {
  public:
-  Walker(const CoreTasks& tasks, Order order, bool beyond_late, Effort& effort)
+  Walker(const CoreTasks& tasks, Order order, bool beyond_late, Budget& budget)
       : tasks_(tasks),
         loads_(inheriting_loads(tasks)),
         order_(order),
         beyond_late_(beyond_late),
-        effort_(effort),
+        budget_(budget),
         ready_at_(tasks) {
     result_.responses.resize(loads_.size(), 0);
-    for (const Load& l : loads_) {
-      longest_jitter_ = std::max(longest_jitter_, l.jitter);
-      last_offset_ = std::max(last_offset_, l.offset);
-      if (std::find(blockings_.begin(), blockings_.end(), l.blocking) == blockings_.end())
-        blockings_.push_back(l.blocking);
+    for (const TaskModel& m : loads_) {
+      longest_jitter_ = std::max(longest_jitter_, m.jitter);
+      last_offset_ = std::max(last_offset_, m.offset);
+      if (std::find(blockings_.begin(), blockings_.end(), m.blocking) == blockings_.end())
+        blockings_.push_back(m.blocking);
     }
   }
 
   Extremes run() {
-    const auto lcm = hyperperiod(loads_, most_time / 8);
+    const auto lcm = hyperperiod(loads_, max_time / 8);
     if (!lcm) return std::move(result_);
     repetition_ = *lcm;
     const auto starts = latest_releases(last_offset_ + longest_jitter_ + *lcm);
-    if (effort_.spent()) return std::move(result_);
+    if (budget_.spent()) return std::move(result_);
     for (const std::int64_t blocking : blockings_)
       for (const std::int64_t start : starts)
         if (!walk_from(start, blocking)) return std::move(result_);
@@ -54,7 +54,7 @@ class Walker {
   std::vector<std::int64_t> latest_releases(std::int64_t until) {
     std::vector<std::int64_t> starts;
     for (std::size_t i = 0; i < loads_.size(); ++i)
-      for (std::int64_t a = loads_[i].offset; a < until && effort_.spend(10); a += loads_[i].period)
+      for (std::int64_t a = loads_[i].offset; a < until && budget_.spend(10); a += loads_[i].period)
         starts.push_back(a + ready_at_(i, a).jitter);
     std::sort(starts.begin(), starts.end());
     starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
@@ -64,10 +64,10 @@ class Walker {
   using Arrival = std::pair<std::int64_t, std::size_t>;  // when, of which task
 
   UrgentJob job_at(const Arrival& a) const {
-    const Load& l = loads_[a.second];
+    const TaskModel& m = loads_[a.second];
     const std::int64_t urgency =
-        order_ == Order::by_priority ? static_cast<std::int64_t>(a.second) : a.first + l.deadline;
-    return {urgency, a.second, (a.first - l.offset) / l.period, a.first, l.wcet};
+        order_ == Order::by_priority ? static_cast<std::int64_t>(a.second) : a.first + m.deadline;
+    return {urgency, a.second, (a.first - m.offset) / m.period, a.first, m.wcet};
   }
 
   // Held up for `blocking` at the start, of those activations that can be for so long. False if one is late, or there
@@ -75,22 +75,22 @@ class Walker {
   bool walk_from(std::int64_t start, std::int64_t blocking) {
     // from then on each repetition leaves no more than the one before it
     const std::int64_t end = start + last_offset_ + 2 * repetition_ + longest_jitter_;
-    LeastFirst<Arrival> arrivals;
-    LeastFirst<UrgentJob> ready;
+    MinFirst<Arrival> arrivals;
+    MinFirst<UrgentJob> ready;
     std::size_t open = 0;  // that arrived before the end
     const auto arrive = [&](const Arrival& a) {
       ready.push(job_at(a));
       open += a.first < end ? 1U : 0U;
     };
     for (std::size_t i = 0; i < loads_.size(); ++i) {
-      const Load& l = loads_[i];
-      const std::int64_t back = start - l.jitter - l.offset;
-      std::int64_t a = l.offset + (back <= 0 ? 0 : ceil_div(back, l.period)) * l.period;
-      for (; a <= start; a += l.period)
+      const TaskModel& m = loads_[i];
+      const std::int64_t back = start - m.jitter - m.offset;
+      std::int64_t a = m.offset + (back <= 0 ? 0 : ceil_div(back, m.period)) * m.period;
+      for (; a <= start; a += m.period)
         if (a + ready_at_(i, a).jitter >= start) arrive({a, i});
       arrivals.emplace(a, i);
     }
-    if (!effort_.spend(loads_.size() * 4 + 10)) return false;
+    if (!budget_.spend(loads_.size() * 4 + 10)) return false;
     std::vector<Slice> slices;
     std::int64_t now = start + blocking;
     while (now < end || open > 0) {
@@ -99,7 +99,7 @@ class Walker {
         arrivals.pop();
         arrive(a);
         arrivals.emplace(a.first + loads_[a.second].period, a.second);
-        if (!effort_.spend(10)) return false;
+        if (!budget_.spend(10)) return false;
       }
       if (ready.empty()) return true;
       UrgentJob running = ready.top();
@@ -125,17 +125,17 @@ class Walker {
       slices.back().end = slice.end;
       return;
     }
-    if (slices.size() >= 2 * most_slices) slices.erase(slices.begin(), slices.begin() + most_slices);
+    if (slices.size() >= 2 * max_slices) slices.erase(slices.begin(), slices.begin() + max_slices);
     slices.push_back(slice);
   }
 
   // Under EDF what holds up one of an earlier deadline holds up those that wait behind it.
   std::int64_t blocking_of(const UrgentJob& job, std::int64_t start) const {
     if (order_ == Order::by_priority) return loads_[job.task].blocking;
-    std::int64_t most = 0;
-    for (const Load& l : loads_)
-      if (l.deadline - l.jitter <= job.urgency - start) most = std::max(most, l.blocking);
-    return most;
+    std::int64_t max = 0;
+    for (const TaskModel& m : loads_)
+      if (m.deadline - m.jitter <= job.urgency - start) max = std::max(max, m.blocking);
+    return max;
   }
 
   bool close(const UrgentJob& job, std::int64_t now, std::int64_t blocking, std::vector<Slice>& slices) {
@@ -143,21 +143,21 @@ class Walker {
     const std::int64_t deadline = job.arrival + loads_[job.task].deadline;
     if (now <= deadline) return true;
     // for sure only by what holds itself up, or one of its instant that has not gone before it
-    const std::int64_t own = tasks_.loads[job.task].blocking;
+    const std::int64_t own = tasks_.models[job.task].blocking;
     const std::int64_t sure = longest_jitter_ > 0 ? own : ready_at_(job.task, job.arrival).blocking;
     if (blocking > sure) return doubtful_ = true;
     if (!result_.late) {
-      result_.late = Late{job.task, job.activation, job.arrival, now, deadline};
+      result_.late = DeadlineMiss{job.task, job.activation, job.arrival, now, deadline};
       result_.slices = std::move(slices);
     }
     return beyond_late_;
   }
 
   const CoreTasks& tasks_;
-  Loads loads_;
+  TaskModels loads_;
   Order order_;
   bool beyond_late_;
-  Effort& effort_;
+  Budget& budget_;
   ReadinessAt ready_at_;
   bool doubtful_ = false;  // late by what another is held up for
   std::vector<std::int64_t> blockings_;
@@ -167,9 +167,9 @@ class Walker {
 
 }  // namespace
 
-Extremes walk_extremes(const CoreTasks& tasks, Order order, bool beyond_late, Effort& effort) {
-  constexpr std::uint64_t most_steps = 100'000'000;
-  return within(effort, most_steps, [&](Effort& own) { return Walker(tasks, order, beyond_late, own).run(); });
+Extremes walk_extremes(const CoreTasks& tasks, Order order, bool beyond_late, Budget& budget) {
+  constexpr std::uint64_t max_steps = 100'000'000;
+  return within(budget, max_steps, [&](Budget& own) { return Walker(tasks, order, beyond_late, own).run(); });
 }
 
 }  // namespace jarol::analysis

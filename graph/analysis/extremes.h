@@ -9,8 +9,8 @@ namespace jarol::analysis {
 struct Extremes {
   bool whole = false;  // every busy period was looked at, and none is late in doubt
   bool idle = true;    // each came to its end
-  std::optional<Late> late;
-  std::vector<std::int64_t> responses;  // per load, the longest
+  std::optional<DeadlineMiss> late;
+  std::vector<std::int64_t> responses;  // per model, the longest
   std::vector<Slice> slices;            // before the late activation ended
 };
 
@@ -22,6 +22,6 @@ struct Extremes {
 /// holds up those behind it, so that these are looked at with the longest, though late for sure only with their own.
 /// Loads are most urgent first; each that follows another is less urgent than it. Up to the first late activation,
 /// unless `beyond_late`.
-Extremes walk_extremes(const CoreTasks& tasks, Order order, bool beyond_late, Effort& effort);
+Extremes walk_extremes(const CoreTasks& tasks, Order order, bool beyond_late, Budget& budget);
 
 }  // namespace jarol::analysis

@@ -17,7 +17,7 @@ std::vector<std::vector<std::size_t>> parts_of(const System& system, const std::
   };
   for (const auto& [producer, reader] : system.follows) join(core[producer], core[reader]);
   std::vector<std::vector<std::size_t>> parts(part.size());
-  for (std::size_t i = 0; i < system.loads.size(); ++i) parts[part[core[i]]].push_back(i);
+  for (std::size_t i = 0; i < system.models.size(); ++i) parts[part[core[i]]].push_back(i);
   return parts;
 }
 
@@ -30,50 +30,50 @@ struct Part {
 
   Part(const System& s, const std::vector<std::size_t>& t) : system(s), tasks(t) {
     for (const std::size_t i : tasks) {
-      jitter = std::max(jitter, s.loads[i].jitter);
-      used += static_cast<long double>(cost(i)) / static_cast<long double>(s.loads[i].period);
+      jitter = std::max(jitter, s.models[i].jitter);
+      used += static_cast<long double>(cost(i)) / static_cast<long double>(s.models[i].period);
       all += cost(i);
     }
   }
 
-  std::int64_t cost(std::size_t i) const { return system.loads[i].wcet + system.loads[i].blocking; }
+  std::int64_t cost(std::size_t i) const { return system.models[i].wcet + system.models[i].blocking; }
 
   // How long before an arrival of `own` the nearest of `other` that goes before it can be.
   std::int64_t nearest(std::size_t own, std::size_t other) const {
     if (own == other) return 0;
-    const Load &a = system.loads[own], &b = system.loads[other];
+    const TaskModel &a = system.models[own], &b = system.models[other];
     const std::int64_t gcd = std::gcd(a.period, b.period);
     const std::int64_t apart = ((a.offset - b.offset) % gcd + gcd) % gcd;
     return apart == 0 && system.turn[other] > system.turn[own] ? gcd : apart;
   }
 
-  std::optional<std::int64_t> bound(std::size_t own, Effort& effort) const {
+  std::optional<std::int64_t> bound(std::size_t own, Budget& budget) const {
     using Arrival = std::pair<std::int64_t, std::size_t>;  // how long before, of which task
     std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> before;
     for (const std::size_t i : tasks) before.emplace(nearest(own, i), i);
     // from there on the line of utilisation lies below what was found
     const long double line = static_cast<long double>(all) / (1 - used) * (1 + 1e-9L);
-    if (line > static_cast<long double>(most_time)) return std::nullopt;
+    if (line > static_cast<long double>(max_time)) return std::nullopt;
     const auto reach = static_cast<std::int64_t>(line) + 1;
-    Wide sum = 0, most = 0;
+    Wide sum = 0, max = 0;
     while (before.top().first <= reach) {
-      if (!effort.spend(10)) return std::nullopt;
+      if (!budget.spend(10)) return std::nullopt;
       const auto [back, i] = before.top();
       before.pop();
       sum += cost(i);
-      most = std::max(most, sum - back);
-      before.emplace(back + system.loads[i].period, i);
+      max = std::max(max, sum - back);
+      before.emplace(back + system.models[i].period, i);
     }
-    return static_cast<std::int64_t>(std::min<Wide>(jitter + most, most_time));
+    return static_cast<std::int64_t>(std::min<Wide>(jitter + max, max_time));
   }
 };
 
 }  // namespace
 
-std::vector<std::int64_t> fifo_bounds(const System& system, const std::vector<std::size_t>& core, Effort& effort) {
-  constexpr std::uint64_t most_steps = 20'000'000;
-  std::vector<std::int64_t> bounds(system.loads.size(), 0);
-  Effort own{std::min(effort.left, most_steps)};
+std::vector<std::int64_t> fifo_bounds(const System& system, const std::vector<std::size_t>& core, Budget& budget) {
+  constexpr std::uint64_t max_steps = 20'000'000;
+  std::vector<std::int64_t> bounds(system.models.size(), 0);
+  Budget own{std::min(budget.left, max_steps)};
   const std::uint64_t given = own.left;
   bool hold = true;
   for (const std::vector<std::size_t>& tasks : parts_of(system, core)) {
@@ -82,7 +82,7 @@ std::vector<std::int64_t> fifo_bounds(const System& system, const std::vector<st
     hold = part.used < 1 - 1e-9L;
     // what holds for each with one activation of all before it needs no look at each
     std::int64_t shortest = std::numeric_limits<std::int64_t>::max();
-    for (const std::size_t i : tasks) shortest = std::min(shortest, system.loads[i].deadline);
+    for (const std::size_t i : tasks) shortest = std::min(shortest, system.models[i].deadline);
     const bool all_fit = part.jitter + part.all <= shortest;
     for (const std::size_t i : tasks) {
       if (!hold) break;
@@ -91,11 +91,11 @@ std::vector<std::int64_t> fifo_bounds(const System& system, const std::vector<st
         bound = static_cast<std::int64_t>(part.jitter + part.all);
       else
         bound = part.bound(i, own);
-      hold = bound && *bound <= system.loads[i].deadline;
+      hold = bound && *bound <= system.models[i].deadline;
       if (hold) bounds[i] = *bound;
     }
   }
-  effort.spend(given - own.left);
+  budget.spend(given - own.left);
   if (!hold) bounds.clear();
   return bounds;
 }

@@ -8,16 +8,16 @@ namespace jarol::analysis {
 namespace {
 
 constexpr std::int64_t far = std::int64_t{1} << 61;
-constexpr std::uint64_t most_steps = 2'000'000'000;  // of all tasks together
-constexpr std::int64_t most_in_period = 1'000'000;   // of one task in a busy period
+constexpr std::uint64_t max_steps = 2'000'000'000;  // of all tasks together
+constexpr std::int64_t max_in_period = 1'000'000;   // of one task in a busy period
 
 // What more urgent tasks need, those of equal period and jitter together.
 class Interference {
  public:
-  void add(const Load& load) {
-    const auto [at, added] = index_.emplace(std::pair(load.period, load.jitter), work_.size());
-    if (added) work_.push_back({load.period, load.jitter, 0});
-    work_[at->second].wcet += load.wcet;
+  void add(const TaskModel& model) {
+    const auto [at, added] = index_.emplace(std::pair(model.period, model.jitter), work_.size());
+    if (added) work_.push_back({model.period, model.jitter, 0});
+    work_[at->second].wcet += model.wcet;
   }
 
   // Releases in a window of that length, closed at its end or not.
@@ -40,91 +40,90 @@ class Interference {
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> index_;  // by period and jitter
 };
 
-// The least window that `need` maps to itself, from `start` on; nothing beyond `most`.
+// The least window that `need` maps to itself, from `start` on; nothing beyond `max`.
 template <class Need>
-std::optional<std::int64_t> least_fixed_point(std::int64_t start, std::int64_t most, Effort& effort, std::size_t cost,
-                                              const Need& need) {
+std::optional<std::int64_t> min_fixed_point(std::int64_t start, std::int64_t max, Budget& budget, std::size_t cost,
+                                            const Need& need) {
   std::int64_t window = start;
   while (true) {
     const Wide next = need(window);
-    if (!effort.spend(cost) || next > most) return std::nullopt;
+    if (!budget.spend(cost) || next > max) return std::nullopt;
     if (next == window) return window;
     window = static_cast<std::int64_t>(next);
   }
 }
 
 // `repeats`: of activations so much later none responds later, as demand grows no more than time does; else far.
-std::optional<std::int64_t> preemptive_response(const Load& load, const Interference& more_urgent, std::int64_t repeats,
-                                                std::int64_t& first_window, Effort& effort) {
+std::optional<std::int64_t> preemptive_response(const TaskModel& model, const Interference& more_urgent,
+                                                std::int64_t repeats, std::int64_t& first_window, Budget& budget) {
   // it does not run before the one above it has ended, and runs then
-  std::int64_t response = 0, window = std::max(load.blocking, first_window) + load.wcet;
+  std::int64_t response = 0, window = std::max(model.blocking, first_window) + model.wcet;
   for (std::int64_t q = 0;; ++q) {
-    if (q == most_in_period) return std::nullopt;
-    const Wide own = static_cast<Wide>(load.blocking) + static_cast<Wide>(q + 1) * load.wcet;
-    const auto end =
-        least_fixed_point(std::max(window, static_cast<std::int64_t>(own)), far, effort, more_urgent.size(),
-                          [&](std::int64_t w) { return own + more_urgent.demand(w, false); });
+    if (q == max_in_period) return std::nullopt;
+    const Wide own = static_cast<Wide>(model.blocking) + static_cast<Wide>(q + 1) * model.wcet;
+    const auto end = min_fixed_point(std::max(window, static_cast<std::int64_t>(own)), far, budget, more_urgent.size(),
+                                     [&](std::int64_t w) { return own + more_urgent.demand(w, false); });
     if (!end) return std::nullopt;
     window = *end;
-    if (q == 0) first_window = load.blocking == 0 ? window : first_window + load.wcet;
-    response = std::max(response, window - q * load.period + load.jitter);
-    if (window + load.jitter <= (q + 1) * load.period) return response;
-    if ((q + 1) * load.period > repeats) return response;
+    if (q == 0) first_window = model.blocking == 0 ? window : first_window + model.wcet;
+    response = std::max(response, window - q * model.period + model.jitter);
+    if (window + model.jitter <= (q + 1) * model.period) return response;
+    if ((q + 1) * model.period > repeats) return response;
   }
 }
 
-std::optional<std::int64_t> nonpreemptive_response(const Load& load, const Interference& more_urgent,
-                                                   std::int64_t blocking, std::int64_t repeats, Effort& effort) {
+std::optional<std::int64_t> nonpreemptive_response(const TaskModel& model, const Interference& more_urgent,
+                                                   std::int64_t blocking, std::int64_t repeats, Budget& budget) {
   Interference busy = more_urgent;
-  busy.add(load);
-  auto length = least_fixed_point(std::max<std::int64_t>(1, blocking), repeats, effort, busy.size(),
-                                  [&](std::int64_t w) { return blocking + busy.demand(w, false); });
+  busy.add(model);
+  auto length = min_fixed_point(std::max<std::int64_t>(1, blocking), repeats, budget, busy.size(),
+                                [&](std::int64_t w) { return blocking + busy.demand(w, false); });
   if (!length && repeats < far) length = repeats;
-  if (!length || *length / load.period > most_in_period) return std::nullopt;
+  if (!length || *length / model.period > max_in_period) return std::nullopt;
   std::int64_t response = 0, start = blocking;
   // those that arrive later end at `length` at the latest, so that they respond within their jitter, as the first can't
-  for (std::int64_t q = 0; q * load.period < *length; ++q) {
-    const Wide own = static_cast<Wide>(blocking) + static_cast<Wide>(q) * load.wcet;
-    const auto found =
-        least_fixed_point(std::max(start, static_cast<std::int64_t>(own)), far, effort, more_urgent.size(),
-                          [&](std::int64_t w) { return own + more_urgent.demand(w, true); });
+  for (std::int64_t q = 0; q * model.period < *length; ++q) {
+    const Wide own = static_cast<Wide>(blocking) + static_cast<Wide>(q) * model.wcet;
+    const auto found = min_fixed_point(std::max(start, static_cast<std::int64_t>(own)), far, budget, more_urgent.size(),
+                                       [&](std::int64_t w) { return own + more_urgent.demand(w, true); });
     if (!found) return std::nullopt;
     start = *found;
-    response = std::max(response, start + load.wcet - q * load.period + load.jitter);
+    response = std::max(response, start + model.wcet - q * model.period + model.jitter);
   }
   return response;
 }
 
-std::vector<std::optional<std::int64_t>> responses_of(std::span<const Load> loads, bool preemptive, Effort& effort) {
-  std::vector<std::optional<std::int64_t>> responses(loads.size());
+std::vector<std::optional<std::int64_t>> responses_of(std::span<const TaskModel> models, bool preemptive,
+                                                      Budget& budget) {
+  std::vector<std::optional<std::int64_t>> responses(models.size());
   // by what has begun and can't be interrupted: at most all but its first nanosecond
-  std::vector<std::int64_t> longest_below(loads.size(), 0);
-  for (std::size_t i = loads.size(); i-- > 1;) longest_below[i - 1] = std::max(longest_below[i], loads[i].wcet - 1);
+  std::vector<std::int64_t> longest_below(models.size(), 0);
+  for (std::size_t i = models.size(); i-- > 1;) longest_below[i - 1] = std::max(longest_below[i], models[i].wcet - 1);
   Interference more_urgent;
   std::int64_t first_window = 0;
   long double used = 0;
   std::optional<std::int64_t> repeats = 1;
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    used += static_cast<long double>(loads[i].wcet) / static_cast<long double>(loads[i].period);
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    used += static_cast<long double>(models[i].wcet) / static_cast<long double>(models[i].period);
     // near to one without rounding
     const auto order =
-        used < 1 - 1e-9L ? std::optional(std::strong_ordering::less) : compare_utilisation(loads.first(i + 1), 1);
+        used < 1 - 1e-9L ? std::optional(std::strong_ordering::less) : compare_utilisation(models.first(i + 1), 1);
     if (!order || *order > 0) break;  // without bound from here on
-    if (repeats) repeats = hyperperiod(std::array{Load{.period = *repeats}, loads[i]}, far);
+    if (repeats) repeats = hyperperiod(std::array{TaskModel{.period = *repeats}, models[i]}, far);
     responses[i] = preemptive
-                       ? preemptive_response(loads[i], more_urgent, repeats.value_or(far), first_window, effort)
-                       : nonpreemptive_response(loads[i], more_urgent, std::max(longest_below[i], loads[i].blocking),
-                                                repeats.value_or(far), effort);
-    more_urgent.add(loads[i]);
+                       ? preemptive_response(models[i], more_urgent, repeats.value_or(far), first_window, budget)
+                       : nonpreemptive_response(models[i], more_urgent, std::max(longest_below[i], models[i].blocking),
+                                                repeats.value_or(far), budget);
+    more_urgent.add(models[i]);
   }
   return responses;
 }
 
 }  // namespace
 
-std::vector<std::optional<std::int64_t>> fixed_priority_responses(std::span<const Load> loads, bool preemptive,
-                                                                  Effort& effort) {
-  return within(effort, most_steps, [&](Effort& own) { return responses_of(loads, preemptive, own); });
+std::vector<std::optional<std::int64_t>> fixed_priority_responses(std::span<const TaskModel> models, bool preemptive,
+                                                                  Budget& budget) {
+  return within(budget, max_steps, [&](Budget& own) { return responses_of(models, preemptive, own); });
 }
 
 }  // namespace jarol::analysis

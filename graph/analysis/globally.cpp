@@ -9,36 +9,36 @@ namespace jarol::analysis {
 namespace {
 
 // What every activation may take of a core.
-Loads with_blocking_in_wcet(Loads loads) {
-  for (Load& l : loads) {
-    l.wcet += l.blocking;
-    l.blocking = 0;
+TaskModels with_blocking_in_wcet(TaskModels models) {
+  for (TaskModel& m : models) {
+    m.wcet += m.blocking;
+    m.blocking = 0;
   }
-  return loads;
+  return models;
 }
 
 // Upper bounds with readers that wait for those that they follow: their responses are jitter of the readers (as
 // Tindell, Clark 1994), from none on, up to where they stay as they are. Nothing for one that none was found for.
-std::vector<std::optional<std::int64_t>> bounds_of(const System& system, const Loads& loads) {
-  constexpr int most_rounds = 100;
-  Loads waiting = loads;
-  for (int round = 0; round < most_rounds; ++round) {
+std::vector<std::optional<std::int64_t>> bounds_of(const System& system, const TaskModels& models) {
+  constexpr int max_rounds = 100;
+  TaskModels waiting = models;
+  for (int round = 0; round < max_rounds; ++round) {
     auto responses = global_edf_responses(waiting, system.cores);
     bool changed = false;
     for (const auto& [producer, reader] : system.follows) {
-      if (!responses[producer]) return std::vector<std::optional<std::int64_t>>(loads.size());
+      if (!responses[producer]) return std::vector<std::optional<std::int64_t>>(models.size());
       changed = changed || *responses[producer] > waiting[reader].jitter;
       waiting[reader].jitter = std::max(waiting[reader].jitter, *responses[producer]);
     }
     if (!changed) return responses;
   }
-  return std::vector<std::optional<std::int64_t>>(loads.size());
+  return std::vector<std::optional<std::int64_t>>(models.size());
 }
 
-void refuse(Result& result, const GlobalSimulation& run, Standing standing) {
+void refuse(Result& result, const GlobalSimulation& run, Evidence evidence) {
   if (result.verdict != Verdict::not_schedulable) {
     result.reason = "a task is late when every task takes its 'wcet'";
-    result.standing = standing;
+    result.evidence = evidence;
   }
   result.verdict = Verdict::not_schedulable;
   result.late = run.late;
@@ -47,40 +47,40 @@ void refuse(Result& result, const GlobalSimulation& run, Standing standing) {
 
 // Runs that are possible: a late activation in one is a "no"; without jitter and with offsets that hold there is one
 // only that is worst (Cucu, Goossens 2006; Ha, Liu 1994), so that it decides.
-void walk(const System& system, const Loads& loads, Result& result, Effort& effort) {
-  constexpr std::uint64_t most_activations = 1'000'000, steps_of_activation = 40;
-  const auto run_of = [&](const Loads& with, std::uint64_t most) {
-    GlobalSimulation run = simulate_global(with, system.cores, std::min(most, effort.left / steps_of_activation),
+void walk(const System& system, const TaskModels& models, Result& result, Budget& budget) {
+  constexpr std::uint64_t max_activations = 1'000'000, steps_of_activation = 40;
+  const auto run_of = [&](const TaskModels& with, std::uint64_t max) {
+    GlobalSimulation run = simulate_global(with, system.cores, std::min(max, budget.left / steps_of_activation),
                                            {.follows = system.follows});
-    effort.spend(run.activations * steps_of_activation);
+    budget.spend(run.activations * steps_of_activation);
     return run;
   };
-  const bool jitters = std::any_of(loads.begin(), loads.end(), [](const Load& l) { return l.jitter > 0; });
+  const bool jitters = std::any_of(models.begin(), models.end(), [](const TaskModel& m) { return m.jitter > 0; });
   const bool exact = system.offsets_hold && !jitters && system.follows.empty();
-  const GlobalSimulation latest = run_of(loads, most_activations);
-  if (latest.late) return refuse(result, latest, exact ? Standing::proof : Standing::by_run);
+  const GlobalSimulation latest = run_of(models, max_activations);
+  if (latest.late) return refuse(result, latest, exact ? Evidence::proof : Evidence::by_run);
   if (result.verdict == Verdict::not_schedulable) return;
   if (exact && latest.repeats) {
     result.verdict = Verdict::schedulable;
-    result.standing = Standing::proof;
+    result.evidence = Evidence::proof;
     result.reason =
         "every activation of the whole repetition ends by its deadline, where those of equal deadlines go in "
         "order of name";
     result.response.assign(latest.responses.begin(), latest.responses.end());
-    result.exact.assign(loads.size(), true);
+    result.exact.assign(models.size(), true);
     return;
   }
-  Loads soonest = loads;
-  for (Load& l : soonest) l.jitter = 0;
-  if (const GlobalSimulation run = run_of(soonest, most_activations); run.late)
-    return refuse(result, run, Standing::by_run);
+  TaskModels soonest = models;
+  for (TaskModel& m : soonest) m.jitter = 0;
+  if (const GlobalSimulation run = run_of(soonest, max_activations); run.late)
+    return refuse(result, run, Evidence::by_run);
   if (system.offsets_hold) return;
   // all at once, and all due at once
   for (const bool due : {false, true}) {
-    Loads shifted = loads;
-    for (Load& l : shifted) l.offset = due ? (l.period - l.deadline + l.jitter) % l.period : 0;
-    if (const GlobalSimulation run = run_of(shifted, most_activations / 10); run.late && system.follows.empty())
-      return refuse(result, run, Standing::by_run);
+    TaskModels shifted = models;
+    for (TaskModel& m : shifted) m.offset = due ? (m.period - m.deadline + m.jitter) % m.period : 0;
+    if (const GlobalSimulation run = run_of(shifted, max_activations / 10); run.late && system.follows.empty())
+      return refuse(result, run, Evidence::by_run);
   }
 }
 
@@ -92,22 +92,22 @@ System with_edf(System system) {
 
 }  // namespace
 
-Result check_globally(const System& system, bool whole, Effort& effort) {
-  if (system.cores == 1) return check_partitioned(with_edf(system), whole, effort);
-  const Loads loads = with_blocking_in_wcet(system.loads);
+Result check_globally(const System& system, bool whole, Budget& budget) {
+  if (system.cores == 1) return check_partitioned(with_edf(system), whole, budget);
+  const TaskModels models = with_blocking_in_wcet(system.models);
   Result result;
-  result.response = bounds_of(system, loads);
-  result.core.resize(loads.size());
+  result.response = bounds_of(system, models);
+  result.core.resize(models.size());
   const bool bounded =
       std::all_of(result.response.begin(), result.response.end(), [](const auto& r) { return r.has_value(); });
-  const auto order = compare_utilisation(loads, system.cores);
+  const auto order = compare_utilisation(models, system.cores);
   if (order && *order > 0) {
     result.verdict = Verdict::not_schedulable;
-    result.standing = Standing::proof;
+    result.evidence = Evidence::proof;
     result.reason = "the tasks need more than all cores";
-  } else if (bounded || (system.follows.empty() && passes_gfb(loads, system.cores))) {
+  } else if (bounded || (system.follows.empty() && passes_gfb(models, system.cores))) {
     result.verdict = Verdict::schedulable;
-    result.standing = Standing::safe;
+    result.evidence = Evidence::safe;
     result.reason = bounded ? "every task's response is bounded within its deadline (Bertogna, Cirinei)"
                             : "the densities fit the cores (Goossens, Funk, Baruah)";
     return result;
@@ -115,15 +115,15 @@ Result check_globally(const System& system, bool whole, Effort& effort) {
     result.reason = "the tests of global_edf are sufficient only, and none of them holds";
   }
   // each bound takes for granted that the other tasks end in time
-  result.response.assign(loads.size(), std::nullopt);
+  result.response.assign(models.size(), std::nullopt);
   if (result.verdict == Verdict::not_schedulable && !whole) return result;
-  for (std::size_t i = 0; i < loads.size(); ++i)
-    if (loads[i].jitter + loads[i].wcet > loads[i].deadline && result.verdict != Verdict::not_schedulable) {
+  for (std::size_t i = 0; i < models.size(); ++i)
+    if (models[i].jitter + models[i].wcet > models[i].deadline && result.verdict != Verdict::not_schedulable) {
       result.verdict = Verdict::not_schedulable;
-      result.standing = Standing::proof;
+      result.evidence = Evidence::proof;
       result.reason = "a task's 'wcet', 'blocking' and 'jitter' together are longer than its deadline";
     }
-  walk(system, loads, result, effort);
+  walk(system, models, result, budget);
   return result;
 }
 

@@ -11,7 +11,7 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::uint64_t most_simulated = 1'000'000;
+constexpr std::uint64_t max_simulated = 1'000'000;
 constexpr std::uint64_t steps_of_simulated = 10;  // that the simulation takes
 
 bool by_deadline(const Policy& policy) { return policy.urgency == Urgency::deadline; }
@@ -25,10 +25,10 @@ CoreResult undecided(std::string reason, std::vector<std::optional<std::int64_t>
 }
 
 template <class T>
-CoreResult late_one(const T& run, Standing standing, std::vector<Slice> slices) {
+CoreResult late_one(const T& run, Evidence evidence, std::vector<Slice> slices) {
   CoreResult result = undecided("a task is late when every task takes its 'wcet'");
   result.verdict = Verdict::not_schedulable;
-  result.standing = standing;
+  result.evidence = evidence;
   result.late = run.late;
   result.slices = std::move(slices);
   return result;
@@ -41,18 +41,18 @@ std::vector<std::optional<std::int64_t>> optional(const std::vector<std::int64_t
 CoreResult on_time(std::string reason, const std::vector<std::int64_t>& responses, bool exact) {
   CoreResult result = undecided(std::move(reason), optional(responses));
   result.verdict = Verdict::schedulable;
-  result.standing = Standing::proof;
+  result.evidence = Evidence::proof;
   result.exact = exact;
   return result;
 }
 
 // For sporadic tasks: every shift, every jitter.
-CoreResult check_any_phasing(std::span<const Load> loads, const Policy& policy, bool responses, Effort& effort) {
+CoreResult check_any_phasing(std::span<const TaskModel> models, const Policy& policy, bool responses, Budget& budget) {
   CoreResult result;
-  result.standing = Standing::proof;
+  result.evidence = Evidence::proof;
   if (by_deadline(policy)) {
-    const EdfResult edf = check_edf(loads, policy.interrupts, effort);
-    if (responses) result.responses = optional(edf_responses(loads, policy.interrupts, effort));
+    const EdfResult edf = check_edf(models, policy.interrupts, budget);
+    if (responses) result.responses = optional(edf_responses(models, policy.interrupts, budget));
     if (!edf.decided) return undecided("no end of the processor demand was found", result.responses);
     result.verdict = edf.over ? Verdict::not_schedulable : Verdict::schedulable;
     result.demand = edf.over;
@@ -60,13 +60,13 @@ CoreResult check_any_phasing(std::span<const Load> loads, const Policy& policy, 
                              : "in no interval more work is due than there is time for (processor demand)";
     return result;
   }
-  result.responses = fixed_priority_responses(loads, policy.interrupts, effort);
+  result.responses = fixed_priority_responses(models, policy.interrupts, budget);
   bool open = false, late = false;
-  for (std::size_t i = 0; i < loads.size(); ++i) {
+  for (std::size_t i = 0; i < models.size(); ++i) {
     if (!result.responses[i]) {
-      const auto order = compare_utilisation(loads.first(i + 1), 1);
+      const auto order = compare_utilisation(models.first(i + 1), 1);
       (order && *order > 0 ? late : open) = true;
-    } else if (*result.responses[i] > loads[i].deadline) {
+    } else if (*result.responses[i] > models[i].deadline) {
       late = true;
     }
   }
@@ -74,61 +74,62 @@ CoreResult check_any_phasing(std::span<const Load> loads, const Policy& policy, 
   result.reason = late   ? "a task's worst response is longer than its deadline"
                   : open ? "no end of a busy period was found"
                          : "every task's worst response is within its deadline (response-time analysis)";
-  if (result.verdict == Verdict::unknown) result.standing = Standing::none;
+  if (result.verdict == Verdict::unknown) result.evidence = Evidence::none;
   return result;
 }
 
-std::optional<std::int64_t> end_of_repetition(std::span<const Load> loads) {
+std::optional<std::int64_t> end_of_repetition(std::span<const TaskModel> models) {
   std::int64_t largest_offset = 0;
   double activations = 0;
-  for (const Load& l : loads) largest_offset = std::max(largest_offset, l.offset);
-  const auto lcm = hyperperiod(loads, most_time / 4);
+  for (const TaskModel& m : models) largest_offset = std::max(largest_offset, m.offset);
+  const auto lcm = hyperperiod(models, max_time / 4);
   if (!lcm) return std::nullopt;
   const std::int64_t end = largest_offset + 2 * *lcm;
-  for (const Load& l : loads) activations += static_cast<double>(end) / static_cast<double>(l.period);
-  return activations <= static_cast<double>(most_simulated) ? std::optional(end) : std::nullopt;
+  for (const TaskModel& m : models) activations += static_cast<double>(end) / static_cast<double>(m.period);
+  return activations <= static_cast<double>(max_simulated) ? std::optional(end) : std::nullopt;
 }
 
-bool all_at_once(std::span<const Load> loads) {
-  return std::all_of(loads.begin(), loads.end(), [](const Load& l) { return l.offset == 0; });
+bool all_at_once(std::span<const TaskModel> models) {
+  return std::all_of(models.begin(), models.end(), [](const TaskModel& m) { return m.offset == 0; });
 }
 
-bool has_jitter(std::span<const Load> loads) {
-  return std::any_of(loads.begin(), loads.end(), [](const Load& l) { return l.jitter > 0; });
+bool has_jitter(std::span<const TaskModel> models) {
+  return std::any_of(models.begin(), models.end(), [](const TaskModel& m) { return m.jitter > 0; });
 }
 
-bool has_blocking(std::span<const Load> loads) {
-  return std::any_of(loads.begin(), loads.end(), [](const Load& l) { return l.blocking > 0; });
+bool has_blocking(std::span<const TaskModel> models) {
+  return std::any_of(models.begin(), models.end(), [](const TaskModel& m) { return m.blocking > 0; });
 }
 
-Loads without_blocking(Loads loads) {
-  for (Load& l : loads) l.blocking = 0;
-  return loads;
+TaskModels without_blocking(TaskModels models) {
+  for (TaskModel& m : models) m.blocking = 0;
+  return models;
 }
 
 // As if readers took no time.
-Loads without_readers(const CoreTasks& tasks) {
-  std::vector<bool> reads(tasks.loads.size(), false);
+TaskModels without_readers(const CoreTasks& tasks) {
+  std::vector<bool> reads(tasks.models.size(), false);
   for (const auto& [producer, reader] : tasks.follows) reads[reader] = true;
-  Loads loads;
-  for (std::size_t i = 0; i < tasks.loads.size(); ++i)
-    if (!reads[i]) loads.push_back(tasks.loads[i]);
-  return loads;
+  TaskModels models;
+  for (std::size_t i = 0; i < tasks.models.size(); ++i)
+    if (!reads[i]) models.push_back(tasks.models[i]);
+  return models;
 }
 
 // Is a "no" under EDF one that does not rest on what holds up others that go before?
-bool is_sure(std::span<const Load> loads, const Policy& policy, Effort& effort) {
-  if (!by_deadline(policy) || !has_blocking(loads)) return true;
-  const Loads freely = without_blocking({loads.begin(), loads.end()});
-  return check_edf(freely, policy.interrupts, effort).over || is_late_by_own_blocking(loads, policy.interrupts, effort);
+bool is_sure(std::span<const TaskModel> models, const Policy& policy, Budget& budget) {
+  if (!by_deadline(policy) || !has_blocking(models)) return true;
+  const TaskModels freely = without_blocking({models.begin(), models.end()});
+  return check_edf(freely, policy.interrupts, budget).over ||
+         is_late_by_own_blocking(models, policy.interrupts, budget);
 }
 
 // The first late activation if all arrive as given.
-void add_witness(std::span<const Load> loads, const Policy& policy, CoreResult& result) {
+void add_witness(std::span<const TaskModel> models, const Policy& policy, CoreResult& result) {
   std::int64_t end = 0;
-  for (const Load& l : loads) end = std::max(end, l.offset + 4 * l.period);
-  end = std::max(end_of_repetition(loads).value_or(end), result.demand ? result.demand->length : 0);
-  Simulation run = simulate(loads, order_of(policy), policy.interrupts, end, most_simulated);
+  for (const TaskModel& m : models) end = std::max(end, m.offset + 4 * m.period);
+  end = std::max(end_of_repetition(models).value_or(end), result.demand ? result.demand->length : 0);
+  Simulation run = simulate(models, order_of(policy), policy.interrupts, end, max_simulated);
   result.late = run.late;
   if (run.late) result.slices = std::move(run.slices);
 }
@@ -137,7 +138,7 @@ void add_witness(std::span<const Load> loads, const Policy& policy, CoreResult& 
 template <class T>
 CoreResult result_of_walk(T walk, bool exact) {
   if (walk.late) {
-    CoreResult late = late_one(walk, Standing::proof, std::move(walk.slices));
+    CoreResult late = late_one(walk, Evidence::proof, std::move(walk.slices));
     late.exact = exact;
     if (exact) late.responses = optional(walk.responses);
     return late;
@@ -148,46 +149,46 @@ CoreResult result_of_walk(T walk, bool exact) {
 
 // With offsets that hold, interrupting: without jitter and blocking one run decides, else one from each worst start.
 // What holds up one activation at most is not known of those behind it, so that these may never respond so late.
-CoreResult walk_preemptive(const CoreTasks& tasks, const Policy& policy, bool whole, Effort& effort) {
-  if (effort.spent()) return undecided("");
-  const Loads loads = inheriting_loads(tasks);
-  if (!end_of_repetition(loads)) return undecided("");
-  if (has_jitter(loads) || has_blocking(loads)) {
-    Extremes walk = walk_extremes(tasks, order_of(policy), whole, effort);
+CoreResult walk_preemptive(const CoreTasks& tasks, const Policy& policy, bool whole, Budget& budget) {
+  if (budget.spent()) return undecided("");
+  const TaskModels models = inheriting_loads(tasks);
+  if (!end_of_repetition(models)) return undecided("");
+  if (has_jitter(models) || has_blocking(models)) {
+    Extremes walk = walk_extremes(tasks, order_of(policy), whole, budget);
     // a reader that waits beyond its next arrival holds that up too, which the walk does not know
-    const bool each_alone = tasks.follows.empty() || (!walk.late && !has_blocking(loads));
-    const bool blocked_alone = !has_blocking(loads) || (!by_deadline(policy) && !walk.late);
+    const bool each_alone = tasks.follows.empty() || (!walk.late && !has_blocking(models));
+    const bool blocked_alone = !has_blocking(models) || (!by_deadline(policy) && !walk.late);
     const bool exact = whole && walk.whole && walk.idle && each_alone && blocked_alone;
     return result_of_walk(std::move(walk), exact);
   }
-  Simulation run = simulate_repetition(loads, order_of(policy), whole, 4 * most_simulated);
-  effort.spend(run.activations * steps_of_simulated);
+  Simulation run = simulate_repetition(models, order_of(policy), whole, 4 * max_simulated);
+  budget.spend(run.activations * steps_of_simulated);
   const bool exact = whole && run.whole;
   return result_of_walk(std::move(run), exact);
 }
 
 // With offsets that hold, not interrupting: shorter execution may change the order and so make others late.
-CoreResult walk_nonpreemptive(const CoreTasks& tasks, const Policy& policy, Effort& effort) {
-  if (effort.spent()) return undecided("");
+CoreResult walk_nonpreemptive(const CoreTasks& tasks, const Policy& policy, Budget& budget) {
+  if (budget.spent()) return undecided("");
   CoreTasks all = tasks;
   all.follows.insert(all.follows.end(), tasks.upward.begin(), tasks.upward.end());
-  const Exploration found = explore(all, order_of(policy), effort);
+  const Exploration found = explore(all, order_of(policy), budget);
   if (found.late) {
-    CoreResult late = late_one(found, Standing::proof, {});
+    CoreResult late = late_one(found, Evidence::proof, {});
     late.reason = "a task is late in an order that is possible when tasks take up to their 'wcet'";
     if (has_jitter(inheriting_loads(tasks)) || !tasks.upward.empty()) return late;
-    if (const auto end = end_of_repetition(tasks.loads)) {
-      Simulation run = simulate(tasks.loads, order_of(policy), false, *end, most_simulated);
-      if (run.late) return late_one(run, Standing::proof, std::move(run.slices));
+    if (const auto end = end_of_repetition(tasks.models)) {
+      Simulation run = simulate(tasks.models, order_of(policy), false, *end, max_simulated);
+      if (run.late) return late_one(run, Evidence::proof, std::move(run.slices));
     }
     return late;
   }
   if (!found.whole) {
-    const auto end = end_of_repetition(tasks.loads);
+    const auto end = end_of_repetition(tasks.models);
     if (!end || !tasks.upward.empty()) return undecided("");
-    Simulation run = simulate(tasks.loads, order_of(policy), false, *end, most_simulated);
-    effort.spend(run.activations * steps_of_simulated);
-    if (run.late && !has_jitter(inheriting_loads(tasks))) return late_one(run, Standing::by_run, std::move(run.slices));
+    Simulation run = simulate(tasks.models, order_of(policy), false, *end, max_simulated);
+    budget.spend(run.activations * steps_of_simulated);
+    if (run.late && !has_jitter(inheriting_loads(tasks))) return late_one(run, Evidence::by_run, std::move(run.slices));
     return undecided("");
   }
   return on_time("every activation ends by its deadline in every order that is possible (schedule-abstraction graph)",
@@ -197,68 +198,69 @@ CoreResult walk_nonpreemptive(const CoreTasks& tasks, const Policy& policy, Effo
 // Does what is said of every shift come about, with each task's worst at the same time as that of those before it?
 // Under EDF of equal deadlines the others are taken to go first.
 bool is_reached(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Verdict verdict) {
-  const Loads loads = inheriting_loads(tasks);
-  if (by_deadline(policy) || (!tasks.follows.empty() && (has_jitter(loads) || !policy.interrupts))) return false;
-  if (has_blocking(loads) && (!tasks.follows.empty() || !policy.interrupts || verdict != Verdict::schedulable))
+  const TaskModels models = inheriting_loads(tasks);
+  if (by_deadline(policy) || (!tasks.follows.empty() && (has_jitter(models) || !policy.interrupts))) return false;
+  if (has_blocking(models) && (!tasks.follows.empty() || !policy.interrupts || verdict != Verdict::schedulable))
     return false;
-  return !offsets_hold || (policy.interrupts && all_at_once(loads) && !has_jitter(loads));
+  return !offsets_hold || (policy.interrupts && all_at_once(models) && !has_jitter(models));
 }
 
 // Where the offsets are worst the test of every shift decides; what the tasks really take, a short run says.
-void take_responses_of_run(std::span<const Load> loads, const Policy& policy, CoreResult& result, Effort& effort) {
-  constexpr std::uint64_t most_activations = 50'000;
-  const auto end = end_of_repetition(loads);
-  if (!end || has_blocking(loads)) return;
+void take_responses_of_run(std::span<const TaskModel> models, const Policy& policy, CoreResult& result,
+                           Budget& budget) {
+  constexpr std::uint64_t max_activations = 50'000;
+  const auto end = end_of_repetition(models);
+  if (!end || has_blocking(models)) return;
   double activations = 0;
-  for (const Load& l : loads) activations += static_cast<double>(*end) / static_cast<double>(l.period);
-  if (activations > static_cast<double>(most_activations)) return;
-  const Simulation run = simulate_repetition(loads, order_of(policy), true, 2 * most_activations);
-  effort.spend(run.activations * steps_of_simulated);
+  for (const TaskModel& m : models) activations += static_cast<double>(*end) / static_cast<double>(m.period);
+  if (activations > static_cast<double>(max_activations)) return;
+  const Simulation run = simulate_repetition(models, order_of(policy), true, 2 * max_activations);
+  budget.spend(run.activations * steps_of_simulated);
   if (!run.whole) return;
   result.responses = optional(run.responses);
   result.exact = true;
 }
 
 // Where the test of every shift decides at once: how late anything ends with these offsets, if a short search says.
-void take_responses_of_orders(const CoreTasks& tasks, const Policy& policy, CoreResult& result, Effort& effort) {
-  constexpr std::uint64_t most_steps = 1'000'000;
-  CoreResult found = within(effort, most_steps, [&](Effort& own) { return walk_nonpreemptive(tasks, policy, own); });
+void take_responses_of_orders(const CoreTasks& tasks, const Policy& policy, CoreResult& result, Budget& budget) {
+  constexpr std::uint64_t max_steps = 1'000'000;
+  CoreResult found = within(budget, max_steps, [&](Budget& own) { return walk_nonpreemptive(tasks, policy, own); });
   if (found.verdict != Verdict::schedulable || !found.exact) return;
   result.responses = std::move(found.responses);
   result.exact = true;
 }
 
-CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Effort& effort) {
+CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Budget& budget) {
   const bool responses = detail != Detail::verdict, tight = detail == Detail::tight, whole = detail == Detail::whole;
-  const Loads loads = inheriting_loads(tasks);
-  CoreResult any = check_any_phasing(loads, policy, responses, effort);
+  const TaskModels models = inheriting_loads(tasks);
+  CoreResult any = check_any_phasing(models, policy, responses, budget);
   any.exact = responses && is_reached(tasks, policy, offsets_hold, any.verdict);
-  const auto order = compare_utilisation(loads, 1);
+  const auto order = compare_utilisation(models, 1);
   if (order && *order > 0) return any;
   // exact for every shift, but for readers that do not always wait for what they inherited
   const bool readers_hold_up = !policy.interrupts && !tasks.follows.empty();  // those that they wait for: hardly
-  const bool inherited = readers_hold_up || (!tasks.follows.empty() && (has_jitter(loads) || has_blocking(loads)));
-  const bool worst_at_once = policy.interrupts && all_at_once(loads) && !has_jitter(loads) && !inherited &&
-                             !(by_deadline(policy) && has_blocking(loads));
-  const bool sure = any.verdict != Verdict::not_schedulable || is_sure(tasks.loads, policy, effort);
+  const bool inherited = readers_hold_up || (!tasks.follows.empty() && (has_jitter(models) || has_blocking(models)));
+  const bool worst_at_once = policy.interrupts && all_at_once(models) && !has_jitter(models) && !inherited &&
+                             !(by_deadline(policy) && has_blocking(models));
+  const bool sure = any.verdict != Verdict::not_schedulable || is_sure(tasks.models, policy, budget);
   if (sure && !inherited && (!offsets_hold || (worst_at_once && !(tight && any.verdict == Verdict::schedulable)))) {
-    if (whole && offsets_hold && !any.exact) take_responses_of_run(loads, policy, any, effort);
+    if (whole && offsets_hold && !any.exact) take_responses_of_run(models, policy, any, budget);
     return any;
   }
   // what holds for every shift holds for the one that is given
   if (any.verdict == Verdict::schedulable && !(offsets_hold && responses && (policy.interrupts || tight))) {
-    if (whole && offsets_hold) take_responses_of_orders(tasks, policy, any, effort);
+    if (whole && offsets_hold) take_responses_of_orders(tasks, policy, any, budget);
     return any;
   }
-  CoreResult given = policy.interrupts ? walk_preemptive(tasks, policy, whole && offsets_hold, effort)
-                                       : walk_nonpreemptive(tasks, policy, effort);
+  CoreResult given = policy.interrupts ? walk_preemptive(tasks, policy, whole && offsets_hold, budget)
+                                       : walk_nonpreemptive(tasks, policy, budget);
   // what bounds every shift bounds this one
   if (given.verdict == Verdict::not_schedulable && !given.exact) given.responses = any.responses;
   if (given.verdict == Verdict::not_schedulable || (offsets_hold && given.verdict == Verdict::schedulable))
     return given;
   if (any.verdict == Verdict::schedulable) return any;
   if (!offsets_hold && sure &&
-      check_any_phasing(readers_hold_up ? without_readers(tasks) : tasks.loads, policy, false, effort).verdict ==
+      check_any_phasing(readers_hold_up ? without_readers(tasks) : tasks.models, policy, false, budget).verdict ==
           Verdict::not_schedulable)
     return any;
   return undecided(
@@ -271,18 +273,18 @@ CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hol
 
 }  // namespace
 
-CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Effort& effort) {
-  CoreResult result = decide(tasks, policy, offsets_hold, detail, effort);
+CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Budget& budget) {
+  CoreResult result = decide(tasks, policy, offsets_hold, detail, budget);
   // a reader that would go first does not, so that what the tests say of those behind it is too much; exploring knows
-  const auto order = compare_utilisation(tasks.loads, 1);
+  const auto order = compare_utilisation(tasks.models, 1);
   const bool explored = offsets_hold && !policy.interrupts;
   if (!tasks.upward.empty() && !explored && result.verdict == Verdict::not_schedulable && !(order && *order > 0))
     result = undecided(
         "a task has a higher priority than one that it follows at the same instant; give the producer "
         "the higher one");
   if (detail == Detail::whole && result.verdict == Verdict::not_schedulable && !result.late)
-    add_witness(tasks.loads, policy, result);
-  result.responses.resize(tasks.loads.size());
+    add_witness(tasks.models, policy, result);
+  result.responses.resize(tasks.models.size());
   // of readers that go first nothing is said here but what they add
   result.exact = result.exact && tasks.upward.empty();
   return result;

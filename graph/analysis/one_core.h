@@ -11,18 +11,18 @@ namespace jarol::analysis {
 
 /// What one core has to do, as far as it can be known there.
 struct CoreTasks {
-  Loads loads;  // most urgent first where priorities count, else in data-flow order
+  TaskModels models;  // most urgent first where priorities count, else in data-flow order
   std::vector<std::pair<std::size_t, std::size_t>> follows;  // of these, where the first is more urgent than the second
   std::vector<std::pair<std::size_t, std::size_t>> upward;   // and where the second is
 };
 
 struct CoreResult {
   Verdict verdict = Verdict::unknown;
-  Standing standing = Standing::none;
+  Evidence evidence = Evidence::none;
   std::string reason;
-  std::vector<std::optional<std::int64_t>> responses;  // per load; upper bounds
+  std::vector<std::optional<std::int64_t>> responses;  // per model; upper bounds
   std::optional<Demand> demand;                        // why not, under EDF
-  std::optional<Late> late;                            // why not
+  std::optional<DeadlineMiss> late;                    // why not
   std::vector<Slice> slices;                           // before that
   bool exact = false;                                  // each response is reached
 };
@@ -32,6 +32,6 @@ struct CoreResult {
 enum class Detail { verdict, whole, tight };
 
 /// Not for tables. Unknown where it would take more effort.
-CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Effort& effort);
+CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Budget& budget);
 
 }  // namespace jarol::analysis

@@ -6,9 +6,9 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::size_t most_tests = 20'000;  // of a core in the search of all assignments
+constexpr std::size_t max_tests = 20'000;  // of a core in the search of all assignments
 
-double use_of(const Load& l) { return static_cast<double>(l.wcet) / static_cast<double>(l.period); }
+double use_of(const TaskModel& m) { return static_cast<double>(m.wcet) / static_cast<double>(m.period); }
 
 // Tasks that go to one core together.
 struct Together {
@@ -24,7 +24,7 @@ std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
 
 // Given ones first, then by utilisation. `connected`: tasks that follow each other are one; else each is alone.
 std::vector<Together> groups_of(const System& system, bool connected) {
-  const std::size_t n = system.loads.size();
+  const std::size_t n = system.models.size();
   std::vector<std::size_t> parent(n);
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   for (const auto& [a, b] : system.follows)
@@ -40,7 +40,7 @@ std::vector<Together> groups_of(const System& system, bool connected) {
     Together& group = groups[index[root]];
     group.tasks.push_back(i);
     if (system.core[i]) group.core = static_cast<std::size_t>(*system.core[i]);
-    group.use += use_of(system.loads[i]);
+    group.use += use_of(system.models[i]);
   }
   std::stable_sort(groups.begin(), groups.end(), [](const Together& a, const Together& b) {
     return std::tuple(!a.core.has_value(), -a.use) < std::tuple(!b.core.has_value(), -b.use);
@@ -73,24 +73,24 @@ struct Assigned {
 
 class Assigner {
  public:
-  Assigner(const System& system, const FitsCore& fits, const Holds& holds, Effort& effort)
-      : system_(system), fits_(fits), holds_(holds), effort_(effort), count_(static_cast<std::size_t>(system.cores)) {}
+  Assigner(const System& system, const FitsCore& fits, const Holds& holds, Budget& budget)
+      : system_(system), fits_(fits), holds_(holds), budget_(budget), count_(static_cast<std::size_t>(system.cores)) {}
 
   Partition assign() {
     const std::vector<Together> connected = groups_of(system_, true), alone = groups_of(system_, false);
     Partition partition;
     // by utilisation alone, and what does not fit where it does least harm: what a "no" is told of
-    partition.core = by_utilisation(connected).of_tasks(system_.loads.size());
+    partition.core = by_utilisation(connected).of_tasks(system_.models.size());
     if (holds(partition.core)) return found(partition.core);
     for (const auto& [groups, spread] :
          {std::pair(&connected, false), {&alone, false}, {&connected, true}, {&alone, true}}) {
       const auto cores = fit(*groups, spread);
       if (!cores) continue;
-      const std::vector<std::size_t> core = cores->of_tasks(system_.loads.size());
+      const std::vector<std::size_t> core = cores->of_tasks(system_.models.size());
       if (holds(core)) return found(core);
     }
     Assigned cores(count_);
-    if (search(alone, 0, true, cores)) return found(cores.of_tasks(system_.loads.size()));
+    if (search(alone, 0, true, cores)) return found(cores.of_tasks(system_.models.size()));
     partition.refuted = !open_;
     return partition;
   }
@@ -99,14 +99,14 @@ class Assigner {
   static Partition found(std::vector<std::size_t> core) { return {std::move(core), true, false}; }
 
   bool holds(const std::vector<std::size_t>& core) {
-    if (effort_.spent()) return false;
-    const Verdict verdict = holds_(core, effort_);
+    if (budget_.spent()) return false;
+    const Verdict verdict = holds_(core, budget_);
     open_at_leaf_ = verdict == Verdict::unknown;
     return verdict == Verdict::schedulable;
   }
 
   Verdict fits(const std::vector<std::size_t>& tasks) {
-    return effort_.spend(10 * tasks.size()) ? fits_(tasks, effort_) : Verdict::unknown;
+    return budget_.spend(10 * tasks.size()) ? fits_(tasks, budget_) : Verdict::unknown;
   }
 
   Assigned by_utilisation(const std::vector<Together>& groups) const {
@@ -138,7 +138,7 @@ class Assigner {
         placed = fits(cores.tasks[c]) == Verdict::schedulable;
         if (!placed) cores.take_back(group, c);
       }
-      if (!placed || effort_.spent()) return std::nullopt;
+      if (!placed || budget_.spent()) return std::nullopt;
     }
     return cores;
   }
@@ -147,13 +147,13 @@ class Assigner {
   // known to hold so far.
   bool search(const std::vector<Together>& groups, std::size_t at, bool sure, Assigned& cores) {
     if (at == groups.size()) {
-      if (sure && holds(cores.of_tasks(system_.loads.size()))) return true;
-      open_ = open_ || !sure || open_at_leaf_ || effort_.spent();
+      if (sure && holds(cores.of_tasks(system_.models.size()))) return true;
+      open_ = open_ || !sure || open_at_leaf_ || budget_.spent();
       return false;
     }
     bool empty_tried = false;
     for (std::size_t c = 0; c < count_; ++c) {
-      if (tests_ >= most_tests || effort_.spent()) {
+      if (tests_ >= max_tests || budget_.spent()) {
         open_ = true;
         return false;
       }
@@ -174,7 +174,7 @@ class Assigner {
   const System& system_;
   const FitsCore& fits_;
   const Holds& holds_;
-  Effort& effort_;
+  Budget& budget_;
   std::size_t count_;
   bool open_ = false, open_at_leaf_ = false;  // there may be an assignment that holds
   std::size_t tests_ = 0;
@@ -186,25 +186,25 @@ bool all_given(const System& system) {
 
 }  // namespace
 
-Partition assign_cores(const System& system, const FitsCore& fits, const Holds& holds, Effort& effort) {
+Partition assign_cores(const System& system, const FitsCore& fits, const Holds& holds, Budget& budget) {
   Partition partition;
-  for (std::size_t i = 0; i < system.loads.size(); ++i)
+  for (std::size_t i = 0; i < system.models.size(); ++i)
     partition.core.push_back(system.cores == 1 ? 0 : static_cast<std::size_t>(system.core[i].value_or(0)));
   if (system.cores == 1 || all_given(system)) return partition;
-  return Assigner(system, fits, holds, effort).assign();
+  return Assigner(system, fits, holds, budget).assign();
 }
 
-void qualify_no(const System& system, const Partition& partition, Verdict& verdict, Standing& standing,
+void qualify_no(const System& system, const Partition& partition, Verdict& verdict, Evidence& evidence,
                 std::string& reason) {
   if (verdict != Verdict::not_schedulable || system.cores == 1 || all_given(system)) return;
-  const auto order = compare_utilisation(system.loads, system.cores);
+  const auto order = compare_utilisation(system.models, system.cores);
   if (order && *order > 0) return;
   if (partition.refuted) {
     reason += "; no assignment of tasks to cores holds";
     return;
   }
   verdict = Verdict::unknown;
-  standing = Standing::none;
+  evidence = Evidence::none;
   reason += " with the cores that were assigned; another assignment may hold, which 'core:' per task may say";
 }
 

@@ -15,18 +15,18 @@ using Follow = std::pair<std::size_t, std::size_t>;  // producer, reader
 // Does the policy run the first before the second wherever both are ready?
 bool goes_before(const System& s, std::size_t a, std::size_t b) {
   if (s.policy.urgency == Urgency::priority) return more_urgent(s, a, b);
-  return std::pair(s.loads[a].deadline, s.rank[a]) < std::pair(s.loads[b].deadline, s.rank[b]);
+  return std::pair(s.models[a].deadline, s.rank[a]) < std::pair(s.models[b].deadline, s.rank[b]);
 }
 
 // What the tests of one core know: its tasks, and who goes before whom there anyway.
 CoreTasks tasks_of(const System& system, const std::vector<std::size_t>& tasks,
                    const std::vector<std::int64_t>& waits) {
   CoreTasks core;
-  std::vector<std::size_t> index(system.loads.size(), tasks.size());
+  std::vector<std::size_t> index(system.models.size(), tasks.size());
   for (std::size_t k = 0; k < tasks.size(); ++k) {
-    Load load = system.loads[tasks[k]];
-    load.jitter = std::max(load.jitter, waits[tasks[k]]);
-    core.loads.push_back(load);
+    TaskModel model = system.models[tasks[k]];
+    model.jitter = std::max(model.jitter, waits[tasks[k]]);
+    core.models.push_back(model);
     index[tasks[k]] = k;
   }
   for (const auto& [producer, reader] : system.follows)
@@ -71,25 +71,25 @@ class Cores {
     }
   }
 
-  Result check(const std::vector<std::int64_t>& waits, Detail detail, Effort& effort) const {
+  Result check(const std::vector<std::int64_t>& waits, Detail detail, Budget& budget) const {
     Result result;
-    result.response.resize(system_.loads.size());
-    result.exact.resize(system_.loads.size());
+    result.response.resize(system_.models.size());
+    result.exact.resize(system_.models.size());
     result.verdict = Verdict::schedulable;
-    result.standing = Standing::proof;
-    if (system_.loads.empty()) result.reason = "there is no task to be late";
+    result.evidence = Evidence::proof;
+    if (system_.models.empty()) result.reason = "there is no task to be late";
     for (std::size_t c = 0; c < tasks_.size(); ++c)
-      if (!tasks_[c].empty()) add(result, c, waits, detail, effort);
+      if (!tasks_[c].empty()) add(result, c, waits, detail, budget);
     return result;
   }
 
   // Readers wait for the responses of those that they follow elsewhere, which depend on such waits: from none on, up to
   // where they stay as they are (holistic analysis: Tindell, Clark 1994).
-  Result check_holistically(Effort& effort) const {
-    constexpr int most_rounds = 100;
-    std::vector<std::int64_t> waits(system_.loads.size(), 0);
-    for (int round = 0; round < most_rounds; ++round) {
-      Result result = check(waits, Detail::tight, effort);
+  Result check_holistically(Budget& budget) const {
+    constexpr int max_rounds = 100;
+    std::vector<std::int64_t> waits(system_.models.size(), 0);
+    for (int round = 0; round < max_rounds; ++round) {
+      Result result = check(waits, Detail::tight, budget);
       if (result.verdict != Verdict::schedulable) return result;
       bool changed = false;
       for (const auto& [producer, reader] : waiting_) {
@@ -98,8 +98,8 @@ class Cores {
         waits[reader] = std::max(waits[reader], *result.response[producer]);
       }
       if (changed) continue;
-      result.standing = Standing::safe;
-      result.exact.assign(system_.loads.size(), false);
+      result.evidence = Evidence::safe;
+      result.exact.assign(system_.models.size(), false);
       result.reason += ", with the longest waits for those that they follow (holistic analysis)";
       return result;
     }
@@ -107,16 +107,16 @@ class Cores {
   }
 
  private:
-  void add(Result& result, std::size_t c, const std::vector<std::int64_t>& waits, Detail detail, Effort& effort) const {
+  void add(Result& result, std::size_t c, const std::vector<std::int64_t>& waits, Detail detail, Budget& budget) const {
     const std::vector<std::size_t>& tasks = tasks_[c];
     CoreTasks of_core = tasks_of(system_, tasks, waits);
     if (detail == Detail::tight) {
       // who waits for several there waits for what holds up any of them
       std::int64_t longest = 0;
-      for (const Load& l : of_core.loads) longest = std::max(longest, l.blocking);
-      for (Load& l : of_core.loads) l.blocking = longest;
+      for (const TaskModel& m : of_core.models) longest = std::max(longest, m.blocking);
+      for (TaskModel& m : of_core.models) m.blocking = longest;
     }
-    CoreResult core = check_core(of_core, system_.policy, system_.offsets_hold, detail, effort);
+    CoreResult core = check_core(of_core, system_.policy, system_.offsets_hold, detail, budget);
     for (std::size_t i = 0; i < tasks.size() && detail != Detail::verdict; ++i) {
       result.response[tasks[i]] = core.responses[i];
       result.exact[tasks[i]] = core.exact;
@@ -125,7 +125,7 @@ class Cores {
       result.reason = core.reason;
     if (core.verdict == Verdict::schedulable || result.verdict == Verdict::not_schedulable) return;
     result.verdict = core.verdict;
-    result.standing = core.standing;
+    result.evidence = core.evidence;
     if (core.verdict != Verdict::not_schedulable) return;
     result.reason = core.reason;
     result.core_at_fault = c;
@@ -148,12 +148,12 @@ class Cores {
 
 // A run that is possible, with every wait: a late activation in it is a "no". Releases as late as they can be, or at
 // once.
-Result run_with_waits(const System& system, const std::vector<std::size_t>& core, Effort& effort) {
-  constexpr std::uint64_t most_activations = 100'000, steps_of_activation = 40;
+Result run_with_waits(const System& system, const std::vector<std::size_t>& core, Budget& budget) {
+  constexpr std::uint64_t max_activations = 100'000, steps_of_activation = 40;
   Result result;
-  result.response.resize(system.loads.size());
-  result.exact.resize(system.loads.size());
-  std::vector<std::size_t> all(system.loads.size());
+  result.response.resize(system.models.size());
+  result.exact.resize(system.models.size());
+  std::vector<std::size_t> all(system.models.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   RunRules rules{system.follows, core, std::vector<std::size_t>(all.size()), {}, false};
   all = in_order(system, std::move(all));
@@ -161,14 +161,14 @@ Result run_with_waits(const System& system, const std::vector<std::size_t>& core
   rules.by_order = system.policy.urgency == Urgency::priority;
   rules.preemptive = system.policy.interrupts;
   for (const bool late : {true, false}) {
-    Loads loads = system.loads;
-    for (Load& l : loads) l.jitter = late ? l.jitter : 0;
+    TaskModels models = system.models;
+    for (TaskModel& m : models) m.jitter = late ? m.jitter : 0;
     const GlobalSimulation run =
-        simulate_global(loads, system.cores, std::min(most_activations, effort.left / steps_of_activation), rules);
-    effort.spend(run.activations * steps_of_activation);
+        simulate_global(models, system.cores, std::min(max_activations, budget.left / steps_of_activation), rules);
+    budget.spend(run.activations * steps_of_activation);
     if (!run.late) continue;
     result.verdict = Verdict::not_schedulable;
-    result.standing = Standing::by_run;
+    result.evidence = Evidence::by_run;
     result.reason = "a task is late when every task takes its 'wcet'";
     result.late = run.late;
     result.core_at_fault = core[run.late->task];
@@ -180,17 +180,17 @@ Result run_with_waits(const System& system, const std::vector<std::size_t>& core
 }
 
 // With waits a "yes" is safe; a "no" is one without them, as those waited for may take no time.
-Result check_assigned(const System& system, const std::vector<std::size_t>& core, Detail detail, Effort& effort) {
+Result check_assigned(const System& system, const std::vector<std::size_t>& core, Detail detail, Budget& budget) {
   const Cores cores(system, core);
-  Result by_itself = cores.check(std::vector<std::int64_t>(system.loads.size(), 0), detail, effort);
+  Result by_itself = cores.check(std::vector<std::int64_t>(system.models.size(), 0), detail, budget);
   if (!cores.waits()) return by_itself;
   if (by_itself.verdict == Verdict::not_schedulable) {
     if (detail != Detail::verdict) cores.forget_responses_with_waits(by_itself);
     return by_itself;
   }
-  Result result = cores.check_holistically(effort);
+  Result result = cores.check_holistically(budget);
   if (result.verdict != Verdict::schedulable) {
-    result = run_with_waits(system, core, effort);
+    result = run_with_waits(system, core, budget);
     if (result.verdict != Verdict::not_schedulable)
       result.reason = "tasks that wait for those that they follow on another core, or of lower priority, may be late";
   }
@@ -200,21 +200,21 @@ Result check_assigned(const System& system, const std::vector<std::size_t>& core
 
 }  // namespace
 
-Result check_partitioned(const System& system, bool whole, Effort& effort) {
-  constexpr std::uint64_t most_steps_to_assign = 300'000'000;
-  const std::vector<std::int64_t> none(system.loads.size(), 0);
-  const auto fits = [&](const std::vector<std::size_t>& tasks, Effort& own) {
+Result check_partitioned(const System& system, bool whole, Budget& budget) {
+  constexpr std::uint64_t max_steps_to_assign = 300'000'000;
+  const std::vector<std::int64_t> none(system.models.size(), 0);
+  const auto fits = [&](const std::vector<std::size_t>& tasks, Budget& own) {
     const CoreTasks core = tasks_of(system, in_order(system, tasks), none);
     return check_core(core, system.policy, system.offsets_hold, Detail::verdict, own).verdict;
   };
-  const auto holds = [&](const std::vector<std::size_t>& core, Effort& own) {
+  const auto holds = [&](const std::vector<std::size_t>& core, Budget& own) {
     return check_assigned(system, core, Detail::verdict, own).verdict;
   };
   const Partition partition =
-      within(effort, most_steps_to_assign, [&](Effort& own) { return assign_cores(system, fits, holds, own); });
-  Result result = check_assigned(system, partition.core, whole ? Detail::whole : Detail::verdict, effort);
+      within(budget, max_steps_to_assign, [&](Budget& own) { return assign_cores(system, fits, holds, own); });
+  Result result = check_assigned(system, partition.core, whole ? Detail::whole : Detail::verdict, budget);
   result.core.assign(partition.core.begin(), partition.core.end());
-  qualify_no(system, partition, result.verdict, result.standing, result.reason);
+  qualify_no(system, partition, result.verdict, result.evidence, result.reason);
   return result;
 }
 

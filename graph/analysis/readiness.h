@@ -8,7 +8,7 @@ namespace jarol::analysis {
 /// Who reads waits for the jitter and the blocking of whom it follows, and runs after it, since it is less urgent: so
 /// the reader is as a task without precedence that has the longest jitter and blocking of all that it follows (the
 /// release times of Chetto, Silly, Bouchentouf 1990).
-Loads inheriting_loads(const CoreTasks& tasks);
+TaskModels inheriting_loads(const CoreTasks& tasks);
 
 /// How late an activation can be ready, and how long held up, with those that arrive with it and that it follows.
 struct Readiness {

@@ -13,7 +13,7 @@ namespace {
 std::vector<std::size_t> order_of(const System& system) {
   const Policy& policy = system.policy;
   if (policy.urgency == Urgency::turn) return system.turn;
-  std::vector<std::size_t> all(system.loads.size()), order(system.loads.size());
+  std::vector<std::size_t> all(system.models.size()), order(system.models.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   if (!policy.keeps_core && system.cores > 1) return all;
   all = in_order(system, std::move(all));
@@ -36,8 +36,8 @@ void Schedule::begin() {
   now_ = 0;
   releases_ = {};
   ready_.clear();
-  tasks_.assign(system_.loads.size(), {});
-  for (std::size_t i = 0; i < tasks_.size(); ++i) releases_.emplace(system_.loads[i].offset, i);
+  tasks_.assign(system_.models.size(), {});
+  for (std::size_t i = 0; i < tasks_.size(); ++i) releases_.emplace(system_.models[i].offset, i);
   for (const auto& [producer, reader] : system_.follows) tasks_[reader].producers.push_back(producer);
 }
 
@@ -78,13 +78,13 @@ void Schedule::release_due() {
     const std::size_t task = releases_.top().second;
     releases_.pop();
     release(task);
-    releases_.emplace(now_ + system_.loads[task].period, task);
+    releases_.emplace(now_ + system_.models[task].period, task);
   }
 }
 
 void Schedule::release(std::size_t task) {
   OfTask& of = tasks_[task];
-  const Load& load = system_.loads[task];
+  const TaskModel& model = system_.models[task];
   const std::int64_t activation = of.released++;
   if (of.runs) {
     // when it ends is not waited for
@@ -100,10 +100,10 @@ void Schedule::release(std::size_t task) {
   switch (system_.policy.urgency) {
     case Urgency::turn: urgency = now_; break;
     case Urgency::priority: break;
-    case Urgency::deadline: urgency = now_ + load.deadline; break;
+    case Urgency::deadline: urgency = now_ + model.deadline; break;
   }
   of.runs = activation;
-  const Job job{urgency, order_[task], task, activation, now_, execution_(task, activation) + load.overhead, false};
+  const Job job{urgency, order_[task], task, activation, now_, execution_(task, activation) + model.overhead, false};
   const auto goes_before = [](const Job& a, const Job& b) {
     return std::tie(a.urgency, a.order) < std::tie(b.urgency, b.order);
   };
@@ -114,7 +114,7 @@ void Schedule::release(std::size_t task) {
 bool Schedule::waits(const Job& job) const {
   const std::vector<std::size_t>& producers = tasks_[job.task].producers;
   return std::any_of(producers.begin(), producers.end(), [&](std::size_t p) {
-    const std::int64_t since = job.release - system_.loads[p].offset, period = system_.loads[p].period;
+    const std::int64_t since = job.release - system_.models[p].offset, period = system_.models[p].period;
     return since >= 0 && since % period == 0 && tasks_[p].runs == since / period;
   });
 }
@@ -152,7 +152,7 @@ void Schedule::end(const Job& job) {
   // a release that was left out stands for the one to be skipped
   if (std::exchange(of.known_late, false)) return;
   const std::int64_t response = now_ - job.release;
-  const bool late = response > system_.loads[job.task].deadline;
+  const bool late = response > system_.models[job.task].deadline;
   of.skips_next = late && skips_[job.task];
   of.fates.push_back({late ? Fate::Kind::late : Fate::Kind::in_time, response});
 }

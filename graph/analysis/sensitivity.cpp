@@ -6,7 +6,7 @@
 namespace jarol::analysis {
 namespace {
 
-bool holds(const System& system, Effort& effort) { return verdict_of(system, effort) == Verdict::schedulable; }
+bool holds(const System& system, Budget& budget) { return verdict_of(system, budget) == Verdict::schedulable; }
 
 // The largest x in [low, high) with good(x), where good is monotone and good(low).
 template <class Good>
@@ -20,73 +20,74 @@ std::int64_t largest(std::int64_t low, std::int64_t high, const Good& good) {
 
 System scaled(const System& system, std::int64_t millionths) {
   System changed = system;
-  for (Load& l : changed.loads)
-    l.wcet = static_cast<std::int64_t>((static_cast<Wide>(l.wcet - l.overhead) * millionths + 999'999) / 1'000'000) +
-             l.overhead;
+  for (TaskModel& m : changed.models)
+    m.wcet = static_cast<std::int64_t>((static_cast<Wide>(m.wcet - m.overhead) * millionths + 999'999) / 1'000'000) +
+             m.overhead;
   return changed;
 }
 
-std::optional<std::int64_t> most_wcet(const System& system, std::size_t task, Effort& effort) {
+std::optional<std::int64_t> max_wcet(const System& system, std::size_t task, Budget& budget) {
   System changed = system;
   const auto good = [&](std::int64_t wcet) {
-    changed.loads[task].wcet = wcet;
-    return holds(changed, effort);
+    changed.models[task].wcet = wcet;
+    return holds(changed, budget);
   };
-  const std::int64_t overhead = system.loads[task].overhead;
+  const std::int64_t overhead = system.models[task].overhead;
   if (!good(1 + overhead)) return std::nullopt;
-  return largest(1 + overhead, system.loads[task].deadline + overhead + 1, good) - overhead;
+  return largest(1 + overhead, system.models[task].deadline + overhead + 1, good) - overhead;
 }
 
-std::optional<std::int64_t> least_deadline(const System& system, std::size_t task, Effort& effort) {
+std::optional<std::int64_t> min_deadline(const System& system, std::size_t task, Budget& budget) {
   System changed = system;
   // negated: the search looks for the largest
   const auto good = [&](std::int64_t negative) {
-    changed.loads[task].deadline = -negative;
-    return holds(changed, effort);
+    changed.models[task].deadline = -negative;
+    return holds(changed, budget);
   };
-  const std::int64_t now = system.loads[task].deadline;
+  const std::int64_t now = system.models[task].deadline;
   if (!good(-now)) return std::nullopt;
   return -largest(-now, 0, good);
 }
 
 }  // namespace
 
-std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, Effort& effort) {
+std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, Budget& budget) {
   Sensitivity result;
-  result.most_wcet.resize(system.loads.size());
-  result.least_deadline.resize(system.loads.size());
-  const bool any = std::any_of(system.loads.begin(), system.loads.end(), [](const Load& l) { return l.wcet > 0; });
-  if (any && holds(scaled(system, 1), effort)) {
+  result.max_wcet.resize(system.models.size());
+  result.min_deadline.resize(system.models.size());
+  const bool any =
+      std::any_of(system.models.begin(), system.models.end(), [](const TaskModel& m) { return m.wcet > 0; });
+  if (any && holds(scaled(system, 1), budget)) {
     std::int64_t high = 1'000'000;
-    while (high < 1'000'000'000'000 && holds(scaled(system, high), effort)) high *= 2;
+    while (high < 1'000'000'000'000 && holds(scaled(system, high), budget)) high *= 2;
     const std::int64_t factor = largest(high == 1'000'000 ? 1 : high / 2, high,
-                                        [&](std::int64_t f) { return holds(scaled(system, f), effort); });
+                                        [&](std::int64_t f) { return holds(scaled(system, f), budget); });
     result.alpha = static_cast<double>(factor) * 1e-6;
   }
-  if (effort.spent()) return std::nullopt;
+  if (budget.spent()) return std::nullopt;
   if (!per_task) return result;
-  double least = 0;
-  for (std::size_t i = 0; i < system.loads.size(); ++i) {
-    result.most_wcet[i] = most_wcet(system, i, effort);
-    result.least_deadline[i] = least_deadline(system, i, effort);
-    if (!result.most_wcet[i] || system.loads[i].wcet == system.loads[i].overhead) continue;
-    const double room = static_cast<double>(*result.most_wcet[i]) /
-                        static_cast<double>(system.loads[i].wcet - system.loads[i].overhead);
-    if (result.binding && room >= least) continue;
-    least = room;
+  double min = 0;
+  for (std::size_t i = 0; i < system.models.size(); ++i) {
+    result.max_wcet[i] = max_wcet(system, i, budget);
+    result.min_deadline[i] = min_deadline(system, i, budget);
+    if (!result.max_wcet[i] || system.models[i].wcet == system.models[i].overhead) continue;
+    const double room = static_cast<double>(*result.max_wcet[i]) /
+                        static_cast<double>(system.models[i].wcet - system.models[i].overhead);
+    if (result.binding && room >= min) continue;
+    min = room;
     result.binding = i;
   }
-  if (effort.spent()) return std::nullopt;  // the last ones were given up
+  if (budget.spent()) return std::nullopt;  // the last ones were given up
   return result;
 }
 
-std::vector<WcetCut> wcet_cuts(const System& system, Effort& effort) {
-  if (system.loads.size() > 100) return {};
+std::vector<WcetCut> wcet_cuts(const System& system, Budget& budget) {
+  if (system.models.size() > 100) return {};
   std::vector<std::pair<double, WcetCut>> cuts;
-  for (std::size_t i = 0; i < system.loads.size(); ++i) {
-    const std::int64_t now = system.loads[i].wcet - system.loads[i].overhead;
-    const auto wcet = most_wcet(system, i, effort);
-    if (!wcet || effort.spent() || *wcet >= now) continue;
+  for (std::size_t i = 0; i < system.models.size(); ++i) {
+    const std::int64_t now = system.models[i].wcet - system.models[i].overhead;
+    const auto wcet = max_wcet(system, i, budget);
+    if (!wcet || budget.spent() || *wcet >= now) continue;
     cuts.push_back({1 - static_cast<double>(*wcet) / static_cast<double>(now), {i, *wcet}});
   }
   std::stable_sort(cuts.begin(), cuts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -9,15 +9,15 @@ struct Sensitivity {
   /// Largest common factor on all WCETs that is still schedulable, to a millionth; nothing if even none is.
   std::optional<double> alpha;
   /// Per task the largest WCET in ns that is schedulable with the others as they are; nothing if none is.
-  std::vector<std::optional<std::int64_t>> most_wcet;
+  std::vector<std::optional<std::int64_t>> max_wcet;
   /// Per task the smallest deadline in ns (of a task with a LET: its LET) that is still met, the others as they are.
-  std::vector<std::optional<std::int64_t>> least_deadline;
+  std::vector<std::optional<std::int64_t>> min_deadline;
   /// The task whose WCET may grow least, relative to it.
   std::optional<std::size_t> binding;
 };
 
 /// `per_task`: also what costs a search for each task. Nothing if it would take more effort.
-std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, Effort& effort);
+std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, Budget& budget);
 
 /// The largest WCET of one task with which the system is schedulable that is not with the one it has.
 struct WcetCut {
@@ -26,6 +26,6 @@ struct WcetCut {
 };
 
 /// The smallest cut of its own first; none for more than a hundred tasks, and fewer where it would take more effort.
-std::vector<WcetCut> wcet_cuts(const System& system, Effort& effort);
+std::vector<WcetCut> wcet_cuts(const System& system, Budget& budget);
 
 }  // namespace jarol::analysis

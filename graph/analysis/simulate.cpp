@@ -31,21 +31,21 @@ struct CoreRules {
   bool preemptive = true;
   bool beyond_late = false;
   std::int64_t last = no_time;  // nothing arrives from then on
-  std::uint64_t most_activations = 0;
+  std::uint64_t max_activations = 0;
 };
 
 class CoreSimulator {
  public:
-  CoreSimulator(std::span<const Load> loads, const CoreRules& rules) : loads_(loads), rules_(rules) {
-    result_.responses.resize(loads.size(), 0);
-    for (std::size_t i = 0; i < loads.size(); ++i) arrivals_.push({loads[i].offset, i, 0});
+  CoreSimulator(std::span<const TaskModel> models, const CoreRules& rules) : loads_(models), rules_(rules) {
+    result_.responses.resize(models.size(), 0);
+    for (std::size_t i = 0; i < models.size(); ++i) arrivals_.push({models[i].offset, i, 0});
   }
 
   // Up to what arrives at that instant. False if an activation is late that ends the run, or there are too many.
   bool run_until(std::int64_t end) {
     while (now_ < end) {
       arrive();
-      if (result_.activations > rules_.most_activations) {
+      if (result_.activations > rules_.max_activations) {
         result_.whole = false;
         return false;
       }
@@ -74,7 +74,7 @@ class CoreSimulator {
   // task run in turn.
   std::vector<std::pair<std::int64_t, std::int64_t>> left() const {
     std::vector<std::pair<std::int64_t, std::int64_t>> sum(loads_.size());
-    for (LeastFirst<Ready> ready = ready_; !ready.empty(); ready.pop()) {
+    for (MinFirst<Ready> ready = ready_; !ready.empty(); ready.pop()) {
       ++sum[ready.top().task].first;
       sum[ready.top().task].second += ready.top().left;
     }
@@ -89,21 +89,21 @@ class CoreSimulator {
   }
 
   void arrive() {
-    while (next_arrival() <= now_ && result_.activations <= rules_.most_activations) {
+    while (next_arrival() <= now_ && result_.activations <= rules_.max_activations) {
       const Arrival a = arrivals_.top();
       arrivals_.pop();
-      const Load& l = loads_[a.task];
+      const TaskModel& m = loads_[a.task];
       const std::int64_t urgency =
-          rules_.order == Order::by_priority ? static_cast<std::int64_t>(a.task) : a.time + l.deadline;
-      ready_.push({urgency, a.task, a.activation, a.time, l.wcet});
-      arrivals_.push({a.time + l.period, a.task, a.activation + 1});
+          rules_.order == Order::by_priority ? static_cast<std::int64_t>(a.task) : a.time + m.deadline;
+      ready_.push({urgency, a.task, a.activation, a.time, m.wcet});
+      arrivals_.push({a.time + m.period, a.task, a.activation + 1});
       ++result_.activations;
     }
   }
 
   void add_slice(const Ready& running, std::int64_t stop) {
     std::vector<Slice>& slices = result_.slices;
-    if (slices.size() >= 2 * most_slices) slices.erase(slices.begin(), slices.begin() + most_slices);
+    if (slices.size() >= 2 * max_slices) slices.erase(slices.begin(), slices.begin() + max_slices);
     if (!slices.empty() && slices.back().task == running.task && slices.back().activation == running.activation &&
         slices.back().end == now_) {
       slices.back().end = stop;
@@ -117,35 +117,35 @@ class CoreSimulator {
     std::int64_t& response = result_.responses[ended.task];
     response = std::max(response, now_ - ended.release);
     if (now_ > deadline && !result_.late)
-      result_.late = Late{ended.task, ended.activation, ended.release, now_, deadline};
+      result_.late = DeadlineMiss{ended.task, ended.activation, ended.release, now_, deadline};
     return !result_.late || rules_.beyond_late;
   }
 
-  std::span<const Load> loads_;
+  std::span<const TaskModel> loads_;
   const CoreRules rules_;
   std::int64_t now_ = 0;
-  LeastFirst<Arrival> arrivals_;
-  LeastFirst<Ready> ready_;
+  MinFirst<Arrival> arrivals_;
+  MinFirst<Ready> ready_;
   Simulation result_;
 };
 
 }  // namespace
 
-Simulation simulate(std::span<const Load> loads, Order order, bool preemptive, std::int64_t until,
-                    std::uint64_t most_activations) {
-  CoreSimulator simulator(loads, {order, preemptive, false, until, most_activations});
+Simulation simulate(std::span<const TaskModel> models, Order order, bool preemptive, std::int64_t until,
+                    std::uint64_t max_activations) {
+  CoreSimulator simulator(models, {order, preemptive, false, until, max_activations});
   simulator.run_until(no_time);
   return std::move(simulator.result());
 }
 
-Simulation simulate_repetition(std::span<const Load> loads, Order order, bool beyond_late,
-                               std::uint64_t most_activations) {
-  CoreSimulator simulator(loads, {order, true, beyond_late, no_time, most_activations});
-  const auto lcm = hyperperiod(loads, most_time / 4);
+Simulation simulate_repetition(std::span<const TaskModel> models, Order order, bool beyond_late,
+                               std::uint64_t max_activations) {
+  CoreSimulator simulator(models, {order, true, beyond_late, no_time, max_activations});
+  const auto lcm = hyperperiod(models, max_time / 4);
   std::int64_t end = 0;
-  for (const Load& l : loads) end = std::max(end, l.offset);
+  for (const TaskModel& m : models) end = std::max(end, m.offset);
   bool on = lcm && simulator.run_until(end), repeats = false;
-  for (auto before = simulator.left(); on && !repeats && end <= most_time - *lcm;) {
+  for (auto before = simulator.left(); on && !repeats && end <= max_time - *lcm;) {
     end += *lcm;
     on = simulator.run_until(end);
     auto after = simulator.left();

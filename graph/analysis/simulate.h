@@ -4,14 +4,14 @@
 #include <functional>
 #include <queue>
 
-#include "graph/analysis/load.h"
+#include "graph/analysis/task_model.h"
 
 namespace jarol::analysis {
 
 enum class Order { by_priority, by_deadline };
 
 /// The first activation that ends after its deadline.
-struct Late {
+struct DeadlineMiss {
   std::size_t task = 0;
   std::int64_t activation = 0;
   std::int64_t release = 0;
@@ -28,25 +28,25 @@ struct Slice {
 };
 
 template <class T>
-using LeastFirst = std::priority_queue<T, std::vector<T>, std::greater<>>;
+using MinFirst = std::priority_queue<T, std::vector<T>, std::greater<>>;
 
-inline constexpr std::size_t most_slices = 200;  // before what is late
+inline constexpr std::size_t max_slices = 200;  // before what is late
 
 struct Simulation {
   bool whole = true;  // reached its end
   std::uint64_t activations = 0;
-  std::optional<Late> late;
+  std::optional<DeadlineMiss> late;
   std::vector<std::int64_t> responses;  // per task, the longest of those that ended
   std::vector<Slice> slices;            // the last ones before the late activation ended
 };
 
 /// Runs all releases before `until`, or up to the first late activation, or so many. Ties: the task that stands first.
-Simulation simulate(std::span<const Load> loads, Order order, bool preemptive, std::int64_t until,
-                    std::uint64_t most_activations = 2'000'000);
+Simulation simulate(std::span<const TaskModel> models, Order order, bool preemptive, std::int64_t until,
+                    std::uint64_t max_activations = 2'000'000);
 
 /// Interrupting, until one hyperperiod after all offsets leaves the same work as the one before: responses are of all
 /// activations there will ever be. Up to the first late activation, unless `beyond_late`: what is late runs to its end.
-Simulation simulate_repetition(std::span<const Load> loads, Order order, bool beyond_late,
-                               std::uint64_t most_activations);
+Simulation simulate_repetition(std::span<const TaskModel> models, Order order, bool beyond_late,
+                               std::uint64_t max_activations);
 
 }  // namespace jarol::analysis

@@ -8,7 +8,7 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::size_t most_slices_of_cores = 400;
+constexpr std::size_t max_slices_of_cores = 400;
 
 struct Job {
   std::int64_t urgency = 0;  // less first
@@ -27,19 +27,19 @@ bool more_urgent(const Job& a, const Job& b) {
 
 class Simulator {
  public:
-  Simulator(std::span<const Load> loads, std::int64_t cores, const RunRules& rules)
-      : loads_(loads), cores_(static_cast<std::size_t>(cores)), rules_(rules), producers_(loads.size()) {
-    result_.responses.resize(loads.size(), 0);
-    for (std::size_t i = 0; i < loads.size(); ++i) arrivals_.emplace(loads[i].offset + loads[i].jitter, i);
+  Simulator(std::span<const TaskModel> models, std::int64_t cores, const RunRules& rules)
+      : loads_(models), cores_(static_cast<std::size_t>(cores)), rules_(rules), producers_(models.size()) {
+    result_.responses.resize(models.size(), 0);
+    for (std::size_t i = 0; i < models.size(); ++i) arrivals_.emplace(models[i].offset + models[i].jitter, i);
     for (const auto& [producer, reader] : rules.follows) producers_[reader].push_back(producer);
-    released_.resize(loads.size(), 0);
-    ended_.resize(loads.size(), 0);
+    released_.resize(models.size(), 0);
+    ended_.resize(models.size(), 0);
   }
 
   // False if an activation is late, or there are too many.
-  bool run_until(std::int64_t end, std::uint64_t most_activations) {
+  bool run_until(std::int64_t end, std::uint64_t max_activations) {
     while (now_ < end) {
-      if (result_.activations > most_activations) return false;
+      if (result_.activations > max_activations) return false;
       arrive();
       choose();
       std::int64_t next = std::min(end, arrivals_.top().first);
@@ -118,8 +118,7 @@ class Simulator {
     if (same != slices.rend() && same - slices.rbegin() < static_cast<std::ptrdiff_t>(2 * cores_)) {
       same->end = until;
     } else {
-      if (slices.size() >= 2 * most_slices_of_cores)
-        slices.erase(slices.begin(), slices.begin() + most_slices_of_cores);
+      if (slices.size() >= 2 * max_slices_of_cores) slices.erase(slices.begin(), slices.begin() + max_slices_of_cores);
       slices.push_back({job.task, job.activation, now_, until});
     }
   }
@@ -130,11 +129,11 @@ class Simulator {
     ++ended_[job.task];
     result_.responses[job.task] = std::max(result_.responses[job.task], now_ - job.arrival);
     if (now_ <= job.deadline) return true;
-    result_.late = Late{job.task, job.activation, job.arrival, now_, job.deadline};
+    result_.late = DeadlineMiss{job.task, job.activation, job.arrival, now_, job.deadline};
     return false;
   }
 
-  std::span<const Load> loads_;
+  std::span<const TaskModel> loads_;
   std::size_t cores_;
   const RunRules& rules_;
   std::int64_t now_ = 0;
@@ -150,17 +149,17 @@ class Simulator {
 
 }  // namespace
 
-GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores, std::uint64_t most_activations,
+GlobalSimulation simulate_global(std::span<const TaskModel> models, std::int64_t cores, std::uint64_t max_activations,
                                  const RunRules& rules) {
-  Simulator simulator(loads, cores, rules);
-  const auto lcm = hyperperiod(loads, most_time / 4);
+  Simulator simulator(models, cores, rules);
+  const auto lcm = hyperperiod(models, max_time / 4);
   std::int64_t end = 0;
-  for (const Load& l : loads) end = std::max(end, l.offset + l.jitter);
-  bool on = !loads.empty() && simulator.run_until(end, most_activations);
+  for (const TaskModel& m : models) end = std::max(end, m.offset + m.jitter);
+  bool on = !models.empty() && simulator.run_until(end, max_activations);
   auto before = simulator.left();
   while (on) {
-    end = lcm ? end + *lcm : most_time;
-    if (end > most_time || !simulator.run_until(end, most_activations) || !lcm) break;
+    end = lcm ? end + *lcm : max_time;
+    if (end > max_time || !simulator.run_until(end, max_activations) || !lcm) break;
     const auto after = simulator.left();
     simulator.result().repeats = after && after == before;
     on = !simulator.result().repeats;
@@ -169,10 +168,10 @@ GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores
   return std::move(simulator.result());
 }
 
-std::vector<Slice> slices_before(std::int64_t until, std::span<const Load> loads, std::int64_t cores,
+std::vector<Slice> slices_before(std::int64_t until, std::span<const TaskModel> models, std::int64_t cores,
                                  const RunRules& rules) {
-  if (loads.empty()) return {};
-  Simulator simulator(loads, cores, rules);
+  if (models.empty()) return {};
+  Simulator simulator(models, cores, rules);
   simulator.run_until(until, std::numeric_limits<std::uint64_t>::max());
   return std::move(simulator.result().slices);
 }

@@ -9,7 +9,7 @@ namespace jarol::analysis {
 struct GlobalSimulation {
   bool repeats = false;  // nothing is late, and the last hyperperiod left all as the one before it
   std::uint64_t activations = 0;
-  std::optional<Late> late;
+  std::optional<DeadlineMiss> late;
   std::vector<std::int64_t> responses;  // per task, the longest of those that ended
   std::vector<Slice> slices;            // the last ones before the late activation ended
 };
@@ -26,11 +26,11 @@ struct RunRules {
 /// Up to the first late activation, or until one hyperperiod after all offsets leaves the same work as the one before,
 /// or so many activations. Releases follow the arrivals by all of the jitter; who follows another starts where that has
 /// ended.
-GlobalSimulation simulate_global(std::span<const Load> loads, std::int64_t cores, std::uint64_t most_activations,
+GlobalSimulation simulate_global(std::span<const TaskModel> models, std::int64_t cores, std::uint64_t max_activations,
                                  const RunRules& rules = {});
 
 /// The last pieces that ran before `until` or the first late activation, at least 400 of them.
-std::vector<Slice> slices_before(std::int64_t until, std::span<const Load> loads, std::int64_t cores,
+std::vector<Slice> slices_before(std::int64_t until, std::span<const TaskModel> models, std::int64_t cores,
                                  const RunRules& rules);
 
 }  // namespace jarol::analysis

@@ -21,14 +21,14 @@ System system_of(const Graph& graph) {
     const Wide handed_on = static_cast<Wide>(graph.platform.copy.count()) * bytes[i] + graph.platform.dispatch.count();
     const std::int64_t overhead =
         t.wcet ? static_cast<std::int64_t>(std::min<Wide>(handed_on, longest_duration.count())) : 0;
-    system.loads.push_back({t.wcet.value_or(Duration{}).count() + overhead, t.period.count(), t.deadline.count(),
-                            t.offset.count(), t.jitter.count(), t.blocking.count(), overhead});
+    system.models.push_back({t.wcet.value_or(Duration{}).count() + overhead, t.period.count(), t.deadline.count(),
+                             t.offset.count(), t.jitter.count(), t.blocking.count(), overhead});
     system.priority.push_back(t.priority);
     system.core.push_back(t.core);
   }
   system.rank.resize(graph.tasks.size());
   for (std::size_t i = 0; i < graph.order.size(); ++i) system.rank[graph.order[i]] = i;
-  const std::vector<std::size_t> turns = turns_of(graph);
+  const std::vector<std::size_t> turns = dispatch_order(graph);
   system.turn.resize(graph.tasks.size());
   for (std::size_t i = 0; i < turns.size(); ++i) system.turn[turns[i]] = i;
   for (const Connection& c : graph.connections) {
@@ -43,9 +43,9 @@ System system_of(const Graph& graph) {
 
 std::optional<std::size_t> overfull_core(const System& system) {
   for (std::int64_t core = 0; system.policy.keeps_core && system.cores > 1 && core < system.cores; ++core) {
-    Loads stated;
-    for (std::size_t i = 0; i < system.loads.size(); ++i)
-      if (system.core[i] == core) stated.push_back(system.loads[i]);
+    TaskModels stated;
+    for (std::size_t i = 0; i < system.models.size(); ++i)
+      if (system.core[i] == core) stated.push_back(system.models[i]);
     if (compare_utilisation(stated, 1) == std::strong_ordering::greater) return static_cast<std::size_t>(core);
   }
   return std::nullopt;

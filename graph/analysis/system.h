@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "graph/analysis/load.h"
 #include "graph/analysis/policies.h"
+#include "graph/analysis/task_model.h"
 #include "graph/model/graph.h"
 
 namespace jarol::analysis {
@@ -14,7 +14,7 @@ struct System {
   std::int64_t cores = 1;
   bool offsets_hold = true;  // else every shift of the tasks against each other is possible
   // per task, in the order of the graph
-  Loads loads;
+  TaskModels models;
   std::vector<std::optional<std::int64_t>> priority;
   std::vector<std::optional<std::int64_t>> core;
   std::vector<std::size_t> rank;  // in data-flow order
@@ -33,6 +33,6 @@ enum class Verdict { schedulable, not_schedulable, unknown };
 
 /// What a verdict rests on: a test that decides both ways; a sufficient one, which may refuse what would hold; a run
 /// that found a late activation; or, where it is unknown, nothing.
-enum class Standing { none, proof, safe, by_run };
+enum class Evidence { none, proof, safe, by_run };
 
 }  // namespace jarol::analysis

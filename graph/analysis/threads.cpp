@@ -8,13 +8,13 @@ namespace {
 
 // Is the second always released with the first, and run after it by a thread that has both?
 bool follows(const System& system, std::size_t first, std::size_t second) {
-  const Load &a = system.loads[first], &b = system.loads[second];
+  const TaskModel &a = system.models[first], &b = system.models[second];
   return a.period == b.period && a.offset == b.offset && system.turn[first] < system.turn[second];
 }
 
 // Per task, whether it follows one on another core: those behind it must not wait with it.
 std::vector<bool> waiting_of(const System& system, const std::vector<std::optional<std::size_t>>& core_of) {
-  std::vector<bool> waits(system.loads.size(), false);
+  std::vector<bool> waits(system.models.size(), false);
   for (const auto& [producer, reader] : system.follows)
     waits[reader] = waits[reader] || core_of[producer] != core_of[reader];
   return waits;

@@ -7,7 +7,7 @@
 
 namespace jarol::analysis {
 
-/// Tasks that one thread runs, each to its end; of those that are released at one instant, as turns_of says.
+/// Tasks that one thread runs, each to its end; of those that are released at one instant, as dispatch_order says.
 struct TaskThread {
   std::size_t core = 0;
   std::size_t urgency = 0;  // 0 is the most urgent one of its core, which preempts the others

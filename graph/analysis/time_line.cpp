@@ -9,17 +9,17 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr double most_drawn = 300;
+constexpr double max_drawn = 300;
 
-std::int64_t length_of(const Loads& loads) {
+std::int64_t length_of(const TaskModels& models) {
   double per_ns = 0;
   std::int64_t offsets = 0;
-  for (const Load& l : loads) {
-    per_ns += 1 / static_cast<double>(l.period);
-    offsets = std::max(offsets, l.offset);
+  for (const TaskModel& m : models) {
+    per_ns += 1 / static_cast<double>(m.period);
+    offsets = std::max(offsets, m.offset);
   }
-  const std::int64_t whole = offsets + hyperperiod(loads, most_time / 4).value_or(most_time / 4);
-  const double filled = most_drawn / per_ns;
+  const std::int64_t whole = offsets + hyperperiod(models, max_time / 4).value_or(max_time / 4);
+  const double filled = max_drawn / per_ns;
   return static_cast<double>(whole) <= filled ? whole : static_cast<std::int64_t>(filled);
 }
 
@@ -27,16 +27,16 @@ std::int64_t length_of(const Loads& loads) {
 
 TimeLine time_line_of(const System& system, const Result& result) {
   TimeLine line;
-  if (system.loads.empty()) return line;
+  if (system.models.empty()) return line;
   const Policy& policy = system.policy;
-  line.until = length_of(system.loads);
-  std::vector<std::size_t> all(system.loads.size()), core(all.size());
+  line.until = length_of(system.models);
+  std::vector<std::size_t> all(system.models.size()), core(all.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   RunRules rules{.follows = system.follows, .order = std::vector<std::size_t>(all.size())};
-  Loads loads = system.loads;
+  TaskModels models = system.models;
   if (policy.urgency == Urgency::turn) {
     // first come, first served: as if all had the same, long deadline
-    for (Load& l : loads) l.deadline = most_time / 4;
+    for (TaskModel& m : models) m.deadline = max_time / 4;
     rules.order = system.turn;
   } else {
     all = in_order(system, std::move(all));
@@ -46,7 +46,7 @@ TimeLine time_line_of(const System& system, const Result& result) {
   rules.preemptive = policy.interrupts;
   for (std::size_t i = 0; i < core.size(); ++i) core[i] = result.core[i].value_or(0);
   if (policy.keeps_core) rules.core = core;
-  line.slices = slices_before(line.until, loads, system.cores, rules);
+  line.slices = slices_before(line.until, models, system.cores, rules);
   return line;
 }
 

@@ -10,8 +10,8 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::size_t most_validated = 50'000;
-constexpr std::uint64_t steps_of_walked = 10, most_after_late = 200'000;
+constexpr std::size_t max_validated = 50'000;
+constexpr std::uint64_t steps_of_walked = 10, max_after_late = 200'000;
 
 struct TableJob {
   std::int64_t arrival = 0;
@@ -23,17 +23,17 @@ struct TableJob {
 bool later(const TableJob& a, const TableJob& b) { return std::tie(a.arrival, a.turn) > std::tie(b.arrival, b.turn); }
 
 // What every activation may take of its core.
-Loads with_blocking(Loads loads) {
-  for (Load& l : loads) l.wcet += l.blocking;
-  return loads;
+TaskModels with_blocking(TaskModels models) {
+  for (TaskModel& m : models) m.wcet += m.blocking;
+  return models;
 }
 
 // Does any core have more to do than there is time?
 bool overloaded(const System& system, const std::vector<std::size_t>& core) {
-  std::vector<Loads> of_core(static_cast<std::size_t>(system.cores));
-  for (std::size_t i = 0; i < system.loads.size(); ++i) of_core[core[i]].push_back(system.loads[i]);
-  return std::any_of(of_core.begin(), of_core.end(), [](const Loads& loads) {
-    const auto order = compare_utilisation(with_blocking(loads), 1);
+  std::vector<TaskModels> of_core(static_cast<std::size_t>(system.cores));
+  for (std::size_t i = 0; i < system.models.size(); ++i) of_core[core[i]].push_back(system.models[i]);
+  return std::any_of(of_core.begin(), of_core.end(), [](const TaskModels& models) {
+    const auto order = compare_utilisation(with_blocking(models), 1);
     return order && *order > 0;
   });
 }
@@ -43,25 +43,25 @@ class TableWalk {
   TableWalk(const System& system, const std::vector<std::size_t>& core)
       : system_(system),
         core_(core),
-        producers_(system.loads.size()),
-        arrived_(system.loads.size(), -1),
-        ended_(system.loads.size(), 0),
+        producers_(system.models.size()),
+        arrived_(system.models.size(), -1),
+        ended_(system.models.size(), 0),
         free_(static_cast<std::size_t>(system.cores), 0),
         jobs_(&later) {
-    responses.resize(system.loads.size(), 0);
+    responses.resize(system.models.size(), 0);
     for (const auto& [producer, reader] : system.follows)
       if (core[producer] != core[reader]) producers_[reader].push_back(producer);
-    for (std::size_t i = 0; i < system.loads.size(); ++i) jobs_.push({system.loads[i].offset, system.turn[i], i, 0});
+    for (std::size_t i = 0; i < system.models.size(); ++i) jobs_.push({system.models[i].offset, system.turn[i], i, 0});
   }
 
-  // All that arrive before `end`; false when one is late for the first time or there are more than `most`.
-  bool run_until(std::int64_t end, std::uint64_t most) {
+  // All that arrive before `end`; false when one is late for the first time or there are more than `max`.
+  bool run_until(std::int64_t end, std::uint64_t max) {
     const bool on_time = !late;
     while (!jobs_.empty() && jobs_.top().arrival < end) {
-      if (activations >= most) return false;
+      if (activations >= max) return false;
       ++activations;
       run_next();
-      if (late && (on_time || latest_ > most_time)) return false;
+      if (late && (on_time || latest_ > max_time)) return false;
     }
     return true;
   }
@@ -74,7 +74,7 @@ class TableWalk {
   }
 
   std::uint64_t activations = 0;
-  std::optional<Late> late;
+  std::optional<DeadlineMiss> late;
   std::vector<std::int64_t> responses;
   std::vector<Slice> slices;  // all, as far as they are to be validated
   std::vector<Slice> recent;  // those after
@@ -83,21 +83,21 @@ class TableWalk {
   void run_next() {
     TableJob job = jobs_.top();
     jobs_.pop();
-    const Load& load = system_.loads[job.task];
+    const TaskModel& model = system_.models[job.task];
     std::int64_t& free = free_[core_[job.task]];
-    std::int64_t start = std::max(free, job.arrival + load.jitter);
+    std::int64_t start = std::max(free, job.arrival + model.jitter);
     for (const std::size_t p : producers_[job.task])
       if (arrived_[p] == job.arrival) start = std::max(start, ended_[p]);
-    const std::int64_t finish = start + load.blocking + load.wcet;
+    const std::int64_t finish = start + model.blocking + model.wcet;
     free = ended_[job.task] = finish;
     latest_ = std::max(latest_, finish);
     arrived_[job.task] = job.arrival;
     responses[job.task] = std::max(responses[job.task], finish - job.arrival);
-    if (!late) (slices.size() < most_validated ? slices : recent).push_back({job.task, job.activation, start, finish});
-    if (recent.size() >= 2 * most_slices) recent.erase(recent.begin(), recent.begin() + most_slices);
-    if (finish > job.arrival + load.deadline && !late)
-      late = Late{job.task, job.activation, job.arrival, finish, job.arrival + load.deadline};
-    job.arrival += load.period;
+    if (!late) (slices.size() < max_validated ? slices : recent).push_back({job.task, job.activation, start, finish});
+    if (recent.size() >= 2 * max_slices) recent.erase(recent.begin(), recent.begin() + max_slices);
+    if (finish > job.arrival + model.deadline && !late)
+      late = DeadlineMiss{job.task, job.activation, job.arrival, finish, job.arrival + model.deadline};
+    job.arrival += model.period;
     ++job.activation;
     jobs_.push(job);
   }
@@ -110,10 +110,10 @@ class TableWalk {
   std::priority_queue<TableJob, std::vector<TableJob>, decltype(&later)> jobs_;
 };
 
-CoreResult result_of(Verdict verdict, Standing standing, std::string reason, std::size_t tasks) {
+CoreResult result_of(Verdict verdict, Evidence evidence, std::string reason, std::size_t tasks) {
   CoreResult result;
   result.verdict = verdict;
-  result.standing = standing;
+  result.evidence = evidence;
   result.reason = std::move(reason);
   result.responses.resize(tasks);
   return result;
@@ -122,56 +122,56 @@ CoreResult result_of(Verdict verdict, Standing standing, std::string reason, std
 // Activations of so many repetitions.
 double activations_of(const System& system, std::int64_t time) {
   double count = 0;
-  for (const Load& l : system.loads) count += static_cast<double>(time) / static_cast<double>(l.period);
+  for (const TaskModel& m : system.models) count += static_cast<double>(time) / static_cast<double>(m.period);
   return count;
 }
 
-// The walk up to the repetition, within `most` activations; the reason stays empty where that ended it. `whole`: on
+// The walk up to the repetition, within `max` activations; the reason stays empty where that ended it. `whole`: on
 // after the first late one, as far as that is not far.
 CoreResult walk(const System& system, const std::vector<std::size_t>& core, std::optional<std::int64_t> lcm, bool whole,
-                Effort& effort, std::uint64_t most) {
+                Budget& budget, std::uint64_t max) {
   TableWalk table(system, core);
-  CoreResult result = result_of(Verdict::unknown, Standing::none, "", system.loads.size());
+  CoreResult result = result_of(Verdict::unknown, Evidence::none, "", system.models.size());
   std::int64_t end = 0;
-  for (const Load& l : system.loads) end = std::max(end, l.offset);
+  for (const TaskModel& m : system.models) end = std::max(end, m.offset);
   const auto run = [&] {
-    if (table.run_until(end, most)) return true;
+    if (table.run_until(end, max)) return true;
     if (!table.late || !whole) return false;
-    most = std::min(most, table.activations + most_after_late);
-    return table.run_until(end, most);
+    max = std::min(max, table.activations + max_after_late);
+    return table.run_until(end, max);
   };
   const std::int64_t repetitions = system.cores + 2;
   bool on = run(), repeats = false, grows = false;
   std::vector<std::int64_t> before = table.backlog(end);
   for (std::int64_t k = 0; on && !repeats; ++k) {
-    if (lcm && end > most_time - *lcm) break;
-    end = lcm ? end + *lcm : most_time;
+    if (lcm && end > max_time - *lcm) break;
+    end = lcm ? end + *lcm : max_time;
     on = run();
     if (!on || !lcm) break;
     std::vector<std::int64_t> now = table.backlog(end);
     repeats = now == before;
     if (k >= repetitions && !repeats && !grows) {
       grows = true;
-      most = std::min(most, table.activations + most_after_late);
+      max = std::min(max, table.activations + max_after_late);
       if (table.late) break;
     }
     before = std::move(now);
   }
-  effort.spend(table.activations * steps_of_walked);
+  budget.spend(table.activations * steps_of_walked);
   if (repeats) result.responses.assign(table.responses.begin(), table.responses.end());
   result.exact = repeats;
   if (table.late || grows) {
     result.verdict = Verdict::not_schedulable;
-    result.standing = Standing::proof;
+    result.evidence = Evidence::proof;
     result.reason = grows && system.cores > 1
                         ? "waiting for other cores takes longer than there is time: the backlog grows"
                         : "a task is late when every task takes its 'wcet'";
     result.late = table.late;
-    // the last ones tell why
+    // the last ones report why
     result.slices = std::move(table.slices);
     result.slices.insert(result.slices.end(), table.recent.begin(), table.recent.end());
-    if (result.slices.size() > most_slices)
-      result.slices.erase(result.slices.begin(), result.slices.end() - static_cast<std::ptrdiff_t>(most_slices));
+    if (result.slices.size() > max_slices)
+      result.slices.erase(result.slices.begin(), result.slices.end() - static_cast<std::ptrdiff_t>(max_slices));
     return result;
   }
   if (!repeats) return result;
@@ -182,42 +182,42 @@ CoreResult walk(const System& system, const std::vector<std::size_t>& core, std:
     return result;
   }
   result.verdict = Verdict::schedulable;
-  result.standing = Standing::proof;
+  result.evidence = Evidence::proof;
   result.reason = "every job of the time table ends by its deadline";
   return result;
 }
 
 }  // namespace
 
-CoreResult check_table(const System& system, const std::vector<std::size_t>& core, bool whole, Effort& effort,
-                       std::uint64_t most) {
-  const std::size_t n = system.loads.size();
+CoreResult check_table(const System& system, const std::vector<std::size_t>& core, bool whole, Budget& budget,
+                       std::uint64_t max) {
+  const std::size_t n = system.models.size();
   if (!system.offsets_hold)
-    return result_of(Verdict::unknown, Standing::none, "a table needs offsets that hold; 'phasing: any' has none", n);
-  const auto lcm = hyperperiod(system.loads, most_time / 4);
-  most = std::min(most, effort.left / steps_of_walked);
+    return result_of(Verdict::unknown, Evidence::none, "a table needs offsets that hold; 'phasing: any' has none", n);
+  const auto lcm = hyperperiod(system.models, max_time / 4);
+  max = std::min(max, budget.left / steps_of_walked);
   if (overloaded(system, core)) {
     // a late one shows why, where there is one soon
-    CoreResult result = walk(system, core, lcm, false, effort, std::min<std::uint64_t>(most, 1'000'000));
+    CoreResult result = walk(system, core, lcm, false, budget, std::min<std::uint64_t>(max, 1'000'000));
     result.verdict = Verdict::not_schedulable;
-    result.standing = Standing::proof;
+    result.evidence = Evidence::proof;
     result.reason = "the tasks need more than the whole core";
     return result;
   }
   // a bound before a walk that leads to no end
-  if (!lcm || activations_of(system, 2 * *lcm) > static_cast<double>(most)) {
-    auto bounds = fifo_bounds(system, core, effort);
+  if (!lcm || activations_of(system, 2 * *lcm) > static_cast<double>(max)) {
+    auto bounds = fifo_bounds(system, core, budget);
     if (!bounds.empty()) {
-      CoreResult result = result_of(Verdict::schedulable, Standing::safe,
+      CoreResult result = result_of(Verdict::schedulable, Evidence::safe,
                                     "whatever may stand before a task in the table, it ends by its deadline", n);
       result.responses.assign(bounds.begin(), bounds.end());
       return result;
     }
   }
-  CoreResult result = walk(system, core, lcm, whole, effort, most);
+  CoreResult result = walk(system, core, lcm, whole, budget, max);
   if (result.reason.empty())
     result.reason =
-        "the periods repeat only after more than " + std::to_string(most) + " activations, and none of these is late";
+        "the periods repeat only after more than " + std::to_string(max) + " activations, and none of these is late";
   return result;
 }
 

@@ -11,9 +11,9 @@ namespace jarol::analysis {
 /// makes anything later, and the walk with every jitter, `blocking` and WCET decides (Baccelli et al. 1992). It ends
 /// where the backlog of every core is as one hyperperiod before; where that is not so after one hyperperiod more than
 /// there are cores, some circle of waiting takes longer than there is time, and the backlog grows for ever: a longest
-/// path through that many repetitions has a circle. `core` gives each task its core; of more activations than `most`
+/// path through that many repetitions has a circle. `core` gives each task its core; of more activations than `max`
 /// the verdict is unknown, unless `fifo_bounds` hold. `whole`: with responses where something is late, too.
-CoreResult check_table(const System& system, const std::vector<std::size_t>& core, bool whole, Effort& effort,
-                       std::uint64_t most = 5'000'000);
+CoreResult check_table(const System& system, const std::vector<std::size_t>& core, bool whole, Budget& budget,
+                       std::uint64_t max = 5'000'000);
 
 }  // namespace jarol::analysis

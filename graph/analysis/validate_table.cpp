@@ -16,22 +16,22 @@ std::string fault_of_table(const System& system, const std::vector<std::size_t>&
     if (!found.emplace(std::pair(s.task, s.activation), &s).second)
       return named(s.task, s.activation) + " stands twice";
   // each where it belongs
-  for (std::size_t i = 0; i < system.loads.size(); ++i) {
-    const Load& l = system.loads[i];
-    for (std::int64_t k = 0; l.offset + k * l.period < end; ++k) {
+  for (std::size_t i = 0; i < system.models.size(); ++i) {
+    const TaskModel& m = system.models[i];
+    for (std::int64_t k = 0; m.offset + k * m.period < end; ++k) {
       const auto at = found.find({i, k});
       if (at == found.end()) return named(i, k) + " is missing";
       const Slice& s = *at->second;
-      const std::int64_t release = l.offset + k * l.period;
-      if (s.end - s.begin < l.wcet + l.blocking) return named(i, k) + " is cut short";
-      if (s.begin < release + l.jitter) return named(i, k) + " begins before its release";
-      if (s.end > release + l.deadline) return named(i, k) + " ends after its deadline";
+      const std::int64_t release = m.offset + k * m.period;
+      if (s.end - s.begin < m.wcet + m.blocking) return named(i, k) + " is cut short";
+      if (s.begin < release + m.jitter) return named(i, k) + " begins before its release";
+      if (s.end > release + m.deadline) return named(i, k) + " ends after its deadline";
     }
   }
   for (const auto& [producer, reader] : system.follows)
     for (const Slice& s : slices) {
       if (s.task != reader) continue;
-      const Load &p = system.loads[producer], &r = system.loads[reader];
+      const TaskModel &p = system.models[producer], &r = system.models[reader];
       const std::int64_t since = r.offset + s.activation * r.period - p.offset;
       if (since < 0 || since % p.period != 0) continue;
       const auto at = found.find({producer, since / p.period});
@@ -48,7 +48,7 @@ std::string fault_of_table(const System& system, const std::vector<std::size_t>&
   const auto backlog = [&](std::int64_t instant) {
     std::vector<std::int64_t> left(core.empty() ? 0 : *std::max_element(core.begin(), core.end()) + 1, 0);
     for (const Slice& s : slices)
-      if (const Load& l = system.loads[s.task]; l.offset + s.activation * l.period < instant)
+      if (const TaskModel& m = system.models[s.task]; m.offset + s.activation * m.period < instant)
         left[core[s.task]] = std::max(left[core[s.task]], s.end - instant);
     return left;
   };

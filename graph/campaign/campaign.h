@@ -51,6 +51,6 @@ struct Campaign {
   Measures measures;
 };
 
-inline constexpr std::int64_t most_runs = 1'000'000'000;
+inline constexpr std::int64_t max_runs = 1'000'000'000;
 
 }  // namespace jarol::campaign

@@ -29,7 +29,7 @@ std::optional<std::uint64_t> combinations(const Campaign& campaign) {
   std::uint64_t product = 1;
   for (const Variation& variation : campaign.vary) {
     if (variation.is_drawn()) continue;
-    if (variation.size() > static_cast<std::uint64_t>(most_runs) / product) return std::nullopt;
+    if (variation.size() > static_cast<std::uint64_t>(max_runs) / product) return std::nullopt;
     product *= variation.size();
   }
   return product;
@@ -50,13 +50,13 @@ Draws::Draws(const Campaign& campaign, std::uint64_t seed)
       runs_(campaign.runs ? static_cast<std::uint64_t>(*campaign.runs) : combinations(campaign).value_or(0)),
       every_(campaign.vary.size(), 1),
       strata_(campaign.vary.size()) {
-  constexpr auto most = static_cast<std::uint64_t>(most_runs);
+  constexpr auto max = static_cast<std::uint64_t>(max_runs);
   std::uint64_t every = 1;
   for (std::size_t i = campaign.vary.size(); i-- > 0;) {
     const Variation& variation = campaign.vary[i];
     every_[i] = every;
     // what changes after the last run that there can be changes never
-    if (!variation.is_drawn()) every = variation.size() > most / every ? most + 1 : every * variation.size();
+    if (!variation.is_drawn()) every = variation.size() > max / every ? max + 1 : every * variation.size();
     if (variation.is_drawn() && campaign.sampling == Sampling::latin)
       strata_[i] = shuffled(runs_, spread_seed(seed, "strata:" + variation.path));
   }

@@ -41,7 +41,7 @@ class Draws {
 /// Why the campaign has no number of runs, or can't have that one; empty: it has.
 std::string wrong_runs(const Campaign& campaign);
 
-/// The combinations of all that is crossed; none: more than `most_runs`.
+/// The combinations of all that is crossed; none: more than `max_runs`.
 std::optional<std::uint64_t> combinations(const Campaign& campaign);
 
 }  // namespace jarol::campaign

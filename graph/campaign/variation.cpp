@@ -10,7 +10,7 @@
 namespace jarol::campaign {
 namespace {
 
-constexpr std::int64_t most_on_grid = 1'000'000;
+constexpr std::int64_t max_on_grid = 1'000'000;
 
 std::string_view trim(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(' ');
@@ -139,7 +139,7 @@ class Reader {
     if (comma == std::string_view::npos || !read_range(inside.substr(0, comma)))
       return comma == std::string_view::npos ? fail("can't vary as '" + yaml_.text + "'" + how()) : false;
     const auto count = read_whole(inside.substr(comma + 1));
-    if (!count || *count < 2 || *count > static_cast<std::uint64_t>(most_on_grid))
+    if (!count || *count < 2 || *count > static_cast<std::uint64_t>(max_on_grid))
       return fail("needs a grid of 2 to 1000000 values, not as in '" + yaml_.text + "'");
     made_.kind = Variation::Kind::list;
     const auto last = static_cast<double>(*count - 1);

@@ -8,7 +8,7 @@ namespace jarol::isolation {
 namespace {
 
 // Far more than a library has, debug data and all.
-constexpr std::streamoff most_bytes = std::streamoff{2} << 30;
+constexpr std::streamoff max_bytes = std::streamoff{2} << 30;
 
 }  // namespace
 
@@ -17,7 +17,7 @@ std::vector<unsigned char> read_elf(const std::string& path) {
   const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : 0;
   char mark[SELFMAG] = {};
   in.seekg(0);
-  if (size < SELFMAG || size > most_bytes || !in.read(mark, SELFMAG) || std::memcmp(mark, ELFMAG, SELFMAG) != 0)
+  if (size < SELFMAG || size > max_bytes || !in.read(mark, SELFMAG) || std::memcmp(mark, ELFMAG, SELFMAG) != 0)
     return {};
   std::vector<unsigned char> bytes(static_cast<std::size_t>(size));
   in.seekg(0);

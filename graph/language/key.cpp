@@ -45,10 +45,10 @@ bool read_duration(const Yaml& yaml, bool positive, Duration& to, const std::str
   return passes(yaml, to.count() >= 0 ? "" : "is below zero", subject, problems);
 }
 
-bool read_integer(const Yaml& yaml, std::int64_t least, std::int64_t most, std::int64_t& to, const std::string& subject,
+bool read_integer(const Yaml& yaml, std::int64_t min, std::int64_t max, std::int64_t& to, const std::string& subject,
                   Problems& problems) {
   if (!is_scalar(yaml, "an integer", subject, problems)) return false;
-  return passes(yaml, parse_integer(yaml.text, least, most, to), subject, problems);
+  return passes(yaml, parse_integer(yaml.text, min, max, to), subject, problems);
 }
 
 bool read_id(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems) {
@@ -77,15 +77,15 @@ bool read_share(const Yaml& yaml, double& to, const std::string& subject, Proble
 }
 
 bool read_fault_limit(const Yaml& yaml, FaultLimit& to, const std::string& subject, Problems& problems) {
-  constexpr std::int64_t most_faults = 1000, most_releases = 1'000'000;
+  constexpr std::int64_t max_faults = 1000, max_releases = 1'000'000;
   constexpr std::string_view of = " of ";
   if (!is_scalar(yaml, "a limit, as in '3 of 10'", subject, problems)) return false;
   const std::size_t middle = yaml.text.find(of);
   if (middle == std::string::npos)
     return passes(yaml, "is no limit; write it as in '3 of 10': the third fault in ten releases", subject, problems);
   const std::string faults = yaml.text.substr(0, middle), releases = yaml.text.substr(middle + of.size());
-  if (!passes(yaml, parse_integer(faults, 1, most_faults, to.faults), subject, problems)) return false;
-  if (!passes(yaml, parse_integer(releases, 1, most_releases, to.releases), subject, problems)) return false;
+  if (!passes(yaml, parse_integer(faults, 1, max_faults, to.faults), subject, problems)) return false;
+  if (!passes(yaml, parse_integer(releases, 1, max_releases, to.releases), subject, problems)) return false;
   return passes(yaml, to.faults <= to.releases ? "" : "is never reached: a release has one fault at most", subject,
                 problems);
 }

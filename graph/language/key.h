@@ -37,9 +37,9 @@ struct KeyDescription {
   std::string name;
   Form form = Form::word;
   bool required = false;
-  std::string text;                                                         // meaning and default
-  std::vector<std::string> choices;                                         // Form::choice
-  std::int64_t least = 0, most = std::numeric_limits<std::int32_t>::max();  // Form::integer
+  std::string text;                                                      // meaning and default
+  std::vector<std::string> choices;                                      // Form::choice
+  std::int64_t min = 0, max = std::numeric_limits<std::int32_t>::max();  // Form::integer
   std::pair<std::int64_t, std::int64_t> limits{0, -1};  // Form::integer: of what is good, where something else checks
   std::vector<std::int64_t> integers;                   // the same: all that are
   std::vector<KeyDescription> keys;  // Form::mapping: what it may hold; empty: that is not known here
@@ -51,8 +51,8 @@ struct Key : KeyDescription {
   void (*read)(const Key& key, const Yaml& yaml, S& to, const std::string& subject, Problems& problems) = nullptr;
 
   Key in_range(std::int64_t from, std::int64_t to) && {
-    least = from;
-    most = to;
+    min = from;
+    max = to;
     return std::move(*this);
   }
   /// The same where something else checks it.
@@ -104,7 +104,7 @@ namespace detail {
 // Each reports what is wrong and returns false, or fills `to`.
 bool read_word(const Yaml& yaml, std::string& to, const std::string& subject, Problems& problems);
 bool read_duration(const Yaml& yaml, bool positive, Duration& to, const std::string& subject, Problems& problems);
-bool read_integer(const Yaml& yaml, std::int64_t least, std::int64_t most, std::int64_t& to, const std::string& subject,
+bool read_integer(const Yaml& yaml, std::int64_t min, std::int64_t max, std::int64_t& to, const std::string& subject,
                   Problems& problems);
 bool read_id(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems);
 bool read_bytes(const Yaml& yaml, std::int64_t& to, const std::string& subject, Problems& problems);
@@ -126,7 +126,7 @@ void read_member(const Key<S>& key, const Yaml& yaml, S& to, const std::string& 
   } else if constexpr (std::is_same_v<T, std::int64_t>) {
     good = key.form == Form::bytes ? read_bytes(yaml, value.value, what, problems)
            : key.form == Form::id  ? read_id(yaml, value.value, what, problems)
-                                   : detail::read_integer(yaml, key.least, key.most, value.value, what, problems);
+                                   : detail::read_integer(yaml, key.min, key.max, value.value, what, problems);
   } else if constexpr (std::is_same_v<T, double>) {
     good = key.form == Form::share ? read_share(yaml, value.value, what, problems)
                                    : read_frequency(yaml, value.value, what, problems);

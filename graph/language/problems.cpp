@@ -13,9 +13,9 @@ std::string place(const Location& where) {
   return printable(where.source->name) + ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
 }
 
-constexpr std::size_t most_shown = 160;  // characters of a line
-constexpr std::size_t most_problems = 200;
-constexpr std::size_t most_words = 100;  // of a list
+constexpr std::size_t max_shown = 160;  // characters of a line
+constexpr std::size_t max_problems = 200;
+constexpr std::size_t max_words = 100;  // of a list
 
 // The line and a caret below the column. Tabs stay tabs, so that the caret stands where it should; what is not
 // printable is shown as a dot, and of a long line only what surrounds the place.
@@ -24,8 +24,8 @@ std::string excerpt(const Location& where) {
   const std::string_view line = line_of(*where.source, where.line);
   const std::size_t at = std::min(static_cast<std::size_t>(std::max(where.column, 1) - 1), line.size());
   const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(line[i]) & 0xc0) == 0x80; };
-  std::size_t begin = at > most_shown - 40 ? at - (most_shown - 40) : 0;
-  std::size_t end = std::min(begin + most_shown, line.size());
+  std::size_t begin = at > max_shown - 40 ? at - (max_shown - 40) : 0;
+  std::size_t end = std::min(begin + max_shown, line.size());
   while (begin > 0 && continues(begin)) --begin;
   while (end < line.size() && continues(end)) ++end;
   std::string shown(begin > 0 ? "..." : ""), caret(shown.size(), ' ');
@@ -94,10 +94,9 @@ SpecError::SpecError(std::vector<Problem> problems)
     : std::runtime_error(report(problems)), problems_(std::move(problems)) {}
 
 void Problems::add(Location where, std::string text, std::vector<Note> notes) {
-  if (problems_.size() == most_problems) {
+  if (problems_.size() == max_problems) {
     std::vector<Problem> all = in_order(problems_);
-    all.push_back(
-        {{}, "there are more problems than these " + std::to_string(most_problems) + "; mend them first", {}});
+    all.push_back({{}, "there are more problems than these " + std::to_string(max_problems) + "; mend them first", {}});
     throw SpecError(std::move(all));
   }
   problems_.push_back({std::move(where), std::move(text), std::move(notes)});
@@ -118,12 +117,12 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   constexpr std::size_t longest = 200;  // the distance takes time as the square of it
   if (word.size() > longest) return "";
   const std::string* best = nullptr;
-  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  std::size_t min = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    if (candidate.size() >= word.size() + least || word.size() >= candidate.size() + least) continue;
+    if (candidate.size() >= word.size() + min || word.size() >= candidate.size() + min) continue;
     const std::size_t d = distance(word, candidate);
-    if (d < least && d < word.size()) {
-      least = d;
+    if (d < min && d < word.size()) {
+      min = d;
       best = &candidate;
     }
   }
@@ -133,8 +132,8 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 std::string list_of(const std::vector<std::string>& words) {
   if (words.empty()) return "nothing";
   std::string text;
-  for (std::size_t i = 0; i < std::min(words.size(), most_words); ++i) text += (i == 0 ? "" : ", ") + words[i];
-  if (words.size() > most_words) text += " and " + std::to_string(words.size() - most_words) + " more";
+  for (std::size_t i = 0; i < std::min(words.size(), max_words); ++i) text += (i == 0 ? "" : ", ") + words[i];
+  if (words.size() > max_words) text += " and " + std::to_string(words.size() - max_words) + " more";
   return text;
 }
 

@@ -176,19 +176,19 @@ std::string parse_number(std::string_view text, std::string_view unit, double& t
   return "";
 }
 
-std::string parse_integer(std::string_view text, std::int64_t least, std::int64_t most, std::int64_t& to) {
+std::string parse_integer(std::string_view text, std::int64_t min, std::int64_t max, std::int64_t& to) {
   if (has_leading_zero(text)) return "begins with a zero; write it without";
   std::int64_t value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = result.ec != std::errc::invalid_argument && result.ptr == text.data() + text.size();
   if (!whole || text.empty()) return "is not an integer";
-  if (result.ec == std::errc::result_out_of_range || value < least || value > most)
-    return "is not from " + std::to_string(least) + " to " + std::to_string(most);
+  if (result.ec == std::errc::result_out_of_range || value < min || value > max)
+    return "is not from " + std::to_string(min) + " to " + std::to_string(max);
   to = value;
   return "";
 }
 
-std::string parse_id(std::string_view text, std::int64_t most, std::int64_t& to) {
+std::string parse_id(std::string_view text, std::int64_t max, std::int64_t& to) {
   const bool hex = text.starts_with("0x") || text.starts_with("0X");
   if (!hex && has_leading_zero(text)) return "begins with a zero; write it without, or in hex, as in 0x00D1";
   const std::string_view digits = hex ? text.substr(2) : text;
@@ -196,8 +196,8 @@ std::string parse_id(std::string_view text, std::int64_t most, std::int64_t& to)
   const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value, hex ? 16 : 10);
   if (result.ec == std::errc::invalid_argument || result.ptr != digits.data() + digits.size())
     return "is not an id; write it in hex or decimal, as in 0x00D1 or 209";
-  if (result.ec == std::errc::result_out_of_range || value > static_cast<std::uint64_t>(most))
-    return "is not from 0 to " + std::to_string(most);
+  if (result.ec == std::errc::result_out_of_range || value > static_cast<std::uint64_t>(max))
+    return "is not from 0 to " + std::to_string(max);
   to = static_cast<std::int64_t>(value);
   return "";
 }

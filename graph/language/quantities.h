@@ -18,11 +18,11 @@ std::string parse_duration(std::string_view text, Duration& to);
 /// "1.5", "-2e-3", or with a unit: that of the description itself, or one that converts to it ("15deg" to rad).
 std::string parse_number(std::string_view text, std::string_view unit, double& to);
 
-/// "42", "-7": an integer from `least` to `most`.
-std::string parse_integer(std::string_view text, std::int64_t least, std::int64_t most, std::int64_t& to);
+/// "42", "-7": an integer from `min` to `max`.
+std::string parse_integer(std::string_view text, std::int64_t min, std::int64_t max, std::int64_t& to);
 
-/// "0x00D1", "209": the id of a system, in hex or decimal, up to `most`.
-std::string parse_id(std::string_view text, std::int64_t most, std::int64_t& to);
+/// "0x00D1", "209": the id of a system, in hex or decimal, up to `max`.
+std::string parse_id(std::string_view text, std::int64_t max, std::int64_t& to);
 
 /// "64KiB", "1MiB", "512B".
 std::string parse_bytes(std::string_view text, std::int64_t& to);

@@ -19,9 +19,9 @@ namespace {
   throw SpecError({{{}, "can't read '" + path + "': " + reason, {}}});
 }
 
-[[noreturn]] void fail_as_too_large(const std::string& path, std::size_t most) {
+[[noreturn]] void fail_as_too_large(const std::string& path, std::size_t max) {
   fail(path, "it is larger than " +
-                 (most >= (1U << 20) ? std::to_string(most >> 20) + " MiB" : std::to_string(most >> 10) + " KiB"));
+                 (max >= (1U << 20) ? std::to_string(max >> 20) + " MiB" : std::to_string(max >> 10) + " KiB"));
 }
 
 struct File {
@@ -31,13 +31,13 @@ struct File {
   }
 };
 
-std::string read(const File& file, const std::string& path, std::size_t most) {
+std::string read(const File& file, const std::string& path, std::size_t max) {
   struct stat status {};
   if (::fstat(file.number, &status) != 0) fail(path, std::strerror(errno));
   if (S_ISDIR(status.st_mode)) fail(path, "it is a directory");
   if (!S_ISREG(status.st_mode) && path != "-") fail(path, "it is no regular file; give - for what comes on stdin");
   note_input(path, status);
-  if (S_ISREG(status.st_mode) && status.st_size > static_cast<off_t>(most)) fail_as_too_large(path, most);
+  if (S_ISREG(status.st_mode) && status.st_size > static_cast<off_t>(max)) fail_as_too_large(path, max);
   std::string text;
   std::array<char, 65536> piece;
   for (;;) {
@@ -46,29 +46,29 @@ std::string read(const File& file, const std::string& path, std::size_t most) {
     if (size < 0) fail(path, std::strerror(errno));
     if (size == 0) return text;
     text.append(piece.data(), static_cast<std::size_t>(size));
-    if (text.size() > most) fail_as_too_large(path, most);
+    if (text.size() > max) fail_as_too_large(path, max);
   }
 }
 
-std::shared_ptr<const Source> read_from_disk(const std::string& path, std::size_t most) {
+std::shared_ptr<const Source> read_from_disk(const std::string& path, std::size_t max) {
   if (path == "-") {
     static std::shared_ptr<const Source> from_stdin;  // it can be read once
-    if (!from_stdin) from_stdin = std::make_shared<Source>(Source{path, read({STDIN_FILENO}, path, most)});
+    if (!from_stdin) from_stdin = std::make_shared<Source>(Source{path, read({STDIN_FILENO}, path, max)});
     return from_stdin;
   }
   // a FIFO that nobody writes is not waited for
   const File file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
   if (file.number < 0) fail(path, std::strerror(errno));
-  return std::make_shared<Source>(Source{path, read(file, path, most)});
+  return std::make_shared<Source>(Source{path, read(file, path, max)});
 }
 
 }  // namespace
 
-std::shared_ptr<const Source> read_source(const std::string& path) { return read_source(path, most_source_bytes); }
+std::shared_ptr<const Source> read_source(const std::string& path) { return read_source(path, max_source_bytes); }
 
-std::shared_ptr<const Source> read_source(const std::string& path, std::size_t most) {
+std::shared_ptr<const Source> read_source(const std::string& path, std::size_t max) {
   std::shared_ptr<const Source> source = SourceSet::given_at(path);
-  if (!source) source = read_from_disk(path, most);
+  if (!source) source = read_from_disk(path, max);
   SourceSet::note(source);
   return source;
 }

@@ -10,10 +10,10 @@
 namespace jarol {
 
 /// Of a graph, a mission, a vehicle's parameters, a message definition.
-inline constexpr std::size_t most_source_bytes = std::size_t{64} << 20;
+inline constexpr std::size_t max_source_bytes = std::size_t{64} << 20;
 
 /// The text of a regular file as a source named by its path, or of "-", which is stdin, whatever that is. Throws
 /// SpecError for what can't be read or is larger.
-std::shared_ptr<const Source> read_source(const std::string& path, std::size_t most);
+std::shared_ptr<const Source> read_source(const std::string& path, std::size_t max);
 
 }  // namespace jarol

@@ -32,7 +32,7 @@ const std::vector<Key<GraphSpec>>& graph_keys() {
       section("communicators", "what comes in and goes out, pinned in time"),
       section("tasks", "the compute tasks"),
       section("connections", "one connection a line: 'from.output -> to.input'"),
-      section("chains", "paths whose reaction time and data age check tells"),
+      section("chains", "paths whose reaction time and data age check reports"),
       section("platform", "what check analyses and run executes"),
       key<&GraphSpec::expect>("expect", Form::any,
                               "conditions on which run judges itself, as in 'depth of dune within 0.1 of 3'"),
@@ -116,14 +116,14 @@ const std::vector<Key<ChainSpec>>& chain_keys() {
       key<&ChainSpec::reaction>("reaction", Form::positive_duration, "limit of the maximum reaction time"),
       key<&ChainSpec::age>("age", Form::positive_duration, "limit of the maximum data age"),
       key<&ChainSpec::crossover>("crossover", Form::frequency,
-                                 "of the loop that it closes, as in 2Hz: check tells the phase lost there"),
+                                 "of the loop that it closes, as in 2Hz: check reports the phase lost there"),
   };
   return keys;
 }
 
 const std::vector<Key<PlatformSpec>>& platform_keys() {
   static const std::vector<Key<PlatformSpec>> keys{
-      key<&PlatformSpec::cores>("cores", Form::integer, "number of cores, default 1").in_range(1, most_cores),
+      key<&PlatformSpec::cores>("cores", Form::integer, "number of cores, default 1").in_range(1, max_cores),
       key<&PlatformSpec::policy>(policy_key, Form::word, "scheduling policy, default table"),
       key<&PlatformSpec::phasing>("phasing", Form::choice,
                                   "do offsets hold as given, or is every shift possible; default given"),

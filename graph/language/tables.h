@@ -6,7 +6,7 @@
 namespace jarol {
 
 /// Of a platform.
-inline constexpr std::int64_t most_cores = 1024;
+inline constexpr std::int64_t max_cores = 1024;
 
 const std::vector<Key<GraphSpec>>& graph_keys();
 /// Without the names of grammars, which registries have.

@@ -16,12 +16,12 @@
 namespace jarol {
 namespace {
 
-constexpr std::size_t most_values = 6'000'000;
-constexpr std::size_t most_aliased = 100'000;
-constexpr std::size_t most_depth = 64;
+constexpr std::size_t max_values = 6'000'000;
+constexpr std::size_t max_aliased = 100'000;
+constexpr std::size_t max_depth = 64;
 // what yaml-cpp may scan before it has understood what it began with
-constexpr std::size_t most_bytes_ahead = std::size_t{2} << 20;
-constexpr std::size_t most_marks_ahead = 250'000;
+constexpr std::size_t max_bytes_ahead = std::size_t{2} << 20;
+constexpr std::size_t max_marks_ahead = 250'000;
 
 struct TooMuch {
   bool ahead = false;
@@ -46,7 +46,7 @@ class Pieces : public std::streambuf {
     bytes_ += static_cast<std::size_t>(size);
     for (const char c : std::string_view(gptr(), static_cast<std::size_t>(size)))
       if (std::string_view("[]{},:'\"&*!?-|>%").find(c) != std::string_view::npos) ++marks_;
-    if (bytes_ > most_bytes_ahead || marks_ > most_marks_ahead) throw TooMuch{true};
+    if (bytes_ > max_bytes_ahead || marks_ > max_marks_ahead) throw TooMuch{true};
     setg(eback(), gptr(), gptr() + size);
     return traits_type::to_int_type(*gptr());
   }
@@ -66,7 +66,7 @@ class Builder : public YAML::EventHandler {
 
   void report_too_far_ahead() {
     problems_.add(last_, "what follows here is too long for one line, text, comment or nest of brackets: more than " +
-                             std::to_string(most_bytes_ahead >> 20) + " MiB or " + std::to_string(most_marks_ahead) +
+                             std::to_string(max_bytes_ahead >> 20) + " MiB or " + std::to_string(max_marks_ahead) +
                              " marks; write it without outer brackets, on several lines");
   }
 
@@ -84,8 +84,8 @@ class Builder : public YAML::EventHandler {
     if (found != anchored_.end()) {
       // aliases of aliases multiply
       aliased_ += count(found->second);
-      if (aliased_ > most_aliased)
-        too_much(mark, "aliases stand for more than " + std::to_string(most_aliased) + " values");
+      if (aliased_ > max_aliased)
+        too_much(mark, "aliases stand for more than " + std::to_string(max_aliased) + " values");
       return finish(found->second, 0);
     }
     problems_.add(at(mark), "an alias stands inside the very value it refers to; a value can't contain itself");
@@ -141,8 +141,8 @@ class Builder : public YAML::EventHandler {
   }
 
   void open(Yaml::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor) {
-    if (open_.size() >= most_depth) {
-      problems_.add(at(mark), "values are nested deeper than " + std::to_string(most_depth) + " levels");
+    if (open_.size() >= max_depth) {
+      problems_.add(at(mark), "values are nested deeper than " + std::to_string(max_depth) + " levels");
       throw TooMuch();
     }
     Open value;
@@ -170,8 +170,8 @@ class Builder : public YAML::EventHandler {
   }
 
   void finish(Yaml value, YAML::anchor_t anchor) {
-    if (++values_ > most_values)
-      too_much(YAML::Mark::null_mark(), "the text holds more than " + std::to_string(most_values) + " values");
+    if (++values_ > max_values)
+      too_much(YAML::Mark::null_mark(), "the text holds more than " + std::to_string(max_values) + " values");
     if (anchor != 0) keep(anchor, value);
     if (open_.empty()) {
       root_ = std::move(value);
@@ -192,8 +192,8 @@ class Builder : public YAML::EventHandler {
   // anchors inside anchored values multiply
   void keep(YAML::anchor_t anchor, const Yaml& value) {
     anchored_values_ += count(value);
-    if (anchored_values_ > most_aliased) {
-      problems_.add(value.where, "anchors name more than " + std::to_string(most_aliased) + " values");
+    if (anchored_values_ > max_aliased) {
+      problems_.add(value.where, "anchors name more than " + std::to_string(max_aliased) + " values");
       throw TooMuch();
     }
     anchored_.emplace(anchor, value);
@@ -263,8 +263,8 @@ std::string_view kind_name(const Yaml& yaml) {
 }
 
 Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) {
-  if (source->text.size() > most_source_bytes) {
-    problems.add({source, 1, 1}, "the text is larger than " + std::to_string(most_source_bytes >> 20) + " MiB");
+  if (source->text.size() > max_source_bytes) {
+    problems.add({source, 1, 1}, "the text is larger than " + std::to_string(max_source_bytes >> 20) + " MiB");
     return {};
   }
   Pieces pieces(source->text);

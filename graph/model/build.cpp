@@ -7,9 +7,9 @@
 #include "graph/model/channels.h"
 #include "graph/model/connect.h"
 #include "graph/model/deadlines.h"
+#include "graph/model/failsafe.h"
 #include "graph/model/heaps.h"
 #include "graph/model/parameters.h"
-#include "graph/model/safe_commands.h"
 #include "graph/values/bind.h"
 
 namespace jarol {
@@ -147,7 +147,7 @@ class Builder {
       graph_.communicators.push_back(std::move(communicator));
     }
     check_channels(graph_, problems_);
-    add_safe_commands(spec_, graph_, problems_);
+    add_failsafe(spec_, graph_, problems_);
   }
 
   void resolve_type(const CommunicatorSpec& spec, const std::string& subject, Communicator& communicator) {
@@ -197,20 +197,20 @@ class Builder {
                                             " (counted from 0)");
       resolve_task_class(spec, subject, task);
       if (spec.heap) {
-        constexpr auto most = static_cast<std::int64_t>(largest_heap), least = static_cast<std::int64_t>(smallest_heap);
-        const bool too_small = spec.heap->value > 0 && spec.heap->value < least;
+        constexpr auto max = static_cast<std::int64_t>(largest_heap), min = static_cast<std::int64_t>(smallest_heap);
+        const bool too_small = spec.heap->value > 0 && spec.heap->value < min;
         if (too_small)
           problems_.add(spec.heap->where, subject + " has a heap of " + std::to_string(spec.heap->value) +
-                                              "B, which holds nothing; the smallest has " + std::to_string(least) +
+                                              "B, which holds nothing; the smallest has " + std::to_string(min) +
                                               "B, one that is needed and not stated 64KiB");
-        if (spec.heap->value > most)
+        if (spec.heap->value > max)
           problems_.add(spec.heap->where, subject + " has a heap of more than 1GiB, the largest there is");
-        task.heap = too_small ? default_heap : static_cast<std::size_t>(std::min(spec.heap->value, most));
-        if (heaps_ <= most && heaps_ + spec.heap->value > most && spec.heap->value <= most)
+        task.heap = too_small ? default_heap : static_cast<std::size_t>(std::min(spec.heap->value, max));
+        if (heaps_ <= max && heaps_ + spec.heap->value > max && spec.heap->value <= max)
           problems_.add(spec.heap->where, subject +
                                               " has a heap with which those of all tasks are more than 1GiB "
                                               "together, the most there is");
-        heaps_ += std::min(spec.heap->value, most);
+        heaps_ += std::min(spec.heap->value, max);
       } else if (task.task_class != nullptr && task.task_class->is_deep()) {
         task.heap = default_heap;
       }

@@ -55,7 +55,7 @@ void report_cycle(const Graph& graph, const std::vector<std::size_t>& cycle, Pro
 
 }  // namespace
 
-Duration least_distance(Duration period, Duration offset, Duration other_period, Duration other_offset) {
+Duration min_distance(Duration period, Duration offset, Duration other_period, Duration other_offset) {
   const std::int64_t gcd = std::gcd(period.count(), other_period.count());
   std::int64_t distance = (other_offset.count() - offset.count()) % gcd;
   if (distance <= 0) distance += gcd;
@@ -98,7 +98,7 @@ void set_deadlines(Graph& graph, const std::vector<Maybe<Duration>>& declared, P
         const bool is_task = c->to.kind == End::Kind::task;
         const Duration period = is_task ? graph.tasks[c->to.index].period : graph.communicators[c->to.index].period;
         const Duration offset = is_task ? graph.tasks[c->to.index].offset : graph.communicators[c->to.index].offset;
-        const Duration later = least_distance(task.period, task.offset, period, offset);
+        const Duration later = min_distance(task.period, task.offset, period, offset);
         deadline = std::min(deadline, later);
         const bool coincide = later.count() == std::gcd(task.period.count(), period.count());
         if (is_task && coincide) deadline = std::min(deadline, graph.tasks[c->to.index].deadline);

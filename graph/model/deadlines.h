@@ -7,7 +7,7 @@ namespace jarol {
 
 /// Time from a release of one (period, offset) to the first later instant of another, the least over all releases:
 /// `(other_offset - offset) mod gcd(period, other_period)`, 0 counting as the gcd.
-Duration least_distance(Duration period, Duration offset, Duration other_period, Duration other_offset);
+Duration min_distance(Duration period, Duration offset, Duration other_period, Duration other_offset);
 
 /// Tasks in data-flow order: a task without a LET before those it feeds, ties in order of name. A cycle of connections
 /// without a LET task is reported and printed.

@@ -38,15 +38,15 @@ Stages stages_of(const Graph& graph) {
 }
 
 GroupDeadlines group_deadlines(const Graph& graph) {
-  GroupDeadlines least;
+  GroupDeadlines min;
   for (const Task& task : graph.tasks) {
-    const auto [at, is_first] = least.emplace(std::pair(task.period, task.offset), task.deadline);
+    const auto [at, is_first] = min.emplace(std::pair(task.period, task.offset), task.deadline);
     if (!is_first) at->second = std::min(at->second, task.deadline);
   }
-  return least;
+  return min;
 }
 
-std::vector<std::size_t> turns_of(const Graph& graph) {
+std::vector<std::size_t> dispatch_order(const Graph& graph) {
   const Stages stages = stages_of(graph);
   const GroupDeadlines of_groups = group_deadlines(graph);
   std::vector<Duration> of_group;

@@ -28,6 +28,6 @@ GroupDeadlines group_deadlines(const Graph& graph);
 /// group (its least deadline, period, offset), then by level, then by deadline, then as in the order of the graph. Of
 /// tasks released together that don't feed each other, the order by deadline meets all deadlines if any order does
 /// (Jackson 1955).
-std::vector<std::size_t> turns_of(const Graph& graph);
+std::vector<std::size_t> dispatch_order(const Graph& graph);
 
 }  // namespace jarol

@@ -84,8 +84,8 @@ Character first_character(std::string_view text) {
     code = (code << 6) | (byte(i) & 0x3fU);
   }
   // written longer than need be, one half of a pair of UTF-16, or beyond Unicode
-  const char32_t least = size == 4 ? 0x10000 : size == 3 ? 0x800 : 0x80;
-  if (code < least || (code >= 0xd800 && code <= 0xdfff) || code > 0x10ffff) return broken;
+  const char32_t min = size == 4 ? 0x10000 : size == 3 ? 0x800 : 0x80;
+  if (code < min || (code >= 0xd800 && code <= 0xdfff) || code > 0x10ffff) return broken;
   return {size, code, true, is_printable(code)};
 }
 

@@ -130,12 +130,12 @@ std::string compact_text(const Type& type, const void* value) {
   return "{" + text + "}";
 }
 
-std::int64_t least_of(const Type& type) {
+std::int64_t min_of(const Type& type) {
   if (type.kind == Kind::unsigned_integer) return 0;
   return type.size == 8 ? std::numeric_limits<std::int64_t>::min() : -(std::int64_t{1} << (8 * type.size - 1));
 }
 
-std::int64_t most_of(const Type& type) {
+std::int64_t max_of(const Type& type) {
   const std::size_t bits = 8 * type.size - (type.kind == Kind::unsigned_integer ? 0 : 1);
   return bits >= 63 ? std::numeric_limits<std::int64_t>::max() : (std::int64_t{1} << bits) - 1;
 }
@@ -179,7 +179,7 @@ std::string parse_scalar(const Type& type, const std::string& text, const std::s
     case Kind::signed_integer:
     case Kind::unsigned_integer: {
       std::int64_t integer = 0;
-      const std::string wrong = parse_integer(text, least_of(type), most_of(type), integer);
+      const std::string wrong = parse_integer(text, min_of(type), max_of(type), integer);
       if (wrong.empty()) write_integer(type, value, integer);
       return wrong;
     }

@@ -163,7 +163,7 @@ constexpr std::tuple<Field<Member>...> describe(Field<Member>... fields) {
 #undef JAROL_MEMBER
 
 /// An enumerator and its name, as `enumerators(Mode)` lists them. One that people have to be told about has a meaning,
-/// as "there is water in the hull": a run's report tells when it goes out.
+/// as "there is water in the hull": a run's report says when it goes out.
 template <class E>
 struct Enumerator {
   std::string_view name;

@@ -9,7 +9,7 @@
 namespace jarol {
 namespace {
 
-constexpr std::size_t least = smallest_heap;  // bytes of a block
+constexpr std::size_t min = smallest_heap;  // bytes of a block
 
 struct BlockClass {
   std::size_t size;
@@ -18,10 +18,10 @@ struct BlockClass {
 
 // Four sizes for each power of two, so that at most a fifth of a block is lost.
 BlockClass class_of(std::size_t bytes) {
-  const std::size_t wanted = std::max(bytes, least);
-  if (wanted <= 4 * least) {
-    const std::size_t units = (wanted + least - 1) / least;
-    return {units * least, units - 1};
+  const std::size_t wanted = std::max(bytes, min);
+  if (wanted <= 4 * min) {
+    const std::size_t units = (wanted + min - 1) / min;
+    return {units * min, units - 1};
   }
   const auto exponent = static_cast<std::size_t>(std::bit_width(wanted - 1));  // 2^(exponent-1) < wanted <= 2^exponent
   const std::size_t step = std::size_t{1} << (exponent - 3);
@@ -64,7 +64,7 @@ void detail::throw_no_element(std::size_t index, std::size_t length) {
 }
 
 PrivateHeap::PrivateHeap(std::byte* region, std::size_t size)
-    : region_(region), size_(size / least * least) {  // scratch is handed out from the end
+    : region_(region), size_(size / min * min) {  // scratch is handed out from the end
   book_.scratch = size_;
 }
 
@@ -72,20 +72,20 @@ std::size_t PrivateHeap::block_size(std::size_t bytes) { return class_of(bytes).
 
 void PrivateHeap::exhausted(std::size_t wanted) const { throw HeapExhausted(wanted, size_ - room(), size_); }
 
-void PrivateHeap::note_use() { most_used_ = std::max(most_used_, size_ - room()); }
+void PrivateHeap::note_use() { max_used_ = std::max(max_used_, size_ - room()); }
 
 void PrivateHeap::keep(std::byte* room) {
   kept_ = book_;
   std::memcpy(room, region_, book_.values);
 }
 
-void PrivateHeap::put_back(const std::byte* room) {
+void PrivateHeap::restore(const std::byte* room) {
   book_ = kept_;
   std::memcpy(region_, room, book_.values);
 }
 
 void* PrivateHeap::Values::do_allocate(std::size_t bytes, [[maybe_unused]] std::size_t alignment) {
-  assert(alignment <= least);
+  assert(alignment <= min);
   if (bytes > heap.size_) heap.exhausted(bytes);
   const BlockClass block = class_of(bytes);
   void*& free = heap.book_.free[block.index];
@@ -113,9 +113,9 @@ void PrivateHeap::Values::do_deallocate(void* block, std::size_t bytes, std::siz
 }
 
 void* PrivateHeap::Scratch::do_allocate(std::size_t bytes, [[maybe_unused]] std::size_t alignment) {
-  assert(alignment <= least);
+  assert(alignment <= min);
   if (bytes > heap.room()) heap.exhausted(bytes);
-  const std::size_t size = (bytes + least - 1) / least * least;
+  const std::size_t size = (bytes + min - 1) / min * min;
   if (size > heap.room()) heap.exhausted(bytes);
   heap.book_.scratch -= size;
   heap.note_use();
@@ -124,7 +124,7 @@ void* PrivateHeap::Scratch::do_allocate(std::size_t bytes, [[maybe_unused]] std:
 
 void PrivateHeap::Scratch::do_deallocate(void* block, std::size_t bytes, std::size_t) {
   // the newest one only; all others wait for the end of the activation
-  if (block == heap.region_ + heap.book_.scratch) heap.book_.scratch += (bytes + least - 1) / least * least;
+  if (block == heap.region_ + heap.book_.scratch) heap.book_.scratch += (bytes + min - 1) / min * min;
 }
 
 std::pmr::memory_resource* memory_of_now() {

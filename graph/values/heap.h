@@ -50,11 +50,11 @@ class PrivateHeap {
 
   std::size_t size() const { return size_; }
   /// The most bytes that were ever in use at once, of values and scratch together.
-  std::size_t most_used() const { return most_used_; }
+  std::size_t max_used() const { return max_used_; }
 
   /// Keeps all values as they are, bit by bit, and puts them back; `room` has size() bytes.
   void keep(std::byte* room);
-  void put_back(const std::byte* room);
+  void restore(const std::byte* room);
 
   /// Bytes that a block for `bytes` takes.
   static std::size_t block_size(std::size_t bytes);
@@ -99,7 +99,7 @@ class PrivateHeap {
 
   std::byte* region_;
   std::size_t size_;
-  std::size_t most_used_ = 0;
+  std::size_t max_used_ = 0;
   Book book_;
   Book kept_;
   Values values_{*this};

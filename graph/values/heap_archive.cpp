@@ -19,8 +19,8 @@ std::size_t size_of_class(std::size_t index) {
 
 // Free blocks as they will be used: the next one of each size first.
 void PrivateHeap::serialize(Archive& archive, std::vector<Block>& free) {
-  archive(book_.values, most_used_);
-  archive.require(book_.values <= size_ && book_.values % smallest_heap == 0 && most_used_ <= size_,
+  archive(book_.values, max_used_);
+  archive.require(book_.values <= size_ && book_.values % smallest_heap == 0 && max_used_ <= size_,
                   "has a heap too large");
   if (archive.restores()) book_ = {{}, book_.values, size_};
   std::vector<std::pair<std::uint32_t, std::uint64_t>> blocks;  // class and place

@@ -49,7 +49,7 @@ struct Type {
   const Type* element = nullptr;                                  // array, sequence
   std::size_t count = 0;                                          // array
   std::vector<std::pair<std::string, std::int64_t>> enumerators;  // enumeration
-  std::vector<std::string> meanings;                              // of the enumerators, one each; empty: none to tell
+  std::vector<std::string> meanings;                              // of the enumerators, one each; empty: none to report
 
   void (*construct)(void* to) = nullptr;                     // default value into raw memory
   bool (*finite)(const void* value) = nullptr;               // no infinity, no NaN in it

@@ -7,7 +7,7 @@
 
 #include "graph/language/inputs.h"
 #include "graph/values/digest.h"
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 
 namespace jarol {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view magic = "jarol.checkpoint/1\n";
 constexpr std::size_t head = magic.size() + 2 * sizeof(std::uint64_t);  // then how many bytes follow, and their sum
 
-constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 30;
+constexpr std::uintmax_t max_bytes = std::uintmax_t{4} << 30;
 
 std::string_view text_of(const std::byte* bytes, std::size_t size) {
   return {reinterpret_cast<const char*>(bytes), size};
@@ -35,9 +35,9 @@ void require_head(const Archive::Bytes& bytes, std::uint64_t whole) {
 }
 
 // Its first bytes, so many at most.
-Archive::Bytes first_bytes(const std::string& path, std::uintmax_t most) {
+Archive::Bytes first_bytes(const std::string& path, std::uintmax_t max) {
   std::ifstream file(path, std::ios::binary);
-  Archive::Bytes bytes(std::min(most, std::filesystem::file_size(path)));
+  Archive::Bytes bytes(std::min(max, std::filesystem::file_size(path)));
   if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
     throw CheckpointError("can't be read");
   return bytes;
@@ -99,7 +99,7 @@ Checkpoint Checkpoint::from_bytes(const Archive::Bytes& bytes) {
 
 void Checkpoint::write(const std::string& path) const {
   const Archive::Bytes bytes = to_bytes();
-  WholeFile file(path);
+  AtomicFile file(path);
   file.write(text_of(bytes.data(), bytes.size()));
   file.commit();
 }
@@ -108,12 +108,12 @@ Checkpoint Checkpoint::read(const std::string& path) {
   const std::string name = "'" + path + "' ";
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) throw CheckpointError("can't read '" + path + "': it is no file");
-  if (std::filesystem::file_size(path) > most_bytes) throw CheckpointError(name + "is larger than 4 GiB");
+  if (std::filesystem::file_size(path) > max_bytes) throw CheckpointError(name + "is larger than 4 GiB");
   note_input(path);
   try {
     // what is no checkpoint is not read to its end
     require_head(first_bytes(path, head), std::filesystem::file_size(path));
-    return from_bytes(first_bytes(path, most_bytes));
+    return from_bytes(first_bytes(path, max_bytes));
   } catch (const CheckpointError& wrong) { throw CheckpointError(name + wrong.what()); }
 }
 

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "runtime/dispatch/dispatcher.h"
+#include "runtime/dispatch/preemptive_threads.h"
 #include "runtime/dispatch/releases.h"
-#include "runtime/dispatch/task_threads.h"
 
 namespace jarol {
 
 class OnThreads : public Dispatcher {
  public:
-  /// Run and clock outlive it. Throws what TaskThreads throws.
+  /// Run and clock outlive it. Throws what PreemptiveThreads throws.
   OnThreads(Run& run, RealClock& clock, std::span<const analysis::TaskThread> threads);
 
   void end_lets(const Now& now) override;
@@ -33,7 +33,7 @@ class OnThreads : public Dispatcher {
   Run& run_;
   RealClock& clock_;
   Releases releases_;
-  TaskThreads threads_;
+  PreemptiveThreads threads_;
   std::vector<const Activation*> under_way_;  // data-flow tasks that were not yet seen to end
 };
 

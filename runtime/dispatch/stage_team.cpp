@@ -19,7 +19,7 @@ constexpr double handover = 700;             // ns
 constexpr double crossing = 60;              // ns
 constexpr double margin = 2;                 // gain over cost, at least
 constexpr std::size_t parts_per_worker = 4;  // so that who is done first can help
-constexpr double least_part = 2000;          // ns, unless there would be fewer parts than workers
+constexpr double min_part = 2000;            // ns, unless there would be fewer parts than workers
 
 constexpr double clock_cost = 25;  // ns, of reading the clock
 
@@ -84,7 +84,7 @@ double StageTeam::widest_of(const Plan::Group& group, double& known) const {
       double sum = 0;
       for (const std::uint32_t task : level.of(plan_.order)) {
         if (costs_[task].measured < measurements) return known;
-        sum += costs_[task].least;
+        sum += costs_[task].min;
       }
       widest = std::max(widest, sum);
     }
@@ -109,7 +109,7 @@ std::uint64_t StageTeam::run_measured() {
     const double after = now();
     Cost& cost = costs_[item.activation->task];
     const double took = std::max(1.0, after - before - clock_cost);
-    cost.least = std::min(cost.least, took);
+    cost.min = std::min(cost.min, took);
     if (cost.measured < measurements && ++cost.measured == measurements) --unknown_;
     before = after;
   }
@@ -147,7 +147,7 @@ bool StageTeam::divide() {
     if (items_.size() < 2 || too_short(total)) return false;
     const double gain = total - std::max(total / count, largest);
     if (gain <= margin * (handover + crossing * connections * (count - 1) / count)) return false;
-    parts = std::clamp(static_cast<std::size_t>(total / least_part), workers_.count(), parts_.size());
+    parts = std::clamp(static_cast<std::size_t>(total / min_part), workers_.count(), parts_.size());
   }
   for (Part& part : parts_) part = {};
   double sum = 0;

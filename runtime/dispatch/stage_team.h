@@ -58,7 +58,7 @@ class StageTeam {
   // what an activation of a task takes
   struct Cost {
     std::uint32_t measured = 0;  // how often
-    double least = 1e9;          // ns
+    double min = 1e9;            // ns
   };
 
   double widest_of(const Plan::Group& group, double& known) const;
@@ -69,7 +69,7 @@ class StageTeam {
   bool divide();
   void run_part(Part& part);
   void run_item(Item& item, std::uint64_t& digest) const;
-  double cost_of(const Item& item) const { return costs_[item.activation->task].least; }
+  double cost_of(const Item& item) const { return costs_[item.activation->task].min; }
   double cost_or_one(const Item& item) const { return sharing_ == Sharing::always ? 1 : cost_of(item); }
 
   const Plan& plan_;

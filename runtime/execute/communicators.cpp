@@ -25,9 +25,9 @@ std::vector<std::size_t> all_of(std::size_t count) {
 
 }  // namespace
 
-Communicators::Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, Truth truth,
+Communicators::Communicators(Run& run, std::vector<std::unique_ptr<ExternalSystem>> channels, Truth truth,
                              std::span<const expect::Condition> measured)
-    : run_(run), channels_(std::move(channels)), safe_commands_(run.graph), are_any_(!run.graph.communicators.empty()) {
+    : run_(run), channels_(std::move(channels)), failsafe_(run.graph), are_any_(!run.graph.communicators.empty()) {
   assert(channels_.size() == run.graph.distributers.size());
   outs_.reserve(run.plan.outs.size());
   ins_.reserve(run.plan.ins.size());
@@ -95,7 +95,7 @@ void Communicators::act(Turn& turn, const Now& now) {
 
 void Communicators::hand_over(const CommunicatorAction& out, Duration instant) {
   const Communicator& communicator = run_.graph.communicators[out.communicator];
-  const void* const safe = safe_commands_.in_place_of_input(out.communicator, instant);
+  const void* const safe = failsafe_.in_place_of_input(out.communicator, instant);
   copy_value(*communicator.type, out.value, safe != nullptr ? safe : out.input);
   const MemoryScope outside(nullptr);
   if (communicator.distributer) channels_[*communicator.distributer]->hand_over(communicator.channel, out.value);
@@ -114,7 +114,7 @@ void Communicators::take(const CommunicatorAction& in, Duration instant) {
   if (fresh) copy_value(*communicator.type, in.value, in.taken);
   const bool commanded = resting() && rest_->command(in.communicator, in.value);
   if (!fresh && !commanded) return;
-  safe_commands_.took(in.communicator, instant);
+  failsafe_.took(in.communicator, instant);
   run_.log.took(in.communicator, in.value, instant);
 }
 
@@ -127,7 +127,7 @@ void Communicators::begin_rest(Duration instant) {
 }
 
 bool Communicators::has_come_to_rest(Duration instant) {
-  if (!resting() || !rest_->is_reached(safe_commands_, instant)) return false;
+  if (!resting() || !rest_->is_reached(failsafe_, instant)) return false;
   run_.publisher.show({.kind = RunEvent::Kind::at_rest, .instant = instant});
   return rest_reached_ = true;
 }
@@ -147,15 +147,15 @@ void Communicators::close(Futex::Time patience, bool outliving, const std::funct
   }
   const MemoryScope outside(nullptr);
   if (use == Use::free)
-    safe_commands_.hand_over_at_end(channels_, time(), outliving);
+    failsafe_.hand_over_at_end(channels_, time(), outliving);
   else
-    safe_commands_.fail_at_end(channels_, time(), outliving, busy_link_text);
+    failsafe_.fail_at_end(channels_, time(), outliving, busy_link_text);
 }
 
 void Communicators::serialize(Archive& archive) {
   const MemoryScope outside(nullptr);
   archive(refused_);
-  safe_commands_.serialize(archive);
+  failsafe_.serialize(archive);
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     try {
       channels_[i]->serialize(archive);

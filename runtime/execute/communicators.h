@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "runtime/channels.h"
+#include "runtime/execute/failsafe.h"
 #include "runtime/execute/rest.h"
-#include "runtime/execute/safe_commands.h"
+#include "runtime/external_system.h"
 #include "runtime/machine/futex.h"
 #include "runtime/run/run.h"
 
@@ -23,7 +23,7 @@ enum class Truth { none, of_conditions, all };
 class Communicators {
  public:
   /// One Channels per distributer, in the order of the graph. The run outlives it.
-  Communicators(Run& run, std::vector<std::unique_ptr<Channels>> channels, Truth truth,
+  Communicators(Run& run, std::vector<std::unique_ptr<ExternalSystem>> channels, Truth truth,
                 std::span<const expect::Condition> measured = {});
 
   /// An instant, from its begin until `act` has been called.
@@ -68,7 +68,7 @@ class Communicators {
   /// the run. Any thread; what an instant has begun to hand over is waited for until then.
   void close(Futex::Time patience, bool outliving, const std::function<Duration()>& time);
 
-  const std::vector<SafeCommandReport>& safe_commands() const { return safe_commands_.reports(); }
+  const std::vector<FailsafeReport>& failsafe() const { return failsafe_.reports(); }
   /// Values from outside that were not taken as they were not finite.
   std::uint64_t non_finite_inputs() const;
 
@@ -85,8 +85,8 @@ class Communicators {
   void take(const CommunicatorAction& in, Duration instant);
 
   Run& run_;
-  std::vector<std::unique_ptr<Channels>> channels_;
-  SafeCommands safe_commands_;
+  std::vector<std::unique_ptr<ExternalSystem>> channels_;
+  Failsafe failsafe_;
   const bool are_any_;
   std::vector<const CommunicatorAction*> outs_, ins_;  // due now
   std::uint64_t refused_ = 0;                          // values of `in` channels that were not finite

@@ -33,7 +33,8 @@ struct RunningHere {
 
 }  // namespace
 
-Executor::Executor(PlanOfRun plan, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options)
+Executor::Executor(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> channels,
+                   const ExecutorOptions& options)
     : run_(std::move(plan), options_of_run(options)),
       communicators_(run_, std::move(channels), truth_of(options), options.measured),
       clock_(options.clock),
@@ -83,14 +84,14 @@ void Executor::cover(Duration end) {
 }
 
 void Executor::walk(Duration end) {
-  Calendar& calendar = run_.state.calendar;
-  while (calendar.next() < end.count()) {
+  ReleaseQueue& queue = run_.state.release_queue;
+  while (queue.next() < end.count()) {
     if (must_return()) return;
-    const Duration instant(calendar.next());
+    const Duration instant(queue.next());
     if (clock_ != nullptr && !wait_until(instant)) return;
     if (run_.log.is_checkpoint_due(instant)) log_checkpoint(instant);
     now_.store(instant.count(), std::memory_order_relaxed);
-    if (!step(run_.publisher.at(instant, calendar.take()))) return;
+    if (!step(run_.publisher.at(instant, queue.take()))) return;
     Report& report = run_.report;
     report.instants += 1;
     report.simulated = instant;

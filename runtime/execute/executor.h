@@ -45,7 +45,7 @@ struct ExecutorOptions {
 class Executor {
  public:
   /// One Channels per distributer of the graph, in its order. Graph and recorder outlive the executor.
-  Executor(PlanOfRun plan, std::vector<std::unique_ptr<Channels>> channels, const ExecutorOptions& options = {});
+  Executor(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> channels, const ExecutorOptions& options = {});
 
   /// Before the first instant: the run has other parameters of that task than its graph; a value of their type.
   void start_with(std::size_t task, const void* parameters) { run_.state.start_with(task, parameters); }
@@ -89,10 +89,10 @@ class Executor {
   void interrupt() { interrupted_.store(true, std::memory_order_relaxed); }
 
   /// The instant that is covered next, between two pieces of the run.
-  Duration next_instant() const { return Duration(run_.state.calendar.next()); }
+  Duration next_instant() const { return Duration(run_.state.release_queue.next()); }
 
   const Report& report() const { return run_.report; }
-  const std::vector<SafeCommandReport>& safe_commands() const { return communicators_.safe_commands(); }
+  const std::vector<FailsafeReport>& failsafe() const { return communicators_.failsafe(); }
   const RunState& state() const { return run_.state; }
 
   /// How the stages were shared among several workers; null with one.

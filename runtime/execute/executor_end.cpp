@@ -20,7 +20,7 @@ void Executor::serialize(Archive& archive) {
 
 std::optional<Duration> Executor::begin_rest() {
   if (!communicators_.may_rest() || run_.report.stopped || interrupted_.load()) return std::nullopt;
-  const Duration begun(run_.state.calendar.next());
+  const Duration begun(run_.state.release_queue.next());
   communicators_.begin_rest(begun);
   return begun;
 }

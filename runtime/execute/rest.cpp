@@ -5,7 +5,7 @@
 
 namespace jarol {
 
-Rest::Rest(RunState& state, const std::vector<std::unique_ptr<Channels>>& channels)
+Rest::Rest(RunState& state, const std::vector<std::unique_ptr<ExternalSystem>>& channels)
     : at_end_(*state.plan.graph.at_end),
       state_(state),
       commands_(state.plan.graph.communicators.size()),
@@ -42,7 +42,7 @@ void Rest::begin() {
   std::fill(state_.tap_news.begin(), state_.tap_news.end(), std::byte{});
 }
 
-bool Rest::hears_vehicles(const SafeCommands& inputs, Duration instant) const {
+bool Rest::hears_vehicles(const Failsafe& inputs, Duration instant) const {
   const auto hears = [&](std::size_t in) { return inputs.hears(in, instant); };
   return std::all_of(vehicles_.begin(), vehicles_.end(), [&](const Ins& ins) {
     return ins.with_timeout.empty() ? std::any_of(ins.others.begin(), ins.others.end(), hears)
@@ -50,7 +50,7 @@ bool Rest::hears_vehicles(const SafeCommands& inputs, Duration instant) const {
   });
 }
 
-bool Rest::is_reached(const SafeCommands& inputs, Duration instant) {
+bool Rest::is_reached(const Failsafe& inputs, Duration instant) {
   heard_ = hears_vehicles(inputs, instant);
   const auto& news = state_.tap_news;
   if (!heard_ || std::find(news.begin(), news.end(), std::byte{}) != news.end()) return false;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "graph/model/graph.h"
-#include "runtime/channels.h"
-#include "runtime/execute/safe_commands.h"
+#include "runtime/execute/failsafe.h"
+#include "runtime/external_system.h"
 #include "runtime/state/run_state.h"
 
 namespace jarol {
@@ -24,7 +24,7 @@ struct RestReport {
 class Rest {
  public:
   /// Of a graph that states it, and taps the signals of its condition. All outlive this.
-  Rest(RunState& state, const std::vector<std::unique_ptr<Channels>>& channels);
+  Rest(RunState& state, const std::vector<std::unique_ptr<ExternalSystem>>& channels);
 
   Duration longest() const { return at_end_.longest; }
   /// Nothing more is taken from that distributer: it plays a mission, which is over.
@@ -35,12 +35,12 @@ class Rest {
   void begin();
   bool has_begun() const { return begun_; }
   /// By what was published since it began, while all vehicles are heard.
-  bool is_reached(const SafeCommands& inputs, Duration instant);
+  bool is_reached(const Failsafe& inputs, Duration instant);
   /// When that was asked last.
   bool was_heard() const { return heard_; }
 
  private:
-  bool hears_vehicles(const SafeCommands& inputs, Duration instant) const;
+  bool hears_vehicles(const Failsafe& inputs, Duration instant) const;
 
   const AtEnd& at_end_;
   RunState& state_;

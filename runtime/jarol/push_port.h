@@ -92,7 +92,7 @@ class BasicPushPort {
       std::uint64_t mark = words->load(std::memory_order_acquire);
       if (mark / 2 <= r.next) return false;
       if (mark == 2 * r.next + 2) {
-        // the slot before this one tells whether the value still is one of the newest
+        // the slot before this one shows whether the value still is one of the newest
         const std::uint64_t newest = slots_.words(slots_.before(r.slot))->load(std::memory_order_acquire);
         if (newest / 2 > r.next + capacity_) {
           skip(r, newest / 2);

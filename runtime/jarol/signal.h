@@ -38,7 +38,7 @@ class BasicSignal {
   /// what becomes `ready` before it is signalled is never slept through. It counts as signalled then.
   template <class Ready>
   Awaiting await_unless(Ready ready, std::optional<Time> deadline = {}) {
-    std::uint32_t state = 0;  // mostly nobody else waits; the exchange tells what is true
+    std::uint32_t state = 0;  // mostly nobody else waits; the exchange shows what is true
     while (!state_.compare_exchange_weak(state, state + 1, std::memory_order_acq_rel, std::memory_order_acquire)) {
       if ((state & interrupted) != 0) return Awaiting::interrupted;
       if ((state & signalling) != 0) return Awaiting::during_signalling;

@@ -18,11 +18,11 @@ class Slots {
 
   /// All words are zero at first. Throws std::length_error for more than fits into memory.
   Slots(std::size_t count, std::size_t bytes, std::size_t words) : count_(count) {
-    constexpr std::size_t most = std::size_t{1} << 40;
-    if (bytes > most || words > most) throw std::length_error(too_much);
+    constexpr std::size_t max = std::size_t{1} << 40;
+    if (bytes > max || words > max) throw std::length_error(too_much);
     words_at_ = round_up(bytes, sizeof(std::uint64_t));
     stride_ = round_up(std::max<std::size_t>(1, words_at_ + words * sizeof(Word)), line);
-    if (count > most / stride_) throw std::length_error(too_much);
+    if (count > max / stride_) throw std::length_error(too_much);
     memory_ = static_cast<std::byte*>(::operator new (count* stride_, std::align_val_t{apart}));
     for (std::size_t slot = 0; slot < count; ++slot)
       for (std::size_t i = 0; i < words; ++i) new (this->bytes(slot) + words_at_ + i * sizeof(Word)) Word(0);

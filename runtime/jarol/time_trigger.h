@@ -52,8 +52,8 @@ class BasicTimeTrigger {
   /// Ticks up to now that nobody awaited.
   std::int64_t unawaited() const {
     const std::int64_t live = stopped_.load(std::memory_order_acquire) != 0 ? 0 : ticks();
-    const std::int64_t told = told_.load(std::memory_order_acquire);
-    return unawaited_.load(std::memory_order_acquire) + std::max<std::int64_t>(0, live - told);
+    const std::int64_t reported = reported_.load(std::memory_order_acquire);
+    return unawaited_.load(std::memory_order_acquire) + std::max<std::int64_t>(0, live - reported);
   }
 
  private:
@@ -69,22 +69,22 @@ class BasicTimeTrigger {
     return false;
   }
 
-  // The tick is awaited, and those before it of which nobody has told were not. False: it has passed meanwhile.
+  // The tick is awaited, and those before it of which nobody has reported were not. False: it has passed meanwhile.
   bool claim(std::int64_t tick) {
-    std::int64_t told = told_.load(std::memory_order_acquire);
-    while (told <= tick)
-      if (told_.compare_exchange_weak(told, tick + 1, std::memory_order_acq_rel, std::memory_order_acquire)) {
-        unawaited_.fetch_add(tick - told, std::memory_order_acq_rel);
+    std::int64_t reported = reported_.load(std::memory_order_acquire);
+    while (reported <= tick)
+      if (reported_.compare_exchange_weak(reported, tick + 1, std::memory_order_acq_rel, std::memory_order_acquire)) {
+        unawaited_.fetch_add(tick - reported, std::memory_order_acq_rel);
         return true;
       }
-    return told == tick + 1;
+    return reported == tick + 1;
   }
 
   void pass(std::int64_t ticks) {
-    std::int64_t told = told_.load(std::memory_order_acquire);
-    while (told < ticks)
-      if (told_.compare_exchange_weak(told, ticks, std::memory_order_acq_rel, std::memory_order_acquire)) {
-        unawaited_.fetch_add(ticks - told, std::memory_order_acq_rel);
+    std::int64_t reported = reported_.load(std::memory_order_acquire);
+    while (reported < ticks)
+      if (reported_.compare_exchange_weak(reported, ticks, std::memory_order_acq_rel, std::memory_order_acquire)) {
+        unawaited_.fetch_add(ticks - reported, std::memory_order_acq_rel);
         return;
       }
   }
@@ -92,7 +92,7 @@ class BasicTimeTrigger {
   Span period_;
   Time first_;
   typename Threads::template Atomic<std::uint32_t> stopped_{0};
-  typename Threads::template Atomic<std::int64_t> told_{0};  // ticks that were awaited or counted
+  typename Threads::template Atomic<std::int64_t> reported_{0};  // ticks that were awaited or counted
   typename Threads::template Atomic<std::int64_t> unawaited_{0};
 };
 

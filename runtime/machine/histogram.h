@@ -19,7 +19,7 @@ class Histogram {
   }
 
   std::uint64_t count() const { return count_; }
-  std::int64_t most() const { return static_cast<std::int64_t>(most_); }
+  std::int64_t max() const { return static_cast<std::int64_t>(most_); }
 
   /// The least duration that at least this part of all does not exceed, rounded up by at most 1/16; 0 if there is none.
   std::int64_t percentile(double part) const {
@@ -29,7 +29,7 @@ class Histogram {
       if (below > 0 && static_cast<double>(below) >= part * static_cast<double>(count_))
         return static_cast<std::int64_t>(std::min(upper_end(i), most_));
     }
-    return most();
+    return max();
   }
 
  private:

@@ -36,13 +36,13 @@ std::string use_fifo(int priority) {
 }
 
 void find_priority(MachineFacts& facts) {
-  const int most = sched_get_priority_max(SCHED_FIFO);
+  const int max = sched_get_priority_max(SCHED_FIFO);
   rlimit limit{};
   getrlimit(RLIMIT_RTPRIO, &limit);
   on_a_thread([&] {
-    facts.fifo_refused = use_fifo(most);
-    if (facts.fifo_refused.empty()) facts.fifo_priority = most;
-    const int allowed = static_cast<int>(std::min<rlim_t>(limit.rlim_cur, static_cast<rlim_t>(most)));
+    facts.fifo_refused = use_fifo(max);
+    if (facts.fifo_refused.empty()) facts.fifo_priority = max;
+    const int allowed = static_cast<int>(std::min<rlim_t>(limit.rlim_cur, static_cast<rlim_t>(max)));
     if (facts.fifo_priority == 0 && allowed > 0 && (facts.fifo_refused = use_fifo(allowed)).empty())
       facts.fifo_priority = allowed;
   });
@@ -67,7 +67,7 @@ void find_slack(MachineFacts& facts) {
   on_a_thread([&] {
     facts.default_slack = std::chrono::nanoseconds(prctl(PR_GET_TIMERSLACK));
     prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
-    facts.least_slack = std::chrono::nanoseconds(prctl(PR_GET_TIMERSLACK));
+    facts.min_slack = std::chrono::nanoseconds(prctl(PR_GET_TIMERSLACK));
   });
 }
 

@@ -21,9 +21,9 @@ struct MachineFacts {
   std::string fifo_refused;                  // why not
   std::string lock_refused;                  // why memory can't be locked; empty: it can
   std::chrono::nanoseconds default_slack{};  // of timers
-  std::chrono::nanoseconds least_slack{};    // to which it can be set
+  std::chrono::nanoseconds min_slack{};      // to which it can be set
   std::chrono::nanoseconds resolution{};     // of CLOCK_MONOTONIC
-  std::vector<std::string> governors;        // of CPU frequencies, each once; empty: the machine does not tell
+  std::vector<std::string> governors;        // of CPU frequencies, each once; empty: the machine does not report
 };
 
 MachineFacts find_machine_facts();

@@ -81,7 +81,7 @@ PageGuard::PageGuard() {
     throw std::runtime_error("there is no memory for it");
   }
   flags_ = new (flags) Flags;
-  regions_.reserve(most_regions);
+  regions_.reserve(max_regions);
   leave_out(flags, page);
   // of the main thread: what the system writes when it stops and goes on lies beside its own data
   leave_out(reinterpret_cast<const void*>(::pthread_self()), page);
@@ -200,7 +200,7 @@ void PageGuard::add_region(Region region) {
     region.pages.begin = hole.end;
     if (before.pages.begin < before.pages.end) add_region(before);
   }
-  if (region.pages.begin < region.pages.end && regions_.size() < most_regions) regions_.push_back(std::move(region));
+  if (region.pages.begin < region.pages.end && regions_.size() < max_regions) regions_.push_back(std::move(region));
 }
 
 // What is mapped no more is passed over.

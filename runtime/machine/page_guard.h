@@ -65,7 +65,7 @@ class PageGuard {
     std::atomic<bool> changing{false};  // the regions
     std::atomic<pid_t> thread{0};
   };
-  static constexpr std::size_t most_regions = 4096;
+  static constexpr std::size_t max_regions = 4096;
 
   void leave_out(const void* begin, std::size_t size);
   void leave_out_stacks();

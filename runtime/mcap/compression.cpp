@@ -50,8 +50,8 @@ void compress(Compression compression, std::string_view bytes, std::string& to) 
 }
 
 std::string uncompress(std::string_view compression, std::string_view bytes, std::uint64_t size) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 30;
-  if (size > most) throw FormatError("a chunk of more than a gibibyte");
+  constexpr std::uint64_t max = std::uint64_t{1} << 30;
+  if (size > max) throw FormatError("a chunk of more than a gibibyte");
   if (compression.empty()) {
     if (bytes.size() != size) throw FormatError("a chunk of another size than it says");
     return std::string(bytes);

@@ -16,7 +16,7 @@ class Verifier {
 
   std::vector<std::string> run() {
     Record record;
-    while (problems_.size() < most && reader_.next(record)) {
+    while (problems_.size() < max && reader_.next(record)) {
       if (!summary_at_) {
         look_at_data(record);
       } else if (record.opcode == Opcode::footer) {
@@ -26,12 +26,12 @@ class Verifier {
         look_at_summary(record);
       }
     }
-    if (problems_.size() < most) add(reader_.offset(), "it breaks off");
+    if (problems_.size() < max) add(reader_.offset(), "it breaks off");
     return problems_;
   }
 
  private:
-  static constexpr std::size_t most = 20;
+  static constexpr std::size_t max = 20;
 
   void add(std::uint64_t offset, const std::string& what) {
     problems_.push_back("at byte " + std::to_string(offset) + " " + what);

@@ -55,10 +55,10 @@ void Layout::place_heap(const Graph& graph, std::uint32_t i) {
 }
 
 void Layout::place_kept(const Graph& graph, std::uint32_t i) {
-  if (is_undoable(graph.tasks[i])) tasks[i].kept = place(undoable_size(graph, i) + graph.tasks[i].heap, line);
+  if (is_recoverable(graph.tasks[i])) tasks[i].kept = place(recoverable_size(graph, i) + graph.tasks[i].heap, line);
 }
 
-std::size_t Layout::undoable_size(const Graph& graph, std::size_t task) const {
+std::size_t Layout::recoverable_size(const Graph& graph, std::size_t task) const {
   return tasks[task].out + graph.tasks[task].task_class->out->size - tasks[task].state;
 }
 

@@ -34,7 +34,7 @@ struct Layout {
   std::size_t size = 0;
 
   /// Of a task's state and outputs, which lie next to each other if they may have to be undone.
-  std::size_t undoable_size(const Graph& graph, std::size_t task) const;
+  std::size_t recoverable_size(const Graph& graph, std::size_t task) const;
 
  private:
   std::size_t place(std::size_t bytes, std::size_t alignment);
@@ -46,14 +46,14 @@ struct Layout {
 };
 
 /// True if state and outputs are put back after a fault.
-inline bool is_undoable(const Task& task) { return task.on_fault != OnFault::stop; }
+inline bool is_recoverable(const Task& task) { return task.on_fault != OnFault::stop; }
 
 inline bool has_heap(const Task& task) { return task.heap > 0 || task.task_class->is_deep(); }
 
 /// True if nobody looks at the outputs, nor need they be undone, before the end of the LET: whether they are finite is
 /// seen then, when the processor has long stored them.
 inline bool is_checked_at_let_end(const Task& task) {
-  return task.let && !is_undoable(task) && !has_heap(task) && task.task_class->out->in_range == nullptr;
+  return task.let && !is_recoverable(task) && !has_heap(task) && task.task_class->out->in_range == nullptr;
 }
 
 /// The same, with outputs that are nothing but doubles. Those of one LET end lie side by side, each from the begin of a

@@ -18,7 +18,7 @@ Duration deadline_of(const GroupDeadlines& deadlines, Duration period, Duration 
 
 // Tasks of one group lie in the order in which they run.
 std::vector<std::uint32_t> execution_order(const Graph& graph, const GroupDeadlines& group_deadlines) {
-  const std::vector<std::size_t> turns = turns_of(graph);
+  const std::vector<std::size_t> turns = dispatch_order(graph);
   std::vector<std::uint32_t> order(turns.begin(), turns.end());
   std::vector<Duration> deadlines;
   for (const Task& task : graph.tasks) deadlines.push_back(deadline_of(group_deadlines, task.period, task.offset));

@@ -29,8 +29,8 @@ bool is_empty(const Type& type) { return type.kind == Kind::structure && type.fi
 
 // A call would take longer than so few bytes do.
 void copy_short(std::byte* to, const std::byte* from, std::size_t bytes) {
-  constexpr std::size_t step = 16, most = 256;
-  if (bytes < step || bytes > most) {
+  constexpr std::size_t step = 16, max = 256;
+  if (bytes < step || bytes > max) {
     std::memcpy(to, from, bytes);
     return;
   }
@@ -163,9 +163,8 @@ class Reading {
     if (type.kind != Kind::array) {
       std::uint32_t length = 0;
       if (!take(4, 1, reinterpret_cast<std::byte*>(&length)).empty()) return "ends before its length";
-      const std::size_t least = type.kind == Kind::string ? 1 : least_size(*type.element);
-      if (length > (bytes_.size() - at_) / least)
-        return "has a length of " + std::to_string(length) + " and fewer bytes";
+      const std::size_t min = type.kind == Kind::string ? 1 : min_size(*type.element);
+      if (length > (bytes_.size() - at_) / min) return "has a length of " + std::to_string(length) + " and fewer bytes";
       count = length;
       if (value != nullptr) elements = static_cast<std::byte*>(type.resize(value, count));
     }
@@ -183,12 +182,12 @@ class Reading {
 
  private:
   // bytes that any value of the type has, and at least one, which bounds what a length may ask for
-  static std::size_t least_size(const Type& type) {
+  static std::size_t min_size(const Type& type) {
     if (is_number(type)) return type.size;
     if (type.kind == Kind::sequence || type.kind == Kind::string) return 4;
-    if (type.kind == Kind::array) return std::max<std::size_t>(1, type.count * least_size(*type.element));
+    if (type.kind == Kind::array) return std::max<std::size_t>(1, type.count * min_size(*type.element));
     std::size_t size = 0;
-    for (const TypeField& f : type.fields) size += least_size(*f.type);
+    for (const TypeField& f : type.fields) size += min_size(*f.type);
     return std::max<std::size_t>(1, size);
   }
 

@@ -8,9 +8,9 @@
 namespace jarol {
 namespace {
 
-class ReplayedChannels : public Channels {
+class ReplayedSystem : public ExternalSystem {
  public:
-  ReplayedChannels(TakenValues& values, std::vector<std::size_t> communicators)
+  ReplayedSystem(TakenValues& values, std::vector<std::size_t> communicators)
       : values_(values), communicators_(std::move(communicators)) {}
 
   void reach(Duration instant) override { now_ = instant; }
@@ -55,13 +55,13 @@ const Miss* MissedActivations::find(std::size_t task, std::int64_t activation) {
   return next < misses.size() && misses[next].activation == activation ? &misses[next] : nullptr;
 }
 
-std::vector<std::unique_ptr<Channels>> replayed_channels(const Graph& graph, TakenValues& values) {
-  std::vector<std::unique_ptr<Channels>> all;
+std::vector<std::unique_ptr<ExternalSystem>> replayed_channels(const Graph& graph, TakenValues& values) {
+  std::vector<std::unique_ptr<ExternalSystem>> all;
   for (std::size_t d = 0; d < graph.distributers.size(); ++d) {
     std::vector<std::size_t> communicators(graph.distributers[d].distributer_class->channels.size());
     for (std::size_t i = 0; i < graph.communicators.size(); ++i)
       if (graph.communicators[i].distributer == d) communicators[graph.communicators[i].channel] = i;
-    all.push_back(std::make_unique<ReplayedChannels>(values, std::move(communicators)));
+    all.push_back(std::make_unique<ReplayedSystem>(values, std::move(communicators)));
   }
   return all;
 }

@@ -9,7 +9,7 @@
 
 #include "graph/model/graph.h"
 #include "graph/values/describe.h"
-#include "runtime/channels.h"
+#include "runtime/external_system.h"
 #include "runtime/plan/output.h"
 
 namespace jarol {
@@ -78,6 +78,6 @@ class TakenValues {
 
 /// Channels that give each `in` communicator what it took; one per distributer of the graph. `values` and `graph`
 /// outlive them.
-std::vector<std::unique_ptr<Channels>> replayed_channels(const Graph& graph, TakenValues& values);
+std::vector<std::unique_ptr<ExternalSystem>> replayed_channels(const Graph& graph, TakenValues& values);
 
 }  // namespace jarol

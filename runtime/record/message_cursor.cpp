@@ -23,7 +23,7 @@ MessageCursor::MessageCursor(const Recording& recording, std::vector<bool> wante
 }
 
 bool MessageCursor::wants(const ReadPlace& chunk) const {
-  for (std::size_t channel = chunk.least_channel; channel <= chunk.most_channel; ++channel)
+  for (std::size_t channel = chunk.min_channel; channel <= chunk.max_channel; ++channel)
     if (wanted_[channel]) return true;
   return false;
 }

@@ -95,8 +95,8 @@ void MessageLayout::parse(const std::string& schema) {
       const std::string count = type.substr(bracket + 1, type.find(']') - bracket - 1);
       field.form = count.empty() ? Field::Form::sequence : Field::Form::array;
       if (!count.empty()) std::from_chars(count.data(), count.data() + count.size(), field.count);
-      constexpr std::uint32_t most = 1U << 20;
-      if (field.count > most) fail("it has an array of " + count);
+      constexpr std::uint32_t max = 1U << 20;
+      if (field.count > max) fail("it has an array of " + count);
       type.resize(bracket);
     }
     const auto kind = std::find(std::begin(kind_names), std::end(kind_names), type);
@@ -125,12 +125,12 @@ void MessageLayout::parse(const std::string& schema) {
 }
 
 void MessageLayout::add_columns(const Definition& definition, const std::string& path) {
-  constexpr std::size_t most = 1U << 20;
+  constexpr std::size_t max = 1U << 20;
   const auto within = [](const std::string& at, const std::string& name) {
     return at.empty() ? name : at + "." + name;
   };
   for (const Field& field : definition.fields) {
-    if (columns_.size() > most) fail("it has more than " + std::to_string(most) + " fields");
+    if (columns_.size() > max) fail("it has more than " + std::to_string(max) + " fields");
     const std::string at = definition.wraps ? path : within(path, field.name);
     const auto add_one = [&](const std::string& one) {
       if (field.definition >= 0)

@@ -10,7 +10,7 @@
 namespace jarol {
 namespace {
 
-constexpr std::size_t most_kept = 10'000'000;  // misses, and running digests
+constexpr std::size_t max_kept = 10'000'000;  // misses, and running digests
 
 bool is_time(std::int64_t ns) { return ns >= 0 && Duration(ns) <= longest_duration; }
 
@@ -108,8 +108,8 @@ void RecordedRun::keep(const mcap::Message& message, const ReadTopic& topic, con
       fail_in_chunk(spot, "a checkpoint that is not after the one before it");
     saved_.emplace_back(message.time);
   }
-  if (misses_.size() > most_kept || digests_.size() > most_kept || gaps_.size() > most_kept)
-    fail("has more than " + std::to_string(most_kept) + " misses, digests or gaps; record a shorter run");
+  if (misses_.size() > max_kept || digests_.size() > max_kept || gaps_.size() > max_kept)
+    fail("has more than " + std::to_string(max_kept) + " misses, digests or gaps; record a shorter run");
 }
 
 Duration RecordedRun::covered() const {

@@ -42,9 +42,9 @@ void Recorder::expect(const std::vector<Output>& outputs) {
   outputs_ = outputs;
   deep_values_.clear();
   for (const Output& output : outputs) {
-    if (output.type->size > most_bytes)
+    if (output.type->size > max_bytes)
       throw std::length_error("output '" + output.name + "' has " + std::to_string(output.type->size) +
-                              " bytes; values of up to " + std::to_string(most_bytes) + " can be recorded");
+                              " bytes; values of up to " + std::to_string(max_bytes) + " can be recorded");
     deep_values_.push_back(output.type->is_deep() ? Value(*output.type) : Value());
   }
   wanted_.clear();
@@ -56,10 +56,10 @@ void Recorder::expect(const std::vector<Output>& outputs) {
 void Recorder::append_deep(std::int64_t instant, std::uint32_t output, const void* value) {
   const Type& type = *outputs_[output].type;
   const std::size_t size = packed_size(type, value);
-  if (size > most_bytes) {
+  if (size > max_bytes) {
     if (lost_.empty())
       lost_ = "output '" + outputs_[output].name + "' had " + std::to_string(size) + " bytes at " +
-              std::to_string(instant) + "ns; values of up to " + std::to_string(most_bytes) + " can be recorded";
+              std::to_string(instant) + "ns; values of up to " + std::to_string(max_bytes) + " can be recorded";
     return;
   }
   const std::size_t padded = (size + 7U) & ~std::size_t{7};

@@ -33,7 +33,7 @@ class Recorder {
   /// The sinks outlive the recorder.
   explicit Recorder(std::vector<RecordSink*> sinks, Duration hand_on_period = std::chrono::seconds(1));
 
-  /// What will be recorded, before the first of it. Throws std::length_error for flat values beyond most_bytes.
+  /// What will be recorded, before the first of it. Throws std::length_error for flat values beyond max_bytes.
   void expect(const std::vector<Output>& outputs);
 
   /// Sinks get values in order of instants though they may be appended out of order, up to that long after a later one.
@@ -41,7 +41,7 @@ class Recorder {
   void put_in_order(Duration longest) { disorder_ = longest; }
 
   /// Values up to this size can be recorded.
-  static constexpr std::size_t most_bytes = (std::size_t{256} << 10) - sizeof(RecordHeader);
+  static constexpr std::size_t max_bytes = (std::size_t{256} << 10) - sizeof(RecordHeader);
 
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -58,7 +58,7 @@ class Recorder {
     used_ += sizeof header + padded;
   }
 
-  /// The same for a deep value; one beyond most_bytes is lost, which `close` tells.
+  /// The same for a deep value; one beyond max_bytes is lost, which `close` tells.
   void append_deep(std::int64_t instant, std::uint32_t output, const void* value);
 
   /// Some sink wants publications of that output.
@@ -85,7 +85,7 @@ class Recorder {
   void close();
 
  private:
-  static constexpr std::size_t chunk_bytes = most_bytes + sizeof(RecordHeader);
+  static constexpr std::size_t chunk_bytes = max_bytes + sizeof(RecordHeader);
   static constexpr std::size_t chunks = 8;
   static constexpr std::uint32_t event_output = 0xffffffff;  // stands for an event in place of an output
 

@@ -155,8 +155,8 @@ bool Recording::read_summary(mcap::Reader& reader) {
         in.number<std::uint64_t>();
         for (mcap::ByteCursor indexes(in.text()); !indexes.at_end(); indexes.number<std::uint64_t>()) {
           const auto channel = indexes.number<std::uint16_t>();
-          place.least_channel = std::min(place.least_channel, channel);
-          place.most_channel = std::max(place.most_channel, channel);
+          place.min_channel = std::min(place.min_channel, channel);
+          place.max_channel = std::max(place.max_channel, channel);
         }
         chunks.push_back(place);
       }
@@ -222,8 +222,8 @@ void Recording::read_chunk(const mcap::Record& record, const Visit& visit) {
       const mcap::Message message = mcap::read_message(content);
       const auto topic = topics_.find(message.channel);
       if (topic == topics_.end()) throw mcap::FormatError("a message of no channel");
-      place.least_channel = std::min(place.least_channel, message.channel);
-      place.most_channel = std::max(place.most_channel, message.channel);
+      place.min_channel = std::min(place.min_channel, message.channel);
+      place.max_channel = std::max(place.max_channel, message.channel);
       ++topic->second.messages;
       if (visit) visit(message, topic->second, spot);
     }

@@ -27,7 +27,7 @@ struct ReadPlace {
   std::size_t part = 0;  // index in Recording::parts
   std::uint64_t offset = 0;
   std::int64_t start = 0, end = 0;  // ns
-  std::uint16_t least_channel = 0, most_channel = 0;
+  std::uint16_t min_channel = 0, max_channel = 0;
 };
 
 /// For messages about a chunk: the file, and the byte at which it begins there.

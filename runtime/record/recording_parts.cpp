@@ -10,9 +10,9 @@
 #include <system_error>
 #include <utility>
 
+#include "runtime/files/atomic_file.h"
 #include "runtime/files/in_place.h"
 #include "runtime/files/sync.h"
-#include "runtime/files/whole_file.h"
 
 namespace jarol {
 namespace {

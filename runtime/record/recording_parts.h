@@ -23,8 +23,8 @@ struct RecordedFile {
 /// Where part `number` of a recording is; that of 1 is its own path.
 std::string path_of_part(const std::string& path, std::size_t number);
 
-/// What tells a part that has ended from all others: its size and the check sum of its summary. Empty: it can't be
-/// read.
+/// What distinguishes a part that has ended from all others: its size and the check sum of its summary. Empty: it can't
+/// be read.
 std::string mark_of_part(const std::string& path);
 
 class RecordingParts {

@@ -29,9 +29,9 @@ RecordingWriter::~RecordingWriter() {
 }
 
 RecordedTopic RecordingWriter::topic(std::string name, const Type& type, mcap::Texts metadata) {
-  constexpr std::size_t most = 65535;
-  if (channels_.size() == most)
-    throw std::invalid_argument("the graph has more outputs than the " + std::to_string(most) +
+  constexpr std::size_t max = 65535;
+  if (channels_.size() == max)
+    throw std::invalid_argument("the graph has more outputs than the " + std::to_string(max) +
                                 " that a recording has room for; record fewer by --record-what");
   MessageSchema schema = schema_of(type);
   // one for all types that look the same, and a name for each

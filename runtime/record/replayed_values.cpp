@@ -35,7 +35,7 @@ ReplayedValues::ReplayedValues(const RecordedRun& run, const std::vector<Output>
   // of the last instant that is there some may be missing
   end_ = Duration{};
   for (const ReadPlace& chunk : run.recording().chunks())
-    for (std::size_t channel = chunk.least_channel; channel <= chunk.most_channel; ++channel)
+    for (std::size_t channel = chunk.min_channel; channel <= chunk.max_channel; ++channel)
       if (lane_of_[channel] != none) end_ = std::max(end_, Duration(chunk.end));
   // and the replay goes no further than the inputs are known
   end_ = std::min(end_, run.covered());

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "graph/values/bind.h"
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 #include "runtime/plan/output.h"
 #include "runtime/record/recorder.h"
 
@@ -35,7 +35,7 @@ class TraceCsv : public RecordSink {
     std::size_t column = 0;
   };
 
-  WholeFile file_;
+  AtomicFile file_;
   std::vector<std::vector<Target>> targets_;  // per output
   std::vector<std::string> cells_;
   Duration instant_{};

@@ -35,7 +35,7 @@ void FaultSummary::add(const Fault& fault) {
     group.last_instant = fault.instant;
     return;
   }
-  if (groups_.size() == most_groups) {
+  if (groups_.size() == max_groups) {
     ++others_;
     return;
   }

@@ -32,7 +32,7 @@ struct FaultGroup {
 
 class FaultSummary {
  public:
-  static constexpr std::size_t most_groups = 100;
+  static constexpr std::size_t max_groups = 100;
 
   void add(const Fault& fault);
 

@@ -52,7 +52,7 @@ void Faults::restore(const Activation& activation, bool ran) {
   const OnFault on_fault = graph_.tasks[activation.task].on_fault;
   if (on_fault == OnFault::stop) return;
   TaskStatus& status = state_.status[activation.task];
-  if (ran) status.put_back(activation.memory.state);
+  if (ran) status.restore(activation.memory.state);
   status.skip_next = on_fault == OnFault::skip;
   status.begins_anew = on_fault == OnFault::restart;
 }

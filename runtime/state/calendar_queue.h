@@ -27,18 +27,18 @@ class CalendarQueue {
   void add(std::int64_t first, std::int64_t period) {
     groups_.push_back({first, period, none});
     due_.push_back(0);
-    least_ = std::min(least_, first);
+    next_ = std::min(next_, first);
   }
 
   bool empty() const { return groups_.empty(); }
 
   /// The next instant at which any group is due, or never.
-  std::int64_t next() const { return least_; }
+  std::int64_t next() const { return next_; }
 
   /// The groups due at next(), least number first, until the next call; next() then is the instant after it.
   std::span<const std::uint32_t> take() {
     if (days_.empty()) make_days();
-    const std::size_t count = take_out(least_);
+    const std::size_t count = take_out(next_);
     std::sort(due_.begin(), due_.begin() + static_cast<std::ptrdiff_t>(count));
     for (std::size_t i = 0; i < count; ++i) {
       Group& group = groups_[due_[i]];
@@ -46,7 +46,7 @@ class CalendarQueue {
       if (__builtin_add_overflow(group.next, group.period, &group.next)) group.next = never;
       put_in(due_[i]);
     }
-    least_ = find_from(least_);
+    next_ = find_from(next_);
     return {due_.data(), count};
   }
 
@@ -96,22 +96,22 @@ class CalendarQueue {
   std::int64_t find_from(std::int64_t instant) {
     std::int64_t day = instant >> shift_;
     for (std::size_t looked_at = 0; looked_at < days_.size(); ++looked_at, ++day) {
-      std::int64_t least = never;  // of other years, too
+      std::int64_t min = never;  // of other years, too
       for (std::uint32_t number = list_of(day); number != none; number = groups_[number].link)
-        least = std::min(least, groups_[number].next);
-      if (least >> shift_ == day) return least;
+        min = std::min(min, groups_[number].next);
+      if (min >> shift_ == day) return min;
     }
     // nothing for a whole year
-    std::int64_t least = never;
-    for (const Group& group : groups_) least = std::min(least, group.next);
-    return least;
+    std::int64_t min = never;
+    for (const Group& group : groups_) min = std::min(min, group.next);
+    return min;
   }
 
   std::vector<Group> groups_;
   std::vector<std::uint32_t> days_;  // the first of each list; a power of two of them
   std::vector<std::uint32_t> due_;   // room for all groups
   int shift_ = 0;                    // a day is 2^shift ns
-  std::int64_t least_ = never;
+  std::int64_t next_ = never;
 };
 
 }  // namespace jarol

@@ -59,11 +59,11 @@ void RunState::make_task(std::size_t i) {
   make_private(*c.state, place.state, of_task.heap);
   make_private(*c.in, place.in, of_task.heap);
   of_task.task = static_cast<std::uint32_t>(i);
-  of_task.undoable = is_undoable(task);
+  of_task.recoverable = is_recoverable(task);
   of_task.run = c.run;
-  if (!of_task.undoable) return;
+  if (!of_task.recoverable) return;
   of_task.kept = at(place.kept);
-  of_task.size = plan.layout.undoable_size(plan.graph, i);
+  of_task.size = plan.layout.recoverable_size(plan.graph, i);
   if (task.fault_limit) recent_faults[i].reserve(static_cast<std::size_t>(task.fault_limit->faults));
   if (task.on_fault != OnFault::restart) return;
   of_task.state_type = c.state;

@@ -14,7 +14,7 @@
 #include "graph/values/heap.h"
 #include "runtime/plan/plan.h"
 #include "runtime/state/actions.h"
-#include "runtime/state/calendar.h"
+#include "runtime/state/release_queue.h"
 #include "runtime/state/task_status.h"
 
 namespace jarol {
@@ -55,7 +55,7 @@ class RunState {
   std::vector<std::byte*> taps;        // per tapped signal: the field as last published
   std::vector<std::byte> tap_news;     // per tapped signal: 1, where that was since somebody put it to 0
   std::vector<std::vector<std::int64_t>> recent_faults;  // per task: activations that count for its fault_limit
-  Calendar calendar;                                     // when each group is due
+  ReleaseQueue release_queue;                            // when each group is due
   std::vector<std::int64_t> releases;                    // per group: how often it was due
 
  private:

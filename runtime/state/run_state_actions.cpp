@@ -25,11 +25,11 @@ void RunState::reserve_actions() {
   let_outputs.reserve(plan.groups.size());
   outs.reserve(plan.outs.size());
   ins.reserve(plan.ins.size());
-  calendar.reserve(plan.groups.size());
+  release_queue.reserve(plan.groups.size());
 }
 
 void RunState::make_group(const Plan::Group& group) {
-  calendar.add(group.first.count(), group.period.count());
+  release_queue.add(group.first.count(), group.period.count());
   const std::size_t copy = copies_.size(), publication = publications_.size(), value = let_values_.size();
   LetOutputs outputs;
   for (const std::uint32_t i : group.let_ends.of(plan.let_ends)) {
@@ -62,7 +62,7 @@ Activation RunState::make_activation(std::uint32_t i) {
   const Layout::OfTask& place = plan.layout.tasks[i];
   const auto readers = plan.tasks[i].readers.of(plan.readers);
   const std::size_t connections = task.task_class->in->fields.size() + (task.let ? 0 : readers.size());
-  return {is_undoable(task) || has_heap(task) ? &run_with_care : task.task_class->run,
+  return {is_recoverable(task) || has_heap(task) ? &run_with_care : task.task_class->run,
           is_checked_at_let_end(task) ? task.task_class->body : nullptr,
           {at(place.parameters), at(place.in), at(place.state), at(place.out), &status[i]},
           task.let ? Publish{} : publish_of(End::Kind::task, i),

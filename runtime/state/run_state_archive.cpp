@@ -69,12 +69,12 @@ void RunState::serialize_communicator(Archive& archive, std::size_t i) {
 
 // Each group acts next at its first instant that was not run.
 void RunState::go_to(Duration covered) {
-  calendar.clear();
-  calendar.reserve(plan.groups.size());
+  release_queue.clear();
+  release_queue.reserve(plan.groups.size());
   for (std::size_t i = 0; i < plan.groups.size(); ++i) {
     const std::int64_t first = plan.groups[i].first.count(), period = plan.groups[i].period.count();
     releases[i] = count_before(covered.count(), first, period);
-    calendar.add(first + releases[i] * period, period);
+    release_queue.add(first + releases[i] * period, period);
   }
 }
 

@@ -26,7 +26,7 @@ Outcome run_with_care(const TaskMemory& memory, const Tick& tick) {
     status.skip_next = false;
     return Outcome::left_out;
   }
-  if (status.undoable) status.keep(memory.state);
+  if (status.recoverable) status.keep(memory.state);
   if (status.begins_anew) {
     const Outcome outcome = contain([&] { status.begin_anew(memory.state); }, [&]() -> FaultText& { return status; });
     if (outcome != Outcome::good) return outcome;
@@ -39,9 +39,9 @@ void TaskStatus::keep(const void* state) {
   if (heap != nullptr) heap->keep(kept + size);
 }
 
-void TaskStatus::put_back(void* state) {
+void TaskStatus::restore(void* state) {
   std::memcpy(state, kept, size);
-  if (heap != nullptr) heap->put_back(kept + size);
+  if (heap != nullptr) heap->restore(kept + size);
 }
 
 void TaskStatus::begin_anew(void* state) {

@@ -14,7 +14,7 @@ struct TaskStatus : FaultText {
   std::int64_t activation = 0;  // the faulty one
   bool skip_next = false;       // the next activation is left out
   bool begins_anew = false;     // the next activation begins with the state that the task began with
-  bool undoable = false;        // state and outputs are kept before each activation
+  bool recoverable = false;     // state and outputs are kept before each activation
   Thunk run = nullptr;
   PrivateHeap* heap = nullptr;
   Range<DeepInput> deep_inputs;
@@ -24,7 +24,7 @@ struct TaskStatus : FaultText {
   const void* first_state = nullptr;  // the same, if that is deep: what it began with
 
   void keep(const void* state);
-  void put_back(void* state);
+  void restore(void* state);
   /// Throws HeapExhausted where there is no room for it; then the state has to be put back.
   void begin_anew(void* state);
 };

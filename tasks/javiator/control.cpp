@@ -28,8 +28,8 @@ double hold(const PositionControl::Param& p, const Approach& a, double place, do
 
 double turn(const TurnGains& g, TurnModel& model, double goal, double angle, double rate, double dt) {
   const double w = g.bandwidth;
-  const double most = 0.8 * g.limit * g.effect;
-  const double acceleration = limited(w * w * (goal - model.angle) - 2 * w * model.rate, most);
+  const double max = 0.8 * g.limit * g.effect;
+  const double acceleration = limited(w * w * (goal - model.angle) - 2 * w * model.rate, max);
   model.angle += model.rate * dt + 0.5 * acceleration * dt * dt;
   model.rate += acceleration * dt;
   const double error = model.angle - angle;

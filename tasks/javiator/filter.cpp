@@ -16,15 +16,15 @@ constexpr double gravity = 9.81;
 constexpr double pascal_per_metre = 12.0;
 
 // Counts repeats, and silence in the answers that come; says whether there is a new reading.
-bool hear(SensorTrust& trust, bool is_new, double reading, std::uint32_t most_repeats, double dt) {
+bool hear(SensorTrust& trust, bool is_new, double reading, std::uint32_t max_repeats, double dt) {
   trust.silent += dt;
   if (!is_new) return false;
   trust.repeats = reading == trust.last ? trust.repeats + 1 : 0;
   trust.last = reading;
-  return most_repeats == 0 || trust.repeats < most_repeats;
+  return max_repeats == 0 || trust.repeats < max_repeats;
 }
 
-// Takes a credible reading as a sign of life; tells whether to use it.
+// Takes a credible reading as a sign of life; shows whether to use it.
 bool believe(SensorTrust& trust, bool credible, double patience) {
   if (credible && !trust.lost) trust.silent = 0;
   trust.lost = trust.lost || trust.silent > patience;
@@ -39,13 +39,13 @@ void forgive(SensorTrust& trust, bool heard) {
 
 bool is_near(const AxisObserver& axis, double measured, double jump) { return std::abs(measured - axis.place) < jump; }
 
-// A sonar that drifts tells a climb that is not felt.
+// A sonar that drifts reports a climb that is not felt.
 void compare_climb(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double dt) {
   state.climb_off += (state.z.speed - state.z_slow.speed - state.climb_off) * dt / p.drift.climb_time;
   state.climb_was_off = std::max(state.climb_was_off * (1 - dt / p.drift.climb_memory), std::abs(state.climb_off));
 }
 
-// Without a sonar the pressure has to do; with one, each tells whether the other can be believed, and what is felt
+// Without a sonar the pressure has to do; with one, each shows whether the other can be believed, and what is felt
 // which of the two.
 void weigh_pressure(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double pressure) {
   const double residual = (state.zero_pressure - pressure) / pascal_per_metre - state.z.place;

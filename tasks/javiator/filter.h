@@ -19,7 +19,7 @@ struct SensorTrust {
 
   static constexpr auto fields() {
     using S = SensorTrust;
-    return describe(field<&S::silent>("s", "since it told something credible"), field<&S::last>("", "reading"),
+    return describe(field<&S::silent>("s", "since it reported something credible"), field<&S::last>("", "reading"),
                     field<&S::repeats>("", "of that reading"), field<&S::lost>());
   }
 };
@@ -45,7 +45,7 @@ struct DriftLimits {
         field<&D::climb_memory>("s", "in which it is forgotten"),
         field<&D::angle_bandwidth>("rad/s", "at which angles correct those that the rates turn"),
         field<&D::angle>("rad", "between them at which the angles are not credible, if the place is as well"),
-        field<&D::pull>("rad", "of an angle that sideways acceleration without a cause tells of"),
+        field<&D::pull>("rad", "of an angle that sideways acceleration without a cause shows"),
         field<&D::pull_time>("s", "over which that is averaged"));
   }
 };
@@ -139,7 +139,7 @@ struct JaviatorFilter {
                       field<&S::disagreement>("m", "of pressure and altitude, averaged"),
                       field<&S::climb_off>("m/s", "of the sonar's climb and the slow one, averaged"),
                       field<&S::climb_was_off>("m/s", "of late, at most"),
-                      field<&S::roll_off>("rad", "by which it is wrong as places tell, averaged"),
+                      field<&S::roll_off>("rad", "by which it is wrong as places report, averaged"),
                       field<&S::pitch_off>("rad"), field<&S::unanswered>("s", "since the Robostix answered"),
                       field<&S::slant_roll>("rad", "of the weight felt while it stands, less the roll, averaged"),
                       field<&S::slant_pitch>("rad"), field<&S::stood>("", "in the period before"),

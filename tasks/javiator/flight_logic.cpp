@@ -9,7 +9,7 @@ namespace {
 
 using Cause = LandingCause;
 
-// Why it can't go on flying as it is told, if so.
+// Why it can't go on flying as it is commanded, if so.
 Cause find_cause(const FlightLogic::Param& p, const FlightEstimate& e, bool wants_position, double unheard) {
   if (std::abs(e.roll) > p.roll_limit) return Cause::roll;
   if (std::abs(e.pitch) > p.pitch_limit) return Cause::pitch;

@@ -67,7 +67,7 @@ void OriginalPosition::run(const Param& p, const Tick& tick, const In& in, State
   double roll = d.roll, pitch = d.pitch;
   if (d.hold_position && d.state == FlightState::flying) {
     const PiddGains& gains = in.gains.position.value_or(p.gains);
-    const double most = 1e3 * p.lean_limit;
+    const double max = 1e3 * p.lean_limit;
     // near its goal it corrects seldom
     const auto hold = [&](double error, double speed, double acceleration, double& integral, std::uint32_t& waited,
                           double& lean) {
@@ -76,7 +76,7 @@ void OriginalPosition::run(const Param& p, const Tick& tick, const In& in, State
       waited = 0;
       integral = std::clamp(integral + error * dt, -160.0, 160.0);
       const double demand = gains.kp * error + gains.ki * integral + gains.kd * speed + gains.kdd * acceleration;
-      lean = std::clamp(demand, -most, most);
+      lean = std::clamp(demand, -max, max);
     };
     hold(1e3 * (d.y - e.y), 1e3 * e.v_y, 1e3 * e.a_y, state.integral_y, state.waited_y, state.roll);
     hold(1e3 * (d.x - e.x), 1e3 * e.v_x, 1e3 * e.a_x, state.integral_x, state.waited_x, state.pitch);

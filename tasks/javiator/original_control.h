@@ -65,7 +65,7 @@ struct OriginalLogic {
 };
 
 struct OriginalPosition {
-  static constexpr std::string_view summary = "holds a place, or leans as told, as the JAviator's controller";
+  static constexpr std::string_view summary = "holds a place, or leans as commanded, as the JAviator's controller";
   struct Param {
     PiddGains gains{.kp = 0.21, .ki = 0.03, .kd = -0.06, .kdd = 0.001};
     double lean_limit = 0.3;

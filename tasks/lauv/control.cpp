@@ -19,9 +19,9 @@ void DepthControl::run(const Param& p, const Tick& tick, const In& in, State& st
   const double theta = limited(wanted, p.limit);
   // learn the trim only close to the depth: on the way down it would wind up; and no more of it, as where it rests at
   // the surface, than what leaves the vehicle so close that it learns again
-  const double most = std::min(p.limit, 0.9 * p.kp * p.reach);
+  const double max = std::min(p.limit, 0.9 * p.kp * p.reach);
   if (std::abs(error) < p.reach)
-    state.pitch_trim = limited(state.pitch_trim - p.ki * error * seconds(tick.period), most);
+    state.pitch_trim = limited(state.pitch_trim - p.ki * error * seconds(tick.period), max);
   // the rate of the Euler angle, not of the body: they differ in a turn
   const double theta_dot = m.q * std::cos(m.phi) - m.r * std::sin(m.phi);
   out.moment.angle = limited(p.pitch_kp * (theta - m.theta) - p.pitch_kd * theta_dot, p.fin_limit);

@@ -1,4 +1,4 @@
-// The submarine's navigation: from what its instruments tell to how it moves.
+// The submarine's navigation: from what its instruments report to how it moves.
 #pragma once
 
 #include <string_view>
@@ -54,7 +54,7 @@ struct LauvNavigation {
     std::array<std::int64_t, 2> ranges{};
     static constexpr auto fields() {
       using S = State;
-      return describe(field<&S::started>(), field<&S::motion>("", "as told last"), field<&S::place>(),
+      return describe(field<&S::started>(), field<&S::motion>("", "as reported last"), field<&S::place>(),
                       field<&S::fixes>("", "of GPS, so far"), field<&S::misfits>("", "fixes left out in a row"),
                       field<&S::left_out>("", "fixes and ranges so far"), field<&S::ranges>("", "so far, per beacon"));
     }

@@ -33,7 +33,7 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
     state.counts[k] = counts[k];
     if (state.silences[k] > p.sensor_timeout) found = alarms[k];
   }
-  // GPS tells nothing under water
+  // GPS reports nothing under water
   state.since_fix =
       i.place.count > state.fixes || i.place.count < 0 || i.depth.value > surface_depth ? 0 : state.since_fix + dt;
   state.fixes = i.place.count;

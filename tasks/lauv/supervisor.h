@@ -13,13 +13,13 @@
 
 namespace jarol::tasks {
 
-/// An instrument that tells no more is lost, and one that is fitted and never tells anything; one that is not fitted is
-/// not waited for. One that lies is found by another that knows better: depth gauge and
-/// pressure, compass and IMU, attitude and rates, attitude and specific force, speed log and propeller, altitude and
-/// depth over a floor without steps: each from when both have told something. Once alarmed it comes up: nose up at some
-/// speed until GPS finds the surface, or, where attitude or speed are in doubt, or the nose does not come up and it
-/// sinks, with propeller off, by buoyancy. It stays alarmed, whatever becomes of the cause, until the operator demands
-/// a stop when there is none any more: then it is a vehicle at rest, to be commanded anew.
+/// An instrument that reports no more is lost, and one that is fitted and never reports anything; one that is not
+/// fitted is not waited for. One that lies is found by another that knows better: depth gauge and pressure, compass and
+/// IMU, attitude and rates, attitude and specific force, speed log and propeller, altitude and depth over a floor
+/// without steps: each from when both have reported something. Once alarmed it comes up: nose up at some speed until
+/// GPS finds the surface, or, where attitude or speed are in doubt, or the nose does not come up and it sinks, with
+/// propeller off, by buoyancy. It stays alarmed, whatever becomes of the cause, until the operator demands a stop when
+/// there is none any more: then it is a vehicle at rest, to be commanded anew.
 struct LauvSupervisor {
   static constexpr std::string_view summary = "passes the operator's setpoint on, or brings the submarine up";
   struct Param {
@@ -50,7 +50,7 @@ struct LauvSupervisor {
     static constexpr auto fields() {
       using P = Param;
       return describe(
-          field<&P::sensor_timeout>("s", "an instrument that tells nothing for so long is lost"),
+          field<&P::sensor_timeout>("s", "an instrument that reports nothing for so long is lost"),
           field<&P::gps_timeout>("s", "the same for GPS at the surface"),
           field<&P::operator_timeout>("s", "greatest silence of the operator"), field<&P::max_depth>("m", "limit"),
           field<&P::min_altitude>("m", "limit, over the sea floor"),

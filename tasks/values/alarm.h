@@ -49,7 +49,7 @@ constexpr auto enumerators(Alarm) {
        {"speed", speed, "it comes up, as the speed log or the propeller's speed is silent or wrong"},
        {"altimeter", altimeter, "it comes up, as the altimeter is silent or wrong"},
        {"ctd", ctd, "it comes up, as a sensor of the water is silent"},
-       {"battery", battery, "it comes up, as voltage or current of the battery are not told"},
+       {"battery", battery, "it comes up, as voltage or current of the battery are not reported"},
        {"gps", gps, "it stays at the surface, as GPS is silent"},
        {"bottom_fin", bottom_fin, "it comes up, as the bottom rudder is stuck or its servo silent"},
        {"port_fin", port_fin, "it comes up, as the port elevator is stuck or its servo silent"},

@@ -15,31 +15,31 @@ struct PiddGains {
   }
 };
 
-/// Gains that were told in flight, or not.
-struct ToldGains {
+/// Gains that were reported in flight, or not.
+struct ReceivedGains {
   PiddGains gains{};
   bool told = false;
 
   const PiddGains& value_or(const PiddGains& own) const { return told ? gains : own; }
 
-  static constexpr auto fields() { return describe(field<&ToldGains::gains>(), field<&ToldGains::told>()); }
+  static constexpr auto fields() { return describe(field<&ReceivedGains::gains>(), field<&ReceivedGains::told>()); }
 };
 
-struct ToldSignal {
+struct ReceivedSignal {
   double signal = 0;
   bool told = false;
 
   double value_or(double own) const { return told ? signal : own; }
 
   static constexpr auto fields() {
-    return describe(field<&ToldSignal::signal>("", "0 to 16000"), field<&ToldSignal::told>());
+    return describe(field<&ReceivedSignal::signal>("", "0 to 16000"), field<&ReceivedSignal::told>());
   }
 };
 
-/// What the operator has changed of the laws' gains; what was never told is as the laws have it.
+/// What the operator has changed of the laws' gains; what was never reported is as the laws have it.
 struct OperatorGains {
-  ToldGains lean{}, yaw{}, altitude{}, position{};
-  ToldSignal idle{};
+  ReceivedGains lean{}, yaw{}, altitude{}, position{};
+  ReceivedSignal idle{};
 
   static constexpr auto fields() {
     using O = OperatorGains;

@@ -1,4 +1,4 @@
-// What the submarine's instruments tell, as it comes.
+// What the submarine's instruments report, as it comes.
 #pragma once
 
 #include <array>

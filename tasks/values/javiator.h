@@ -10,7 +10,7 @@
 
 namespace jarol::tasks {
 
-/// What the vehicle's sensors tell, one answer of the Robostix.
+/// What the vehicle's sensors report, one answer of the Robostix.
 struct JaviatorSensors {
   double roll = 0, pitch = 0, yaw = 0;
   double p = 0, q = 0, r = 0;
@@ -109,15 +109,15 @@ constexpr auto enumerators(LandingCause) {
        {"yaw", LandingCause::yaw, "its yaw is beyond the limit"},
        {"altitude", LandingCause::altitude, "its altitude is beyond the limit"},
        {"operator_lost", LandingCause::operator_lost, "the operator is silent"},
-       {"sonar_lost", LandingCause::sonar_lost, "the sonar tells nothing credible"},
-       {"position_lost", LandingCause::position_lost, "a laser tells nothing credible"},
-       {"imu_lost", LandingCause::imu_lost, "the IMU tells nothing credible"},
-       {"bmu_lost", LandingCause::bmu_lost, "the BMU tells nothing credible"},
+       {"sonar_lost", LandingCause::sonar_lost, "the sonar reports nothing credible"},
+       {"position_lost", LandingCause::position_lost, "a laser reports nothing credible"},
+       {"imu_lost", LandingCause::imu_lost, "the IMU reports nothing credible"},
+       {"bmu_lost", LandingCause::bmu_lost, "the BMU reports nothing credible"},
        {"battery_low", LandingCause::battery_low, "the battery's voltage is below the limit"},
        {"answers_late", LandingCause::answers_late, "the Robostix does not answer in time"}}};
 }
 
-/// What the operator is told.
+/// What the operator is sent.
 struct HelicopterReport {
   double roll = 0, pitch = 0, yaw = 0, altitude = 0, x = 0, y = 0, battery = 0;
   FlightState state = FlightState::halt;
@@ -147,7 +147,7 @@ struct HelicopterReport {
   }
 };
 
-/// How the vehicle moves, as far as its sensors tell.
+/// How the vehicle moves, as far as its sensors report.
 struct FlightEstimate {
   double roll = 0, pitch = 0, yaw = 0, heading = 0;
   double p = 0, q = 0, r = 0;
@@ -171,9 +171,9 @@ struct FlightEstimate {
         field<&E::a_up>("m/s^2", "upwards"), field<&E::lift>("m/s^2", "specific force upwards along the rotors' axis"),
         field<&E::drag_x>("m/s^2", "to the north, of all else: drag and wind"),
         field<&E::drag_y>("m/s^2", "to the east"), field<&E::battery>("V", "voltage"),
-        field<&E::rates_known>("", "the IMU tells something new"),
+        field<&E::rates_known>("", "the IMU reports something new"),
         field<&E::attitude_known>("", "and its angles agree with its rates"),
-        field<&E::altitude_known>("", "the sonar tells something credible"),
+        field<&E::altitude_known>("", "the sonar reports something credible"),
         field<&E::position_known>("", "both lasers do"), field<&E::pressure_known>("", "the BMU does"),
         field<&E::answers_known>("", "the Robostix answers in time"));
   }

@@ -10,7 +10,7 @@
 
 namespace jarol::tasks {
 
-/// How the vehicle moves, as its navigation tells it.
+/// How the vehicle moves, as its navigation reports it.
 struct Motion {
   double x = 0, y = 0, z = 0;
   double phi = 0, theta = 0, psi = 0;
@@ -59,7 +59,7 @@ struct Setpoint {
   }
 };
 
-/// What the operator is told.
+/// What the operator is sent.
 struct VehicleReport {
   double depth = 0;
   double pitch = 0;

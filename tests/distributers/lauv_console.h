@@ -49,7 +49,7 @@ struct Conversation {
   void pass(Duration time) {
     for (const Duration end = now + time; now < end;) adapter.reach(now += 50ms, to);
   }
-  void report(const tasks::VehicleReport& told) { adapter.hand_over<&LauvOperator::Out::report>(told, to); }
+  void report(const tasks::VehicleReport& reported) { adapter.hand_over<&LauvOperator::Out::report>(reported, to); }
   tasks::Setpoint setpoint() {
     adapter.take<&LauvOperator::In::setpoint>(value);
     return value;

@@ -43,7 +43,7 @@ std::unique_ptr<Transport> make_radio(const RadioSpec& spec, const Yaml&, const 
   return std::make_unique<Radio>(spec.frequency->value);
 }
 
-// What is heard of a buoy: its depth, and to be told how far to sink.
+// What is heard of a buoy: its depth, and to be sent how far to sink.
 struct Probe {
   static constexpr std::string_view summary = "a buoy";
   static constexpr bool is_vehicle = true;
@@ -78,7 +78,7 @@ struct Groups {
   static constexpr auto fields() { return describe(field<&Groups::depth>()); }
 };
 
-// Each step takes it by its speed towards what it was told.
+// Each step takes it by its speed towards what it was sent.
 class Buoy : public vehicles::Vehicle {
  public:
   using Parameters = Metres;  // of a step
@@ -133,7 +133,7 @@ std::string text_of(const std::string& link) {
 std::string report_on(const std::string& link) {
   Problems problems;
   const Graph graph = tests::graph_of(known().graph, text_of(link));
-  make_channels(graph, known(), 0, problems);
+  make_external_systems(graph, known(), 0, problems);
   try {
     problems.throw_if_any();
   } catch (const SpecError& error) {
@@ -148,7 +148,7 @@ TEST_SUITE("distributers/registries") {
   TEST_CASE("a link type of another's is named, checked and made as those that are built in") {
     Problems problems;
     const Graph graph = tests::graph_of(known().graph, text_of("{type: radio, frequency: 433}"));
-    const auto channels = make_channels(graph, known(), 0, problems);
+    const auto channels = make_external_systems(graph, known(), 0, problems);
     problems.throw_if_any();
     REQUIRE(channels.size() == 1);
     CHECK(channels[0]->link_report()->link == "radio at 433 MHz");
@@ -174,7 +174,7 @@ TEST_SUITE("distributers/registries") {
                                         "graph: g\ntiming: {period: 10ms}\n"
                                         "distributers: {sea: {type: Probe, link: {type: simulation, vehicle: " +
                                             path.string() + "}}}\n");
-    const auto channels = make_channels(graph, known(), 0, problems);
+    const auto channels = make_external_systems(graph, known(), 0, problems);
     std::filesystem::remove(path);
     problems.throw_if_any();
     double depth = -1;

@@ -100,7 +100,7 @@ std::string differences(const std::string& library, const std::string& source) {
     const auto known = expected.find(task);
     const bool met = known != expected.end() && known->second.empty() == violations.empty() &&
                      std::all_of(known->second.begin(), known->second.end(),
-                                 [&, &told = violations](const Expected& one) { return is_met(one, told); });
+                                 [&, &reported = violations](const Expected& one) { return is_met(one, reported); });
     if (!met) found += text_of(task, violations);
   }
   return found;

@@ -92,8 +92,8 @@ test('of a large recording the page has the least and the greatest of each piece
     low.set(i, Math.min(low.get(i) ?? Infinity, value));
     high.set(i, Math.max(high.get(i) ?? -Infinity, value));
   }
-  for (const [i, least] of low) assert.deepEqual([signal.low[i], signal.high[i]], [least, high.get(i)]);
-  assert.equal(data.signals[0].greatest, 9999);
+  for (const [i, min] of low) assert.deepEqual([signal.low[i], signal.high[i]], [min, high.get(i)]);
+  assert.equal(data.signals[0].max, 9999);
   const page = await browser.open(file);
   assert.match(await page.evaluate(`document.querySelector('#plots .lead').textContent`), /^Of 1 output with more than 4,096 values the page has the least and the greatest of each 4\.883 ms/);
   silent(page, file);
@@ -151,7 +151,7 @@ connections: [a.out -> w.in]
 test('the report of a dive draws graph, time lines, plots and path, and answers mouse and keys', vehicles, async () => {
   const file = report('dive', 'specs/exolauv.yaml');
   const data = dataOf(file);
-  assert.equal(data.replay.standing, 'same');
+  assert.equal(data.replay.evidence, 'same');
   assert.equal(data.summary.end.digest, run('log', 'info', at('dive.mcap')).match(/digest +(\S+)/)[1]);
   assert.equal(data.summary.run_command, 'jarol run specs/exolauv.yaml --seed 0');
   const page = await browser.open(file);

@@ -109,7 +109,7 @@ test('a task is added, connected by the mouse and by the form, renamed and remov
   await shown.end();
 });
 
-test('a connection is led elsewhere, and one to nowhere is told at its arrow and its line', async () => {
+test('a connection is led elsewhere, and one to nowhere is reported at its arrow and its line', async () => {
   const shown = await EditorPage.edit(browser, 'counting.yaml');
   const before = await shown.source();
   await shown.page.evaluate(`document.querySelector('[aria-label^="connection count.out -> slow.in"]').focus()`);

@@ -173,7 +173,7 @@ test('a pilot draws a square of 60 m on the map, and it is flown with a cross-tr
   }
 });
 
-test('a plan goes on without a pilot; another page sees it, is told by the vehicle where it goes, and aborts it in one act', vehicles, async () => {
+test('a plan goes on without a pilot; another page sees it, hears from the vehicle where it goes, and aborts it in one act', vehicles, async () => {
   const {run, shown} = await atDesk('left', 5);
   const other = await open(second, await run.url);
   await take(shown);

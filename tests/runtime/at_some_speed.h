@@ -46,7 +46,7 @@ inline std::string slowed(const std::string& text, int times) {
   return with_durations(text, [&](Duration duration) { return times * duration; });
 }
 
-/// What a run told that was so many times as slow, as it would have told it at full speed.
+/// What a run reported that was so many times as slow, as it would have reported it at full speed.
 inline void at_full_speed(Report& report, int times) {
   report.simulated /= times;
   for (Fault& fault : report.faults) {

@@ -14,8 +14,8 @@ using tests::lines_of;
 struct Names {
   static constexpr std::string_view summary = "for tests";
   struct Param {
-    std::uint32_t most = 5;
-    static constexpr auto fields() { return describe(field<&Param::most>()); }
+    std::uint32_t max = 5;
+    static constexpr auto fields() { return describe(field<&Param::max>()); }
   };
   struct State {
     Sequence<String> names{};
@@ -29,7 +29,7 @@ struct Names {
     const auto n = static_cast<std::size_t>(tick.activation);
     String name = "n";  // scratch
     for (std::size_t i = 0; i < n % 7; ++i) name += name;
-    state.names.resize(n % (p.most + 1));
+    state.names.resize(n % (p.max + 1));
     if (!state.names.empty()) state.names.back() = name;
     out.out = state.names;
   }
@@ -143,7 +143,7 @@ TEST_SUITE("runtime/deep") {
 
   TEST_CASE("an input that does not fit its reader's heap is a fault of the reader, until one comes that fits") {
     const std::string text =
-        "tasks:\n  n: {type: Names, parameters: {most: 2}}\n"
+        "tasks:\n  n: {type: Names, parameters: {max: 2}}\n"
         "  l: {type: Lengths, heap: 96B, on_fault: hold}\nconnections: [n.out -> l.in]\n";
     const auto r = run(text, 90ms);
     CHECK_FALSE(r.report.stopped);
@@ -185,6 +185,6 @@ TEST_SUITE("runtime/deep") {
     };
     const auto one = run(text(""), 10s);
     CHECK(one.report.digest == run(text(", heap: 8KiB"), 10s).report.digest);
-    CHECK(one.report.digest != run(text(", parameters: {most: 6}"), 10s).report.digest);
+    CHECK(one.report.digest != run(text(", parameters: {max: 6}"), 10s).report.digest);
   }
 }

@@ -1,4 +1,4 @@
-// What happens at one instant, pair by pair of its steps, and in which order it is told.
+// What happens at one instant, pair by pair of its steps, and in which order it is reported.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 using tests::lines_of;
 
 // A plant that senses at each instant what it held before it, and the instant itself in ms.
-class Plant : public Channels {
+class Plant : public ExternalSystem {
  public:
   explicit Plant(std::vector<std::string>* diary = nullptr) : diary_(diary) {}
   void reach(Duration instant) override {
@@ -51,7 +51,7 @@ tests::Run run_plant(const std::string& text, Duration end, std::vector<std::str
   const Graph graph =
       tests::graph_of(registry, "graph: t\ntiming: {period: 10ms}\n" +
                                     std::string("distributers: {p: {type: Plant, link: {type: test}}}\n") + text);
-  std::vector<std::unique_ptr<Channels>> channels;
+  std::vector<std::unique_ptr<ExternalSystem>> channels;
   channels.push_back(std::make_unique<Plant>(diary));
   return tests::run_graph(graph, end, std::move(channels));
 }

@@ -8,7 +8,7 @@ using namespace jarol;
 using namespace std::chrono_literals;
 using tests::lines_of;
 
-// What it is told of time.
+// What it gets of time.
 struct Watch {
   static constexpr std::string_view summary = "for tests";
   struct Out {

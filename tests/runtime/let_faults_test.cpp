@@ -83,7 +83,7 @@ std::string faults_of(const Report& report) {
 }  // namespace
 
 TEST_SUITE("runtime/let_faults") {
-  TEST_CASE("of LET tasks that end together the one whose output is not finite is told, the others publish") {
+  TEST_CASE("of LET tasks that end together the one whose output is not finite is reported, the others publish") {
     const auto r = run_doubles(
         "  a: {type: Doubles, let: 5ms}\n  b: {type: Doubles, let: 5ms, parameters: {at: 2, times: -2}}\n"
         "  c: {type: Doubles, let: 5ms}\n  d: {type: Mixed, let: 5ms}\n",
@@ -132,7 +132,7 @@ TEST_SUITE("runtime/let_faults") {
     CHECK(lines_of(r, "d.second") == "5ms d.second=1; 15ms d.second=1");
   }
 
-  TEST_CASE("several workers, who look at once, tell the same faults and publish the same") {
+  TEST_CASE("several workers, who look at once, report the same faults and publish the same") {
     for (const std::string what : {"nan: true", "times: 2", "times: 0.5", "throws: true", "at: -1"}) {
       CAPTURE(what);
       std::string tasks = "  m: {type: Mixed, let: 10ms, parameters: {" + what + "}}\n";

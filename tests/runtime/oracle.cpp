@@ -158,7 +158,7 @@ std::map<std::string, std::int64_t> enumerate_deadlines(const Model& model) {
   std::function<std::int64_t(const TaskModel&)> deadline_of = [&](const TaskModel& task) -> std::int64_t {
     if (task.let) return *task.let;
     if (const auto at = known.find(task.name); at != known.end()) return at->second;
-    std::int64_t least = task.period;
+    std::int64_t min = task.period;
     for (std::int64_t release = task.offset; release < largest_offset + 2 * hyperperiod; release += task.period)
       for (const auto& [input, source] : model.source_of) {
         if (source != task.name + ".out") continue;
@@ -166,14 +166,14 @@ std::map<std::string, std::int64_t> enumerate_deadlines(const Model& model) {
           if (reader.name != owner(input)) continue;
           // before the reader's first release nothing is read, but the pattern repeats: only later releases count
           if (release >= reader.offset)
-            least = std::min(least, next_after(reader.period, reader.offset, release) - release);
-          if (acts_at(reader.period, reader.offset, release)) least = std::min(least, deadline_of(reader));
+            min = std::min(min, next_after(reader.period, reader.offset, release) - release);
+          if (acts_at(reader.period, reader.offset, release)) min = std::min(min, deadline_of(reader));
         }
         for (const CommunicatorModel& reader : model.communicators)
           if (reader.name == input && release >= reader.offset)
-            least = std::min(least, next_after(reader.period, reader.offset, release) - release);
+            min = std::min(min, next_after(reader.period, reader.offset, release) - release);
       }
-    return known[task.name] = least;
+    return known[task.name] = min;
   };
   for (const TaskModel& task : model.tasks) known[task.name] = deadline_of(task);
   return known;

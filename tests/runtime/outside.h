@@ -9,7 +9,7 @@
 #include "graph/values/seed.h"
 #include "graph/values/sequence.h"
 #include "graph/values/type_of.h"
-#include "runtime/channels.h"
+#include "runtime/external_system.h"
 #include "runtime/machine/real_clock.h"
 
 namespace jarol::tests {
@@ -38,8 +38,8 @@ inline DistributerClass plant() {
           true};
 }
 
-// What a plant tells, and whether, hangs on the machine's clock; some of it is not finite.
-class Outside : public Channels {
+// What a plant reports, and whether, hangs on the machine's clock; some of it is not finite.
+class Outside : public ExternalSystem {
  public:
   void reach(Duration) override {}
   bool take(std::size_t channel, void* value) override {
@@ -58,8 +58,8 @@ class Outside : public Channels {
   void hand_over(std::size_t, const void*) override {}
 };
 
-inline std::vector<std::unique_ptr<Channels>> outside() {
-  std::vector<std::unique_ptr<Channels>> channels;
+inline std::vector<std::unique_ptr<ExternalSystem>> outside() {
+  std::vector<std::unique_ptr<ExternalSystem>> channels;
   channels.push_back(std::make_unique<Outside>());
   return channels;
 }

@@ -43,7 +43,7 @@ class Patience {
   std::uint64_t tries_ = 0;
 };
 
-/// Every word tells which value it belongs to.
+/// Every word shows which value it belongs to.
 struct Checked {
   std::array<std::uint64_t, 8> words{};
   void set(std::uint64_t number) {
@@ -99,7 +99,7 @@ std::string stress(std::size_t capacity) {
   return wrong;
 }
 
-/// The same for packets: each byte tells the packet, whose number also gives its length.
+/// The same for packets: each byte shows the packet, whose number also gives its length.
 template <class Port>
 std::string stress_packets(std::size_t capacity) {
   constexpr bool pushes = requires(const Port& p) { p.lost(); };

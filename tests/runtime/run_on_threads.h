@@ -154,7 +154,7 @@ inline void keep_stacks_small() {
 
 // A graph that is so many times as slow as what is told of it.
 inline RealRun run(const Graph& graph, Duration end, int times, const RealTimeOptions& options, int pieces = 1,
-                   std::vector<std::unique_ptr<Channels>> channels = {}, Recorder* log = nullptr) {
+                   std::vector<std::unique_ptr<ExternalSystem>> channels = {}, Recorder* log = nullptr) {
   keep_stacks_small();
   tests::TraceLines lines(graph, times);
   Recorder recorder({&lines});
@@ -179,13 +179,14 @@ inline RealRun run(const Graph& graph, Duration end, int times, const RealTimeOp
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     run.late += clock.timing(i).late;
     run.left_out += clock.timing(i).left_out;
-    run.worst.push_back(clock.timing(i).execution.most() / times);
+    run.worst.push_back(clock.timing(i).execution.max() / times);
   }
   return run;
 }
 
 inline RealRun run(const std::string& text, Duration end, int times = 1, const RealTimeOptions& options = undisturbed(),
-                   int pieces = 1, std::vector<std::unique_ptr<Channels>> channels = {}, Recorder* log = nullptr) {
+                   int pieces = 1, std::vector<std::unique_ptr<ExternalSystem>> channels = {},
+                   Recorder* log = nullptr) {
   return run(graph_of(slowed(text, times)), end, times, options, pieces, std::move(channels), log);
 }
 

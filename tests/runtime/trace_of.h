@@ -36,7 +36,7 @@ struct Run {
   std::vector<std::string> lines;  // as recorded: in the order in which they were published
 };
 
-inline Run run_graph(const Graph& graph, Duration end, std::vector<std::unique_ptr<Channels>> channels = {}) {
+inline Run run_graph(const Graph& graph, Duration end, std::vector<std::unique_ptr<ExternalSystem>> channels = {}) {
   TraceLines lines(graph);
   Run run;
   Recorder recorder({&lines});

@@ -98,12 +98,12 @@ TEST_SUITE("tools/applications") {
       const Outcome o = mission.get();
       INFO(o.errors);
       REQUIRE(o.exit_code == 0);
-      const json& told = o.run["outputs"]["to_neptus"];
-      MESSAGE(where << threads << ": " << told.dump());
-      CHECK(std::abs(told["depth"].get<double>() - 3) < 0.05);
-      CHECK(std::abs(told["heading"].get<double>() - std::numbers::pi / 2) < 0.035);
-      CHECK(std::abs(told["speed"].get<double>() - 1.2) < 0.05);
-      CHECK(told["alarm"] == "none");
+      const json& reported = o.run["outputs"]["to_neptus"];
+      MESSAGE(where << threads << ": " << reported.dump());
+      CHECK(std::abs(reported["depth"].get<double>() - 3) < 0.05);
+      CHECK(std::abs(reported["heading"].get<double>() - std::numbers::pi / 2) < 0.035);
+      CHECK(std::abs(reported["speed"].get<double>() - 1.2) < 0.05);
+      CHECK(reported["alarm"] == "none");
       check_link(o, where, 80'000);
     }
   }
@@ -116,13 +116,13 @@ TEST_SUITE("tools/applications") {
       const Outcome o = mission.get();
       INFO(o.errors);
       REQUIRE(o.exit_code == 0);
-      const json& told = o.run["outputs"]["to_terminal"];
-      MESSAGE(where << threads << ": " << told.dump());
-      CHECK(told["state"] == "ground");
-      CHECK(told["cause"] == "none");
-      CHECK(std::abs(told["y"].get<double>() - 3) < 0.15);
-      CHECK(std::abs(told["x"].get<double>()) < 0.15);
-      CHECK(std::abs(told["altitude"].get<double>()) < 0.05);
+      const json& reported = o.run["outputs"]["to_terminal"];
+      MESSAGE(where << threads << ": " << reported.dump());
+      CHECK(reported["state"] == "ground");
+      CHECK(reported["cause"] == "none");
+      CHECK(std::abs(reported["y"].get<double>() - 3) < 0.15);
+      CHECK(std::abs(reported["x"].get<double>()) < 0.15);
+      CHECK(std::abs(reported["altitude"].get<double>()) < 0.05);
       check_link(o, where, 2000);
     }
   }

@@ -133,7 +133,7 @@ double seconds(const json& ns) { return 1e-9 * ns.get<double>(); }
 void check_landed(const Outcome& o) {
   CHECK(o.run["rest"]["reached"] == true);
   CHECK(seconds(o.run["rest"]["took_ns"]) > 2);
-  CHECK(o.run["safe_commands"]["to_robostix"]["at_end"] == true);
+  CHECK(o.run["failsafe"]["to_robostix"]["at_end"] == true);
   CHECK(o.vehicle["mishap"].is_null());
   CHECK(std::abs(o.vehicle["state"]["z"].get<double>()) < 0.2);
   for (const auto& [name, signal] : o.vehicle["actuators"].items()) CHECK(std::abs(signal.get<double>()) < 30);
@@ -142,7 +142,7 @@ void check_landed(const Outcome& o) {
 void check_surfaced(const Outcome& o) {
   CHECK(o.run["rest"]["reached"] == true);
   CHECK(seconds(o.run["rest"]["took_ns"]) > 4);
-  CHECK(o.run["safe_commands"]["to_dune"]["at_end"] == true);
+  CHECK(o.run["failsafe"]["to_dune"]["at_end"] == true);
   CHECK(o.vehicle["mishap"].is_null());
   CHECK(o.vehicle["state"]["z"] < 0.3);
 }
@@ -185,7 +185,7 @@ TEST_SUITE("tools/at_end") {
     CHECK(o.run["rest"]["reached"] == false);
     CHECK(o.run["rest"]["cut_short_by"] == "a second signal came");
     CHECK(seconds(o.run["rest"]["took_ns"]) < 3);
-    CHECK(o.run["safe_commands"]["to_robostix"]["at_end"] == true);
+    CHECK(o.run["failsafe"]["to_robostix"]["at_end"] == true);
     CHECK(
         o.errors.ends_with("error: the vehicle did not come to rest: 'logic.directive.state is ground or halt' was "
                            "not so when a second signal came\n"));
@@ -201,7 +201,7 @@ TEST_SUITE("tools/at_end") {
     CHECK(o.run["rest"]["took_ns"] == 4'500'000'000);
     CHECK(!o.run["rest"].contains("cut_short_by"));
     CHECK(o.run["judgement"]["not_at_rest"].is_string());
-    CHECK(o.run["safe_commands"]["to_robostix"]["at_end"] == true);
+    CHECK(o.run["failsafe"]["to_robostix"]["at_end"] == true);
     CHECK(
         o.errors.ends_with("error: the vehicle did not come to rest: 'logic.directive.state is starting' was not so "
                            "within 4.5s\n"));

@@ -32,7 +32,7 @@ TEST_SUITE("tools/check") {
   TEST_CASE("check --json gives one object per file and line") {
     const Result result = run_jarol("check --json specs/counting.yaml");
     const auto check = nlohmann::json::parse(result.output);
-    CHECK(check["schema"] == "jarol.check/1");
+    CHECK(check["schema"] == "jarol.check/2");
     CHECK(check["file"] == "specs/counting.yaml");
     CHECK(check["verdict"] == "schedulable");
     CHECK(check["tasks"][0] == nlohmann::json{{"name", "add"},
@@ -46,14 +46,14 @@ TEST_SUITE("tools/check") {
                                               {"slack_ns", 9'900'000},
                                               {"max_wcet_ns", 9'850'000},
                                               {"min_deadline_ns", 100'000}});
-    CHECK(check["standing"] == "proof");
+    CHECK(check["evidence"] == "proof");
     CHECK(check["witness"] == nullptr);
     CHECK(check["alpha"] == doctest::Approx(6.153845));
     CHECK(check["chains"] == nlohmann::json::array());
     CHECK(check["utilisation"] == doctest::Approx(0.1325));
   }
 
-  TEST_CASE("check --json tells the platform and what is assumed of it") {
+  TEST_CASE("check --json reports the platform and what is assumed of it") {
     const auto check = json_of("check --json specs/counting.yaml");
     CHECK(check["cores"] == 1);
     CHECK(check["policy"] == "table");
@@ -122,7 +122,7 @@ tasks:
     CHECK(json_of("check --json " + one)["policy"] == "global_edf");
   }
 
-  TEST_CASE("check tells why not: the demand, the chart, and what would help") {
+  TEST_CASE("check reports why not: the demand, the chart, and what would help") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t
 platform: {policy: fixed_priority}
@@ -165,7 +165,7 @@ tasks:
                          {"demand", {{"length_ns", 5'000'000}, {"demand_ns", 6'000'000}, {"blocking_ns", 0}}}});
   }
 
-  TEST_CASE("late by little is told in what fits, and no digit that matters is left out") {
+  TEST_CASE("late by little is reported in what fits, and no digit that matters is left out") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", "{graph: t, tasks: {a: {type: Work, period: 50ms, let: 40ms}}}\n");
     const auto headline = [&](const std::string& wcet) {
@@ -184,7 +184,7 @@ tasks:
               "activation 0 (released 0.000 ms) finishes 60.350 ms, deadline 40.000 ms (late 20.350 ms)");
   }
 
-  TEST_CASE("where only jitter makes a task late, the worst response is told") {
+  TEST_CASE("where only jitter makes a task late, the worst response is reported") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t
 platform: {policy: fixed_priority, phasing: any}
@@ -261,7 +261,7 @@ connections: [a.out -> b.in]
     CHECK(result.output.starts_with(file + ": UNKNOWN on one core (table): no 'wcet' is stated for 'a'\n"));
   }
 
-  TEST_CASE("a bad file does not hide the others, and all its errors are told") {
+  TEST_CASE("a bad file does not hide the others, and all its errors are reported") {
     const TemporaryFolder folder;
     const std::string bad =
         folder.write("bad.yaml", "{graph: t, tasks: {a: {type: Countr, period: 1ms}}, conections: []}\n");

@@ -24,9 +24,9 @@ std::string digest_of(const std::string& arguments) { return json_of("run " + ar
 }  // namespace
 
 TEST_SUITE("tools/command") {
-  TEST_CASE("run tells schema, digest, counts and last outputs") {
+  TEST_CASE("run reports schema, digest, counts and last outputs") {
     const auto run = json_of("run specs/counting.yaml --for 1s --json");
-    CHECK(run["schema"] == "jarol.run/1");
+    CHECK(run["schema"] == "jarol.run/2");
     CHECK(run["graph"] == "counting");
     CHECK(run["simulated_ns"] == 1'000'000'000);
     CHECK(run["activations"] == 270);
@@ -88,11 +88,11 @@ tasks:
   }
 #endif
 
-  TEST_CASE("run tells how much of each private heap was in use at most, and a trace holds sequences whole") {
+  TEST_CASE("run reports how much of each private heap was in use at most, and a trace holds sequences whole") {
     const TemporaryFolder folder;
     const auto run = json_of("run specs/window.yaml --for 1s --json --trace " + (folder / "t.csv"));
-    CHECK(run["heaps"] == nlohmann::json{{"window", {{"size", 1024}, {"most_used", 896}}},
-                                         {"mean", {{"size", 65536}, {"most_used", 160}}}});
+    CHECK(run["heaps"] == nlohmann::json{{"window", {{"size", 1024}, {"max_used", 896}}},
+                                         {"mean", {{"size", 65536}, {"max_used", 160}}}});
     CHECK(run_jarol("run specs/window.yaml --for 1s")
               .output.find("  heap        window: at most 896 of 1024 bytes in use\n") != std::string::npos);
     std::ifstream file(folder / "t.csv");
@@ -131,7 +131,7 @@ connections: [c.out -> t.in, t.out -> o, c.out -> w.in, w.out -> r.in]
     CHECK(digest_of("specs/counting.yaml --for 10s") == "0xef44f03bd732a5ab");
   }
 
-  TEST_CASE("a fault stops the run, is told with task, activation, instant and cause, and exits with 3") {
+  TEST_CASE("a fault stops the run, is reported with task, activation, instant and cause, and exits with 3") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t
 timing: {period: 10ms}
@@ -296,7 +296,7 @@ connections: [i -> a.in, a.out -> b.in, b.out -> o]
         {"from": "b.out", "to": "o", "type": "double"}]})"));
   }
 
-  TEST_CASE("graph --json tells channels, and what is handed over while nothing comes") {
+  TEST_CASE("graph --json reports channels, and what is handed over while nothing comes") {
     const auto communicators = json_of("graph --json specs/exolauv_bare.yaml --profile dune")["communicators"];
     CHECK(communicators[0]["channel"] == "dune.motion");
     CHECK(communicators[0]["timeout_ns"] == 1'000'000'000);

@@ -87,22 +87,22 @@ TEST_SUITE("tools/contract") {
 #ifdef JAROL_VEHICLES
   TEST_CASE("--seed is spread by name: nobody's numbers depend on who else is there, and two of a kind have others") {
     const TemporaryFolder folder;
-    const auto told = [&](const std::string& graph, const std::string& name, const std::string& seed) {
+    const auto reported = [&](const std::string& graph, const std::string& name, const std::string& seed) {
       const auto run = report_in(folder.write("g.yaml", graph) + " --for 500ms --seed " + seed);
       CHECK(run["outputs"].contains(name + "_told"));
       return run["outputs"][name + "_told"].dump();
     };
-    const std::string of_m = told(submarines({"m"}), "m", "1");
+    const std::string of_m = reported(submarines({"m"}), "m", "1");
     CHECK(of_m.find("depth") != std::string::npos);
-    CHECK(told(submarines({"m"}), "m", "1") == of_m);
+    CHECK(reported(submarines({"m"}), "m", "1") == of_m);
     // another distributer, before it or after it in any order, or another task
-    CHECK(told(submarines({"a", "m", "z"}), "m", "1") == of_m);
-    CHECK(told(submarines({"z", "m"}), "m", "1") == of_m);
-    CHECK(told(submarines({"m"}, "  c: {type: Counter, period: 10ms}\n"), "m", "1") == of_m);
+    CHECK(reported(submarines({"a", "m", "z"}), "m", "1") == of_m);
+    CHECK(reported(submarines({"z", "m"}), "m", "1") == of_m);
+    CHECK(reported(submarines({"m"}, "  c: {type: Counter, period: 10ms}\n"), "m", "1") == of_m);
     // another name, another seed
-    CHECK(told(submarines({"m", "n"}), "n", "1") != of_m);
-    CHECK(told(submarines({"m"}), "m", "2") != of_m);
-    CHECK(told(submarines({"m"}), "m", "0") != of_m);
+    CHECK(reported(submarines({"m", "n"}), "n", "1") != of_m);
+    CHECK(reported(submarines({"m"}), "m", "2") != of_m);
+    CHECK(reported(submarines({"m"}), "m", "0") != of_m);
   }
 #endif
 }

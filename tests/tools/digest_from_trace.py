@@ -94,10 +94,10 @@ def main():
         trace = folder + "/trace.csv"
         run = subprocess.run([jarol, "run", graph, "--for", "7.3s", "--trace", trace, "--json"], check=True,
                              capture_output=True, text=True)
-        told = json.loads(run.stdout)["digest"]
+        reported = json.loads(run.stdout)["digest"]
         computed = f"0x{digest_of(trace):016x}"
-    print(f"told by the run {told}, computed from its trace {computed}")
-    return 0 if told == computed else 1
+    print(f"reported by the run {reported}, computed from its trace {computed}")
+    return 0 if reported == computed else 1
 
 
 if __name__ == "__main__":

@@ -8,9 +8,9 @@ namespace jarol::test {
 namespace {
 
 // A distributer's channels, watched: `motion` is looked at at every instant, and given to whom it is due.
-class Watched : public Channels {
+class Watched : public ExternalSystem {
  public:
-  Watched(std::unique_ptr<Channels> watched, std::vector<Sample>& samples)
+  Watched(std::unique_ptr<ExternalSystem> watched, std::vector<Sample>& samples)
       : watched_(std::move(watched)), samples_(samples) {}
 
   void reach(Duration instant) override {
@@ -27,7 +27,7 @@ class Watched : public Channels {
   void hand_over(std::size_t channel, const void* value) override { watched_->hand_over(channel, value); }
 
  private:
-  std::unique_ptr<Channels> watched_;
+  std::unique_ptr<ExternalSystem> watched_;
   std::vector<Sample>& samples_;
   tasks::Motion motion_;
   bool fresh_ = false;

@@ -257,8 +257,8 @@ TEST_SUITE("tools/dune_plans") {
       CHECK(state.plan_progress >= static_cast<float>(progress));
       progress = static_cast<double>(state.plan_progress);
       const double depth = mission.truth("depth");
-      auto& [least, greatest] = depths[name];
-      if (mission.progress().distance < 45) least = std::min(least, depth), greatest = std::max(greatest, depth);
+      auto& [min, greatest] = depths[name];
+      if (mission.progress().distance < 45) min = std::min(min, depth), greatest = std::max(greatest, depth);
       if (name == "Rows2") rows_east = std::max(rows_east, mission.truth("y"));
       return false;
     });

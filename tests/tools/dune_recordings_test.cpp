@@ -78,7 +78,7 @@ struct Watched {
     for (std::int64_t k = 0; begin + 0.05 * static_cast<double>(k) <= end; ++k) {
       const double now = begin + 0.05 * static_cast<double>(k);
       for (; next < packets.size() && packets[next].seconds <= now; ++next) {
-        REQUIRE(reader.read(packets[next].bytes) == messages::Flaw::none);
+        REQUIRE(reader.read(packets[next].bytes) == messages::PacketError::none);
         adapter.receive(reader.message());
       }
       adapter.reach(50ms * k, system);
@@ -125,7 +125,7 @@ TEST_SUITE("tools/dune_recordings") {
     double first = 0;
     messages::PacketReader reader(LauvVehicle::message_set());
     for (const Packet& packet : packets) {
-      REQUIRE(reader.read(packet.bytes) == messages::Flaw::none);
+      REQUIRE(reader.read(packet.bytes) == messages::PacketError::none);
       const auto* state = reader.message().as<messages::imc::EntityState>();
       if (first == 0 && state != nullptr && state->state == messages::imc::EntityState::State::FAILURE)
         first = packet.seconds;
@@ -146,7 +146,7 @@ TEST_SUITE("tools/dune_recordings") {
     auto packets = packets_of("tests/data/dune-leak.packets", 15);
     const auto is_of = [](const Packet& packet, std::uint8_t entity) {
       messages::PacketReader reader(LauvVehicle::message_set());
-      return reader.read(packet.bytes) == messages::Flaw::none &&
+      return reader.read(packet.bytes) == messages::PacketError::none &&
              reader.message().as<messages::imc::EntityState>() != nullptr &&
              distributers::Entities::sender_of(reader.message()) == entity;
     };
@@ -157,7 +157,7 @@ TEST_SUITE("tools/dune_recordings") {
       for (Packet& packet : packets) {
         if (!is_of(packet, nose)) continue;
         messages::PacketReader reader(LauvVehicle::message_set());
-        REQUIRE(reader.read(packet.bytes) == messages::Flaw::none);
+        REQUIRE(reader.read(packet.bytes) == messages::PacketError::none);
         // the nose stays dry: its packets of before, once more
         wet = wet ||
               reader.message().as<messages::imc::EntityState>()->state == messages::imc::EntityState::State::FAILURE;

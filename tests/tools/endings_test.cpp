@@ -174,8 +174,8 @@ std::optional<double> end_one(const Ending& ending, const Way& way, const std::s
   if (!ending.reason.empty()) CHECK(json["ending"]["reason"] == ending.reason);
   CHECK(json["rest"].is_null() == !rests);
   if (rests) CHECK(json["rest"]["reached"] == true);
-  CHECK(json["safe_commands"]["to_dune"]["at_end"] == true);
-  CHECK(json["safe_commands"]["to_dune"]["at_end_value"]["thruster"] == safe);
+  CHECK(json["failsafe"]["to_dune"]["at_end"] == true);
+  CHECK(json["failsafe"]["to_dune"]["at_end_value"]["thruster"] == safe);
   // the virtual clock has no time that a peer could measure
   if (!ending.act && way.clock == "virtual") return 0;
   if (!ending.act) ended = thrusts.front().at + ending.at;
@@ -187,11 +187,11 @@ void check_one(const Ending& ending, const Way& way, const std::string& at_end) 
   CAPTURE(way.link);
   CAPTURE(way.clock);
   CAPTURE(way.policy);
-  double least = 1e9;
+  double min = 1e9;
   // a machine that is busy with other things may be late
-  for (int attempt = 0; attempt < 10 && least > Milliseconds(in_time).count(); ++attempt)
-    least = std::min(least, end_one(ending, way, at_end).value_or(least));
-  CHECK(least <= Milliseconds(in_time).count());
+  for (int attempt = 0; attempt < 10 && min > Milliseconds(in_time).count(); ++attempt)
+    min = std::min(min, end_one(ending, way, at_end).value_or(min));
+  CHECK(min <= Milliseconds(in_time).count());
 }
 
 // On the virtual clock no task is late: one that never ends waits for a signal, after a note.
@@ -228,7 +228,8 @@ TEST_SUITE("tools/endings") {
   }
 
   TEST_CASE(
-      "where a graph states how its vehicle comes to rest, it is told that before, unless nothing can be trusted") {
+      "where a graph states how its vehicle comes to rest, it is commanded to do that before, unless nothing can be "
+      "trusted") {
     // what hangs and may be late is waited for
     check_all(comes_to_rest_first,
               [](const Ending& ending) { return ending.task.find("on_fault: hold") == std::string::npos; });

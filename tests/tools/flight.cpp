@@ -44,9 +44,9 @@ class Watched : public vehicles::Helicopter {
   double ground_ = 0;
 };
 
-class PilotChannels : public Channels {
+class PilotSystem : public ExternalSystem {
  public:
-  explicit PilotChannels(std::function<tasks::PilotCommand(double)> pilot) : pilot_(std::move(pilot)) {}
+  explicit PilotSystem(std::function<tasks::PilotCommand(double)> pilot) : pilot_(std::move(pilot)) {}
   void reach(Duration instant) override { now_ = 1e-9 * static_cast<double>(instant.count()); }
   bool take(std::size_t, void* value) override {
     *static_cast<tasks::PilotCommand*>(value) = pilot_(now_);
@@ -91,13 +91,13 @@ Flight fly(const FlightPlan& plan) {
   Flight flight;
   watching = &flight.path;
   Problems problems;
-  auto channels = distributers::make_channels(*loaded.graph, known, plan.seed, problems);
+  auto channels = distributers::make_external_systems(*loaded.graph, known, plan.seed, problems);
   problems.throw_if_any();
   Duration end(std::llround(1e9 * plan.seconds));
   for (std::size_t i = 0; i < channels.size(); ++i) {
     if (loaded.graph->distributers[i].name != "terminal") continue;
     if (plan.pilot) {
-      channels[i] = std::make_unique<PilotChannels>(plan.pilot);
+      channels[i] = std::make_unique<PilotSystem>(plan.pilot);
     } else {
       end = channels[i]->end().value_or(end);
     }
@@ -113,22 +113,22 @@ Flight fly(const FlightPlan& plan) {
   return flight;
 }
 
-double Flight::most(double Glimpse::*value, double from, double to) const {
-  double most = -1e300;
+double Flight::max(double Glimpse::*value, double from, double to) const {
+  double max = -1e300;
   for (const Glimpse& g : path)
-    if (g.time >= from && g.time <= to) most = std::max(most, g.*value);
-  return most;
+    if (g.time >= from && g.time <= to) max = std::max(max, g.*value);
+  return max;
 }
 
-double Flight::least(double Glimpse::*value, double from, double to) const {
-  double least = 1e300;
+double Flight::min(double Glimpse::*value, double from, double to) const {
+  double min = 1e300;
   for (const Glimpse& g : path)
-    if (g.time >= from && g.time <= to) least = std::min(least, g.*value);
-  return least;
+    if (g.time >= from && g.time <= to) min = std::min(min, g.*value);
+  return min;
 }
 
 double Flight::furthest(double Glimpse::*value, double of, double from, double to) const {
-  return std::max(most(value, from, to) - of, of - least(value, from, to));
+  return std::max(max(value, from, to) - of, of - min(value, from, to));
 }
 
 double Flight::settled(double Glimpse::*value, double of, double band) const {

@@ -1,4 +1,4 @@
-// Flies a graph of the helicopter and looks at what truly happens, not at what its sensors tell.
+// Flies a graph of the helicopter and looks at what truly happens, not at what its sensors report.
 #pragma once
 
 #include <functional>
@@ -27,8 +27,8 @@ struct Flight {
 
   /// The greatest |value - of| within [from, to].
   double furthest(double Glimpse::*value, double of, double from, double to) const;
-  double most(double Glimpse::*value, double from, double to) const;
-  double least(double Glimpse::*value, double from, double to) const;
+  double max(double Glimpse::*value, double from, double to) const;
+  double min(double Glimpse::*value, double from, double to) const;
   /// The last instant at which |value - of| exceeds the band.
   double settled(double Glimpse::*value, double of, double band) const;
   Glimpse at(double time) const;

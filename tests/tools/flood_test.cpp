@@ -34,7 +34,7 @@ std::size_t resident_bytes() {
   return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-// Sends what a vehicle's sensors tell, as fast as it goes.
+// Sends what a vehicle's sensors report, as fast as it goes.
 class Flood {
  public:
   explicit Flood(std::unique_ptr<Transport> transport)
@@ -82,9 +82,9 @@ void flood(std::unique_ptr<Transport> transport, const MakeFlood& make_flood, bo
   const Graph& graph = *loaded.graph;
   auto adapter = std::make_unique<Typed<JaviatorVehicle>>();
   const auto& set = adapter->message_set();
-  auto channels = std::make_unique<LinkedChannels>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
-                                                   std::move(adapter));
-  LinkedChannels& link = *channels;
+  auto channels = std::make_unique<LinkedSystem>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
+                                                 std::move(adapter));
+  LinkedSystem& link = *channels;
   std::size_t robostix = 0, from_robostix = 0;
   for (std::size_t i = 0; i < graph.distributers.size(); ++i)
     if (graph.distributers[i].name == "robostix") robostix = i;

@@ -14,7 +14,7 @@
 
 namespace jarol::tests {
 
-/// A vehicle that speaks all the time. The run steers it, or tells it `safe`.
+/// A vehicle that speaks all the time. The run steers it, or sends it `safe`.
 class GuardedVehicle : public messages::Receiver {
  public:
   using Clock = std::chrono::steady_clock;
@@ -60,7 +60,7 @@ class GuardedVehicle : public messages::Receiver {
   std::unique_ptr<SerialProxy> line_;
   std::unique_ptr<distributers::Link> end_;
   Clock::time_point spoke_at_{};
-  std::vector<bool> resting_;  // of all that has to be told
+  std::vector<bool> resting_;  // of all that has to be reported
 };
 
 /// The words of a run, on the real clock, of a graph in that folder, which steers the vehicle until it leans: then its

@@ -1,4 +1,4 @@
-// What a vehicle is told when its controller crashes, or is killed: measured at the vehicle.
+// What a vehicle is sent when its controller crashes, or is killed: measured at the vehicle.
 #include "distributers/guardian/guardian.h"
 
 #include <doctest/doctest.h>
@@ -137,7 +137,7 @@ TEST_SUITE("tools/guardian") {
     try_all(cases, ways);
   }
 
-  TEST_CASE("so is the submarine, by packets that tell the time at which they are sent") {
+  TEST_CASE("so is the submarine, by packets that report the time at which they are sent") {
     try_all({{"udp", "table", false}, {"tcp_server", "threads", false}, {"serial", "fixed_priority", false}},
             {ways[0], ways[3]});
   }

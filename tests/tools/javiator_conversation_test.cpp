@@ -36,7 +36,7 @@ std::vector<Packet> read_conversation() {
   messages::PacketReader reader(javiator::message_set());
   while (std::getline(file, line)) {
     const std::size_t comma = line.find(',');
-    REQUIRE(reader.read(messages::bytes_of(line.substr(comma + 1))) == messages::Flaw::none);
+    REQUIRE(reader.read(messages::bytes_of(line.substr(comma + 1))) == messages::PacketError::none);
     packets.push_back({hello + std::stod(line), messages::Message(reader.message())});
   }
   return packets;
@@ -48,7 +48,7 @@ struct Answer {
 };
 
 // The terminal of the recording: what it sent comes at the time at which it did.
-class Replay : public Channels, messages::Receiver {
+class Replay : public ExternalSystem, messages::Receiver {
  public:
   explicit Replay(std::vector<Answer>& answers) : packets_(read_conversation()), answers_(answers) {
     adapter_.peer_changed();
@@ -113,23 +113,23 @@ TEST_SUITE("tools/javiator_conversation") {
   }
 
   TEST_CASE("its switches change the state as recorded, at most three periods later; its hello does not") {
-    // seconds after the hello at which a report first told the state
+    // seconds after the hello at which a report first reported the state
     const std::vector<std::pair<double, int>> recorded{{0, 4}, {3.5156, 1}, {5.5107, 2}, {39.5306, 1}, {43.5357, 4}};
-    std::vector<std::pair<double, int>> told;
+    std::vector<std::pair<double, int>> reported;
     for (const Answer& a : answers())
       if (const auto* report = a.message.as<javiator::GroundReport>())
-        if (told.empty() || told.back().second != report->state_mode.state)
-          told.emplace_back(a.time - hello, report->state_mode.state);
-    REQUIRE(told.size() == recorded.size());
-    for (std::size_t i = 0; i < told.size(); ++i) {
-      CHECK(told[i].second == recorded[i].second);
+        if (reported.empty() || reported.back().second != report->state_mode.state)
+          reported.emplace_back(a.time - hello, report->state_mode.state);
+    REQUIRE(reported.size() == recorded.size());
+    for (std::size_t i = 0; i < reported.size(); ++i) {
+      CHECK(reported[i].second == recorded[i].second);
       if (i == 0) continue;
-      CHECK(told[i].first > recorded[i].first - 0.001);
-      CHECK(told[i].first < recorded[i].first + 0.046);
+      CHECK(reported[i].first > recorded[i].first - 0.001);
+      CHECK(reported[i].first < recorded[i].first + 0.046);
     }
   }
 
-  TEST_CASE("it is told what the recorded one was: within 5 cm, 25 mrad of roll, 20 mrad of yaw") {
+  TEST_CASE("it gets what the recorded one got: within 5 cm, 25 mrad of roll, 20 mrad of yaw") {
     double altitude = 0, roll = 0, yaw = 0;
     // the recorded flight's zero is 3.3506 s after the hello
     for (const auto& row : command::rows_of("tests/data/javiator-flight.csv")) {

@@ -43,7 +43,7 @@ Flight turn_round(const std::string& profile) {
   return tests::fly({.profile = profile, .pilot = pilot, .seconds = 28});
 }
 
-void check_turn(const Flight& flight, double most_rate) {
+void check_turn(const Flight& flight, double max_rate) {
   double turned = 0, fastest = 0, slowest = 9;
   for (std::size_t i = 1; i < flight.path.size(); ++i) {
     const double step = std::remainder(flight.path[i].yaw - flight.path[i - 1].yaw, 2 * pi);
@@ -53,11 +53,11 @@ void check_turn(const Flight& flight, double most_rate) {
     slowest = std::min(slowest, step / 0.005);
   }
   MESSAGE("turned by " << turned << " rad, between " << slowest << " and " << fastest << " rad/s, lowest "
-                       << flight.least(&Glimpse::altitude, 9, 28));
+                       << flight.min(&Glimpse::altitude, 9, 28));
   CHECK(turned == doctest::Approx(2 * pi).scale(0).epsilon(0.01));
-  CHECK(fastest < most_rate);
-  CHECK(slowest > 1 - most_rate);
-  CHECK(flight.least(&Glimpse::altitude, 9, 28) > 0.75);
+  CHECK(fastest < max_rate);
+  CHECK(slowest > 1 - max_rate);
+  CHECK(flight.min(&Glimpse::altitude, 9, 28) > 0.75);
   CHECK(flight.last().state == tasks::FlightState::flying);
 }
 }  // namespace

@@ -37,7 +37,7 @@ void check_safe(const Flight& flight, LandingCause cause) {
   CHECK(flight.touch_down() < 0.5);
   CHECK(flight.furthest(&Glimpse::roll, 0, fails_at, 18) < 0.3);
   CHECK(flight.furthest(&Glimpse::pitch, 0, fails_at, 18) < 0.3);
-  CHECK(flight.most(&Glimpse::altitude, fails_at, 18) < 1.7);
+  CHECK(flight.max(&Glimpse::altitude, fails_at, 18) < 1.7);
   CHECK(flight.furthest(&Glimpse::x, 0, fails_at, 18) < 1);
   CHECK(flight.furthest(&Glimpse::y, 0, fails_at, 18) < 1);
   MESSAGE("touches down with " << flight.touch_down() << " m/s at " << flight.settled(&Glimpse::altitude, 0, 0.01)

@@ -57,8 +57,8 @@ class Lab {
     }
     auto adapter = std::make_unique<Typed<JaviatorOperator>>();
     const auto& set = adapter->message_set();
-    auto channels = std::make_unique<LinkedChannels>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
-                                                     std::move(adapter));
+    auto channels = std::make_unique<LinkedSystem>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
+                                                   std::move(adapter));
     link_ = channels.get();
     for (std::size_t i = 0; i < loaded_.channels.size(); ++i)
       if (loaded_.graph->distributers[i].name == "terminal") loaded_.channels[i] = std::move(channels);
@@ -164,9 +164,9 @@ class Lab {
     return 0;
   }
 
-  void wait_for(const std::string& name, std::uint64_t least) {
+  void wait_for(const std::string& name, std::uint64_t min) {
     const auto end = std::chrono::steady_clock::now() + 20s;
-    while (count_of(name) < least) {
+    while (count_of(name) < min) {
       REQUIRE(std::chrono::steady_clock::now() < end);
       std::this_thread::sleep_for(20us);
     }
@@ -175,7 +175,7 @@ class Lab {
   Terminal::Over over_;
   Loaded loaded_;
   std::function<int()> port_of_;
-  LinkedChannels* link_ = nullptr;
+  LinkedSystem* link_ = nullptr;
   std::unique_ptr<Executor> executor_;
   Duration now_{};
   std::uint64_t expected_ = 0, peers_ = 0;

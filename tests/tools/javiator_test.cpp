@@ -49,7 +49,7 @@ double overshoot(double tasks::PilotCommand::*command, double Glimpse::*value, d
   };
   const Flight flight = tests::fly(manoeuvre(want, 3, seed));
   CHECK(std::abs(flight.at(begin + 2.9).*value - step) < 0.1 * step);
-  return flight.most(value, begin, begin + 3) / step - 1;
+  return flight.max(value, begin, begin + 3) / step - 1;
 }
 
 // Wind of 3 m/s from the south with gusts of 0.5 m/s.
@@ -74,7 +74,7 @@ TEST_SUITE("tools/javiator") {
   TEST_CASE("it takes off to 1 m with less than 10 % overshoot, and hovers there within 2 cm in height and place") {
     for (const std::uint64_t seed : seeds()) {
       const Flight flight = tests::fly({.pilot = tests::hover_command, .seconds = 30, .seed = seed});
-      CHECK(flight.most(&Glimpse::altitude, 0, 30) < 1.1);
+      CHECK(flight.max(&Glimpse::altitude, 0, 30) < 1.1);
       CHECK(flight.furthest(&Glimpse::altitude, 1, 9, 30) < 0.02);
       double circle = 0;
       for (const Glimpse& g : flight.path)
@@ -96,10 +96,10 @@ TEST_SUITE("tools/javiator") {
       const double before = flight.at(begin).altitude, step = 1;
       CHECK(std::abs(before - 0.5) < 0.02);
       const double time = reached_after(flight, &Glimpse::altitude, flight.path.back().altitude, 0.01 * step);
-      const double most = flight.most(&Glimpse::altitude, begin, begin + 12);
-      MESSAGE("99 % after " << time << " s, at most " << most << " m");
+      const double max = flight.max(&Glimpse::altitude, begin, begin + 12);
+      MESSAGE("99 % after " << time << " s, at most " << max << " m");
       CHECK(time < 4.6);
-      CHECK(most < 1.5 + 0.01 * step);  // what the sonar's noise makes of hover
+      CHECK(max < 1.5 + 0.01 * step);  // what the sonar's noise makes of hover
       CHECK(std::abs(flight.path.back().altitude - 1.5) < 0.02);
     }
   }
@@ -109,8 +109,8 @@ TEST_SUITE("tools/javiator") {
     for (const std::uint64_t seed : seeds()) {
       const Flight flight = tests::fly(manoeuvre([](auto& command) { command.x = -10; }, 20, seed));
       const double time = reached_after(flight, &Glimpse::x, -10, 0.1);
-      const double over = -10 - flight.least(&Glimpse::x, begin, begin + 20);
-      const double lowest = flight.least(&Glimpse::altitude, begin, begin + 20);
+      const double over = -10 - flight.min(&Glimpse::x, begin, begin + 20);
+      const double lowest = flight.min(&Glimpse::altitude, begin, begin + 20);
       MESSAGE("99 % after " << time << " s, " << over << " m beyond, lowest " << lowest << " m");
       CHECK(time < 10);
       CHECK(over < 0.02);  // a part of 0.002, as much as the circle of hover
@@ -143,16 +143,16 @@ TEST_SUITE("tools/javiator") {
   }
 
   TEST_CASE("in wind of 3 m/s with gusts of 0.5 m/s it holds its height within 3 cm, its place within 8 cm") {
-    double circle = 0, most = 0;
+    double circle = 0, max = 0;
     for (const std::uint64_t seed : seeds()) {
       const Flight flight = tests::fly({.set = wind, .pilot = tests::hover_command, .seconds = 40, .seed = seed});
       CHECK(flight.furthest(&Glimpse::altitude, 1, 12, 40) < 0.03);
       for (const Glimpse& g : flight.path)
         if (g.time > 12) circle = std::max(circle, std::hypot(g.x, g.y));
-      most = std::max(most, flight.most(&Glimpse::altitude, 0, 40));
+      max = std::max(max, flight.max(&Glimpse::altitude, 0, 40));
     }
     MESSAGE("circle of " << circle << " m");
-    CHECK(most < 1.1);
+    CHECK(max < 1.1);
     CHECK(circle < 0.08);
     CHECK(circle > 0.02);  // the goal of calm air is out of reach
   }

@@ -80,7 +80,7 @@ TEST_SUITE("tools/killed_recordings") {
     const TemporaryFolder folder;
     const std::string file = folder / "r.mcap";
     const int count = std::getenv("JAROL_FULL") != nullptr ? 200 : 20;
-    std::size_t most_chunks = 0;
+    std::size_t max_chunks = 0;
     int empty = 0, replayed = 0;
     for (int i = 0; i < count; ++i) {
       CAPTURE(i);
@@ -96,7 +96,7 @@ TEST_SUITE("tools/killed_recordings") {
         ++empty;
       } else {
         CHECK(wrong_with(file) == "");
-        most_chunks = std::max(most_chunks, Recording(file).chunks().size());
+        max_chunks = std::max(max_chunks, Recording(file).chunks().size());
         if (real || i % 5 == 0) {
           const auto replay = command::run_jarol("replay " + file);
           CAPTURE(replay.output);
@@ -108,7 +108,7 @@ TEST_SUITE("tools/killed_recordings") {
       }
       std::filesystem::remove(file);
     }
-    CHECK(most_chunks > 3);
+    CHECK(max_chunks > 3);
     CHECK(replayed > 0);
     CHECK(empty < count);
   }

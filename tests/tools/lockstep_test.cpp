@@ -76,7 +76,7 @@ TEST_SUITE("tools/lockstep") {
     CHECK(submarine.noted.empty());
   }
 
-  TEST_CASE("a vehicle that is lost ends the run, and is told") {
+  TEST_CASE("a vehicle that is lost ends the run, and is reported") {
     auto process = std::make_unique<Process>("specs/vehicles/submarine.yaml");
     Loaded loaded = tools::load_graph("specs/exolauv.yaml",
                                       {.profile = "", .set = {"distributers.dune.link" + process->link()}}, 0);

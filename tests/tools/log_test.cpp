@@ -157,12 +157,12 @@ tasks: {count: {type: Counter, period: 1ms}}
     REQUIRE(
         command::run_jarol("run " + graph + " --for 20s --record " + file + " --record-compression none").exit_code ==
         0);
-    const std::string bytes = content(file), told = command::run_jarol("log info --json " + file).output;
-    CHECK(has(told, R"("messages":20000)"));
+    const std::string bytes = content(file), reported = command::run_jarol("log info --json " + file).output;
+    CHECK(has(reported, R"("messages":20000)"));
     // published values in the middle of the file are not read for it
     std::string damaged = bytes;
     damaged[bytes.size() / 2] = static_cast<char>(damaged[bytes.size() / 2] ^ 1);
-    CHECK(command::run_jarol("log info --json " + folder.write("damaged", damaged)).output == told);
+    CHECK(command::run_jarol("log info --json " + folder.write("damaged", damaged)).output == reported);
     CHECK(command::run_jarol("log verify " + (folder / "damaged")).exit_code == 1);
     const auto part = command::run_jarol("log info " + folder.write("part", bytes.substr(0, bytes.size() - 1)));
     CHECK(part.exit_code == 0);

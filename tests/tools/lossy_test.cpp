@@ -146,25 +146,25 @@ const Flights& flights() {
   return all;
 }
 
-const json& link_of(const json& told) { return told.contains("links") ? told["links"][0] : told["link"]; }
-std::uint64_t count_of(const json& told, const std::string& name) { return link_of(told)["counts"][name]; }
+const json& link_of(const json& run) { return run.contains("links") ? run["links"][0] : run["link"]; }
+std::uint64_t count_of(const json& run, const std::string& name) { return link_of(run)["counts"][name]; }
 
-std::uint64_t flawed(const json& told) {
+std::uint64_t flawed(const json& reported) {
   std::uint64_t sum = 0;
   for (const char* why : {"garbage", "truncated", "oversized", "bad checksum", "unknown id", "bad payload"})
-    sum += count_of(told, std::string("dropped: ") + why);
+    sum += count_of(reported, std::string("dropped: ") + why);
   return sum;
 }
 
-void tell(const std::string& what, const ProxyCounts& c) {
+void report(const std::string& what, const ProxyCounts& c) {
   MESSAGE(what << ": " << c.in << " in, " << c.lost << " lost, " << c.duplicated << " doubled, " << c.reordered
                << " reordered, " << c.damaged << " damaged, " << c.out << " out");
 }
 
 // Sent = received + lost - doubled, on either way.
 void check_datagrams(const Outcome& o) {
-  tell("to the vehicle", o.to_vehicle);
-  tell("from the vehicle", o.from_vehicle);
+  report("to the vehicle", o.to_vehicle);
+  report("from the vehicle", o.from_vehicle);
   CHECK(count_of(o.run, "packets out") == o.to_vehicle.in);
   CHECK(count_of(o.vehicle, "packets out") == o.from_vehicle.in);
   for (const ProxyCounts* c : {&o.to_vehicle, &o.from_vehicle}) {
@@ -198,8 +198,8 @@ double highest_of(const std::string& trace, const std::string& column) {
 
 // It has been up there, and is down again where it should be, upright, for nothing but the operator's key.
 void check_hop(const Outcome& o, const std::string& trace) {
-  const json &state = o.vehicle["state"], &told = o.run["outputs"]["to_terminal"];
-  MESSAGE("ended at " << state.dump() << ", told " << told["state"].dump() << " " << told["cause"].dump());
+  const json &state = o.vehicle["state"], &reported = o.run["outputs"]["to_terminal"];
+  MESSAGE("ended at " << state.dump() << ", reported " << reported["state"].dump() << " " << reported["cause"].dump());
   const double highest = highest_of(trace, "to_terminal.altitude");
   MESSAGE("highest " << highest << " m");
   CHECK(highest > (full() ? 0.9 : 0.3));
@@ -250,10 +250,10 @@ TEST_SUITE("tools/lossy") {
     INFO(o.errors);
     REQUIRE(o.exit_code == 0);
     check_datagrams(o);
-    const json &state = o.vehicle["state"], &told = o.run["outputs"]["to_terminal"];
-    MESSAGE("ended at " << state.dump() << ", told " << told["state"].dump() << " " << told["cause"].dump());
+    const json &state = o.vehicle["state"], &reported = o.run["outputs"]["to_terminal"];
+    MESSAGE("ended at " << state.dump() << ", reported " << reported.dump());
     MESSAGE("highest " << highest_of(flights().trace("hasty.csv"), "to_terminal.altitude") << " m");
-    CHECK(told["state"] == "ground");
+    CHECK(reported["state"] == "ground");
     CHECK(std::abs(state["phi"].get<double>()) < 0.1);
     CHECK(std::abs(state["theta"].get<double>()) < 0.1);
     CHECK(state["z"] > -0.3);
@@ -263,8 +263,8 @@ TEST_SUITE("tools/lossy") {
     const Outcome o = flights().over_tcp.get();
     INFO(o.errors);
     REQUIRE(o.exit_code == 0);
-    tell("bytes to the vehicle", o.to_vehicle);
-    tell("bytes from the vehicle", o.from_vehicle);
+    report("bytes to the vehicle", o.to_vehicle);
+    report("bytes from the vehicle", o.from_vehicle);
     // but for a few packets of 16 bytes into a connection that the vehicle has just ended
     CHECK(count_of(o.run, "bytes out") >= o.to_vehicle.in);
     CHECK(count_of(o.run, "bytes out") <= o.to_vehicle.in + 4 * 16);
@@ -279,8 +279,8 @@ TEST_SUITE("tools/lossy") {
     const Outcome o = flights().on_a_line.get();
     INFO(o.errors);
     REQUIRE(o.exit_code == 0);
-    tell("bytes to the vehicle", o.to_vehicle);
-    tell("bytes from the vehicle", o.from_vehicle);
+    report("bytes to the vehicle", o.to_vehicle);
+    report("bytes from the vehicle", o.from_vehicle);
     CHECK(count_of(o.run, "bytes out") == o.to_vehicle.in);
     CHECK(count_of(o.vehicle, "bytes out") == o.from_vehicle.in);
     // the begin of a packet may be left

@@ -28,7 +28,7 @@ TEST_SUITE("tools/messages") {
 
   TEST_CASE("the same as JSON") {
     const auto one = nlohmann::json::parse(run_jarol("messages imc DesiredZ --json").output);
-    CHECK(one["schema"] == "jarol.messages/1");
+    CHECK(one["schema"] == "jarol.messages/2");
     REQUIRE(one["messages"].size() == 1);
     CHECK(one["messages"][0]["name"] == "DesiredZ");
     CHECK(one["messages"][0]["id"] == 401);

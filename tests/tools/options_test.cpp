@@ -52,7 +52,7 @@ TEST_SUITE("tools/options") {
     CHECK(run_jarol(check + "--measure --for 1s").exit_code == 0);
   }
 
-  TEST_CASE("check: what is asked for and not there is told") {
+  TEST_CASE("check: what is asked for and not there is reported") {
     const TemporaryFolder folder;
     const std::string svg = folder / "none.svg";
     const auto note_on = [](const std::string& arguments) {
@@ -66,10 +66,10 @@ TEST_SUITE("tools/options") {
     check_refused("check specs/counting.yaml specs/window.yaml --svg " + svg,
                   "--svg names one picture for several files; check them one by one");
     CHECK(note_on("specs/counting.yaml --chains").output ==
-          "note: --chains tells nothing, as no path leads from an 'in' to an 'out'\n");
+          "note: --chains reports nothing, as no path leads from an 'in' to an 'out'\n");
     const std::string open = folder.write("t.yaml", "{graph: t, tasks: {a: {type: Counter, period: 1ms}}}\n");
     CHECK(note_on("--sensitivity " + open).output ==
-          "note: --sensitivity tells nothing, as it needs a 'wcet' of every task\n");
+          "note: --sensitivity reports nothing, as it needs a 'wcet' of every task\n");
   }
 
   TEST_CASE("check: paths that are too many are cut off, and that is said") {
@@ -87,10 +87,10 @@ TEST_SUITE("tools/options") {
     }
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", text + connections + "  - " + before + " -> o\n");
-    const auto told = run_jarol("check --chains " + file);
-    CHECK(told.output.starts_with("note: --chains tells 1000 paths, there are more\n"));
+    const auto reported = run_jarol("check --chains " + file);
+    CHECK(reported.output.starts_with("note: --chains reports 1000 paths, there are more\n"));
     std::size_t count = 0;
-    for (std::size_t at = 0; (at = told.output.find("\n  chain i -> ", at)) != std::string::npos; ++at) ++count;
+    for (std::size_t at = 0; (at = reported.output.find("\n  chain i -> ", at)) != std::string::npos; ++at) ++count;
     CHECK(count == 1000);
   }
 
@@ -104,11 +104,11 @@ TEST_SUITE("tools/options") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", text);
     for (const std::string paths : {"", " --chains"}) {
-      const auto told = run_jarol("check " + file + paths);
-      CHECK(told.exit_code == 1);
-      CHECK(told.output.find("    LIMIT BROKEN: reaction 20ms over 19ms\n") != std::string::npos);
-      CHECK(told.output.find("there are more") == std::string::npos);
-      CHECK((told.output.find("\n  chain i -> r -> o: ") != std::string::npos) == (paths != ""));
+      const auto reported = run_jarol("check " + file + paths);
+      CHECK(reported.exit_code == 1);
+      CHECK(reported.output.find("    LIMIT BROKEN: reaction 20ms over 19ms\n") != std::string::npos);
+      CHECK(reported.output.find("there are more") == std::string::npos);
+      CHECK((reported.output.find("\n  chain i -> r -> o: ") != std::string::npos) == (paths != ""));
     }
   }
 
@@ -131,8 +131,9 @@ TEST_SUITE("tools/options") {
     const std::string script = folder.write("s.csv", "time,thruster\n0,0.5\n1,0\n"), csv = folder / "out.csv";
     const std::string vehicle = "vehicle submarine ", link = "--link udp --listen 7010 ";
     check_refused(vehicle + link + "--rate 5", "--rate belongs to --csv, where the rows go");
-    check_refused(vehicle + "--link lockstep --listen 7010 --csv " + csv,
-                  "--csv has no place in lockstep: what a run does with it is told there, as by jarol run --record");
+    check_refused(
+        vehicle + "--link lockstep --listen 7010 --csv " + csv,
+        "--csv has no place in lockstep: what a run does with it is reported there, as by jarol run --record");
     check_refused("vehicle helicopter " + link + "--announce 30100",
                   "--announce: nobody looks for a helicopter, which has no message for that");
     check_refused(vehicle + link + "--script " + script, "--script and --link: either a script steers it or a peer");

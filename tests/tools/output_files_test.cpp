@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 #include "runtime/record/recorded_run.h"
 #include "runtime/record/recording_writer.h"
 #include "tests/tools/default_signals.h"
@@ -30,7 +30,7 @@ int partials_in(const TemporaryFolder& folder) {
 }
 
 void write(const std::string& path, const std::string& text) {
-  jarol::WholeFile file(path);
+  jarol::AtomicFile file(path);
   file.write(text);
   file.commit();
 }
@@ -58,7 +58,7 @@ TEST_SUITE("tools/output_files") {
   TEST_CASE("what is not committed leaves the file as it was") {
     const TemporaryFolder folder;
     const std::string path = folder.write("file", "old");
-    { jarol::WholeFile(path).write("new"); }
+    { jarol::AtomicFile(path).write("new"); }
     CHECK(content(path) == "old");
     CHECK(partials_in(folder) == 0);
   }
@@ -67,7 +67,7 @@ TEST_SUITE("tools/output_files") {
     const TemporaryFolder folder;
     std::set<std::string> names;
     for (int i = 0; i < 20; ++i) {
-      const jarol::WholeFile file(folder / "file");
+      const jarol::AtomicFile file(folder / "file");
       for (const auto& entry : fs::directory_iterator(folder / "")) names.insert(entry.path().filename());
       CHECK(partials_in(folder) == 1);
     }
@@ -75,13 +75,13 @@ TEST_SUITE("tools/output_files") {
     // as long as one writes, no other does, by whatever path; and then it does
     fs::create_directory_symlink(folder / "", folder / "again");
     {
-      const jarol::WholeFile first(folder / "file");
+      const jarol::AtomicFile first(folder / "file");
       const std::string other = folder / "again/file";
       CHECK_THROWS_WITH_AS(
-          jarol::WholeFile{other},
+          jarol::AtomicFile{other},
           ("can't write '" + other + "': another run writes it; choose another file, or wait until that ends").c_str(),
           std::runtime_error);
-      const jarol::WholeFile beside(folder / "file2");
+      const jarol::AtomicFile beside(folder / "file2");
     }
     write(folder / "file", "new");
     CHECK(content(folder / "file") == "new");
@@ -286,16 +286,16 @@ tasks: {a: {type: Counter, period: 10ms}}
                                 "--seed, or remove it\n");
     CHECK(!fs::exists(graphs + "/waters_3.yaml"));
     CHECK(content(third) == "mine");
-    CHECK_THROWS_WITH_AS((jarol::WholeFile{third, jarol::Replaces::nothing}),
+    CHECK_THROWS_WITH_AS((jarol::AtomicFile{third, jarol::Replaces::nothing}),
                          ("can't write '" + third + "': File exists").c_str(), std::runtime_error);
     // also where it has come to be there meanwhile
-    jarol::WholeFile late(graphs + "/late", jarol::Replaces::nothing);
+    jarol::AtomicFile late(graphs + "/late", jarol::Replaces::nothing);
     std::ofstream(graphs + "/late") << "mine";
     CHECK_THROWS_AS(late.commit(), std::runtime_error);
     CHECK(content(graphs + "/late") == "mine");
   }
 
-  TEST_CASE("output that can't be written is told, and exits with 3") {
+  TEST_CASE("output that can't be written is reported, and exits with 3") {
     for (const std::string to : {">/dev/full", ">&-"})
       for (const std::string command : {"run specs/counting.yaml --for 1s", "run specs/counting.yaml --for 1s --json",
                                         "tasks", "schema", "--help"}) {

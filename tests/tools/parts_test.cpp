@@ -13,7 +13,7 @@ using command::run_jarol;
 }  // namespace
 
 TEST_SUITE("tools/parts") {
-  TEST_CASE("tasks tells all about one") {
+  TEST_CASE("tasks reports all about one") {
     CHECK(run_jarol("tasks Accumulate").output ==
           "Accumulate: gives the running sum of its input\n\ninputs\n  in  double\n\noutputs\n  out  double  sum of "
           "all inputs so far\n");

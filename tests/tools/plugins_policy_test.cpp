@@ -57,7 +57,7 @@ TEST_SUITE("tools/plugins_policy") {
     CHECK(json("")["policy"] == "rate_monotonic");
     CHECK(json("")["tasks"][0]["response_ns"].is_null());
     CHECK(json(" --set tasks.slow.wcet=30ms")["verdict"] == "unknown");
-    CHECK(json(" --set tasks.slow.wcet=39ms")["standing"] == "proof");
+    CHECK(json(" --set tasks.slow.wcet=39ms")["evidence"] == "proof");
     CHECK(json(" --set tasks.slow.wcet=39ms")["verdict"] == "not_schedulable");
     CHECK(json(" --set platform.policy=table")["verdict"] == "not_schedulable");
   }

@@ -78,8 +78,8 @@ expect: [light of lamp within 0.1 of 291]
                                "'light=light of lamp'",
                            "2>/dev/null");
     CAPTURE(campaign.output);
-    CHECK(campaign.output.find("  least light: 97 in run 0\n") != std::string::npos);
-    CHECK(campaign.output.find("  greatest light: 194 in run 1\n") != std::string::npos);
+    CHECK(campaign.output.find("  min light: 97 in run 0\n") != std::string::npos);
+    CHECK(campaign.output.find("  max light: 194 in run 1\n") != std::string::npos);
     CHECK(campaign.exit_code == 0);
     const auto described = command::run_jarol("vehicle lamp --describe --plugin " + plugin, "2>/dev/null");
     CHECK(described.output.starts_with("lamp: shines\n"));

@@ -126,7 +126,7 @@ namespace {
 bool reserve(const std::string& port) {
   static std::mutex mutex;
   static std::deque<Descriptor> held;
-  constexpr std::size_t most = 64;
+  constexpr std::size_t max = 64;
   sockaddr_un name{};
   name.sun_family = AF_UNIX;
   const std::string text = "jarol test port " + port;
@@ -135,7 +135,7 @@ bool reserve(const std::string& port) {
   if (bind(mark.get(), reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0) return false;
   const std::lock_guard lock(mutex);
   held.push_back(std::move(mark));
-  if (held.size() > most) held.pop_front();
+  if (held.size() > max) held.pop_front();
   return true;
 }
 

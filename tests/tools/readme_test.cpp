@@ -77,7 +77,7 @@ TEST_SUITE("tools/readme") {
   TEST_CASE("flying.md shows what is reported of a landing that nobody wanted") {
     const std::string sonar = " --set distributers.robostix.link.parameters.failures.sonar.";
     const std::string run = output_of("run specs/javiator.yaml" + sonar + "kind=lost" + sonar + "at=12s");
-    const std::size_t begin = run.find("  told ");
+    const std::size_t begin = run.find("  event ");
     REQUIRE(begin != std::string::npos);
     CHECK(page("specs/flying.md").find(run.substr(begin)) != std::string::npos);
   }
@@ -109,9 +109,9 @@ TEST_SUITE("tools/readme") {
     CHECK(between(text, "```cpp\n", "```") == jarol::read_source("tests/tools/plugins/low_pass.cpp")->text);
     std::ofstream(folder + "/smooth.yaml") << between(text, "```yaml\ngraph: smooth", "```").insert(0, "graph: smooth");
     const std::string run = output_of("run " + folder + "/smooth.yaml --for 1s --trace " + folder + "/smooth.csv");
-    const std::string told = "  activations" + between(run, "  activations", "  trace");
-    CHECK(told.size() > 60);
-    CHECK(text.find(told) != std::string::npos);
+    const std::string reported = "  activations" + between(run, "  activations", "  trace");
+    CHECK(reported.size() > 60);
+    CHECK(text.find(reported) != std::string::npos);
     const std::string trace = jarol::read_source(folder + "/smooth.csv")->text;
     const std::size_t last = trace.rfind('\n', trace.size() - 2);
     CHECK(text.find(trace.substr(last)) != std::string::npos);

@@ -154,7 +154,7 @@ TEST_SUITE("tools/recorded_run") {
                       is_none = x + "is no recording; one comes from jarol run --record or --log";
     CHECK(no_log("") == is_none);
     CHECK(no_log("graph: t\n") == is_none);
-    CHECK(no_log("{\"schema\": \"jarol.run/1\"}\n") == is_none);
+    CHECK(no_log("{\"schema\": \"jarol.run/2\"}\n") == is_none);
     CHECK(no_log("{\"schema\":\"jarol.log/1\",\"graph\":\"t\"}\n") ==
           x + "is a log of jarol 0.1.0, before logs were MCAP recordings; replay it with that version, or run again");
     CHECK(no_log(std::string(mcap::magic)) == is_none);

@@ -60,14 +60,14 @@ TEST_SUITE("tools/replay") {
     CHECK(line_of(replay.output, "it had") == "it had      activations 27, instants 15, faults 0, digest " + digest);
     const auto json = command::run_jarol("replay " + log + " --json --set tasks.loop.init.out=7", "2>/dev/null");
     CHECK(json.exit_code == 1);
-    CHECK(json.output.find("{\"schema\":\"jarol.replay/1\",") == 0);
+    CHECK(json.output.find("{\"schema\":\"jarol.replay/2\",") == 0);
     CHECK(json.output.find("\"verdict\":\"diverged\"") != std::string::npos);
     CHECK(json.output.find("\"log\":{\"file\":\"" + log +
                            "\",\"clock\":\"virtual\",\"values\":0,\"misses\":0,\"digest\":\"" + digest + "\"}") !=
           std::string::npos);
   }
 
-  TEST_CASE("a replay tells between which seconds it diverged, and what else is not as it was") {
+  TEST_CASE("a replay reports between which seconds it diverged, and what else is not as it was") {
     const TemporaryFolder folder;
     const std::string log = folder / "run.log", graph = folder.write("g.yaml", R"(graph: g
 tasks:
@@ -137,11 +137,11 @@ connections: [count.out -> sum.in]
     }
     const auto replay = command::run_jarol("replay " + log + " --json", "2>/dev/null");
     CHECK(replay.exit_code == 3);
-    const auto told = nlohmann::json::parse(replay.output);
-    CHECK(told["verdict"] == "unknown");
-    CHECK(told["simulated_ns"] >= 1'000'000'000);
-    CHECK(told["log"]["values"] >= 20);
-    CHECK(told["log"]["digest"].is_null());
+    const auto reported = nlohmann::json::parse(replay.output);
+    CHECK(reported["verdict"] == "unknown");
+    CHECK(reported["simulated_ns"] >= 1'000'000'000);
+    CHECK(reported["log"]["values"] >= 20);
+    CHECK(reported["log"]["digest"].is_null());
   }
 #endif
 
@@ -175,8 +175,8 @@ connections: [count.out -> sum.in]
     const TemporaryFolder folder;
     const std::string limited = folder / "limited.log";
     int failed = 0;
-    constexpr int most = 30;
-    for (int blocks = 1; blocks <= most; ++blocks) {
+    constexpr int max = 30;
+    for (int blocks = 1; blocks <= max; ++blocks) {
       CAPTURE(blocks);
       // in the middle of a record or between two
       const auto result = command::run_jarol(
@@ -194,7 +194,7 @@ connections: [count.out -> sum.in]
       std::filesystem::remove(limited);
     }
     CHECK(failed > 4);
-    CHECK(failed < most);
+    CHECK(failed < max);
   }
 
   TEST_CASE("what a run was expected to do is judged where its log can't be written, too") {

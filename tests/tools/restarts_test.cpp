@@ -38,7 +38,7 @@ const std::string rising =
 
 const std::string waiting = "time,command.altitude\n0,0\n60,0\n";
 
-// a sensor that tells the same for long is taken for stuck
+// a sensor that reports the same for long is taken for stuck
 const std::string noisy_helicopter = "vehicle helicopter --parameters specs/vehicles/helicopter.yaml";
 
 class Scenarios {
@@ -221,7 +221,7 @@ void check_landing(const Outcome& o) {
   INFO(o.errors);
   REQUIRE(o.exit_code == 0);
   MESSAGE("controller: " << o.run["outputs"]["to_terminal"].dump() << " " << o.run["links"][0].dump() << " "
-                         << o.run["safe_commands"].dump());
+                         << o.run["failsafe"].dump());
   MESSAGE("the second one: " << o.vehicle.dump());
   CHECK(o.run["outputs"]["to_terminal"]["cause"] == "answers_late");
   // the second one was never unlocked, and stands where it stood
@@ -236,7 +236,7 @@ TEST_SUITE("tools/restarts") {
     const Outcome o = scenarios().submarine_dies.get();
     INFO(o.errors);
     REQUIRE(o.exit_code == 0);
-    const json& safe = o.run["safe_commands"]["to_dune"];
+    const json& safe = o.run["failsafe"]["to_dune"];
     MESSAGE("to the submarine: " << safe.dump());
     MESSAGE("the second one: " << o.vehicle.dump());
     // from 1 s after the death on
@@ -303,20 +303,20 @@ TEST_SUITE("tools/restarts") {
     const Outcome o = scenarios().terminal_goes.get();
     INFO(o.errors);
     REQUIRE(o.exit_code == 0);
-    const json& told = o.run["outputs"]["to_terminal"];
-    MESSAGE(told.dump());
-    CHECK(told["cause"] == "operator_lost");
-    CHECK(told["state"] == "ground");
-    CHECK(std::abs(told["altitude"].get<double>()) < 0.05);
+    const json& reported = o.run["outputs"]["to_terminal"];
+    MESSAGE(reported.dump());
+    CHECK(reported["cause"] == "operator_lost");
+    CHECK(reported["state"] == "ground");
+    CHECK(std::abs(reported["altitude"].get<double>()) < 0.05);
   }
 
   TEST_CASE("a submarine whose console vanishes comes up") {
     const Outcome o = scenarios().console_goes.get();
     INFO(o.errors);
     REQUIRE(o.exit_code == 0);
-    const json& told = o.run["outputs"]["to_neptus"];
-    MESSAGE(told.dump());
-    CHECK(told["alarm"] == "operator_lost");
-    CHECK(told["pitch"] > 0.1);  // nose up
+    const json& reported = o.run["outputs"]["to_neptus"];
+    MESSAGE(reported.dump());
+    CHECK(reported["alarm"] == "operator_lost");
+    CHECK(reported["pitch"] > 0.1);  // nose up
   }
 }

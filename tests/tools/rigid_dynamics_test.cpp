@@ -13,14 +13,14 @@ using namespace std::chrono_literals;
 
 // The greatest difference of true values, over a mission, second by second.
 double apart(jarol::Session simbody, jarol::Session rigid, const std::vector<std::string>& values) {
-  double most = 0;
+  double max = 0;
   while (simbody.now() < simbody.end_of_mission()) {
     simbody.run_for(1s);
     rigid.run_for(1s);
     for (const std::string& value : values)
-      most = std::max(most, std::abs(simbody.true_value(value) - rigid.true_value(value)));
+      max = std::max(max, std::abs(simbody.true_value(value) - rigid.true_value(value)));
   }
-  return most;
+  return max;
 }
 
 double dives_apart(const std::string& mission, const std::string& profile) {
@@ -48,31 +48,31 @@ double flights_apart(const std::string& mission, const std::string& profile) {
 
 TEST_SUITE("tools/rigid_dynamics") {
   TEST_CASE("every mission of the submarine goes the same way with both dynamics") {
-    double most = 0;
+    double max = 0;
     for (const std::string mission : {"deep.csv", "dive.csv", "forward.csv", "late.csv", "lost_operator.csv"})
       for (const std::string profile : {"", "at_sea"}) {
         CAPTURE(mission);
         CAPTURE(profile);
         const double here = dives_apart(mission, profile);
-        CHECK(here < 1e-5);  // what sensors tell has 32 bits, and rounds small differences to none or to great ones
-        most = std::max(most, here);
+        CHECK(here < 1e-5);  // what sensors report has 32 bits, and rounds small differences to none or to great ones
+        max = std::max(max, here);
       }
-    MESSAGE("at most " << most << " m, m/s or rad apart");
+    MESSAGE("at most " << max << " m, m/s or rad apart");
   }
 
   TEST_CASE("every flight of the helicopter goes the same way with both dynamics") {
-    double most = 0;
+    double max = 0;
     const auto check = [&](const std::string& mission, const std::string& profile) {
       CAPTURE(mission);
       CAPTURE(profile);
       const double here = flights_apart(mission, profile);
       // what sensors measure is counted, and what falls between two counts goes to either
       CHECK(here < 1e-3);
-      most = std::max(most, here);
+      max = std::max(max, here);
     };
     for (const std::string profile : {"", "wind", "v2"})
       for (const std::string mission : {"hover.csv", "failing.csv"}) check(mission, profile);
     check("", "original");
-    MESSAGE("at most " << most << " m, m/s or rad apart");
+    MESSAGE("at most " << max << " m, m/s or rad apart");
   }
 }

@@ -26,7 +26,7 @@ std::vector<std::string> lines_of_file(const std::string& path) {
 
 const std::string title = "time,x,y,z,phi,theta,psi,u,v,w,p,q,r";
 
-// What drives it wrongly is told, and no file appears.
+// What drives it wrongly is reported, and no file appears.
 void check_refused(const std::string& script, const std::string& options, const std::string& message) {
   const TemporaryFolder folder;
   const auto path = folder.write("script.csv", script);
@@ -105,7 +105,7 @@ TEST_SUITE("tools/vehicle") {
     CHECK(lines_of_file(folder / "out.csv").size() == 302);
   }
 
-  TEST_CASE("what is wrong with a script is told at its place") {
+  TEST_CASE("what is wrong with a script is reported at its place") {
     check_refused("time,thruster,fin9\n0,0.5,0\n", "",
                   "FILE:1:15: error: column 'fin9' is no input of vehicle 'submarine'; did you mean 'fin0'?; there "
                   "are: thruster, fin0, fin1, fin2, fin3\n  time,thruster,fin9\n                ^\n1 error\n");
@@ -122,7 +122,7 @@ TEST_SUITE("tools/vehicle") {
         "fin2, fin3\n  thruster,time\n           ^\n2 errors\n");
   }
 
-  TEST_CASE("what is wrong with the options is told") {
+  TEST_CASE("what is wrong with the options is reported") {
     const std::string script = "time,thruster\n0,0\n";
     check_refused(script, "--initial z=4,foo=1",
                   "--initial:1:5: error: the state has no 'foo'; it has: x, y, z, phi, theta, psi, u, v, w, p, q, r\n"
@@ -157,7 +157,7 @@ TEST_SUITE("tools/vehicle") {
           "steers it\n");
   }
 
-  TEST_CASE("a motion that no number can tell ends with exit code 3 and without a file") {
+  TEST_CASE("a motion that no number can express ends with exit code 3 and without a file") {
     const TemporaryFolder folder;
     const auto script = folder.write("script.csv", "time,thruster\n0,0\n1,0\n");
     const auto run =
@@ -167,7 +167,7 @@ TEST_SUITE("tools/vehicle") {
     CHECK(!std::filesystem::exists(folder / "out.csv"));
   }
 
-  TEST_CASE("--describe tells state, inputs, outputs and parameters with their units, as text and as JSON") {
+  TEST_CASE("--describe reports state, inputs, outputs and parameters with their units, as text and as JSON") {
     const auto text = run_jarol("vehicle submarine --describe --set hull.mass=19");
     CHECK(text.exit_code == 0);
     CHECK(text.output.find("\nstate\n  x       [m]      north of the origin\n") != std::string::npos);

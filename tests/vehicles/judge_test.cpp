@@ -96,7 +96,7 @@ TEST_SUITE("vehicles/judge") {
     CHECK(!flying.mishap().has_value());
   }
 
-  TEST_CASE("the first mishap is the one that is told") {
+  TEST_CASE("the first mishap is the one that is reported") {
     HelicopterJudge judge({}, tilted(0));
     judge.look(nanoseconds(1), tilted(100 * degree), {});
     judge.look(nanoseconds(2), tilted(170 * degree), {});

@@ -56,10 +56,10 @@ Figure measure_check(const std::string& name, int tasks, double goal, int repeat
   for (const auto& [what, text] : sets) {
     const Graph graph = graph_of(text);
     if (analysis::check(graph).verdict != analysis::Verdict::schedulable) throw std::logic_error(what + " must hold");
-    double least = 1e300;
-    for (int i = 0; i < std::max(3, repeats / 10); ++i) least = std::min(least, check_ms(graph));
-    if (least < worst.value) continue;
-    worst.value = worst.ratio = least;
+    double min = 1e300;
+    for (int i = 0; i < std::max(3, repeats / 10); ++i) min = std::min(min, check_ms(graph));
+    if (min < worst.value) continue;
+    worst.value = worst.ratio = min;
     worst.text =
         "check of " + std::to_string(tasks) + " tasks beyond loading / 1 ms, the slowest of five sets: " + what;
   }

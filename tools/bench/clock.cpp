@@ -31,7 +31,7 @@ void sleep_bare(Samples& lateness) {
   }
 }
 
-// The task tells when it began; activation 0, before which nobody sleeps, does not count.
+// The task reports when it began; activation 0, before which nobody sleeps, does not count.
 void run_engine(const Graph& graph, Samples& lateness) {
   RealClock clock(graph.tasks.size());
   Executor executor(graph, {}, {.clock = &clock});

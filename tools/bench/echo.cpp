@@ -124,8 +124,8 @@ connections: [from -> relay.in, relay.out -> to]
     auto transport = std::make_unique<UdpTransport>(any_port(), Address());
     const UdpTransport& udp = *transport;
     auto link = std::make_unique<Link>(std::move(transport), javiator::message_set(), LinkOptions{});
-    std::vector<std::unique_ptr<Channels>> channels;
-    channels.push_back(std::make_unique<LinkedChannels>(std::move(link), std::make_unique<Typed<Echo>>()));
+    std::vector<std::unique_ptr<ExternalSystem>> channels;
+    channels.push_back(std::make_unique<LinkedSystem>(std::move(link), std::make_unique<Typed<Echo>>()));
     channels_ = channels.back().get();
     executor_ = std::make_unique<Executor>(graph_, std::move(channels));
     channels_->begin();
@@ -141,7 +141,7 @@ connections: [from -> relay.in, relay.out -> to]
 
  private:
   Graph graph_;
-  Channels* channels_ = nullptr;
+  ExternalSystem* channels_ = nullptr;
   std::unique_ptr<Executor> executor_;
   int port_ = 0;
   std::thread thread_;

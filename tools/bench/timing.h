@@ -19,7 +19,7 @@ double microseconds_at(double part, std::vector<std::int64_t>& samples);
 /// Takes results, so that no floor is optimised away.
 void keep(double result);
 
-/// Runs a graph slice by slice and tells the nanoseconds of one activation.
+/// Runs a graph slice by slice and reports the nanoseconds of one activation.
 class GraphRun {
  public:
   GraphRun(const std::string& text, bool digest, Duration slice, std::size_t workers = 1);

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 using campaign::Result;
 using campaign::Variation;
 
-constexpr std::uint64_t most_points = 20'000;
+constexpr std::uint64_t max_points = 20'000;
 constexpr std::size_t bins = 40;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
@@ -99,17 +99,16 @@ std::string campaign_page(const CampaignOutcome& outcome, const Json& report, co
   std::vector<Histogram> histograms(outcome.summary.metrics.size());
   for (std::size_t i = 0; i < histograms.size(); ++i) {
     const campaign::MetricSummary& m = outcome.summary.metrics[i];
-    if (m.least && m.greatest)
-      histograms[i] = {.from = m.least->value,
-                       .width = (m.greatest->value - m.least->value) / static_cast<double>(bins)};
+    if (m.min && m.max)
+      histograms[i] = {.from = m.min->value, .width = (m.max->value - m.min->value) / static_cast<double>(bins)};
   }
   // those that stand out are always there
   std::set<std::uint64_t> named;
   for (const campaign::MetricSummary& m : outcome.summary.metrics)
-    for (const auto& one : {m.least, m.greatest, m.worst})
+    for (const auto& one : {m.min, m.max, m.worst})
       if (one) named.insert(one->index);
   for (const Result& result : outcome.summary.not_good) named.insert(result.index);
-  const std::uint64_t every = (outcome.summary.runs + most_points - 1) / most_points;
+  const std::uint64_t every = (outcome.summary.runs + max_points - 1) / max_points;
   std::vector<double> index, outcomes;
   std::vector<std::vector<double>> varied(axes.size()), reached(histograms.size());
   std::uint64_t seen = 0;
@@ -125,7 +124,7 @@ std::string campaign_page(const CampaignOutcome& outcome, const Json& report, co
     for (std::size_t i = 0; i < reached.size(); ++i)
       reached[i].push_back(i < result.metrics.size() && result.metrics[i].number ? *result.metrics[i].number : nothing);
   });
-  Json data{{"schema", "jarol.campaign_page/1"}, {"report", report}, {"every", every}, {"vary", std::move(vary)}};
+  Json data{{"schema", "jarol.campaign_page/2"}, {"report", report}, {"every", every}, {"vary", std::move(vary)}};
   for (std::size_t i = 0; i < axes.size(); ++i) data["vary"][i]["values"] = base64_of(varied[i]);
   data["metrics"] = Json::array();
   for (std::size_t i = 0; i < reached.size(); ++i)

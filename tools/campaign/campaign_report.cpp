@@ -36,14 +36,14 @@ std::string table_of(const Summary& summary) {
   if (summary.metrics.empty()) return "";
   std::size_t width = 6;
   for (const MetricSummary& m : summary.metrics) width = std::max(width, m.name.size());
-  std::string text = fmt::format("  {:<{}}  {:>12}  {:>12}  {:>12}  {:>12}  {:>12}\n", "metric", width, "least", "5 %",
-                                 "median", "95 %", "greatest");
+  std::string text = fmt::format("  {:<{}}  {:>12}  {:>12}  {:>12}  {:>12}  {:>12}\n", "metric", width, "min", "5 %",
+                                 "median", "95 %", "max");
   for (const MetricSummary& m : summary.metrics) {
     if (m.count > 0)
       text += fmt::format("  {:<{}}  {:>12}  {:>12}  {:>12}  {:>12}  {:>12}\n", m.name, width,
-                          number_text(m.least->value, m.unit), number_text(m.percentiles[0], m.unit),
+                          number_text(m.min->value, m.unit), number_text(m.percentiles[0], m.unit),
                           number_text(m.percentiles[2], m.unit), number_text(m.percentiles[4], m.unit),
-                          number_text(m.greatest->value, m.unit));
+                          number_text(m.max->value, m.unit));
     for (const auto& [word, count] : m.words)
       text += fmt::format("  {:<{}}  {}: {} runs\n", m.name, width, word, count);
     if (m.missing > 0) text += fmt::format("  {:<{}}  nothing: {} runs\n", m.name, width, m.missing);
@@ -55,8 +55,8 @@ std::string table_of(const Summary& summary) {
 std::vector<std::pair<std::string, Case>> cases_of(const MetricSummary& m) {
   if (m.worst) return {{"worst", *m.worst}};
   std::vector<std::pair<std::string, Case>> cases;
-  if (m.least) cases.emplace_back("least", *m.least);
-  if (m.greatest) cases.emplace_back("greatest", *m.greatest);
+  if (m.min) cases.emplace_back("min", *m.min);
+  if (m.max) cases.emplace_back("max", *m.max);
   return cases;
 }
 
@@ -74,8 +74,8 @@ Json to_json(const MetricSummary& m, const expect::Condition& condition, bool is
   json["deviation"] = m.deviation;
   for (std::size_t i = 0; i < campaign::percents.size(); ++i)
     json["percentiles"][std::to_string(campaign::percents[i])] = m.percentiles[i];
-  if (m.least) json["least"] = to_json(*m.least, outcome);
-  if (m.greatest) json["greatest"] = to_json(*m.greatest, outcome);
+  if (m.min) json["min"] = to_json(*m.min, outcome);
+  if (m.max) json["max"] = to_json(*m.max, outcome);
   if (m.worst) json["worst"] = to_json(*m.worst, outcome);
   return json;
 }
@@ -141,7 +141,7 @@ Json to_json(const CampaignOutcome& outcome) {
                         {"outcome", campaign::word_of(result.outcome)},
                         {"why", result.why},
                         {"command", outcome.repeat(result.index)}});
-  Json json{{"schema", "jarol.campaign/1"}, {"graph", outcome.graph},
+  Json json{{"schema", "jarol.campaign/2"}, {"graph", outcome.graph},
             {"runs", outcome.draws.runs()}, {"done", summary.runs},
             {"ran", outcome.ran},           {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
             {"outcomes", outcomes},         {"metrics", metrics},

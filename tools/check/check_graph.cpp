@@ -7,12 +7,12 @@ namespace {
 
 // About how many steps one verdict takes.
 double cost_of(const analysis::System& system) {
-  const auto n = static_cast<double>(system.loads.size());
+  const auto n = static_cast<double>(system.models.size());
   if (system.policy.urgency != Urgency::turn && !system.offsets_hold) return n * n;
-  const auto lcm = analysis::hyperperiod(system.loads, std::int64_t{1} << 60);
+  const auto lcm = analysis::hyperperiod(system.models, std::int64_t{1} << 60);
   double activations = 0;
-  for (const analysis::Load& l : system.loads)
-    activations += lcm ? 2 * static_cast<double>(*lcm) / static_cast<double>(l.period) : 1e6;
+  for (const analysis::TaskModel& m : system.models)
+    activations += lcm ? 2 * static_cast<double>(*lcm) / static_cast<double>(m.period) : 1e6;
   return std::max(n * n, activations);
 }
 
@@ -54,7 +54,7 @@ void add_paths(const Graph& graph, const std::vector<bool>& before_outs, std::ve
     if (!std::any_of(next.begin(), next.end(), is_to)) next.push_back(c.to);
   }
   for (const End& end : next) {
-    if (paths.size() > most_paths) return;
+    if (paths.size() > max_paths) return;
     path.push_back(end);
     add_paths(graph, before_outs, path, paths);
     path.pop_back();
@@ -76,8 +76,8 @@ CheckReport check_graph(const std::string& file, const Graph& graph, bool sensit
       std::vector<End> path{{End::Kind::communicator, i, 0}};
       if (graph.communicators[i].direction == Direction::in) add_paths(graph, before_outs, path, paths);
     }
-    report.more_paths = paths.size() > most_paths;
-    if (report.more_paths) paths.resize(most_paths);
+    report.more_paths = paths.size() > max_paths;
+    if (report.more_paths) paths.resize(max_paths);
     report.chains.insert(report.chains.end(), paths.begin(), paths.end());
   }
   const bool stated = std::all_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return t.wcet; });
@@ -87,10 +87,10 @@ CheckReport check_graph(const std::string& file, const Graph& graph, bool sensit
   constexpr double quick = 5e6, searches = 40;
   const double cost = searches * cost_of(system), per_task = cost * static_cast<double>(graph.tasks.size());
   // close to full utilisation, or with many ways to spread tasks over cores, a test may take much longer than that
-  analysis::Effort effort;
-  if (!sensitivity) effort.left = 30'000'000;
+  analysis::Budget budget;
+  if (!sensitivity) budget.left = 30'000'000;
   if (sensitivity || cost < quick)
-    report.sensitivity = analysis::sensitivity_of(system, sensitivity || per_task < quick, effort);
+    report.sensitivity = analysis::sensitivity_of(system, sensitivity || per_task < quick, budget);
   return report;
 }
 

@@ -20,9 +20,9 @@ Json measured_json(const CheckReport& r) {
     const MeasuredTask& measured = r.measured->tasks[i];
     tasks.push_back({{"name", task.name},
                      {"activations", measured.activations},
-                     {"most_of_999_ns", measured.most_of_999.count()},
-                     {"most_ns", measured.most.count()},
-                     {"longer_than_wcet", task.wcet && measured.most > *task.wcet}});
+                     {"max_of_999_ns", measured.max_of_999.count()},
+                     {"max_ns", measured.max.count()},
+                     {"longer_than_wcet", task.wcet && measured.max > *task.wcet}});
   }
   return {{"over_ns", r.measured->over.count()},
           {"wcets_hold", longer_than_stated(r) == nullptr},
@@ -46,8 +46,8 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
               {"response_ns", or_null(response)},
               {"response_exact", response ? Json(static_cast<bool>(r.result.exact[i])) : Json(nullptr)},
               {"slack_ns", response ? Json(t.deadline.count() - *response) : Json(nullptr)},
-              {"max_wcet_ns", r.sensitivity ? or_null(r.sensitivity->most_wcet[i]) : Json(nullptr)},
-              {"min_deadline_ns", r.sensitivity ? or_null(r.sensitivity->least_deadline[i]) : Json(nullptr)}};
+              {"max_wcet_ns", r.sensitivity ? or_null(r.sensitivity->max_wcet[i]) : Json(nullptr)},
+              {"min_deadline_ns", r.sensitivity ? or_null(r.sensitivity->min_deadline[i]) : Json(nullptr)}};
     tasks.push_back(std::move(task));
   }
   Json witness = nullptr;
@@ -55,12 +55,12 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
     witness = Json::object();
     if (r.result.core_at_fault) witness["core"] = *r.result.core_at_fault;
     if (r.result.late) {
-      const analysis::Late& l = *r.result.late;
-      witness.update({{"task", r.graph->tasks[l.task].name},
-                      {"activation", l.activation},
-                      {"release_ns", l.release},
-                      {"finish_ns", l.finish},
-                      {"deadline_ns", l.deadline}});
+      const analysis::DeadlineMiss& m = *r.result.late;
+      witness.update({{"task", r.graph->tasks[m.task].name},
+                      {"activation", m.activation},
+                      {"release_ns", m.release},
+                      {"finish_ns", m.finish},
+                      {"deadline_ns", m.deadline}});
     }
     if (r.result.demand)
       witness["demand"] = {{"length_ns", r.result.demand->length},
@@ -83,7 +83,7 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
   for (const Remedy& remedy : r.remedies) suggestions.push_back(remedy.text);
   auto sets = Json::array();
   for (const Remedy& remedy : r.remedies) sets.push_back(remedy.set);
-  return {{"schema", "jarol.check/1"},
+  return {{"schema", "jarol.check/2"},
           {"file", r.file},
           {"graph", r.graph->name},
           {"cores", platform.cores},
@@ -95,7 +95,7 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
             {"copy_ns_per_byte", platform.copy.count()}}},
           {"verdict", word_of(r.result.verdict)},
           {"limits_hold", chains_hold(r)},
-          {"standing", word_of(r.result.standing)},
+          {"evidence", word_of(r.result.evidence)},
           {"reason", r.result.reason},
           {"witness", std::move(witness)},
           {"alpha", r.sensitivity && r.sensitivity->alpha ? Json(*r.sensitivity->alpha) : Json(nullptr)},

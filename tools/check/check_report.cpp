@@ -45,7 +45,7 @@ std::string worst_response(const CheckReport& r) {
   const Task& t = r.graph->tasks[*worst];
   return fmt::format(" core {}: task '{}' responds within {} at {}, deadline {} (late {}{})",
                      r.result.core[*worst].value_or(0), t.name, milliseconds(*r.result.response[*worst]),
-                     r.result.exact[*worst] ? "worst" : "most", milliseconds(t.deadline.count()),
+                     r.result.exact[*worst] ? "worst" : "max", milliseconds(t.deadline.count()),
                      r.result.exact[*worst] ? "" : "by at most ", milliseconds(over));
 }
 
@@ -60,17 +60,17 @@ std::string broken_limits(const CheckReport& r) {
 // The plainest reason of all: of all cores, or of one for the tasks that state it.
 std::string overload_text(const Graph& graph) {
   const analysis::System system = analysis::system_of(graph);
-  analysis::Loads loads = system.loads;
+  analysis::TaskModels models = system.models;
   std::string of = system.cores == 1 ? "one core" : fmt::format("{} cores", system.cores);
-  if (compare_utilisation(loads, system.cores) != std::strong_ordering::greater) {
+  if (compare_utilisation(models, system.cores) != std::strong_ordering::greater) {
     const auto core = analysis::overfull_core(system);
     if (!core) return "";
     of = fmt::format("core {}", *core);
-    loads.clear();
-    for (std::size_t i = 0; i < system.loads.size(); ++i)
-      if (system.core[i] == static_cast<std::int64_t>(*core)) loads.push_back(system.loads[i]);
+    models.clear();
+    for (std::size_t i = 0; i < system.models.size(); ++i)
+      if (system.core[i] == static_cast<std::int64_t>(*core)) models.push_back(system.models[i]);
   }
-  return fmt::format(" utilisation {:.2f}% of {}: there is more to do than time", 100 * analysis::utilisation(loads),
+  return fmt::format(" utilisation {:.2f}% of {}: there is more to do than time", 100 * analysis::utilisation(models),
                      of);
 }
 
@@ -78,7 +78,7 @@ std::string headline(const CheckReport& r) {
   switch (r.result.verdict) {
     case Verdict::schedulable:
       return fmt::format("{}: SCHEDULABLE on {}, {}{}: {}\n", printable(r.file), platform_text(r.graph->platform),
-                         word_of(r.result.standing), broken_limits(r), r.result.reason);
+                         word_of(r.result.evidence), broken_limits(r), r.result.reason);
     case Verdict::unknown:
       return fmt::format("{}: UNKNOWN on {}{}: {}\n", printable(r.file), platform_text(r.graph->platform),
                          broken_limits(r), r.result.reason);
@@ -88,16 +88,16 @@ std::string headline(const CheckReport& r) {
   if (const std::string overload = overload_text(*r.graph); !overload.empty())
     text += overload + (r.result.late || !worst_response(r).empty() ? ";" : "");
   if (r.result.late) {
-    const analysis::Late& l = *r.result.late;
+    const analysis::DeadlineMiss& m = *r.result.late;
     // under a global policy it is no single core's
     if (r.result.core_at_fault || analysis::policy_of(r.graph->platform).keeps_core)
       text += fmt::format(" core {}:", r.result.core_at_fault.value_or(0));
     text += fmt::format(" task '{}' activation {} (released {}) finishes {}, deadline {} (late {})",
-                        r.graph->tasks[l.task].name, l.activation, milliseconds(l.release), milliseconds(l.finish),
-                        milliseconds(l.deadline), milliseconds(l.finish - l.deadline));
+                        r.graph->tasks[m.task].name, m.activation, milliseconds(m.release), milliseconds(m.finish),
+                        milliseconds(m.deadline), milliseconds(m.finish - m.deadline));
   }
   if (!r.result.late) text += worst_response(r);
-  return text + "\n  " + word_of(r.result.standing) + ": " + r.result.reason + " on " +
+  return text + "\n  " + word_of(r.result.evidence) + ": " + r.result.reason + " on " +
          platform_text(r.graph->platform) + "\n";
 }
 
@@ -105,15 +105,15 @@ std::string headline(const CheckReport& r) {
 std::string measured_headline(const CheckReport& r) {
   const Task* const task = longer_than_stated(r);
   if (task == nullptr) return "";
-  const Duration most = r.measured->tasks[static_cast<std::size_t>(task - r.graph->tasks.data())].most;
+  const Duration max = r.measured->tasks[static_cast<std::size_t>(task - r.graph->tasks.data())].max;
   return fmt::format("{}: A WCET DOES NOT HOLD HERE: task '{}' took {}, its 'wcet' is {}; with the times as stated:\n",
-                     printable(r.file), task->name, duration_text(most), duration_text(*task->wcet));
+                     printable(r.file), task->name, duration_text(max), duration_text(*task->wcet));
 }
 
 // Who ran how long while the late activation waited and ran.
 std::string shares_text(const CheckReport& r) {
   if (!r.result.late) return "";
-  const analysis::Late& late = *r.result.late;
+  const analysis::DeadlineMiss& late = *r.result.late;
   std::vector<std::int64_t> ran(r.graph->tasks.size(), 0);
   for (const analysis::Slice& s : r.result.slices)
     if (s.end > late.release) ran[s.task] += s.end - std::max(s.begin, late.release);
@@ -205,8 +205,8 @@ std::string late_outs(const Graph& graph) {
     if (c.from.kind != End::Kind::task || c.to.kind != End::Kind::communicator) continue;
     const Task& producer = graph.tasks[c.from.index];
     const Communicator& out = graph.communicators[c.to.index];
-    if (producer.let || least_distance(producer.period, producer.offset, out.period, out.offset) !=
-                            least_distance(producer.period, Duration{}, out.period, Duration{}))
+    if (producer.let || min_distance(producer.period, producer.offset, out.period, out.offset) !=
+                            min_distance(producer.period, Duration{}, out.period, Duration{}))
       continue;
     text += fmt::format(
         "  note: '{}' reads at the very instant at which '{}' runs, and so one period late; give it an 'offset'\n",
@@ -230,23 +230,23 @@ std::string control_view(const Graph& graph, const ReportedChain& c) {
 std::string chain_lines(const CheckReport& r) {
   std::string text;
   for (const ReportedChain& c : r.chains) {
-    const analysis::ChainLatency& l = c.latency;
+    const analysis::ChainLatency& m = c.latency;
     text += fmt::format("  chain {}: reaction {} to {}, data age at most {}, jitter {}{}\n", c.chain.name,
-                        l.exact ? duration(l.min_reaction) : "-", duration(l.max_reaction), duration(l.max_age),
-                        duration(l.jitter), l.exact ? "" : " (upper bounds)");
-    if (l.exact) {
+                        m.exact ? duration(m.min_reaction) : "-", duration(m.max_reaction), duration(m.max_age),
+                        duration(m.jitter), m.exact ? "" : " (upper bounds)");
+    if (m.exact) {
       std::string hops;
       for (std::size_t i = 0; i < c.chain.path.size(); ++i) {
         const End& end = c.chain.path[i];
         hops += fmt::format(
             "{}{} {}", i == 0 ? "" : ", ",
             end.kind == End::Kind::task ? r.graph->tasks[end.index].name : r.graph->communicators[end.index].name,
-            duration(l.at[i + 1] - l.at[i]));
+            duration(m.at[i + 1] - m.at[i]));
       }
-      text += fmt::format("    slowest way from {}: {}\n", duration(l.at.front()), hops);
+      text += fmt::format("    slowest way from {}: {}\n", duration(m.at.front()), hops);
     }
     if (c.chain.crossover) text += control_view(*r.graph, c);
-    for (const std::string& broken : analysis::broken_limits(c.chain, l)) text += "    LIMIT BROKEN: " + broken + "\n";
+    for (const std::string& broken : analysis::broken_limits(c.chain, m)) text += "    LIMIT BROKEN: " + broken + "\n";
   }
   return text;
 }
@@ -258,7 +258,7 @@ std::string sensitivity_lines(const CheckReport& r) {
     if (r.sensitivity->binding) {
       const std::size_t i = *r.sensitivity->binding;
       text += fmt::format("; alone, '{}' has least room: up to {}", r.graph->tasks[i].name,
-                          duration(*r.sensitivity->most_wcet[i]));
+                          duration(*r.sensitivity->max_wcet[i]));
     }
     text += "\n";
   }

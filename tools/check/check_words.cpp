@@ -12,12 +12,12 @@ bool holds(const ReportedChain& c) { return analysis::broken_limits(c.chain, c.l
 const Task* longer_than_stated(const CheckReport& r) {
   if (!r.measured) return nullptr;
   const Task* worst = nullptr;
-  Duration most_over{};
+  Duration max_over{};
   for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
     const Task& task = r.graph->tasks[i];
-    const Duration over = task.wcet ? r.measured->tasks[i].most - *task.wcet : Duration{};
-    if (over <= most_over) continue;
-    most_over = over;
+    const Duration over = task.wcet ? r.measured->tasks[i].max - *task.wcet : Duration{};
+    if (over <= max_over) continue;
+    max_over = over;
     worst = &task;
   }
   return worst;
@@ -35,12 +35,12 @@ std::string assumption(const Platform& platform) {
   return how + overhead + (platform.phasing == Phasing::any ? "; whatever the offsets" : "");
 }
 
-std::string word_of(analysis::Standing standing) {
-  switch (standing) {
-    case analysis::Standing::none: return "none";
-    case analysis::Standing::proof: return "proof";
-    case analysis::Standing::safe: return "safe";
-    case analysis::Standing::by_run: return "by a run";
+std::string word_of(analysis::Evidence evidence) {
+  switch (evidence) {
+    case analysis::Evidence::none: return "none";
+    case analysis::Evidence::proof: return "proof";
+    case analysis::Evidence::safe: return "safe";
+    case analysis::Evidence::by_run: return "by a run";
   }
   return "";
 }

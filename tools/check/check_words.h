@@ -14,6 +14,6 @@ bool holds(const ReportedChain& chain);
 std::string assumption(const Platform& platform);
 
 /// What a verdict rests on: "proof", "safe", "by a run" or "none".
-std::string word_of(analysis::Standing standing);
+std::string word_of(analysis::Evidence evidence);
 
 }  // namespace jarol::tools

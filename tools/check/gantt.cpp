@@ -19,7 +19,7 @@ struct Window {
 };
 
 Window window_of(const analysis::Result& result) {
-  const analysis::Late& late = *result.late;
+  const analysis::DeadlineMiss& late = *result.late;
   Window window{late.release, late.finish, {}};
   for (const analysis::Slice& s : result.slices)
     if (s.end > late.release && s.begin < late.finish) window.begin = std::min(window.begin, s.begin);
@@ -34,7 +34,7 @@ Window window_of(const analysis::Result& result) {
 
 std::string gantt_text(const Graph& graph, const analysis::Result& result, std::size_t width) {
   if (!result.late || result.slices.empty()) return "";
-  const analysis::Late& late = *result.late;
+  const analysis::DeadlineMiss& late = *result.late;
   const auto [begin, end, tasks] = window_of(result);
   const std::int64_t first = begin, span = std::max<std::int64_t>(1, end - begin);
   const auto column = [&](std::int64_t t) {
@@ -124,7 +124,7 @@ class Chart {
 constexpr const char *on_time = "#4477aa", *too_late = "#cc3311", *release = "#228833";
 
 std::string late_svg(const Graph& graph, const analysis::Result& result) {
-  const analysis::Late& late = *result.late;
+  const analysis::DeadlineMiss& late = *result.late;
   const Window window = window_of(result);
   Chart chart(graph, window,
               fmt::format("{}: activation {} of {} is {} late", graph.name, late.activation,

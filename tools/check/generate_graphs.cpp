@@ -25,8 +25,8 @@ class Random {
 
 struct Share {
   std::int64_t period_us;
-  double share;              // of all tasks, in percent
-  double least, mean, most;  // average execution times, us
+  double share;           // of all tasks, in percent
+  double min, mean, max;  // average execution times, us
 };
 
 // Kramer, Ziegenbein, Hamann 2015, tables III and IV, without the angle-synchronous row.
@@ -55,8 +55,8 @@ std::vector<GeneratedTask> waters(const Generation& g, Random& random) {
     std::size_t r = 0;
     while (r + 1 < rows.size() && pick >= rows[r].share) pick -= rows[r++].share;
     // least, mean and most of the row: a power spreads evenly drawn numbers so that their mean is the row's
-    const double exponent = (rows[r].most - rows[r].least) / std::max(1e-9, rows[r].mean - rows[r].least) - 1;
-    const double time = rows[r].least + (rows[r].most - rows[r].least) * std::pow(random.unit(), exponent);
+    const double exponent = (rows[r].max - rows[r].min) / std::max(1e-9, rows[r].mean - rows[r].min) - 1;
+    const double time = rows[r].min + (rows[r].max - rows[r].min) * std::pow(random.unit(), exponent);
     tasks.push_back({rows[r].period_us, time / static_cast<double>(rows[r].period_us)});
     sum += tasks.back().utilisation;
   }

@@ -6,7 +6,7 @@
 
 #include "runtime/execute/executor.h"
 #include "runtime/machine/thread_time.h"
-#include "tools/report/told_faults.h"
+#include "tools/report/fault_report.h"
 #include "tools/run/crash_line.h"
 
 namespace jarol::tools {
@@ -74,16 +74,16 @@ Measurement measure_tasks(Loaded& loaded, Duration end) {
   if (executor.report().stopped)
     throw std::invalid_argument("nothing was measured, as a fault stopped the run: " +
                                 to_text(executor.report().faults.front()));
-  Measurement measured{end, {}, told_faults(executor.report())};
+  Measurement measured{end, {}, fault_report(executor.report())};
   for (std::size_t i = 0; i < loaded.graph->tasks.size(); ++i) {
     const Histogram& took = executor.team()->took(i);
-    measured.tasks.push_back({took.count(), Duration(took.most()), Duration(took.percentile(0.999))});
+    measured.tasks.push_back({took.count(), Duration(took.max()), Duration(took.percentile(0.999))});
   }
   return measured;
 }
 
-Duration with_margin(Duration most, double margin) {
-  auto ns = static_cast<std::int64_t>(std::ceil(static_cast<double>(most.count()) * (1 + margin)));
+Duration with_margin(Duration max, double margin) {
+  auto ns = static_cast<std::int64_t>(std::ceil(static_cast<double>(max.count()) * (1 + margin)));
   std::int64_t step = 1;
   while (ns / step >= 1000) step *= 10;
   ns = (ns + step - 1) / step * step;

@@ -11,8 +11,8 @@ namespace jarol::tools {
 
 struct MeasuredTask {
   std::size_t activations = 0;
-  Duration most{};
-  Duration most_of_999{};  // at most so long in 99.9 % of the activations, rounded up by a sixteenth at most
+  Duration max{};
+  Duration max_of_999{};  // at most so long in 99.9 % of the activations, rounded up by a sixteenth at most
 };
 
 /// How long the tasks of a graph took, in its order.
@@ -28,7 +28,7 @@ struct Measurement {
 Measurement measure_tasks(Loaded& loaded, Duration end);
 
 /// What is written for a measured maximum: with the margin on top, rounded up to three digits.
-Duration with_margin(Duration most, double margin);
+Duration with_margin(Duration max, double margin);
 
 /// The text of a graph's file with these WCETs in the graph's tasks, everything else as it was: a value that is there
 /// is replaced, else `wcet` follows the task's type. Throws std::invalid_argument for what can't be edited so.

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "graph/language/quantities.h"
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 #include "tools/check/measure.h"
 
 namespace jarol::tools {
@@ -40,18 +40,18 @@ std::string row_text(const Row& row, std::size_t width, bool write) {
   const auto text = [](const std::optional<Duration>& time) { return time ? duration_text(*time) : "-"; };
   const bool ran = row.measured.activations > 0;
   std::string line = fmt::format("  {:<{}}  {:>11}  {:>9}  {:>9}  {:>9}", row.name, width, row.measured.activations,
-                                 ran ? duration_text(row.measured.most_of_999) : "-",
-                                 ran ? duration_text(row.measured.most) : "-", text(row.stated));
+                                 ran ? duration_text(row.measured.max_of_999) : "-",
+                                 ran ? duration_text(row.measured.max) : "-", text(row.stated));
   if (write) line += fmt::format("  {:>9}", row.kept ? "kept" : text(row.written));
   if (!ran) return line + "  never released in that time\n";
-  return line + (row.stated && row.measured.most > *row.stated ? "  LONGER THAN ITS WCET\n" : "\n");
+  return line + (row.stated && row.measured.max > *row.stated ? "  LONGER THAN ITS WCET\n" : "\n");
 }
 
 std::string table(const std::vector<Row>& rows, bool write) {
   std::size_t width = 4;
   for (const Row& row : rows) width = std::max(width, row.name.size());
   std::string text = fmt::format("  {:<{}}  {:>11}  {:>9}  {:>9}  {:>9}{}\n", "task", width, "activations", "99.9 %",
-                                 "most", "wcet", write ? fmt::format("  {:>9}", "written") : "");
+                                 "max", "wcet", write ? fmt::format("  {:>9}", "written") : "");
   for (const Row& row : rows) text += row_text(row, width, write);
   return text;
 }
@@ -60,19 +60,19 @@ std::string table(const std::vector<Row>& rows, bool write) {
 // measured, and may hit any other the next time.
 Duration longest_disturbance(const std::vector<Row>& rows) {
   Duration longest{};
-  for (const Row& row : rows) longest = std::max(longest, row.measured.most - row.measured.most_of_999);
+  for (const Row& row : rows) longest = std::max(longest, row.measured.max - row.measured.max_of_999);
   return longest;
 }
 
 // A measurement that met no disturbance does not know how long one is, and what it writes must hold when the next one
 // meets it: tasks of a microsecond were seen to take 40 us of processor time on a busy machine.
-constexpr Duration least_disturbance = std::chrono::microseconds(100);
+constexpr Duration min_disturbance = std::chrono::microseconds(100);
 
 // Decides what is written for the tasks of the file as it stands, without overrides.
 void choose_written(const Graph& in_file, const MeasureOptions& options, std::vector<Row>& rows) {
-  const Duration met = longest_disturbance(rows), expected = std::max(met, least_disturbance);
+  const Duration met = longest_disturbance(rows), expected = std::max(met, min_disturbance);
   const auto wcet_with = [&](const Row& row, Duration disturbance) {
-    return with_margin(std::max(row.measured.most, row.measured.most_of_999 + disturbance), options.margin / 100);
+    return with_margin(std::max(row.measured.max, row.measured.max_of_999 + disturbance), options.margin / 100);
   };
   for (Row& row : rows) {
     const auto task =
@@ -97,7 +97,7 @@ void write_wcets(const std::string& file, const std::shared_ptr<const Source>& s
   if (read_source(file)->text != source->text)
     throw std::invalid_argument("'" + file + "' was changed while it was measured; nothing is written, measure again");
   load_graph(std::make_shared<Source>(Source{file, edited}), overrides);
-  WholeFile whole(file, Replaces::all);
+  AtomicFile whole(file, Replaces::all);
   whole.write(edited);
   whole.commit();
 }
@@ -118,7 +118,7 @@ Measurement measure_file(const std::string& file, const Overrides& overrides, co
   if (options.write) choose_written(*in_file.graph, options, rows);
   const auto any = [&](auto is) { return std::any_of(rows.begin(), rows.end(), is); };
   const bool writes = any([](const Row& row) { return row.written.has_value(); });
-  const auto tell = [&](bool written) {
+  const auto report = [&](bool written) {
     std::cerr << file << ": measured over " << duration_text(end)
               << " of logical time on this machine, in processor time\n"
               << table(rows, written) << measurement.faults;
@@ -128,21 +128,21 @@ Measurement measure_file(const std::string& file, const Overrides& overrides, co
     if (writes) write_wcets(file, source, without_changes(overrides), in_file, rows);
   } catch (...) {
     // what was measured is worth its time, also where it can't be written
-    tell(false);
+    report(false);
     throw;
   }
-  tell(options.write);
+  report(options.write);
   if (!options.write) return measurement;
   std::cerr << (writes ? fmt::format(
                              "  written into {}: 99.9 % and the longest disturbance of any task, but no less than {}, "
                              "with {:g} % on top\n",
-                             file, duration_text(least_disturbance), options.margin)
+                             file, duration_text(min_disturbance), options.margin)
                        : fmt::format("  nothing is written into {}\n", file));
   if (any([](const Row& row) { return row.kept; }))
     std::cerr << (options.lower
                       ? fmt::format("  a 'wcet' was kept that leaves no more than the margin over a disturbance "
                                     "of {}\n",
-                                    duration_text(least_disturbance))
+                                    duration_text(min_disturbance))
                       : "  a 'wcet' that is no shorter than that was kept; --lower lowers it\n");
   if (!overrides.set.empty() || !overrides.profile.empty())
     std::cerr << "  measured with --set or --profile; what follows is said of the file as it stands, without them\n";

@@ -17,7 +17,7 @@ struct MeasureOptions {
   double margin = 20;                // percent on top of what is written
 };
 
-/// Runs the file's graph with these overrides and tells on stderr how much processor time its tasks took. Then, where
+/// Runs the file's graph with these overrides and reports on stderr how much processor time its tasks took. Then, where
 /// that is asked for, writes into the file, which is left as it is if it would not load afterwards: per task what 99.9
 /// % of its activations stayed below, and the longest disturbance that any task met, but no less than 100 us, with the
 /// margin on top. A `wcet` that is stated stays if it is longer than what was met, unless it may be lowered. Throws

@@ -23,12 +23,12 @@ std::string quoted(const std::string& key, const std::string& value) { return "'
 class Search {
  public:
   Search(const std::shared_ptr<const Source>& source, const Overrides& overrides, const Registry& registry,
-         const CheckReport& report, analysis::Effort& effort)
+         const CheckReport& report, analysis::Budget& budget)
       : source_(source),
         overrides_(overrides),
         registry_(registry),
         report_(report),
-        effort_(effort),
+        budget_(budget),
         overfull_(analysis::overfull_core(analysis::system_of(*report.graph))) {}
 
   std::vector<Remedy> run() {
@@ -55,22 +55,22 @@ class Search {
   // Does the graph hold with these changes, chains included? Changes that make it invalid don't.
   bool holds(const std::vector<std::string>& set) {
     // loading takes its time, too
-    if (!effort_.spend(1000 * graph().tasks.size())) return false;
+    if (!budget_.spend(1000 * graph().tasks.size())) return false;
     Overrides changed = overrides_;
     changed.set.insert(changed.set.end(), set.begin(), set.end());
     Problems problems;
     const GraphSpec spec = load_spec(source_, changed, problems, registry_.grammars());
     const Graph graph = build_graph(spec, registry_, problems);
     if (!problems.empty()) return false;
-    if (analysis::verdict_of(analysis::system_of(graph), effort_) != Verdict::schedulable) return false;
+    if (analysis::verdict_of(analysis::system_of(graph), budget_) != Verdict::schedulable) return false;
     const bool chains_hold = std::all_of(graph.chains.begin(), graph.chains.end(), [&](const Chain& chain) {
       return analysis::broken_limits(chain, analysis::latency_of(graph, chain.path)).empty();
     });
-    return chains_hold && loads(changed);
+    return chains_hold && models(changed);
   }
 
   // Vehicles and links may have a word in it.
-  bool loads(const Overrides& changed) const {
+  bool models(const Overrides& changed) const {
     try {
       load_graph(source_, changed);
       return true;
@@ -179,9 +179,9 @@ class Search {
   }
 
   Remedy cores_remedy() const {
-    const auto least = static_cast<std::int64_t>(std::ceil(report_.result.utilisation - 1e-9));
-    const std::int64_t cores = std::max<std::int64_t>(graph().platform.cores + 1, least);
-    if (cores > most_cores) return {};
+    const auto min = static_cast<std::int64_t>(std::ceil(report_.result.utilisation - 1e-9));
+    const std::int64_t cores = std::max<std::int64_t>(graph().platform.cores + 1, min);
+    if (cores > max_cores) return {};
     return {quoted("cores", std::to_string(cores)), {"platform.cores=" + std::to_string(cores)}};
   }
   void cores() { add(cores_remedy()); }
@@ -266,7 +266,7 @@ class Search {
   void wcets() {
     if (report_.result.verdict == Verdict::schedulable) return;
     std::size_t count = 0;
-    for (const analysis::WcetCut& cut : analysis::wcet_cuts(analysis::system_of(graph()), effort_)) {
+    for (const analysis::WcetCut& cut : analysis::wcet_cuts(analysis::system_of(graph()), budget_)) {
       if (found_.size() >= max_remedies || ++count > 2) return;
       const Task& task = graph().tasks[cut.task];
       const std::string wcet = duration_text(Duration(cut.wcet));
@@ -279,7 +279,7 @@ class Search {
   const Overrides& overrides_;
   const Registry& registry_;
   const CheckReport& report_;
-  analysis::Effort& effort_;
+  analysis::Budget& budget_;
   const std::optional<std::size_t> overfull_;
   Remedy beside_;
   std::vector<Remedy> found_;
@@ -288,12 +288,12 @@ class Search {
 }  // namespace
 
 std::vector<Remedy> find_remedies(const std::shared_ptr<const Source>& source, const Overrides& overrides,
-                                  const Registry& registry, const CheckReport& report, analysis::Effort& effort) {
+                                  const Registry& registry, const CheckReport& report, analysis::Budget& budget) {
   const bool stated =
       std::all_of(report.graph->tasks.begin(), report.graph->tasks.end(), [](const Task& t) { return t.wcet; });
   if (!stated || report.graph->tasks.empty()) return {};
   if (report.result.verdict == Verdict::schedulable && chains_hold(report)) return {};
-  return Search(source, overrides, registry, report, effort).run();
+  return Search(source, overrides, registry, report, budget).run();
 }
 
 }  // namespace jarol::tools

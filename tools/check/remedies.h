@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "graph/analysis/load.h"
+#include "graph/analysis/task_model.h"
 #include "graph/language/load.h"
 #include "graph/registry.h"
 
@@ -23,6 +23,6 @@ struct Remedy {
 /// and policies that are analysed only. Where the tasks that state a core fill it beyond all time, another core comes
 /// first. Each keeps the limits of all chains, too. Fewer where it would take more effort.
 std::vector<Remedy> find_remedies(const std::shared_ptr<const Source>& source, const Overrides& overrides,
-                                  const Registry& registry, const CheckReport& report, analysis::Effort& effort);
+                                  const Registry& registry, const CheckReport& report, analysis::Budget& budget);
 
 }  // namespace jarol::tools

@@ -14,7 +14,7 @@
 #include "distributers/campaign/statement.h"
 #include "distributers/campaign/summary.h"
 #include "graph/text/escape.h"
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 #include "tools/campaign/campaign_page.h"
 #include "tools/campaign/campaign_report.h"
 #include "tools/campaign/pace.h"
@@ -79,7 +79,7 @@ void write_table(const std::string& path, const campaign::Results& results, cons
     write_csv(results, campaign, draws, [](std::string_view text) { std::cout << text; });
     return;
   }
-  WholeFile file(path);
+  AtomicFile file(path);
   write_csv(results, campaign, draws, [&](std::string_view text) { file.write(text); });
   file.commit();
 }
@@ -214,7 +214,7 @@ int run(const CampaignOptions& options) {
                             fmt::format(" --record run_{}_mild.mcap", shrunk->start.index);
   if (whole && !options.csv.empty()) write_table(options.csv, results, campaign, draws);
   if (whole && !options.report.empty()) {
-    WholeFile page(options.report);
+    AtomicFile page(options.report);
     page.write(campaign_page(outcome, to_json(outcome), results));
     page.commit();
   }

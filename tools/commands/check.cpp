@@ -13,7 +13,7 @@
 
 #include "graph/language/key.h"
 #include "graph/language/quantities.h"
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 #include "tools/check/check_graph.h"
 #include "tools/check/gantt.h"
 #include "tools/check/generate_graphs.h"
@@ -104,10 +104,10 @@ void note_what_lacks(const CheckReport& report, const CheckOptions& options, std
   if (!options.svg.empty() && gantt_svg(*report.graph, report.result).empty())
     notes.push_back("no picture in '" + options.svg + "', as it needs a 'wcet' of every task");
   if (options.sensitivity && !report.sensitivity)
-    notes.emplace_back("--sensitivity tells nothing, as it needs a 'wcet' of every task");
+    notes.emplace_back("--sensitivity reports nothing, as it needs a 'wcet' of every task");
   if (options.all_chains && report.chains.size() == report.graph->chains.size())
-    notes.emplace_back("--chains tells nothing, as no path leads from an 'in' to an 'out'");
-  if (report.more_paths) notes.push_back("--chains tells " + std::to_string(most_paths) + " paths, there are more");
+    notes.emplace_back("--chains reports nothing, as no path leads from an 'in' to an 'out'");
+  if (report.more_paths) notes.push_back("--chains reports " + std::to_string(max_paths) + " paths, there are more");
 }
 
 void check_file(const std::string& file, const CheckOptions& options, Checked& checked) {
@@ -118,14 +118,14 @@ void check_file(const std::string& file, const CheckOptions& options, Checked& c
   const Overrides overrides = options.measuring.write ? without_changes(options.overrides) : options.overrides;
   const Loaded loaded = load_graph(file, overrides);
   CheckReport report = check_graph(file, *loaded.graph, options.sensitivity, options.all_chains);
-  analysis::Effort effort;
-  if (!options.sensitivity) effort.left = 30'000'000;
-  report.remedies = find_remedies(read_source(file), overrides, loaded.known->graph, report, effort);
+  analysis::Budget budget;
+  if (!options.sensitivity) budget.left = 30'000'000;
+  report.remedies = find_remedies(read_source(file), overrides, loaded.known->graph, report, budget);
   // what was written holds by now
   if (!options.measuring.write) report.measured = std::move(measured);
   note_what_lacks(report, options, checked.notes);
   if (const std::string drawn = gantt_svg(*loaded.graph, report.result); !options.svg.empty() && !drawn.empty()) {
-    WholeFile picture(options.svg);
+    AtomicFile picture(options.svg);
     picture.write(drawn);
     picture.commit();
   }
@@ -199,7 +199,7 @@ int write_graphs(const CheckOptions& options) {
                                   "' is there, and --generate overwrites nothing; choose another folder or --seed, or "
                                   "remove it");
   for (int i = 0; i < options.count; ++i, ++generation.seed) {
-    WholeFile file(path_of(generation.seed), Replaces::nothing);
+    AtomicFile file(path_of(generation.seed), Replaces::nothing);
     file.write(generate_graph(generation));
     file.commit();
   }
@@ -229,7 +229,7 @@ void add_check(CommandLine& line, int& exit_code) {
   command->add_flag("--chains", options->all_chains, "Latency of every path from an 'in' to an 'out'");
   command->add_flag(
       "--measure", options->measuring.measure,
-      "First run the tasks and tell how much processor time they take on this machine, beside their 'wcet': "
+      "First run the tasks and report how much processor time they take on this machine, beside their 'wcet': "
       "what preempts them is not counted");
   command->add_flag("--write", options->measuring.write,
                     "Measure, and write the longest times with a margin into the file as 'wcet', where none is stated "

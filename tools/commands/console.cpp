@@ -23,7 +23,7 @@ namespace jarol::tools {
 namespace {
 
 // Of each output, evenly spread: as much as a screen is wide, and a few times as much for those who look closely.
-constexpr std::int64_t most_samples = 8192;
+constexpr std::int64_t max_samples = 8192;
 
 struct ConsoleOptions {
   std::string log;
@@ -41,7 +41,7 @@ std::vector<std::uint64_t> strides_of(const Graph& graph, Duration covered) {
   std::vector<std::uint64_t> strides;
   const auto add = [&](Duration period) {
     const std::int64_t samples = covered.count() / std::max<std::int64_t>(1, period.count());
-    strides.push_back(static_cast<std::uint64_t>(1 + samples / most_samples));
+    strides.push_back(static_cast<std::uint64_t>(1 + samples / max_samples));
   };
   for (const Output& output : outputs_of(graph)) add(periods.at(output.name.substr(0, output.name.find('.'))));
   // where vehicles truly are: at no more instants than there are
@@ -67,7 +67,7 @@ std::string text_of(const RecordedRun& log, const Comparison& comparison) {
   if (const auto& end = log.end())
     text += fmt::format("activations {}, instants {}, faults {}\ndigest      0x{:016x}\n", end->activations,
                         end->instants, end->faults, end->digest);
-  if (comparison.standing == Standing::diverged)
+  if (comparison.evidence == Evidence::diverged)
     text += "DIVERGED    what is shown is not what the run did; jarol replay shows from where\n";
   return text;
 }
@@ -84,7 +84,7 @@ int show(const ConsoleOptions& options) {
       {{*loaded.graph, options.log, "recorded", log.covered(), types_of_truth(loaded),
         console::find_flow(*loaded.graph, loaded.known->vehicles, sources_of(log.recording().files()))},
        server},
-      most_samples, strides_of(*loaded.graph, log.covered()));
+      max_samples, strides_of(*loaded.graph, log.covered()));
   GraphRun run(std::move(loaded), {.sinks = {&console.feed()}, .misses = misses, .truth = true, .watched = true});
   const Interruptible interruptible;
   // of a long one pages see the begin while the rest is run

@@ -40,7 +40,7 @@ nlohmann::ordered_json permission(const std::string& refused) {
 void print_json(const MachineFacts& m, const Arithmetic& a, const std::string& guardian,
                 const std::vector<Lateness>& measured) {
   nlohmann::ordered_json whole{
-      {"schema", "jarol.doctor/1"},
+      {"schema", "jarol.doctor/2"},
       {"kernel", m.kernel},
       {"preempt_rt", m.preempt_rt},
       {"cpus", m.cpus},
@@ -50,7 +50,7 @@ void print_json(const MachineFacts& m, const Arithmetic& a, const std::string& g
       {"lock_memory", permission(m.lock_refused)},
       {"guardian", permission(guardian)},
       {"default_timer_slack_ns", m.default_slack.count()},
-      {"least_timer_slack_ns", m.least_slack.count()},
+      {"min_timer_slack_ns", m.min_slack.count()},
       {"clock_resolution_ns", m.resolution.count()},
       {"governors", m.governors},
       {"math", {{"foreign_calls", a.foreign_calls}, {"blas", a.blas}, {"blas_varies", a.blas_varies}}},
@@ -62,7 +62,7 @@ void print_json(const MachineFacts& m, const Arithmetic& a, const std::string& g
                                  {"count", l.of.count()},
                                  {"p50_ns", l.of.percentile(0.5)},
                                  {"p99_ns", l.of.percentile(0.99)},
-                                 {"worst_ns", l.of.most()}});
+                                 {"worst_ns", l.of.max()}});
   std::cout << json_line(whole);
 }
 
@@ -91,19 +91,18 @@ void print_text(const MachineFacts& m, const Arithmetic& a, const std::string& g
                             "a page fault may delay a task; " + std::string(permit_locked_memory)));
   line("guardian", or_refused(guardian, "can be started: it hands over 'safe' after a crash",
                               "after a crash the last commands stay in force"));
-  line("timer slack",
-       fmt::format("{}, can be set to {}", duration_text(m.default_slack), duration_text(m.least_slack)));
+  line("timer slack", fmt::format("{}, can be set to {}", duration_text(m.default_slack), duration_text(m.min_slack)));
   line("clock", fmt::format("CLOCK_MONOTONIC with a resolution of {}", duration_text(m.resolution)));
-  line("governor", m.governors.empty() ? "the machine does not tell" : joined(m.governors));
+  line("governor", m.governors.empty() ? "the machine does not report" : joined(m.governors));
   line("sin, exp, ...",
        a.foreign_calls.empty() ? "this program's own, for all libraries too" : joined(a.foreign_calls));
   line("BLAS", a.blas.empty() ? "none is loaded" : a.blas + (a.blas_varies ? ", which picks by processor" : ""));
   std::cout << "lateness of bare sleeps at 1 kHz\n";
   for (const Lateness& l : measured)
-    line(l.scheduler == "fifo" ? "SCHED_FIFO" : "ordinary",
-         fmt::format("p50 {}  p99 {}  worst {}  of {}", duration_text(Duration(l.of.percentile(0.5))),
-                     duration_text(Duration(l.of.percentile(0.99))), duration_text(Duration(l.of.most())),
-                     l.of.count()));
+    line(
+        l.scheduler == "fifo" ? "SCHED_FIFO" : "ordinary",
+        fmt::format("p50 {}  p99 {}  worst {}  of {}", duration_text(Duration(l.of.percentile(0.5))),
+                    duration_text(Duration(l.of.percentile(0.99))), duration_text(Duration(l.of.max())), l.of.count()));
 }
 
 int examine(const DoctorOptions& options) {

@@ -15,8 +15,8 @@
 namespace jarol::tools {
 namespace {
 
-using messages::FieldForm;
-using messages::MessageForm;
+using messages::FieldDescriptor;
+using messages::MessageDescriptor;
 using messages::MessageSet;
 using Json = nlohmann::ordered_json;
 using Rows = std::vector<std::vector<std::string>>;
@@ -43,11 +43,11 @@ void print_rows(const Rows& rows) {
   }
 }
 
-std::string size_text(const MessageForm& m) {
+std::string size_text(const MessageDescriptor& m) {
   return m.wire_size < 0 ? "any size" : std::to_string(m.wire_size) + (m.wire_size == 1 ? " byte" : " bytes");
 }
 
-std::string type_text(const FieldForm& f) {
+std::string type_text(const FieldDescriptor& f) {
   std::string text(f.type);
   if (f.count > 0) text += "[" + std::to_string(f.count) + "]";
   if (!f.message_type.empty()) text += " of " + std::string(f.message_type);
@@ -55,11 +55,10 @@ std::string type_text(const FieldForm& f) {
   return text;
 }
 
-std::string notes_on(const FieldForm& f) {
+std::string notes_on(const FieldDescriptor& f) {
   std::string text(f.text);
   const auto add = [&](const std::string& note) { text += (text.empty() ? "" : ", ") + note; };
-  if (!f.least.empty() || !f.most.empty())
-    add((f.least.empty() ? "" : std::string(f.least)) + " to " + std::string(f.most));
+  if (!f.min.empty() || !f.max.empty()) add((f.min.empty() ? "" : std::string(f.min)) + " to " + std::string(f.max));
   if (!f.standard.empty()) add("default " + std::string(f.standard));
   return text;
 }
@@ -70,21 +69,21 @@ void print_sets(const std::vector<const MessageSet*>& sets) {
     rows.push_back({std::string(set->name), std::to_string(set->messages.size()) + " messages",
                     std::string(set->title) + " " + std::string(set->version) + ": " + std::string(set->text)});
   print_rows(rows);
-  std::cout << "\njarol messages SET tells its messages, jarol messages SET NAME the fields of one\n";
+  std::cout << "\njarol messages SET reports its messages, jarol messages SET NAME the fields of one\n";
 }
 
 void print_set(const MessageSet& set) {
   std::cout << set.name << ": " << set.text << ", " << set.title << " " << set.version << "\n\n";
   Rows rows;
-  for (const MessageForm* m : set.messages)
+  for (const MessageDescriptor* m : set.messages)
     rows.push_back({std::to_string(m->id), std::string(m->name), size_text(*m), std::string(m->text)});
   print_rows(rows);
 }
 
-void print_message(const MessageForm& m) {
+void print_message(const MessageDescriptor& m) {
   std::cout << m.name << ", id " << m.id << ", " << size_text(m) << ": " << m.text << "\n";
   Rows rows;
-  for (const FieldForm& f : m.fields) {
+  for (const FieldDescriptor& f : m.fields) {
     rows.push_back({std::string(f.name), type_text(f), notes_on(f)});
     for (const auto& v : f.values) rows.push_back({"", "", std::to_string(v.value) + " " + std::string(v.name)});
   }
@@ -92,22 +91,22 @@ void print_message(const MessageForm& m) {
   print_rows(rows);
 }
 
-Json json_of(const FieldForm& f) {
+Json json_of(const FieldDescriptor& f) {
   Json json{{"name", f.name}, {"type", f.type}, {"unit", f.unit}, {"text", f.text}};
   if (f.count > 0) json["count"] = f.count;
-  if (!f.least.empty()) json["min"] = f.least;
-  if (!f.most.empty()) json["max"] = f.most;
+  if (!f.min.empty()) json["min"] = f.min;
+  if (!f.max.empty()) json["max"] = f.max;
   if (!f.standard.empty()) json["default"] = f.standard;
   if (!f.message_type.empty()) json["message_type"] = f.message_type;
   for (const auto& v : f.values) json[f.bits ? "bits" : "values"][std::string(v.name)] = v.value;
   return json;
 }
 
-void print_json(const std::vector<const MessageForm*>& listed) {
-  Json whole{{"schema", "jarol.messages/1"}, {"messages", Json::array()}};
-  for (const MessageForm* m : listed) {
+void print_json(const std::vector<const MessageDescriptor*>& listed) {
+  Json whole{{"schema", "jarol.messages/2"}, {"messages", Json::array()}};
+  for (const MessageDescriptor* m : listed) {
     Json fields = Json::array();
-    for (const FieldForm& f : m->fields) fields.push_back(json_of(f));
+    for (const FieldDescriptor& f : m->fields) fields.push_back(json_of(f));
     whole["messages"].push_back({{"set", m->set().name},
                                  {"name", m->name},
                                  {"id", m->id},
@@ -121,7 +120,7 @@ void print_json(const std::vector<const MessageForm*>& listed) {
 int list_messages(const MessagesOptions& options) {
   const std::vector<const MessageSet*> sets = sets_of(known_with(options.plugins));
   std::vector<std::string> names;
-  std::vector<const MessageForm*> listed;
+  std::vector<const MessageDescriptor*> listed;
   if (options.set.empty()) {
     if (options.decode || options.encode)
       throw std::invalid_argument("--decode and --encode need a set; jarol messages lists them");
@@ -144,14 +143,14 @@ int list_messages(const MessagesOptions& options) {
     options.json ? print_json(listed) : print_set(*set);
     return exit_good;
   }
-  const MessageForm* const form = set->find(std::string_view(options.name));
-  if (form == nullptr) {
-    for (const MessageForm* m : set->messages) names.emplace_back(m->name);
+  const MessageDescriptor* const descriptor = set->find(std::string_view(options.name));
+  if (descriptor == nullptr) {
+    for (const MessageDescriptor* m : set->messages) names.emplace_back(m->name);
     const std::string close = did_you_mean(options.name, names);
     throw std::invalid_argument("set " + options.set + " has no message '" + options.name + "'" +
                                 (close.empty() ? "; jarol messages " + options.set + " lists them" : close));
   }
-  options.json ? print_json({form}) : print_message(*form);
+  options.json ? print_json({descriptor}) : print_message(*descriptor);
   return exit_good;
 }
 

@@ -19,11 +19,11 @@
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
 #include "tools/report/differences_report.h"
+#include "tools/report/fault_report.h"
 #include "tools/report/json_line.h"
 #include "tools/report/progress.h"
 #include "tools/report/rest_report.h"
 #include "tools/report/run_end.h"
-#include "tools/report/told_faults.h"
 #include "tools/run/apart.h"
 #include "tools/run/crash_line.h"
 #include "tools/run/interrupt.h"
@@ -54,12 +54,12 @@ std::string text_of(const Comparison& comparison, const Report& report, const Re
   std::string text;
   if (log.rest_begun())
     text += "  at end      from " + seconds_text(*log.rest_begun()) + " s on the run brought its vehicle to rest\n";
-  if (comparison.standing == Standing::same) {
+  if (comparison.evidence == Evidence::same) {
     text += "  same        as " + run;
     if (differences.compared() > 0) text += fmt::format(", {} values compared", differences.compared());
     text += "\n";
   }
-  if (comparison.standing == Standing::diverged) {
+  if (comparison.evidence == Evidence::diverged) {
     text += "  DIVERGED    from " + run;
     if (comparison.same_until && *comparison.same_until > Duration{})
       text += " after " + seconds_text(*comparison.same_until) + " s";
@@ -86,7 +86,7 @@ nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comp
   const auto or_null = [](bool known, const auto& value) {
     return known ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
   };
-  json["schema"] = "jarol.replay/1";
+  json["schema"] = "jarol.replay/2";
   json.erase("clock");  // that of the run stands in "log"
   json["log"] = {
       {"file", options.log},
@@ -97,8 +97,8 @@ nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comp
   if (log.rest_begun()) json["log"]["rest_begun_ns"] = log.rest_begun()->count();
   if (outcome.begun > Duration{}) json["begun_ns"] = outcome.begun.count();
   json["interrupted"] = comparison.interrupted;
-  json["verdict"] = comparison.standing == Standing::same       ? "same"
-                    : comparison.standing == Standing::diverged ? "diverged"
+  json["verdict"] = comparison.evidence == Evidence::same       ? "same"
+                    : comparison.evidence == Evidence::diverged ? "diverged"
                                                                 : "unknown";
   json["changed_files"] = changed_files(log.recording());
   json.update(tools::json_of(differences));
@@ -129,7 +129,7 @@ int replay(const ReplayOptions& options) {
     only.emplace(*whole.graph, options.only, log.recording());
     misses = only->misses_of(misses);
   } else {
-    std::vector<std::unique_ptr<Channels>> replayed = recorded_channels(whole, log);
+    std::vector<std::unique_ptr<ExternalSystem>> replayed = recorded_channels(whole, log);
     whole.channels =
         begin > Duration{} ? with_state_of(std::move(whole.channels), std::move(replayed)) : std::move(replayed);
   }
@@ -177,7 +177,7 @@ int replay(const ReplayOptions& options) {
     if (!run_end.hangs) sinks.close();
   } catch (const std::exception& error) { unwritten = error.what(); }
   const Differences& differences = values.differences();
-  if (differences.first() && !comparison.interrupted) comparison.standing = Standing::diverged;
+  if (differences.first() && !comparison.interrupted) comparison.evidence = Evidence::diverged;
   const Report& report = executor.report();
   RunVerdict verdict;
   const Duration reached = comparison.interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated);
@@ -189,7 +189,7 @@ int replay(const ReplayOptions& options) {
   const RunOutcome outcome{.state = executor.state(),
                            .report = report,
                            .rest = executor.rest(),
-                           .safe_commands = executor.safe_commands(),
+                           .failsafe = executor.failsafe(),
                            .noted = noted,
                            .end = run_end,
                            .seconds = seconds,
@@ -214,13 +214,13 @@ int replay(const ReplayOptions& options) {
       for (const std::string& file : changed_files(log.recording()))
         std::cout << "  changed     '" << printable(file)
                   << "' is not what the run has read; it was replayed as it was then\n";
-    std::cerr << told_faults(report);
+    std::cerr << fault_report(report);
   }
   std::cerr << failures_text(verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
   std::cerr << errors_of(run_end, executor.now());
-  const int compared = comparison.interrupted || comparison.standing == Standing::same ? exit_good
-                       : comparison.standing == Standing::diverged                     ? exit_negative
+  const int compared = comparison.interrupted || comparison.evidence == Evidence::same ? exit_good
+                       : comparison.evidence == Evidence::diverged                     ? exit_negative
                                                                                        : exit_unfinished;
   const int judged = !comparison.interrupted && verdict.is_negative() ? exit_negative : exit_good;
   const int exit_code =

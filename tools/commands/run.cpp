@@ -157,9 +157,9 @@ int run(RunOptions options) {
   if (!options.recording.checkpoints.empty())
     saved.take_each(length_of("--record-checkpoints", options.recording.checkpoints), save_in_recording);
   saved.require_saveable(begin, end);
-  const std::vector<Channels*>& channels = graph_run.channels();
+  const std::vector<ExternalSystem*>& channels = graph_run.channels();
   const bool steers =
-      clock || std::any_of(channels.begin(), channels.end(), [](const Channels* c) { return c->outlives_run(); });
+      clock || std::any_of(channels.begin(), channels.end(), [](const ExternalSystem* c) { return c->outlives_run(); });
   const bool shown = !options.json && isatty(STDERR_FILENO) != 0 && end != Duration::max();
   let_writing_fail();
   if (console) {
@@ -225,7 +225,7 @@ int run(RunOptions options) {
   const RunOutcome outcome{.state = executor.state(),
                            .report = report,
                            .rest = executor.rest(),
-                           .safe_commands = executor.safe_commands(),
+                           .failsafe = executor.failsafe(),
                            .noted = noted,
                            .end = run_end,
                            .clock = clock ? &*clock : nullptr,

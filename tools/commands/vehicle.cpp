@@ -109,7 +109,7 @@ int serve_in_lockstep(const VehicleCommandOptions& options, const vehicles::Vehi
   }
   if (listen.empty()) throw std::invalid_argument("--link lockstep needs --listen, as in --listen 7010");
   make_vehicle(options.made, vehicle_class, parameters, own_seed(options.made, vehicle_class),
-               problems);  // what is wrong with it is told at once
+               problems);  // what is wrong with it is reported at once
   return serve_vehicle_in_lockstep(
       vehicle_class, distributers::Address::parse(listen),
       [&](std::uint64_t seed) {
@@ -130,11 +130,11 @@ int serve(const VehicleCommandOptions& options, const vehicles::VehicleClass& ve
   std::optional<MotionFile> motion;
   const Duration period = options.csv.empty() ? Duration{} : period_of(options, vehicle->grid(), end);
   if (!options.csv.empty()) motion.emplace(options.csv, vehicle_class);
-  const Told told = options.bare ? Told::true_state : Told::all;
+  const Telemetry telemetry = options.bare ? Telemetry::true_state : Telemetry::all;
   RealTimeOptions real_time;
   if (options.priority > 0) real_time.priority = options.priority;
   const int exit_code = serve_vehicle(*vehicle, vehicle_class, *link, end,
-                                      {told, options.json, motion ? &*motion : nullptr, period}, real_time);
+                                      {telemetry, options.json, motion ? &*motion : nullptr, period}, real_time);
   if (motion) motion->commit();
   return exit_code;
 }
@@ -160,7 +160,7 @@ void require_effect(const Command& command, const VehicleCommandOptions& options
   if (scripted && options.csv.empty()) throw std::invalid_argument("--script needs --csv, where the motion goes");
   if (in_lockstep)
     command.refuse({"--csv", "--rate"},
-                   "has no place in lockstep: what a run does with it is told there, as by jarol run --record");
+                   "has no place in lockstep: what a run does with it is reported there, as by jarol run --record");
   if (!scripted && !linked)
     command.refuse({"--csv", "--rate"}, "belongs to --script or --link, which move it; add one, or leave it out");
   if (options.csv.empty()) command.refuse({"--rate"}, "belongs to --csv, where the rows go");
@@ -243,7 +243,7 @@ void add_vehicle(CommandLine& line, int& exit_code) {
       {"baud", "Link: rate of the serial line; default 115200"},
       {"key", "Link: file of the key that both ends have"},
       {"silence", "Link: of the peer, after which another may take its place; default 5 s"},
-      {"announce", "Link: where it tells that it is there, as in 127.0.0.1:30100-30104; default: nowhere"},
+      {"announce", "Link: where it announces itself, as in 127.0.0.1:30100-30104; default: nowhere"},
       {"id",
        "Link: the sender's id in what is sent, in hex or decimal, as in 0x00D1; packets to another id are dropped"},
   };

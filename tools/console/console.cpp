@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Of samples in one message.
-constexpr std::size_t most_bytes = std::size_t{256} << 10;
+constexpr std::size_t max_bytes = std::size_t{256} << 10;
 
 std::string dump(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
 
@@ -60,9 +60,9 @@ Json hello_of(const Watched& watched, const Desk& desk) {
 
 }  // namespace
 
-Console::Console(Watched watched, std::size_t most_at_once, std::vector<std::uint64_t> strides)
+Console::Console(Watched watched, std::size_t max_at_once, std::vector<std::uint64_t> strides)
     : watched_(std::move(watched)),
-      feed_(types_of_run(watched_.run.graph, watched_.run.true_types), most_at_once, std::move(strides)),
+      feed_(types_of_run(watched_.run.graph, watched_.run.true_types), max_at_once, std::move(strides)),
       samples_(types_of_run(watched_.run.graph, watched_.run.true_types)),
       tasks_(names_of_tasks(watched_.run.graph)),
       desk_(watched_.operators) {}
@@ -101,7 +101,7 @@ std::vector<std::string> Console::next_messages() {
     for (const FeedEvent& event : batch.events) json["events"].push_back(event_json(event, tasks_));
     std::string head = dump(json);
     head.pop_back();
-    for (const std::string& part : samples_.parts_of(batch, most_bytes)) {
+    for (const std::string& part : samples_.parts_of(batch, max_bytes)) {
       messages.push_back(head + ",\"samples\":[" + part + "]}");
       head = "{\"now\":" + json["now"].dump();
     }
@@ -137,7 +137,7 @@ void obey(Pace& pace, const std::string& message) {
   if (what == "speed") {
     const auto speed = json.value("speed", nlohmann::json());
     if (speed == "max") return pace.set_speed(std::nullopt);
-    if (!speed.is_number() || !(speed >= Pace::least && speed <= Pace::most))
+    if (!speed.is_number() || !(speed >= Pace::min && speed <= Pace::max))
       throw std::invalid_argument("'speed' is no number from 0.001 to 1000, nor \"max\"");
     return pace.set_speed(speed.get<double>());
   }

@@ -26,7 +26,7 @@ class Console {
  public:
   /// All that is named outlives it. Of each output at most so many samples go to pages in one thirtieth of a second,
   /// and no more than every so manieth.
-  explicit Console(Watched watched, std::size_t most_at_once = 64, std::vector<std::uint64_t> strides = {});
+  explicit Console(Watched watched, std::size_t max_at_once = 64, std::vector<std::uint64_t> strides = {});
 
   /// From now on pages are served, with what came before, too. Throws where the server can't be had, or
   /// --console-listen is wrong.

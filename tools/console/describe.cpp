@@ -9,7 +9,7 @@
 #include "tools/console/samples_json.h"
 #include "tools/console/seconds.h"
 #include "tools/drawing/drawing_json.h"
-#include "tools/report/commanded.h"
+#include "tools/report/tracking.h"
 
 namespace jarol::tools::console {
 namespace {

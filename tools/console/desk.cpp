@@ -85,8 +85,8 @@ nlohmann::ordered_json Desk::news(Clock::time_point now) {
 nlohmann::ordered_json Desk::answers() {
   struct AsJson : messages::Receiver {
     void receive(messages::MessageRef message) override {
-      all.push_back(
-          {{"message", message.form->name}, {"fields", nlohmann::ordered_json::parse(messages::to_json(message))}});
+      all.push_back({{"message", message.descriptor->name},
+                     {"fields", nlohmann::ordered_json::parse(messages::to_json(message))}});
     }
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
   };
@@ -130,9 +130,9 @@ void Desk::send(Seat& seat, const Received& message) {
   if (sequence->get<std::uint64_t>() <= seat.sequence) return;
   const messages::MessageSet& set = seat.of.port->message_set();
   const std::string abbrev = text_of(message, "message");
-  const messages::MessageForm* const form = set.find(abbrev);
-  if (form == nullptr) throw std::invalid_argument(fmt::format("{} has no message '{}'", set.name, abbrev));
-  messages::Message made(*form);
+  const messages::MessageDescriptor* const descriptor = set.find(abbrev);
+  if (descriptor == nullptr) throw std::invalid_argument(fmt::format("{} has no message '{}'", set.name, abbrev));
+  messages::Message made(*descriptor);
   std::string why;
   const auto fields = message.find("fields");
   if (fields != message.end() && !messages::from_json(fields->dump(), made, why))

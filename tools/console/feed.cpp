@@ -17,8 +17,8 @@ Duration Batch::newest() const {
   return newest;
 }
 
-Feed::Feed(std::vector<const Type*> outputs, std::size_t most, std::vector<std::uint64_t> strides)
-    : types_(std::move(outputs)), most_(std::max<std::size_t>(most, 2)), strides_(std::move(strides)), kept_(begin()) {}
+Feed::Feed(std::vector<const Type*> outputs, std::size_t max, std::vector<std::uint64_t> strides)
+    : types_(std::move(outputs)), most_(std::max<std::size_t>(max, 2)), strides_(std::move(strides)), kept_(begin()) {}
 
 std::vector<Feed::Kept> Feed::begin() const {
   std::vector<Kept> kept(types_.size());
@@ -75,7 +75,7 @@ void Feed::thin(Kept& kept) {
 
 void Feed::take_event(const RunEvent& event) {
   const std::lock_guard lock(mutex_);
-  if (events_.size() == most_events) {
+  if (events_.size() == max_events) {
     ++lost_events_;
     return;
   }

@@ -42,10 +42,10 @@ struct Batch {
 
 class Feed : public RecordSink {
  public:
-  /// `outputs`: those of the graph, and the true values behind them; a null type: there is none. Of each at most `most`
+  /// `outputs`: those of the graph, and the true values behind them; a null type: there is none. Of each at most `max`
   /// samples are kept until they are taken: beyond that every second one is left out. `strides`, where there are any:
   /// of each output no more than every so manieth is kept.
-  Feed(std::vector<const Type*> outputs, std::size_t most, std::vector<std::uint64_t> strides = {});
+  Feed(std::vector<const Type*> outputs, std::size_t max, std::vector<std::uint64_t> strides = {});
 
   /// By whoever watches.
   Batch take_batch();
@@ -55,7 +55,7 @@ class Feed : public RecordSink {
   void take_event(const RunEvent& event) override;
   void finish() override {}
 
-  static constexpr std::size_t most_events = 1000;
+  static constexpr std::size_t max_events = 1000;
 
  private:
   // Of the samples that come every `stride`th is kept, and the newest, which the next one replaces unless it is one of

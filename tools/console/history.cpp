@@ -17,7 +17,7 @@ void History::add(std::string message) {
 History::Message History::next(Place& place) const {
   const std::uint64_t end = first_ + messages_.size();
   std::uint64_t from = std::max(place.next, first_);
-  if (skips_ && place.caught_up && end - from > most_behind) from = end - 1;
+  if (skips_ && place.caught_up && end - from > max_behind) from = end - 1;
   place.missed += from - place.next;
   place.next = from;
   if (from == end) {

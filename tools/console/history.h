@@ -27,10 +27,10 @@ class History {
   /// Of a page that comes now: it gets all that is there.
   Place begin() const { return {first_, 0, false}; }
   /// The next message for a page, null: there is none now. One that has had all and has fallen behind by more than
-  /// `most_behind` messages goes on with the newest.
+  /// `max_behind` messages goes on with the newest.
   Message next(Place& place) const;
 
-  static constexpr std::uint64_t most_behind = 150;
+  static constexpr std::uint64_t max_behind = 150;
 
  private:
   std::size_t room_, bytes_ = 0;

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 // Pages are shown sixty times a second.
 constexpr auto piece = 10ms;
 // A machine that is too slow for the speed does not catch up later.
-constexpr auto most_behind = 200ms;
+constexpr auto max_behind = 200ms;
 
 }  // namespace
 
@@ -80,7 +80,7 @@ std::optional<Duration> Pace::next_end(Executor& executor, Duration end) {
     logical_ = executor.now();
   }
   const auto due = logical_ + std::chrono::duration_cast<Duration>((now - wall_) * *state_.speed);
-  if (due - executor.now() > std::chrono::duration_cast<Duration>(most_behind * *state_.speed)) anew_ = true;
+  if (due - executor.now() > std::chrono::duration_cast<Duration>(max_behind * *state_.speed)) anew_ = true;
   return std::clamp(due, executor.now(), end);
 }
 
@@ -101,7 +101,7 @@ std::optional<double> parse_pace(const std::string& text) {
   double speed = 0;
   const char* const end = text.data() + text.size();
   const auto read = std::from_chars(text.data(), end, speed);
-  if (read.ec != std::errc() || read.ptr != end || !(speed >= Pace::least && speed <= Pace::most))
+  if (read.ec != std::errc() || read.ptr != end || !(speed >= Pace::min && speed <= Pace::max))
     throw std::invalid_argument("--pace: '" + text +
                                 "' is no number from 0.001 to 1000, nor max; write it as in 1, 0.1 or 10");
   return speed;

@@ -36,7 +36,7 @@ class Pace {
   /// By the thread that covers instants: up to that one, or less where it is ended.
   void cover(GraphRun& run, Duration end);
 
-  static constexpr double least = 0.001, most = 1000;
+  static constexpr double min = 0.001, max = 1000;
 
  private:
   using Clock = std::chrono::steady_clock;

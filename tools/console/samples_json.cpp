@@ -53,12 +53,12 @@ void SamplesJson::append(std::string& text, std::span<const Leaf> leaves, const 
   }
 }
 
-std::vector<std::string> SamplesJson::parts_of(const Batch& batch, std::size_t most) const {
+std::vector<std::string> SamplesJson::parts_of(const Batch& batch, std::size_t max) const {
   std::vector<std::string> parts(1);
   for (std::size_t output = 0; output < batch.samples.size(); ++output) {
     const Samples& samples = batch.samples[output];
     for (std::size_t i = 0; i < samples.instants.size(); ++i) {
-      if (parts.back().size() >= most) parts.emplace_back();
+      if (parts.back().size() >= max) parts.emplace_back();
       std::string& text = parts.back();
       if (!text.empty()) text += ',';
       fmt::format_to(std::back_inserter(text), "[{},{},", output, seconds(samples.instants[i]));

@@ -16,8 +16,8 @@ class SamplesJson {
   explicit SamplesJson(const std::vector<const Type*>& types);
 
   /// Lists [output, seconds, leaf, leaf, ...], separated by commas: truth values are 0 and 1, enumerators their
-  /// numbers. Cut where a part has reached `most` bytes; at least one part.
-  std::vector<std::string> parts_of(const Batch& batch, std::size_t most) const;
+  /// numbers. Cut where a part has reached `max` bytes; at least one part.
+  std::vector<std::string> parts_of(const Batch& batch, std::size_t max) const;
 
   /// Values of the leaves of one value, as in "0.5,1,[1,2]".
   static void append(std::string& text, std::span<const Leaf> leaves, const void* value);

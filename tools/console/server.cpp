@@ -115,9 +115,8 @@ class Allowance {
  public:
   bool take() {
     const auto now = std::chrono::steady_clock::now();
-    left_ =
-        std::min<double>(Server::most_messages_a_second,
-                         left_ + std::chrono::duration<double>(now - last_).count() * Server::most_messages_a_second);
+    left_ = std::min<double>(Server::max_messages_a_second, left_ + std::chrono::duration<double>(now - last_).count() *
+                                                                        Server::max_messages_a_second);
     last_ = now;
     if (left_ < 1) return false;
     left_ -= 1;
@@ -125,7 +124,7 @@ class Allowance {
   }
 
  private:
-  double left_ = Server::most_messages_a_second;
+  double left_ = Server::max_messages_a_second;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
@@ -148,7 +147,7 @@ class Server::Implementation {
   void end();
 
   const std::string token_ = make_token();
-  const std::size_t most_message_;
+  const std::size_t max_message_;
   const std::shared_ptr<const std::string> hello_;
   const NextMessages next_;
   const Answer answer_;
@@ -180,7 +179,7 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
     timeout.idle_timeout = 20s;
     timeout.keep_alive_pings = true;
     socket_.set_option(timeout);
-    socket_.read_message_max(server_.most_message_);
+    socket_.read_message_max(server_.max_message_);
     socket_.async_accept(request, [self = shared_from_this()](Error error) {
       if (error || self->server_.ending_) return;
       self->place_ = self->server_.history_.begin();
@@ -242,7 +241,7 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
   void take(const std::string& message) {
     std::string answer;
     if (!socket_.got_text()) return refuse("expected text, got bytes");
-    if (!allowance_.take()) return refuse(fmt::format("sent more than {} messages a second", most_messages_a_second));
+    if (!allowance_.take()) return refuse(fmt::format("sent more than {} messages a second", max_messages_a_second));
     try {
       answer = server_.answer_(page_, message);
     } catch (const std::invalid_argument& wrong) {
@@ -336,12 +335,12 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
 
 Server::Implementation::Implementation(const ServerOptions& options, std::string hello, NextMessages next,
                                        Answer answer, Left left)
-    : most_message_(options.most_message),
+    : max_message_(options.max_message),
       hello_(std::make_shared<const std::string>(std::move(hello))),
       next_(std::move(next)),
       answer_(std::move(answer)),
       left_(std::move(left)),
-      history_(most_history, options.skips) {
+      history_(max_history, options.skips) {
   Error error;
   const asio::ip::address address = asio::ip::make_address(options.listen, error);
   if (error)
@@ -376,7 +375,7 @@ void Server::Implementation::accept() {
     if (ending_) return;
     if (!error) {
       const auto connection = std::make_shared<Connection>(*this, std::move(socket));
-      connections_ > most_clients ? connection->refuse() : connection->read();
+      connections_ > max_clients ? connection->refuse() : connection->read();
     } else if (error != asio::error::connection_aborted) {
       // as where there are no more descriptors: some may be free in a moment
       end_timer_.expires_after(100ms);

@@ -12,11 +12,11 @@
 namespace jarol::tools::console {
 
 struct ServerOptions {
-  std::string listen = "127.0.0.1";                  // an address of this machine
-  int port = 0;                                      // 0: any that is free
-  std::string page = "/";                            // where the page is that the address leads to
-  std::size_t most_message = std::size_t{16} << 10;  // bytes, of what a page sends
-  bool skips = true;                                 // a page that is slow goes on with the newest
+  std::string listen = "127.0.0.1";                 // an address of this machine
+  int port = 0;                                     // 0: any that is free
+  std::string page = "/";                           // where the page is that the address leads to
+  std::size_t max_message = std::size_t{16} << 10;  // bytes, of what a page sends
+  bool skips = true;                                // a page that is slow goes on with the newest
 };
 
 /// What the page of that number asks for; the answer goes to that page alone, empty: there is none. Throws
@@ -45,9 +45,9 @@ class Server {
   void send(std::uint64_t page, std::string message);
 
   // limits, so that nobody who watches harms the run or others who watch
-  static constexpr std::size_t most_clients = 200;
-  static constexpr int most_messages_a_second = 100;     // of what a page sends
-  static constexpr std::size_t most_history = 64 << 20;  // bytes, for pages that come later
+  static constexpr std::size_t max_clients = 200;
+  static constexpr int max_messages_a_second = 100;     // of what a page sends
+  static constexpr std::size_t max_history = 64 << 20;  // bytes, for pages that come later
 
  private:
   class Implementation;

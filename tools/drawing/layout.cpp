@@ -18,7 +18,7 @@ namespace {
 
 constexpr double line_height = 13, margin_x = 10, margin_y = 8, points_per_inch = 72, border = 12, core_margin = 14;
 
-constexpr std::size_t most_drawn_best = 60;
+constexpr std::size_t max_drawn_best = 60;
 
 // As wide as its letters are in a common sans-serif font of 11 points; no font is asked, so that every machine draws
 // the same.
@@ -121,7 +121,7 @@ void build(Graphviz& to, const Drawing& drawing) {
   set(to.graph.get(), "ranksep", "0.5");
   set(to.graph.get(), "nodesep", "0.22");
   // a graph of many tasks need not be drawn in the best of all ways, which takes long
-  if (drawing.nodes.size() > most_drawn_best)
+  if (drawing.nodes.size() > max_drawn_best)
     for (const char* limit : {"nslimit", "nslimit1"}) set(to.graph.get(), limit, "2");
   for (std::size_t i = 0; i < drawing.nodes.size(); ++i) {
     const DrawnNode& node = drawing.nodes[i];

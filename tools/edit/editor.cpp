@@ -53,7 +53,7 @@ Json catalogue_for(const EditorOptions& options, const std::vector<std::string>&
 }
 
 Json hello_of(const EditorOptions& options, const std::vector<std::string>& plugins) {
-  return {{"schema", "jarol.edit/1"},
+  return {{"schema", "jarol.edit/2"},
           {"file", options.file},
           {"profile", options.profile},
           {"catalogue", catalogue_for(options, plugins)}};
@@ -67,7 +67,7 @@ Editor::Editor(EditorOptions options) : options_(std::move(options)), file_(opti
   plugins_ = plugins_of(std::make_shared<Source>(Source{options_.file, opened.text}));
   console::ServerOptions server = options_.server;
   server.page = "/edit.html";
-  server.most_message = most_message;
+  server.max_message = max_message;
   server_ = std::make_unique<console::Server>(
       server, dump({{"hello", hello_of(options_, plugins_)}}), [this] { return next_messages(); },
       [this](std::uint64_t page, const std::string& message) { return answer(page, message); });

@@ -33,7 +33,7 @@ class Editor {
   const std::string& url() const { return server_->url(); }
 
   /// Of a text that a page sends, escapes included.
-  static constexpr std::size_t most_message = std::size_t{16} << 20;
+  static constexpr std::size_t max_message = std::size_t{16} << 20;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -7,7 +7,7 @@
 
 #include "graph/language/read_source.h"
 #include "graph/language/yaml.h"
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 
 namespace jarol::tools::edit {
 namespace {
@@ -40,7 +40,7 @@ Version GraphFile::read() const {
 
 std::optional<Version> GraphFile::write(const std::string& text, const std::string& over) const {
   // other commands that write the file wait at its lock; what is read behind that is what is replaced
-  WholeFile file(path_, Replaces::all);
+  AtomicFile file(path_, Replaces::all);
   // a file that is gone has no text and no hash
   Version there = std::filesystem::exists(path_) ? read() : Version{};
   if (there.hash != over) return there;

@@ -151,7 +151,7 @@ void Trial::run(const std::string& program, const TrialOptions& options) {
         const ssize_t length = ::read(child.out(), room.data(), room.size());
         if (length <= 0) break;
         end.text.append(room.data(), static_cast<std::size_t>(length));
-        if (end.text.size() > most_text) end.text.erase(0, end.text.size() - most_text);
+        if (end.text.size() > max_text) end.text.erase(0, end.text.size() - max_text);
         if (!shown) shown = show_page(end.text);
       }
       if (woken == distributers::Interrupter::Woken::interrupted) stop_.reset();

@@ -41,7 +41,7 @@ class Trial {
   /// As Ctrl-C does; what does not end then is killed.
   void stop();
 
-  static constexpr std::size_t most_text = std::size_t{256} << 10;
+  static constexpr std::size_t max_text = std::size_t{256} << 10;
 
  private:
   void run(const std::string& program, const TrialOptions& options);

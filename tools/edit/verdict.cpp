@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // More than these nobody can read, and Graphviz takes long.
-constexpr std::size_t most_drawn = 400;
+constexpr std::size_t max_drawn = 400;
 
 Json place_json(const Location& where, const std::string& text) {
   return {
@@ -95,9 +95,9 @@ Json draw(const EditedText& text) {
     connections.push_back({{"from", end_json(c.from)}, {"to", end_json(c.to)}});
   Json json{{"connections", std::move(connections)}};
   const std::size_t parts = spec.tasks.size() + spec.communicators.size() + spec.distributers.size();
-  if (parts > most_drawn) {
+  if (parts > max_drawn) {
     json["why"] =
-        "a graph of " + std::to_string(parts) + " parts is not drawn; up to " + std::to_string(most_drawn) + " are";
+        "a graph of " + std::to_string(parts) + " parts is not drawn; up to " + std::to_string(max_drawn) + " are";
     return json;
   }
   try {
@@ -111,9 +111,9 @@ Json suggest(const EditedText& text) {
   try {
     const Loaded loaded = load_graph(text.source, text.overrides);
     const CheckReport report = check_graph(text.source->name, *loaded.graph, false, false);
-    analysis::Effort effort;
-    effort.left = 30'000'000;
-    for (const Remedy& remedy : find_remedies(text.source, text.overrides, loaded.known->graph, report, effort))
+    analysis::Budget budget;
+    budget.left = 30'000'000;
+    for (const Remedy& remedy : find_remedies(text.source, text.overrides, loaded.known->graph, report, budget))
       list.push_back({{"text", remedy.text}, {"set", remedy.set}});
   } catch (const std::exception&) {
     // what does not load has problems instead

@@ -6,7 +6,7 @@
 
 #include "graph/language/quantities.h"
 #include "graph/text/escape.h"
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 #include "runtime/record/instants.h"
 #include "runtime/record/message_layout.h"
 #include "tools/log/log_commands.h"
@@ -99,7 +99,7 @@ int log_csv(const LogOptions& options) {
                                 "topics by --topic");
   struct Out {
     Table table;
-    std::unique_ptr<WholeFile> file{};
+    std::unique_ptr<AtomicFile> file{};
   };
   std::vector<Out> outs;
   if (!options.by_rate.empty()) std::filesystem::create_directories(options.by_rate);
@@ -107,7 +107,7 @@ int log_csv(const LogOptions& options) {
     outs.push_back({Table(topics)});
     if (!options.by_rate.empty())
       outs.back().file =
-          std::make_unique<WholeFile>((std::filesystem::path(options.by_rate) / (rate + ".csv")).string());
+          std::make_unique<AtomicFile>((std::filesystem::path(options.by_rate) / (rate + ".csv")).string());
   }
   const auto write = [](Out& out, const std::string& text) {
     if (out.file)

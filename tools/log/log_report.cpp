@@ -9,7 +9,7 @@
 
 #include "graph/language/problems.h"
 #include "graph/text/escape.h"
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 #include "tools/campaign/repeat.h"
 #include "tools/drawing/drawing_json.h"
 #include "tools/drawing/layout.h"
@@ -19,8 +19,8 @@
 #include "tools/log/report_replay.h"
 #include "tools/log/report_signals.h"
 #include "tools/pages/page.h"
-#include "tools/report/commanded.h"
 #include "tools/report/exit_code.h"
+#include "tools/report/tracking.h"
 #include "tools/report/verdicts.h"
 #include "tools/run/apart.h"
 
@@ -74,16 +74,16 @@ Json summary_json(const RecordedRun& run, const std::string& file) {
 }
 
 Json replay_json(const ReportReplay& replay) {
-  const char* const standing = replay.standing == Standing::same       ? "same"
-                               : replay.standing == Standing::diverged ? "diverged"
+  const char* const evidence = replay.evidence == Evidence::same       ? "same"
+                               : replay.evidence == Evidence::diverged ? "diverged"
                                                                        : "unknown";
-  return {{"standing", standing}, {"compared", replay.compared}, {"verdict", to_json(replay.verdict)}};
+  return {{"evidence", evidence}, {"compared", replay.compared}, {"verdict", to_json(replay.verdict)}};
 }
 
 // Of tasks by their index in the graph. So many are listed; all are counted.
 Json happenings_json(const RecordedRun& run, const std::vector<Miss>& misses, const RecordedEvents& recorded,
                      const Graph* graph) {
-  constexpr std::size_t most = 5000;
+  constexpr std::size_t max = 5000;
   std::map<std::string_view, std::size_t> tasks;
   for (std::size_t i = 0; graph != nullptr && i < graph->tasks.size(); ++i) tasks.emplace(graph->tasks[i].name, i);
   Json events = Json::array(), late = Json::array(), gaps = Json::array();
@@ -92,7 +92,7 @@ Json happenings_json(const RecordedRun& run, const std::vector<Miss>& misses, co
   for (const TimedEvent& event : recorded.events) {
     const bool fault = event.kind == RunEvent::Kind::fault;
     if (fault) ++faults[event.task];
-    if (events.size() == most) {
+    if (events.size() == max) {
       ++more_events;
       continue;
     }
@@ -110,7 +110,7 @@ Json happenings_json(const RecordedRun& run, const std::vector<Miss>& misses, co
   std::map<std::string, std::uint64_t> missed;
   for (const Miss& miss : misses) {
     if (graph != nullptr) ++missed[graph->tasks[miss.task].name];
-    if (late.size() < most)
+    if (late.size() < max)
       late.push_back({miss.task, miss.activation, miss.ended_after == Miss::unknown ? Json() : Json(miss.ended_after),
                       miss.left_out != 0});
   }
@@ -119,7 +119,7 @@ Json happenings_json(const RecordedRun& run, const std::vector<Miss>& misses, co
           {"more_events", more_events},
           {"faults_of", faults},
           {"misses", std::move(late)},
-          {"more_misses", misses.size() - std::min(misses.size(), most)},
+          {"more_misses", misses.size() - std::min(misses.size(), max)},
           {"misses_of", missed},
           {"gaps", std::move(gaps)}};
 }
@@ -148,7 +148,7 @@ int log_report(const LogOptions& options) {
   const std::string out =
       options.out.empty() ? std::filesystem::path(options.file).replace_extension(".html").string() : options.out;
   require_apart({{"FILE", options.file}, {"GRAPH", options.other}}, {{"--out", out}});
-  Json data{{"schema", "jarol.report_page/1"}, {"summary", summary_json(run, options.file)}};
+  Json data{{"schema", "jarol.report_page/2"}, {"summary", summary_json(run, options.file)}};
   const RecordedEvents events = read_events(run.recording());
   data.update(signals_json(run));
   data["paths"] = paths_json(data["signals"]);
@@ -166,8 +166,8 @@ int log_report(const LogOptions& options) {
     for (std::size_t i = 0; i < order.size() && !replay.measured.empty(); ++i) {
       const MeasuredTask& measured = replay.measured[order[i]];
       data["tasks"][i]["measured"] = {{"activations", measured.activations},
-                                      {"most_of_999_ns", measured.most_of_999.count()},
-                                      {"most_ns", measured.most.count()}};
+                                      {"max_of_999_ns", measured.max_of_999.count()},
+                                      {"max_ns", measured.max.count()}};
     }
   } catch (const SpecError& error) {
     // what the recording has needs no graph
@@ -182,7 +182,7 @@ int log_report(const LogOptions& options) {
     std::cout << page;
     return exit_good;
   }
-  WholeFile file(out);
+  AtomicFile file(out);
   file.write(page);
   file.commit();
   std::cout << "  report      " << printable(out) << "\n";

@@ -8,7 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 #include "runtime/record/recorded_run.h"
 #include "tools/log/log_commands.h"
 #include "tools/log/recorded_graph.h"
@@ -33,7 +33,7 @@ std::string microseconds(Duration time) {
 class Events {
  public:
   explicit Events(const std::string& path) {
-    if (path != "-") file_ = std::make_unique<WholeFile>(path);
+    if (path != "-") file_ = std::make_unique<AtomicFile>(path);
     put("{\"displayTimeUnit\":\"ns\",\"traceEvents\":[");
   }
   void name(const char* what, int pid, std::size_t tid, const Json& args) {
@@ -69,7 +69,7 @@ class Events {
       std::cout << text;
   }
 
-  std::unique_ptr<WholeFile> file_;
+  std::unique_ptr<AtomicFile> file_;
   bool any_ = false;
 };
 

@@ -27,7 +27,7 @@ RecordedEvents read_events(const Recording& recording) {
   const ReadTopic* const topic = recording.find(topics::events);
   if (topic == nullptr) return read;
   for (MessageCursor cursor(recording, *topic); cursor.message() != nullptr; cursor.next()) {
-    if (read.events.size() == RecordedEvents::most) {
+    if (read.events.size() == RecordedEvents::max) {
       ++read.more;
       continue;
     }

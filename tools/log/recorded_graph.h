@@ -26,7 +26,7 @@ struct TimedEvent {
 
 /// At most so many; `more`: how many others there are.
 struct RecordedEvents {
-  static constexpr std::size_t most = 1'000'000;
+  static constexpr std::size_t max = 1'000'000;
   std::vector<TimedEvent> events;
   std::uint64_t more = 0;
 };

@@ -19,7 +19,7 @@ std::vector<MeasuredTask> measure(RecordedRun& run, const Graph& graph) {
   std::vector<MeasuredTask> measured;
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Histogram& took = executor.team()->took(i);
-    measured.push_back({took.count(), Duration(took.most()), Duration(took.percentile(0.999))});
+    measured.push_back({took.count(), Duration(took.max()), Duration(took.percentile(0.999))});
   }
   return measured;
 }
@@ -43,7 +43,7 @@ ReportReplay replay_for_report(RecordedRun& run, Loaded loaded) {
   executor.finish();
   run.require_all_taken();
   graph_run.sinks().close();
-  replayed.standing = values.differences().first() ? Standing::diverged : replay.comparison.standing;
+  replayed.evidence = values.differences().first() ? Evidence::diverged : replay.comparison.evidence;
   replayed.compared = values.differences().compared();
   const RecordingHeader& header = run.header();
   const Duration reached = run.end() ? Duration(run.end()->simulated) : executor.report().simulated;

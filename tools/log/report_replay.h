@@ -10,7 +10,7 @@
 namespace jarol::tools {
 
 struct ReportReplay {
-  Standing standing = Standing::unknown;
+  Evidence evidence = Evidence::unknown;
   std::uint64_t compared = 0;  // values
   RunVerdict verdict{};
   std::vector<MeasuredTask> measured{};  // of a second replay; empty: it had no activation, or the clock is too coarse

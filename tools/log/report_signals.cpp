@@ -21,7 +21,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 class KeptTopic {
  public:
   KeptTopic(const ReadTopic& topic, Duration covered, const Thinning& thinning)
-      : layout_(topic), messages_(topic.messages), thinned_(topic.messages > thinning.most_values) {
+      : layout_(topic), messages_(topic.messages), thinned_(topic.messages > thinning.max_values) {
     for (std::size_t i = 0; i < layout_.columns().size(); ++i)
       if (!layout_.columns()[i].is_sequence) columns_.push_back({.cell = i});
     if (!thinned_) return;
@@ -42,8 +42,8 @@ class KeptTopic {
       if (column.values++ == 0) column.first = value;
       column.last = value;
       // comparisons with what is not a number are false
-      if (!(column.least <= value)) column.least = std::isnan(value) ? column.least : value;
-      if (!(column.greatest >= value)) column.greatest = std::isnan(value) ? column.greatest : value;
+      if (!(column.min <= value)) column.min = std::isnan(value) ? column.min : value;
+      if (!(column.max >= value)) column.max = std::isnan(value) ? column.max : value;
       if (!thinned_) {
         column.low.push_back(value);
         continue;
@@ -81,8 +81,8 @@ class KeptTopic {
       Json json{{"name", of.path.empty() ? topic : topic + "." + of.path},
                 {"unit", of.unit},
                 {"topic", index},
-                {"least", column.least},
-                {"greatest", column.greatest},
+                {"min", column.min},
+                {"max", column.max},
                 {"first", column.first},
                 {"last", column.last}};
       if (thinned_) {
@@ -100,7 +100,7 @@ class KeptTopic {
     std::size_t cell = 0;
     std::uint64_t values = 0;
     std::vector<double> low{}, high{};  // per piece of time; where nothing is thinned `low` are all values
-    double least = nothing, greatest = nothing, first = nothing, last = nothing;
+    double min = nothing, max = nothing, first = nothing, last = nothing;
   };
 
   // One number where all are the same, as they are of most switches and gains.
@@ -121,9 +121,9 @@ class KeptTopic {
 }  // namespace
 
 Thinning thinning_for(std::size_t columns) {
-  constexpr std::size_t most = 4'000'000;  // values in a page
-  const std::size_t values = std::clamp<std::size_t>(most / std::max<std::size_t>(1, columns), 256, 4096);
-  return {.most_values = values, .pieces = values / 2};
+  constexpr std::size_t max = 4'000'000;  // values in a page
+  const std::size_t values = std::clamp<std::size_t>(max / std::max<std::size_t>(1, columns), 256, 4096);
+  return {.max_values = values, .pieces = values / 2};
 }
 
 nlohmann::ordered_json signals_json(const RecordedRun& run) {
@@ -155,7 +155,7 @@ nlohmann::ordered_json signals_json(const RecordedRun& run) {
     of.add_signals(name, topics.size(), signals);
     topics.push_back(of.topic_json(name));
   }
-  return {{"most_values", thinning.most_values},
+  return {{"max_values", thinning.max_values},
           {"topics", std::move(topics)},
           {"signals", std::move(signals)},
           {"sequences", std::move(sequences)}};

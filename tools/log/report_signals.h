@@ -10,7 +10,7 @@ namespace jarol::tools {
 
 /// So many values of a topic are all in the page; of more it has `pieces` pieces.
 struct Thinning {
-  std::size_t most_values = 4096;
+  std::size_t max_values = 4096;
   std::size_t pieces = 2048;
 };
 

@@ -30,7 +30,7 @@ struct Field {
   std::string type;  // "part" for a part
   std::string unit;
   std::string text;
-  std::string least, most, standard;
+  std::string min, max, standard;
   std::string message_type;        // of parts and nested messages
   std::vector<std::uint32_t> ids;  // that `message_type` stands for
   std::uint32_t count = 0;         // of a fixed array; 0: a single value
@@ -60,7 +60,7 @@ struct Definition {
   std::string checksum;       // as messages::Checksum spells it
   std::string order;          // "little", "big", "either"
   std::size_t checksum_from = 0;
-  std::size_t most_payload = 0;
+  std::size_t max_payload = 0;
   std::vector<Message> messages;  // by id, then by size
 };
 

@@ -26,7 +26,7 @@ const std::set<std::string>& reserved() {
       "SEEK_CUR", "SEEK_END", "SEEK_SET", "SHRT_MAX", "SHRT_MIN", "SING", "TLOSS", "TMP_MAX", "UNDERFLOW", "assert",
       "errno", "major", "makedev", "minor", "offsetof", "stderr", "stdin", "stdout",
       // ours
-      "fields", "form", "message_id", "jarol", "std"};
+      "fields", "descriptor", "message_id", "jarol", "std"};
   return words;
 }
 

@@ -27,10 +27,10 @@ class XmlReader {
 
   Definition read() {
     Definition definition;
-    constexpr std::ptrdiff_t most_marks = 500'000;  // elements, their ends and attributes
+    constexpr std::ptrdiff_t max_marks = 500'000;  // elements, their ends and attributes
     const std::string& text = source_->text;
-    if (std::count_if(text.begin(), text.end(), [](char c) { return c == '<' || c == '='; }) > most_marks) {
-      problems_.add({source_, 1, 1}, "the XML has more than " + std::to_string(most_marks) +
+    if (std::count_if(text.begin(), text.end(), [](char c) { return c == '<' || c == '='; }) > max_marks) {
+      problems_.add({source_, 1, 1}, "the XML has more than " + std::to_string(max_marks) +
                                          " elements and attributes; a definition has a few thousand");
       return definition;
     }
@@ -68,8 +68,7 @@ class XmlReader {
     if (definition.order == "BIG_ENDIAN") definition.order = "big";
     definition.checksum = one_of(root, "checksum", {"crc16_ibm", "sum16"}, "the definition");
     definition.checksum_from = static_cast<std::size_t>(integer(root, "checksum-from", 0, 0xffff, 0, "the definition"));
-    definition.most_payload =
-        static_cast<std::size_t>(integer(root, "most-bytes", 1, 0xffff, 0xffff, "the definition"));
+    definition.max_payload = static_cast<std::size_t>(integer(root, "most-bytes", 1, 0xffff, 0xffff, "the definition"));
     for (const pugi::xml_node list : root.children("enumerations")) read_shared(list, false, definition);
     for (const pugi::xml_node list : root.children("bitfields")) read_shared(list, true, definition);
     for (const pugi::xml_node group : root.child("message-groups").children("message-group"))
@@ -129,7 +128,7 @@ class XmlReader {
     return text;
   }
 
-  std::int64_t integer(pugi::xml_node node, const char* attribute, std::int64_t least, std::int64_t most,
+  std::int64_t integer(pugi::xml_node node, const char* attribute, std::int64_t min, std::int64_t max,
                        std::int64_t standard, const std::string& subject) {
     if (!node.attribute(attribute)) return standard;
     const std::string text = node.attribute(attribute).value();
@@ -137,10 +136,10 @@ class XmlReader {
     if (integer && fits(*integer, "int64_t")) {
       // modulo 2^64, so that the least of all comes out right
       const auto value = static_cast<std::int64_t>(integer->negative ? 0 - integer->magnitude : integer->magnitude);
-      if (value >= least && value <= most) return value;
+      if (value >= min && value <= max) return value;
     }
     problems_.add(place(node), subject + " has the " + attribute + " '" + text + "'; it needs an integer from " +
-                                   std::to_string(least) + " to " + std::to_string(most));
+                                   std::to_string(min) + " to " + std::to_string(max));
     return standard;
   }
 
@@ -230,8 +229,8 @@ class XmlReader {
     field.unit = node.attribute("unit").value();
     field.text = one_line(node.child("description").text().get());
     if (field.text.empty()) field.text = node.attribute("name").value();
-    field.least = node.attribute("min").value();
-    field.most = node.attribute("max").value();
+    field.min = node.attribute("min").value();
+    field.max = node.attribute("max").value();
     field.standard = node.attribute("value").value();
     field.message_type = node.attribute("message-type").value();
     field.count = static_cast<std::uint32_t>(integer(node, "count", 1, 0xffff, 0, subject));

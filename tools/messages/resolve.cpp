@@ -92,12 +92,12 @@ class Resolver {
                     "the definition has the checksum-from " + std::to_string(definition_.checksum_from) +
                         "; it needs to be within the header of " + std::to_string(header.wire_size) + " bytes");
     check_sync(header.fields[sync]);
-    if (definition_.most_payload <= around) {
-      problems_.add(definition_.where, "the definition has the most-bytes " + std::to_string(definition_.most_payload) +
+    if (definition_.max_payload <= around) {
+      problems_.add(definition_.where, "the definition has the most-bytes " + std::to_string(definition_.max_payload) +
                                            "; header and checksum alone take " + std::to_string(around));
       return;
     }
-    definition_.most_payload = std::min<std::size_t>(definition_.most_payload - around, largest(header.fields[size]));
+    definition_.max_payload = std::min<std::size_t>(definition_.max_payload - around, largest(header.fields[size]));
   }
 
   static std::size_t largest(const Field& field) {
@@ -169,9 +169,9 @@ class Resolver {
       if (size < 0 || (size == 0 && field.type != "part")) return -1;
       sum += size;
     }
-    if (sum > static_cast<std::int64_t>(definition_.most_payload))
+    if (sum > static_cast<std::int64_t>(definition_.max_payload))
       problems_.add(message.where, "message '" + message.name + "' has " + std::to_string(sum) + " bytes; at most " +
-                                       std::to_string(definition_.most_payload) + " fit into a packet");
+                                       std::to_string(definition_.max_payload) + " fit into a packet");
     return sum;
   }
 

@@ -131,7 +131,7 @@ class HeaderWriter {
     // a template, so that only who uses the description pays for it
     to_ += "  template <class Described = " + name +
            ">\n  static constexpr auto fields() {\n    return ::jarol::describe(" + described +
-           ");\n  }\n  static const ::jarol::messages::MessageForm form;\n};\n";
+           ");\n  }\n  static const ::jarol::messages::MessageDescriptor descriptor;\n};\n";
   }
 
   const Definition& definition_;

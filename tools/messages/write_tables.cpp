@@ -21,24 +21,25 @@ class TableWriter {
     write_fields(definition_.header, "Header", "header_fields");
     for (std::size_t i = 0; i < definition_.messages.size(); ++i)
       write_fields(definition_.messages[i], definition_.messages[i].name, "fields_" + std::to_string(i));
-    to_ += "constexpr const MessageForm* forms[] = {";
-    for (const Message& m : definition_.messages) to_ += "&" + names_.structs.at(m.name) + "::form, ";
+    to_ += "constexpr const MessageDescriptor* forms[] = {";
+    for (const Message& m : definition_.messages) to_ += "&" + names_.structs.at(m.name) + "::descriptor, ";
     to_ += "};\n\n";
     write_set(set);
     to_ += "}  // namespace\n\nconst MessageSet& message_set() { return set; }\n\n";
-    write_form(definition_.header, 0, "Header", "header_fields");
+    write_descriptor(definition_.header, 0, "Header", "header_fields");
     for (std::size_t i = 0; i < definition_.messages.size(); ++i)
-      write_form(definition_.messages[i], i, definition_.messages[i].name, "fields_" + std::to_string(i));
+      write_descriptor(definition_.messages[i], i, definition_.messages[i].name, "fields_" + std::to_string(i));
     to_ += "\n}  // namespace jarol::messages::" + set + "\n";
     return to_;
   }
 
  private:
-  void write_form(const Message& message, std::size_t index, const std::string& key, const std::string& table) {
+  void write_descriptor(const Message& message, std::size_t index, const std::string& key, const std::string& table) {
     const std::string& name = names_.structs.at(key);
-    to_ += "constinit const MessageForm " + name + "::form = form_of<" + name + ">(" + quoted(message.name) + ", " +
-           std::to_string(message.id) + "U, " + std::to_string(index) + ", " + quoted(message.text) + ", " +
-           std::to_string(message.wire_size) + ", " + (message.fields.empty() ? "{}" : table) + ", &message_set);\n";
+    to_ += "constinit const MessageDescriptor " + name + "::descriptor = descriptor_of<" + name + ">(" +
+           quoted(message.name) + ", " + std::to_string(message.id) + "U, " + std::to_string(index) + ", " +
+           quoted(message.text) + ", " + std::to_string(message.wire_size) + ", " +
+           (message.fields.empty() ? "{}" : table) + ", &message_set);\n";
   }
 
   void write_values(const std::string& name, const std::vector<NamedValue>& values) {
@@ -50,7 +51,7 @@ class TableWriter {
   void write_fields(const Message& message, const std::string& key, const std::string& table) {
     std::string rows;
     add_rows(message, key, "", table, rows);
-    if (!rows.empty()) to_ += "constexpr FieldForm " + table + "[] = {\n" + rows + "};\n";
+    if (!rows.empty()) to_ += "constexpr FieldDescriptor " + table + "[] = {\n" + rows + "};\n";
   }
 
   // One row a field; `base` is the offset of the part that the message is, as C++.
@@ -74,8 +75,8 @@ class TableWriter {
       add("type", f.type);
       add("unit", f.unit);
       add("text", f.text);
-      add("least", f.least);
-      add("most", f.most);
+      add("min", f.min);
+      add("max", f.max);
       add("standard", f.standard);
       if (f.bits) row += ", .bits = true";
       if (!f.values.empty()) {
@@ -103,7 +104,7 @@ class TableWriter {
     line("title", quoted(d.title));
     line("version", quoted(d.version));
     line("text", quoted(d.text));
-    line("header", "&Header::form");
+    line("header", "&Header::descriptor");
     line("id_field", std::to_string(d.id_field));
     line("size_field", std::to_string(d.size_field));
     line("sync", d.header.fields[0].standard);
@@ -112,7 +113,7 @@ class TableWriter {
     line("checksum", "Checksum::" + (d.checksum_name.empty() ? "none" : d.checksum));
     line("checksum_from", std::to_string(d.checksum_from));
     line("checksum_name", quoted(d.checksum_name));
-    line("most_payload", std::to_string(d.most_payload));
+    line("max_payload", std::to_string(d.max_payload));
     line("messages", "forms");
     to_ += "};\n\n";
   }

@@ -29,25 +29,25 @@ function summary() {
     ...data.vary.flatMap((axis) => [el('dt', {}, 'Varied'), el('dd', {}, el('code', {}, `${axis.path} = ${axis.text}`))]),
     ...metrics.flatMap((metric) => [el('dt', {}, metric.limit ? 'Limit' : 'Measured'), el('dd', {}, el('code', {}, `${metric.name}: ${metric.text}`))]),
     el('dt', {}, 'Results'), el('dd', {}, el('code', {}, report.results)));
-  const columns = [['metric', false], ['runs', true], ['least', true], ['5 %', true], ['25 %', true], ['median', true], ['75 %', true], ['95 %', true], ['greatest', true], ['mean', true], ['deviation', true]];
-  const rows = metrics.map((m) => m.least === undefined
+  const columns = [['metric', false], ['runs', true], ['min', true], ['5 %', true], ['25 %', true], ['median', true], ['75 %', true], ['95 %', true], ['max', true], ['mean', true], ['deviation', true]];
+  const rows = metrics.map((m) => m.min === undefined
     ? [m.name, String(m.runs), ...Array(9).fill('–')]
-    : [m.name, String(m.runs), reached(m.least.value, m.unit), ...['5', '25', '50', '75', '95'].map((p) => reached(m.percentiles[p], m.unit)), reached(m.greatest.value, m.unit), reached(m.mean, m.unit), reached(m.deviation, m.unit)]);
+    : [m.name, String(m.runs), reached(m.min.value, m.unit), ...['5', '25', '50', '75', '95'].map((p) => reached(m.percentiles[p], m.unit)), reached(m.max.value, m.unit), reached(m.mean, m.unit), reached(m.deviation, m.unit)]);
   const words = metrics.flatMap((m) => Object.entries(m.words ?? {}).map(([word, runs]) => el('p', {}, el('code', {}, m.name), ` is ${word} in ${count(runs, 'run')}.`)));
   return section('summary', 'Summary', null, facts, el('h3', {}, 'Metrics'),
     rows.length > 0 ? table('percentiles of each metric', columns, rows) : el('p', {class: 'nothing'}, 'Nothing was measured. Name a metric: jarol campaign ... --metric \'deepest=max(depth of dune) < 3.2\''), words);
 }
 
 function histograms() {
-  const drawn = metrics.filter((m) => m.least !== undefined);
+  const drawn = metrics.filter((m) => m.min !== undefined);
   if (drawn.length === 0) return null;
   return section('histograms', 'How the metrics lie', 'All runs are counted: blue are good, orange are not. A dashed line is a limit.',
     el('div', {class: 'grid'}, drawn.map((m) => el('figure', {class: 'card'}, el('figcaption', {}, el('strong', {}, m.name), ' ', el('code', {}, m.text)), histogramOf(m)))));
 }
 
 function scatters() {
-  const axes = [...varied, ...metrics.filter((m) => m.least !== undefined)];
-  const ups = metrics.filter((m) => m.least !== undefined);
+  const axes = [...varied, ...metrics.filter((m) => m.min !== undefined)];
+  const ups = metrics.filter((m) => m.min !== undefined);
   if (varied.length === 0 || ups.length === 0) return null;
   const shown = el('div', {class: 'shown', role: 'status'});
   const show = (point) => {
@@ -67,7 +67,7 @@ function scatters() {
 }
 
 function cases() {
-  const worst = metrics.flatMap((m) => m.worst ? [['worst', m, m.worst]] : m.least ? [['least', m, m.least], ['greatest', m, m.greatest]] : []);
+  const worst = metrics.flatMap((m) => m.worst ? [['worst', m, m.worst]] : m.min ? [['min', m, m.min], ['max', m, m.max]] : []);
   const item = (title, text, line) => el('li', {}, el('p', {}, el('strong', {}, title), ' ', text), command(line));
   return section('cases', 'Cases to repeat', 'Each command runs that case again, to the bit, and records it; jarol log report makes a page of the recording.',
     report.shrunk ? [el('h3', {}, 'The mildest that fails'), el('ul', {class: 'cases'}, item(`Run ${report.shrunk.run}`, report.shrunk.why, report.shrunk.command))] : [],

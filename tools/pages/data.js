@@ -71,8 +71,8 @@ export class TimeWindow {
   changed() { for (const watcher of this.watchers) watcher(); }
 
   show(from, to) {
-    const least = (this.end - this.begin) * 1e-7;
-    const length = Math.min(Math.max(to - from, least), this.end - this.begin);
+    const min = (this.end - this.begin) * 1e-7;
+    const length = Math.min(Math.max(to - from, min), this.end - this.begin);
     this.from = Math.min(Math.max(from, this.begin), this.end - length);
     this.to = this.from + length;
     this.changed();

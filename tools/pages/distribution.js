@@ -107,10 +107,10 @@ export function scatterOf(across, up, good, onpoint) {
     for (const limit of across.limits ?? []) drawLimit(context, [at.x(limit * xs.scale), inset.top], [at.x(limit * xs.scale), height - inset.bottom]);
   });
   const nearest = (event) => {
-    let best = -1, least = 18 ** 2;
+    let best = -1, min = 18 ** 2;
     across.values.forEach((value, i) => {
       const d = (at.x(value * xs.scale) - event.offsetX) ** 2 + (at.y(up.values[i] * ys.scale) - event.offsetY) ** 2;
-      if (d < least) [best, least] = [i, d];
+      if (d < min) [best, min] = [i, d];
     });
     onpoint(best);
   };

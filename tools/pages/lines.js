@@ -96,10 +96,10 @@ export function taskTable(tasks, happenings) {
   const columns = [['task', false], ['period', true], ['LET', true], ['deadline', true], ['declared WCET', true],
     ...(measured ? [['measured, 99.9 %', true], ['measured, longest', true]] : []), ['faults', true], ['late or left out', true]];
   const rows = tasks.map((task) => {
-    const over = task.measured && task.wcet_ns !== null && task.measured.most_of_999_ns > task.wcet_ns;
+    const over = task.measured && task.wcet_ns !== null && task.measured.max_of_999_ns > task.wcet_ns;
     return [el('span', {title: task.type}, task.name), duration(task.period_ns), duration(task.let_ns), duration(task.deadline_ns), duration(task.wcet_ns),
-      ...(measured ? [el('span', {class: over ? 'bad' : null}, duration(task.measured?.most_of_999_ns, 3), over ? ', beyond its WCET' : ''),
-        duration(task.measured?.most_ns, 3)] : []),
+      ...(measured ? [el('span', {class: over ? 'bad' : null}, duration(task.measured?.max_of_999_ns, 3), over ? ', beyond its WCET' : ''),
+        duration(task.measured?.max_ns, 3)] : []),
       String(happenings.faults_of[task.name] ?? 0), String(happenings.misses_of[task.name] ?? 0)];
   });
   return table('tasks, declared and measured', columns, rows);

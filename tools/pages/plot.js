@@ -66,19 +66,19 @@ export class Plot {
     const scales = new Map();
     for (const {signal} of this.signals) {
       const {unit, scale} = shown(signal.unit);
-      const of = scales.get(unit) ?? {unit, least: Infinity, greatest: -Infinity};
+      const of = scales.get(unit) ?? {unit, min: Infinity, max: -Infinity};
       scales.set(unit, of);
       const end = signal.indexAt(this.time.to);
       for (let i = Math.max(0, signal.indexAt(this.time.from)); i <= end; ++i) {
-        if (signal.low[i] * scale < of.least) of.least = signal.low[i] * scale;
-        if (signal.high[i] * scale > of.greatest) of.greatest = signal.high[i] * scale;
+        if (signal.low[i] * scale < of.min) of.min = signal.low[i] * scale;
+        if (signal.high[i] * scale > of.max) of.max = signal.high[i] * scale;
       }
     }
     for (const of of scales.values()) {
-      if (!Number.isFinite(of.least) || !Number.isFinite(of.greatest)) [of.least, of.greatest] = [0, 1];
-      const room = (of.greatest - of.least) * 0.07 || Math.abs(of.greatest) * 0.1 || 1;
-      of.least -= room;
-      of.greatest += room;
+      if (!Number.isFinite(of.min) || !Number.isFinite(of.max)) [of.min, of.max] = [0, 1];
+      const room = (of.max - of.min) * 0.07 || Math.abs(of.max) * 0.1 || 1;
+      of.min -= room;
+      of.max += room;
     }
     return [...scales.values()];
   }
@@ -88,7 +88,7 @@ export class Plot {
     const plotWidth = width - left - right, plotHeight = height - top - bottom;
     const x = (t) => left + (t - time.from) / (time.to - time.from) * plotWidth;
     const scales = this.scales();
-    const y = (scale, value) => top + (1 - (value - scale.least) / (scale.greatest - scale.least)) * plotHeight;
+    const y = (scale, value) => top + (1 - (value - scale.min) / (scale.max - scale.min)) * plotHeight;
     this.drawGrid(context, {x, y, scales, width, height});
     context.save();
     context.beginPath();
@@ -131,7 +131,7 @@ export class Plot {
     // the first scale stands left, the second right; others have none
     scales.slice(0, 2).forEach((scale, i) => {
       context.textAlign = i === 0 ? 'right' : 'left';
-      for (const value of ticks(scale.least, scale.greatest, 4)) {
+      for (const value of ticks(scale.min, scale.max, 4)) {
         const at = Math.round(y(scale, value)) + 0.5;
         if (i === 0) {
           context.moveTo(left, at);
@@ -171,7 +171,7 @@ export class Plot {
     }
     context.setLineDash(perPx > 1 ? [] : dashes[slot % series]);
     context.beginPath();
-    let pen = false, column = NaN, least = 0, greatest = 0;
+    let pen = false, column = NaN, min = 0, max = 0;
     for (let i = from; i <= to; ++i) {
       const value = (signal.low[i] + signal.high[i]) / 2;
       if (!Number.isFinite(value)) {
@@ -180,15 +180,15 @@ export class Plot {
       }
       const at = x(signal.times[i]), high = y(value);
       if (perPx > 2 && pen && Math.floor(at) === column) {
-        least = Math.min(least, high);
-        greatest = Math.max(greatest, high);
-        context.lineTo(at, least);
-        context.lineTo(at, greatest);
+        min = Math.min(min, high);
+        max = Math.max(max, high);
+        context.lineTo(at, min);
+        context.lineTo(at, max);
         context.lineTo(at, high);
         continue;
       }
       column = Math.floor(at);
-      least = greatest = high;
+      min = max = high;
       if (!pen) context.moveTo(at, high);
       else {
         if (!signal.thinned && perPx < 0.5) context.lineTo(at, y((signal.low[i - 1] + signal.high[i - 1]) / 2));

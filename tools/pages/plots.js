@@ -60,8 +60,8 @@ export function plotsOf(signals, chosen, time, happenings) {
     }});
     boxes.set(signal, box);
     const stated = signal.stated;
-    const range = stated.least === null ? 'never a number'
-      : `${number(stated.least * scale, 4)} to ${number(stated.greatest * scale, 4)}${unit ? ' ' + unit : ''}`;
+    const range = stated.min === null ? 'never a number'
+      : `${number(stated.min * scale, 4)} to ${number(stated.max * scale, 4)}${unit ? ' ' + unit : ''}`;
     return el('li', {draggable: 'true', ondragstart: (event) => {
       event.dataTransfer.setData(kind, String(signal.index));
       event.dataTransfer.effectAllowed = 'copy';

@@ -16,9 +16,9 @@ const time = new TimeWindow(0, summary.covered_ns / 1e9);
 // First of all what was commanded and reached; else what comes first and changes.
 function chosenSignals() {
   const pairs = (data.pairs ?? []).map((names) => names.map((name) => byName.get(name)).filter(Boolean)).filter((some) => some.length > 0);
-  const moving = pairs.filter((some) => some.some((signal) => signal.stated.least !== signal.stated.greatest));
+  const moving = pairs.filter((some) => some.some((signal) => signal.stated.min !== signal.stated.max));
   if (moving.length > 0) return moving.slice(0, 4);
-  return signals.filter((signal) => signal.stated.least !== signal.stated.greatest).slice(0, 3).map((signal) => [signal]);
+  return signals.filter((signal) => signal.stated.min !== signal.stated.max).slice(0, 3).map((signal) => [signal]);
 }
 
 function eventsSection() {
@@ -45,17 +45,17 @@ function signalTable() {
   const rows = signals.map((signal) => {
     const {unit, scale} = shown(signal.unit);
     const cell = (value) => value === null ? '–' : number(value * scale);
-    return [signal.name, unit, String(signal.topic.messages), cell(signal.stated.least), cell(signal.stated.greatest), cell(signal.stated.first), cell(signal.stated.last)];
+    return [signal.name, unit, String(signal.topic.messages), cell(signal.stated.min), cell(signal.stated.max), cell(signal.stated.first), cell(signal.stated.last)];
   });
   return el('details', {class: 'all'}, el('summary', {}, `All ${count(signals.length, 'signal')} in numbers`),
-    table('signals', [['signal', false], ['unit', false], ['values', true], ['least', true], ['greatest', true], ['first', true], ['last', true]], rows));
+    table('signals', [['signal', false], ['unit', false], ['values', true], ['min', true], ['max', true], ['first', true], ['last', true]], rows));
 }
 
 // What of a large recording is in the page.
 function thinned() {
   const topics = data.topics.filter((topic) => topic.piece_ns !== undefined);
   if (topics.length === 0) return 'Every recorded number is in this page, to the bit.';
-  return `Of ${count(topics.length, 'output')} with more than ${plain(data.most_values)} values the page has the least and the greatest of each ${duration(topics[0].piece_ns)}, and draws the range between both; the recording has all.`;
+  return `Of ${count(topics.length, 'output')} with more than ${plain(data.max_values)} values the page has the least and the greatest of each ${duration(topics[0].piece_ns)}, and draws the range between both; the recording has all.`;
 }
 
 function plotsSection() {
@@ -69,7 +69,7 @@ function plotsSection() {
 function pathSection() {
   const paths = data.paths.map((path) => ({...path, x: signals[path.x], y: signals[path.y], z: signals[path.z]}));
   // one that moves first
-  paths.sort((a, b) => (b.x.stated.least !== b.x.stated.greatest) - (a.x.stated.least !== a.x.stated.greatest));
+  paths.sort((a, b) => (b.x.stated.min !== b.x.stated.max) - (a.x.stated.min !== a.x.stated.max));
   if (paths.length === 0)
     return section('path', 'Path', null, el('p', {class: 'nothing'}, 'Nothing that is recorded is a place: fields x and y with z, depth, altitude or height, in metres.'));
   return section('path', 'Path', null, pathOf(paths, time));

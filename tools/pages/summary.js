@@ -13,11 +13,11 @@ export function verdictOf(data) {
   const expected = replay?.verdict.expectations ?? [];
   const failed = expected.filter((e) => e.verdict === 'fails').length;
   if (!summary.end) return ['open', 'The recording breaks off'];
-  if (replay?.standing === 'diverged') return ['bad', 'The replay diverges'];
+  if (replay?.evidence === 'diverged') return ['bad', 'The replay diverges'];
   if (failed > 0) return ['bad', `${count(failed, 'expectation')} not met`];
   if (replay?.verdict.left_out.length > 0) return ['bad', 'Faults left out too much'];
   if (summary.end.faults > 0) return ['open', `${count(summary.end.faults, 'fault')}, within what is allowed`];
-  return replay?.standing === 'same' ? ['good', 'Replays to the bit'] : ['open', 'Not replayed'];
+  return replay?.evidence === 'same' ? ['good', 'Replays to the bit'] : ['open', 'Not replayed'];
 }
 
 export function headOf(data) {

@@ -32,15 +32,15 @@ std::string Ticks::label(std::int64_t i) const {
   return i < 0 ? "\u2212" + text : text;
 }
 
-Ticks find_ticks(double range, int most, bool angle) {
-  const double least = range / most;
-  if (angle && least > 10)
+Ticks find_ticks(double range, int max, bool angle) {
+  const double min = range / max;
+  if (angle && min > 10)
     for (const int step : {15, 30, 45, 90, 180, 360})
-      if (step >= least) return {step, 0};
+      if (step >= min) return {step, 0};
   int exponent = -308;
-  while (Ticks{5, exponent}.at(1) < least) ++exponent;
+  while (Ticks{5, exponent}.at(1) < min) ++exponent;
   for (const int digits : {1, 2})
-    if (Ticks{digits, exponent}.at(1) >= least) return {digits, exponent};
+    if (Ticks{digits, exponent}.at(1) >= min) return {digits, exponent};
   return {5, exponent};
 }
 
@@ -49,7 +49,7 @@ Axis time_axis(std::int64_t end, double from, double to) {
   Axis axis{0, seconds, from, to, find_ticks(seconds, 12, false)};
   // a run of 100 s ends at 99.98 s: the tick it just misses belongs to it
   const double next = axis.ticks.at(static_cast<std::int64_t>(std::ceil(seconds / axis.ticks.at(1))));
-  if (next < 1.01 * seconds) axis.most = next;
+  if (next < 1.01 * seconds) axis.max = next;
   return axis;
 }
 

@@ -6,8 +6,8 @@
 namespace jarol::tools {
 namespace {
 
-constexpr std::size_t most_spans = std::size_t{1} << 14;
-constexpr std::size_t most_points = 2000;
+constexpr std::size_t max_spans = std::size_t{1} << 14;
+constexpr std::size_t max_points = 2000;
 
 double read_number(const Leaf& leaf, const void* value) {
   const void* at = static_cast<const std::byte*>(value) + leaf.offset;
@@ -28,7 +28,7 @@ void PlotCurve::Span::widen(const Span& next) {
 
 void PlotCurve::add(std::int64_t instant, const void* output) {
   double value = read_number(leaf, output) * factor;
-  if (!(std::abs(value) < most_value)) return;  // nor what is no number
+  if (!(std::abs(value) < max_value)) return;  // nor what is no number
   if (heading && std::abs(value) > 180) value -= 360 * std::ceil((value - 180) / 360);
   Point point{instant, value, 0};
   if (!spans.empty()) {
@@ -44,13 +44,13 @@ void PlotCurve::add(std::int64_t instant, const void* output) {
     return;
   }
   // full: pairs become one, and from now on a span takes twice as many samples
-  if (spans.size() == most_spans) {
-    for (std::size_t i = 0; i < most_spans / 2; ++i) {
+  if (spans.size() == max_spans) {
+    for (std::size_t i = 0; i < max_spans / 2; ++i) {
       Span pair = spans[2 * i];
       pair.widen(spans[2 * i + 1]);
       spans[i] = pair;
     }
-    spans.resize(most_spans / 2);
+    spans.resize(max_spans / 2);
     samples_per_span *= 2;
   }
   spans.push_back(span);
@@ -59,9 +59,9 @@ void PlotCurve::add(std::int64_t instant, const void* output) {
 
 std::vector<PlotCurve::Point> PlotCurve::points(std::int64_t end) const {
   std::vector<Span> drawn;
-  const bool all = samples_per_span == 1 && spans.size() <= most_points;
+  const bool all = samples_per_span == 1 && spans.size() <= max_points;
   // else one span for each column of the picture, up to three points of each
-  constexpr std::size_t columns = most_points / 3;
+  constexpr std::size_t columns = max_points / 3;
   std::size_t column_before = columns;
   for (const Span& span : spans) {
     const double part = static_cast<double>(span.last.instant) / static_cast<double>(std::max<std::int64_t>(end, 1));

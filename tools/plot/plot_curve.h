@@ -9,7 +9,7 @@
 namespace jarol::tools {
 
 struct PlotCurve {
-  static constexpr double most_value = 1e300;  // what lies beyond can't be scaled without overflow
+  static constexpr double max_value = 1e300;  // what lies beyond can't be scaled without overflow
 
   struct Point {
     std::int64_t instant = 0;  // ns

@@ -72,7 +72,7 @@ void PlotMap::draw(double left, double right, double top, PlotPen& pen) const {
   const double scale = std::min((right - left) / std::max(smallest, air * east.length()),
                                 height / std::max(smallest, air * north.length()));
   Axis x = axis_of(east, scale, left, right), y = axis_of(north, scale, bottom, top);
-  x.ticks = y.ticks = find_ticks(y.most - y.least, 6, false);
+  x.ticks = y.ticks = find_ticks(y.max - y.min, 6, false);
 
   pen.svg += "<g stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<path stroke=\"#E4E7EB\" d=\"";
   x.for_each_tick([&](double at, const std::string&) { pen.svg += "M" + px(at) + "," + px(top) + "V" + px(bottom); });

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "graph/text/escape.h"
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 #include "tools/plot/plot_axis.h"
 #include "tools/plot/plot_names.h"
 #include "tools/plot/plot_pen.h"
@@ -178,20 +178,20 @@ void PlotSvg::draw(const Drawing& drawing, double top, PlotPen& pen) const {
   const bool angle = first.angle;
   bool whole_numbers = true;
   bool crosses = false;
-  double least = PlotCurve::most_value;
-  double most = -PlotCurve::most_value;
+  double min = PlotCurve::max_value;
+  double max = -PlotCurve::max_value;
   std::vector<std::vector<PlotCurve::Point>> lines;
   for (const Line& line : drawing.lines) {
     const PlotCurve& curve = curves_[line.curve];
     lines.push_back(curve.points(end_));
     for (const PlotCurve::Point& p : lines.back()) {
-      least = std::min(least, p.value);
-      most = std::max(most, p.value);
+      min = std::min(min, p.value);
+      max = std::max(max, p.value);
       crosses = crosses || (curve.heading && p.turn != 0);
     }
     whole_numbers = whole_numbers && curve.leaf.type->kind != Kind::floating && curve.factor == 1;
   }
-  const bool no_data = least > most;
+  const bool no_data = min > max;
   const bool names = first.leaf.type->kind == Kind::enumeration;
 
   Axis y;
@@ -199,18 +199,18 @@ void PlotSvg::draw(const Drawing& drawing, double top, PlotPen& pen) const {
   y.to = drawing.downwards ? bottom : top;
   if (!no_data) {
     // some air around the curves; not below a zero that they do not cross, nor beyond the circle
-    const double greatest = std::max(std::abs(least), std::abs(most));
-    const double range = most - least;
+    const double greatest = std::max(std::abs(min), std::abs(max));
+    const double range = max - min;
     const bool flat = range <= 1e-9 * greatest || range < 1e-290;
     const double air = !flat ? (names ? 0.2 : 0.06) * range : greatest > 1e-290 ? 0.1 * greatest : 1.0;
-    y.least = least >= 0 && least < air && !flat ? 0 : least - air;
-    y.most = most <= 0 && most > -air && !flat ? 0 : most + air;
-    if (angle && least >= -180 && most <= 180) {
-      y.least = crosses ? -180 : std::max(y.least, -180.0);
-      y.most = crosses ? 180 : std::min(y.most, 180.0);
+    y.min = min >= 0 && min < air && !flat ? 0 : min - air;
+    y.max = max <= 0 && max > -air && !flat ? 0 : max + air;
+    if (angle && min >= -180 && max <= 180) {
+      y.min = crosses ? -180 : std::max(y.min, -180.0);
+      y.max = crosses ? 180 : std::min(y.max, 180.0);
     }
   }
-  y.ticks = find_ticks(y.most - y.least, 5, angle);
+  y.ticks = find_ticks(y.max - y.min, 5, angle);
   if (whole_numbers && y.ticks.exponent < 0) y.ticks = {1, 0};
   const Axis x = time_axis(end_, left, right);
   const std::vector<NamedValue> named = names ? names_in(lines, *first.leaf.type) : std::vector<NamedValue>{};
@@ -282,7 +282,7 @@ std::string PlotSvg::text() const {
 }
 
 void PlotSvg::finish() {
-  WholeFile file(path_);
+  AtomicFile file(path_);
   file.write(text());
   file.commit();
 }

@@ -110,13 +110,13 @@ Option* Option::one_value() {
   return this;
 }
 
-Option* Option::in_range(int least, int most) {
-  option_.check(CLI::Range(least, most));
+Option* Option::in_range(int min, int max) {
+  option_.check(CLI::Range(min, max));
   return this;
 }
 
-Option* Option::in_range(double least, double most) {
-  option_.check(CLI::Range(least, most));
+Option* Option::in_range(double min, double max) {
+  option_.check(CLI::Range(min, max));
   return this;
 }
 
@@ -279,7 +279,7 @@ void CommandLine::parse(int argc, char** argv) {
       app_->exit(error);
       return;
     }
-    // the value of a mistyped option looks like an argument, which CLI11 tells instead
+    // the value of a mistyped option looks like an argument, which CLI11 reports instead
     if (words.command != app_.get())
       if (const std::string wrong = unknown_option(*words.command, words.own); !wrong.empty()) throw UsageError(wrong);
     throw UsageError(error.what(), "Run with --help for more information.\n");

@@ -45,8 +45,8 @@ class Option {
   Option* required();
   /// Each use takes one value: the word after it is an argument again.
   Option* one_value();
-  Option* in_range(int least, int most);
-  Option* in_range(double least, double most);
+  Option* in_range(int min, int max);
+  Option* in_range(double min, double max);
   Option* one_of(const std::vector<std::string>& words);
   Option* excludes(const Option* other);
   /// For completion alone: words that make sense, beside others.

@@ -8,15 +8,15 @@
 
 namespace jarol::tools {
 
-std::string text_of(const Differences& differences, std::size_t most) {
+std::string text_of(const Differences& differences, std::size_t max) {
   const std::optional<FirstDifference>& first = differences.first();
   if (!first) return "";
   std::string text = "  first       " + text_of(*first) + "\n";
   const std::vector<SignalDifference> signals = differences.signals();
-  for (std::size_t i = 0; i < std::min(most, signals.size()); ++i)
+  for (std::size_t i = 0; i < std::min(max, signals.size()); ++i)
     text += "  signal      " + signals[i].name + " " + text_of(signals[i]) + "\n";
-  if (signals.size() > most)
-    text += fmt::format("              and {} more signals; --json has all\n", signals.size() - most);
+  if (signals.size() > max)
+    text += fmt::format("              and {} more signals; --json has all\n", signals.size() - max);
   return text;
 }
 

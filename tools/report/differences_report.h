@@ -9,7 +9,7 @@
 namespace jarol::tools {
 
 /// The first difference, then so many signals; nothing where there is none.
-std::string text_of(const Differences& differences, std::size_t most = 20);
+std::string text_of(const Differences& differences, std::size_t max = 20);
 
 nlohmann::ordered_json json_of(const Differences& differences);
 

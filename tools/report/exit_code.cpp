@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "runtime/files/partial_files.h"
+#include "runtime/files/temporary_files.h"
 
 namespace jarol::tools {
 namespace {
@@ -31,7 +31,7 @@ int exit_of(std::initializer_list<int> codes) {
 void end_at_once(int exit_code) {
   std::cout.flush();
   std::cerr.flush();
-  remove_partial_files();
+  remove_temporary_files();
   ::_exit(exit_code);
 }
 

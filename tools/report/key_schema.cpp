@@ -10,7 +10,7 @@ using Json = nlohmann::ordered_json;
 const std::string host = "([^][:,\\s]+:|\\[[0-9A-Fa-f:.]+\\]:)?";
 const std::string address = host + "[0-9]{1,5}";
 const std::string addresses = address + "(-[0-9]{1,5})?";
-constexpr int most_port = 65535;
+constexpr int max_port = 65535;
 
 // One that is a number of its own, or one with a sign.
 Json share_schema() {
@@ -29,13 +29,13 @@ Json integer_schema(const KeyDescription& key) {
   if (!key.integers.empty()) return {{"enum", key.integers}};
   const bool limited = key.limits.first <= key.limits.second;
   return {{"type", "integer"},
-          {"minimum", limited ? key.limits.first : key.least},
-          {"maximum", limited ? key.limits.second : key.most}};
+          {"minimum", limited ? key.limits.first : key.min},
+          {"maximum", limited ? key.limits.second : key.max}};
 }
 
 Json port_or(const std::string& pattern) {
   return {{"anyOf",
-           {{{"type", "integer"}, {"minimum", 0}, {"maximum", most_port}},
+           {{{"type", "integer"}, {"minimum", 0}, {"maximum", max_port}},
             {{"type", "string"}, {"pattern", "^" + pattern + "$"}}}}};
 }
 

@@ -48,7 +48,7 @@ void limit_ids(const DistributerClass& distributer, Json& link) {
   const Value parameters = distributer.parameters == nullptr ? Value() : Value(*distributer.parameters);
   const messages::MessageSet& set = distributer.make(parameters.data())->message_set();
   Json allowed = false;
-  for (const messages::FieldForm& field : set.header->fields)
+  for (const messages::FieldDescriptor& field : set.header->fields)
     if (field.name == "src" && field.wire <= messages::Wire::uint32)
       allowed = {{"maximum", (std::int64_t{1} << (8 * size_of(field.wire))) - 1}};
   for (const char* key : {"id", "source"}) link["properties"][key] = allowed;

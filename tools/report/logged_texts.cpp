@@ -31,7 +31,7 @@ void LoggedTexts::take(Duration instant, std::uint32_t index, const void* value)
   if (text == output.last) return;
   output.last = text;
   if (text.empty()) return;
-  if (++output.count <= most_kept) kept_.push_back({instant, output.name, output.last});
+  if (++output.count <= max_kept) kept_.push_back({instant, output.name, output.last});
 }
 
 void LoggedTexts::serialize(Archive& archive) {
@@ -48,8 +48,8 @@ std::string LoggedTexts::to_text() const {
     text += "  logged      " + logged.output + " at " + seconds_text(logged.instant) + " s: " + printable(logged.text) +
             "\n";
   for (const Output& output : outputs_)
-    if (output.count > most_kept)
-      text += "  logged      " + output.name + ": and " + std::to_string(output.count - most_kept) + " texts more\n";
+    if (output.count > max_kept)
+      text += "  logged      " + output.name + ": and " + std::to_string(output.count - max_kept) + " texts more\n";
   return text;
 }
 

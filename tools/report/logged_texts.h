@@ -16,7 +16,7 @@ namespace jarol::tools {
 /// Notes when such an output becomes another text; none where it becomes empty.
 class LoggedTexts : public RecordSink {
  public:
-  static constexpr std::size_t most_kept = 100;
+  static constexpr std::size_t max_kept = 100;
 
   explicit LoggedTexts(const Graph& graph);
 

@@ -4,22 +4,22 @@
 #include <vector>
 
 #include "tools/report/logged_texts.h"
-#include "tools/report/told_changes.h"
+#include "tools/report/status_events.h"
 
 namespace jarol::tools {
 
 struct Noted {
-  explicit Noted(const Graph& graph) : told(graph), logged(graph) {}
+  explicit Noted(const Graph& graph) : reported(graph), logged(graph) {}
 
   /// Those of both that have anything to note.
   void add_to(std::vector<RecordSink*>& sinks) {
-    if (told.can_be_any()) sinks.push_back(&told);
+    if (reported.can_be_any()) sinks.push_back(&reported);
     if (logged.can_be_any()) sinks.push_back(&logged);
   }
 
-  void serialize(Archive& archive) { archive(told, logged); }
+  void serialize(Archive& archive) { archive(reported, logged); }
 
-  ToldChanges told;
+  StatusEvents reported;
   LoggedTexts logged;
 };
 

@@ -25,10 +25,10 @@ std::string escaped(const std::string& text) {
 }
 
 // A number of its own has YAML's form, whatever its unit; one that says its unit is a word.
-Json number_schema(double most, const std::string& unit, const FieldRange& range) {
+Json number_schema(double max, const std::string& unit, const FieldRange& range) {
   Json number{{"type", "number"},
-              {"minimum", range.is_stated() ? range.min : -most},
-              {"maximum", range.is_stated() ? range.max : most}};
+              {"minimum", range.is_stated() ? range.min : -max},
+              {"maximum", range.is_stated() ? range.max : max}};
   if (unit.empty()) return number;
   return {{"anyOf", {std::move(number), {{"type", "string"}, {"pattern", number_pattern(unit)}}}}};
 }

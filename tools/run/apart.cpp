@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 
 namespace jarol::tools {
 namespace {

@@ -8,7 +8,7 @@ std::vector<console::DeskOperator> operators_at_console(const Loaded& loaded) {
   std::vector<console::DeskOperator> operators;
   for (std::size_t i = 0; i < loaded.channels.size(); ++i) {
     const Distributer& distributer = loaded.graph->distributers[i];
-    if (auto* const channels = dynamic_cast<distributers::ConsoleChannels*>(loaded.channels[i].get()))
+    if (auto* const channels = dynamic_cast<distributers::ConsoleSystem*>(loaded.channels[i].get()))
       operators.push_back({distributer.name, distributer.distributer_class->name, channels->port()});
   }
   return operators;

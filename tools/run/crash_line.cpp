@@ -18,7 +18,7 @@
 #include "distributers/guardian/guardian.h"
 #include "graph/text/escape.h"
 #include "runtime/dispatch/task_guard.h"
-#include "runtime/files/partial_files.h"
+#include "runtime/files/temporary_files.h"
 #include "runtime/machine/running_task.h"
 #include "runtime/state/task_status.h"
 #include "tools/report/exit_code.h"
@@ -113,7 +113,7 @@ void wait_if_second() {
 // First the guardian acts, while the line is written and a core is dumped.
 void leave(Line& line) {
   if (const auto* const awake = guardian.load()) awake->wake();
-  remove_partial_files();
+  remove_temporary_files();
   line.write();
   write_promptly(about_log);
 }

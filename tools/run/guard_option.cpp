@@ -46,7 +46,7 @@ void look_up_at_once() {
   throw std::runtime_error("--guard: the program can't be begun again: " + std::generic_category().message(errno));
 }
 
-std::unique_ptr<TaskGuard> make_guard(bool wanted, const Graph& graph, const std::vector<Channels*>& channels) {
+std::unique_ptr<TaskGuard> make_guard(bool wanted, const Graph& graph, const std::vector<ExternalSystem*>& channels) {
   if (!wanted) return nullptr;
   for (std::size_t i = 0; i < channels.size(); ++i)
     if (channels[i]->outlives_run())

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/channels.h"
 #include "runtime/dispatch/task_guard.h"
+#include "runtime/external_system.h"
 
 namespace jarol::tools {
 
@@ -21,6 +21,6 @@ void require_guard_effect(const Command& command, bool guard, bool virtual_clock
 void look_up_at_once();
 
 /// Null: it was not asked for. By the main thread; the channels are those of the graph. Throws std::invalid_argument.
-std::unique_ptr<TaskGuard> make_guard(bool wanted, const Graph& graph, const std::vector<Channels*>& channels);
+std::unique_ptr<TaskGuard> make_guard(bool wanted, const Graph& graph, const std::vector<ExternalSystem*>& channels);
 
 }  // namespace jarol::tools

@@ -4,7 +4,7 @@
 #include <ctime>
 #include <utility>
 
-#include "runtime/files/partial_files.h"
+#include "runtime/files/temporary_files.h"
 #include "runtime/machine/asked_to_end.h"
 #include "tools/run/prompt_line.h"
 
@@ -18,7 +18,7 @@ std::atomic<bool> may_hasten{false}, hastened{false};
 std::atomic<std::int64_t> counted_at{0};  // ns, of the newest that counts; 0: none has come
 std::function<void()> call;
 
-constexpr std::int64_t second_from = 500'000'000;  // ns: what comes sooner is the same wish, told twice
+constexpr std::int64_t second_from = 500'000'000;  // ns: what comes sooner is the same wish, reported twice
 
 std::int64_t now() {
   timespec time{};
@@ -44,7 +44,7 @@ extern "C" void interrupt(int signal) {
   }
   // whoever asks again does not want to wait for the end, nor, the third time, for this line
   std::signal(signal, SIG_DFL);
-  remove_partial_files();
+  remove_temporary_files();
   write_promptly("interrupted again: ended at once, without a report\n");
   std::raise(signal);
 }

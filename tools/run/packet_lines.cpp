@@ -13,7 +13,7 @@ namespace jarol::tools {
 namespace {
 
 using messages::ByteOrder;
-using messages::Flaw;
+using messages::PacketError;
 using Bytes = std::vector<std::byte>;
 using Json = nlohmann::ordered_json;
 
@@ -108,18 +108,18 @@ ByteOrder order_in(const Json& packet, const messages::MessageSet& set) {
                                              : R"("little")")};
 }
 
-messages::Message message_of(const messages::MessageForm& form, const Json& packet, const char* key) {
-  messages::Message message(form);
+messages::Message message_of(const messages::MessageDescriptor& descriptor, const Json& packet, const char* key) {
+  messages::Message message(descriptor);
   std::string why;
   if (packet.contains(key) && !messages::from_json(packet[key].dump(), message, why)) throw Wrong{why};
   return message;
 }
 
-const messages::MessageForm& form_in(const Json& packet, const messages::MessageSet& set) {
+const messages::MessageDescriptor& descriptor_in(const Json& packet, const messages::MessageSet& set) {
   if (!packet.contains("name") || !packet["name"].is_string())
     throw Wrong{"the packet has no \"name\"; it needs that of a message of set " + std::string(set.name)};
   const auto& name = packet["name"].get_ref<const std::string&>();
-  if (const auto* form = set.find(std::string_view(name))) return *form;
+  if (const auto* descriptor = set.find(std::string_view(name))) return *descriptor;
   std::vector<std::string> names;
   for (const auto* m : set.messages) names.emplace_back(m->name);
   throw Wrong{"set " + std::string(set.name) + " has no message '" + name + "'" + did_you_mean(name, names)};
@@ -139,16 +139,17 @@ int decode_lines(const messages::MessageSet& set, std::istream& in, std::ostream
   return for_each_line(in, errors, [&](const std::string& line) -> int {
     const Bytes bytes = bytes_of(line);
     std::string why;
-    const Flaw flaw = reader.read(bytes, &why);
-    if (reader.message().form == nullptr) throw Wrong{why};
-    out << R"({"name":)" << Json(reader.message().form->name) << R"(,"header":)" << messages::to_json(reader.header())
-        << R"(,"fields":)" << messages::to_json(reader.message()) << R"(,"crc_ok":)" << Json(flaw == Flaw::none);
+    const PacketError packet_error = reader.read(bytes, &why);
+    if (reader.message().descriptor == nullptr) throw Wrong{why};
+    out << R"({"name":)" << Json(reader.message().descriptor->name) << R"(,"header":)"
+        << messages::to_json(reader.header()) << R"(,"fields":)" << messages::to_json(reader.message())
+        << R"(,"crc_ok":)" << Json(packet_error == PacketError::none);
     if (reader.order() != set.order)
       out << R"(,"order":)" << (reader.order() == ByteOrder::big ? R"("big")" : R"("little")");
     const std::vector<std::string> outside = messages::find_outside(reader.message());
     if (!outside.empty()) out << R"(,"outside":)" << Json(outside);
     out << R"(,"hex":")" << hex_of(bytes) << "\"}" << std::endl;  // whoever listens may be waiting for it
-    return flaw == Flaw::none ? exit_good : exit_negative;
+    return packet_error == PacketError::none ? exit_good : exit_negative;
   });
 }
 
@@ -156,7 +157,7 @@ int encode_lines(const messages::MessageSet& set, std::istream& in, std::ostream
   return for_each_line(in, errors, [&](const std::string& line) -> int {
     const Json packet = parse_object(line);
     check_keys(packet);
-    const messages::Message message = message_of(form_in(packet, set), packet, "fields");
+    const messages::Message message = message_of(descriptor_in(packet, set), packet, "fields");
     const messages::Message header = message_of(*set.header, packet, "header");
     Bytes bytes;
     std::string why;

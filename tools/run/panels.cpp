@@ -9,7 +9,7 @@
 
 #include "graph/language/load.h"
 #include "graph/language/problems.h"
-#include "tools/report/commanded.h"
+#include "tools/report/tracking.h"
 
 namespace jarol::tools {
 namespace {

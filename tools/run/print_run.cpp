@@ -6,8 +6,8 @@
 
 #include "graph/text/escape.h"
 #include "tools/report/duration_option.h"
+#include "tools/report/fault_report.h"
 #include "tools/report/json_line.h"
-#include "tools/report/told_faults.h"
 #include "tools/run/execution.h"
 
 namespace jarol::tools {
@@ -56,7 +56,7 @@ void print(const RunOptions& options, const RunOutcome& outcome, const std::vect
   if (written) std::cout << to_text(options.recording);
   std::cout << to_text(column_of(outcome.state, outcome.report, outcome.true_states, outcome.verdict),
                        what_ifs.outcomes());
-  std::cerr << told_faults(report);
+  std::cerr << fault_report(report);
 }
 
 }  // namespace jarol::tools

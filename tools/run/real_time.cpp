@@ -108,7 +108,7 @@ std::string to_text(const Graph& graph, const RealClock& clock) {
   const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
   const Histogram& late = clock.lateness();
   std::string text = fmt::format("  lateness    {:.1f} us median, {:.1f} us 99 %, {:.1f} us worst\n",
-                                 us(late.percentile(0.5)), us(late.percentile(0.99)), us(late.most()));
+                                 us(late.percentile(0.5)), us(late.percentile(0.99)), us(late.max()));
   std::size_t width = 4;
   for (const Task& task : graph.tasks) width = std::max(width, task.name.size());
   text += fmt::format("  {:<{}}  {:>11}  {:>10}  {:>10}  {:>11}  {:>6}  {:>8}\n", "task", width, "activations",
@@ -116,8 +116,8 @@ std::string to_text(const Graph& graph, const RealClock& clock) {
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const TaskTiming& t = clock.timing(i);
     text += fmt::format("  {:<{}}  {:>11}  {:>10.1f}  {:>10.1f}  {:>11.1f}  {:>6}  {:>8}\n", graph.tasks[i].name, width,
-                        t.execution.count(), us(t.execution.percentile(0.99)), us(t.execution.most()),
-                        us(t.response.most()), t.late, t.left_out);
+                        t.execution.count(), us(t.execution.percentile(0.99)), us(t.execution.max()),
+                        us(t.response.max()), t.late, t.left_out);
   }
   return text;
 }
@@ -129,21 +129,21 @@ nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock) {
     const TaskTiming& t = clock.timing(i);
     tasks[graph.tasks[i].name] = {{"activations", t.execution.count()},
                                   {"execution_99_ns", t.execution.percentile(0.99)},
-                                  {"execution_most_ns", t.execution.most()},
+                                  {"execution_max_ns", t.execution.max()},
                                   {"response_99_ns", t.response.percentile(0.99)},
-                                  {"response_most_ns", t.response.most()},
+                                  {"response_max_ns", t.response.max()},
                                   {"late", t.late},
                                   {"left_out", t.left_out}};
   }
   return {{"lateness_50_ns", late.percentile(0.5)},
           {"lateness_99_ns", late.percentile(0.99)},
-          {"lateness_most_ns", late.most()},
+          {"lateness_max_ns", late.max()},
           {"tasks", tasks}};
 }
 
-std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands, const Ending& ending) {
+std::string to_text(const Graph& graph, const std::vector<FailsafeReport>& failsafe, const Ending& ending) {
   std::string text;
-  for (const SafeCommandReport& safe : safe_commands) {
+  for (const FailsafeReport& safe : failsafe) {
     const std::string& name = graph.communicators[safe.communicator].name;
     if (!safe.heard && safe.at_start > 0)
       text += fmt::format("  safe        {}: all {} commands, for nothing ever came\n", name, safe.at_start);
@@ -161,9 +161,9 @@ std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& sa
   return text;
 }
 
-nlohmann::ordered_json to_json(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands) {
+nlohmann::ordered_json to_json(const Graph& graph, const std::vector<FailsafeReport>& failsafe) {
   auto json = nlohmann::ordered_json::object();
-  for (const SafeCommandReport& safe : safe_commands) {
+  for (const FailsafeReport& safe : failsafe) {
     const Communicator& out = graph.communicators[safe.communicator];
     json[out.name] = {{"heard", safe.heard},
                       {"at_start", safe.at_start},

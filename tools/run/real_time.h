@@ -1,4 +1,4 @@
-// What commands that run in real time share: their options, what they refuse, and what they tell afterwards.
+// What commands that run in real time share: their options, what they refuse, and what they report afterwards.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,8 +9,8 @@
 
 #include "graph/analysis/threads.h"
 #include "graph/model/graph.h"
-#include "runtime/channels.h"
-#include "runtime/execute/safe_commands.h"
+#include "runtime/execute/failsafe.h"
+#include "runtime/external_system.h"
 #include "runtime/machine/real_clock.h"
 #include "runtime/run/ending.h"
 
@@ -40,8 +40,8 @@ void take_priority(std::optional<int> priority);
 std::vector<analysis::TaskThread> threads_for(const std::string& file, const Graph& graph, RealTimeOptions& options);
 
 /// Throws std::invalid_argument for a graph that can't be executed in real time, and unless forced NegativeVerdict for
-/// one of which check finds that it is not schedulable or breaks a chain's limit; says on stderr when check can't tell.
-/// `file` is what the user called the graph.
+/// one of which check finds that it is not schedulable or breaks a chain's limit; says on stderr when check can't
+/// report. `file` is what the user called the graph.
 void require_executable(const std::string& file, const Graph& graph, const RealTimeArguments& arguments);
 
 /// How well the run kept to real time.
@@ -49,8 +49,8 @@ std::string to_text(const Graph& graph, const RealClock& clock);
 nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock);
 
 /// When safe values were handed over, and why at the end; in the text only those that were.
-std::string to_text(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands, const Ending& ending);
-nlohmann::ordered_json to_json(const Graph& graph, const std::vector<SafeCommandReport>& safe_commands);
+std::string to_text(const Graph& graph, const std::vector<FailsafeReport>& failsafe, const Ending& ending);
+nlohmann::ordered_json to_json(const Graph& graph, const std::vector<FailsafeReport>& failsafe);
 
 /// What a link has carried; in the text only what there was, and whether nobody was heard.
 std::string to_text(const LinkReport& link);

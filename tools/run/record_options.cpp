@@ -28,12 +28,12 @@ mcap::Compression compression_of(const std::string& name) {
 }
 
 std::uint64_t split_of(const std::string& text) {
-  constexpr std::int64_t least = std::int64_t{1} << 20;
+  constexpr std::int64_t min = std::int64_t{1} << 20;
   if (text.empty()) return 0;
   std::int64_t bytes = 0;
   if (const std::string wrong = parse_bytes(text, bytes); !wrong.empty())
     throw std::invalid_argument("--record-split: '" + text + "' " + wrong);
-  if (bytes < least) throw std::invalid_argument("--record-split: '" + text + "' is below 1MiB");
+  if (bytes < min) throw std::invalid_argument("--record-split: '" + text + "' is below 1MiB");
   return static_cast<std::uint64_t>(bytes);
 }
 

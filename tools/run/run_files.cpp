@@ -5,7 +5,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "runtime/files/whole_file.h"
+#include "runtime/files/atomic_file.h"
 #include "runtime/record/trace_csv.h"
 #include "tools/report/command_line.h"
 #include "tools/run/panels.h"

@@ -8,7 +8,7 @@
 #include "distributers/session/guard.h"
 #include "distributers/session/linked.h"
 #include "graph/text/escape.h"
-#include "runtime/jarol/threads_core.h"
+#include "runtime/jarol/jarol_core.h"
 #include "tools/report/exit_code.h"
 #include "tools/report/noted.h"
 #include "tools/report/rest_report.h"
@@ -64,7 +64,7 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
   Noted noted(*loaded.graph);
   std::vector<RecordSink*> looking_on;
   noted.add_to(looking_on);
-  const std::vector<Channels*> channels = pointers_to(loaded.channels);
+  const std::vector<ExternalSystem*> channels = pointers_to(loaded.channels);
   RunSinks sinks(*loaded.graph, looking_on);
   ThreadsCore core(*loaded.graph, std::move(loaded.channels), sinks.recorder());
   core.on_rest([&](Duration begun) { sinks.judge_before(begun); });
@@ -103,7 +103,7 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
       .state = core.state(),
       .report = core.report(),
       .rest = core.rest(),
-      .safe_commands = core.safe_commands(),
+      .failsafe = core.failsafe(),
       .noted = noted,
       .end = run_end,
       .threads = &core,

@@ -6,7 +6,7 @@
 
 namespace jarol::tools {
 
-/// Runs and tells; the exit code. Throws std::invalid_argument for a graph that threads can't run.
+/// Runs and reports; the exit code. Throws std::invalid_argument for a graph that threads can't run.
 int run_on_threads(Loaded& loaded, Duration end, const RunOptions& options);
 
 }  // namespace jarol::tools

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/machine/arithmetic.h"
+#include "tools/report/fault_report.h"
 #include "tools/report/guard_report.h"
 #include "tools/report/rest_report.h"
-#include "tools/report/told_faults.h"
 #include "tools/report/value_json.h"
 #include "tools/report/verdicts.h"
 #include "tools/run/real_time.h"
@@ -41,14 +41,14 @@ std::string to_text(const RunOutcome& outcome) {
   for (const std::string& warning : warnings(find_arithmetic())) text += "  note        " + warning + "\n";
   for (std::size_t i = 0; i < graph.tasks.size(); ++i)
     if (const PrivateHeap* heap = outcome.state.heaps[i])
-      text += fmt::format("  heap        {}: at most {} of {} bytes in use\n", graph.tasks[i].name, heap->most_used(),
+      text += fmt::format("  heap        {}: at most {} of {} bytes in use\n", graph.tasks[i].name, heap->max_used(),
                           heap->size());
-  text += outcome.noted.told.to_text() + outcome.noted.logged.to_text();
+  text += outcome.noted.reported.to_text() + outcome.noted.logged.to_text();
   if (outcome.clock != nullptr) text += to_text(graph, *outcome.clock);
   if (outcome.threads != nullptr) text += to_text(graph, *outcome.threads);
   for (const LinkReport& link : outcome.links) text += to_text(link);
   text += to_text(graph, outcome.rest, outcome.end);
-  text += to_text(graph, outcome.safe_commands, outcome.end.ending);
+  text += to_text(graph, outcome.failsafe, outcome.end.ending);
   if (outcome.guard != nullptr) text += to_text(*outcome.guard);
   if (report.non_finite_inputs > 0)
     text += fmt::format("  {} values from outside were not finite and not taken\n", report.non_finite_inputs);
@@ -65,9 +65,9 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
   auto heaps = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < graph.tasks.size(); ++i)
     if (const PrivateHeap* heap = outcome.state.heaps[i])
-      heaps[graph.tasks[i].name] = {{"size", heap->size()}, {"most_used", heap->most_used()}};
+      heaps[graph.tasks[i].name] = {{"size", heap->size()}, {"max_used", heap->max_used()}};
   nlohmann::ordered_json json{
-      {"schema", "jarol.run/1"},
+      {"schema", "jarol.run/2"},
       {"graph", graph.name},
       {"clock", outcome.in_real_time() ? "real" : "virtual"},
       {"concurrency", outcome.threads != nullptr ? "threads" : "exotasks"},
@@ -85,8 +85,8 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
       {"non_finite_inputs", report.non_finite_inputs},
       {"ending", to_json(outcome.end)},
       {"rest", to_json(graph, outcome.rest, outcome.end)},
-      {"safe_commands", to_json(graph, outcome.safe_commands)},
-      {"told", outcome.noted.told.to_json()},
+      {"failsafe", to_json(graph, outcome.failsafe)},
+      {"events", outcome.noted.reported.to_json()},
       {"logged", outcome.noted.logged.to_json()},
       {"heaps", heaps},
       {"outputs", outputs_to_json(graph, [&](std::size_t communicator) { return outcome.last_value(communicator); })}};

@@ -1,4 +1,4 @@
-// What a run, or the replay of one, tells at its end.
+// What a run, or the replay of one, reports at its end.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,11 +8,11 @@
 
 #include "distributers/session/guard.h"
 #include "runtime/dispatch/stage_team.h"
-#include "runtime/jarol/threads_core.h"
+#include "runtime/jarol/jarol_core.h"
 #include "runtime/machine/real_clock.h"
-#include "tools/report/commanded.h"
 #include "tools/report/noted.h"
 #include "tools/report/run_end.h"
+#include "tools/report/tracking.h"
 #include "tools/report/verdicts.h"
 
 namespace jarol::tools {
@@ -21,7 +21,7 @@ struct RunOutcome {
   const RunState& state;
   const Report& report;
   std::optional<RestReport> rest;
-  const std::vector<SafeCommandReport>& safe_commands;
+  const std::vector<FailsafeReport>& failsafe;
   const Noted& noted;
   const RunEnd& end;
   const RealClock* clock = nullptr;      // of exotasks; null: none

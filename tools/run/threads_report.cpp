@@ -11,7 +11,7 @@ std::string to_text(const Graph& graph, const ThreadsCore& core) {
   const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
   const auto line = [&](const char* what, const Histogram& of, const char* after) {
     return fmt::format("  {:<10}  {:.1f} us {}median, {:.1f} us 99 %, {:.1f} us worst\n", what, us(of.percentile(0.5)),
-                       after, us(of.percentile(0.99)), us(of.most()));
+                       after, us(of.percentile(0.99)), us(of.max()));
   };
   std::string text = fmt::format("  rounds      {} of {}\n", threads.rounds, duration_text(core.period())) +
                      line("outputs", threads.round, "after the tick ") + line("lateness", threads.lateness, "");
@@ -21,7 +21,7 @@ std::string to_text(const Graph& graph, const ThreadsCore& core) {
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Histogram& execution = threads.execution[i];
     text += fmt::format("  {:<{}}  {:>11}  {:>10.1f}  {:>10.1f}\n", graph.tasks[i].name, width, execution.count(),
-                        us(execution.percentile(0.99)), us(execution.most()));
+                        us(execution.percentile(0.99)), us(execution.max()));
   }
   if (threads.core_busy > 0) text += fmt::format("  core        {} ticks found it at work\n", threads.core_busy);
   if (threads.unawaited_ticks > 0)
@@ -36,7 +36,7 @@ nlohmann::ordered_json to_json(const Graph& graph, const ThreadsCore& core) {
     const Histogram& execution = threads.execution[i];
     tasks[graph.tasks[i].name] = {{"activations", execution.count()},
                                   {"execution_99_ns", execution.percentile(0.99)},
-                                  {"execution_most_ns", execution.most()}};
+                                  {"execution_max_ns", execution.max()}};
   }
   return {{"period_ns", core.period().count()},
           {"rounds", threads.rounds},
@@ -44,10 +44,10 @@ nlohmann::ordered_json to_json(const Graph& graph, const ThreadsCore& core) {
           {"unawaited_ticks", threads.unawaited_ticks},
           {"outputs_50_ns", threads.round.percentile(0.5)},
           {"outputs_99_ns", threads.round.percentile(0.99)},
-          {"outputs_most_ns", threads.round.most()},
+          {"outputs_max_ns", threads.round.max()},
           {"lateness_50_ns", threads.lateness.percentile(0.5)},
           {"lateness_99_ns", threads.lateness.percentile(0.99)},
-          {"lateness_most_ns", threads.lateness.most()},
+          {"lateness_max_ns", threads.lateness.max()},
           {"tasks", tasks}};
 }
 

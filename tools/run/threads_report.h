@@ -1,10 +1,10 @@
-// What a run on threads tells of its rounds.
+// What a run on threads shows its rounds.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "runtime/jarol/threads_core.h"
+#include "runtime/jarol/jarol_core.h"
 
 namespace jarol::tools {
 

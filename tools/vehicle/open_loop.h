@@ -24,8 +24,8 @@ std::vector<Commands> read_commands(const std::shared_ptr<const Source>& script,
                                     Problems& problems);
 
 /// Writes a row each `period`, a multiple of the vehicle's grid, from 0 to `end`, both included: `time`, the state,
-/// then the vehicle's other outputs; an empty cell for what no sensor has told yet. The file appears when it is whole.
-/// Throws std::runtime_error if the vehicle has no state any more or the file can't be written.
+/// then the vehicle's other outputs; an empty cell for what no sensor has reported yet. The file appears when it is
+/// whole. Throws std::runtime_error if the vehicle has no state any more or the file can't be written.
 void run_open_loop(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class,
                    const std::vector<Commands>& commands, Duration period, Duration end, const std::string& path);
 

@@ -9,7 +9,7 @@
 #include "graph/language/quantities.h"
 #include "tools/report/exit_code.h"
 #include "tools/report/json_line.h"
-#include "tools/report/vehicle_diary.h"
+#include "tools/report/silence_log.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/real_time.h"
 
@@ -32,13 +32,13 @@ struct ToPeer : messages::Receiver {
   distributers::Link& link;
 };
 
-// Passes on messages of one form only.
+// Passes on messages of one kind only.
 struct Only : messages::Receiver {
-  Only(const messages::MessageForm& one, messages::Receiver& receiver) : form(one), to(receiver) {}
+  Only(const messages::MessageDescriptor& one, messages::Receiver& receiver) : descriptor(one), to(receiver) {}
   void receive(messages::MessageRef message) override {
-    if (message.form == &form) to.receive(message);
+    if (message.descriptor == &descriptor) to.receive(message);
   }
-  const messages::MessageForm& form;
+  const messages::MessageDescriptor& descriptor;
   messages::Receiver& to;
 };
 
@@ -50,8 +50,8 @@ struct All : messages::Receiver {
 
 std::unique_ptr<messages::Receiver> make_telemetry(const vehicles::Vehicle& vehicle,
                                                    const vehicles::VehicleClass& vehicle_class, messages::Receiver& to,
-                                                   Told told) {
-  if (told == Told::true_state) return std::make_unique<Only>(*vehicle_class.true_state, to);
+                                                   Telemetry telemetry) {
+  if (telemetry == Telemetry::true_state) return std::make_unique<Only>(*vehicle_class.true_state, to);
   if (vehicle_class.make_telemetry != nullptr) return vehicle_class.make_telemetry(vehicle, to);
   return std::make_unique<All>(to);
 }
@@ -86,12 +86,12 @@ bool report_mishap(const vehicles::Vehicle& vehicle, const std::string& name) {
 }
 
 int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
-                  std::chrono::nanoseconds end, const Telling& telling, const RealTimeOptions& real_time) {
+                  std::chrono::nanoseconds end, const ServeOptions& options, const RealTimeOptions& real_time) {
   ToVehicle to_vehicle(vehicle);
   ToPeer to_link(link);
-  const auto telemetry = make_telemetry(vehicle, vehicle_class, to_link, telling.told);
+  const auto telemetry = make_telemetry(vehicle, vehicle_class, to_link, options.telemetry);
   messages::Receiver& to_peer = *telemetry;
-  VehicleDiary diary(vehicle, vehicle_class);
+  SilenceLog diary(vehicle, vehicle_class);
   RealClock clock(0, real_time);
   for (const std::string& refusal : clock.prepare_thread()) std::cerr << "note: " << refusal << "\n";
   let_writing_fail();
@@ -105,7 +105,7 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
   std::int64_t instant = 0;
   Announcements announcements(vehicle, vehicle_class, link);
   const auto write = [&](Duration at) {
-    if (telling.motion != nullptr && at % telling.period == Duration{}) telling.motion->add(at, vehicle);
+    if (options.motion != nullptr && at % options.period == Duration{}) options.motion->add(at, vehicle);
   };
   announcements.reach(Duration{});
   vehicle.sense(to_peer);
@@ -130,7 +130,7 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
   }
   link.disconnect();
   const std::optional<vehicles::Mishap> mishap = vehicle.mishap();
-  if (telling.json) {
+  if (options.json) {
     nlohmann::ordered_json json{{"schema", "jarol.vehicle/1"}};
     json.update(diary.to_json());
     json["link"] = to_json(link.report());

@@ -14,11 +14,11 @@
 
 namespace jarol::tools {
 
-/// What a peer is told: all, or the true state only, where its class has such a message.
-enum class Told { all, true_state };
+/// What a peer is sent: all, or the true state only, where its class has such a message.
+enum class Telemetry { all, true_state };
 
-struct Telling {
-  Told told = Told::all;
+struct ServeOptions {
+  Telemetry telemetry = Telemetry::all;
   bool json = false;             // at the end, instead of text
   MotionFile* motion = nullptr;  // gets a row each `period`, a multiple of the vehicle's grid; null: nothing is written
   std::chrono::nanoseconds period{};
@@ -27,10 +27,11 @@ struct Telling {
 /// A line on stderr if something has become of the vehicle that no mission wants; false: nothing has.
 bool report_mishap(const vehicles::Vehicle& vehicle, const std::string& name);
 
-/// Runs until `end` or Ctrl-C and tells what it did and what was carried; the exit code. The motion's file is left to
+/// Runs until `end` or Ctrl-C and reports what it did and what was carried; the exit code. The motion's file is left to
 /// be committed.
 int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, distributers::Link& link,
-                  std::chrono::nanoseconds end, const Telling& telling = {}, const RealTimeOptions& real_time = {});
+                  std::chrono::nanoseconds end, const ServeOptions& options = {},
+                  const RealTimeOptions& real_time = {});
 
 /// On the logical clocks of those who connect, one after the other, each with a vehicle of its own from the start;
 /// until Ctrl-C. Throws std::runtime_error if it can't listen there.

@@ -65,7 +65,7 @@ Helicopter::Helicopter(const HelicopterParameters& parameters, std::uint64_t see
       payload_until_(draw_begin(parameters.payload.at, parameters.payload.chance, spread_seed(seed, "payload"))) {
   sensors_.sample(0, scene());
   sensors_.sample_imu(0, scene());
-  tell_outputs(0.0);
+  report_outputs(0.0);
 }
 
 Helicopter::~Helicopter() = default;
@@ -115,7 +115,7 @@ void Helicopter::step() {
   const double current = battery_.calc_current(plant_->thrusts());
   battery_.draw(current, seconds);
   voltage_ = battery_.calc_voltage(current);
-  tell_outputs(current);
+  report_outputs(current);
 
   sensors_.sample(nanoseconds_, scene_without_force());
   robostix_.step();
@@ -128,7 +128,7 @@ void Helicopter::step() {
   answers_.arrive(nanoseconds_);
 }
 
-void Helicopter::tell_outputs(double current) {
+void Helicopter::report_outputs(double current) {
   const std::array<double, 4>& reached = plant_->settings();
   outputs_.rotors = {max_signal * reached[0], max_signal * reached[1], max_signal * reached[2],
                      max_signal * reached[3]};
@@ -168,7 +168,7 @@ void Helicopter::place(const VehicleState& s) {
   motion.omega_b = {s.p, s.q, s.r};
   plant_ = make_plant(parameters_, motion);
   judge_ = HelicopterJudge(parameters_, motion);
-  // what the sensors tell at the start; they begin anew
+  // what the sensors report at the start; they begin anew
   sensors_ = HelicopterSensors(parameters_, seed_);
   sensors_.sample(0, scene());
   sensors_.sample_imu(0, scene());

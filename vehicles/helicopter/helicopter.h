@@ -54,7 +54,7 @@ class Helicopter : public Vehicle {
  private:
   HelicopterSensors::Scene scene() const;
   HelicopterSensors::Scene scene_without_force() const;  // which takes long to find, and only the IMU measures
-  void tell_outputs(double current);
+  void report_outputs(double current);
   void hear_signals();
 
   HelicopterParameters parameters_;

@@ -86,7 +86,7 @@ struct HelicopterOutputs {
   static constexpr auto fields() {
     using S = HelicopterOutputs;
     return describe(field<&S::rotors>("", "what the rotors do"), field<&S::battery>("", "what the battery gives"),
-                    field<&S::sensors>("", "what the sensors tell"));
+                    field<&S::sensors>("", "what the sensors report"));
   }
 };
 

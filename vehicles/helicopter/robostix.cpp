@@ -8,7 +8,7 @@ namespace jarol::vehicles {
 namespace {
 
 constexpr int watchdog_steps = 20;  // 100 ms
-constexpr double most = 16000.0;
+constexpr double max = 16000.0;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ void Robostix::accept(messages::MessageRef command) {
     silent_steps_ = 0;
     if (!unlocked_) return;
     const std::array<std::int16_t, 4> wanted = {motors->front, motors->right, motors->rear, motors->left};
-    for (std::size_t i = 0; i < 4; ++i) signals_[i] = std::clamp(static_cast<double>(wanted[i]), 0.0, most);
+    for (std::size_t i = 0; i < 4; ++i) signals_[i] = std::clamp(static_cast<double>(wanted[i]), 0.0, max);
   } else if (command.as<javiator::SwitchState>() != nullptr) {
     unlocked_ = true;
   } else if (command.as<javiator::ShutDown>() != nullptr) {

@@ -110,7 +110,7 @@ struct SubmarineOutputs {
   static constexpr auto fields() {
     using S = SubmarineOutputs;
     return describe(field<&S::actuators>("", "what the actuators do"),
-                    field<&S::sensors>("", "what the sensors told last"));
+                    field<&S::sensors>("", "what the sensors reported last"));
   }
 };
 

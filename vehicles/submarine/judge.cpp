@@ -18,10 +18,10 @@ double calc_reach(const HullParameters& hull, double pitch) {
 
 SubmarineJudge::SubmarineJudge(const SubmarineParameters& parameters, const VehicleState& start)
     : parameters_(parameters) {
-  tell_truth(start);
+  report_truth(start);
 }
 
-void SubmarineJudge::tell_truth(const VehicleState& s) {
+void SubmarineJudge::report_truth(const VehicleState& s) {
   const double c_theta = std::cos(s.theta);
   truth_ = {.depth = s.z,
             .heading = s.psi,
@@ -36,7 +36,7 @@ void SubmarineJudge::tell_truth(const VehicleState& s) {
 }
 
 void SubmarineJudge::look(std::chrono::nanoseconds instant, const VehicleState& state) {
-  tell_truth(state);
+  report_truth(state);
   if (mishap_) return;
   const DiveLimitParameters& limits = parameters_.limits;
   const double tilt = std::acos(std::clamp(std::cos(state.phi) * std::cos(state.theta), -1.0, 1.0));

@@ -40,7 +40,7 @@ class SubmarineJudge {
   void serialize(Archive& archive) { archive(truth_, mishap_); }
 
  private:
-  void tell_truth(const VehicleState& state);
+  void report_truth(const VehicleState& state);
 
   SubmarineParameters parameters_;
   SubmarineTruth truth_;

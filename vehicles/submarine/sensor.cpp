@@ -48,7 +48,7 @@ void Sensor::measure(const Values& truth, const FailingSensor::Error& error) {
 
 // The ring from its first reading on.
 void Sensor::serialize(Archive& archive) {
-  archive(noise_, failing_, measured_, told_, values_, count_);
+  archive(noise_, failing_, measured_, reported_, values_, count_);
   archive.require(count_ <= pending_.size(), "has more readings than a sensor keeps");
   if (archive.restores()) first_ = 0;
   for (std::size_t i = 0; i < count_; ++i) archive(pending_[(first_ + i) % pending_.size()]);
@@ -62,8 +62,8 @@ void Sensor::step(std::int64_t step, const std::optional<Values>& truth) {
     if (failure != FailureKind::lost && measured_)
       pending_[(first_ + count_++) % pending_.size()] = {step + delay_, *measured_};
   }
-  told_ = count_ > 0 && pending_[first_].step <= step;
-  if (!told_) return;
+  reported_ = count_ > 0 && pending_[first_].step <= step;
+  if (!reported_) return;
   values_ = pending_[first_].values;
   first_ = (first_ + 1) % pending_.size();
   --count_;

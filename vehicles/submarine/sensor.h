@@ -1,4 +1,4 @@
-// One sensor: measures at its rate with its errors, tells after its delay, fails on schedule.
+// One sensor: measures at its rate with its errors, reports after its delay, fails on schedule.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class Sensor {
   void step(std::int64_t step, const std::optional<Values>& truth);
 
   /// A reading came at this step.
-  bool told() const { return told_; }
+  bool reported() const { return reported_; }
   /// The newest reading, NaN before the first.
   const Values& values() const { return values_; }
   double value() const { return values_[0]; }
@@ -54,9 +54,9 @@ class Sensor {
   Noise noise_;
   FailingSensor failing_;
   std::optional<Values> measured_;
-  std::vector<Reading> pending_;  // a ring: those not told yet
+  std::vector<Reading> pending_;  // a ring: those not reported yet
   std::size_t first_ = 0, count_ = 0;
-  bool told_ = false;
+  bool reported_ = false;
   Values values_;
 };
 

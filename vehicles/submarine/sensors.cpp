@@ -18,25 +18,25 @@ constexpr double air_pressure = 1013.25;                       // hPa
 constexpr double longest_range = 100.0, shortest_range = 0.1;  // m, of the altimeter
 
 template <class Message>
-void tell_value(messages::Receiver& receiver, const Sensor& sensor) {
-  if (!sensor.told()) return;
+void report_value(messages::Receiver& receiver, const Sensor& sensor) {
+  if (!sensor.reported()) return;
   Message message;
   message.value = static_cast<decltype(message.value)>(sensor.value());
   receiver.receive(messages::refer_to(message));
 }
 
 template <class Message>
-void tell_vector(messages::Receiver& receiver, const Sensor& sensor, Message message) {
-  if (!sensor.told()) return;
+void report_vector(messages::Receiver& receiver, const Sensor& sensor, Message message) {
+  if (!sensor.reported()) return;
   message.x = sensor.values()[0];
   message.y = sensor.values()[1];
   message.z = sensor.values()[2];
   receiver.receive(messages::refer_to(message));
 }
 
-constexpr std::int64_t beacons_period = 1000;  // steps between two messages that tell where they lie
+constexpr std::int64_t beacons_period = 1000;  // steps between two messages that report where they lie
 
-messages::Message tell_beacons_of(const SeaParameters& sea) {
+messages::Message report_beacons_of(const SeaParameters& sea) {
   const EarthRadii radii = earth_radii(sea.latitude);
   const BeaconParameters* const all[] = {&sea.beacons.first, &sea.beacons.second};
   constexpr std::string_view names[] = {"first", "second"};
@@ -81,7 +81,7 @@ SubmarineSensors::SubmarineSensors(const SubmarineSensorParameters& p, const Sea
       ranges_{Sensor(p.range, "range_first", seed), Sensor(p.range, "range_second", seed)},
       servos_{Sensor(p.servos, "servo0", seed), Sensor(p.servos, "servo1", seed), Sensor(p.servos, "servo2", seed),
               Sensor(p.servos, "servo3", seed)},
-      beacons_(tell_beacons_of(sea)) {}
+      beacons_(report_beacons_of(sea)) {}
 
 void SubmarineSensors::serialize(Archive& archive) {
   archive(seconds_, depth_, pressure_, conductivity_cell_, water_temperature_, attitude_, rates_, forces_, compass_,
@@ -173,56 +173,56 @@ void SubmarineSensors::note() {
   r.range_second = ranges_[1].value();
 }
 
-void SubmarineSensors::tell(messages::Receiver& receiver) const {
-  tell_motion(receiver);
-  tell_servos(receiver);
-  tell_water(receiver);
-  tell_hull(receiver);
-  tell_place(receiver);
-  tell_beacons(receiver);
+void SubmarineSensors::report(messages::Receiver& receiver) const {
+  report_motion(receiver);
+  report_servos(receiver);
+  report_water(receiver);
+  report_hull(receiver);
+  report_place(receiver);
+  report_beacons(receiver);
 }
 
-void SubmarineSensors::tell_motion(messages::Receiver& receiver) const {
-  // the IMU tells true north, the compass the magnetic one; here they are the same. What a device does not measure is
+void SubmarineSensors::report_motion(messages::Receiver& receiver) const {
+  // the IMU reports true north, the compass the magnetic one; here they are the same. What a device does not measure is
   // no number
-  if (attitude_.told() || compass_.told()) {
+  if (attitude_.reported() || compass_.reported()) {
     constexpr double unknown = SubmarineReadings::unknown;
     imc::EulerAngles angles;
     angles.time = seconds_;
-    angles.phi = attitude_.told() ? readings_.phi : unknown;
-    angles.theta = attitude_.told() ? readings_.theta : unknown;
-    angles.psi = attitude_.told() ? readings_.psi : unknown;
-    angles.psi_magnetic = compass_.told() ? readings_.heading : unknown;
+    angles.phi = attitude_.reported() ? readings_.phi : unknown;
+    angles.theta = attitude_.reported() ? readings_.theta : unknown;
+    angles.psi = attitude_.reported() ? readings_.psi : unknown;
+    angles.psi_magnetic = compass_.reported() ? readings_.heading : unknown;
     receiver.receive(messages::refer_to(angles));
   }
   imc::AngularVelocity rates;
   rates.time = seconds_;
-  tell_vector(receiver, rates_, rates);
+  report_vector(receiver, rates_, rates);
   imc::Acceleration force;
   force.time = seconds_;
-  tell_vector(receiver, forces_, force);
+  report_vector(receiver, forces_, force);
   imc::WaterVelocity velocity;
   velocity.validity = 7;
-  tell_vector(receiver, speed_, velocity);
-  if (rpm_.told()) {
+  report_vector(receiver, speed_, velocity);
+  if (rpm_.reported()) {
     imc::Rpm rpm;
     rpm.value = static_cast<std::int16_t>(std::lround(std::clamp(rpm_.value(), -32768.0, 32767.0)));
     receiver.receive(messages::refer_to(rpm));
   }
 }
 
-void SubmarineSensors::tell_servos(messages::Receiver& receiver) const {
+void SubmarineSensors::report_servos(messages::Receiver& receiver) const {
   for (std::uint8_t i = 0; i < servos_.size(); ++i)
-    if (servos_[i].told())
+    if (servos_[i].reported())
       receiver.receive(messages::refer_to(imc::ServoPosition{i, static_cast<float>(servos_[i].value())}));
 }
 
-void SubmarineSensors::tell_water(messages::Receiver& receiver) const {
-  tell_value<imc::Depth>(receiver, depth_);
-  tell_value<imc::Pressure>(receiver, pressure_);
-  tell_value<imc::Conductivity>(receiver, conductivity_cell_);
-  tell_value<imc::Temperature>(receiver, water_temperature_);
-  if (!conductivity_cell_.told()) return;
+void SubmarineSensors::report_water(messages::Receiver& receiver) const {
+  report_value<imc::Depth>(receiver, depth_);
+  report_value<imc::Pressure>(receiver, pressure_);
+  report_value<imc::Conductivity>(receiver, conductivity_cell_);
+  report_value<imc::Temperature>(receiver, water_temperature_);
+  if (!conductivity_cell_.reported()) return;
   imc::Salinity salinity;
   salinity.value = static_cast<float>(readings_.salinity);
   receiver.receive(messages::refer_to(salinity));
@@ -231,18 +231,18 @@ void SubmarineSensors::tell_water(messages::Receiver& receiver) const {
   receiver.receive(messages::refer_to(speed));
 }
 
-void SubmarineSensors::tell_hull(messages::Receiver& receiver) const {
-  if (leak_.told()) {
+void SubmarineSensors::report_hull(messages::Receiver& receiver) const {
+  if (leak_.reported()) {
     imc::EntityState state;
     state.state = leak_.value() > 0.5 ? imc::EntityState::State::FAILURE : imc::EntityState::State::NORMAL;
     receiver.receive(messages::refer_to(state));
   }
-  tell_value<imc::Voltage>(receiver, voltage_);
-  tell_value<imc::Current>(receiver, current_);
+  report_value<imc::Voltage>(receiver, voltage_);
+  report_value<imc::Current>(receiver, current_);
 }
 
-void SubmarineSensors::tell_place(messages::Receiver& receiver) const {
-  if (gps_.told()) {
+void SubmarineSensors::report_place(messages::Receiver& receiver) const {
+  if (gps_.reported()) {
     const EarthRadii radii = earth_radii(sea_.latitude);
     imc::GpsFix fix;
     fix.validity = imc::GpsFix::Validity::VALID_POS;
@@ -251,7 +251,7 @@ void SubmarineSensors::tell_place(messages::Receiver& receiver) const {
     fix.lon = sea_.longitude + gps_.values()[1] / radii.east;
     receiver.receive(messages::refer_to(fix));
   }
-  if (altitude_.told()) {
+  if (altitude_.reported()) {
     imc::Distance distance;
     distance.validity = imc::Distance::Validity::VALID;
     distance.value = static_cast<float>(altitude_.value());
@@ -259,10 +259,10 @@ void SubmarineSensors::tell_place(messages::Receiver& receiver) const {
   }
 }
 
-void SubmarineSensors::tell_beacons(messages::Receiver& receiver) const {
+void SubmarineSensors::report_beacons(messages::Receiver& receiver) const {
   if (sea_.beacons.reach > 0.0 && step_ % beacons_period == 0) receiver.receive(beacons_);
   for (std::size_t k = 0; k < ranges_.size(); ++k)
-    if (ranges_[k].told())
+    if (ranges_[k].reported())
       receiver.receive(messages::refer_to(
           imc::LblRange{static_cast<std::uint8_t>(k), static_cast<float>(std::max(ranges_[k].value(), 0.0))}));
 }

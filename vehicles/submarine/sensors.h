@@ -1,4 +1,4 @@
-// The submarine's instruments: what each measures, and the messages in which it tells.
+// The submarine's instruments: what each measures, and the messages in which it reports.
 #pragma once
 
 #include <array>
@@ -39,16 +39,16 @@ class SubmarineSensors {
   void serialize(Archive& archive);
 
   /// Sends the readings that came at this step.
-  void tell(messages::Receiver& receiver) const;
+  void report(messages::Receiver& receiver) const;
 
  private:
   void note();
-  void tell_motion(messages::Receiver& receiver) const;
-  void tell_water(messages::Receiver& receiver) const;
-  void tell_servos(messages::Receiver& receiver) const;
-  void tell_hull(messages::Receiver& receiver) const;
-  void tell_place(messages::Receiver& receiver) const;
-  void tell_beacons(messages::Receiver& receiver) const;
+  void report_motion(messages::Receiver& receiver) const;
+  void report_water(messages::Receiver& receiver) const;
+  void report_servos(messages::Receiver& receiver) const;
+  void report_hull(messages::Receiver& receiver) const;
+  void report_place(messages::Receiver& receiver) const;
+  void report_beacons(messages::Receiver& receiver) const;
 
   SeaParameters sea_;
   double antenna_depth_ = 0.0;

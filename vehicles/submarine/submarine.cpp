@@ -133,7 +133,7 @@ void Submarine::place(const VehicleState& s) {
   }
   at_ = motion_->state();
   judge_ = SubmarineJudge(parameters_, s);
-  // what the sensors tell at the start; they begin anew
+  // what the sensors report at the start; they begin anew
   sensors_ = SubmarineSensors(parameters_.sensors, parameters_.sea, floating_depth(parameters_), seed_);
   sample();
 }
@@ -159,7 +159,7 @@ void Submarine::sense(messages::Receiver& receiver) const {
   m.svx = static_cast<float>(sea.current_north);
   m.svy = static_cast<float>(sea.current_east);
   receiver.receive(messages::refer_to(m));
-  sensors_.tell(receiver);
+  sensors_.report(receiver);
 }
 
 }  // namespace jarol::vehicles

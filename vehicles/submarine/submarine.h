@@ -1,4 +1,4 @@
-// The submarine as a vehicle: takes IMC commands for its thruster and its four servos, tells what its
+// The submarine as a vehicle: takes IMC commands for its thruster and its four servos, reports what its
 // sensors read, and its true state as SimulatedState.
 #pragma once
 

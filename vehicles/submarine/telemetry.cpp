@@ -16,17 +16,17 @@ Eigen::Matrix3d attitude_of(const imc::SimulatedState& s) { return rotation_of(s
 
 }  // namespace
 
-// more than a device's readings where DUNE has two that tell the same
+// more than a device's readings where DUNE has two that report the same
 SubmarineTelemetry::SubmarineTelemetry(messages::Receiver& to)
     : to_(to),
-      readings_{{{&imc::Depth::form, 16},
-                 {&imc::Pressure::form, 6},
-                 {&imc::Conductivity::form, 6},
-                 {&imc::Salinity::form, 6},
-                 {&imc::Temperature::form, 7},
-                 {&imc::SoundSpeed::form, 8},
-                 {&imc::WaterVelocity::form, 5},
-                 {&imc::EntityState::form, 30}}} {}
+      readings_{{{&imc::Depth::descriptor, 16},
+                 {&imc::Pressure::descriptor, 6},
+                 {&imc::Conductivity::descriptor, 6},
+                 {&imc::Salinity::descriptor, 6},
+                 {&imc::Temperature::descriptor, 7},
+                 {&imc::SoundSpeed::descriptor, 8},
+                 {&imc::WaterVelocity::descriptor, 5},
+                 {&imc::EntityState::descriptor, 30}}} {}
 
 void SubmarineTelemetry::receive(messages::MessageRef message) {
   const auto* truth = message.as<imc::SimulatedState>();
@@ -35,10 +35,10 @@ void SubmarineTelemetry::receive(messages::MessageRef message) {
     return;
   }
   ++states_;
-  tell_readings();  // that came with the state before
+  report_readings();  // that came with the state before
   to_.receive(message);
-  if (is_due(20)) tell_estimate(*truth);
-  if (is_due(5)) tell_water(*truth);
+  if (is_due(20)) report_estimate(*truth);
+  if (is_due(5)) report_water(*truth);
   if (is_due(1)) {
     to_.receive(messages::refer_to(imc::EstimatedStreamVelocity{truth->svx, truth->svy, truth->svz}));
     to_.receive(messages::refer_to(imc::Heartbeat{}));
@@ -52,8 +52,8 @@ bool SubmarineTelemetry::is_due(std::int64_t rate) const {
 
 bool SubmarineTelemetry::keep(messages::MessageRef message) {
   for (Reading& reading : readings_) {
-    if (message.form != reading.form) continue;
-    reading.interval = reading.newest.form() == nullptr ? states_a_second : states_ - reading.at;
+    if (message.descriptor != reading.descriptor) continue;
+    reading.interval = reading.newest.descriptor() == nullptr ? states_a_second : states_ - reading.at;
     reading.at = states_;
     reading.newest = messages::Message(message);
     return true;
@@ -61,14 +61,14 @@ bool SubmarineTelemetry::keep(messages::MessageRef message) {
   return false;
 }
 
-void SubmarineTelemetry::tell_readings() {
+void SubmarineTelemetry::report_readings() {
   for (const Reading& reading : readings_) {
     const bool overdue = 2 * (states_ - reading.at) > 3 * reading.interval;
-    if (reading.newest.form() != nullptr && !overdue && is_due(reading.rate)) to_.receive(reading.newest);
+    if (reading.newest.descriptor() != nullptr && !overdue && is_due(reading.rate)) to_.receive(reading.newest);
   }
 }
 
-void SubmarineTelemetry::tell_estimate(const imc::SimulatedState& s) {
+void SubmarineTelemetry::report_estimate(const imc::SimulatedState& s) {
   imc::EstimatedState e;
   e.lat = s.lat;
   e.lon = s.lon;
@@ -95,7 +95,7 @@ void SubmarineTelemetry::tell_estimate(const imc::SimulatedState& s) {
   to_.receive(messages::refer_to(e));
 }
 
-void SubmarineTelemetry::tell_water(const imc::SimulatedState& s) {
+void SubmarineTelemetry::report_water(const imc::SimulatedState& s) {
   using Validity = imc::GroundVelocity::Validity;
   const Eigen::Vector3d v_b =
       Eigen::Vector3d(s.u, s.v, s.w) + attitude_of(s).transpose() * Eigen::Vector3d(s.svx, s.svy, s.svz);

@@ -1,4 +1,4 @@
-// What DUNE tells a console about a simulated submarine, and how often.
+// What DUNE reports a console about a simulated submarine, and how often.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace jarol::vehicles {
 
-/// Passes on what the submarine tells, at the rates of DUNE's simulator. It
+/// Passes on what the submarine reports, at the rates of DUNE's simulator. It
 /// adds, from the true state, 20 EstimatedState, 5 GroundVelocity, an EstimatedStreamVelocity and a Heartbeat a second.
 /// Readings of instruments that DUNE reads at other rates go out at those, the newest each time, until their sensor is
-/// overdue. Voltage and Current, which DUNE's simulator has not, come as the battery tells them.
+/// overdue. Voltage and Current, which DUNE's simulator has not, come as the battery reports them.
 class SubmarineTelemetry : public messages::Receiver {
  public:
   explicit SubmarineTelemetry(messages::Receiver& to);
@@ -21,16 +21,16 @@ class SubmarineTelemetry : public messages::Receiver {
 
  private:
   struct Reading {
-    const messages::MessageForm* form = nullptr;
+    const messages::MessageDescriptor* descriptor = nullptr;
     std::int64_t rate = 0;  // 1/s, of DUNE
     messages::Message newest{};
     std::int64_t at = 0, interval = 0;  // in states: when it came, and the one before that
   };
 
   bool keep(messages::MessageRef message);
-  void tell_readings();
-  void tell_estimate(const messages::imc::SimulatedState& truth);
-  void tell_water(const messages::imc::SimulatedState& truth);
+  void report_readings();
+  void report_estimate(const messages::imc::SimulatedState& truth);
+  void report_water(const messages::imc::SimulatedState& truth);
   bool is_due(std::int64_t rate) const;
 
   messages::Receiver& to_;

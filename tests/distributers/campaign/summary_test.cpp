@@ -64,10 +64,10 @@ TEST_SUITE("distributers/campaign/summary") {
     CHECK(ten.mean == 5.5);
     CHECK(ten.deviation == doctest::Approx(3.0276503540974917).scale(0).epsilon(1e-15));  // sqrt(82.5 / 9)
     CHECK(ten.percentiles == std::array<double, 5>{1, 3, 5, 8, 10});  // ranks 0.5, 2.5, 5, 7.5, 9.5, up
-    CHECK(ten.least->index == 1);
-    CHECK(ten.least->value == 1);
-    CHECK(ten.greatest->index == 2);
-    CHECK(ten.greatest->value == 10);
+    CHECK(ten.min->index == 1);
+    CHECK(ten.min->value == 1);
+    CHECK(ten.max->index == 2);
+    CHECK(ten.max->value == 10);
     CHECK(!ten.worst);
 
     std::vector<double> hundred;
@@ -81,7 +81,7 @@ TEST_SUITE("distributers/campaign/summary") {
     CHECK(one.mean == -2.5);
     CHECK(one.deviation == 0);
     CHECK(summed({}).metric.count == 0);
-    CHECK(!summed({}).metric.least);
+    CHECK(!summed({}).metric.min);
   }
 
   TEST_CASE("the worst is the one nearest to what the limit forbids, or farthest beyond it; the first of equals") {
@@ -101,8 +101,8 @@ TEST_SUITE("distributers/campaign/summary") {
       const Summed all = summed({2, std::copysign(nan_number, sign), 1, 3}, limit(Is::less));
       CHECK(all.metric.count == 4);
       CHECK(all.metric.missing == 0);
-      CHECK(all.metric.least->value == 1);
-      CHECK(all.metric.greatest->value == 3);
+      CHECK(all.metric.min->value == 1);
+      CHECK(all.metric.max->value == 3);
       CHECK(all.metric.worst->index == 1);
       CHECK(std::isnan(all.metric.worst->value));
       CHECK(std::isnan(all.metric.percentiles[4]));
@@ -117,10 +117,10 @@ TEST_SUITE("distributers/campaign/summary") {
     }
     const MetricSummary none = summed({nan_number, -nan_number}).metric;
     CHECK(none.count == 2);
-    CHECK(std::isnan(none.least->value));
+    CHECK(std::isnan(none.min->value));
     const MetricSummary infinite = summed({HUGE_VAL, 1, -HUGE_VAL}, limit(Is::less)).metric;
-    CHECK(infinite.greatest->value == HUGE_VAL);
-    CHECK(infinite.least->value == -HUGE_VAL);
+    CHECK(infinite.max->value == HUGE_VAL);
+    CHECK(infinite.min->value == -HUGE_VAL);
     CHECK(infinite.worst->index == 0);
   }
 }

@@ -14,7 +14,7 @@
 namespace {
 using namespace jarol;
 using distributers::Stamping;
-using messages::Flaw;
+using messages::PacketError;
 using Bytes = std::vector<std::byte>;
 
 // A rudder's command of long ago.
@@ -30,7 +30,7 @@ Bytes packet_of_set(const messages::MessageSet& set, messages::ByteOrder order) 
 
 double time_in(const messages::PacketReader& reader) {
   double time = 0;
-  const messages::FieldForm* const field = distributers::find_timestamp(messages::imc::message_set());
+  const messages::FieldDescriptor* const field = distributers::find_timestamp(messages::imc::message_set());
   std::memcpy(&time, static_cast<const std::byte*>(reader.header().value) + field->offset, sizeof time);
   return time;
 }
@@ -45,7 +45,7 @@ TEST_SUITE("distributers/guardian/stamped_packet") {
     distributers::stamp(distributers::stamping_of(set), packet);
     const double last = distributers::seconds_since_1970();
     messages::PacketReader reader(set);
-    REQUIRE(reader.read(packet) == Flaw::none);
+    REQUIRE(reader.read(packet) == PacketError::none);
     CHECK(time_in(reader) >= first);
     CHECK(time_in(reader) <= last);
     const auto* const servo = reader.message().as<messages::imc::SetServoPosition>();
@@ -69,7 +69,7 @@ TEST_SUITE("distributers/guardian/stamped_packet") {
     Bytes packet = packet_of_set(messages::imc::message_set(), other.order);
     distributers::stamp(stamping, packet);
     messages::PacketReader reader(other);
-    CHECK(reader.read(packet) == Flaw::none);
+    CHECK(reader.read(packet) == PacketError::none);
     CHECK(time_in(reader) > 1.7e9);
   }
 

@@ -114,7 +114,7 @@ using In = Sonde::In;
 using Out = Sonde::Out;
 
 struct Sent : messages::Receiver {
-  void receive(messages::MessageRef message) override { names += std::string(message.form->name) + " "; }
+  void receive(messages::MessageRef message) override { names += std::string(message.descriptor->name) + " "; }
   std::string names;
 };
 

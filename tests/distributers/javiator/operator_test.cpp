@@ -32,12 +32,12 @@ tasks::PilotCommand take(Typed<JaviatorOperator>& adapter) {
   return command;
 }
 
-struct Told {
+struct Reported {
   javiator::GroundReport report;
   javiator::TraceData trace;
 };
 
-Told tell(Typed<JaviatorOperator>& adapter, const tasks::HelicopterReport& report) {
+Reported send_report(Typed<JaviatorOperator>& adapter, const tasks::HelicopterReport& report) {
   SentToOperator sent;
   adapter.hand_over<&JaviatorOperator::Out::report>(report, sent);
   REQUIRE(sent.all.size() == 2);
@@ -134,7 +134,7 @@ TEST_SUITE("distributers/javiator_operator") {
     CHECK_FALSE(command.heard);
   }
 
-  TEST_CASE("gains and idle signal are told once after each change, those that never came as not told") {
+  TEST_CASE("gains and idle signal are reported once after each change, those that never came as not reported") {
     Typed<JaviatorOperator> adapter;
     tasks::OperatorGains gains;
     CHECK_FALSE(adapter.take<&JaviatorOperator::In::gains>(gains));
@@ -170,7 +170,7 @@ TEST_SUITE("distributers/javiator_operator") {
     report.battery = 14.9942;
     report.signals = {2850, 2850, 2850, 2850};
     report.state = tasks::FlightState::flying;
-    for (int i = 1; i < 692; ++i) tell(adapter, report);
+    for (int i = 1; i < 692; ++i) send_report(adapter, report);
     SentToOperator sent;
     adapter.hand_over<&JaviatorOperator::Out::report>(report, sent);
     std::vector<std::byte> packet;
@@ -181,7 +181,7 @@ TEST_SUITE("distributers/javiator_operator") {
           "02b40000000000000b2202010457");  // revving up, at 11.0 s
   }
 
-  TEST_CASE("motion is told in mrad, mm and their rates, cut to whole numbers") {
+  TEST_CASE("motion is reported in mrad, mm and their rates, cut to whole numbers") {
     Typed<JaviatorOperator> adapter;
     tasks::HelicopterReport report;
     report.roll = 0.0779;
@@ -197,7 +197,7 @@ TEST_SUITE("distributers/javiator_operator") {
     report.a_x = 0.1;
     report.a_y = 0.783;
     report.a_up = -0.0239;
-    const auto shown = tell(adapter, report).report.sensors;
+    const auto shown = send_report(adapter, report).report.sensors;
     CHECK(shown.roll == 77);
     CHECK(shown.pitch == -10);
     CHECK(shown.yaw == -200);
@@ -220,14 +220,14 @@ TEST_SUITE("distributers/javiator_operator") {
     report.pitch = 0.3;
     report.q = 0.2;
     report.r = 0.1;
-    tell(adapter, {});
-    const auto shown = tell(adapter, report).report.sensors;
+    send_report(adapter, {});
+    const auto shown = send_report(adapter, report).report.sensors;
     CHECK(shown.droll == 56);    // tan(0.3) (0.2 sin 0.5 + 0.1 cos 0.5)
     CHECK(shown.dpitch == 127);  // 0.2 cos 0.5 - 0.1 sin 0.5
     CHECK(shown.dyaw == 192);    // (0.2 sin 0.5 + 0.1 cos 0.5) / cos 0.3
     CHECK(shown.ddroll == 1124);
     CHECK(shown.ddyaw == 3804);
-    CHECK(tell(adapter, report).report.sensors.ddroll == 0);
+    CHECK(send_report(adapter, report).report.sensors.ddroll == 0);
   }
 
   TEST_CASE("what 16 bits can't hold is clipped, but for the pressure, which wraps") {
@@ -236,7 +236,7 @@ TEST_SUITE("distributers/javiator_operator") {
     report.altitude = 40;
     report.yaw = -33;
     report.pressure = 65.6;
-    const auto shown = tell(adapter, report).report.sensors;
+    const auto shown = send_report(adapter, report).report.sensors;
     CHECK(shown.z == 32767);
     CHECK(shown.yaw == -32768);
     CHECK(shown.maps == 64);
@@ -247,7 +247,7 @@ TEST_SUITE("distributers/javiator_operator") {
     tasks::HelicopterReport report;
     constexpr double u_z = 7993, u_yaw = 22, u_roll = 3, u_pitch = -5;
     report.signals = {u_z - u_yaw + u_pitch, u_z + u_yaw - u_roll, u_z - u_yaw - u_pitch, u_z + u_yaw + u_roll};
-    const javiator::GroundReport shown = tell(adapter, report).report;
+    const javiator::GroundReport shown = send_report(adapter, report).report;
     CHECK(shown.offsets.u_roll == 3);
     CHECK(shown.offsets.u_pitch == -5);
     CHECK(shown.offsets.u_yaw == 22);
@@ -262,18 +262,18 @@ TEST_SUITE("distributers/javiator_operator") {
     tasks::HelicopterReport report;
     const auto state = [&](FlightState s) {
       report.state = s;
-      return static_cast<int>(tell(adapter, report).report.state_mode.state);
+      return static_cast<int>(send_report(adapter, report).report.state_mode.state);
     };
     CHECK(state(FlightState::halt) == 4);
     CHECK(state(FlightState::ground) == 1);
     CHECK(state(FlightState::starting) == 2);
     CHECK(state(FlightState::flying) == 2);
     CHECK(state(FlightState::landing) == 2);
-    CHECK(tell(adapter, report).report.state_mode.mode == 1);
+    CHECK(send_report(adapter, report).report.state_mode.mode == 1);
     send_to<javiator::SwitchMode>(adapter);
-    CHECK(tell(adapter, report).report.state_mode.mode == 2);
+    CHECK(send_report(adapter, report).report.state_mode.mode == 2);
     send_to<javiator::SwitchMode>(adapter);
-    CHECK(tell(adapter, report).report.state_mode.mode == 1);
+    CHECK(send_report(adapter, report).report.state_mode.mode == 1);
   }
 
   TEST_CASE("a trace has the state of the report before, and times of the logical clock") {
@@ -284,12 +284,12 @@ TEST_SUITE("distributers/javiator_operator") {
     reach(adapter, 15ms);
     take(adapter);
     reach(adapter, 25ms);
-    tell(adapter, report);
+    send_report(adapter, report);
     reach(adapter, 30ms);
     take(adapter);
     reach(adapter, 40ms);
     report.state = tasks::FlightState::ground;
-    javiator::TraceData trace = tell(adapter, report).trace;
+    javiator::TraceData trace = send_report(adapter, report).trace;
     CHECK(trace.cmd_roll == 74);
     CHECK(trace.cmd_pitch == -10);
     CHECK(trace.period_ms == 15);
@@ -298,11 +298,11 @@ TEST_SUITE("distributers/javiator_operator") {
     CHECK(trace.t_terminal_input == 30000);
     CHECK(trace.t_control == 40000);
     CHECK(trace.t_report == 25000);
-    CHECK(tell(adapter, report).trace.state == 1);
+    CHECK(send_report(adapter, report).trace.state == 1);
     SUBCASE("which begin anew after 1000 s") {
       reach(adapter, 1000s + 15ms);
       take(adapter);
-      trace = tell(adapter, report).trace;
+      trace = send_report(adapter, report).trace;
       CHECK(trace.t_loop_start == 15000);
     }
   }

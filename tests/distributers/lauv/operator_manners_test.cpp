@@ -18,7 +18,7 @@ struct Addressed : messages::Receiver {
   };
   void receive(messages::MessageRef message) override {
     const auto* header = static_cast<const imc::Header*>(message.header);
-    sent.push_back({std::string(message.form->name), header == nullptr ? imc::Header{} : *header});
+    sent.push_back({std::string(message.descriptor->name), header == nullptr ? imc::Header{} : *header});
   }
   const imc::Header& header_of(const std::string& name) const {
     for (const Sent& each : sent)
@@ -236,7 +236,7 @@ TEST_SUITE("distributers/lauv_operator_manners") {
     start.arg = packed(plan);
     c.say(start);
     c.pass(50ms);
-    const auto tell = [&](std::uint32_t leg, bool done) {
+    const auto report = [&](std::uint32_t leg, bool done) {
       c.adapter.hand_over<&LauvOperator::Out::progress>({.on_leg = leg, .done = done, .left = 12}, c.to);
       c.pass(50ms);
       return std::string(c.to.last<imc::PlanControlState>().man_id.view());
@@ -244,10 +244,10 @@ TEST_SUITE("distributers/lauv_operator_manners") {
     tasks::Leg leg;
     REQUIRE(c.adapter.take<&LauvOperator::In::leg>(leg));
     CHECK(leg.course == tasks::Course::rest);
-    CHECK(tell(leg.number, false) == "wait");
-    CHECK(tell(leg.number + 1, true) == "wait");
+    CHECK(report(leg.number, false) == "wait");
+    CHECK(report(leg.number + 1, true) == "wait");
     CHECK(c.to.last<imc::VehicleState>().maneuver_stime > 1e9);
-    CHECK(tell(leg.number, true) == "go");
+    CHECK(report(leg.number, true) == "go");
     REQUIRE(c.adapter.take<&LauvOperator::In::leg>(leg));
     CHECK(leg.course == tasks::Course::line);
     c.pass(19s);

@@ -1,4 +1,4 @@
-// What the submarine's operator is told, and what answers get.
+// What the submarine's operator is sent, and what answers get.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -82,7 +82,7 @@ TEST_SUITE("distributers/lauv_operator") {
     CHECK(c.silence() == 0);
   }
 
-  TEST_CASE("a report becomes an EstimatedState, until the whole motion is told") {
+  TEST_CASE("a report becomes an EstimatedState, until the whole motion is reported") {
     Conversation c;
     c.report({.depth = 3, .pitch = 0.5, .heading = 1, .speed = 2});
     auto state = c.to.last<imc::EstimatedState>();
@@ -110,7 +110,7 @@ TEST_SUITE("distributers/lauv_operator") {
     CHECK(c.to.all<imc::EstimatedState>().size() == 2);
   }
 
-  TEST_CASE("why the supervisor brings it up is told at once") {
+  TEST_CASE("why the supervisor brings it up is reported at once") {
     Conversation c;
     c.report({.alarm = tasks::Alarm::leak});
     c.pass(50ms);

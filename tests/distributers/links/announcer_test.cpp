@@ -45,7 +45,7 @@ TEST_SUITE("distributers/links/announcer") {
     CHECK(texts(Announcer::parse("7-8,[::1]:9")) == "127.0.0.1:7 127.0.0.1:8 [::1]:9 ");
   }
 
-  TEST_CASE("what is no list of addresses is told with what would be right") {
+  TEST_CASE("what is no list of addresses is reported with what would be right") {
     CHECK_THROWS_WITH(Announcer::parse("30104-30100"),
                       "'30104-30100' is no range of ports; write the first and the last of no more than 64");
     CHECK_THROWS_WITH(Announcer::parse("1-65535"),

@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 // Channels of the helicopter's operator, as a graph has them.
 struct Channelled {
   DistributerClass operator_class = distributer_class<JaviatorOperator>();
-  ConsoleChannels channels{operator_class.make(Value(*operator_class.parameters).data())};
+  ConsoleSystem channels{operator_class.make(Value(*operator_class.parameters).data())};
   std::string why;
   tasks::PilotCommand command;
 
@@ -44,7 +44,7 @@ struct Submarine : messages::Receiver {
   }
 
   DistributerClass operator_class = distributer_class<LauvOperator>();
-  ConsoleChannels channels{operator_class.make(Value(*operator_class.parameters).data())};
+  ConsoleSystem channels{operator_class.make(Value(*operator_class.parameters).data())};
   std::vector<messages::Message> got;
 };
 }  // namespace
@@ -70,11 +70,10 @@ TEST_SUITE("distributers/links/console") {
 
   TEST_CASE("what finds no room is refused and counted") {
     Channelled at;
-    for (std::size_t i = 0; i < ConsolePort::most_packets; ++i)
-      CHECK(at.send(messages::refer_to(javiator::ShutDown{})));
+    for (std::size_t i = 0; i < ConsolePort::max_packets; ++i) CHECK(at.send(messages::refer_to(javiator::ShutDown{})));
     CHECK_FALSE(at.send(messages::refer_to(javiator::ShutDown{})));
     CHECK(at.why == "the run has not taken what was sent before");
-    CHECK(at.reach(0ms).shut_downs == ConsolePort::most_packets);
+    CHECK(at.reach(0ms).shut_downs == ConsolePort::max_packets);
     const LinkReport report = *at.channels.link_report();
     CHECK(report.link == "console");
     CHECK(report.counts == std::vector<std::pair<std::string, std::uint64_t>>{
@@ -116,9 +115,9 @@ TEST_SUITE("distributers/links/console") {
     // three messages a second
     for (int second = 0; second < 30; ++second) at.channels.reach(second * 1s);
     at.channels.port()->receive_answers(at);
-    CHECK(at.got.size() == ConsolePort::most_packets);
-    CHECK(at.channels.port()->answered() == ConsolePort::most_packets);
-    CHECK(at.channels.port()->lost() == 90 - ConsolePort::most_packets);
+    CHECK(at.got.size() == ConsolePort::max_packets);
+    CHECK(at.channels.port()->answered() == ConsolePort::max_packets);
+    CHECK(at.channels.port()->lost() == 90 - ConsolePort::max_packets);
     at.got.clear();
     at.reach(30s);
     CHECK(at.got.size() == 3);

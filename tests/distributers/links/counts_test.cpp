@@ -87,7 +87,7 @@ TEST_SUITE("distributers/links/counts") {
     CHECK(wait_for([&] { return count_of(*pair.one, "peers") == 1; }));
   }
 
-  TEST_CASE("who sent a datagram is told with it, however many wait together; streams do not tell") {
+  TEST_CASE("who sent a datagram is reported with it, however many wait together; streams do not report") {
     struct Senders : messages::Receiver {
       explicit Senders(const Link& from) : link(from) {}
       void receive(messages::MessageRef) override { peers.push_back(link.peer()); }
@@ -158,7 +158,7 @@ TEST_SUITE("distributers/links/counts") {
     std::string& diary = Diary::text;
     auto made = make(std::move(transport));
     Link& link = *made;
-    LinkedChannels channels(std::move(made), std::make_unique<Typed<Diary>>());
+    LinkedSystem channels(std::move(made), std::make_unique<Typed<Diary>>());
     channels.begin();
     const Address to = Address::parse("127.0.0.1:" + std::to_string(at.port()));
     for (int restart = 0; restart < 2; ++restart) {
@@ -271,12 +271,12 @@ TEST_SUITE("distributers/links/counts") {
         "no serial line has 12345 baud; there are: 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600");
   }
 
-  TEST_CASE("an address that can't be is told with what would be right") {
-    const std::string forms = "; write it as in 7000, 192.168.2.3:7000 or \"[::1]:7000\"";
+  TEST_CASE("an address that can't be is reported with what would be right") {
+    const std::string descriptors = "; write it as in 7000, 192.168.2.3:7000 or \"[::1]:7000\"";
     for (const char* bad : {"", "x", "70000", "127.0.0.1:", "::1:7000", ":7000", "127.0.0.1:-1"}) {
       CAPTURE(bad);
       CHECK_THROWS_WITH(Address::parse(bad),
-                        ("'" + std::string(bad) + "' is not an address with a port" + forms).c_str());
+                        ("'" + std::string(bad) + "' is not an address with a port" + descriptors).c_str());
     }
     CHECK(Address::parse("7000").text() == "127.0.0.1:7000");
     CHECK(Address::parse("[::1]:7000").text() == "[::1]:7000");

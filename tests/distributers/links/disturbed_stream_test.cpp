@@ -183,7 +183,7 @@ TEST_SUITE("distributers/links/disturbed_stream") {
       Route route("serial", protocol.set, {.loss = 0.005, .damage = 0.005, .longest_piece = 4});
       const MessageSet& set = protocol.set;
       // a length that is wrong makes it wait for as many bytes
-      const std::size_t longest = set.header_size() + set.most_payload + set.footer_size();
+      const std::size_t longest = set.header_size() + set.max_payload + set.footer_size();
       const SentThrough o = send_through(route, protocol, full() ? 200'000 : 3000, longest);
       CHECK(o.hit > o.sent / 10);
       CHECK(is_within(o.due, o.came));

@@ -48,7 +48,7 @@ class Oracle {
 
  private:
   bool is_packet(std::span<const std::byte> bytes) {
-    const bool good = reader_.read(bytes) == Flaw::none;
+    const bool good = reader_.read(bytes) == PacketError::none;
     if (good) REQUIRE(protocol_.is_sealed(bytes));
     return good;
   }
@@ -69,10 +69,10 @@ class Oracle {
     if (!order) return 1;
     if (bytes.size() < set.header_size()) return 0;
     const Announced announced = read_header(set, bytes.data(), *order);
-    const MessageForm* form = set.find(announced.id, announced.payload);
+    const MessageDescriptor* descriptor = set.find(announced.id, announced.payload);
     const std::size_t size = set.header_size() + announced.payload + set.footer_size();
-    if (announced.payload > set.most_payload || form == nullptr ||
-        (form->wire_size >= 0 && form->wire_size != static_cast<std::int64_t>(announced.payload)))
+    if (announced.payload > set.max_payload || descriptor == nullptr ||
+        (descriptor->wire_size >= 0 && descriptor->wire_size != static_cast<std::int64_t>(announced.payload)))
       return 1;
     if (bytes.size() < size) return 0;
     if (!protocol_.is_sealed(bytes.first(size))) return 1;
@@ -96,7 +96,7 @@ struct Compared : Receiver {
       const Expected& next = oracle.expected.front();
       Bytes payload;
       REQUIRE(write_payload(message, next.order, payload));
-      if (message.form->id == next.id && payload == next.payload) break;
+      if (message.descriptor->id == next.id && payload == next.payload) break;
     }
     oracle.expected.pop_front();
   }
@@ -151,9 +151,9 @@ void throw_at(const std::string& kind, const Protocol& protocol) {
   CHECK(compared.left_out < oracle.packets);
   CHECK(count_of(link, "packets in") == oracle.packets);
   CHECK(count_of(link, "dropped: input port full") == 0);
-  const std::uint64_t least = flawed(link);
-  CHECK(least > 0);
-  CHECK(link.report().dropped >= least);
+  const std::uint64_t min = flawed(link);
+  CHECK(min > 0);
+  CHECK(link.report().dropped >= min);
   MESSAGE(kind << ", " << std::string(protocol.set.name) << ": " << thrown << " thrown, " << oracle.packets
                << " with the right checksum, " << compared.left_out << " of these with a stamp that can't be, "
                << flawed(link) << " dropped");

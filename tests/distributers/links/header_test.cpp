@@ -19,7 +19,7 @@ TEST_SUITE("distributers/header") {
               {.header = {{"src", 0x00D1}}});
     messages::PacketReader reader(imc::message_set());
     const auto header_of = [&](messages::MessageRef message) {
-      REQUIRE(reader.read(link.encode(message)) == messages::Flaw::none);
+      REQUIRE(reader.read(link.encode(message)) == messages::PacketError::none);
       return *static_cast<const imc::Header*>(reader.header().value);
     };
     const imc::Heartbeat heartbeat;

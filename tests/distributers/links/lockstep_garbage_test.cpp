@@ -59,7 +59,7 @@ void put_garbage(Bytes& to, const std::vector<Bytes>& packets, Random& random) {
 
 // How many messages ought to have an effect: those before the first frame that is wrong. Sent by a runner, all count;
 // by a vehicle, the answers that a distributer takes.
-std::size_t messages_before_a_flaw(std::span<const std::byte> bytes, bool of_runner) {
+std::size_t messages_before_an_error(std::span<const std::byte> bytes, bool of_runner) {
   messages::PacketReader reader(protocol().set);
   Typed<JaviatorVehicle> distributer;
   std::size_t of_any = 0;
@@ -79,7 +79,7 @@ std::size_t messages_before_a_flaw(std::span<const std::byte> bytes, bool of_run
     if (!begun) {
       if (kind != (of_runner ? FrameKind::begin : FrameKind::welcome) || size < 8) return count();
     } else if (kind == FrameKind::message) {
-      if (reader.read(content) != messages::Flaw::none) return count();
+      if (reader.read(content) != messages::PacketError::none) return count();
       REQUIRE(protocol().is_sealed(content));
       ++of_any;
       distributer.receive(reader.message());
@@ -89,7 +89,7 @@ std::size_t messages_before_a_flaw(std::span<const std::byte> bytes, bool of_run
   }
 }
 
-// Keeps count of what it is told.
+// Keeps count of what it gets.
 class Box : public vehicles::Vehicle {
  public:
   explicit Box(std::size_t& accepted) : accepted_(accepted) {}
@@ -194,14 +194,14 @@ TEST_SUITE("distributers/links/lockstep_garbage") {
       } catch (const FrameEnd&) { ++taken; } catch (const FrameError&) {
         ++refused;
       }
-      REQUIRE(accepted == messages_before_a_flaw(bytes, true));
+      REQUIRE(accepted == messages_before_an_error(bytes, true));
     }
     CHECK(refused > taken);
     CHECK(taken > 0);
     MESSAGE(session_count() << " sessions, of which " << refused << " were refused");
   }
 
-  TEST_CASE("a runner takes what comes before the first frame that is wrong, and tells that the vehicle is lost") {
+  TEST_CASE("a runner takes what comes before the first frame that is wrong, and reports that the vehicle is lost") {
     const std::vector<Bytes> packets = protocol().packets();
     std::size_t taken = 0, refused = 0;
     const Peer peer(packets, session_count());
@@ -209,8 +209,8 @@ TEST_SUITE("distributers/links/lockstep_garbage") {
       CAPTURE(session);
       std::string said;
       const Bytes bytes = vehicle_session(packets, session);
-      LockstepChannels channels(peer.address(), 0, std::make_unique<Typed<JaviatorVehicle>>(),
-                                [](Duration) { return std::string(); });
+      LockstepSystem channels(peer.address(), 0, std::make_unique<Typed<JaviatorVehicle>>(),
+                              [](Duration) { return std::string(); });
       channels.begin();
       try {
         channels.reach(Duration{});
@@ -222,7 +222,7 @@ TEST_SUITE("distributers/links/lockstep_garbage") {
       CAPTURE(said);
       tasks::JaviatorSensors sensors;
       channels.take(0, &sensors);
-      REQUIRE(sensors.answers == messages_before_a_flaw(bytes, false));
+      REQUIRE(sensors.answers == messages_before_an_error(bytes, false));
     }
     CHECK(refused > taken);
     MESSAGE(session_count() << " sessions, of which " << refused << " were refused");

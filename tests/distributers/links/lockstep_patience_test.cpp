@@ -87,8 +87,8 @@ void say(const Descriptor& to, const Bytes& bytes) {
 // What a run says that looks at its sensors once.
 std::string said_with(const Address& address, std::optional<SecretKey> key = {}) {
   try {
-    LockstepChannels channels(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
-                              [](Duration) { return std::string(); }, {.key = key, .patience = patience});
+    LockstepSystem channels(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
+                            [](Duration) { return std::string(); }, {.key = key, .patience = patience});
     channels.begin();
     channels.reach(Duration{});
   } catch (const FrameError& error) {
@@ -216,8 +216,8 @@ TEST_SUITE("distributers/links/lockstep_patience") {
 
   TEST_CASE("a second runner is turned away with the address of the first, whom that does not disturb") {
     Server server;
-    LockstepChannels first(server.address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
-                           [](Duration) { return std::string(); });
+    LockstepSystem first(server.address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
+                         [](Duration) { return std::string(); });
     first.begin();
     std::string said;
     for (int i = 0; i < 20'000 && !said.starts_with("is busy"); ++i) {
@@ -299,8 +299,8 @@ TEST_SUITE("distributers/links/lockstep_patience") {
     });
     std::string said;
     try {
-      LockstepChannels channels(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
-                                [](Duration) { return std::string(); }, {.key = key_of(1), .patience = patience});
+      LockstepSystem channels(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
+                              [](Duration) { return std::string(); }, {.key = key_of(1), .patience = patience});
       channels.begin();
       for (int i = 0; i < 100; ++i) channels.reach(i * 5ms);
     } catch (const FrameError& error) { said = error.what(); }

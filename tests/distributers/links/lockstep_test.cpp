@@ -14,7 +14,7 @@ namespace {
 using namespace jarol;
 using namespace jarol::distributers;
 
-// What a runner says to a vehicle's process whose welcome tells of that grid.
+// What a runner says to a vehicle's process whose welcome shows that grid.
 std::string said_to(std::int64_t grid) {
   const Descriptor socket = listen_at(Address::parse("0"));
   const Address address = Address::parse(std::to_string(port_of(socket)));
@@ -33,7 +33,7 @@ std::string said_to(std::int64_t grid) {
   });
   std::string said;
   try {
-    LockstepChannels channels(address, 0, std::make_unique<Typed<LauvVehicle>>(), [](Duration its) {
+    LockstepSystem channels(address, 0, std::make_unique<Typed<LauvVehicle>>(), [](Duration its) {
       return Duration(1000).count() % its.count() == 0 ? std::string() : std::string("off its grid");
     });
     channels.begin();

@@ -80,7 +80,7 @@ TEST_SUITE("distributers/links/packet_link") {
     CHECK(kept(", port: {in: {kind: plain, packets: 4}}") == std::vector<std::size_t>{0, 3, 4});
   }
 
-  TEST_CASE("nothing is reached from beyond this machine unless that is told") {
+  TEST_CASE("nothing is reached from beyond this machine unless that is stated") {
     const auto link = [](const std::string& text) { return make("{" + text + "}")->transport().text(); };
     CHECK(link("type: udp, listen: 7000") == "udp 127.0.0.1:7000");
     CHECK(link("type: udp, peer: 7000") == "udp 127.0.0.1:0 with 127.0.0.1:7000");
@@ -94,7 +94,7 @@ TEST_SUITE("distributers/links/packet_link") {
     CHECK(link("type: udp, listen: '0.0.0.0:7000'") == "udp 0.0.0.0:7000");
   }
 
-  TEST_CASE("a port that can't be is told with what would be right") {
+  TEST_CASE("a port that can't be is reported with what would be right") {
     CHECK(report_on("type: udp\nlisten: 0\nport: {in: {packets: 0}, out: {packets: 4097}}\n") ==
           "link.yaml:3:22: error: port 'in' of the link holds from 1 to 4096 packets, not 0\n"
           "  port: {in: {packets: 0}, out: {packets: 4097}}\n"
@@ -108,10 +108,11 @@ TEST_SUITE("distributers/links/packet_link") {
     const auto address = [](const std::string& text) {
       const auto link = make("{type: udp, " + text + "}");
       link->connect();
-      const std::string told = link->transport().address();
+      const std::string reported = link->transport().address();
       const auto& udp = static_cast<const UdpTransport&>(link->transport());
       const std::string port = ":" + std::to_string(udp.port());
-      return told.substr(0, told.rfind(':')) + (told.substr(told.size() - port.size()) == port ? " and its port" : "");
+      return reported.substr(0, reported.rfind(':')) +
+             (reported.substr(reported.size() - port.size()) == port ? " and its port" : "");
     };
     CHECK(address("listen: '0.0.0.0:0', announce: '127.0.0.1:30100-30104'") == "udp://127.0.0.1 and its port");
     CHECK(address("peer: '127.0.0.1:9', announce: '127.1.2.3:30100'") == "udp://127.0.0.1 and its port");

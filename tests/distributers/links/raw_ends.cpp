@@ -121,8 +121,8 @@ namespace {
 // What was dropped for a flaw, and what was taken.
 std::uint64_t sum_of(const Link& link, bool with_taken) {
   std::vector<std::string> names;
-  for (std::size_t i = 1; i < messages::flaw_count; ++i)
-    names.push_back("dropped: " + std::string(name_of(static_cast<messages::Flaw>(i))));
+  for (std::size_t i = 1; i < messages::packet_error_count; ++i)
+    names.push_back("dropped: " + std::string(name_of(static_cast<messages::PacketError>(i))));
   if (with_taken) names.emplace_back("packets in");
   std::uint64_t sum = 0;
   for (const auto& [name, count] : link.report().counts)

@@ -17,7 +17,7 @@ const DistributerClass& operator_class() {
 
 std::string report_on_script(const std::string& text) {
   Problems problems;
-  ScriptChannels(std::make_shared<Source>(Source{"m.csv", text}), operator_class(), problems);
+  ScriptSystem(std::make_shared<Source>(Source{"m.csv", text}), operator_class(), problems);
   try {
     problems.throw_if_any();
   } catch (const SpecError& error) { return error.what(); }
@@ -28,7 +28,7 @@ std::string report_on_script(const std::string& text) {
 TEST_SUITE("distributers/links/script") {
   TEST_CASE("a row holds from its time until the next, an empty cell keeps what was") {
     Problems problems;
-    ScriptChannels script(
+    ScriptSystem script(
         std::make_shared<Source>(Source{"m.csv",
                                         "# a mission\ntime,setpoint.depth, setpoint.heading\n0,1,90deg\n\n"
                                         "0.5,,-1\r\n2,3,0\n"}),
@@ -51,7 +51,7 @@ TEST_SUITE("distributers/links/script") {
 
   TEST_CASE("times are taken as programs write them, to the nanosecond") {
     Problems problems;
-    const ScriptChannels script(
+    const ScriptSystem script(
         std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n0.30000000000000004,1\n1.25e1,2\n"}),
         operator_class(), problems);
     CHECK(problems.empty());
@@ -60,15 +60,15 @@ TEST_SUITE("distributers/links/script") {
 
   TEST_CASE("the mission ends at the time of its last row") {
     Problems problems;
-    const ScriptChannels script(std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n12.5,1\n"}),
-                                operator_class(), problems);
+    const ScriptSystem script(std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n12.5,1\n"}),
+                              operator_class(), problems);
     CHECK(script.end() == 12500ms);
   }
 
   TEST_CASE("of rows that pass between two looks the last counts") {
     Problems problems;
-    ScriptChannels script(std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n1,2\n2,3\n9,9\n"}),
-                          operator_class(), problems);
+    ScriptSystem script(std::make_shared<Source>(Source{"m.csv", "time,setpoint.depth\n0,1\n1,2\n2,3\n9,9\n"}),
+                        operator_class(), problems);
     script.reach(5s);
     tasks::Setpoint setpoint;
     CHECK(script.take(0, &setpoint));

@@ -12,7 +12,7 @@ using namespace jarol::distributers;
 using namespace std::chrono_literals;
 namespace imc = messages::imc;
 
-// A vehicle whose depth is the number of its steps plus what its servo 0 was told in the step before.
+// A vehicle whose depth is the number of its steps plus what its servo 0 was sent in the step before.
 class Steps : public vehicles::Vehicle {
  public:
   Duration grid() const override { return 10ms; }
@@ -36,9 +36,9 @@ class Steps : public vehicles::Vehicle {
   float held_ = 0;
 };
 
-SimulationChannels make() { return {std::make_unique<Steps>(), std::make_unique<Typed<LauvVehicle>>()}; }
+SimulatedSystem make() { return {std::make_unique<Steps>(), std::make_unique<Typed<LauvVehicle>>()}; }
 
-double depth_of(SimulationChannels& channels) {
+double depth_of(SimulatedSystem& channels) {
   tasks::Motion motion;
   CHECK(channels.take(0, &motion));
   return motion.z;

@@ -174,7 +174,7 @@ TEST_SUITE("distributers/links/strangers") {
     const UdpTransport& at = *transport;
     auto adapter = std::make_unique<Typed<JaviatorOperator>>();
     auto link = std::make_unique<Link>(std::move(transport), javiator::message_set(), LinkOptions{});
-    LinkedChannels channels(std::move(link), std::move(adapter));
+    LinkedSystem channels(std::move(link), std::move(adapter));
     channels.begin();
     const Address to = any.with_port(at.port());
     const Speaker pilot(to, SOCK_DGRAM), stray(to, SOCK_DGRAM);

@@ -28,9 +28,9 @@ TEST_SUITE("distributers/messages/mutations") {
       for (int i = 0; i < packet_count(); ++i) {
         Bytes bytes = i % 2 == 0 ? random_bytes(packets, random) : packets[below(random, packets.size())];
         if (i % 2 != 0) damage(bytes, random);
-        const Flaw flaw = reader.read(bytes);
-        if (flaw == Flaw::none) REQUIRE(protocol.is_sealed(bytes));
-        ++(flaw == Flaw::none ? taken : refused);
+        const PacketError packet_error = reader.read(bytes);
+        if (packet_error == PacketError::none) REQUIRE(protocol.is_sealed(bytes));
+        ++(packet_error == PacketError::none ? taken : refused);
       }
       MESSAGE(taken << " taken, " << refused << " refused");
       CHECK(taken > 0);  // some damage changes nothing
@@ -48,10 +48,10 @@ TEST_SUITE("distributers/messages/mutations") {
       for (int i = 0; i < packet_count(); ++i) {
         Bytes bytes = packets[below(random, packets.size())];
         damage_fields(protocol, bytes, random);
-        const Flaw flaw = reader.read(bytes);
-        REQUIRE((flaw == Flaw::none || flaw == Flaw::payload));
-        ++(flaw == Flaw::none ? taken : refused);
-        if (flaw != Flaw::none) continue;
+        const PacketError packet_error = reader.read(bytes);
+        REQUIRE((packet_error == PacketError::none || packet_error == PacketError::payload));
+        ++(packet_error == PacketError::none ? taken : refused);
+        if (packet_error != PacketError::none) continue;
         REQUIRE(write_packet(reader.header(), reader.message(), reader.order(), written));
         REQUIRE(written == bytes);
       }

@@ -15,8 +15,8 @@ namespace {
 // What is wrong with the bytes, in words.
 std::string complaint(const MessageSet& set, const std::vector<std::byte>& bytes) {
   std::string why;
-  const Flaw flaw = PacketReader(set).read(bytes, &why);
-  return std::string(name_of(flaw)) + ": " + why;
+  const PacketError packet_error = PacketReader(set).read(bytes, &why);
+  return std::string(name_of(packet_error)) + ": " + why;
 }
 
 }  // namespace
@@ -32,8 +32,8 @@ TEST_SUITE("distributers/messages/packet") {
         std::string why;
         reader.read(bytes_of(hex), &why);
         CHECK_MESSAGE(why == "", packet.dump());
-        if (reader.message().form == nullptr) continue;
-        CHECK(reader.message().form->name == packet["name"]);
+        if (reader.message().descriptor == nullptr) continue;
+        CHECK(reader.message().descriptor->name == packet["name"]);
         std::vector<std::byte> written;
         CHECK(write_packet(reader.header(), reader.message(), reader.order(), written));
         CHECK(hex_of(written) == hex);
@@ -68,7 +68,7 @@ TEST_SUITE("distributers/messages/packet") {
   TEST_CASE("a packet in the other byte order holds the same message") {
     PacketReader little(imc::message_set()), big(imc::message_set());
     for (const nlohmann::json& packet : recorded("imc-packets.jsonl")) {
-      REQUIRE(little.read(bytes_of(packet["hex"])) == Flaw::none);
+      REQUIRE(little.read(bytes_of(packet["hex"])) == PacketError::none);
       std::vector<std::byte> turned, back;
       REQUIRE(write_packet(little.header(), little.message(), ByteOrder::big, turned));
       std::string why;
@@ -94,7 +94,7 @@ TEST_SUITE("distributers/messages/packet") {
     CHECK(complaint(imc_set, bytes_of(heartbeat.substr(0, 40) + "7b34")) ==
           "bad checksum: the checksum is 0x347b; 0x337b would be right");
     CHECK(complaint(imc_set, bytes_of("54fe9600ffff" + heartbeat.substr(12))) ==
-          "oversized: the header tells of 65535 bytes of payload; at most 65513 are allowed");
+          "oversized: the header states 65535 bytes of payload; at most 65513 are allowed");
 
     const MessageSet& javiator_set = javiator::message_set();
     CHECK(complaint(javiator_set, bytes_of("ffff17000017")) == "unknown id: message id 23 is not in set javiator");

@@ -22,7 +22,7 @@ template <class M>
 std::string complaint(const std::string& hex) {
   M message;
   std::string why;
-  return read_payload(M::form, ByteOrder::little, bytes_of(hex), &message, &why) ? "" : why;
+  return read_payload(M::descriptor, ByteOrder::little, bytes_of(hex), &message, &why) ? "" : why;
 }
 
 template <class M>
@@ -60,8 +60,8 @@ TEST_SUITE("distributers/messages/payload") {
           "00000000");
 
     imc::Reference back;
-    REQUIRE(read_payload(imc::Reference::form, ByteOrder::big, bytes_of(written(refer_to(reference), ByteOrder::big)),
-                         &back));
+    REQUIRE(read_payload(imc::Reference::descriptor, ByteOrder::big,
+                         bytes_of(written(refer_to(reference), ByteOrder::big)), &back));
     CHECK(back.z.empty());
     Message speed;
     REQUIRE(take_inline(imc::message_set(), back.speed, speed));
@@ -84,7 +84,7 @@ TEST_SUITE("distributers/messages/payload") {
     for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
       imc::PlanSpecification back;
       const std::vector<std::byte> bytes = bytes_of(written(refer_to(plan), order));
-      REQUIRE(read_payload(imc::PlanSpecification::form, order, bytes, &back));
+      REQUIRE(read_payload(imc::PlanSpecification::descriptor, order, bytes, &back));
       CHECK(written(refer_to(back), order) == hex_of(bytes));
       REQUIRE(back.maneuvers.size() == 2);
       CHECK(back.maneuvers[1] == plan.maneuvers[1]);
@@ -147,7 +147,7 @@ TEST_SUITE("distributers/messages/payload") {
     }
     const std::vector<std::byte> bytes = bytes_of(written(refer_to(outer)));
     imc::PlanControl back;
-    CHECK(read_payload(imc::PlanControl::form, ByteOrder::little, bytes, &back));
+    CHECK(read_payload(imc::PlanControl::descriptor, ByteOrder::little, bytes, &back));
     imc::PlanControl too_deep;
     InlineMessage sixteen;
     REQUIRE(put_inline(refer_to(outer), sixteen));

@@ -38,9 +38,9 @@ std::vector<std::string> feed(StreamReader& reader, const std::string& hex, std:
 
 std::string text_of(const PacketCounts& counts) {
   std::string text = std::to_string(counts.packets) + " taken";
-  for (std::size_t i = 1; i < flaw_count; ++i)
+  for (std::size_t i = 1; i < packet_error_count; ++i)
     if (counts.dropped[i] > 0)
-      text += ", " + std::to_string(counts.dropped[i]) + " " + std::string(name_of(static_cast<Flaw>(i)));
+      text += ", " + std::to_string(counts.dropped[i]) + " " + std::string(name_of(static_cast<PacketError>(i)));
   return text + ", " + std::to_string(counts.dropped_bytes) + " bytes dropped";
 }
 
@@ -117,7 +117,7 @@ TEST_SUITE("distributers/messages/stream_reader") {
       if (hex.size() <= 2 * 64) small.push_back(hex);
     }
     CHECK(feed(reader, stream) == small);
-    CHECK(reader.counts().dropped_for(Flaw::oversized) == packets.size() - small.size());
+    CHECK(reader.counts().dropped_for(PacketError::oversized) == packets.size() - small.size());
   }
 
   TEST_CASE("a sync right behind one more byte of its kind is found") {

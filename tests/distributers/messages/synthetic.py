@@ -5,7 +5,7 @@ import sys
 random.seed(350)
 numbers = ["int8_t", "uint8_t", "int16_t", "uint16_t", "int32_t", "uint32_t", "int64_t", "uint64_t", "fp32_t", "fp64_t"]
 units = ["", "m", "rad/s", "°", "%", "Enumerated", "Bitfield", "List", "TupleList"]
-hard_names = ["class", "default", "operator", "int", "id", "fields", "form", "message_id", "NAN", "errno", "delete",
+hard_names = ["class", "default", "operator", "int", "id", "fields", "descriptor", "message_id", "NAN", "errno", "delete",
               "value", "xor", "std", "_under", "3d", "a-b", "union", "major", "payload"]
 defaults = {"int8_t": "-128", "uint8_t": "0xFF", "int16_t": "-0x10", "uint16_t": "65535", "int32_t": "-2147483648",
             "uint32_t": "4294967295", "int64_t": "-1", "uint64_t": "18446744073709551615", "fp32_t": "NaN",

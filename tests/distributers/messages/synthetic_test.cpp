@@ -17,7 +17,7 @@ TEST_SUITE("distributers/messages/synthetic") {
     CHECK(set.find(9001, 1)->name == "SharedShort");
     CHECK(set.find(9001, 8)->name == "SharedLong");
     CHECK(set.find_nested(9001) == nullptr);
-    CHECK(set.find(9000, 9) == &synthetic::VeryFlat::form);
+    CHECK(set.find(9000, 9) == &synthetic::VeryFlat::descriptor);
   }
 
   TEST_CASE("every message comes back as it was, in both byte orders and as JSON") {
@@ -30,6 +30,6 @@ TEST_SUITE("distributers/messages/synthetic") {
     CHECK(synthetic::Mask::ALL == 0xffffffff);
     CHECK(synthetic::Shared::class_ == 0);
     CHECK(type_of<synthetic::Message004>().fields.size() == 2);
-    CHECK(synthetic::Message004::form.fields.size() == 4);  // those of the parts
+    CHECK(synthetic::Message004::descriptor.fields.size() == 4);  // those of the parts
   }
 }

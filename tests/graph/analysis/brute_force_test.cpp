@@ -20,11 +20,11 @@ struct TimedSet {
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::int64_t up_to(std::int64_t least, std::int64_t most) {
+  std::int64_t up_to(std::int64_t min, std::int64_t max) {
     std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ULL);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return least + static_cast<std::int64_t>((z ^ (z >> 31)) % static_cast<std::uint64_t>(most - least + 1));
+    return min + static_cast<std::int64_t>((z ^ (z >> 31)) % static_cast<std::uint64_t>(max - min + 1));
   }
 
  private:
@@ -58,7 +58,7 @@ System timed_system(const TimedSet& set, const Policy& policy, bool offsets_hold
   system.policy = policy;
   system.offsets_hold = offsets_hold;
   for (std::size_t i = 0; i < set.size(); ++i) {
-    system.loads.push_back({set.wcet[i], set.period[i], set.deadline[i], offsets_hold ? set.offset[i] : 0, 0, 0, 0});
+    system.models.push_back({set.wcet[i], set.period[i], set.deadline[i], offsets_hold ? set.offset[i] : 0, 0, 0, 0});
     system.rank.push_back(i);
     system.turn.push_back(i);
   }
@@ -163,7 +163,7 @@ TEST_SUITE("graph/analysis/brute_force") {
         const auto truth = over_all_offsets(set, policy);
         const Result result = check(timed_system(set, policy, false));
         REQUIRE(result.verdict == (truth ? Verdict::schedulable : Verdict::not_schedulable));
-        REQUIRE(result.standing == Standing::proof);
+        REQUIRE(result.evidence == Evidence::proof);
         if (!truth) continue;
         for (std::size_t i = 0; i < set.size(); ++i) {
           if (!result.response[i]) continue;
@@ -190,7 +190,7 @@ TEST_SUITE("graph/analysis/brute_force") {
           ++undecided;
           continue;
         }
-        REQUIRE(result.standing == Standing::proof);
+        REQUIRE(result.evidence == Evidence::proof);
         if (result.verdict == Verdict::not_schedulable) {
           // not interrupted, a shorter execution may be what makes another late
           if (truth) {

@@ -81,12 +81,12 @@ void check_case(const Json& c) {
   const System system = system_of(graph);
   const Result result = check(system);
   CHECK(result.verdict == (expect["schedulable"].get<bool>() ? Verdict::schedulable : Verdict::not_schedulable));
-  CHECK(result.standing == Standing::proof);
+  CHECK(result.evidence == Evidence::proof);
   if (expect.contains("U") && !small) CHECK(result.utilisation == doctest::Approx(fraction(expect["U"])));
   const bool edf_late = policy_of(c) == "edf" && !expect["schedulable"].get<bool>();
   // published responses under EDF are over all shifts
-  const bool moves = policy_of(c) == "edf" &&
-                     std::none_of(system.loads.begin(), system.loads.end(), [](const Load& l) { return l.offset > 0; });
+  const bool moves = policy_of(c) == "edf" && std::none_of(system.models.begin(), system.models.end(),
+                                                           [](const TaskModel& m) { return m.offset > 0; });
   System shifted = system;
   shifted.offsets_hold = system.offsets_hold && !moves;
   const Result every_shift = check(shifted);
@@ -104,8 +104,8 @@ void check_case(const Json& c) {
     }
   if (expect.contains("first_miss")) {
     REQUIRE(result.late);
-    const Late& l = *result.late;
-    CHECK(Json{l.task, l.activation, l.release / scale, l.deadline / scale, l.finish / scale} == expect["first_miss"]);
+    const DeadlineMiss& m = *result.late;
+    CHECK(Json{m.task, m.activation, m.release / scale, m.deadline / scale, m.finish / scale} == expect["first_miss"]);
   }
   if (policy_of(c) == "edf" && expect.contains("witness") && expect["witness"].size() == 2 &&
       expect["witness"][0].is_number()) {
@@ -114,15 +114,15 @@ void check_case(const Json& c) {
     CHECK(result.demand->demand > result.demand->length);
   }
   if (expect.contains("alpha") || expect.contains("max_C")) {
-    Effort effort;
-    const Sensitivity s = sensitivity_of(system, true, effort).value();
+    Budget budget;
+    const Sensitivity s = sensitivity_of(system, true, budget).value();
     if (expect.contains("alpha")) {
       REQUIRE(s.alpha);
       CHECK(*s.alpha == doctest::Approx(fraction(expect["alpha"])).scale(0).epsilon(2e-6));
     }
     if (expect.contains("max_C"))
       for (std::size_t i = 0; i < expect["max_C"].size(); ++i)
-        CHECK(s.most_wcet[i].value_or(0) / scale == expect["max_C"][i].get<std::int64_t>());
+        CHECK(s.max_wcet[i].value_or(0) / scale == expect["max_C"][i].get<std::int64_t>());
   }
 }
 
@@ -137,20 +137,20 @@ void check_chain(const Json& c) {
   const Graph graph = tests::graph_of("graph: t\ntasks:\n" + tasks + "connections:\n" + connections);
   std::vector<End> path;
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) path.push_back({End::Kind::task, i, 0});
-  const ChainLatency l = latency_of(graph, path);
-  CHECK(l.exact);
-  CHECK(l.max_reaction == c["expect"]["mrt"].get<std::int64_t>() * unit);
-  CHECK(l.max_age == c["expect"]["mda"].get<std::int64_t>() * unit);
-  CHECK(l.max_reduced_age == c["expect"]["mrda"].get<std::int64_t>() * unit);
-  CHECK(l.bound == c["expect"]["davare"].get<std::int64_t>() * unit);
+  const ChainLatency m = latency_of(graph, path);
+  CHECK(m.exact);
+  CHECK(m.max_reaction == c["expect"]["mrt"].get<std::int64_t>() * unit);
+  CHECK(m.max_age == c["expect"]["mda"].get<std::int64_t>() * unit);
+  CHECK(m.max_reduced_age == c["expect"]["mrda"].get<std::int64_t>() * unit);
+  CHECK(m.bound == c["expect"]["davare"].get<std::int64_t>() * unit);
 }
 
 void check_global(const Json& c) {
   // the published bounds count in whole units
   const Graph graph = tests::graph_of(yaml_of(c, "ns"));
   const System system = system_of(graph);
-  CHECK(passes_gfb(system.loads, system.cores) == c["expect"]["gfb"].get<bool>());
-  const auto responses = global_edf_responses(system.loads, system.cores);
+  CHECK(passes_gfb(system.models, system.cores) == c["expect"]["gfb"].get<bool>());
+  const auto responses = global_edf_responses(system.models, system.cores);
   for (std::size_t i = 0; i < responses.size(); ++i) {
     REQUIRE(responses[i]);
     CHECK(*responses[i] == c["expect"]["R_edf"][i].get<std::int64_t>());
@@ -160,10 +160,10 @@ void check_global(const Json& c) {
 void check_walk(const Json& c) {
   const Result result = check(tests::graph_of(yaml_of(c, "ns")));
   CHECK((result.verdict == Verdict::schedulable) == c["expect"]["schedulable"].get<bool>());
-  CHECK(result.standing == Standing::proof);
+  CHECK(result.evidence == Evidence::proof);
   REQUIRE(result.late);
-  const Late& l = *result.late;
-  CHECK(Json{l.task, l.activation, l.release, l.deadline, l.finish} == c["expect"]["first_miss"]);
+  const DeadlineMiss& m = *result.late;
+  CHECK(Json{m.task, m.activation, m.release, m.deadline, m.finish} == c["expect"]["first_miss"]);
 }
 }  // namespace
 

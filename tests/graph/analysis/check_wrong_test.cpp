@@ -40,7 +40,7 @@ TEST_SUITE("graph/analysis/check_wrong") {
   TEST_CASE("waiting for another core lets the backlog grow, though no core has too much to do") {
     const Judged j("cross_core_backlog");
     CHECK(j.result.verdict == Verdict::not_schedulable);
-    CHECK(j.result.standing == Standing::proof);
+    CHECK(j.result.evidence == Evidence::proof);
     // each period core 1 waits 1 ms and works 10 ms
     CHECK(j.late() == "d");
     REQUIRE(j.result.late);
@@ -52,10 +52,10 @@ TEST_SUITE("graph/analysis/check_wrong") {
   TEST_CASE("a circle of waiting through two cores that takes longer than the period is found, and alpha says so") {
     const Judged j("cross_core_alpha");
     CHECK(j.result.verdict == Verdict::not_schedulable);
-    CHECK(j.result.standing == Standing::proof);
+    CHECK(j.result.evidence == Evidence::proof);
     CHECK(j.result.reason == "waiting for other cores takes longer than there is time: the backlog grows");
-    Effort effort;
-    const auto margins = sensitivity_of(j.system, false, effort);
+    Budget budget;
+    const auto margins = sensitivity_of(j.system, false, budget);
     REQUIRE((margins && margins->alpha));
     CHECK(*margins->alpha == doctest::Approx(10.0 / 10.1).scale(0).epsilon(2e-6));
   }
@@ -63,14 +63,14 @@ TEST_SUITE("graph/analysis/check_wrong") {
   TEST_CASE("under global EDF jitter and blocking count") {
     const Judged j("global_edf_jitter");
     CHECK(j.result.verdict == Verdict::not_schedulable);
-    CHECK(j.result.standing == Standing::proof);
+    CHECK(j.result.evidence == Evidence::proof);
     CHECK(j.result.reason == "a task's 'wcet', 'blocking' and 'jitter' together are longer than its deadline");
   }
 
   TEST_CASE("in a table blocking takes time of the core, and the backlog grows by it") {
     const Judged j("table_blocking");
     CHECK(j.result.verdict == Verdict::not_schedulable);
-    CHECK(j.result.standing == Standing::proof);
+    CHECK(j.result.evidence == Evidence::proof);
     CHECK(j.result.reason == "the tasks need more than the whole core");
     CHECK(Judged("table_blocking", "offset: 5ms, wcet: 5ms", "offset: 5ms, wcet: 4.9ms").result.verdict ==
           Verdict::schedulable);
@@ -96,14 +96,14 @@ TEST_SUITE("graph/analysis/check_wrong") {
   TEST_CASE("a task does not hold up its own activations") {
     const Judged j("lone_task_np_edf");
     CHECK(j.result.verdict == Verdict::schedulable);
-    CHECK(j.result.standing == Standing::proof);
+    CHECK(j.result.evidence == Evidence::proof);
     CHECK(j.response("a") == 4 * ms);
   }
 
   TEST_CASE("with offsets that hold, two activations of a task are not both as near as its jitter allows") {
     const Judged j("given_offsets_jitter");
     CHECK(j.result.verdict == Verdict::schedulable);
-    CHECK(j.result.standing == Standing::proof);
+    CHECK(j.result.evidence == Evidence::proof);
     CHECK(j.response("a") == 7 * ms);
     CHECK(j.response("b") == 6 * ms);
     CHECK(Judged("given_offsets_jitter", "deadline: 7ms", "deadline: 5.9ms").result.verdict ==
@@ -115,7 +115,7 @@ TEST_SUITE("graph/analysis/check_wrong") {
       CAPTURE(policy);
       const Judged j("assignment", "fixed_priority", policy);
       CHECK(j.result.verdict == Verdict::schedulable);
-      CHECK(j.result.standing == (policy == "table" ? Standing::proof : Standing::safe));
+      CHECK(j.result.evidence == (policy == "table" ? Evidence::proof : Evidence::safe));
       CHECK(std::count(j.result.core.begin(), j.result.core.end(), 0) == 3);
       CHECK(std::count(j.result.core.begin(), j.result.core.end(), 1) == 1);
     }
@@ -131,7 +131,7 @@ TEST_SUITE("graph/analysis/check_wrong") {
   TEST_CASE("a table whose periods do not repeat in reach is judged by what may stand before each task") {
     const Judged j("coprime_table");
     CHECK(j.result.verdict == Verdict::schedulable);
-    CHECK(j.result.standing == Standing::safe);
+    CHECK(j.result.evidence == Evidence::safe);
     for (const std::string task : {"a", "b", "c"}) CHECK(j.response(task) <= 3'000);
   }
 }

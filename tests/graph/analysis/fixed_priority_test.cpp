@@ -11,25 +11,25 @@ using namespace jarol::analysis;
 
 using Responses = std::vector<std::optional<std::int64_t>>;
 
-Responses responses(const Loads& loads, bool preemptive = true) {
-  Effort effort;
-  return fixed_priority_responses(loads, preemptive, effort);
+Responses responses(const TaskModels& models, bool preemptive = true) {
+  Budget budget;
+  return fixed_priority_responses(models, preemptive, budget);
 }
 
 // Jobs of one task: they arrive at -J, T - J, ... and are released at 0, or when they arrive.
 struct Jobs {
-  const Load& load;
+  const TaskModel& model;
   std::int64_t begun = 0, left = 0;  // the first that has not ended, and what is left of it
 
-  std::int64_t arrival() const { return begun * load.period - load.jitter; }
+  std::int64_t arrival() const { return begun * model.period - model.jitter; }
   bool is_ready(std::int64_t now) const { return arrival() <= now; }
 };
 
-// The worst response of the last of `loads` until there is nothing left to do, from where all are released at once and
+// The worst response of the last of `models` until there is nothing left to do, from where all are released at once and
 // something else runs first for that long.
-std::int64_t walk(std::span<const Load> loads, bool preemptive, std::int64_t blocking) {
+std::int64_t walk(std::span<const TaskModel> models, bool preemptive, std::int64_t blocking) {
   std::vector<Jobs> jobs;
-  for (const Load& load : loads) jobs.push_back({load, 0, load.wcet});
+  for (const TaskModel& model : models) jobs.push_back({model, 0, model.wcet});
   std::int64_t worst = 0;
   Jobs* running = nullptr;
   for (std::int64_t now = blocking;; ++now) {
@@ -41,14 +41,15 @@ std::int64_t walk(std::span<const Load> loads, bool preemptive, std::int64_t blo
     if (--running->left > 0) continue;
     if (running == &jobs.back()) worst = std::max(worst, now + 1 - running->arrival());
     ++running->begun;
-    running->left = running->load.wcet;
+    running->left = running->model.wcet;
     running = nullptr;
   }
 }
 
-std::string text_of(const Loads& loads) {
+std::string text_of(const TaskModels& models) {
   std::ostringstream text;
-  for (const Load& l : loads) text << l.wcet << "/" << l.period << " J " << l.jitter << " B " << l.blocking << "; ";
+  for (const TaskModel& m : models)
+    text << m.wcet << "/" << m.period << " J " << m.jitter << " B " << m.blocking << "; ";
   return text.str();
 }
 }  // namespace
@@ -62,30 +63,30 @@ TEST_SUITE("graph/analysis/fixed_priority") {
 
   TEST_CASE("responses of random sets are those of a walk through their busy periods") {
     std::mt19937 random(5);
-    const auto upto = [&](std::int64_t most) { return static_cast<std::int64_t>(random() % (most + 1)); };
+    const auto upto = [&](std::int64_t max) { return static_cast<std::int64_t>(random() % (max + 1)); };
     int later = 0;
     for (int i = 0; i < 3000; ++i) {
-      Loads loads;
+      TaskModels models;
       const bool preemptive = i % 2 == 0;
       for (std::int64_t left = 1 + upto(3); left > 0; --left) {
         const std::int64_t period = 3 + upto(25);
-        loads.push_back({.wcet = 1 + upto(period / 2),
-                         .period = period,
-                         .jitter = upto(2) == 0 ? upto(2 * period) : 0,
-                         .blocking = upto(3) == 0 ? upto(6) : 0});
+        models.push_back({.wcet = 1 + upto(period / 2),
+                          .period = period,
+                          .jitter = upto(2) == 0 ? upto(2 * period) : 0,
+                          .blocking = upto(3) == 0 ? upto(6) : 0});
       }
-      if (utilisation(loads) > 1 - 1e-9) continue;
+      if (utilisation(models) > 1 - 1e-9) continue;
       CAPTURE(preemptive);
-      CAPTURE(text_of(loads));
-      const Responses found = responses(loads, preemptive);
-      for (std::size_t k = 0; k < loads.size(); ++k) {
+      CAPTURE(text_of(models));
+      const Responses found = responses(models, preemptive);
+      for (std::size_t k = 0; k < models.size(); ++k) {
         // what is less urgent has begun a nanosecond before
-        std::int64_t blocking = loads[k].blocking;
-        for (std::size_t below = k + 1; below < loads.size() && !preemptive; ++below)
-          blocking = std::max(blocking, loads[below].wcet - 1);
-        const std::int64_t walked = walk(std::span(loads).first(k + 1), preemptive, blocking);
+        std::int64_t blocking = models[k].blocking;
+        for (std::size_t below = k + 1; below < models.size() && !preemptive; ++below)
+          blocking = std::max(blocking, models[below].wcet - 1);
+        const std::int64_t walked = walk(std::span(models).first(k + 1), preemptive, blocking);
         REQUIRE(found[k] == walked);
-        later += walked - loads[k].jitter > loads[k].period;
+        later += walked - models[k].jitter > models[k].period;
       }
     }
     CHECK(later > 100);

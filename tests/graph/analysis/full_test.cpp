@@ -1,4 +1,4 @@
-// Close to full utilisation busy periods are very long; one hyperperiod tells all of them.
+// Close to full utilisation busy periods are very long; one hyperperiod shows all of them.
 #include <doctest/doctest.h>
 
 #include "graph/analysis/sensitivity.h"
@@ -18,7 +18,7 @@ System nearly_full(const Policy& policy, std::int64_t last) {
   system.offsets_hold = false;
   const std::int64_t periods[] = {100 * ms, 200 * ms, 400 * ms, 400 * ms};
   for (std::size_t i = 0; i < 4; ++i) {
-    system.loads.push_back({i == 3 ? last : 50 * ms, periods[i], periods[i], 0, 0, 0, 0});
+    system.models.push_back({i == 3 ? last : 50 * ms, periods[i], periods[i], 0, 0, 0, 0});
     system.rank.push_back(i);
     system.turn.push_back(i);
   }
@@ -35,7 +35,7 @@ TEST_SUITE("graph/analysis/full") {
       CAPTURE(policy.name);
       const Result holds = check(nearly_full(policy, 50 * ms - 1));
       CHECK(holds.verdict == Verdict::schedulable);
-      CHECK(holds.standing == Standing::proof);
+      CHECK(holds.evidence == Evidence::proof);
       const Result over = check(nearly_full(policy, 50 * ms + 1));
       CHECK(over.verdict == Verdict::not_schedulable);
     }
@@ -43,7 +43,7 @@ TEST_SUITE("graph/analysis/full") {
 
   TEST_CASE("a verdict that would take more effort is given up, and not the one after it") {
     const System system = nearly_full(policies::edf_nonpreemptive, 50 * ms - 1);
-    Effort little{20}, enough{1'000};
+    Budget little{20}, enough{1'000};
     CHECK(verdict_of(system, little) == Verdict::unknown);
     CHECK(little.spent());
     CHECK(!sensitivity_of(system, true, little).has_value());
@@ -51,8 +51,8 @@ TEST_SUITE("graph/analysis/full") {
     CHECK(verdict_of(system, enough) == Verdict::schedulable);
     CHECK(!enough.spent());
     CHECK(!sensitivity_of(system, true, enough).has_value());
-    Effort unlimited;
+    Budget unlimited;
     REQUIRE(sensitivity_of(system, true, unlimited).has_value());
-    CHECK(sensitivity_of(system, true, unlimited)->most_wcet[3] == 50 * ms);
+    CHECK(sensitivity_of(system, true, unlimited)->max_wcet[3] == 50 * ms);
   }
 }

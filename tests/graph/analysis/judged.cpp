@@ -8,7 +8,7 @@ namespace {
 using analysis::Verdict;
 using Answer = Truth::Answer;
 
-constexpr std::size_t most_states = 100'000;
+constexpr std::size_t max_states = 100'000;
 
 bool keeps_given_cores(const Set& set, const std::vector<std::size_t>& core) {
   for (std::size_t i = 0; i < core.size(); ++i)
@@ -20,12 +20,12 @@ bool keeps_given_cores(const Set& set, const std::vector<std::size_t>& core) {
 
 Truth truth_on_best_cores(const Set& set, const Places& places) {
   std::vector<std::size_t> core(set.tasks.size(), 0);
-  if (set.policy == policies::global_edf) return truth_of(set, core, places, most_states);
+  if (set.policy == policies::global_edf) return truth_of(set, core, places, max_states);
   Truth last;
   bool open = false;
   while (true) {
     if (keeps_given_cores(set, core)) {
-      last = truth_of(set, core, places, most_states);
+      last = truth_of(set, core, places, max_states);
       if (last.answer == Answer::schedulable) return last;
       open = open || last.answer == Answer::too_large;
     }
@@ -42,7 +42,7 @@ Judged judge(const Set& set) {
   Judged judged{set, analysis::check(graph), {}};
   std::vector<std::size_t> core;
   for (const auto& c : judged.said.core) core.push_back(c.value_or(0));
-  judged.truth = judged.says(Verdict::schedulable) ? truth_of(set, core, places_in(graph), most_states)
+  judged.truth = judged.says(Verdict::schedulable) ? truth_of(set, core, places_in(graph), max_states)
                                                    : truth_on_best_cores(set, places_in(graph));
   return judged;
 }
@@ -50,7 +50,7 @@ Judged judge(const Set& set) {
 std::string Judged::wrong() const {
   if (says(Verdict::schedulable) && truth.answer == Answer::late) return "unsafe yes";
   if (truth.answer != Answer::schedulable) return "";
-  if (says(Verdict::not_schedulable)) return said.standing == analysis::Standing::proof ? "false proof" : "";
+  if (says(Verdict::not_schedulable)) return said.evidence == analysis::Evidence::proof ? "false proof" : "";
   if (says(Verdict::unknown)) return "";
   for (std::size_t i = 0; i < set.tasks.size(); ++i)
     if (said.response[i] && *said.response[i] < truth.longest[i]) return "short response";

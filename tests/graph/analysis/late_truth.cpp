@@ -42,13 +42,13 @@ class LateSearch {
     by_priority_ = set.policy == policies::fixed_priority || set.policy == policies::fixed_priority_nonpreemptive;
   }
 
-  std::optional<std::vector<int>> run(std::size_t most_states) {
+  std::optional<std::vector<int>> run(std::size_t max_states) {
     Queues first(set_.tasks.size());
     for (std::size_t i = 0; i < first.size(); ++i)
       first[i].since = set_.offsets_hold ? set_.tasks[i].period - set_.tasks[i].offset : set_.tasks[i].period;
     see(std::move(first));
     while (!open_.empty() && !grows_) {
-      if (seen_.size() > most_states) return std::nullopt;
+      if (seen_.size() > max_states) return std::nullopt;
       Queues queues = std::move(open_.back());
       open_.pop_back();
       arrive(std::move(queues), 0);
@@ -188,9 +188,9 @@ bool overloaded(const Set& set, const std::vector<std::size_t>& core) {
 }  // namespace
 
 std::optional<std::vector<int>> late_truth_of(const Set& set, const std::vector<std::size_t>& core,
-                                              const Places& places, std::size_t most_states) {
+                                              const Places& places, std::size_t max_states) {
   if (overloaded(set, core)) return std::nullopt;
-  return LateSearch(set, core, places).run(most_states);
+  return LateSearch(set, core, places).run(max_states);
 }
 
 }  // namespace jarol::truth

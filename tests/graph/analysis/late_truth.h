@@ -8,8 +8,8 @@
 namespace jarol::truth {
 
 /// The longest response of each task, from the arrival; nothing where backlog grows, or states are more than
-/// `most_states`. A set without `blocking`, each task on a core of its own policy: not global EDF.
+/// `max_states`. A set without `blocking`, each task on a core of its own policy: not global EDF.
 std::optional<std::vector<int>> late_truth_of(const Set& set, const std::vector<std::size_t>& core,
-                                              const Places& places, std::size_t most_states);
+                                              const Places& places, std::size_t max_states);
 
 }  // namespace jarol::truth

@@ -11,11 +11,11 @@ using jarol::Policy;
 namespace policies = jarol::policies;
 
 // splitmix64
-std::int64_t drawn(std::uint64_t& state, std::int64_t least, std::int64_t most) {
+std::int64_t drawn(std::uint64_t& state, std::int64_t min, std::int64_t max) {
   std::uint64_t z = (state += 0x9e3779b97f4a7c15ULL);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return least + static_cast<std::int64_t>((z ^ (z >> 31)) % static_cast<std::uint64_t>(most - least + 1));
+  return min + static_cast<std::int64_t>((z ^ (z >> 31)) % static_cast<std::uint64_t>(max - min + 1));
 }
 
 // A few tasks on two cores, none of them given, offsets as drawn.
@@ -26,7 +26,7 @@ System random_system(std::uint64_t seed, const Policy& policy) {
   const auto n = static_cast<std::size_t>(drawn(seed, 2, 5));
   for (std::size_t i = 0; i < n; ++i) {
     const std::int64_t period = drawn(seed, 2, 7), wcet = drawn(seed, 1, period);
-    system.loads.push_back({wcet, period, drawn(seed, wcet, period), drawn(seed, 0, period - 1), 0, 0, 0});
+    system.models.push_back({wcet, period, drawn(seed, wcet, period), drawn(seed, 0, period - 1), 0, 0, 0});
     system.rank.push_back(i);
     system.turn.push_back(i);
   }
@@ -38,10 +38,10 @@ System random_system(std::uint64_t seed, const Policy& policy) {
 // The best verdict of all assignments, each of them given.
 Verdict best_assignment(System system) {
   bool open = false;
-  Effort effort;
-  for (unsigned bits = 0; bits < 1U << system.loads.size(); ++bits) {
-    for (std::size_t i = 0; i < system.loads.size(); ++i) system.core[i] = bits >> i & 1;
-    const Verdict verdict = verdict_of(system, effort);
+  Budget budget;
+  for (unsigned bits = 0; bits < 1U << system.models.size(); ++bits) {
+    for (std::size_t i = 0; i < system.models.size(); ++i) system.core[i] = bits >> i & 1;
+    const Verdict verdict = verdict_of(system, budget);
     if (verdict == Verdict::schedulable) return verdict;
     open = open || verdict == Verdict::unknown;
   }
@@ -77,17 +77,17 @@ TEST_SUITE("graph/analysis/partition") {
       const std::int64_t ms = 1'000'000, periods[] = {5 * ms, 10 * ms, 20 * ms, 50 * ms, 100 * ms};
       for (std::size_t i = 0; i < 400; ++i) {
         const std::int64_t period = periods[drawn(seed, 0, 4)], wcet = period * drawn(seed, 40, 120) / 1000;
-        system.loads.push_back({wcet, period, period, 0, 0, 0, 0});
+        system.models.push_back({wcet, period, period, 0, 0, 0, 0});
         system.rank.push_back(i);
         system.turn.push_back(i);
-        if (i % 4 == 1 && system.loads[i - 1].period == period) system.follows.emplace_back(i - 1, i);
+        if (i % 4 == 1 && system.models[i - 1].period == period) system.follows.emplace_back(i - 1, i);
       }
       system.priority.resize(400);
       system.core.resize(400);
-      CHECK(utilisation(system.loads) > 30);
-      Effort effort{200'000'000};  // a second or two
-      CHECK(verdict_of(system, effort) == Verdict::schedulable);
-      CHECK(!effort.spent());
+      CHECK(utilisation(system.models) > 30);
+      Budget budget{200'000'000};  // a second or two
+      CHECK(verdict_of(system, budget) == Verdict::schedulable);
+      CHECK(!budget.spent());
     }
   }
 
@@ -96,7 +96,7 @@ TEST_SUITE("graph/analysis/partition") {
     system.policy = policies::fixed_priority;
     system.cores = 2;
     for (std::size_t i = 0; i < 4; ++i) {
-      system.loads.push_back({i == 0 ? 1 : 4, 10, 10, 0, 0, 0, 0});
+      system.models.push_back({i == 0 ? 1 : 4, 10, 10, 0, 0, 0, 0});
       system.rank.push_back(i);
       system.turn.push_back(i);
       if (i > 0) system.follows.emplace_back(0, i);
@@ -104,7 +104,7 @@ TEST_SUITE("graph/analysis/partition") {
     system.priority.resize(4);
     system.core.resize(4);
     CHECK(check(system).verdict == Verdict::schedulable);
-    for (std::size_t i = 1; i < 4; ++i) system.loads[i].wcet = 6;
+    for (std::size_t i = 1; i < 4; ++i) system.models[i].wcet = 6;
     const Result no = check(system);
     CHECK(no.verdict == Verdict::not_schedulable);
     CHECK(no.reason.ends_with("; no assignment of tasks to cores holds"));

@@ -13,7 +13,7 @@ struct Doubtful {
   static constexpr std::string_view name = "doubtful", how = "tasks run as they like";
   static constexpr Urgency urgency = Urgency::deadline;
   static constexpr bool interrupts = true;
-  static analysis::Result check(const analysis::System&, bool, analysis::Effort&) {
+  static analysis::Result check(const analysis::System&, bool, analysis::Budget&) {
     analysis::Result result;
     result.reason = "nobody knows";
     return result;

@@ -187,7 +187,7 @@ Set random_chains(std::uint64_t seed) {
 
 Places places_in(const Graph& graph) {
   Places places{std::vector<std::size_t>(graph.tasks.size()), std::vector<std::size_t>(graph.tasks.size())};
-  const std::vector<std::size_t> turns = turns_of(graph);
+  const std::vector<std::size_t> turns = dispatch_order(graph);
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     places.turn[turns[i]] = i;
     places.order[graph.order[i]] = i;

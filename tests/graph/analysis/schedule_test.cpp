@@ -142,22 +142,22 @@ platform: {cores: 2, policy: POLICY}
     const ExecutionTimes one = ExecutionTimes::random(graph, 1), same = ExecutionTimes::random(graph, 1),
                          other = ExecutionTimes::random(graph, 2);
     const Graph alone = tests::graph_of("graph: t\ntiming: {period: 20ms}\ntasks: {b: {type: Counter, wcet: 8ms}}\n");
-    std::int64_t least = 8'000'000, most = 0, sum = 0;
+    std::int64_t min = 8'000'000, max = 0, sum = 0;
     bool differs = false;
     for (std::int64_t i = 0; i < 4000; ++i) {
       const std::int64_t time = one(1, i);
       CHECK(time == same(1, i));
       CHECK(time == ExecutionTimes::random(alone, 1)(0, i));
       differs = differs || time != other(1, i);
-      least = std::min(least, time);
-      most = std::max(most, time);
+      min = std::min(min, time);
+      max = std::max(max, time);
       sum += time;
     }
     CHECK(differs);
-    CHECK(least >= 1);
-    CHECK(least < 40'000);
-    CHECK(most <= 8'000'000);
-    CHECK(most > 7'960'000);
+    CHECK(min >= 1);
+    CHECK(min < 40'000);
+    CHECK(max <= 8'000'000);
+    CHECK(max > 7'960'000);
     CHECK(sum / 4000 == doctest::Approx(4e6).epsilon(0.03).scale(0));  // four deviations of the mean
   }
 

@@ -12,11 +12,11 @@ namespace {
 using namespace jarol::analysis;
 
 // splitmix64
-std::int64_t drawn(std::uint64_t& state, std::int64_t least, std::int64_t most) {
+std::int64_t drawn(std::uint64_t& state, std::int64_t min, std::int64_t max) {
   std::uint64_t z = (state += 0x9e3779b97f4a7c15ULL);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return least + static_cast<std::int64_t>((z ^ (z >> 31)) % static_cast<std::uint64_t>(most - least + 1));
+  return min + static_cast<std::int64_t>((z ^ (z >> 31)) % static_cast<std::uint64_t>(max - min + 1));
 }
 
 System random_system(std::uint64_t seed) {
@@ -26,7 +26,7 @@ System random_system(std::uint64_t seed) {
   const auto n = static_cast<std::size_t>(system.cores + drawn(seed, 0, 3));
   for (std::size_t i = 0; i < n; ++i) {
     const std::int64_t period = drawn(seed, 2, 6), wcet = drawn(seed, 1, period);
-    system.loads.push_back({wcet, period, drawn(seed, wcet, period), drawn(seed, 0, period - 1), 0, 0, 0});
+    system.models.push_back({wcet, period, drawn(seed, wcet, period), drawn(seed, 0, period - 1), 0, 0, 0});
     system.rank.push_back(i);
     system.turn.push_back(i);
   }
@@ -42,13 +42,13 @@ bool trial_holds(const System& system, std::optional<std::uint64_t> shorter) {
     std::int64_t deadline, left;
   };
   std::int64_t lcm = 1;
-  for (const Load& l : system.loads) lcm = std::lcm(lcm, l.period);
+  for (const TaskModel& m : system.models) lcm = std::lcm(lcm, m.period);
   std::vector<Job> jobs;
   for (std::int64_t now = 0; now < 10 * lcm + 10; ++now) {
-    for (std::size_t i = 0; i < system.loads.size(); ++i) {
-      const Load& l = system.loads[i];
-      if (now >= l.offset && (now - l.offset) % l.period == 0)
-        jobs.push_back({i, now + l.deadline, shorter ? drawn(*shorter, 1, l.wcet) : l.wcet});
+    for (std::size_t i = 0; i < system.models.size(); ++i) {
+      const TaskModel& m = system.models[i];
+      if (now >= m.offset && (now - m.offset) % m.period == 0)
+        jobs.push_back({i, now + m.deadline, shorter ? drawn(*shorter, 1, m.wcet) : m.wcet});
     }
     std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
       return a.deadline != b.deadline ? a.deadline < b.deadline : a.task < b.task;
@@ -72,15 +72,15 @@ TEST_SUITE("graph/analysis/simulate_global") {
       const Result result = check(system);
       REQUIRE(result.verdict == (truth ? Verdict::schedulable : Verdict::not_schedulable));
       const bool by_run_alone = !result.reason.starts_with("every task") && !result.reason.starts_with("the densities");
-      REQUIRE(result.standing == (by_run_alone ? Standing::proof : Standing::safe));
+      REQUIRE(result.evidence == (by_run_alone ? Evidence::proof : Evidence::safe));
       ++(truth ? yes : no);
       by_run += result.reason.starts_with("every activation of the whole repetition") ? 1 : 0;
       if (truth) REQUIRE(trial_holds(system, seed));
       if (!truth) REQUIRE(result.late.has_value());
       // what holds whatever the offsets holds with these
       system.offsets_hold = false;
-      Effort effort;
-      if (verdict_of(system, effort) == Verdict::schedulable) REQUIRE(truth);
+      Budget budget;
+      if (verdict_of(system, budget) == Verdict::schedulable) REQUIRE(truth);
     }
     CHECK(yes > 500);
     CHECK(no > 500);
@@ -89,19 +89,19 @@ TEST_SUITE("graph/analysis/simulate_global") {
 
   TEST_CASE("what would take too long is given up, and says nothing") {
     const System system = random_system(1);
-    const GlobalSimulation run = simulate_global(system.loads, system.cores, 3);
+    const GlobalSimulation run = simulate_global(system.models, system.cores, 3);
     CHECK(!run.repeats);
     CHECK(!run.late);
   }
 
   TEST_CASE("what arrives while one activation runs for long is bounded, too") {
-    constexpr std::int64_t hour = 3'600'000'000'000, most = 1'000;
-    const std::vector<Load> loads{{999 * hour, 1000 * hour, 1000 * hour, 0, 0, 0, 0},
-                                  {10'000, 1'000'000, 1'000'000, 0, 0, 0, 0}};
+    constexpr std::int64_t hour = 3'600'000'000'000, max = 1'000;
+    const std::vector<TaskModel> models{{999 * hour, 1000 * hour, 1000 * hour, 0, 0, 0, 0},
+                                        {10'000, 1'000'000, 1'000'000, 0, 0, 0, 0}};
     for (const Order order : {Order::by_priority, Order::by_deadline}) {
-      const Simulation walked = simulate(loads, order, false, 2000 * hour, most);
+      const Simulation walked = simulate(models, order, false, 2000 * hour, max);
       CHECK(!walked.whole);
-      CHECK(walked.activations == most + 1);
+      CHECK(walked.activations == max + 1);
     }
   }
 }

@@ -9,7 +9,7 @@ namespace jarol::truth {
 
 TableWalk walk_table(const Graph& graph, const std::vector<std::size_t>& core) {
   const std::size_t n = graph.tasks.size();
-  const std::vector<std::size_t> turns = turns_of(graph);
+  const std::vector<std::size_t> turns = dispatch_order(graph);
   std::vector<std::vector<std::size_t>> producers(n);
   std::int64_t hyperperiod = 1;
   for (const jarol::Task& t : graph.tasks) hyperperiod = std::lcm(hyperperiod, t.period.count());

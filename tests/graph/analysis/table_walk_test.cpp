@@ -56,7 +56,7 @@ TEST_SUITE("graph/analysis/table_walk") {
       ++(walk.late.empty() ? holds : fails);
       fails_late += !walk.late.empty() && walk.hyperperiods > 3 ? 1U : 0U;
       bool right = said.verdict == (walk.late.empty() ? Verdict::schedulable : Verdict::not_schedulable) &&
-                   said.standing == analysis::Standing::proof;
+                   said.evidence == analysis::Evidence::proof;
       for (std::size_t i = 0; i < set.tasks.size() && right && walk.late.empty(); ++i)
         right = said.response[i] == walk.longest[i];
       if (!right && ++wrong == 1) FAIL_CHECK(truth::yaml_of(set, "ns"), "said: ", said.reason, "\ntrue: ", walk.late);

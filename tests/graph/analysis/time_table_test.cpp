@@ -10,10 +10,10 @@ namespace {
 using namespace jarol;
 using namespace jarol::analysis;
 
-CoreResult table_of(const std::string& text, std::uint64_t most) {
+CoreResult table_of(const std::string& text, std::uint64_t max) {
   const System system = system_of(tests::graph_of(text));
-  Effort effort;
-  return check_table(system, std::vector<std::size_t>(system.loads.size(), 0), true, effort, most);
+  Budget budget;
+  return check_table(system, std::vector<std::size_t>(system.models.size(), 0), true, budget, max);
 }
 }  // namespace
 
@@ -69,7 +69,7 @@ tasks:
     CHECK(r.late->finish == 50'000'000);
   }
 
-  TEST_CASE("tasks that fit are schedulable, and their responses are told") {
+  TEST_CASE("tasks that fit are schedulable, and their responses are reported") {
     const Result r = check(graph_of(R"(graph: t
 tasks:
   a: {type: Counter, period: 10ms, wcet: 2ms}
@@ -146,7 +146,7 @@ tasks:
   c: {type: Work, period: 1s, wcet: 87600h, blocking: 87600h, jitter: 87600h}
 )"));
     CHECK(r.verdict == Verdict::not_schedulable);
-    CHECK(r.standing == Standing::proof);
+    CHECK(r.evidence == Evidence::proof);
     REQUIRE(r.late);
     CHECK(r.late->finish > r.late->deadline);
   }
@@ -165,7 +165,7 @@ tasks:
     };
     const Result yes = with("371us");
     CHECK(yes.verdict == Verdict::schedulable);
-    CHECK(yes.standing == Standing::safe);
+    CHECK(yes.evidence == Evidence::safe);
     CHECK(yes.response[1] == 370'999);  // c at the same instant comes after it
     CHECK(with("319us").verdict == Verdict::not_schedulable);
   }

@@ -10,7 +10,7 @@ namespace {
 
 __extension__ using Bits = unsigned __int128;
 
-constexpr std::size_t most_tasks = 5, nobody = 7, root = ~std::size_t{0};
+constexpr std::size_t max_tasks = 5, nobody = 7, root = ~std::size_t{0};
 
 // A task's newest activation, and how long ago it arrived.
 struct Slot {
@@ -26,21 +26,21 @@ struct Slot {
 };
 
 constexpr int slot_bits = 21;
-constexpr std::size_t most_cores = 2;
+constexpr std::size_t max_cores = 2;
 
 struct State {
-  std::array<Slot, most_tasks> slots;
+  std::array<Slot, max_tasks> slots;
   std::size_t judged = nobody;  // the task whose activation is held up; then only its lateness counts
   // non-preemptive: what holds up a core, once, for how long yet, and whose `blocking` it is; did the core run anything
   // just before?
-  std::array<std::uint8_t, most_cores> piece{}, whose{nobody, nobody};
-  std::array<bool, most_cores> busy{};
+  std::array<std::uint8_t, max_cores> piece{}, whose{nobody, nobody};
+  std::array<bool, max_cores> busy{};
 };
 
 Bits key_of(const State& s) {
   Bits key = s.judged;
   for (const Slot& slot : s.slots) key = key << slot_bits | slot.packed();
-  for (std::size_t c = 0; c < most_cores; ++c)
+  for (std::size_t c = 0; c < max_cores; ++c)
     key = key << 8 | static_cast<Bits>(s.piece[c] | s.whose[c] << 4 | s.busy[c] << 7);
   return key;
 }
@@ -52,12 +52,12 @@ State state_of(Bits key) {
     key >>= size;
     return field;
   };
-  for (std::size_t c = most_cores; c-- > 0;) {
+  for (std::size_t c = max_cores; c-- > 0;) {
     s.piece[c] = next(4);
     s.whose[c] = next(3);
     s.busy[c] = next(1) != 0;
   }
-  for (std::size_t i = most_tasks; i-- > 0;) {
+  for (std::size_t i = max_tasks; i-- > 0;) {
     Slot& slot = s.slots[i];
     for (std::uint8_t* field : {&slot.age, &slot.left}) *field = next(5);
     for (std::uint8_t* field : {&slot.wait, &slot.budget}) *field = next(4);
@@ -121,7 +121,7 @@ class Search {
                      std::any_of(set.tasks.begin(), set.tasks.end(), [](const Task& t) { return t.blocking > 0; });
   }
 
-  Truth run(std::size_t most_states) {
+  Truth run(std::size_t max_states) {
     State first;
     for (std::size_t i = 0; i < n_; ++i) {
       const Task& t = set_.tasks[i];
@@ -131,7 +131,7 @@ class Search {
     // depth first finds a late activation soon; the newest states stand last
     std::vector<std::size_t> open{0};
     while (!open.empty() && !late_) {
-      if (seen_.size() > most_states) return truth_;
+      if (seen_.size() > max_states) return truth_;
       from_ = open.back();
       open.pop_back();
       const std::size_t before = seen_.size();
@@ -226,7 +226,7 @@ class Search {
     }
     dispatch(s, 0, 0);
     if (s.judged == nobody || preemptive_) return;
-    for (std::size_t c = 0; c < most_cores; ++c)  // what holds up may end sooner
+    for (std::size_t c = 0; c < max_cores; ++c)  // what holds up may end sooner
       if (s.piece[c] > 0) {
         s.piece[c] = 0;
         dispatch(s, 0, 0);
@@ -303,7 +303,7 @@ class Search {
       s.busy = {};
       for (std::size_t i = 0; i < n_; ++i)
         if ((runs >> i & 1) != 0) s.busy[core_[i]] = true;
-      for (std::size_t c = 0; c < most_cores; ++c)
+      for (std::size_t c = 0; c < max_cores; ++c)
         if (s.piece[c] > 0) {
           --s.piece[c];
           s.busy[c] = true;
@@ -323,7 +323,7 @@ class Search {
     if (s.judged != nobody && nonpreemptive_ && over(s)) return;
     if (late && counts(s)) {
       late_ = true;
-      tell(s);
+      report(s);
     } else {
       seen_.add(key_of(s), from_);
     }
@@ -350,7 +350,7 @@ class Search {
            });
   }
 
-  void tell(const State& last) {
+  void report(const State& last) {
     std::vector<State> states{last};
     for (std::size_t i = from_; i != root; i = seen_[i].from) states.push_back(state_of(seen_[i].key));
     std::reverse(states.begin(), states.end());
@@ -363,7 +363,7 @@ class Search {
                           (slot.released ? " left " + std::to_string(slot.left) : " not released");
         if (slot.budget > 0) truth_.witness += " hold-up left " + std::to_string(slot.budget);
       }
-      for (std::size_t c = 0; c < most_cores; ++c)
+      for (std::size_t c = 0; c < max_cores; ++c)
         if (states[time].piece[c] > 0)
           truth_.witness += " core " + std::to_string(c) + " held up for " + std::to_string(states[time].piece[c]);
       truth_.witness += "\n";
@@ -385,8 +385,8 @@ class Search {
 
 }  // namespace
 
-Truth truth_of(const Set& set, const std::vector<std::size_t>& core, const Places& places, std::size_t most_states) {
-  return Search(set, core, places).run(most_states);
+Truth truth_of(const Set& set, const std::vector<std::size_t>& core, const Places& places, std::size_t max_states) {
+  return Search(set, core, places).run(max_states);
 }
 
 }  // namespace jarol::truth

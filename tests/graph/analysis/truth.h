@@ -45,7 +45,7 @@ struct Truth {
 };
 
 /// `core` is the core of each task; it does not matter under global EDF. Up to five tasks on
-/// two cores (global EDF: any), no time above 31, jitter and blocking up to 15. Beyond `most_states` it is too large.
-Truth truth_of(const Set& set, const std::vector<std::size_t>& core, const Places& places, std::size_t most_states);
+/// two cores (global EDF: any), no time above 31, jitter and blocking up to 15. Beyond `max_states` it is too large.
+Truth truth_of(const Set& set, const std::vector<std::size_t>& core, const Places& places, std::size_t max_states);
 
 }  // namespace jarol::truth

@@ -28,7 +28,7 @@ std::uint64_t count_of_judged() {
 }
 
 // Of a hundred sets, so many may be left open; measured: 0, 1.3, 1.6, 1.4, 1.2 and 9 of 20,000.
-std::uint64_t most_unknown(const Policy& policy) {
+std::uint64_t max_unknown(const Policy& policy) {
   return policy == policies::table ? 0 : policy == policies::global_edf ? 10 : 2;
 }
 
@@ -43,8 +43,8 @@ std::size_t size_of(const Set& set) {
 
 struct Tally {
   std::uint64_t sets = 0, decidable = 0, schedulable = 0, unknown = 0, safe_no = 0, responses = 0, exact = 0;
-  std::map<std::string, std::uint64_t> wrong;          // by kind
-  std::map<std::string, std::optional<Judged>> least;  // the smallest of each kind
+  std::map<std::string, std::uint64_t> wrong;        // by kind
+  std::map<std::string, std::optional<Judged>> min;  // the smallest of each kind
 
   void add(const Judged& judged) {
     ++sets;
@@ -61,7 +61,7 @@ struct Tally {
         kind.empty() && judged.says(Verdict::not_schedulable) && judged.truth.answer == Answer::schedulable ? 1U : 0U;
     if (kind.empty()) return;
     ++wrong[kind];
-    auto& known = least[kind];
+    auto& known = min[kind];
     if (!known || size_of(judged.set) < size_of(known->set)) known = judged;
   }
 
@@ -86,9 +86,9 @@ TEST_SUITE("graph/analysis/truth") {
       for (std::uint64_t seed = 0; seed < count_of_judged(); ++seed)
         tally.add(truth::judge(truth::random_set(seed, policy, {})));
       tally.print(policy);
-      CHECK(tally.unknown <= most_unknown(policy) * tally.sets / 100);
+      CHECK(tally.unknown <= max_unknown(policy) * tally.sets / 100);
       CHECK(tally.decidable > 95 * tally.sets / 100);
-      for (const auto& [kind, judged] : tally.least)
+      for (const auto& [kind, judged] : tally.min)
         FAIL_CHECK(std::string(policy.name), ": ", tally.wrong[kind], " of kind ", kind, ", such as\n", judged->text());
     }
   }

@@ -138,8 +138,8 @@ TEST_SUITE("graph/yaml") {
 
   TEST_CASE("a text of more than 64 MiB is not read at all") {
     std::string text = "a: 1\n";
-    while (text.size() < most_source_bytes) text += "#" + std::string(15, '#') + "\n";
-    text.resize(most_source_bytes + 1);
+    while (text.size() < max_source_bytes) text += "#" + std::string(15, '#') + "\n";
+    text.resize(max_source_bytes + 1);
     CHECK(report_on(text) ==
           "t.yaml:1:1: error: the text is larger than 64 MiB\n"
           "  a: 1\n"

@@ -76,7 +76,7 @@ Worst worst(double (*ours)(double, double), reference::Of2 exact, const std::vec
   return worst;
 }
 
-constexpr double least = 5e-324, greatest = 1.7976931348623157e308;
+constexpr double min = 5e-324, greatest = 1.7976931348623157e308;
 
 void check(const std::string& name, const Worst& worst, double limit) {
   INFO(name << " at " << worst.x << ", " << worst.y << ": " << worst.error << " ulp");
@@ -89,58 +89,57 @@ void check(const std::string& name, const Worst& worst, double limit) {
 
 TEST_SUITE("graph/math") {
   TEST_CASE("functions of the circle are within their errors of MPFR's") {
-    const std::vector<Range> angles{{least, 0.13}, {0.13, 0.8}, {0.7, 10.0}, {1.0, 0x1p20}, {0x1p20, greatest}};
+    const std::vector<Range> angles{{min, 0.13}, {0.13, 0.8}, {0.7, 10.0}, {1.0, 0x1p20}, {0x1p20, greatest}};
     check("sin", worst(sin, mpfr_sin, angles, true), 0.55);
     check("cos", worst(cos, mpfr_cos, angles, true), 0.55);
     check("tan", worst(tan, mpfr_tan, angles, true), 0.55);
   }
 
   TEST_CASE("arcs are within their errors of MPFR's") {
-    const std::vector<Range> units{{least, 1e-3}, {1e-3, 0.5}, {0.5, 1.0}, {0.999, 1.0}};
+    const std::vector<Range> units{{min, 1e-3}, {1e-3, 0.5}, {0.5, 1.0}, {0.999, 1.0}};
     check("asin", worst(asin, mpfr_asin, units, true), 0.51);
     check("acos", worst(acos, mpfr_acos, units, true), 0.51);
-    check("atan", worst(atan, mpfr_atan, {{least, 1.0}, {0.01, 1.0}, {1.0, 100.0}, {1.0, greatest}}, true), 0.51);
-    const Range all{least, greatest}, ordinary{1e-3, 1e3}, negative{-1e3, -1e-3}, wide{-1.0, 1.0};
+    check("atan", worst(atan, mpfr_atan, {{min, 1.0}, {0.01, 1.0}, {1.0, 100.0}, {1.0, greatest}}, true), 0.51);
+    const Range all{min, greatest}, ordinary{1e-3, 1e3}, negative{-1e3, -1e-3}, wide{-1.0, 1.0};
     check("atan2",
           worst(atan2, mpfr_atan2,
                 {{all, all},
                  {ordinary, ordinary},
                  {negative, negative},
                  {wide, wide},
-                 {{least, 1e-300}, {least, 1e-300}},
+                 {{min, 1e-300}, {min, 1e-300}},
                  {{1e300, greatest}, {1e300, greatest}}}),
           0.51);
   }
 
   TEST_CASE("exponentials are within their errors of MPFR's") {
     // the last range ends where doubles lose bits
-    const std::vector<Range> both{{least, 1e-3}, {1e-3, 1.0},     {-1.0, 1.0},
+    const std::vector<Range> both{{min, 1e-3},   {1e-3, 1.0},     {-1.0, 1.0},
                                   {-50.0, 50.0}, {-746.0, 710.0}, {-708.5, -708.3}};
     check("exp", worst(exp, mpfr_exp, both, false), 0.52);
-    check("exp2", worst(exp2, mpfr_exp2, {{least, 1.0}, {-1.0, 1.0}, {-1076.0, 1024.0}, {-1022.1, -1021.9}}, false),
+    check("exp2", worst(exp2, mpfr_exp2, {{min, 1.0}, {-1.0, 1.0}, {-1076.0, 1024.0}, {-1022.1, -1021.9}}, false),
           0.51);
-    check("exp10", worst(exp10, mpfr_exp10, {{least, 1.0}, {-1.0, 1.0}, {-325.0, 309.0}, {-307.7, -307.6}}, false),
-          0.51);
+    check("exp10", worst(exp10, mpfr_exp10, {{min, 1.0}, {-1.0, 1.0}, {-325.0, 309.0}, {-307.7, -307.6}}, false), 0.51);
     check("expm1", worst(expm1, mpfr_expm1, both, true), 0.52);
-    check("sinh", worst(sinh, mpfr_sinh, {{least, 0.1}, {0.01, 1.0}, {1.0, 50.0}, {50.0, 711.0}}, true), 0.52);
-    check("cosh", worst(cosh, mpfr_cosh, {{least, 0.1}, {0.01, 1.0}, {1.0, 50.0}, {50.0, 711.0}}, true), 0.52);
-    check("tanh", worst(tanh, mpfr_tanh, {{least, 0.1}, {0.01, 1.0}, {0.0625, 3.0}, {1.0, 25.0}}, true), 0.52);
+    check("sinh", worst(sinh, mpfr_sinh, {{min, 0.1}, {0.01, 1.0}, {1.0, 50.0}, {50.0, 711.0}}, true), 0.52);
+    check("cosh", worst(cosh, mpfr_cosh, {{min, 0.1}, {0.01, 1.0}, {1.0, 50.0}, {50.0, 711.0}}, true), 0.52);
+    check("tanh", worst(tanh, mpfr_tanh, {{min, 0.1}, {0.01, 1.0}, {0.0625, 3.0}, {1.0, 25.0}}, true), 0.52);
   }
 
   TEST_CASE("logarithms are within their errors of MPFR's") {
-    const std::vector<Range> positive{{least, greatest}, {0.5, 2.0}, {0.99, 1.01}, {1.0, 1e6}};
+    const std::vector<Range> positive{{min, greatest}, {0.5, 2.0}, {0.99, 1.01}, {1.0, 1e6}};
     check("log", worst(log, mpfr_log, positive, false), 0.53);
     check("log2", worst(log2, mpfr_log2, positive, false), 0.51);
     check("log10", worst(log10, mpfr_log10, positive, false), 0.51);
-    check("log1p", worst(log1p, mpfr_log1p, {{-1.0, 1.0}, {-0.01, 0.01}, {least, greatest}, {-0.001, 0.001}}, false),
+    check("log1p", worst(log1p, mpfr_log1p, {{-1.0, 1.0}, {-0.01, 0.01}, {min, greatest}, {-0.001, 0.001}}, false),
           0.53);
-    check("asinh", worst(asinh, mpfr_asinh, {{least, 0.1}, {0.01, 10.0}, {1.0, greatest}}, true), 0.52);
+    check("asinh", worst(asinh, mpfr_asinh, {{min, 0.1}, {0.01, 10.0}, {1.0, greatest}}, true), 0.52);
     check("acosh", worst(acosh, mpfr_acosh, {{1.0, 1.001}, {1.0, 10.0}, {1.0, greatest}}, false), 0.52);
-    check("atanh", worst(atanh, mpfr_atanh, {{least, 0.1}, {0.01, 1.0}, {0.9, 1.0}}, true), 0.52);
+    check("atanh", worst(atanh, mpfr_atanh, {{min, 0.1}, {0.01, 1.0}, {0.9, 1.0}}, true), 0.52);
   }
 
   TEST_CASE("powers and roots are within their errors of MPFR's") {
-    const Range all{least, greatest};
+    const Range all{min, greatest};
     const Range reals{-300.0, 300.0};
     check("pow",
           worst(pow, mpfr_pow,
@@ -150,8 +149,8 @@ TEST_SUITE("graph/math") {
                  {all, {-2.0, 3.0}},
                  {{0.9999, 1.0001}, {-1e7, 1e7}}}),
           0.54);
-    check("cbrt", worst(cbrt, mpfr_cbrt, {{least, greatest}, {1.0, 8.0}}, true), 0.51);
+    check("cbrt", worst(cbrt, mpfr_cbrt, {{min, greatest}, {1.0, 8.0}}, true), 0.51);
     check("hypot", worst(hypot, mpfr_hypot, {{reals, reals}, {{1e-3, 1e3}, {1e-9, 1e3}}, {all, all}}), 0.51);
-    check("subnormal hypot", worst(hypot, mpfr_hypot, {{{least, 1e-308}, {least, 1e-308}}}), 1.0);
+    check("subnormal hypot", worst(hypot, mpfr_hypot, {{{min, 1e-308}, {min, 1e-308}}}), 1.0);
   }
 }

@@ -8,7 +8,7 @@ using Eigen::Vector3d;
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
-bool near(const Vector3d& a, const Vector3d& b, double most = 1e-12) { return (a - b).norm() < most; }
+bool near(const Vector3d& a, const Vector3d& b, double max = 1e-12) { return (a - b).norm() < max; }
 
 TEST_SUITE("graph/math/rotations") {
   // as a pilot sees them: the nose turns right, goes up, the right wing goes down

@@ -10,11 +10,11 @@ TEST_SUITE("graph/deadlines") {
   using tests::graph_of;
 
   TEST_CASE("the least distance to a later instant is the offset difference modulo the common divisor") {
-    CHECK(least_distance(10ms, 0ms, 10ms, 0ms) == 10ms);
-    CHECK(least_distance(10ms, 0ms, 10ms, 3ms) == 3ms);
-    CHECK(least_distance(10ms, 3ms, 10ms, 0ms) == 7ms);
-    CHECK(least_distance(10ms, 0ms, 15ms, 2ms) == 2ms);
-    CHECK(least_distance(7ns, 1ns, 3ns, 0ns) == 1ns);
+    CHECK(min_distance(10ms, 0ms, 10ms, 0ms) == 10ms);
+    CHECK(min_distance(10ms, 0ms, 10ms, 3ms) == 3ms);
+    CHECK(min_distance(10ms, 3ms, 10ms, 0ms) == 7ms);
+    CHECK(min_distance(10ms, 0ms, 15ms, 2ms) == 2ms);
+    CHECK(min_distance(7ns, 1ns, 3ns, 0ns) == 1ns);
   }
 
   TEST_CASE("with a LET the deadline is the LET") {

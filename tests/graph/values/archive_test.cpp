@@ -166,7 +166,7 @@ TEST_SUITE("graph/archive") {
       restore(two, bytes);
       CHECK(saved(two) == bytes);
       CHECK(two.value.names == one.value.names);
-      CHECK(two.heap.most_used() == one.heap.most_used());
+      CHECK(two.heap.max_used() == one.heap.max_used());
       const std::string should = grow(one);
       CHECK(grow(two) == should);
     }

@@ -41,7 +41,7 @@ TEST_SUITE("graph/values/heap") {
     r.heap.values()->deallocate(first, 100, 16);
     CHECK(r.heap.values()->allocate(98, 16) == first);
     CHECK(second != first);
-    CHECK(r.heap.most_used() == 224);
+    CHECK(r.heap.max_used() == 224);
   }
 
   TEST_CASE("scratch is released at once and counts towards the most that was used") {
@@ -52,7 +52,7 @@ TEST_SUITE("graph/values/heap") {
       static_cast<void>(r.heap.scratch()->allocate(1000, 16));
       r.heap.release_scratch();
     }
-    CHECK(r.heap.most_used() == 64 + 2 * 1008);
+    CHECK(r.heap.max_used() == 64 + 2 * 1008);
   }
 
   TEST_CASE("what does not fit is refused with the sizes, and what is there stays") {
@@ -83,7 +83,7 @@ TEST_SUITE("graph/values/heap") {
     std::strcpy(value, "after");
     CHECK(r.heap.values()->allocate(128, 16) == freed);
     static_cast<void>(r.heap.values()->allocate(256, 16));
-    r.heap.put_back(room.data());
+    r.heap.restore(room.data());
     CHECK(std::string(value) == "before");
     CHECK(r.heap.values()->allocate(128, 16) == freed);
   }

@@ -130,7 +130,7 @@ TEST_SUITE("graph/values/sequence") {
                        .substr(0, (random >> 33) % 65);
       }
     }
-    CHECK(heap.most_used() < region.size());
+    CHECK(heap.max_used() < region.size());
     type_of<Route>().destroy(&route);
     new (&route) Route();
   }
@@ -153,7 +153,7 @@ TEST_SUITE("graph/values/sequence") {
     CHECK(text_of(read) == shown);
   }
 
-  TEST_CASE("a deep value is bound from lists and texts, and each bad part is told") {
+  TEST_CASE("a deep value is bound from lists and texts, and each bad part is reported") {
     const auto bind_text = [](const std::string& text, Value& value) -> std::string {
       Problems problems;
       const Yaml yaml = read_yaml(std::make_shared<Source>(Source{"v.yaml", text}), problems);

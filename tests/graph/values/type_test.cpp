@@ -138,7 +138,7 @@ TEST_SUITE("graph/values/type") {
           "        ^");
   }
 
-  TEST_CASE("what no double, float or struct can be is told with the reason") {
+  TEST_CASE("what no double, float or struct can be is reported with the reason") {
     Outer value;
     CHECK(bind_text("angle: 1e308 mrad\ninner: [{depth: -1e39}, {}]\n", value) ==
           "v.yaml:2:17: error: value field 'inner' element 0 field 'depth' needs a float [m], not '-1e39'; that is "

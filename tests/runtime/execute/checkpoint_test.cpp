@@ -30,9 +30,9 @@ struct Diary {
     }
   };
   struct Out {
-    Sequence<String> told{};
+    Sequence<String> reported{};
     double size = 0;
-    static constexpr auto fields() { return describe(field<&Out::told>(), field<&Out::size>()); }
+    static constexpr auto fields() { return describe(field<&Out::reported>(), field<&Out::size>()); }
   };
   static void run(const Tick& tick, const In& in, State& state, Out& out) {
     const std::uint64_t chance = spread_seed(static_cast<std::uint64_t>(tick.activation), "diary");
@@ -45,7 +45,7 @@ struct Diary {
     state.tables.resize(chance % 6);
     for (auto& table : state.tables) table.push_back(in.number + static_cast<double>(table.size()));
     if (chance % 13 == 0) throw std::runtime_error("torn " + std::to_string(tick.activation));
-    out.told = state.pages;
+    out.reported = state.pages;
     out.size = static_cast<double>(state.pages.size() + state.tables.size() + in.heard.size() + state.title.size());
     if (chance % 17 == 0) out.size /= 0.0;
   }
@@ -72,7 +72,7 @@ std::string diaries(std::uint64_t seed) {
              "ms, on_fault: " + (chance % 2 == 0 ? "hold" : "skip") +
              ", heap: " + std::to_string(2000 + chance % 6000) + "B" +
              (i == 0 || chance % 3 == 0 ? ", let: " + std::to_string(let) + "ms" : "") + "}\n";
-    connections += "  - " + name + ".told -> " + next + ".heard\n  - " + name + ".size -> " + next + ".number\n";
+    connections += "  - " + name + ".reported -> " + next + ".heard\n  - " + name + ".size -> " + next + ".number\n";
   }
   return "graph: diaries\ntasks:\n" + tasks + "connections:\n" + connections;
 }

@@ -16,7 +16,7 @@ using tests::run_graph;
 using tests::run_text;
 
 // An external system that writes down what happens to it, in its order.
-class LineDiary : public Channels {
+class LineDiary : public ExternalSystem {
  public:
   explicit LineDiary(std::vector<std::string>& lines) : lines_(lines) {}
   void reach(Duration instant) override { lines_.push_back(duration_text(instant) + " reach"); }
@@ -171,7 +171,7 @@ connections: [i -> r.in]
 )");
     std::vector<std::string> lines;
     auto diary = std::make_unique<LineDiary>(lines);
-    std::vector<std::unique_ptr<Channels>> channels;
+    std::vector<std::unique_ptr<ExternalSystem>> channels;
     SUBCASE("none ever came") {
       channels.push_back(std::move(diary));
       CHECK(lines_of(run_graph(graph, 20ms, std::move(channels)), "i") == "0ns i=5; 10ms i=5");
@@ -206,7 +206,7 @@ tasks:
 connections: [l.out -> o1, d.out -> o2, i1 -> r.a, i2 -> r.b]
 )");
     std::vector<std::string> lines;
-    std::vector<std::unique_ptr<Channels>> channels;
+    std::vector<std::unique_ptr<ExternalSystem>> channels;
     channels.push_back(std::make_unique<LineDiary>(lines));
     const auto run = run_graph(graph, 20ms, std::move(channels));
     // o1 hands over the LET output that ends at 10 ms; o2 what the data-flow task published one period before
@@ -229,7 +229,7 @@ communicators:
 connections: [i1 -> o1, i2 -> o2]
 )");
     std::vector<std::string> lines;
-    std::vector<std::unique_ptr<Channels>> channels;
+    std::vector<std::unique_ptr<ExternalSystem>> channels;
     channels.push_back(std::make_unique<LineDiary>(lines));
     run_graph(graph, 21ms, std::move(channels));
     CHECK(lines == std::vector<std::string>{"0ns reach", "hand over 3 0", "hand over 2 0", "take 1", "take 0",

@@ -16,7 +16,7 @@ struct Truth {
 };
 
 // A vehicle that goes one metre a second.
-class Going : public Channels {
+class Going : public ExternalSystem {
  public:
   const Type* true_type() const override { return &type_of<Truth>(); }
   void copy_true_values(void* to) const override {
@@ -63,7 +63,7 @@ std::vector<Verdict> judge(const std::vector<std::string>& conditions, Duration 
   problems.throw_if_any();
   Expectations expectations(graph, outputs_of(graph), graph.expectations);
   Recorder recorder({&expectations});
-  std::vector<std::unique_ptr<Channels>> channels;
+  std::vector<std::unique_ptr<ExternalSystem>> channels;
   channels.push_back(std::make_unique<Going>());
   Executor executor(graph, std::move(channels),
                     {.recorder = &recorder, .record_truth = true, .workers = workers, .sharing = Sharing::always});

@@ -83,7 +83,8 @@ tests::Run run(const std::string& task, Duration end) {
 
 TEST_SUITE("runtime/faults") {
   TEST_CASE(
-      "a task that throws stops the run at the end of that instant, told with task, activation, instant and cause") {
+      "a task that throws stops the run at the end of that instant, reported with task, activation, instant and "
+      "cause") {
     const auto r = run("", 100ms);
     CHECK(r.report.stopped);
     REQUIRE(r.report.faults.size() == 1);
@@ -212,11 +213,11 @@ connections: [i -> h.in, i -> s.in, i -> t.in]
     CHECK(state.status[0].kept != nullptr);
     CHECK(state.status[1].kept != nullptr);
     CHECK(state.status[2].kept == nullptr);
-    CHECK(state.status[0].undoable);
-    CHECK_FALSE(state.status[2].undoable);
+    CHECK(state.status[0].recoverable);
+    CHECK_FALSE(state.status[2].recoverable);
   }
 
-  TEST_CASE("every fault is counted, the first thousand are told") {
+  TEST_CASE("every fault is counted, the first thousand are reported") {
     const auto r = run(", on_fault: hold, parameters: {first: 0, count: 5000}", 20s);
     CHECK(r.report.fault_count == 2000);
     CHECK(r.report.faults.size() == 1000);

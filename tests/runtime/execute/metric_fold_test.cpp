@@ -34,9 +34,9 @@ Samples within(const expect::Window& window, const Samples& samples) {
 std::optional<double> by_definition(const Metric& m, const Samples& all) {
   const Samples x = within(m.window, all);
   if (x.empty()) return std::nullopt;
-  double sum = 0, squares = 0, least = x[0], most = x[0], over = 0;
+  double sum = 0, squares = 0, min = x[0], max = x[0], over = 0;
   for (const double v : x) {
-    sum += v, squares += v * v, least = std::min(least, v), most = std::max(most, v);
+    sum += v, squares += v * v, min = std::min(min, v), max = std::max(max, v);
     over = std::max(over, m.target >= x[0] ? v - m.target : m.target - v);
   }
   const double n = static_cast<double>(x.size());
@@ -49,8 +49,8 @@ std::optional<double> by_definition(const Metric& m, const Samples& all) {
   };
   switch (m.reduction) {
     case Reduction::final: return x.back();
-    case Reduction::min: return least;
-    case Reduction::max: return most;
+    case Reduction::min: return min;
+    case Reduction::max: return max;
     case Reduction::mean: return sum / n;
     case Reduction::rms: return std::sqrt(squares / n);
     case Reduction::overshoot: return over;

@@ -9,7 +9,7 @@
 
 #include "graph/analysis/policies.h"
 #include "graph/expect/at_end.h"
-#include "runtime/jarol/threads_core.h"
+#include "runtime/jarol/jarol_core.h"
 #include "tests/runtime/run_on_threads.h"
 
 namespace {
@@ -43,7 +43,7 @@ struct Climb {
 };
 
 // Wants to be at a height of 5, and leans more each time.
-class Pilot : public Channels {
+class Pilot : public ExternalSystem {
  public:
   explicit Pilot(std::optional<Duration> end) : end_(end) {}
   void reach(Duration) override {}
@@ -61,7 +61,7 @@ class Pilot : public Channels {
 };
 
 // Reports from one instant on until another.
-class Plant : public Channels {
+class Plant : public ExternalSystem {
  public:
   explicit Plant(Duration from = {}, Duration until = Duration::max()) : from_(from), until_(until) {}
   void reach(Duration instant) override { now_ = instant; }
@@ -129,7 +129,7 @@ struct World {
     channels.push_back(std::move(pilot_));
     channels.push_back(std::move(plant_));
   }
-  std::vector<std::unique_ptr<Channels>> channels;
+  std::vector<std::unique_ptr<ExternalSystem>> channels;
   Pilot* pilot;
   Plant* plant;
 };

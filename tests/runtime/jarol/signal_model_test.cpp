@@ -16,12 +16,12 @@ using namespace jarol;
 
 using Explored = BasicSignal<model::ModelFutex>;
 
-// What the threads of a program were told, in the order of their numbers.
-struct Told {
+// What the threads of a program saw, in the order of their numbers.
+struct Reported {
   Explored signal;
   std::vector<std::vector<std::string>> of;
 
-  explicit Told(std::size_t threads) : of(threads) {}
+  explicit Reported(std::size_t threads) : of(threads) {}
   void await(std::size_t thread, std::optional<std::int64_t> deadline = {}) {
     of[thread].emplace_back(to_text(signal.await(deadline)));
   }
@@ -39,18 +39,18 @@ struct Told {
   }
 };
 
-// Explores and gathers all that the threads may be told.
-std::set<std::string> outcomes(std::size_t threads, const std::function<void(Told&, std::size_t)>& thread,
-                               const std::function<void(const Told&)>& check = {}) {
+// Explores and gathers all that the threads may see.
+std::set<std::string> outcomes(std::size_t threads, const std::function<void(Reported&, std::size_t)>& thread,
+                               const std::function<void(const Reported&)>& check = {}) {
   std::set<std::string> all;
   const model::Result result = model::explore([&] {
-    auto told = std::make_shared<Told>(threads);
+    auto reported = std::make_shared<Reported>(threads);
     model::Program program;
-    for (std::size_t i = 0; i < threads; ++i) program.threads.emplace_back([=] { thread(*told, i); });
-    program.at_end = [&all, told, check] {
-      model::check(told->signal.waiting() == 0, "somebody is still counted");
-      if (check) check(*told);
-      all.insert(told->all());
+    for (std::size_t i = 0; i < threads; ++i) program.threads.emplace_back([=] { thread(*reported, i); });
+    program.at_end = [&all, reported, check] {
+      model::check(reported->signal.waiting() == 0, "somebody is still counted");
+      if (check) check(*reported);
+      all.insert(reported->all());
     };
     return program;
   });
@@ -61,24 +61,24 @@ std::set<std::string> outcomes(std::size_t threads, const std::function<void(Tol
 
 TEST_SUITE("runtime/signal_model") {
   TEST_CASE("one who waits in time and one who signals: all that can happen" * doctest::skip(!model::available)) {
-    const auto all = outcomes(2, [](Told& told, std::size_t thread) {
-      if (thread == 0) told.await(0, 0);
-      if (thread == 1) told.notify(1);
+    const auto all = outcomes(2, [](Reported& reported, std::size_t thread) {
+      if (thread == 0) reported.await(0, 0);
+      if (thread == 1) reported.notify(1);
     });
     CHECK(all == std::set<std::string>{"was signalled; signalled", "waited in vain; signalled with no one waiting"});
   }
 
   TEST_CASE("nobody is missed by a signalling, whoever comes and goes" * doctest::skip(!model::available)) {
-    const auto fits = [](const Told& told) {
-      const std::size_t done = told.count("signalled"), woken = told.count("was signalled");
+    const auto fits = [](const Reported& reported) {
+      const std::size_t done = reported.count("signalled"), woken = reported.count("was signalled");
       model::check(woken >= done && woken <= 2 * done, "signallings and those they woke do not fit");
     };
     const auto two = outcomes(
         3,
-        [](Told& told, std::size_t thread) {
-          if (thread <= 1) told.await(thread, 0);
+        [](Reported& reported, std::size_t thread) {
+          if (thread <= 1) reported.await(thread, 0);
           if (thread == 2)
-            for (int i = 0; i < 2; ++i) told.notify(thread);
+            for (int i = 0; i < 2; ++i) reported.notify(thread);
         },
         fits);
     CHECK(two == std::set<std::string>{
@@ -102,8 +102,8 @@ TEST_SUITE("runtime/signal_model") {
                  });
     const auto one = outcomes(
         2,
-        [](Told& told, std::size_t thread) {
-          for (int i = 0; i < 3; ++i) thread == 0 ? told.await(0, 0) : told.notify(1);
+        [](Reported& reported, std::size_t thread) {
+          for (int i = 0; i < 3; ++i) thread == 0 ? reported.await(0, 0) : reported.notify(1);
         },
         fits);
     CHECK(one.contains("was signalled; was signalled; was signalled; signalled; signalled; signalled"));
@@ -115,14 +115,14 @@ TEST_SUITE("runtime/signal_model") {
                      "signalled"));
   }
 
-  TEST_CASE("of two who signal at once, one is told" * doctest::skip(!model::available)) {
-    const auto all = outcomes(3, [](Told& told, std::size_t thread) {
+  TEST_CASE("of two who signal at once, one is reported" * doctest::skip(!model::available)) {
+    const auto all = outcomes(3, [](Reported& reported, std::size_t thread) {
       if (thread == 0) {
-        told.await(0);
-        told.signal.interrupt();
+        reported.await(0);
+        reported.signal.interrupt();
       } else {
-        told.notify(thread);
-        if (thread == 1 && told.of[1].back() == to_text(Signalling::not_awaited)) told.signal.interrupt();
+        reported.notify(thread);
+        if (thread == 1 && reported.of[1].back() == to_text(Signalling::not_awaited)) reported.signal.interrupt();
       }
     });
     CHECK(all.contains("was signalled; signalled; signalled during a signalling"));
@@ -134,16 +134,17 @@ TEST_SUITE("runtime/signal_model") {
   }
 
   TEST_CASE("an interruption reaches everybody, whenever it comes" * doctest::skip(!model::available)) {
-    const auto fits = [](const Told& told) {
-      model::check((told.count("signalled") == 1) == (told.count("was signalled") > 0), "signalled, and nobody was");
+    const auto fits = [](const Reported& reported) {
+      model::check((reported.count("signalled") == 1) == (reported.count("was signalled") > 0),
+                   "signalled, and nobody was");
     };
     const auto two = outcomes(
         3,
-        [](Told& told, std::size_t thread) {
-          if (thread <= 1) told.await(thread);
+        [](Reported& reported, std::size_t thread) {
+          if (thread <= 1) reported.await(thread);
           if (thread == 2) {
-            told.notify(2);
-            told.signal.interrupt();
+            reported.notify(2);
+            reported.signal.interrupt();
           }
         },
         fits);
@@ -156,13 +157,13 @@ TEST_SUITE("runtime/signal_model") {
 
     const auto resumed = outcomes(
         3,
-        [](Told& told, std::size_t thread) {
-          if (thread == 0) told.await(0);
-          if (thread == 1) told.notify(1);
+        [](Reported& reported, std::size_t thread) {
+          if (thread == 0) reported.await(0);
+          if (thread == 1) reported.notify(1);
           if (thread == 2) {
-            told.signal.interrupt();
-            static_cast<void>(told.signal.resume());
-            told.signal.interrupt();
+            reported.signal.interrupt();
+            static_cast<void>(reported.signal.resume());
+            reported.signal.interrupt();
           }
         },
         fits);

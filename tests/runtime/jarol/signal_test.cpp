@@ -75,7 +75,7 @@ TEST_SUITE("runtime/signal") {
 
   TEST_CASE("two threads that signal each other, many times") {
     const bool full = std::getenv("JAROL_FULL") != nullptr;
-    const std::uint64_t most = full ? 10'000'000 : 20'000;
+    const std::uint64_t max = full ? 10'000'000 : 20'000;
     Signal there, back;
     std::uint64_t value = 0, wrong = 0;
     std::thread other([&] {
@@ -86,7 +86,7 @@ TEST_SUITE("runtime/signal") {
       }
     });
     const auto end = MachineClock::now() + 300ms;
-    for (std::uint64_t i = 1; i <= most && (full || MachineClock::now() < end); ++i) {
+    for (std::uint64_t i = 1; i <= max && (full || MachineClock::now() < end); ++i) {
       value = i;
       while (there.signal() != Signalling::done) std::this_thread::yield();
       if (back.await() != Awaiting::signalled || value != 2 * i) ++wrong;

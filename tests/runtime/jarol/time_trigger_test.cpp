@@ -144,18 +144,19 @@ TEST_SUITE("runtime/time_trigger") {
   TEST_CASE("each tick is awaited or counted, however time and threads go" * doctest::skip(!model::available)) {
     struct Run {
       ExploredTrigger trigger{2, 2};  // ticks at 2, 4, 6
-      std::array<std::vector<Awaiting>, 2> told;
+      std::array<std::vector<Awaiting>, 2> reported;
 
       void await(std::size_t thread, std::optional<std::int64_t> deadline = {}) {
         const Awaiting result = trigger.await(deadline);
-        told[thread].push_back(result);
+        reported[thread].push_back(result);
         const std::int64_t now = model::time();
         if (result == Awaiting::timed_out) model::check(now >= *deadline, "timed out before the deadline");
         if (result != Awaiting::signalled) return;
         model::check(now >= 2, "signalled before a tick");
       }
       std::int64_t count(Awaiting result) const {
-        return std::count(told[0].begin(), told[0].end(), result) + std::count(told[1].begin(), told[1].end(), result);
+        return std::count(reported[0].begin(), reported[0].end(), result) +
+               std::count(reported[1].begin(), reported[1].end(), result);
       }
       std::int64_t signalled() const { return count(Awaiting::signalled); }
       std::int64_t not_timed_out() const { return signalled() + count(Awaiting::interrupted); }

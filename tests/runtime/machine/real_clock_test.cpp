@@ -45,7 +45,7 @@ struct Slow {
 };
 
 // Tells that it has run.
-struct Telling {
+struct Reporting {
   static constexpr std::string_view summary = "for tests";
   static inline std::atomic<bool> has_run{false};
   static void run(const Tick&) { has_run = true; }
@@ -56,7 +56,7 @@ Graph graph_from(const std::string& text) {
     Registry made;
     tasks::add_tasks(made);
     made.add(task_class<Slow>());
-    made.add(task_class<Telling>());
+    made.add(task_class<Reporting>());
     return made;
   }();
   return jarol::tests::graph_of(registry, text);
@@ -200,11 +200,11 @@ TEST_SUITE("runtime/real_clock") {
   }
 
   TEST_CASE("an interrupt ends the wait for an instant far away") {
-    const Graph graph = graph_from("{graph: t, tasks: {a: {type: Telling, period: 1h}}}");
+    const Graph graph = graph_from("{graph: t, tasks: {a: {type: Reporting, period: 1h}}}");
     RealClock clock(graph.tasks.size());
     Executor executor(graph, {}, {.clock = &clock});
     std::thread other([&] {
-      while (!Telling::has_run) std::this_thread::sleep_for(1ms);
+      while (!Reporting::has_run) std::this_thread::sleep_for(1ms);
       std::this_thread::sleep_for(20ms);
       executor.interrupt();
     });
@@ -222,7 +222,7 @@ TEST_SUITE("runtime/histogram") {
     CHECK(h.percentile(0.5) == 0);
     for (std::int64_t i = 1; i <= 100'000; ++i) h.add(i * 10);
     CHECK(h.count() == 100'000);
-    CHECK(h.most() == 1'000'000);
+    CHECK(h.max() == 1'000'000);
     CHECK(h.percentile(1.0) == 1'000'000);
     for (const double part : {0.001, 0.1, 0.5, 0.99, 0.999}) {
       CAPTURE(part);

@@ -6,7 +6,7 @@
 namespace jarol::model {
 namespace {
 
-constexpr std::uint64_t most_steps = 2000;
+constexpr std::uint64_t max_steps = 2000;
 constexpr std::size_t stack_size = 64 * 1024;
 
 Explorer* explorer = nullptr;
@@ -70,7 +70,7 @@ bool Explorer::run(const std::function<Program()>& make) {
   threads_.resize(1);
   threads_[0].now = {};
   program_ = make();
-  if (program_.threads.size() + 1 > most_threads) throw std::length_error("too many threads for the model");
+  if (program_.threads.size() + 1 > max_threads) throw std::length_error("too many threads for the model");
   threads_.resize(program_.threads.size() + 1);
   for (std::size_t i = 1; i < threads_.size(); ++i) {
     Thread& thread = threads_[i];
@@ -111,7 +111,7 @@ void Explorer::enter() {
 // Before each operation on shared memory: who goes on?
 void Explorer::step() {
   if (running_ == 0) return;
-  if (++count_ > most_steps) fail("it does not end");
+  if (++count_ > max_steps) fail("it does not end");
   switch_to(starting_ ? 0 : pick());
   ++self().now.events[running_];
 }
@@ -131,7 +131,7 @@ void Explorer::switch_to(std::size_t thread) {
 std::size_t Explorer::pick() {
   if (!failure_.empty()) return 0;
   if (depth_ == path_.size() && !known_ && !states_.insert(state()).second) known_ = true;
-  std::array<std::size_t, most_threads> ready{};
+  std::array<std::size_t, max_threads> ready{};
   std::size_t count = 0;
   bool all_done = true;
   for (std::size_t i = 1; i < threads_.size(); ++i) {
@@ -189,7 +189,7 @@ void Explorer::note(const char* what, std::size_t place, std::uint64_t value) {
 }
 
 std::size_t Explorer::new_place(std::uint64_t value) {
-  if (places_.size() == most_places) throw std::length_error("too many places for the model");
+  if (places_.size() == max_places) throw std::length_error("too many places for the model");
   places_.push_back({{value, {}, value}});
   return places_.size() - 1;
 }

@@ -86,7 +86,7 @@ class Explorer {
   struct Plain {
     const void* at;
     Event writer;
-    std::array<std::uint16_t, most_threads> readers;
+    std::array<std::uint16_t, max_threads> readers;
   };
   enum class Status { runs, waits, done };
   struct Thread {
@@ -95,7 +95,7 @@ class Explorer {
     std::size_t place = 0;                 // on which it waits
     std::optional<std::int64_t> deadline;  // until when
     bool in_time = true;
-    std::uint64_t history = 0;  // of all that it was told: it is a function of that
+    std::uint64_t history = 0;  // of all that it got: it is a function of that
     ucontext_t context{};
   };
   struct Step {
@@ -128,7 +128,7 @@ class Explorer {
   bool known_ = false;  // this execution only repeats others
   std::unordered_set<std::uint64_t> states_;
   std::string failure_;
-  std::array<std::vector<std::byte>, most_threads> stacks_;
+  std::array<std::vector<std::byte>, max_threads> stacks_;
 
   // of one execution
   Program program_;

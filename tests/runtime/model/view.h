@@ -7,8 +7,8 @@
 
 namespace jarol::model {
 
-inline constexpr std::size_t most_places = 16;
-inline constexpr std::size_t most_threads = 5;  // the one that makes the program among them
+inline constexpr std::size_t max_places = 16;
+inline constexpr std::size_t max_threads = 5;  // the one that makes the program among them
 
 inline std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
   hash = (hash ^ value) * 0x9e3779b97f4a7c15ULL;
@@ -16,8 +16,8 @@ inline std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
 }
 
 struct View {
-  std::array<std::uint16_t, most_places> seen{};     // index of the newest store seen; older ones can't be read again
-  std::array<std::uint16_t, most_threads> events{};  // so many events of that thread happened before
+  std::array<std::uint16_t, max_places> seen{};     // index of the newest store seen; older ones can't be read again
+  std::array<std::uint16_t, max_threads> events{};  // so many events of that thread happened before
 
   void join(const View& other) {
     for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = std::max(seen[i], other.seen[i]);

@@ -59,7 +59,7 @@ class KeptLog : public RecordSink, public TakenValues {
   std::size_t next_ = 0;
 };
 
-tests::Run replay(const Graph& graph, Duration end, std::vector<std::unique_ptr<Channels>> channels,
+tests::Run replay(const Graph& graph, Duration end, std::vector<std::unique_ptr<ExternalSystem>> channels,
                   const std::vector<Miss>& misses) {
   tests::TraceLines lines(graph);
   Recorder recorder({&lines});
@@ -88,8 +88,8 @@ std::size_t misses_replayed(const std::string& text, Duration end, bool has_outs
   const Graph graph = graph_of(text);
   KeptLog log(graph);
   Recorder recorder({&log});
-  const RealRun real =
-      run(text, end, 1, {}, 1, has_outside ? tests::outside() : std::vector<std::unique_ptr<Channels>>{}, &recorder);
+  const RealRun real = run(text, end, 1, {}, 1,
+                           has_outside ? tests::outside() : std::vector<std::unique_ptr<ExternalSystem>>{}, &recorder);
   recorder.close();
   const tests::Run again = replay(graph, real.report.covered, replayed_channels(graph, log), log.misses);
   CHECK(again.report.digest == real.report.digest);
@@ -240,7 +240,7 @@ tasks:
   under_way: {type: Patient, core: ANY, on_fault: hold, parameters: {waits: 2ms}}
 connections: [i -> a.in, a.out -> b.in, b.out -> o, a.out -> under_way.in]
 )"));
-      std::vector<std::unique_ptr<Channels>> channels;
+      std::vector<std::unique_ptr<ExternalSystem>> channels;
       channels.push_back(std::make_unique<Lost>(7));
       KeptLog log(graph);
       Recorder recorder({&log});

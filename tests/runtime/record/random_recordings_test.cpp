@@ -38,8 +38,8 @@ std::string with_outside(std::string text) {
   return text.replace(at, own.size(), "channel: p.sensor") + "distributers: {p: {type: Plant, link: {type: test}}}\n";
 }
 
-std::vector<std::unique_ptr<Channels>> channels_of(const Graph& graph) {
-  return graph.distributers.empty() ? std::vector<std::unique_ptr<Channels>>{} : tests::outside();
+std::vector<std::unique_ptr<ExternalSystem>> channels_of(const Graph& graph) {
+  return graph.distributers.empty() ? std::vector<std::unique_ptr<ExternalSystem>>{} : tests::outside();
 }
 
 struct How {

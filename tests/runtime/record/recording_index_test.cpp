@@ -57,7 +57,7 @@ std::string text_of(const Recording& recording) {
             std::to_string(topic.messages);
   for (const ReadPlace& chunk : recording.chunks())
     text += "\n" + std::to_string(chunk.offset) + " " + std::to_string(chunk.start) + " " + std::to_string(chunk.end) +
-            " " + std::to_string(chunk.least_channel) + " " + std::to_string(chunk.most_channel);
+            " " + std::to_string(chunk.min_channel) + " " + std::to_string(chunk.max_channel);
   return text;
 }
 
@@ -88,7 +88,7 @@ TEST_SUITE("runtime/recording_index") {
     // what is damaged in front is not seen by who looks behind
     const std::uint16_t channel = whole.find("a.out")->channel.id;
     const auto first = std::find_if(whole.chunks().begin(), whole.chunks().end(), [&](const ReadPlace& chunk) {
-      return chunk.least_channel <= channel && channel <= chunk.most_channel;
+      return chunk.min_channel <= channel && channel <= chunk.max_channel;
     });
     bytes[first->offset + 100] ^= 1;
     file.write(bytes);

@@ -68,7 +68,7 @@ TEST_SUITE("tasks/javiator_filter/drift") {
   }
 
   TEST_CASE(
-      "angles that are 15 mrad from where the rates turned it of late, and 20 mrad from what the places tell, are "
+      "angles that are 15 mrad from where the rates turned it of late, and 20 mrad from what the places report, are "
       "lost, "
       "and it goes on with the rates") {
     for (const bool rolls : {true, false}) {

@@ -41,16 +41,16 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     for (const double side : {-1.0, 1.0}) {
       for (const int silent : {0, 10}) {
         CAPTURE(silent);
-        const double most = 0.08 + 0.1 * HeardHelicopter::dt * (silent + 1);
+        const double max = 0.08 + 0.1 * HeardHelicopter::dt * (silent + 1);
         HeardHelicopter near = hovering();
         near.sensors.new_sonar = false;
         near.run(silent);
         HeardHelicopter far = near;
         near.sensors.new_sonar = far.sensors.new_sonar = true;
-        near.sensors.sonar += (most - 1e-3) * side;
+        near.sensors.sonar += (max - 1e-3) * side;
         CHECK(std::abs(near.run(1).altitude - 1) > 0.01);
         CHECK(near.state.sonar.silent == 0);
-        far.sensors.sonar += (most + 1e-3) * side;
+        far.sensors.sonar += (max + 1e-3) * side;
         CHECK(far.run(1).altitude == doctest::Approx(1).scale(0).epsilon(1e-3));
         CHECK(far.state.sonar.silent == doctest::Approx(HeardHelicopter::dt * (silent + 1)));
       }

@@ -32,7 +32,7 @@ TEST_SUITE("tasks/javiator_filter") {
     CHECK(std::abs(e.v_x) < 1e-3);
   }
 
-  TEST_CASE("an acceleration is felt at once, long before places tell") {
+  TEST_CASE("an acceleration is felt at once, long before places report") {
     Heard heard;
     heard.lift_to(1);
     heard.sensors.a_z = -10.81;
@@ -65,7 +65,7 @@ TEST_SUITE("tasks/javiator_filter") {
     CHECK(heard.run(1).position_known);
   }
 
-  TEST_CASE("an IMU that is silent for three periods is lost, and no rates are told") {
+  TEST_CASE("an IMU that is silent for three periods is lost, and no rates are reported") {
     Heard heard;
     heard.lift_to(1);
     heard.sensors.p = 0.5;
@@ -140,7 +140,7 @@ TEST_SUITE("tasks/javiator_filter") {
     CHECK(heard.run(100).roll == doctest::Approx(0.15 + 0.02 * 0.1));  // 1.5 s, and the look-ahead
   }
 
-  TEST_CASE("a sonar that drifts away from the pressure is lost, and the pressure tells the altitude") {
+  TEST_CASE("a sonar that drifts away from the pressure is lost, and the pressure reports the altitude") {
     Heard heard;
     heard.lift_to(1);
     for (int i = 0; i < 400; ++i) {
@@ -152,7 +152,7 @@ TEST_SUITE("tasks/javiator_filter") {
     CHECK(e.altitude == doctest::Approx(1).scale(0).epsilon(0.02));
   }
 
-  TEST_CASE("after a flight it tells where it stands until the next take-off, which is the new origin") {
+  TEST_CASE("after a flight it reports where it stands until the next take-off, which is the new origin") {
     Heard heard;
     heard.lift_to(1);
     heard.sensors.laser_y -= 0.25;

@@ -81,7 +81,7 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(blind.run(25) == FlightState::ground);
   }
 
-  TEST_CASE("each reason to land is told, and wins over what the operator wants") {
+  TEST_CASE("each reason to land is reported, and wins over what the operator wants") {
     const auto cause_of = [](auto change) {
       Logic logic;
       logic.fly();

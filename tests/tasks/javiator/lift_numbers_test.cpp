@@ -71,7 +71,7 @@ TEST_SUITE("tasks/javiator_control/lift") {
     CHECK(a.state.landing == 0);
   }
 
-  TEST_CASE("it descends fast only where pressure and sonar tell that it is high") {
+  TEST_CASE("it descends fast only where pressure and sonar report that it is high") {
     for (const bool pressure : {true, false}) {
       Altitude a;
       a.in.directive = {.state = FlightState::landing};

@@ -68,7 +68,7 @@ TEST_SUITE("tasks/original_control") {
     CHECK(out.motors.signals == Signals{7920, 8080, 7920, 8080});
   }
 
-  TEST_CASE("it leans at most 300 mrad to reach a place, by hand as much as it is told") {
+  TEST_CASE("it leans at most 300 mrad to reach a place, by hand as much as it is commanded") {
     OriginalPosition::State state;
     OriginalPosition::Out out;
     OriginalPosition::In in{.directive = {.state = FlightState::flying, .hold_position = true, .x = 5, .y = 5}};

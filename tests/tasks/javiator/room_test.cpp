@@ -48,7 +48,7 @@ TEST_SUITE("tasks/javiator_room") {
     CHECK(fix(2 * quarter, 5, {0, 0}).axis == 0);
     CHECK(fix(2 * quarter, 5, {0, 0}).place == doctest::Approx(-7));
     CHECK(fix(-quarter, 9, {0, 0}).place == doctest::Approx(-1));
-    // towards a corner the place tells which wall it was
+    // towards a corner the place shows which wall it was
     const double yaw = std::atan2(6, 8);
     CHECK(fix(yaw, 9.9, {0.1, 0}).axis == 0);
     CHECK(fix(yaw, 9.9, {0, 0.1}).axis == 1);

@@ -156,15 +156,15 @@ TEST_SUITE("tasks/lauv_guidance") {
     v.in.leg.level = 5;
     v.in.leg.amplitude = 2;
     v.in.leg.slope = 10 * degree;
-    double least = 1e9, greatest = 0, last = 0, steepest = 0;
+    double min = 1e9, greatest = 0, last = 0, steepest = 0;
     for (int k = 0; k < 8000; ++k) {
       v.step();
-      if (k > 1000) least = std::min(least, v.in.motion.z);
+      if (k > 1000) min = std::min(min, v.in.motion.z);
       greatest = std::max(greatest, v.in.motion.z);
       if (k > 0) steepest = std::max(steepest, std::abs(v.out.setpoint.depth - last) / 0.05);
       last = v.out.setpoint.depth;
     }
-    CHECK(least == doctest::Approx(3.3).scale(0).epsilon(0.05));
+    CHECK(min == doctest::Approx(3.3).scale(0).epsilon(0.05));
     CHECK(greatest == doctest::Approx(6.7).scale(0).epsilon(0.05));
     CHECK(steepest == doctest::Approx(1.2 * std::sin(10 * degree)).scale(0).epsilon(0.01));
   }

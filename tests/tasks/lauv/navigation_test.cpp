@@ -27,7 +27,7 @@ Instruments turning(int k) {
 }  // namespace
 
 TEST_SUITE("tasks/lauv_navigation") {
-  TEST_CASE("in a turn it tells heading, rate, speed and depth, and comes round to where it was") {
+  TEST_CASE("in a turn it reports heading, rate, speed and depth, and comes round to where it was") {
     LauvNavigation::State state;
     LauvNavigation::Out out;
     for (int k = 0; k < 1500; ++k) {
@@ -55,7 +55,7 @@ TEST_SUITE("tasks/lauv_navigation") {
     CHECK(out.motion.z == doctest::Approx(6).scale(0).epsilon(1e-3));
   }
 
-  TEST_CASE("a climb shows in the depth before the gauge tells") {
+  TEST_CASE("a climb shows in the depth before the gauge reports") {
     LauvNavigation::State state;
     LauvNavigation::Out out;
     Instruments i = turning(0);
@@ -192,7 +192,7 @@ TEST_SUITE("tasks/lauv_navigation") {
     CHECK(boat.error() < before + 0.6);
   }
 
-  TEST_CASE("two beacons tell place and current under water, from below and aside") {
+  TEST_CASE("two beacons report place and current under water, from below and aside") {
     Drifting boat(-0.2, 0.3);
     boat.fix();
     for (int step = 0; step < 100; ++step) {

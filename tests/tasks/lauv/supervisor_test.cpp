@@ -36,7 +36,7 @@ TEST_SUITE("tasks/lauv_supervisor") {
     CHECK(out.setpoint.speed == 1.2);
   }
 
-  TEST_CASE("an instrument that tells no more is lost after the time-out, not before") {
+  TEST_CASE("an instrument that reports no more is lost after the time-out, not before") {
     const auto silent = [](LauvSupervisor::In& in) { in.instruments.depth.count = 20; };
     CHECK(after(3.3, silent).condition.alarm == Alarm::none);
     const auto out = after(4, silent);
@@ -154,7 +154,7 @@ TEST_SUITE("tasks/lauv_supervisor") {
     CHECK(climb(10, [](LauvSupervisor::In& in) { in.instruments.rates.count = 20; }).setpoint.speed == 0);
   }
 
-  TEST_CASE("GPS has to tell at the surface only") {
+  TEST_CASE("GPS has to report at the surface only") {
     const auto afloat = [](LauvSupervisor::In& in) {
       in.instruments.depth.value = 0.07;
       in.instruments.pressure.value = 1013.25 + 7;

@@ -159,7 +159,7 @@ TEST_SUITE("tools/campaign") {
         "--vary "
         "seed=1..6 --metric 'deepest=max(depth of dune)' ";
     const json one = json_of(of + "--workers 1 --results " + (folder / "1") + " --csv " + (folder / "1.csv"));
-    CHECK(one["schema"] == "jarol.campaign/1");
+    CHECK(one["schema"] == "jarol.campaign/2");
     CHECK(one["done"] == 6);
     CHECK(one["outcomes"]["good"] == 6);
     const std::string table = content(folder / "1.csv");
@@ -182,7 +182,7 @@ TEST_SUITE("tools/campaign") {
       CHECK(alone["digest"] == cells[8]);
     }
     // the command of the worst case is that of its row
-    const json& deepest = one["metrics"][0]["greatest"];
+    const json& deepest = one["metrics"][0]["max"];
     const std::vector<std::string> row = cells_of(lines[static_cast<std::size_t>(deepest["run"]) + 1]);
     CHECK(deepest["command"] ==
           "jarol run specs/exolauv.yaml --profile at_sea --set expect=null --set tasks.depth.parameters.kp=" + row[2] +

@@ -89,7 +89,7 @@ void check_verdict(const CheckReport& r) {
   REQUIRE(r.result.response.size() == n);
   REQUIRE(r.result.core.size() == n);
   CHECK(!r.result.reason.empty());
-  CHECK((r.result.standing == analysis::Standing::none) == (r.result.verdict == Verdict::unknown));
+  CHECK((r.result.evidence == analysis::Evidence::none) == (r.result.verdict == Verdict::unknown));
   for (std::size_t i = 0; i < n; ++i) {
     const Task& t = r.graph->tasks[i];
     if (r.result.core[i]) CHECK(static_cast<std::int64_t>(*r.result.core[i]) < r.graph->platform.cores);
@@ -170,9 +170,9 @@ TEST_SUITE("tools/check_graph") {
               check_verdict(report);
               check_texts(report);
               check_time_line(report);
-              analysis::Effort effort;
+              analysis::Budget budget;
               if (!report.result.reason.starts_with("no 'wcet'"))
-                CHECK(analysis::verdict_of(analysis::system_of(graph), effort) == report.result.verdict);
+                CHECK(analysis::verdict_of(analysis::system_of(graph), budget) == report.result.verdict);
               verdicts.push_back(report.result.verdict);
             }
             check_phasing(policy, verdicts[0], verdicts[1]);

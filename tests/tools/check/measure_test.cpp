@@ -116,22 +116,22 @@ connections: [a.out -> b.in]
   TEST_CASE("check --write writes what lacks or is too short, keeps what is longer, and says so") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", file_text);
-    const auto told = command::run_jarol("check --write --for 1s --margin 50 " + file, "2>&1 >/dev/null").output;
+    const auto reported = command::run_jarol("check --write --for 1s --margin 50 " + file, "2>&1 >/dev/null").output;
     const auto row = [&](const std::string& task) {
-      const std::size_t begin = told.find("  " + task + " ");
-      return told.substr(begin, told.find('\n', begin) - begin);
+      const std::size_t begin = reported.find("  " + task + " ");
+      return reported.substr(begin, reported.find('\n', begin) - begin);
     };
-    CHECK(told.starts_with(file + ": measured over 1s of logical time on this machine, in processor time\n"
-                                  "  task   activations     99.9 %       most       wcet    written\n"));
+    CHECK(reported.starts_with(file + ": measured over 1s of logical time on this machine, in processor time\n"
+                                      "  task   activations     99.9 %        max       wcet    written\n"));
     CHECK(row("late") ==
           "  late             0          -          -        1ms          -  never released in that time");
     CHECK(row("long").ends_with("       40ms       kept"));
     CHECK(row("short").find("        1ns  ") != std::string::npos);
     CHECK(row("short").ends_with("  LONGER THAN ITS WCET"));
-    CHECK(told.ends_with("  written into " + file +
-                         ": 99.9 % and the longest disturbance of any task, but no less than 100us, with 50 % on "
-                         "top\n"
-                         "  a 'wcet' that is no shorter than that was kept; --lower lowers it\n"));
+    CHECK(reported.ends_with("  written into " + file +
+                             ": 99.9 % and the longest disturbance of any task, but no less than 100us, with 50 % on "
+                             "top\n"
+                             "  a 'wcet' that is no shorter than that was kept; --lower lowers it\n"));
     const Graph graph = tests::graph_of(content(file));
     const auto wcet = [&](const std::string& name) {
       for (const Task& task : graph.tasks)
@@ -157,8 +157,8 @@ connections: [a.out -> b.in]
         if (task.name == name) return *task.wcet;
       return Duration{};
     };
-    const std::string told = command::run_jarol("check --write --lower --for 1s " + file, "2>&1 >/dev/null").output;
-    CHECK(told.find("\n  a 'wcet' was kept that leaves no more than the margin over a disturbance of 100us\n") !=
+    const std::string reported = command::run_jarol("check --write --lower --for 1s " + file, "2>&1 >/dev/null").output;
+    CHECK(reported.find("\n  a 'wcet' was kept that leaves no more than the margin over a disturbance of 100us\n") !=
           std::string::npos);
     CHECK(wcet("long") >= 120us);  // 100 us and 20 %
     CHECK(wcet("long") < 40ms);
@@ -199,9 +199,9 @@ tasks: {loop: {type: Accumulate, period: 10ms, on_fault: hold, wcet: 40ms}}
 connections: [big -> loop.in]
 communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
 )");
-    const std::string told = command::run_jarol("check --measure --for 100ms " + file, "2>&1 >/dev/null").output;
-    CHECK(told.find("\nfault: task 'loop' 9 times, from activation 1 at 0.01 s") != std::string::npos);
-    CHECK(told.ends_with("\n  the times of faulty activations are among those above\n"));
+    const std::string reported = command::run_jarol("check --measure --for 100ms " + file, "2>&1 >/dev/null").output;
+    CHECK(reported.find("\nfault: task 'loop' 9 times, from activation 1 at 0.01 s") != std::string::npos);
+    CHECK(reported.ends_with("\n  the times of faulty activations are among those above\n"));
   }
 
   TEST_CASE("what comes on stdin is measured, and not written") {
@@ -250,12 +250,12 @@ communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
     const std::string shared =
         folder.write("s.yaml", "graph: t\ntasks:\n  a: &one {type: Counter, period: 1ms}\n  b: *one\n");
     const std::string good = folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 100ms}}\n");
-    const auto told = command::run_jarol("check --write --for 1s " + shared + " specs/missing.yaml " + good);
-    CHECK(told.exit_code == 2);
-    CHECK(told.output.find("\n  b            1000 ") < told.output.find("\nerror: two tasks share one place"));
-    CHECK(told.output.find("\nerror: can't read 'specs/missing.yaml': No such file or directory\n") !=
+    const auto reported = command::run_jarol("check --write --for 1s " + shared + " specs/missing.yaml " + good);
+    CHECK(reported.exit_code == 2);
+    CHECK(reported.output.find("\n  b            1000 ") < reported.output.find("\nerror: two tasks share one place"));
+    CHECK(reported.output.find("\nerror: can't read 'specs/missing.yaml': No such file or directory\n") !=
           std::string::npos);
-    CHECK(told.output.find("\n" + good + ": SCHEDULABLE on one core") != std::string::npos);
+    CHECK(reported.output.find("\n" + good + ": SCHEDULABLE on one core") != std::string::npos);
     CHECK(command::run_jarol("check --measure --for 1 " + good + " " + shared).output ==
           "error: --for: '1' has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n");
   }
@@ -273,7 +273,7 @@ communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
     }
     CHECK(refused.exit_code == 2);
     CHECK(refused.output.starts_with(file + ": measured over 500s of logical time on this machine, in processor time\n"
-                                            "  task  activations     99.9 %       most       wcet\n"
+                                            "  task  activations     99.9 %        max       wcet\n"
                                             "  a "));
     CHECK(refused.output.ends_with("error: '" + file +
                                    "' was changed while it was measured; nothing is written, measure again\n" + file +
@@ -297,8 +297,8 @@ communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
     Duration sum{};
     for (std::size_t i = 0; i < measured.size(); ++i) {
       CHECK(measured[i].activations == activations[i]);
-      CHECK(measured[i].most >= measured[i].most_of_999);
-      sum += measured[i].most_of_999;
+      CHECK(measured[i].max >= measured[i].max_of_999);
+      sum += measured[i].max_of_999;
     }
     CHECK(sum > 0ns);  // a task of next to nothing may take no more than reading the clock does
   }

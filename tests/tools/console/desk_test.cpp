@@ -210,12 +210,12 @@ TEST_SUITE("console/desk") {
   TEST_CASE("what a run that is halted does not take is not kept for ever, and is said to be lost") {
     Desks desks;
     desks.take(7);
-    constexpr int most = distributers::ConsolePort::most_packets;
-    for (int i = 1; i <= most; ++i) desks.send(7, i, i);
-    CHECK_THROWS_WITH_AS(desks.send(7, most + 1, 0), "COMMAND_DATA is lost: the run has not taken what was sent before",
+    constexpr int max = distributers::ConsolePort::max_packets;
+    for (int i = 1; i <= max; ++i) desks.send(7, i, i);
+    CHECK_THROWS_WITH_AS(desks.send(7, max + 1, 0), "COMMAND_DATA is lost: the run has not taken what was sent before",
                          std::invalid_argument);
-    CHECK(desks.taken().size() == most);
+    CHECK(desks.taken().size() == max);
     CHECK(desks.port->refused() == 1);
-    CHECK_NOTHROW(desks.send(7, most + 1, 0));
+    CHECK_NOTHROW(desks.send(7, max + 1, 0));
   }
 }

@@ -54,8 +54,8 @@ TEST_SUITE("console/feed") {
     History::Place place = history.begin();
     CHECK(*history.next(place) == "first");
     CHECK(history.next(place) == nullptr);
-    for (std::uint64_t i = 0; i < 2 * History::most_behind; ++i) history.add(std::to_string(i));
-    for (std::uint64_t i = 0; i < 2 * History::most_behind; ++i) CHECK(*history.next(place) == std::to_string(i));
+    for (std::uint64_t i = 0; i < 2 * History::max_behind; ++i) history.add(std::to_string(i));
+    for (std::uint64_t i = 0; i < 2 * History::max_behind; ++i) CHECK(*history.next(place) == std::to_string(i));
     CHECK(place.missed == 0);
   }
 
@@ -110,10 +110,10 @@ TEST_SUITE("console/feed") {
 
   TEST_CASE("events beyond a thousand are counted") {
     Feed feed({}, 4);
-    for (std::size_t i = 0; i < Feed::most_events + 3; ++i)
+    for (std::size_t i = 0; i < Feed::max_events + 3; ++i)
       feed.take_event({RunEvent::Kind::fault, Duration(i), 2, 5, "was late"});
     const Batch batch = feed.take_batch();
-    REQUIRE(batch.events.size() == Feed::most_events);
+    REQUIRE(batch.events.size() == Feed::max_events);
     CHECK(batch.events[0].cause == "was late");
     CHECK(batch.events[0].task == 2);
     CHECK(batch.lost_events == 3);
@@ -183,9 +183,9 @@ TEST_SUITE("console/history") {
     History history(1 << 20);
     History::Place slow = history.begin(), late = history.begin();
     CHECK(history.next(slow) == nullptr);
-    for (std::uint64_t i = 0; i <= History::most_behind; ++i) history.add(std::to_string(i));
-    CHECK(*history.next(slow) == std::to_string(History::most_behind));
-    CHECK(slow.missed == History::most_behind);
+    for (std::uint64_t i = 0; i <= History::max_behind; ++i) history.add(std::to_string(i));
+    CHECK(*history.next(slow) == std::to_string(History::max_behind));
+    CHECK(slow.missed == History::max_behind);
     CHECK(*history.next(late) == "0");
   }
 }

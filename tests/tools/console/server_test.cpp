@@ -46,7 +46,7 @@ struct Served {
   Place place() const { return Place(server.url()); }
 };
 
-// What a page that asks for its socket is told; "none": it has it.
+// What a page that asks for its socket gets; "none": it has it.
 std::string refusal(const std::string& url, const std::string& origin = "") {
   const Place place(url);
   const HttpAnswer answer = get(place, place.socket_target(),
@@ -203,7 +203,7 @@ TEST_SUITE("console/server") {
   TEST_CASE("more than may watch are turned away, with a word") {
     Served served;
     std::vector<PageSocket> all;
-    for (std::size_t i = 0; i < Server::most_clients; ++i) all.emplace_back(served.server.url());
+    for (std::size_t i = 0; i < Server::max_clients; ++i) all.emplace_back(served.server.url());
     CHECK(refusal(served.server.url()) == "503: too many watch; try again later\n");
     served.said("on");
     CHECK(all.front().read_with("say")["say"] == "on");

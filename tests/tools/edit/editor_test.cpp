@@ -42,7 +42,7 @@ TEST_SUITE("editor/editor") {
     CHECK(edited.url().find("/edit.html?token=") != std::string::npos);
     PageSocket page(edited.url());
     const json hello = page.read()->at("hello");
-    CHECK(hello["schema"] == "jarol.edit/1");
+    CHECK(hello["schema"] == "jarol.edit/2");
     CHECK(hello["file"] == edited.file());
     CHECK(hello["catalogue"]["tasks"].size() > 20);
     page.send(R"({"do": "open"})");

@@ -86,7 +86,7 @@ TEST_SUITE("editor/trial") {
   }
 #endif
 
-  TEST_CASE("a text that is wrong is told so") {
+  TEST_CASE("a text that is wrong is reported as such") {
     const TrialEnd end = Tried({.file = "specs/counting.yaml", .text = "graph: [\n"}).end();
     CHECK(end.exit_code == 2);
     CHECK(end.text.find("error: ") != std::string::npos);

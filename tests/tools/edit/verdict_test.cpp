@@ -45,7 +45,7 @@ TEST_SUITE("editor/verdict") {
     CHECK(verdict["report"].get<std::string>().find("SCHEDULABLE") != std::string::npos);
   }
 
-  TEST_CASE("of a text that is wrong all problems are told, each with its place") {
+  TEST_CASE("of a text that is wrong all problems are reported, each with its place") {
     const std::string text = command::content("specs/counting.yaml");
     const Json verdict =
         judge(text_of(replaced(replaced(text, "type: Sum,", "type: Som,"), "total: {type", "total: {typ")));
@@ -107,17 +107,17 @@ TEST_SUITE("editor/verdict") {
 
   TEST_CASE("what is not right yet is drawn, too") {
     const Json drawn = draw(text_of(R"(graph: a
-communicators: {seen: {channel: none.there}, told: {type: double}}
+communicators: {seen: {channel: none.there}, reported: {type: double}}
 distributers: {dune: {type: LauvVehicle}, other: {}}
 tasks: {one: {type: Nothing, period: 5ms}, two: {period: 5ms, let: 2ms}}
-connections: [one.a -> two.b, one.c -> two.d, one -> nowhere, two.x -> told, rubbish]
+connections: [one.a -> two.b, one.c -> two.d, one -> nowhere, two.x -> reported, rubbish]
 )"));
     REQUIRE(node(drawn, "one") != nullptr);
     CHECK((*node(drawn, "one"))["lines"] == Json::array({"Nothing", "every 5ms"}));
     CHECK((*node(drawn, "two"))["lines"] == Json::array({"no type", "every 5ms", "LET 2ms"}));
     CHECK((*node(drawn, "seen"))["kind"] == "in");
-    CHECK((*node(drawn, "told"))["kind"] == "out");
-    CHECK((*node(drawn, "told"))["lines"] == Json::array({"no period"}));
+    CHECK((*node(drawn, "reported"))["kind"] == "out");
+    CHECK((*node(drawn, "reported"))["lines"] == Json::array({"no period"}));
     CHECK((*node(drawn, "other"))["lines"] == Json::array({"no type"}));
     CHECK(drawn["drawing"]["nodes"].size() == 6);
     REQUIRE(drawn["drawing"]["arrows"].size() == 2);

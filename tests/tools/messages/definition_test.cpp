@@ -55,7 +55,7 @@ TEST_SUITE("tools/messages/definition") {
     const Definition d = read("<messages name=\"T\">" + header + footer + one + "</messages>");
     CHECK(d.title == "T");
     CHECK(d.checksum == "crc16_ibm");
-    CHECK(d.most_payload == 65535 - 6 - 2);
+    CHECK(d.max_payload == 65535 - 6 - 2);
     REQUIRE(d.messages.size() == 1);
     CHECK(d.messages[0].wire_size == 1);
   }
@@ -279,7 +279,7 @@ TEST_SUITE("tools/messages/definition") {
     for (const char* bad : {"", "Imc", "2nd", "_a", "a-b", "int", "detail"}) CHECK(!is_set_name(bad));
   }
 
-  TEST_CASE("all errors are told at once, in the order of their places") {
+  TEST_CASE("all errors are reported at once, in the order of their places") {
     CHECK(report_on_messages("<message abbrev=\"A\"/>\n<message id=\"2\"/>") ==
           "t.xml:2:2: error: message 'A' has no 'id'; it needs one\n"
           "t.xml:3:2: error: a message has no 'abbrev'; it needs one");

@@ -86,7 +86,7 @@ TEST_SUITE("tools/pages") {
     REQUIRE(data.at("signals").size() == 2);
     const json& a = data["signals"][0];
     CHECK(a["name"] == "a.out");
-    CHECK(a["least"] == 0);
+    CHECK(a["min"] == 0);
     CHECK(a["greatest"] == 9999);
     const std::int64_t piece = data["topics"][0]["piece_ns"];
     const std::vector<double> low = doubles(a["low"]), high = doubles(a["high"]);
@@ -100,13 +100,13 @@ TEST_SUITE("tools/pages") {
     // few values are all there
     CHECK(doubles(data["signals"][1]["values"]).size() == 1000);
     CHECK(data["topics"][1]["times"] == json{{"first_ns", 0}, {"step_ns", 10'000'000}, {"count", 1000}});
-    CHECK(data["replay"]["standing"] == "same");
+    CHECK(data["replay"]["evidence"] == "same");
     CHECK(data["replay"]["compared"] == 11'000);
   }
 
   TEST_CASE("a page of very many signals has fewer values of each") {
-    CHECK(thinning_for(10).most_values == 4096);
-    CHECK(thinning_for(10'000).most_values == 400);
+    CHECK(thinning_for(10).max_values == 4096);
+    CHECK(thinning_for(10'000).max_values == 400);
     CHECK(thinning_for(1'000'000).pieces == 128);
   }
 

@@ -6,7 +6,7 @@ struct Edf {
   static constexpr std::string_view name = "edf", how = "not the one that you know";
   static constexpr jarol::Urgency urgency = jarol::Urgency::deadline;
   static constexpr bool interrupts = true, keeps_core = false;
-  static jarol::analysis::Result check(const jarol::analysis::System&, bool, jarol::analysis::Effort&) { return {}; }
+  static jarol::analysis::Result check(const jarol::analysis::System&, bool, jarol::analysis::Budget&) { return {}; }
 };
 }  // namespace
 

@@ -19,7 +19,7 @@ struct Throws {
   static constexpr std::string_view summary = "throws";
   using Param = ::Param;
   static void run(const Param& p, const Tick& tick) {
-    if (tick.activation == p.at) throw std::runtime_error("as it was told");
+    if (tick.activation == p.at) throw std::runtime_error("as it was commanded");
   }
 };
 

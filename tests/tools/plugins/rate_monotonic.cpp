@@ -11,26 +11,26 @@ struct RateMonotonic {
 
   static bool is_simple(const System& system) {
     if (system.cores > 1 || !system.follows.empty()) return false;
-    for (const Load& l : system.loads)
-      if (l.deadline < l.period || l.jitter > 0 || l.blocking > 0) return false;
+    for (const TaskModel& m : system.models)
+      if (m.deadline < m.period || m.jitter > 0 || m.blocking > 0) return false;
     return true;
   }
 
   // what holds is the product of all 1 + utilisation, which is 2 at most (Bini, Buttazzo 2003)
-  static Result check(const System& system, bool, Effort&) {
-    const auto against_one = compare_utilisation(system.loads, 1);
+  static Result check(const System& system, bool, Budget&) {
+    const auto against_one = compare_utilisation(system.models, 1);
     double product = 1;
-    for (const Load& l : system.loads) product *= 1 + static_cast<double>(l.wcet) / static_cast<double>(l.period);
+    for (const TaskModel& m : system.models) product *= 1 + static_cast<double>(m.wcet) / static_cast<double>(m.period);
     Result result;
     if (!is_simple(system)) {
       result.reason = "the hyperbolic bound is for tasks on one core that neither follow others nor wait";
     } else if (against_one && *against_one > 0) {
       result.verdict = Verdict::not_schedulable;
-      result.standing = Standing::proof;
+      result.evidence = Evidence::proof;
       result.reason = "the tasks need more than the core";
     } else if (product < 2 - 1e-9) {
       result.verdict = Verdict::schedulable;
-      result.standing = Standing::safe;
+      result.evidence = Evidence::safe;
       result.reason = "the hyperbolic bound holds (Bini, Buttazzo)";
     } else {
       result.reason = "the hyperbolic bound is sufficient only, and does not hold";

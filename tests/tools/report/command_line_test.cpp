@@ -14,7 +14,7 @@ std::string refusal_of(const std::string& arguments) {
 }  // namespace
 
 TEST_SUITE("tools/command_line") {
-  TEST_CASE("a mistyped option is told as such, wherever it stands and whatever follows it") {
+  TEST_CASE("a mistyped option is reported as such, wherever it stands and whatever follows it") {
     const std::string of_graph = "; it has: --help, --set, --profile, --no-plugins, --dot, --svg, --json\n";
     for (const char* const words : {"--profil lab specs/counting.yaml", "specs/counting.yaml --profil lab",
                                     "--profil=lab specs/counting.yaml", "--profil", "no/such.yaml --profil lab"}) {

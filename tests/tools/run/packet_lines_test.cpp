@@ -94,7 +94,7 @@ TEST_SUITE("tools/packet_lines") {
                                    R"("fields":{"idle":8000},"crc_ok":true,"hex":"ffff0f021f400070"})"});
   }
 
-  TEST_CASE("the byte order is told where it is not the set's own, and kept") {
+  TEST_CASE("the byte order is reported where it is not the set's own, and kept") {
     const Result big = encode(R"({"name":"Depth","order":"big","fields":{"value":1.5}})");
     REQUIRE(big.lines.size() == 1);
     CHECK(big.lines[0].substr(0, 12) == "fe5401090004");
@@ -127,7 +127,8 @@ TEST_SUITE("tools/packet_lines") {
     CHECK(json::parse(result.lines[0])["fields"]["idle"] == 8000);
   }
 
-  TEST_CASE("values outside the limits of the definition are told beside the fields; the packet is good all the same") {
+  TEST_CASE(
+      "values outside the limits of the definition are reported beside the fields; the packet is good all the same") {
     const Result wild = encode(R"({"name":"SetThrusterActuation","fields":{"id":0,"value":1.5}})");
     REQUIRE(wild.lines.size() == 1);
     const Result decoded = decode(wild.lines[0]);

@@ -188,7 +188,7 @@ TEST_SUITE("vehicles/helicopter") {
     CHECK(by_seen.data.droll != by_other.data.droll);
   }
 
-  TEST_CASE("parameters that no helicopter can have are told") {
+  TEST_CASE("parameters that no helicopter can have are reported") {
     HelicopterParameters p;
     p.frame.I_z = 1;
     CHECK_THROWS_WITH_AS(Helicopter{p}, "none of its moments of inertia can exceed the sum of the other two",
@@ -206,16 +206,16 @@ TEST_SUITE("vehicles/helicopter") {
     CHECK(found->parameters == &type_of<HelicopterParameters>());
   }
 
-  TEST_CASE("placed elsewhere its sensors tell of there at once") {
+  TEST_CASE("placed elsewhere its sensors shows there at once") {
     Helicopter helicopter{HelicopterParameters{}};
     helicopter.place({.x = 3, .y = -2, .z = -1.2});
     const HelicopterInputs hover{8000, 8000, 8000, 8000};
     helicopter.command(&hover);
     helicopter.step();
-    const HelicopterReadings& told = static_cast<const HelicopterOutputs*>(helicopter.outputs())->sensors;
-    CHECK(told.x_laser == doctest::Approx(8 - (3 - 0.070)).scale(0).epsilon(1e-3));
-    CHECK(told.y_laser == doctest::Approx(8 - (-2 - 0.077)).scale(0).epsilon(1e-3));
-    CHECK(told.sonar == doctest::Approx(1.2 - 0.055).scale(0).epsilon(0.01));
-    CHECK(told.pressure == doctest::Approx(101325 - 12).scale(0).epsilon(1e-5));  // 1 m above where it stands
+    const HelicopterReadings& reported = static_cast<const HelicopterOutputs*>(helicopter.outputs())->sensors;
+    CHECK(reported.x_laser == doctest::Approx(8 - (3 - 0.070)).scale(0).epsilon(1e-3));
+    CHECK(reported.y_laser == doctest::Approx(8 - (-2 - 0.077)).scale(0).epsilon(1e-3));
+    CHECK(reported.sonar == doctest::Approx(1.2 - 0.055).scale(0).epsilon(0.01));
+    CHECK(reported.pressure == doctest::Approx(101325 - 12).scale(0).epsilon(1e-5));  // 1 m above where it stands
   }
 }

@@ -40,7 +40,7 @@ double march(const SensorParameters& room, fossen::Vector3 at, const fossen::Vec
 }  // namespace
 
 TEST_SUITE("vehicles/helicopter_lasers") {
-  TEST_CASE("where the recorded vehicle was it reads what that told: turned by 314 and 145 mrad, rolled by 75") {
+  TEST_CASE("where the recorded vehicle was it reads what that reported: turned by 314 and 145 mrad, rolled by 75") {
     const auto [ahead, right] = ranges(turned(-0.003, 4.618, 0, -0.3141));
     CHECK(std::abs(ahead - 8461) <= 3);
     CHECK(std::abs(right - 3649) <= 3);

@@ -186,7 +186,7 @@ TEST_SUITE("vehicles/helicopter_plant") {
     CHECK((momentum() - momentum_before).norm() < 1e-5 * momentum_before.norm());
   }
 
-  TEST_CASE_TEMPLATE("a setting that is not a number is told, then and ever after", Plant, HelicopterPlant,
+  TEST_CASE_TEMPLATE("a setting that is not a number is reported, then and ever after", Plant, HelicopterPlant,
                      RigidHelicopter) {
     Plant plant(make_body({}), high(10));
     const double nan = std::numeric_limits<double>::quiet_NaN();

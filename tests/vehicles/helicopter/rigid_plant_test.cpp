@@ -12,8 +12,8 @@
 namespace {
 using namespace jarol::vehicles;
 
-double between(std::mt19937_64& random, double least, double greatest) {
-  return least + (greatest - least) * static_cast<double>(random() >> 11) * 0x1p-53;
+double between(std::mt19937_64& random, double min, double greatest) {
+  return min + (greatest - min) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
 // In any air, with what it drops and with motors that fail.
@@ -30,13 +30,13 @@ HelicopterParameters any_parameters(std::mt19937_64& random) {
 }
 
 VehicleState any_start(std::mt19937_64& random, double height, double tilt, double speed) {
-  const auto up_to = [&](double most) { return between(random, -most, most); };
+  const auto up_to = [&](double max) { return between(random, -max, max); };
   return {up_to(5),     up_to(5),     -height,      up_to(tilt),  up_to(tilt),  up_to(3.1),
           up_to(speed), up_to(speed), up_to(speed), up_to(speed), up_to(speed), up_to(speed)};
 }
 
-HelicopterInputs any_command(std::mt19937_64& random, double least, double greatest) {
-  const double mean = between(random, least, greatest);
+HelicopterInputs any_command(std::mt19937_64& random, double min, double greatest) {
+  const double mean = between(random, min, greatest);
   const auto signal = [&] { return std::clamp(mean + between(random, -300, 300), 0.0, 16000.0); };
   return {signal(), signal(), signal(), signal()};
 }
@@ -109,7 +109,7 @@ TEST_SUITE("vehicles/helicopter_rigid_plant") {
     CHECK(apart.rate < 1e-6);
   }
 
-  TEST_CASE("a state that is not finite is told with its time, and stays so") {
+  TEST_CASE("a state that is not finite is reported with its time, and stays so") {
     HelicopterParameters parameters;
     parameters.dynamics = Dynamics::rigid;
     Helicopter helicopter(parameters);

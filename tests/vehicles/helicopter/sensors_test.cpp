@@ -48,7 +48,7 @@ std::array<int, 5> count_news(const HelicopterParameters& parameters, int second
 }  // namespace
 
 TEST_SUITE("vehicles/helicopter_sensors") {
-  TEST_CASE("at rest it tells what the recorded vehicle told") {
+  TEST_CASE("at rest it reports what the recorded vehicle reported") {
     HelicopterParameters parameters;
     parameters.sensors.sonars = 1;
     parameters.sensors.sonar_x = parameters.sensors.sonar_y = -0.095;
@@ -208,7 +208,7 @@ TEST_SUITE("vehicles/helicopter_sensors") {
     CHECK(std::sqrt(squares) == doctest::Approx(0.1).scale(0).epsilon(0.1));
   }
 
-  TEST_CASE("a helicopter that is driven tells what its sensors measure, in SI units") {
+  TEST_CASE("a helicopter that is driven reports what its sensors measure, in SI units") {
     vehicles::Helicopter helicopter(vehicles::HelicopterParameters{});
     const auto& sensors = static_cast<const vehicles::HelicopterOutputs*>(helicopter.outputs())->sensors;
     CHECK(std::isnan(sensors.sonar));  // nobody has asked yet

@@ -76,7 +76,7 @@ TEST_SUITE("vehicles/submarine_plant") {
       oracle.advance(0.01, input.propeller, input.fins);
       way += (oracle.position() - last).norm();
       last = oracle.position();
-      // the plant tells its place in the water that the current carries along
+      // the plant reports its place in the water that the current carries along
       const PlantState state = plant.state();
       const double t = 0.01 * (i + 1);
       const Eigen::Vector3d place(state.eta[0] + sea.current_north * t, state.eta[1] + sea.current_east * t,

@@ -12,8 +12,8 @@
 namespace {
 using namespace jarol::vehicles;
 
-double between(std::mt19937_64& random, double least, double greatest) {
-  return least + (greatest - least) * static_cast<double>(random() >> 11) * 0x1p-53;
+double between(std::mt19937_64& random, double min, double greatest) {
+  return min + (greatest - min) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
 // In any sea, from any depth; the floor is far below.
@@ -68,7 +68,7 @@ TEST_SUITE("vehicles/rigid_plant") {
     CHECK(turned < 1e-10);
   }
 
-  TEST_CASE("a state that is not finite is told with its time, and stays so") {
+  TEST_CASE("a state that is not finite is reported with its time, and stays so") {
     SubmarineParameters parameters;
     parameters.dynamics = Dynamics::rigid;
     Submarine submarine(parameters);

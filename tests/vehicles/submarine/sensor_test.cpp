@@ -11,13 +11,13 @@ using namespace std::chrono_literals;
 
 using Parameters = SensorOf<DepthSensor>;
 
-// What it tells at steps 0, 1, ... of a truth that grows by 1 at each; NaN where it tells nothing.
-std::vector<double> told(const Parameters& parameters, int steps, std::uint64_t seed = 0) {
+// What it reports at steps 0, 1, ... of a truth that grows by 1 at each; NaN where it reports nothing.
+std::vector<double> reported(const Parameters& parameters, int steps, std::uint64_t seed = 0) {
   Sensor sensor(parameters, "depth", seed);
   std::vector<double> all;
   for (int i = 0; i < steps; ++i) {
     sensor.step(i, Sensor::Values{static_cast<double>(i)});
-    all.push_back(sensor.told() ? sensor.value() : std::nan(""));
+    all.push_back(sensor.reported() ? sensor.value() : std::nan(""));
   }
   return all;
 }
@@ -40,94 +40,95 @@ Parameters exact(jarol::Duration period) {
 }  // namespace
 
 TEST_SUITE("vehicles/sensor") {
-  TEST_CASE("without errors it tells the truth, at its rate") {
-    CHECK(same(told(exact(30ms), 7), {0, none, none, 3, none, none, 6}));
+  TEST_CASE("without errors it reports the truth, at its rate") {
+    CHECK(same(reported(exact(30ms), 7), {0, none, none, 3, none, none, 6}));
   }
 
-  TEST_CASE("with a delay it tells later what was") {
+  TEST_CASE("with a delay it reports later what was") {
     Parameters parameters = exact(20ms);
     parameters.delay = 30ms;
-    CHECK(same(told(parameters, 8), {none, none, none, 0, none, 2, none, 4}));
+    CHECK(same(reported(parameters, 8), {none, none, none, 0, none, 2, none, 4}));
   }
 
   TEST_CASE("a bias is added, and readings are multiples of the resolution") {
     Parameters parameters = exact(10ms);
     parameters.bias = 0.3;
     parameters.resolution = 0.5;
-    CHECK(same(told(parameters, 3), {0.5, 1.5, 2.5}));
+    CHECK(same(reported(parameters, 3), {0.5, 1.5, 2.5}));
     parameters.bias = 0.2;
-    CHECK(same(told(parameters, 3), {0, 1, 2}));
+    CHECK(same(reported(parameters, 3), {0, 1, 2}));
   }
 
   TEST_CASE("noise has the stated deviation about the truth, and none beyond six times of it") {
     Parameters parameters = exact(10ms);
     parameters.noise = 0.2;
-    const auto readings = told(parameters, 20000, 7);
-    double sum = 0, squares = 0, most = 0;
+    const auto readings = reported(parameters, 20000, 7);
+    double sum = 0, squares = 0, max = 0;
     for (std::size_t i = 0; i < readings.size(); ++i) {
       const double error = readings[i] - static_cast<double>(i);
       sum += error;
       squares += error * error;
-      most = std::max(most, std::abs(error));
+      max = std::max(max, std::abs(error));
     }
     // four standard errors of mean and deviation
     CHECK(std::abs(sum / 20000) < 4 * 0.2 / std::sqrt(20000));
     CHECK(std::sqrt(squares / 20000) == doctest::Approx(0.2).scale(0).epsilon(4 / std::sqrt(40000)));
-    CHECK(most < 6 * 0.2);
-    CHECK(most > 3 * 0.2);
+    CHECK(max < 6 * 0.2);
+    CHECK(max > 3 * 0.2);
   }
 
   TEST_CASE("the same seed gives the same noise, another seed or another sensor another") {
     Parameters parameters = exact(10ms);
     parameters.noise = 1;
-    CHECK(same(told(parameters, 50, 1), told(parameters, 50, 1)));
-    CHECK(!same(told(parameters, 50, 1), told(parameters, 50, 2)));
+    CHECK(same(reported(parameters, 50, 1), reported(parameters, 50, 1)));
+    CHECK(!same(reported(parameters, 50, 1), reported(parameters, 50, 2)));
     Sensor depth(parameters, "depth", 1), other(parameters, "other", 1);
     depth.step(0, Sensor::Values{});
     other.step(0, Sensor::Values{});
     CHECK(depth.value() != other.value());
   }
 
-  TEST_CASE("a lost sensor tells nothing more, a stuck one its last, a biased one too much") {
+  TEST_CASE("a lost sensor reports nothing more, a stuck one its last, a biased one too much") {
     Parameters parameters = exact(10ms);
     parameters.failure = {FailureKind::lost, 0.02, 0};
-    CHECK(same(told(parameters, 4), {0, 1, none, none}));
+    CHECK(same(reported(parameters, 4), {0, 1, none, none}));
     parameters.failure = {FailureKind::stuck, 0.02, 0};
-    CHECK(same(told(parameters, 4), {0, 1, 1, 1}));
+    CHECK(same(reported(parameters, 4), {0, 1, 1, 1}));
     parameters.failure = {FailureKind::biased, 0.02, 5};
-    CHECK(same(told(parameters, 4), {0, 1, 7, 8}));
+    CHECK(same(reported(parameters, 4), {0, 1, 7, 8}));
     parameters.failure = {FailureKind::stuck, 0, 0};
-    CHECK(same(told(parameters, 3), {none, none, none}));
+    CHECK(same(reported(parameters, 3), {none, none, none}));
   }
 
-  TEST_CASE("what there is not it does not tell, and reads as no number before the first") {
+  TEST_CASE("what there is not it does not report, and reads as no number before the first") {
     Sensor sensor(exact(10ms), "depth", 0);
     CHECK(std::isnan(sensor.value()));
     sensor.step(0, std::nullopt);
-    CHECK(!sensor.told());
+    CHECK(!sensor.reported());
     CHECK(std::isnan(sensor.value()));
     sensor.step(1, Sensor::Values{3});
-    CHECK(sensor.told());
+    CHECK(sensor.reported());
     sensor.step(2, std::nullopt);
-    CHECK(!sensor.told());
+    CHECK(!sensor.reported());
     CHECK(sensor.value() == 3);
   }
 
   TEST_CASE("period and delay are steps of the vehicle") {
-    CHECK_THROWS_WITH_AS(told(exact(15ms), 1),
+    CHECK_THROWS_WITH_AS(reported(exact(15ms), 1),
                          "submarine: sensors.depth.period must be a multiple of the vehicle's steps of 10ms",
                          std::runtime_error);
-    CHECK_THROWS_WITH_AS(told(exact(0ms), 1), "submarine: sensors.depth.period must be above zero", std::runtime_error);
+    CHECK_THROWS_WITH_AS(reported(exact(0ms), 1), "submarine: sensors.depth.period must be above zero",
+                         std::runtime_error);
     Parameters parameters;
     parameters.delay = 5ms;
-    CHECK_THROWS_WITH_AS(told(parameters, 1),
+    CHECK_THROWS_WITH_AS(reported(parameters, 1),
                          "submarine: sensors.depth.delay must be a multiple of the vehicle's steps of 10ms",
                          std::runtime_error);
     parameters.delay = 60010ms;
-    CHECK_THROWS_WITH_AS(told(parameters, 1), "submarine: sensors.depth.delay is longer than a minute",
+    CHECK_THROWS_WITH_AS(reported(parameters, 1), "submarine: sensors.depth.delay is longer than a minute",
                          std::runtime_error);
     parameters.delay = {};
     parameters.noise = -1;
-    CHECK_THROWS_WITH_AS(told(parameters, 1), "submarine: sensors.depth.noise is below zero", std::runtime_error);
+    CHECK_THROWS_WITH_AS(reported(parameters, 1), "submarine: sensors.depth.noise is below zero", std::runtime_error);
   }
 }

@@ -17,9 +17,9 @@ namespace imc = messages::imc;
 using namespace std::chrono_literals;
 
 // How often each message came, and the last of some.
-struct Told : messages::Receiver {
+struct Reported : messages::Receiver {
   void receive(messages::MessageRef message) override {
-    ++counts[std::string(message.form->name)];
+    ++counts[std::string(message.descriptor->name)];
     if (const auto* m = message.as<imc::Depth>()) depth = *m;
     if (const auto* m = message.as<imc::GpsFix>()) fix = *m;
     if (const auto* m = message.as<imc::EntityState>()) leak = m->state;
@@ -45,7 +45,7 @@ Submarine deep(const SubmarineParameters& from = {}, std::uint64_t seed = 0) {
 }  // namespace
 
 TEST_SUITE("vehicles/submarine_sensors") {
-  TEST_CASE("at rest in the deep each tells what there is") {
+  TEST_CASE("at rest in the deep each reports what there is") {
     Submarine submarine = deep();
     const double z = submarine.state().z;
     for (int i = 0; i < 100; ++i) submarine.step();
@@ -87,7 +87,7 @@ TEST_SUITE("vehicles/submarine_sensors") {
 
   TEST_CASE("each speaks at its rate, GPS only where the antenna is out of the water") {
     Submarine afloat({}), dived = deep();
-    Told from_afloat, from_dived;
+    Reported from_afloat, from_dived;
     for (int i = 0; i < 1000; ++i) {
       afloat.step();
       afloat.sense(from_afloat);
@@ -109,24 +109,24 @@ TEST_SUITE("vehicles/submarine_sensors") {
     SubmarineParameters parameters;
     parameters.start.north = 1000;
     parameters.start.east = -500;
-    Told told;
-    Submarine(parameters).sense(told);
+    Reported reported;
+    Submarine(parameters).sense(reported);
     // 1000 m along the meridian at 41.2 degrees and 500 m along the parallel, WGS-84
-    CHECK((told.fix.lat - parameters.sea.latitude) * 6362985 == doctest::Approx(1000).scale(0).epsilon(1e-3));
-    CHECK((told.fix.lon - parameters.sea.longitude) * 6387000 * std::cos(parameters.sea.latitude) ==
+    CHECK((reported.fix.lat - parameters.sea.latitude) * 6362985 == doctest::Approx(1000).scale(0).epsilon(1e-3));
+    CHECK((reported.fix.lon - parameters.sea.longitude) * 6387000 * std::cos(parameters.sea.latitude) ==
           doctest::Approx(-500).scale(0).epsilon(1e-3));
   }
 
-  TEST_CASE("a leak is told from when it begins") {
+  TEST_CASE("a leak is reported from when it begins") {
     SubmarineParameters parameters;
     parameters.leak_at = 2s;
     Submarine submarine(parameters);
-    Told told;
+    Reported reported;
     for (int i = 0; i < 150; ++i) submarine.step();
-    for (int i = 0; i < 20; ++i) submarine.step(), submarine.sense(told);
-    CHECK(told.counts.count("EntityState") == 0);
-    for (int i = 0; i < 100; ++i) submarine.step(), submarine.sense(told);
-    CHECK(told.leak == imc::EntityState::State::FAILURE);
+    for (int i = 0; i < 20; ++i) submarine.step(), submarine.sense(reported);
+    CHECK(reported.counts.count("EntityState") == 0);
+    for (int i = 0; i < 100; ++i) submarine.step(), submarine.sense(reported);
+    CHECK(reported.leak == imc::EntityState::State::FAILURE);
   }
 
   TEST_CASE("the speed log measures through the water that the waves move") {
@@ -135,16 +135,16 @@ TEST_SUITE("vehicles/submarine_sensors") {
     parameters.sea.wave_period = 6;
     parameters.sensors.speed_log.period = 10ms;
     Submarine submarine(parameters);
-    double most = 0;
+    double max = 0;
     for (int i = 0; i < 600; ++i) {
       submarine.step();
-      most = std::max(most, std::abs(readings_of(submarine).u - submarine.state().u));
+      max = std::max(max, std::abs(readings_of(submarine).u - submarine.state().u));
     }
     // orbital speed pi H / T
-    CHECK(most == doctest::Approx(3.1416 / 6).scale(0).epsilon(0.15));
+    CHECK(max == doctest::Approx(3.1416 / 6).scale(0).epsilon(0.15));
   }
 
-  TEST_CASE("noise of one sensor changes no other, and another seed changes what is told") {
+  TEST_CASE("noise of one sensor changes no other, and another seed changes what is reported") {
     SubmarineParameters noisy;
     noisy.sensors.depth.noise = 0.1;
     Submarine one = deep(noisy, 1), again = deep(noisy, 1), two = deep(noisy, 2), plain = deep({}, 1);
@@ -171,7 +171,7 @@ TEST_SUITE("vehicles/submarine_sensors") {
     CHECK(r.hull_temperature == doctest::Approx(14 + 21 * (1 - std::exp(-0.1))).scale(0).epsilon(0.01));
   }
 
-  TEST_CASE("each transponder within reach answers every two seconds, and where they lie is told every ten") {
+  TEST_CASE("each transponder within reach answers every two seconds, and where they lie is reported every ten") {
     SubmarineParameters parameters;
     parameters.sea.beacons.first = {30, 40, 60};
     parameters.sea.beacons.second = {0, 400, 20};
@@ -218,13 +218,13 @@ TEST_SUITE("vehicles/submarine_sensors") {
     SubmarineParameters parameters;
     parameters.sea.beacons.reach = 0;
     Submarine submarine = deep(parameters);
-    Told told;
-    submarine.sense(told);
+    Reported reported;
+    submarine.sense(reported);
     for (int i = 0; i < 1000; ++i) {
       submarine.step();
-      submarine.sense(told);
+      submarine.sense(reported);
     }
-    CHECK(told.counts["LblRange"] == 0);
-    CHECK(told.counts["LblConfig"] == 0);
+    CHECK(reported.counts["LblRange"] == 0);
+    CHECK(reported.counts["LblConfig"] == 0);
   }
 }

@@ -248,7 +248,7 @@ TEST_SUITE("vehicles/submarine") {
                          std::runtime_error);
   }
 
-  TEST_CASE("a current carries it along and is told, velocities stay those through the water") {
+  TEST_CASE("a current carries it along and is reported, velocities stay those through the water") {
     SubmarineParameters parameters;
     parameters.sea.current_east = 0.25;
     Submarine submarine(parameters);

@@ -17,7 +17,7 @@ namespace imc = messages::imc;
 
 struct Peer : messages::Receiver {
   void receive(messages::MessageRef message) override {
-    ++counts[std::string(message.form->name)];
+    ++counts[std::string(message.descriptor->name)];
     if (const auto* e = message.as<imc::EstimatedState>()) estimate = *e;
     if (const auto* s = message.as<imc::SimulatedState>()) truth = *s;
     if (const auto* g = message.as<imc::GroundVelocity>()) ground = *g;
@@ -55,7 +55,7 @@ TEST_SUITE("vehicles/submarine_telemetry") {
           doctest::Approx(-2000 / 83901.2).epsilon(1e-4).scale(0));
   }
 
-  TEST_CASE("in each of ten seconds a peer is told as often as DUNE tells, and nothing else") {
+  TEST_CASE("in each of ten seconds a peer is reported as often as DUNE reports, and nothing else") {
     SubmarineParameters parameters;
     parameters.sea.beacons.reach = 0;  // there are none where DUNE's simulator is
     Submarine submarine(parameters);
@@ -94,7 +94,7 @@ TEST_SUITE("vehicles/submarine_telemetry") {
     }
   }
 
-  TEST_CASE("a sensor that tells no more is silent soon, whatever its rate") {
+  TEST_CASE("a sensor that reports no more is silent soon, whatever its rate") {
     SubmarineParameters parameters;
     parameters.sensors.depth.failure = {.kind = FailureKind::lost, .at = 2};
     Submarine submarine(parameters);

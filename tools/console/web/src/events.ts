@@ -5,12 +5,12 @@ import type { Hello, Leaf, RunEvent, Sample } from "./protocol.ts";
 
 export interface Event {
   t: number;
-  kind: "fault" | "rest" | "told" | "operator" | "page";
+  kind: "fault" | "rest" | "event" | "operator" | "page";
   text: string;
   task?: string; // of a fault
 }
 
-export const mostEvents = 1000;
+export const maxEvents = 1000;
 
 interface Watch {
   output: number;
@@ -62,7 +62,7 @@ export class EventLog {
     let at = this.all.length;
     while (at > 0 && this.all[at - 1]!.t > event.t) --at;
     this.all.splice(at, 0, event);
-    if (this.all.length > mostEvents) {
+    if (this.all.length > maxEvents) {
       this.all.shift();
       ++this.dropped;
     }
@@ -81,7 +81,7 @@ export class EventLog {
       for (const watch of this.watches.get(output) ?? []) {
         const value = cells[watch.leaf];
         if (typeof value !== "number" || value === watch.last) continue;
-        if (watch.last !== undefined) this.add({ t, kind: "told", text: this.textOf(watch, value) });
+        if (watch.last !== undefined) this.add({ t, kind: "event", text: this.textOf(watch, value) });
         watch.last = value;
       }
     }

@@ -29,7 +29,7 @@ interface NodeInfo {
 }
 
 /** Of larger graphs values are shown of what is chosen alone. */
-const mostWithValues = 60;
+const maxWithValues = 60;
 
 export class GraphModel {
   /** In ascending order. */
@@ -56,7 +56,7 @@ export class GraphModel {
       if (series && index >= 0) age = Math.min(age ?? Infinity, t - series.times[index]!);
     }
     const { kind, name } = this.hello.drawing.nodes[node]!;
-    const told = this.nodes.length <= mostWithValues ? info.telling : undefined;
+    const told = this.nodes.length <= maxWithValues ? info.telling : undefined;
     return {
       value: told ? this.told(told.output, told.leaf, t) : "",
       period: info.period,

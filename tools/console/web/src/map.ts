@@ -11,9 +11,9 @@ export interface Frame {
 export type Spot = [north: number, east: number];
 
 /** A length as people say it, 1, 2 or 5 times a power of ten, that is at most so long. */
-export function roundLength(most: number): number {
-  const power = 10 ** Math.floor(Math.log10(most));
-  for (const step of [5, 2]) if (step * power <= most) return step * power;
+export function roundLength(max: number): number {
+  const power = 10 ** Math.floor(Math.log10(max));
+  for (const step of [5, 2]) if (step * power <= max) return step * power;
   return power;
 }
 
@@ -23,7 +23,7 @@ export function lengthText(metres: number): string {
 }
 
 /** All spots in sight, with some room; at least so many metres. */
-export function frameOf(spots: readonly Spot[], width: number, height: number, least: number): Frame {
+export function frameOf(spots: readonly Spot[], width: number, height: number, min: number): Frame {
   let [n0, n1, e0, e1] = [Infinity, -Infinity, Infinity, -Infinity];
   for (const [north, east] of spots) {
     n0 = Math.min(n0, north);
@@ -32,7 +32,7 @@ export function frameOf(spots: readonly Spot[], width: number, height: number, l
     e1 = Math.max(e1, east);
   }
   if (!Number.isFinite(n0)) [n0, n1, e0, e1] = [0, 0, 0, 0];
-  const scale = Math.min(width / Math.max(least, (e1 - e0) * 1.25), height / Math.max(least, (n1 - n0) * 1.25));
+  const scale = Math.min(width / Math.max(min, (e1 - e0) * 1.25), height / Math.max(min, (n1 - n0) * 1.25));
   return { north: (n0 + n1) / 2, east: (e0 + e1) / 2, scale, width, height };
 }
 

@@ -10,9 +10,9 @@ export function wrongValue(parameter: Parameter, text: string): string {
   const value = Number(text);
   if (text.trim() === "" || !Number.isFinite(value)) return "a number";
   if (parameter.kind === "integer" && !Number.isInteger(value)) return "a whole number";
-  const { least, most } = parameter;
-  if ((least !== undefined && value < least) || (most !== undefined && value > most))
-    return `a number from ${least ?? "any"} to ${most ?? "any"}`;
+  const { min, max } = parameter;
+  if ((min !== undefined && value < min) || (max !== undefined && value > max))
+    return `a number from ${min ?? "any"} to ${max ?? "any"}`;
   return "";
 }
 

@@ -11,7 +11,7 @@ import { limitsOf, phaseOf } from "./submarine.ts";
 /** Of answers to PlanDB and PlanControl, as in IMC. */
 const success = 1;
 /** What a page may send at once (server.h), less what stands around it. */
-const mostBytes = 15_000;
+const maxBytes = 15_000;
 
 export class Planning {
   name = $state("plan");
@@ -48,7 +48,7 @@ export class Planning {
   get findings(): Finding[] {
     const found = check(this.name, this.maneuvers, limitsOf(this.run.hello!));
     const bytes = JSON.stringify(this.specification).length;
-    if (bytes > mostBytes) found.push({ text: "the plan is too long to be sent at once", mild: false });
+    if (bytes > maxBytes) found.push({ text: "the plan is too long to be sent at once", mild: false });
     return found;
   }
   get sound(): boolean {

@@ -21,8 +21,8 @@ export const hasRadius = (kind: Kind) => kind === "Loiter" || kind === "StationK
 export const hasDuration = (kind: Kind) => kind === "Loiter" || kind === "StationKeeping";
 
 /** What the vehicle can fly: smaller circles it widens by itself. */
-export const least = { speed: 0.5, radius: 10 };
-export const most = { radius: 500, duration: 65535, away: 5000, maneuvers: 40, corners: 100, name: 40 };
+export const min = { speed: 0.5, radius: 10 };
+export const max = { radius: 500, duration: 65535, away: 5000, maneuvers: 40, corners: 100, name: 40 };
 
 /** As maneuvers are named in the plan: by kind and place. */
 export const nameOf = (maneuver: Maneuver, index: number) => `${maneuver.kind} ${index + 1}`;
@@ -43,9 +43,9 @@ export function check(name: string, plan: readonly Maneuver[], limits: Limits, f
   const add = (text: string, maneuver?: number, mild = false) =>
     found.push({ text, mild, ...(maneuver === undefined ? {} : { maneuver }) });
   if (name.trim() === "") add("the plan has no name");
-  if (name.length > most.name) add(`the plan's name has more than ${most.name} characters`);
+  if (name.length > max.name) add(`the plan's name has more than ${max.name} characters`);
   if (plan.length === 0) add("there is no maneuver; choose one and press on the map");
-  if (plan.length > most.maneuvers) add(`there are more than ${most.maneuvers} maneuvers`);
+  if (plan.length > max.maneuvers) add(`there are more than ${max.maneuvers} maneuvers`);
   let before = from;
   plan.forEach((maneuver, i) => {
     const { kind, spots, depth, speed, radius, duration } = maneuver;
@@ -53,18 +53,18 @@ export function check(name: string, plan: readonly Maneuver[], limits: Limits, f
       if (!(value >= low && value <= high)) add(`${what} from ${low} to ${high} ${unit}`, i);
     };
     if (kind !== "Surface") range("depth", depth, 0, limits.depth, "m");
-    range("speed", speed, least.speed, limits.speed, "m/s");
-    if (hasRadius(kind)) range("radius", radius, least.radius, most.radius, "m");
+    range("speed", speed, min.speed, limits.speed, "m/s");
+    if (hasRadius(kind)) range("radius", radius, min.radius, max.radius, "m");
     if (hasDuration(kind)) {
-      range("time", duration, 0, most.duration, "s");
+      range("time", duration, 0, max.duration, "s");
       if (!Number.isInteger(duration)) add("time in whole seconds", i);
       if (duration === 0 && i + 1 < plan.length) add("it has no end, so that nothing after it is flown", i);
     }
     if (kind === "FollowPath" && spots.length < 2) add("a path has at least two corners", i);
-    if (spots.length > most.corners) add(`a path has at most ${most.corners} corners`, i);
+    if (spots.length > max.corners) add(`a path has at most ${max.corners} corners`, i);
     for (const spot of spots) {
       if (!spot.every(Number.isFinite)) add("places are numbers", i);
-      else if (Math.hypot(...spot) > most.away) add(`places are within ${most.away / 1000} km of home`, i);
+      else if (Math.hypot(...spot) > max.away) add(`places are within ${max.away / 1000} km of home`, i);
       const near = 2 * turningRadius(speed);
       if (kind !== "Loiter" && kind !== "StationKeeping" && (i > 0 || spot !== spots[0]) && distance(before, spot) < near)
         add(`less than ${Math.ceil(near)} m from the place before: too near to turn in`, i, true);

@@ -11,7 +11,7 @@ export interface PlotSpec {
 }
 
 /** Commanded against reached, and where the vehicle truly is: what a run is judged by. Else the first few numbers. */
-export function defaultPlots(hello: Hello, store: Store, most = 5): PlotSpec[] {
+export function defaultPlots(hello: Hello, store: Store, max = 5): PlotSpec[] {
   const plots: PlotSpec[] = [];
   for (const pair of hello.pairs) {
     const commanded = store.find(pair.commanded);
@@ -30,7 +30,7 @@ export function defaultPlots(hello: Hello, store: Store, most = 5): PlotSpec[] {
     if (truth) lines.push({ signal: truth, role: "true" });
     plots.push({ title: pair.title, lines });
   }
-  if (plots.length > 0) return plots.slice(0, most);
+  if (plots.length > 0) return plots.slice(0, max);
   return store.signals
     .filter(({ description }) => description.kind === "number")
     .slice(0, 3)
@@ -51,13 +51,13 @@ export function columnsOf(
   lines: readonly Line[],
   from: number,
   to: number,
-  most: number,
+  max: number,
 ): [number[], ...(number | null)[][]] {
   const picked = lines.map(({ signal }) => {
     const series = store.series[signal.output]!;
     const first = Math.max(0, series.at(from));
     const end = series.at(to) + 1;
-    const stride = Math.max(1, Math.ceil((end - first) / most));
+    const stride = Math.max(1, Math.ceil((end - first) / max));
     const at: number[] = [];
     for (let i = first; i < end; i += stride) at.push(i);
     if (end > first && at[at.length - 1] !== end - 1) at.push(end - 1);

@@ -33,8 +33,8 @@ export interface Parameter {
   value: string;
   default: string;
   words?: string[];
-  least?: number;
-  most?: number;
+  min?: number;
+  max?: number;
 }
 
 export interface Task {

@@ -7,7 +7,7 @@ import { vehicleOf, type Vehicle } from "./vehicles.ts";
 
 /** Milliseconds without news after which a run that has such a pace is not heard any more. */
 const patience = 3000;
-const leastPace = 0.2;
+const minPace = 0.2;
 
 export class Run {
   hello: Hello | undefined = $state.raw();
@@ -158,7 +158,7 @@ export class Run {
       this.news = true;
     }
     const comes = this.link === "open" && this.ended === undefined && !this.paused && this.hello?.clock !== "recorded";
-    const fast = this.speed === "max" || this.speed >= leastPace;
+    const fast = this.speed === "max" || this.speed >= minPace;
     this.silent = comes && fast && performance.now() - this.heard > patience;
     if (this.news) {
       this.news = false;

@@ -9,11 +9,11 @@ export class Series {
   times: Float64Array;
   readonly columns: Float64Array[];
   readonly texts: (Cell[] | null)[]; // of leaves that are no numbers, one a sample
-  private readonly most: number;
+  private readonly max: number;
 
-  constructor(output: Output, most = 40_000) {
+  constructor(output: Output, max = 40_000) {
     this.output = output;
-    this.most = most;
+    this.max = max;
     this.times = new Float64Array(256);
     this.columns = output.leaves.map(() => new Float64Array(256));
     this.texts = output.leaves.map((leaf) => (leaf.kind === "text" ? [] : null));
@@ -23,7 +23,7 @@ export class Series {
   add(t: number, cells: readonly Cell[]): void {
     if (this.count > 0 && t < this.times[this.count - 1]!) return;
     if (this.count > 0 && t === this.times[this.count - 1]) --this.count;
-    if (this.count === this.most) this.thin();
+    if (this.count === this.max) this.thin();
     if (this.count === this.times.length) this.grow();
     this.times[this.count] = t;
     this.columns.forEach((column, i) => {
@@ -57,7 +57,7 @@ export class Series {
   }
 
   private grow(): void {
-    const size = Math.min(this.most, this.times.length * 2);
+    const size = Math.min(this.max, this.times.length * 2);
     const larger = (from: Float64Array) => {
       const to = new Float64Array(size);
       to.set(from);
@@ -97,8 +97,8 @@ export class Store {
   private readonly byName = new Map<string, Signal>();
   newest = 0;
 
-  constructor(outputs: (Output | null)[], most?: number) {
-    this.series = outputs.map((output) => (output ? new Series(output, most) : null));
+  constructor(outputs: (Output | null)[], max?: number) {
+    this.series = outputs.map((output) => (output ? new Series(output, max) : null));
     outputs.forEach((output, i) => {
       output?.leaves.forEach((description, leaf) => {
         const name = description.path === "" ? output.name : `${output.name}.${description.path}`;

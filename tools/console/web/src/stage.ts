@@ -188,7 +188,7 @@ export class Stage {
     model.group.position.set(x, y, down);
     model.group.rotation.set(roll, pitch, heading);
     const now = performance.now();
-    model.move(vehicle.actuators.map(({ signal, most }) => store.number(signal, instant) / most), Math.min(0.1, (now - this.last) / 1000));
+    model.move(vehicle.actuators.map(({ signal, max }) => store.number(signal, instant) / max), Math.min(0.1, (now - this.last) / 1000));
     this.last = now;
     // patterns and grids stay where they are in the world
     for (const { group } of this.sheets) group.position.set(Math.round(x / 30) * 30, Math.round(y / 30) * 30, group.position.z);

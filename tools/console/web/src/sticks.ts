@@ -8,7 +8,7 @@ export function withDeadZone(value: number): number {
   return Math.sign(value) * Math.min(1, (size - deadZone) / (1 - deadZone));
 }
 
-export const clamp = (value: number, most: number, least = -most) => Math.min(most, Math.max(least, value));
+export const clamp = (value: number, max: number, min = -max) => Math.min(max, Math.max(min, value));
 /** To within half a turn. */
 export const wrapped = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 

@@ -9,12 +9,12 @@ export interface Logical {
 }
 
 /** Activations whose logical execution touches the window; at most so many, the newest. */
-export function activationsOf(task: Task, from: number, to: number, most = 500): Logical[] {
+export function activationsOf(task: Task, from: number, to: number, max = 500): Logical[] {
   const length = task.let ?? task.deadline;
   // what is a rounding error before an instant is that instant
   const slip = task.period * 1e-6;
   const last = Math.floor((to - task.offset + slip) / task.period);
-  const first = Math.max(0, last - most + 1, Math.ceil((from - task.offset - length - slip) / task.period));
+  const first = Math.max(0, last - max + 1, Math.ceil((from - task.offset - length - slip) / task.period));
   const found: Logical[] = [];
   for (let k = first; k <= last; ++k) {
     const release = task.offset + k * task.period;

@@ -7,7 +7,7 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import type { Store } from "./series.ts";
 import type { Place } from "./vehicles.ts";
 
-const mostPoints = 4000;
+const maxPoints = 4000;
 
 export class Trail {
   readonly material = new LineMaterial({ linewidth: 2.6 });
@@ -20,7 +20,7 @@ export class Trail {
 
   constructor(of: Place) {
     this.of = of;
-    this.geometry.setPositions(new Float32Array(mostPoints * 3));
+    this.geometry.setPositions(new Float32Array(maxPoints * 3));
     this.segments = (this.geometry.getAttribute("instanceStart") as three.InterleavedBufferAttribute).data;
     this.line = new Line2(this.geometry, this.material);
     this.line.frustumCulled = false;
@@ -31,7 +31,7 @@ export class Trail {
     const { x, y, down, downSign } = this.of;
     const series = store.series[x.output]!;
     const count = series.at(instant) + 1;
-    const stride = Math.max(1, Math.ceil(count / (mostPoints - 2)));
+    const stride = Math.max(1, Math.ceil(count / (maxPoints - 2)));
     const array = this.segments.array;
     const point = new three.Vector3();
     let points = 0;
@@ -45,7 +45,7 @@ export class Trail {
       point.toArray(array, points * 6);
       ++points;
     };
-    for (let i = 0; i < count && points < mostPoints - 2; i += stride) add(i);
+    for (let i = 0; i < count && points < maxPoints - 2; i += stride) add(i);
     if (count > 0 && (count - 1) % stride !== 0) add(count - 1);
     this.geometry.instanceCount = Math.max(0, points - 1);
     this.segments.needsUpdate = true;

@@ -19,7 +19,7 @@ export interface Vehicle {
   kind: VehicleKind;
   estimate?: Place;
   truth?: Place;
-  actuators: { title: string; signal: Signal; most: number }[];
+  actuators: { title: string; signal: Signal; max: number }[];
   states: Signal[];
   battery?: Signal;
   floor?: Signal; // true height above it
@@ -79,9 +79,9 @@ function submarine(store: Store): Vehicle | undefined {
   );
   if (!estimate && !truth) return undefined;
   const actuation = store.ofType("Actuation");
-  const named = (title: string, path: string, most: number) => {
+  const named = (title: string, path: string, max: number) => {
     const signal = actuation?.(path);
-    return signal && { title, signal, most };
+    return signal && { title, signal, max };
   };
   return {
     kind: "submarine",
@@ -123,7 +123,7 @@ function helicopter(store: Store): Vehicle | undefined {
     actuators: defined(
       ["front", "right", "rear", "left"].map((title, i) => {
         const signal = motors?.(`signals.${i}`);
-        return signal && { title: `motor ${title}`, signal, most: 16000 };
+        return signal && { title: `motor ${title}`, signal, max: 16000 };
       }),
     ),
     states: defined([directive?.("state"), directive?.("cause"), directive?.("hold_position")]),

@@ -57,7 +57,7 @@ test("what can't be a parameter is said", () => {
   assert.equal(wrongValue(parameter({}), "fast"), "a number");
   assert.equal(wrongValue(parameter({}), " "), "a number");
   assert.equal(wrongValue(parameter({ kind: "integer" }), "1.5"), "a whole number");
-  assert.equal(wrongValue(parameter({ least: 0, most: 1 }), "2"), "a number from 0 to 1");
+  assert.equal(wrongValue(parameter({ min: 0, max: 1 }), "2"), "a number from 0 to 1");
   assert.equal(wrongValue(parameter({ kind: "bool" }), "yes"), "true or false");
   assert.equal(wrongValue(parameter({ kind: "enum", words: ["a", "b"] }), "c"), "one of a, b");
 });

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { EventLog, mostEvents } from "../src/events.ts";
+import { EventLog, maxEvents } from "../src/events.ts";
 import { formatCell, formatDuration, formatNumber, formatTime } from "../src/format.ts";
 import { GraphModel } from "../src/graph.ts";
 import { parseMessage, schema, type Hello, type Leaf } from "../src/protocol.ts";
@@ -82,8 +82,8 @@ test("what the vehicle tells the outside is an event when it changes", () => {
     [0, 3, 0],
   ]);
   assert.deepEqual(log.all, [
-    { t: 2, kind: "told", text: "to.alarm is leak: it comes up" },
-    { t: 3, kind: "told", text: "to.alarm is none" },
+    { t: 2, kind: "event", text: "to.alarm is leak: it comes up" },
+    { t: 3, kind: "event", text: "to.alarm is none" },
   ]);
 });
 
@@ -110,8 +110,8 @@ test("faults name task and activation; of too many the oldest go, and are counte
   const log = new EventLog(hello);
   log.addRunEvents([{ t: 1, kind: "fault", task: "steer", activation: 20, text: "was late" }]);
   assert.equal(log.all[0]!.text, "steer: was late (activation 20)");
-  for (let i = 0; i < mostEvents; ++i) log.add({ t: 2, kind: "page", text: "x" });
-  assert.equal(log.all.length, mostEvents);
+  for (let i = 0; i < maxEvents; ++i) log.add({ t: 2, kind: "page", text: "x" });
+  assert.equal(log.all.length, maxEvents);
   assert.equal(log.dropped, 1);
 });
 

@@ -11,11 +11,11 @@ struct HoldLevel {
   struct Param {
     double goal = 3;
     double gain = 0.1;
-    double most = 0.05;
+    double max = 0.05;
     static constexpr auto fields() {
       using jarol::field;
       return jarol::describe(field<&Param::goal>("m", "the level"), field<&Param::gain>("", "inflow by what lacks"),
-                             field<&Param::most>("m", "inflow of an activation, at most"));
+                             field<&Param::max>("m", "inflow of an activation, at most"));
     }
   };
   struct In {
@@ -27,6 +27,6 @@ struct HoldLevel {
     static constexpr auto fields() { return jarol::describe(jarol::field<&Out::inflow>("m", "below zero: outflow")); }
   };
   static void run(const Param& p, const jarol::Tick&, const In& in, Out& out) {
-    out.inflow = std::clamp(p.gain * (p.goal - in.level), -p.most, p.most);
+    out.inflow = std::clamp(p.gain * (p.goal - in.level), -p.max, p.max);
   }
 };

@@ -18,7 +18,7 @@ TEST_CASE("after two seconds the tank is full to the level, and it never overflo
 }
 
 TEST_CASE("above its level the tank is let out, no faster than it may be") {
-  const HoldLevel::Param parameters{.goal = 1, .most = 0.2};
+  const HoldLevel::Param parameters{.goal = 1, .max = 0.2};
   HoldLevel::Out out;
   HoldLevel::run(parameters, {}, {.level = 10}, out);
   CHECK(out.inflow == -0.2);

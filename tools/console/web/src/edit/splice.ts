@@ -95,10 +95,10 @@ export function commentsOf(text: string): Comment[] {
 export function differenceOf(before: string, after: string): Splice | undefined {
   if (before === after) return undefined;
   let from = 0;
-  const least = Math.min(before.length, after.length);
-  while (from < least && before[from] === after[from]) ++from;
+  const min = Math.min(before.length, after.length);
+  while (from < min && before[from] === after[from]) ++from;
   let end = 0;
-  while (end < least - from && before[before.length - 1 - end] === after[after.length - 1 - end]) ++end;
+  while (end < min - from && before[before.length - 1 - end] === after[after.length - 1 - end]) ++end;
   return { from, to: before.length - end, insert: after.slice(from, after.length - end) };
 }
 

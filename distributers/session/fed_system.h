@@ -1,0 +1,32 @@
+// The channels of a distributer that the program feeds, in place of an external system.
+#pragma once
+
+#include <vector>
+
+#include "graph/registry.h"
+#include "graph/values/value.h"
+#include "runtime/external_system.h"
+
+namespace jarol {
+
+class FedSystem : public ExternalSystem {
+ public:
+  explicit FedSystem(const DistributerClass& distributer);
+
+  /// The newest value of an `in` channel, until its communicator takes it.
+  void feed(std::size_t channel, const void* value);
+
+  void reach(Duration) override {}
+  bool take(std::size_t channel, void* value) override;
+  void hand_over(std::size_t, const void*) override {}
+  void serialize(Archive& archive) override;
+
+ private:
+  struct Fed {
+    Value value;
+    bool is_new = false;
+  };
+  std::vector<Fed> fed_;  // per channel
+};
+
+}  // namespace jarol

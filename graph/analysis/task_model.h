@@ -1,0 +1,66 @@
+// Tasks as the analysis of one core sees them: plain numbers, in ns.
+#pragma once
+
+#include <algorithm>
+#include <compare>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace jarol::analysis {
+
+__extension__ using Wide = __int128;
+
+/// ns that no instant is beyond.
+inline constexpr std::int64_t max_time = std::int64_t{1} << 60;
+
+struct TaskModel {
+  std::int64_t wcet = 0;
+  std::int64_t period = 1;
+  std::int64_t deadline = 1;  // relative to the arrival
+  std::int64_t offset = 0;
+  std::int64_t jitter = 0;    // the release follows the arrival by at most so much
+  std::int64_t blocking = 0;  // by what can't be preempted, once an activation
+  std::int64_t overhead = 0;  // the part of the WCET that is the platform's
+};
+
+/// Of one core; most urgent first where priorities count.
+using TaskModels = std::vector<TaskModel>;
+
+/// Sum of wcet / period against `bound` without rounding; nothing if the common denominator is out of reach and the two
+/// are as close as rounding goes.
+std::optional<std::strong_ordering> compare_utilisation(std::span<const TaskModel> models, std::int64_t bound);
+
+double utilisation(std::span<const TaskModel> models);
+
+/// Least common multiple of the periods, or nothing beyond `max`.
+std::optional<std::int64_t> hyperperiod(std::span<const TaskModel> models, std::int64_t max);
+
+/// How much work may still go into an answer, in steps of some nanoseconds, so that one is given up after the same work
+/// on every machine. Unlimited unless stated.
+struct Budget {
+  std::uint64_t left = std::numeric_limits<std::uint64_t>::max();
+
+  /// False once there is no more.
+  bool spend(std::uint64_t steps) {
+    left -= std::min(left, steps);
+    return left > 0;
+  }
+  bool spent() const { return left == 0; }
+};
+
+/// Does what `test` does with a limit of its own, within that of all.
+template <class Test>
+auto within(Budget& budget, std::uint64_t max, const Test& test) {
+  Budget own{std::min(budget.left, max)};
+  const std::uint64_t before = own.left;
+  auto result = test(own);
+  budget.spend(before - own.left);
+  return result;
+}
+
+inline Wide ceil_div(Wide a, Wide b) { return (a + b - 1) / b; }
+
+}  // namespace jarol::analysis

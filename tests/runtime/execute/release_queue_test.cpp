@@ -1,0 +1,100 @@
+#include "runtime/state/release_queue.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+TEST_SUITE("runtime/release_queue") {
+  using namespace jarol;
+
+  // Instants and groups of the first `count` calls, as "instant: groups;".
+  std::string first_calls(ReleaseQueue & queue, int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) {
+      text += std::to_string(queue.next()) + ":";
+      for (const std::uint32_t group : queue.take()) text += " " + std::to_string(group);
+      text += "; ";
+    }
+    return text;
+  }
+
+  TEST_CASE("groups are due at first, first + period and so on, those of one instant together") {
+    ReleaseQueue queue;
+    queue.add(0, 4);
+    queue.add(2, 3);
+    CHECK(first_calls(queue, 6) == "0: 0; 2: 1; 4: 0; 5: 1; 8: 0 1; 11: 1; ");
+  }
+
+  TEST_CASE("many groups are found by another way, and come the same") {
+    for (const std::int64_t groups : {5, 33, 200}) {
+      ReleaseQueue queue;
+      const auto first = [](std::int64_t g) { return g * 37 % 11; };
+      const auto period = [](std::int64_t g) { return 1 + g * 53 % 17; };
+      for (std::int64_t g = 0; g < groups; ++g) queue.add(first(g), period(g));
+      for (std::int64_t instant = 0; instant < 500; ++instant) {
+        std::vector<std::uint32_t> expected;
+        for (std::int64_t g = 0; g < groups; ++g)
+          if (instant >= first(g) && (instant - first(g)) % period(g) == 0)
+            expected.push_back(static_cast<std::uint32_t>(g));
+        if (expected.empty()) {
+          REQUIRE(queue.next() != instant);
+          continue;
+        }
+        REQUIRE(queue.next() == instant);
+        const auto due = queue.take();
+        REQUIRE(std::vector<std::uint32_t>(due.begin(), due.end()) == expected);
+      }
+    }
+  }
+
+  TEST_CASE("groups of any periods come in the order of time: alike, coprime, of nanoseconds and of hours") {
+    using Groups = std::vector<std::pair<std::int64_t, std::int64_t>>;  // first, period
+    Groups alike, coprime, far_apart, late;
+    for (std::int64_t g = 0; g < 300; ++g) {
+      alike.emplace_back(g % 7 * 1'000'000, (1 + g % 5) * 1'000'000);
+      coprime.emplace_back(g * 31, 1'000'003 + g * 7919);
+      far_apart.emplace_back(g % 2 == 0 ? g : 5, g % 2 == 0 ? 1000 + g : 3'600'000'000'000 + g);
+      late.emplace_back(g == 0 ? 0 : 1'000'000'000'000'000, g == 0 ? 1'000'000'000'000 : 17 + g);
+    }
+    for (const Groups& groups : {alike, coprime, far_apart, late}) {
+      ReleaseQueue queue;
+      std::multimap<std::int64_t, std::uint32_t> expected;
+      for (const auto& [first, period] : groups) {
+        expected.emplace(first, static_cast<std::uint32_t>(expected.size()));
+        queue.add(first, period);
+      }
+      for (int i = 0; i < 5000; ++i) {
+        const std::int64_t instant = expected.begin()->first;
+        std::vector<std::uint32_t> due;
+        for (; expected.begin()->first == instant; expected.erase(expected.begin())) {
+          const std::uint32_t group = expected.begin()->second;
+          due.push_back(group);
+          expected.emplace(instant + groups[group].second, group);
+        }
+        std::sort(due.begin(), due.end());
+        REQUIRE(queue.next() == instant);
+        const auto taken = queue.take();
+        REQUIRE(std::vector<std::uint32_t>(taken.begin(), taken.end()) == due);
+      }
+    }
+  }
+
+  TEST_CASE("what lies beyond 292 years never comes") {
+    const std::int64_t century = 3'153'600'000'000'000'000;
+    ReleaseQueue queue;
+    queue.add(century, century);
+    CHECK(first_calls(queue, 2) == "3153600000000000000: 0; 6307200000000000000: 0; ");
+    CHECK(queue.next() == std::numeric_limits<std::int64_t>::max());
+    ReleaseQueue many;
+    for (int g = 0; g < 100; ++g) many.add(century + g, century);
+    for (int i = 0; i < 200; ++i) static_cast<void>(many.take());
+    CHECK(many.next() == std::numeric_limits<std::int64_t>::max());
+  }
+
+  TEST_CASE("without groups there is no next instant") {
+    CHECK(ReleaseQueue().next() == std::numeric_limits<std::int64_t>::max());
+  }
+}
