@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-namespace jarol {
+#include "graph/values/duration.h"
 
-using Duration = std::chrono::nanoseconds;
+namespace jarol {
 
 // Each returns an empty text and sets `to`, or says what is wrong: "is a bare number; write a unit, as in 10ms".
 

@@ -9,11 +9,10 @@
 #include <type_traits>
 
 #include "graph/values/describe.h"
+#include "graph/values/duration.h"
 #include "graph/values/sequence.h"
 
 namespace jarol {
-
-using Duration = std::chrono::nanoseconds;
 
 namespace detail {
 

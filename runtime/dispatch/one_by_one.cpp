@@ -5,19 +5,19 @@ namespace jarol {
 BadActivation InTime::operator()(const Activation& activation, const Tick& tick) {
   TaskTiming& timing = clock_.timing(activation.task);
   BadActivation went{.activation = tick.activation, .instant = tick.now};
-  if (timing.busy_until > tick.now.count()) {
+  if (timing.busy_until > tick.now) {
     ++timing.left_out;
     went.outcome = Outcome::overrun;
     return went;
   }
-  const std::int64_t begin = clock_.now();
+  const Duration begin = clock_.now();
   went.outcome = activation.run(activation.memory, tick);
   if (went.outcome == Outcome::left_out) return went;
-  const std::int64_t end = clock_.now();
-  const Duration response(end - tick.now.count());
+  const Duration end = clock_.now();
+  const Duration response = end - tick.now;
   timing.busy_until = end;
   timing.execution.add(end - begin);
-  timing.response.add(response.count());
+  timing.response.add(response);
   if (went.outcome != Outcome::good || response <= graph_.tasks[activation.task].deadline) return went;
   ++timing.late;
   went.outcome = Outcome::late;

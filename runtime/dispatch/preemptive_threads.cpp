@@ -64,7 +64,7 @@ void PreemptiveThreads::make_jobs() {
     job.memory.in = job.latched = next;
     job.published = static_cast<const std::byte*>(activation.memory.in);
     job.in_size = task.task_class->in->size;
-    job.deadline = task.deadline.count();
+    job.deadline = task.deadline;
     next += rounded(job.in_size);
   }
   const std::vector<std::size_t> turns = dispatch_order(graph_);
@@ -140,7 +140,7 @@ Outcome PreemptiveThreads::add(std::size_t task, const Tick& tick) {
   job.left_out = Outcome::good;
   job.abandoned = false;
   std::memcpy(job.latched, job.published, job.in_size);
-  job.instant.store(tick.now.count(), std::memory_order_relaxed);
+  job.instant.store(tick.now, std::memory_order_relaxed);
   job.state.store(State::released, std::memory_order_relaxed);
   added_.push_back(&job);
   return Outcome::good;
@@ -149,7 +149,7 @@ Outcome PreemptiveThreads::add(std::size_t task, const Tick& tick) {
 void PreemptiveThreads::release() {
   std::sort(added_.begin(), added_.end(), [](const Job* a, const Job* b) { return a->turn < b->turn; });
   for (Job* job : added_) {
-    const std::int64_t instant = job->instant.load(std::memory_order_relaxed);
+    const Duration instant = job->instant.load(std::memory_order_relaxed);
     const auto awaited = std::count_if(job->producers.begin(), job->producers.end(), [&](const Job* p) {
       return p->instant.load(std::memory_order_relaxed) == instant;
     });
@@ -186,7 +186,7 @@ std::optional<Outcome> PreemptiveThreads::outcome(std::size_t task, bool due) {
 std::optional<Duration> PreemptiveThreads::ended_after(std::size_t task) const {
   const Job& job = jobs_[task];
   if (job.abandoned) return std::nullopt;
-  return Duration(job.end) - job.newest.now;
+  return job.end - job.newest.now;
 }
 
 void PreemptiveThreads::undo(std::size_t task, OnFault on_fault) {
@@ -197,19 +197,19 @@ void PreemptiveThreads::undo(std::size_t task, OnFault on_fault) {
 
 std::optional<HangingTask> PreemptiveThreads::first_under_way() const {
   const Job* first = nullptr;
-  std::int64_t released = 0;
+  Duration released{};
   for (const Job& job : jobs_) {
     const State state = job.state.load(std::memory_order_relaxed);
     if (state != State::released && state != State::abandoned) continue;
     if (job.awaited.load(std::memory_order_relaxed) != 0) continue;
-    const std::int64_t instant = job.instant.load(std::memory_order_relaxed);
+    const Duration instant = job.instant.load(std::memory_order_relaxed);
     if (first != nullptr && std::tie(released, first->turn) <= std::tie(instant, job.turn)) continue;
     first = &job;
     released = instant;
   }
   if (first == nullptr) return std::nullopt;
   const Task& task = graph_.tasks[first->task];
-  return HangingTask{task.name, (Duration(released) - task.offset) / task.period, Duration(released)};
+  return HangingTask{task.name, (released - task.offset) / task.period, released};
 }
 
 std::vector<HangingTask> PreemptiveThreads::drain(std::optional<Futex::Time> patience) {
@@ -246,21 +246,21 @@ void PreemptiveThreads::run(Thread& thread) {
 void PreemptiveThreads::execute(Job& job, Core& core) {
   for (std::uint32_t awaited; (awaited = job.awaited.load(std::memory_order_acquire)) != 0;)
     Futex::wait(job.awaited, awaited, std::nullopt);
-  const std::int64_t instant = job.tick.now.count();
+  const Duration instant = job.tick.now;
   Outcome outcome = Outcome::late;
   // what is late before it has begun does not begin
   job.began = job.state.load(std::memory_order_relaxed) == State::released;
   if (job.began) {
     // in this order, so that what preempts in between is counted to this one rather than left out
-    const std::int64_t begin = clock_.now();
-    const std::int64_t others = core.busy.load(std::memory_order_relaxed);
+    const Duration begin = clock_.now();
+    const Duration others(core.busy.load(std::memory_order_relaxed));
     running_task.begin(job.memory, job.tick);
     outcome = job.run(job.memory, job.tick);
     running_task.end();
-    const std::int64_t preempted = core.busy.load(std::memory_order_relaxed) - others;
+    const Duration preempted = Duration(core.busy.load(std::memory_order_relaxed)) - others;
     job.end = clock_.now();
-    const std::int64_t took = job.end - begin - preempted;
-    core.busy.fetch_add(took, std::memory_order_relaxed);
+    const Duration took = job.end - begin - preempted;
+    core.busy.fetch_add(took.count(), std::memory_order_relaxed);
     TaskTiming& timing = clock_.timing(job.task);
     timing.execution.add(took);
     timing.response.add(job.end - instant);
@@ -274,7 +274,7 @@ void PreemptiveThreads::execute(Job& job, Core& core) {
   hand_on(job, instant, counts && outcome == Outcome::good);
 }
 
-void PreemptiveThreads::hand_on(const Job& job, std::int64_t instant, bool good) {
+void PreemptiveThreads::hand_on(const Job& job, Duration instant, bool good) {
   for (const Follower& follower : job.followers) {
     Job& reader = *follower.job;
     if (reader.instant.load(std::memory_order_relaxed) != instant) continue;

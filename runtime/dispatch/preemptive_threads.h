@@ -78,7 +78,7 @@ class PreemptiveThreads {
     std::size_t task = 0;
     std::size_t turn = 0;  // among those released at one instant
     std::size_t thread = 0;
-    std::int64_t deadline = 0;
+    Duration deadline{};
     std::vector<Follower> followers;
     std::vector<Job*> producers;  // in other threads, that it may follow
 
@@ -88,14 +88,14 @@ class PreemptiveThreads {
     bool abandoned = false;
     bool to_undo = false, to_skip = false, to_restart = false;
 
-    Tick tick;                              // of the activation that runs
-    std::atomic<std::int64_t> instant{-1};  // of its release
+    Tick tick;                                    // of the activation that runs
+    std::atomic<Duration> instant{Duration(-1)};  // of its release
     std::atomic<State> state{State::idle};
     std::atomic<std::uint32_t> awaited{0};  // producers of its instant, in other threads, that have not ended
     // of the thread, then of the dispatcher
     bool began = false;
     Outcome outcome = Outcome::good;
-    std::int64_t end = 0;
+    Duration end{};
   };
   struct alignas(apart) Core {
     std::atomic<std::int64_t> busy{0};  // ns that tasks have run there
@@ -119,7 +119,7 @@ class PreemptiveThreads {
   static void let_go(Thread& thread);
   void run(Thread& thread);
   void execute(Job& job, Core& core);
-  static void hand_on(const Job& job, std::int64_t instant, bool good);
+  static void hand_on(const Job& job, Duration instant, bool good);
 
   const Graph& graph_;
   RunState& state_;

@@ -122,13 +122,13 @@ std::uint64_t StageTeam::run_timed() {
   ++alone_;
   std::uint64_t digest = 0;
   for (Item& item : items_) {
-    const std::int64_t own_before = thread_time();
+    const Duration own_before = thread_time();
     const double before = now();
     run_item(item, digest);
     const double wall = now() - before - clock_cost;
-    const std::int64_t own = thread_time() - own_before - between_readings_;
-    const auto took = std::min(own, static_cast<std::int64_t>(std::ceil(wall)));
-    took_[item.activation->task].add(std::max<std::int64_t>(1, took));
+    const Duration own = thread_time() - own_before - between_readings_;
+    const Duration took = std::min(own, Duration(static_cast<std::int64_t>(std::ceil(wall))));
+    took_[item.activation->task].add(std::max(Duration(1), took));
   }
   return digest;
 }

@@ -75,11 +75,11 @@ class StageTeam {
   const Plan& plan_;
   Workers workers_;
   Sharing sharing_;
-  std::vector<Histogram> took_;        // per task, with Sharing::measure
-  std::int64_t between_readings_ = 0;  // ns, of the thread's time
-  std::vector<Cost> costs_;            // per task
-  std::vector<double> widest_;         // per group: the cost of its costliest level; infinite while not known
-  std::size_t unknown_;                // tasks that were not yet measured often enough
+  std::vector<Histogram> took_;  // per task, with Sharing::measure
+  Duration between_readings_{};  // of the thread's time
+  std::vector<Cost> costs_;      // per task
+  std::vector<double> widest_;   // per group: the cost of its costliest level; infinite while not known
+  std::size_t unknown_;          // tasks that were not yet measured often enough
   std::vector<Item> items_;
   std::vector<Part> parts_;
   bool digest_ = false;

@@ -76,7 +76,7 @@ void Executor::run_until(Duration end) {
 
 void Executor::cover(Duration end) {
   if (has_stopped()) return;
-  cover_end_.store(end.count(), std::memory_order_relaxed);
+  cover_end_.store(end, std::memory_order_relaxed);
   const MemoryScope scope(no_heap());  // a task with a heap has a scope of its own
   const RunningHere here(running_);
   const DefaultFloatingPoint arithmetic;
@@ -85,12 +85,12 @@ void Executor::cover(Duration end) {
 
 void Executor::walk(Duration end) {
   ReleaseQueue& queue = run_.state.release_queue;
-  while (queue.next() < end.count()) {
+  while (queue.next() < end) {
     if (must_return()) return;
-    const Duration instant(queue.next());
+    const Duration instant = queue.next();
     if (clock_ != nullptr && !wait_until(instant)) return;
     if (run_.log.is_checkpoint_due(instant)) log_checkpoint(instant);
-    now_.store(instant.count(), std::memory_order_relaxed);
+    now_.store(instant, std::memory_order_relaxed);
     if (!step(run_.publisher.at(instant, queue.take()))) return;
     Report& report = run_.report;
     report.instants += 1;
@@ -100,12 +100,12 @@ void Executor::walk(Duration end) {
   }
   run_.report.simulated = end;
   run_.report.covered = end;
-  now_.store(end.count(), std::memory_order_relaxed);
+  now_.store(end, std::memory_order_relaxed);
 }
 
 // False: the run ends before the instant.
 bool Executor::wait_until(Duration instant) {
-  clock_->wait_until(instant.count(), interrupted_);
+  clock_->wait_until(instant, interrupted_);
   if (must_return()) return false;
   if (instant >= hand_on_due_) hand_on(instant);
   dispatcher_->settle(instant);

@@ -83,13 +83,13 @@ class Executor {
   void serialize(Archive& archive);
 
   /// The logical instant reached, for progress; may be read by another thread.
-  Duration now() const { return Duration(now_.load(std::memory_order_relaxed)); }
+  Duration now() const { return now_.load(std::memory_order_relaxed); }
 
   /// Ends run_until after the instant under way; may be called from another thread or a signal handler.
   void interrupt() { interrupted_.store(true, std::memory_order_relaxed); }
 
   /// The instant that is covered next, between two pieces of the run.
-  Duration next_instant() const { return Duration(run_.state.release_queue.next()); }
+  Duration next_instant() const { return run_.state.release_queue.next(); }
 
   const Report& report() const { return run_.report; }
   const std::vector<FailsafeReport>& failsafe() const { return communicators_.failsafe(); }
@@ -126,8 +126,8 @@ class Executor {
   const StageTeam* team_ = nullptr;
   Duration hand_on_due_{};  // on the real clock
   std::unique_ptr<Dispatcher> dispatcher_;
-  std::atomic<std::int64_t> now_{0};
-  std::atomic<std::int64_t> cover_end_{0};
+  std::atomic<Duration> now_{};
+  std::atomic<Duration> cover_end_{};
   std::atomic<bool> interrupted_{false};
   std::atomic<bool> rest_asked_{false};
   std::atomic<const RunningTask*> running_{nullptr};  // of the thread that covers instants, meanwhile

@@ -15,20 +15,19 @@ void Executor::serialize(Archive& archive) {
                   "has a time that there is not");
   run_.state.serialize(archive, report.covered);
   communicators_.serialize(archive);
-  if (archive.restores()) now_.store(report.simulated.count());
+  if (archive.restores()) now_.store(report.simulated);
 }
 
 std::optional<Duration> Executor::begin_rest() {
   if (!communicators_.may_rest() || run_.report.stopped || interrupted_.load()) return std::nullopt;
-  const Duration begun(run_.state.release_queue.next());
+  const Duration begun = run_.state.release_queue.next();
   communicators_.begin_rest(begun);
   return begun;
 }
 
 void Executor::close(Futex::Time patience) {
   interrupt();
-  communicators_.close(patience, clock_ == nullptr,
-                       [this] { return clock_ != nullptr ? Duration(clock_->now()) : now(); });
+  communicators_.close(patience, clock_ == nullptr, [this] { return clock_ != nullptr ? clock_->now() : now(); });
 }
 
 Finish Executor::finish(std::optional<Futex::Time> patience) {
@@ -66,7 +65,7 @@ std::optional<Holdup> Executor::holdup_of_thread() const {
   const auto task = std::lower_bound(run_.graph.tasks.begin(), run_.graph.tasks.end(), first->task,
                                      [](const Task& each, const std::string& name) { return each.name < name; });
   if (!task->wcet) return std::nullopt;
-  const Duration late = Duration(clock_->now()) - first->instant - task->deadline;
+  const Duration late = clock_->now() - first->instant - task->deadline;
   return Holdup{.task = std::move(*first), .late = late};
 }
 
@@ -75,11 +74,10 @@ std::optional<Holdup> Executor::holdup() const {
   if (!dispatcher_->runs_on_caller()) return holdup_of_thread();
   const Task* const task = task_of(running_.load(std::memory_order_acquire));
   if (task == nullptr) return std::nullopt;
-  const Duration time(clock_->now());
+  const Duration time = clock_->now();
   HangingTask held = hanging(*task);
   const Duration late = time - held.instant - task->deadline;
-  const bool over =
-      time.count() >= cover_end_.load(std::memory_order_relaxed) && (!communicators_.may_rest() || resting());
+  const bool over = time >= cover_end_.load(std::memory_order_relaxed) && (!communicators_.may_rest() || resting());
   return Holdup{.task = std::move(held), .late = late, .stops = task->on_fault == OnFault::stop, .over = over};
 }
 

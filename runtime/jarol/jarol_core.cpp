@@ -13,7 +13,7 @@
 
 namespace jarol {
 
-ThreadsCore::ThreadsCore(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> channels, Recorder* recorder)
+JarolCore::JarolCore(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> channels, Recorder* recorder)
     : run_(std::move(plan), {.recorder = recorder, .may_rest = true}),
       graph_(run_.graph),
       channels_(std::move(channels)),
@@ -30,12 +30,12 @@ ThreadsCore::ThreadsCore(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSys
       watched_.push_back(std::make_unique<Watched>(distributer, *type));
 }
 
-bool ThreadsCore::on_vehicle(std::size_t communicator) const {
+bool JarolCore::on_vehicle(std::size_t communicator) const {
   const auto distributer = graph_.communicators[communicator].distributer;
   return distributer && graph_.distributers[*distributer].distributer_class->is_vehicle;
 }
 
-Duration ThreadsCore::choose_period() const {
+Duration JarolCore::choose_period() const {
   Duration vehicle = Duration::max(), any = Duration::max();
   for (std::size_t i = 0; i < graph_.communicators.size(); ++i) {
     const Duration period = graph_.communicators[i].period;
@@ -47,14 +47,14 @@ Duration ThreadsCore::choose_period() const {
   return vehicle != Duration::max() ? vehicle : any;
 }
 
-std::int64_t ThreadsCore::rounds_of(const std::string& what, Duration period) const {
+std::int64_t JarolCore::rounds_of(const std::string& what, Duration period) const {
   if (period.count() % period_.count() != 0)
     throw std::invalid_argument("threads count in periods of the vehicle's channels, " + duration_text(period_) + "; " +
                                 what + " has " + duration_text(period) + ", which is no multiple of it");
   return period.count() / period_.count();
 }
 
-void ThreadsCore::gather() {
+void JarolCore::gather() {
   std::vector<const Activation*> activations(graph_.tasks.size());
   std::vector<const Publish*> publishes(graph_.tasks.size());
   for (const Activation& activation : run_.state.activations) {
@@ -87,9 +87,9 @@ void ThreadsCore::gather() {
   }
 }
 
-ThreadsCore::~ThreadsCore() { finish(); }
+JarolCore::~JarolCore() { finish(); }
 
-void ThreadsCore::run_for(Duration end, const std::function<void()>& prepare) {
+void JarolCore::run_for(Duration end, const std::function<void()>& prepare) {
   try {
     cover(end, prepare);
   } catch (...) {
@@ -100,13 +100,13 @@ void ThreadsCore::run_for(Duration end, const std::function<void()>& prepare) {
   throw_failure();
 }
 
-void ThreadsCore::throw_failure() {
+void JarolCore::throw_failure() {
   const std::lock_guard lock(failure_mutex_);
   if (failure_) std::rethrow_exception(failure_);
 }
 
 template <class Work>
-void ThreadsCore::begin(Part& part, Signal& signal, const std::function<void()>& prepare, Work work) {
+void JarolCore::begin(Part& part, Signal& signal, const std::function<void()>& prepare, Work work) {
   if (stopped()) return;
   part.signal = &signal;
   try {
@@ -124,7 +124,7 @@ void ThreadsCore::begin(Part& part, Signal& signal, const std::function<void()>&
   }
 }
 
-void ThreadsCore::cover(Duration end, const std::function<void()>& prepare) {
+void JarolCore::cover(Duration end, const std::function<void()>& prepare) {
   begin(core_, core_signal_, prepare, [this] { run_core(); });
   begin(actuator_, actuator_signal_, prepare, [this] { run_actuator(); });
   begin(terminal_, terminal_signal_, prepare, [this] { run_terminal(); });
@@ -146,7 +146,7 @@ void ThreadsCore::cover(Duration end, const std::function<void()>& prepare) {
   throw_failure();
 }
 
-Finish ThreadsCore::finish(std::optional<Futex::Time> patience) {
+Finish JarolCore::finish(std::optional<Futex::Time> patience) {
   // in the order of the flow: what was sensed is still computed, and what was computed handed over
   if (trigger_) trigger_->stop();
   for (Part* part : {&sensor_, &core_, &actuator_, &terminal_}) {
@@ -180,7 +180,7 @@ bool lock_until(std::unique_lock<std::mutex>& lock, Futex::Time patience) {
 }  // namespace
 
 // From here on the threads that carry values find nothing to do.
-void ThreadsCore::close(Futex::Time patience) {
+void JarolCore::close(Futex::Time patience) {
   interrupt();
   if (closed_.exchange(true)) return;
   const Duration time = now();
@@ -193,15 +193,15 @@ void ThreadsCore::close(Futex::Time patience) {
   failsafe_.hand_over_at_end(channels_, time, false);
 }
 
-std::optional<HangingTask> ThreadsCore::running() const {
+std::optional<HangingTask> JarolCore::running() const {
   const Counted* const task = running_.task.load(std::memory_order_acquire);
   if (task == nullptr) return std::nullopt;
   return HangingTask{graph_.tasks[task->activation->task].name, running_.activation.load(std::memory_order_relaxed),
-                     Duration(running_.instant.load(std::memory_order_relaxed))};
+                     running_.instant.load(std::memory_order_relaxed)};
 }
 
 // Nobody looks whether it comes in time, but it holds up the core.
-std::optional<Holdup> ThreadsCore::holdup() const {
+std::optional<Holdup> JarolCore::holdup() const {
   const Counted* const task = running_.task.load(std::memory_order_acquire);
   std::optional<HangingTask> hanging = running();
   if (task == nullptr || !hanging) return std::nullopt;
@@ -209,13 +209,13 @@ std::optional<Holdup> ThreadsCore::holdup() const {
   return Holdup{.task = std::move(*hanging), .late = late, .stops = false};
 }
 
-void ThreadsCore::fail(std::exception_ptr failure) {
+void JarolCore::fail(std::exception_ptr failure) {
   const std::lock_guard lock(failure_mutex_);
   if (!failure_) failure_ = std::move(failure);
   stopped_.store(true, std::memory_order_release);
 }
 
-std::optional<RestReport> ThreadsCore::rest() const {
+std::optional<RestReport> JarolCore::rest() const {
   if (!resting()) return std::nullopt;
   const Duration begun = rest_from_.load() * period_;
   return RestReport{begun, std::max(begun, now()), rest_reached_.load() >= 0, rest_->was_heard()};

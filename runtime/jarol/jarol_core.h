@@ -36,14 +36,14 @@ struct ThreadsReport {
   std::vector<Histogram> execution;   // ns, of each task, with what preempted it
 };
 
-class ThreadsCore {
+class JarolCore {
  public:
   /// One Channels per distributer of the graph, in its order. The graph outlives the core. Throws
   /// std::invalid_argument for a graph whose periods can't be counted in those of the sensor thread, or with deep
   /// values between threads. `recorder`: gets what is published, and true values for the conditions of the graph; or
   /// null.
-  ThreadsCore(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> channels, Recorder* recorder = nullptr);
-  ~ThreadsCore();
+  JarolCore(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> channels, Recorder* recorder = nullptr);
+  ~JarolCore();
 
   /// Covers the instants before `end`, unless a fault stops it or it is interrupted; once. `prepare` is called in each
   /// thread, in the caller's last, before the clock starts. The first exception that a thread ends with is thrown here
@@ -74,7 +74,7 @@ class ThreadsCore {
   const ThreadsReport& threads_report() const { return threads_report_; }
   const std::vector<FailsafeReport>& failsafe() const { return failsafe_.reports(); }
   /// The instant reached, as of Executor.
-  Duration now() const { return Duration(now_.load(std::memory_order_relaxed)); }
+  Duration now() const { return now_.load(std::memory_order_relaxed); }
   const void* last_value(std::size_t communicator) const { return run_.state.last[communicator]; }
   const RunState& state() const { return run_.state; }
 
@@ -162,8 +162,8 @@ class ThreadsCore {
   Signal start_signal_, core_signal_, actuator_signal_, terminal_signal_;
   std::atomic<std::int64_t> rounds_begun_{0};
   std::atomic<std::uint64_t> rounds_done_{0};
-  std::atomic<std::int64_t> now_{0};
-  std::atomic<std::int64_t> tick_{0};  // the newest, in ns of the monotonic clock
+  std::atomic<Duration> now_{};
+  std::atomic<Duration> tick_{};  // the newest, of the monotonic clock
   std::atomic<bool> interrupted_{false};
   std::atomic<bool> stopped_{false};  // at the end, by a fault or a failure
   std::atomic<bool> closed_{false};
@@ -175,7 +175,8 @@ class ThreadsCore {
   // what the core thread runs; for others who ask why it does not end
   struct Running {
     std::atomic<const Counted*> task{nullptr};
-    std::atomic<std::int64_t> activation{0}, instant{0};
+    std::atomic<std::int64_t> activation{0};
+    std::atomic<Duration> instant{};
   } running_;
   std::mutex failure_mutex_;
   std::exception_ptr failure_;  // the first

@@ -10,7 +10,7 @@ namespace jarol {
 
 // What is reached, if the run ends before that round. After the last round of `end` the vehicle comes to rest, for so
 // many rounds more at most.
-std::optional<Duration> ThreadsCore::end_at(std::int64_t round, std::int64_t& last, Duration end) {
+std::optional<Duration> JarolCore::end_at(std::int64_t round, std::int64_t& last, Duration end) {
   if (const std::int64_t reached = rest_reached_.load(std::memory_order_acquire); reached >= 0)
     return reached * period_;
   if (rest_ != nullptr && !resting() && (round >= last || rest_asked_.load(std::memory_order_relaxed))) {
@@ -23,7 +23,7 @@ std::optional<Duration> ThreadsCore::end_at(std::int64_t round, std::int64_t& la
 }
 
 // A round's number goes by the clock, also where ticks found this thread at work.
-void ThreadsCore::run_sensor(Duration end) {
+void JarolCore::run_sensor(Duration end) {
   TimeTrigger& trigger = *trigger_;
   std::int64_t rounds = end / period_ + (end % period_ != Duration{} ? 1 : 0);
   for (std::int64_t next = 0; !stopped() && trigger.await() == Awaiting::signalled;) {
@@ -31,13 +31,13 @@ void ThreadsCore::run_sensor(Duration end) {
     threads_report_.unawaited_ticks += static_cast<std::uint64_t>(round - next);
     next = round + 1;
     if (const std::optional<Duration> reached = end_at(round, rounds, end)) {
-      now_.store(reached->count(), std::memory_order_relaxed);
+      now_.store(*reached, std::memory_order_relaxed);
       reached_end_ = rest_reached_.load(std::memory_order_relaxed) < 0;
       stopped_.store(true, std::memory_order_release);
       return;
     }
-    now_.store(round * period_.count(), std::memory_order_relaxed);
-    const std::int64_t tick = Duration(trigger.time_of(round).time_since_epoch()).count();
+    now_.store(round * period_, std::memory_order_relaxed);
+    const Duration tick(trigger.time_of(round).time_since_epoch());
     threads_report_.lateness.add(RealClock::monotonic() - tick);
     tick_.store(tick, std::memory_order_relaxed);
     sense(false, round);
@@ -47,7 +47,7 @@ void ThreadsCore::run_sensor(Duration end) {
 }
 
 // Values from outside into the ports of one side.
-void ThreadsCore::sense(bool terminal, std::int64_t round) {
+void JarolCore::sense(bool terminal, std::int64_t round) {
   const Duration now(round * period_.count());
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     if (graph_.distributers[i].distributer_class->is_vehicle == terminal) continue;
@@ -70,7 +70,7 @@ void ThreadsCore::sense(bool terminal, std::int64_t round) {
   }
 }
 
-void ThreadsCore::run_core() {
+void JarolCore::run_core() {
   const SignalStack signal_stack;
   const MemoryScope scope(no_heap());
   for (std::int64_t done = 0; !run_.report.stopped;) {
@@ -91,7 +91,7 @@ void ThreadsCore::run_core() {
   }
 }
 
-void ThreadsCore::run_round(std::int64_t round) {
+void JarolCore::run_round(std::int64_t round) {
   const Duration instant = round * period_;
   const Now now = run_.publisher.at(instant);
   ++run_.report.instants;
@@ -126,12 +126,12 @@ void ThreadsCore::run_round(std::int64_t round) {
   }
 }
 
-void ThreadsCore::run_task(Counted& task, const Now& now) {
+void JarolCore::run_task(Counted& task, const Now& now) {
   const Activation& activation = *task.activation;
   const Tick tick{now.instant, task.activations++, task.period};
-  const std::int64_t begin = RealClock::monotonic();
+  const Duration begin = RealClock::monotonic();
   running_.activation.store(tick.activation, std::memory_order_relaxed);
-  running_.instant.store(tick.now.count(), std::memory_order_relaxed);
+  running_.instant.store(tick.now, std::memory_order_relaxed);
   running_.task.store(&task, std::memory_order_release);
   running_task.begin(activation.memory, tick);
   const Outcome outcome = activation.run(activation.memory, tick);
@@ -149,7 +149,7 @@ void ThreadsCore::run_task(Counted& task, const Now& now) {
     on_bad(activation, {outcome, tick.activation, tick.now});
 }
 
-void ThreadsCore::record_true_values(Duration instant) {
+void JarolCore::record_true_values(Duration instant) {
   for (const auto& vehicle : watched_) {
     const auto output = static_cast<std::uint32_t>(run_.plan.outputs.size() + vehicle->distributer);
     if (vehicle->port.read(vehicle->core.data()))
@@ -157,14 +157,14 @@ void ThreadsCore::record_true_values(Duration instant) {
   }
 }
 
-void ThreadsCore::on_bad(const Activation& activation, const BadActivation& bad) {
+void JarolCore::on_bad(const Activation& activation, const BadActivation& bad) {
   run_.faults.add(activation.task, bad, activation.memory.out);
   if (run_.report.stopped) stopped_.store(true, std::memory_order_release);
   run_.faults.restore(activation);
 }
 
 // Values of one side from the ports to the outside.
-void ThreadsCore::act(bool terminal) {
+void JarolCore::act(bool terminal) {
   for (Carried& out : outs_) {
     const Communicator& c = graph_.communicators[out.communicator];
     if (!c.distributer || out.terminal != terminal || !out.port->read(out.room.data())) continue;
@@ -174,11 +174,11 @@ void ThreadsCore::act(bool terminal) {
   }
 }
 
-void ThreadsCore::run_actuator() {
+void JarolCore::run_actuator() {
   for (std::uint64_t seen = 0; await_core(actuator_signal_, seen);) act(false);
 }
 
-void ThreadsCore::run_terminal() {
+void JarolCore::run_terminal() {
   for (std::uint64_t seen = 0; await_core(terminal_signal_, seen);) {
     sense(true, std::max<std::int64_t>(0, rounds_begun_.load(std::memory_order_acquire) - 1));
     act(true);
@@ -186,7 +186,7 @@ void ThreadsCore::run_terminal() {
 }
 
 // Until the core has done another round; false at the end.
-bool ThreadsCore::await_core(Signal& signal, std::uint64_t& seen) const {
+bool JarolCore::await_core(Signal& signal, std::uint64_t& seen) const {
   const auto ready = [&] { return rounds_done_.load(std::memory_order_seq_cst) != seen; };
   for (bool over = false; !ready();) {
     if (over) return false;

@@ -108,9 +108,9 @@ std::optional<Histogram> measure_lateness(std::chrono::nanoseconds period, std::
     if (fifo_priority && !use_fifo(*fifo_priority).empty()) return;
     prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
     lateness.emplace();
-    const std::int64_t start = RealClock::monotonic();
-    for (std::int64_t due = start + period.count(); due <= start + duration.count(); due += period.count()) {
-      const timespec until{due / ns_per_second, due % ns_per_second};
+    const Duration start = RealClock::monotonic();
+    for (Duration due = start + period; due <= start + duration; due += period) {
+      const timespec until{due.count() / ns_per_second, due.count() % ns_per_second};
       while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {}
       lateness->add(RealClock::monotonic() - due);
     }

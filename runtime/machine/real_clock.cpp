@@ -13,12 +13,12 @@
 namespace jarol {
 namespace {
 
-constexpr std::int64_t second = 1'000'000'000;
-constexpr std::int64_t look_for_interrupt = second / 10;
-constexpr std::int64_t spin_before = 100'000;  // ns; more than a wake-up takes on a quiet machine
+constexpr Duration look_for_interrupt = std::chrono::milliseconds(100);
+constexpr Duration spin_before = std::chrono::microseconds(100);  // more than a wake-up takes on a quiet machine
 
-void sleep_until(std::int64_t monotonic_ns) {
-  const timespec until{monotonic_ns / second, monotonic_ns % second};
+void sleep_until(Duration monotonic) {
+  const auto whole = std::chrono::floor<std::chrono::seconds>(monotonic);
+  const timespec until{whole.count(), (monotonic - whole).count()};
   // a signal ends it early; the caller looks at the clock again
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
 }
@@ -78,18 +78,18 @@ std::vector<std::string> prepare_thread(const RealTimeOptions& options) {
 
 RealClock::RealClock(std::size_t tasks, RealTimeOptions options) : options_(std::move(options)), timings_(tasks) {}
 
-std::int64_t RealClock::monotonic() {
+Duration RealClock::monotonic() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * second + now.tv_nsec;
+  return std::chrono::seconds(now.tv_sec) + Duration(now.tv_nsec);
 }
 
 void RealClock::start() { start_ = monotonic(); }
 
-void RealClock::wait_until(std::int64_t instant, const std::atomic<bool>& interrupted) {
-  const std::int64_t due = start_ + instant;
-  const std::int64_t awake = options_.spin ? due - spin_before : due;
-  std::int64_t at = monotonic();
+void RealClock::wait_until(Duration instant, const std::atomic<bool>& interrupted) {
+  const Duration due = start_ + instant;
+  const Duration awake = options_.spin ? due - spin_before : due;
+  Duration at = monotonic();
   while (at < awake) {
     if (interrupted.load(std::memory_order_relaxed)) return;
     sleep_until(std::min(awake, at + look_for_interrupt));

@@ -40,7 +40,7 @@ struct TaskTiming {
   Histogram response;          // from the release to the end
   std::uint64_t late = 0;      // finished after the deadline
   std::uint64_t left_out = 0;  // as the one before still ran
-  std::int64_t busy_until = 0;
+  Duration busy_until{};
 };
 
 class RealClock {
@@ -56,11 +56,11 @@ class RealClock {
   /// Instant 0 is now.
   void start();
 
-  /// ns since instant 0.
-  std::int64_t now() const { return monotonic() - start_; }
+  /// Since instant 0.
+  Duration now() const { return monotonic() - start_; }
 
   /// Returns at the instant, or when `interrupted` is seen, at most a tenth of a second later; counts the lateness.
-  void wait_until(std::int64_t instant, const std::atomic<bool>& interrupted);
+  void wait_until(Duration instant, const std::atomic<bool>& interrupted);
 
   TaskTiming& timing(std::size_t task) { return timings_[task]; }
   const TaskTiming& timing(std::size_t task) const { return timings_[task]; }
@@ -68,12 +68,12 @@ class RealClock {
   /// From an instant to the moment at which its work began.
   const Histogram& lateness() const { return lateness_; }
 
-  /// ns of CLOCK_MONOTONIC.
-  static std::int64_t monotonic();
+  /// CLOCK_MONOTONIC.
+  static Duration monotonic();
 
  private:
   RealTimeOptions options_;
-  std::int64_t start_ = 0;
+  Duration start_{};
   std::vector<TaskTiming> timings_;  // per task
   Histogram lateness_;
 };

@@ -7,16 +7,16 @@
 
 namespace jarol {
 
-std::int64_t thread_time() {
+Duration thread_time() {
   timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+  return std::chrono::seconds(time.tv_sec) + Duration(time.tv_nsec);
 }
 
-std::int64_t thread_time_between_readings(int tries) {
-  std::vector<std::int64_t> differences(static_cast<std::size_t>(tries));
-  for (std::int64_t& difference : differences) {
-    const std::int64_t before = thread_time();
+Duration thread_time_between_readings(int tries) {
+  std::vector<Duration> differences(static_cast<std::size_t>(tries));
+  for (Duration& difference : differences) {
+    const Duration before = thread_time();
     difference = thread_time() - before;
   }
   const auto quarter = differences.begin() + tries / 4;

@@ -1,16 +1,16 @@
 // The processor time of the calling thread: it stands still while anything else runs there.
 #pragma once
 
-#include <cstdint>
+#include "graph/values/duration.h"
 
 namespace jarol {
 
-/// ns of CLOCK_THREAD_CPUTIME_ID.
-std::int64_t thread_time();
+/// CLOCK_THREAD_CPUTIME_ID.
+Duration thread_time();
 
 /// What two readings one after the other differ by, which is what reading takes: a quarter of so many tries differ by
 /// no more. 0 if the clock moves in steps too coarse to tell. Not the least of all: on a busy machine one pair in a
 /// million was seen to differ by nothing.
-std::int64_t thread_time_between_readings(int tries = 1000);
+Duration thread_time_between_readings(int tries = 1000);
 
 }  // namespace jarol

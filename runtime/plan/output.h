@@ -5,13 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "graph/values/duration.h"
 #include "graph/values/type.h"
 
 namespace jarol {
 
 struct Graph;
-
-using Duration = std::chrono::nanoseconds;
 
 struct Output {
   std::string name;  // "task.output" or "communicator"

@@ -53,13 +53,13 @@ void Recorder::expect(const std::vector<Output>& outputs) {
         std::any_of(sinks_.begin(), sinks_.end(), [&](const RecordSink* sink) { return sink->wants(i); }) ? 1 : 0);
 }
 
-void Recorder::append_deep(std::int64_t instant, std::uint32_t output, const void* value) {
+void Recorder::append_deep(Duration instant, std::uint32_t output, const void* value) {
   const Type& type = *outputs_[output].type;
   const std::size_t size = packed_size(type, value);
   if (size > max_bytes) {
     if (lost_.empty())
       lost_ = "output '" + outputs_[output].name + "' had " + std::to_string(size) + " bytes at " +
-              std::to_string(instant) + "ns; values of up to " + std::to_string(max_bytes) + " can be recorded";
+              std::to_string(instant.count()) + "ns; values of up to " + std::to_string(max_bytes) + " can be recorded";
     return;
   }
   const std::size_t padded = (size + 7U) & ~std::size_t{7};
@@ -86,7 +86,7 @@ void Recorder::append_event(const RunEvent& event) {
   const std::size_t length = std::min(event.cause.size(), room.size() - sizeof header);
   std::memcpy(room.data(), &header, sizeof header);
   std::memcpy(room.data() + sizeof header, event.cause.data(), length);
-  append(event.instant.count(), event_output, room.data(), static_cast<std::uint32_t>(sizeof header + length));
+  append(event.instant, event_output, room.data(), static_cast<std::uint32_t>(sizeof header + length));
 }
 
 void Recorder::close() {
@@ -138,7 +138,7 @@ void Recorder::cut_off() {
   RecordHeader first;
   std::memcpy(&first, now_, sizeof first);
   if (!is_cut_off_ && lost_.empty())
-    lost_ = "values could not be written as fast as they came; from " + std::to_string(first.instant) +
+    lost_ = "values could not be written as fast as they came; from " + std::to_string(first.instant.count()) +
             "ns on they are lost";
   is_cut_off_ = true;
 }
@@ -185,10 +185,10 @@ void Recorder::drain(const std::byte* chunk, std::size_t bytes) {
 void Recorder::hold(const RecordHeader& header, const std::byte* packed) {
   held_.emplace(header.instant, Held{header, {packed, packed + header.size}});
   newest_ = std::max(newest_, header.instant);
-  hand_on_held(newest_ - disorder_->count());
+  hand_on_held(newest_ - *disorder_);
 }
 
-void Recorder::hand_on_held(std::int64_t until) {
+void Recorder::hand_on_held(Duration until) {
   for (auto first = held_.begin(); first != held_.end() && first->first <= until; first = held_.erase(first))
     hand_on(first->second.header, first->second.packed.data());
 }
@@ -197,14 +197,13 @@ void Recorder::hand_on_event(const RecordHeader& header, const std::byte* packed
   EventHeader event;
   std::memcpy(&event, packed, sizeof event);
   const std::string_view cause(reinterpret_cast<const char*>(packed) + sizeof event, header.size - sizeof event);
-  for (RecordSink* sink : sinks_)
-    sink->take_event({event.kind, Duration(header.instant), event.task, event.activation, cause});
+  for (RecordSink* sink : sinks_) sink->take_event({event.kind, header.instant, event.task, event.activation, cause});
 }
 
 void Recorder::hand_on(const RecordHeader& header, const std::byte* packed) {
   if (header.output == event_output) return hand_on_event(header, packed);
   const void* value = value_of(header, packed);
-  for (RecordSink* sink : sinks_) sink->take(Duration(header.instant), header.output, value);
+  for (RecordSink* sink : sinks_) sink->take(header.instant, header.output, value);
 }
 
 const void* Recorder::value_of(const RecordHeader& header, const std::byte* packed) {

@@ -23,7 +23,7 @@ namespace jarol {
 
 /// What stands before each recorded value.
 struct RecordHeader {
-  std::int64_t instant = 0;  // ns since the start
+  Duration instant{};        // since the start
   std::uint32_t output = 0;  // index into Plan::outputs
   std::uint32_t size = 0;    // bytes of the value that follows, padded to 8
 };
@@ -49,7 +49,7 @@ class Recorder {
 
   /// Appends one value. Calls the system only where the sinks are half a ring behind, and waits if they are a whole
   /// one.
-  void append(std::int64_t instant, std::uint32_t output, const void* value, std::uint32_t size) {
+  void append(Duration instant, std::uint32_t output, const void* value, std::uint32_t size) {
     const std::size_t padded = (size + 7U) & ~std::size_t{7};
     if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk();
     const RecordHeader header{instant, output, size};
@@ -59,7 +59,7 @@ class Recorder {
   }
 
   /// The same for a deep value; one beyond max_bytes is lost, which `close` tells.
-  void append_deep(std::int64_t instant, std::uint32_t output, const void* value);
+  void append_deep(Duration instant, std::uint32_t output, const void* value);
 
   /// Some sink wants publications of that output.
   bool wants(std::uint32_t output) const { return wanted_[output] != 0; }
@@ -97,7 +97,7 @@ class Recorder {
   void run();
   void drain(const std::byte* chunk, std::size_t bytes);
   void hold(const RecordHeader& header, const std::byte* packed);
-  void hand_on_held(std::int64_t until);
+  void hand_on_held(Duration until);
   void hand_on(const RecordHeader& header, const std::byte* packed);
   void hand_on_event(const RecordHeader& header, const std::byte* packed);
   const void* value_of(const RecordHeader& header, const std::byte* packed);
@@ -112,9 +112,9 @@ class Recorder {
     RecordHeader header;
     std::vector<std::byte> packed;
   };
-  std::optional<Duration> disorder_;        // none: all comes in order
-  std::multimap<std::int64_t, Held> held_;  // by instant, then as they came
-  std::int64_t newest_ = 0;                 // instant of a value held
+  std::optional<Duration> disorder_;    // none: all comes in order
+  std::multimap<Duration, Held> held_;  // by instant, then as they came
+  Duration newest_{};                   // instant of a value held
   std::unique_ptr<std::byte[]> memory_;
   std::size_t bytes_[chunks] = {};  // filled part of each chunk
   std::byte* now_ = nullptr;

@@ -19,7 +19,7 @@ InputLog::InputLog(const Graph& graph, Recorder* to) : graph_(graph), to_(to) {
 
 template <class Entry>
 void InputLog::append(std::uint32_t kind, const Entry& entry, Duration instant) {
-  if (to_ != nullptr) to_->append(instant.count(), inputs_ + kind, &entry, sizeof entry);
+  if (to_ != nullptr) to_->append(instant, inputs_ + kind, &entry, sizeof entry);
 }
 
 void InputLog::took(std::size_t communicator, const void* value, Duration instant) {

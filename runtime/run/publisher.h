@@ -23,18 +23,18 @@ inline void record(Recorder& recorder, const Publish& what, Duration instant) {
   for (const Publication& p : what.publications) {
     if (!recorder.wants(p.output)) continue;
     if (p.size > 0) [[likely]] {
-      recorder.append(instant.count(), p.output, p.value, p.size);
+      recorder.append(instant, p.output, p.value, p.size);
     } else {
-      recorder.append_deep(instant.count(), p.output, p.value);
+      recorder.append_deep(instant, p.output, p.value);
     }
   }
 }
 
 inline void record(Recorder& recorder, std::uint32_t output, const Type& type, const void* value, Duration instant) {
   if (type.is_deep()) {
-    recorder.append_deep(instant.count(), output, value);
+    recorder.append_deep(instant, output, value);
   } else {
-    recorder.append(instant.count(), output, value, static_cast<std::uint32_t>(type.size));
+    recorder.append(instant, output, value, static_cast<std::uint32_t>(type.size));
   }
 }
 

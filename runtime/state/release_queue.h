@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "graph/values/duration.h"
 #include "runtime/state/calendar_queue.h"
 
 namespace jarol {
@@ -27,21 +28,11 @@ class ReleaseQueue {
     if (groups > few) many_.reserve(groups);
   }
 
-  /// Adds a group, numbered in the order of adding: due at `first`, `first + period`, ... (ns).
-  void add(std::int64_t first, std::int64_t period) {
-    next_ = std::min(next_, first);
-    if (many_.empty() && times_.size() < few) {
-      due_.push_back(0);
-      times_.push_back({first, period});
-      return;
-    }
-    if (many_.empty())
-      for (const Time& time : times_) many_.add(time.next, time.period);
-    many_.add(first, period);
-  }
+  /// Adds a group, numbered in the order of adding: due at `first`, `first + period`, ...
+  void add(Duration first, Duration period) { add(first.count(), period.count()); }
 
-  /// The next instant at which any group is due; the greatest integer if there is no group.
-  std::int64_t next() const { return next_; }
+  /// The next instant at which any group is due; the greatest there is if there is no group.
+  Duration next() const { return Duration(next_); }
 
   /// The groups due at next(), least number first, until the next call; next() then is the instant after it.
   std::span<const std::uint32_t> take() {
@@ -54,6 +45,19 @@ class ReleaseQueue {
  private:
   // up to here a look at all is faster
   static constexpr std::size_t few = 32;
+
+  // in ns from here on
+  void add(std::int64_t first, std::int64_t period) {
+    next_ = std::min(next_, first);
+    if (many_.empty() && times_.size() < few) {
+      due_.push_back(0);
+      times_.push_back({first, period});
+      return;
+    }
+    if (many_.empty())
+      for (const Time& time : times_) many_.add(time.next, time.period);
+    many_.add(first, period);
+  }
 
   struct Time {
     std::int64_t next;

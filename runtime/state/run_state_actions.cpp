@@ -29,7 +29,7 @@ void RunState::reserve_actions() {
 }
 
 void RunState::make_group(const Plan::Group& group) {
-  release_queue.add(group.first.count(), group.period.count());
+  release_queue.add(group.first, group.period);
   const std::size_t copy = copies_.size(), publication = publications_.size(), value = let_values_.size();
   LetOutputs outputs;
   for (const std::uint32_t i : group.let_ends.of(plan.let_ends)) {

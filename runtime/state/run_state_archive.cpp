@@ -13,8 +13,8 @@ void serialize_text(Archive& archive, FaultText& text) {
 }
 
 // The first of `first`, `first + period`, ... that is not before the instant, counted from 0.
-std::int64_t count_before(std::int64_t instant, std::int64_t first, std::int64_t period) {
-  return first >= instant ? 0 : (instant - first - 1) / period + 1;
+std::int64_t count_before(Duration instant, Duration first, Duration period) {
+  return first >= instant ? 0 : (instant - first - Duration(1)) / period + 1;
 }
 
 }  // namespace
@@ -72,8 +72,8 @@ void RunState::go_to(Duration covered) {
   release_queue.clear();
   release_queue.reserve(plan.groups.size());
   for (std::size_t i = 0; i < plan.groups.size(); ++i) {
-    const std::int64_t first = plan.groups[i].first.count(), period = plan.groups[i].period.count();
-    releases[i] = count_before(covered.count(), first, period);
+    const Duration first = plan.groups[i].first, period = plan.groups[i].period;
+    releases[i] = count_before(covered, first, period);
     release_queue.add(first + releases[i] * period, period);
   }
 }

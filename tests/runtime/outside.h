@@ -43,7 +43,7 @@ class Outside : public ExternalSystem {
  public:
   void reach(Duration) override {}
   bool take(std::size_t channel, void* value) override {
-    const std::uint64_t chance = spread_seed(static_cast<std::uint64_t>(RealClock::monotonic()), "outside");
+    const std::uint64_t chance = spread_seed(static_cast<std::uint64_t>(RealClock::monotonic().count()), "outside");
     if (chance % 3 == 0) return false;
     if (channel == 0) {
       *static_cast<double*>(value) =

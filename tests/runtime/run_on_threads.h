@@ -92,7 +92,7 @@ struct Busy {
     static constexpr auto fields() { return describe(field<&Param::lasts>()); }
   };
   static void run(const Param& p, const Tick&) {
-    const std::int64_t end = RealClock::monotonic() + p.lasts.count();
+    const Duration end = RealClock::monotonic() + p.lasts;
     while (RealClock::monotonic() < end) {}
   }
 };
@@ -179,7 +179,7 @@ inline RealRun run(const Graph& graph, Duration end, int times, const RealTimeOp
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     run.late += clock.timing(i).late;
     run.left_out += clock.timing(i).left_out;
-    run.worst.push_back(clock.timing(i).execution.max() / times);
+    run.worst.push_back(clock.timing(i).execution.max().count() / times);
   }
   return run;
 }

@@ -121,7 +121,7 @@ void flood(std::unique_ptr<Transport> transport, const MakeFlood& make_flood, bo
   const std::uint64_t came = count_of(in, "packets in"), overwritten = count_of(in, "dropped: overwritten by newer");
   MESSAGE(count_of(out, "packets out") << " sent, " << came << " came, " << overwritten << " dropped, "
                                        << sensors.answers << " taken by the graph; lateness 99 % "
-                                       << clock.lateness().percentile(0.99) / 1000 << " us; memory grew by "
+                                       << clock.lateness().percentile(0.99).count() / 1000 << " us; memory grew by "
                                        << (after > before ? after - before : 0) << " bytes");
   CHECK(executor.report().instants == 2 * static_cast<std::uint64_t>(end / 15ms));
   CHECK_FALSE(executor.report().stopped);

@@ -16,16 +16,16 @@ namespace jarol::bench {
 namespace {
 
 constexpr std::int64_t ns_per_second = 1'000'000'000;
-constexpr std::int64_t period = 1'000'000;  // ns
-constexpr int ticks = 25;                   // of a slice
+constexpr Duration period = std::chrono::milliseconds(1);
+constexpr int ticks = 25;  // of a slice
 
-using Samples = std::vector<std::int64_t>;
+using Samples = std::vector<Duration>;
 
 void sleep_bare(Samples& lateness) {
-  const std::int64_t start = RealClock::monotonic();
+  const Duration start = RealClock::monotonic();
   for (int tick = 1; tick <= ticks; ++tick) {
-    const std::int64_t due = start + tick * period;
-    const timespec until{due / ns_per_second, due % ns_per_second};
+    const Duration due = start + tick * period;
+    const timespec until{due.count() / ns_per_second, due.count() % ns_per_second};
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
     lateness.push_back(RealClock::monotonic() - due);
   }
@@ -38,7 +38,7 @@ void run_engine(const Graph& graph, Samples& lateness) {
   Stamp::clock = &clock;
   Stamp::begun.clear();
   clock.start();
-  executor.run_until(Duration((ticks + 1) * period));
+  executor.run_until((ticks + 1) * period);
   lateness.insert(lateness.end(), Stamp::begun.begin() + 1, Stamp::begun.end());
 }
 

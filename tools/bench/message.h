@@ -74,8 +74,8 @@ struct Body {
 struct Stamp {
   static constexpr std::string_view summary = "looks at the clock";
   inline static const RealClock* clock = nullptr;
-  inline static std::vector<std::int64_t> begun;  // ns after the release
-  static void run(const Tick& tick) { begun.push_back(clock->now() - tick.now.count()); }
+  inline static std::vector<Duration> begun;  // after the release
+  static void run(const Tick& tick) { begun.push_back(clock->now() - tick.now); }
 };
 
 /// Throws at every activation.

@@ -13,10 +13,10 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-double microseconds_at(double part, std::vector<std::int64_t>& samples) {
+double microseconds_at(double part, std::vector<Duration>& samples) {
   const auto at = samples.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(samples.size() - 1));
   std::nth_element(samples.begin(), at, samples.end());
-  return 1e-3 * static_cast<double>(*at);
+  return 1e-3 * static_cast<double>(at->count());
 }
 
 void keep(double result) { asm volatile("" : : "g"(&result) : "memory"); }

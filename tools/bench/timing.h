@@ -13,8 +13,8 @@ namespace jarol::bench {
 
 double seconds_of(const std::function<void()>& work);
 
-/// The sample, in us, that a part of all samples, in ns, does not exceed. Reorders them.
-double microseconds_at(double part, std::vector<std::int64_t>& samples);
+/// The sample, in us, that a part of all samples does not exceed. Reorders them.
+double microseconds_at(double part, std::vector<Duration>& samples);
 
 /// Takes results, so that no floor is optimised away.
 void keep(double result);

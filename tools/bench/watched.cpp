@@ -96,7 +96,7 @@ std::string text_of_graph() {
   return text.insert(text.find("tasks:\n") + 7, "  a: {type: Stamp, period: 1ms}\n");
 }
 
-void run(const Graph& graph, RecordSink* sink, std::vector<std::int64_t>& lateness) {
+void run(const Graph& graph, RecordSink* sink, std::vector<Duration>& lateness) {
   RealClock clock(graph.tasks.size());
   std::optional<Recorder> recorder;
   if (sink != nullptr) recorder.emplace(std::vector{sink}, std::chrono::milliseconds(20));
@@ -110,7 +110,7 @@ void run(const Graph& graph, RecordSink* sink, std::vector<std::int64_t>& latene
   lateness.insert(lateness.end(), Stamp::begun.begin() + 1, Stamp::begun.end());
 }
 
-void run_watched(const Graph& graph, int watchers, bool reads, std::vector<std::int64_t>& lateness) {
+void run_watched(const Graph& graph, int watchers, bool reads, std::vector<Duration>& lateness) {
   tools::console::Console console(
       tools::console::Watched{.run = {graph, "bench", "real", Duration::max()}, .server = {}, .pace = nullptr});
   console.open();
@@ -123,7 +123,7 @@ void run_watched(const Graph& graph, int watchers, bool reads, std::vector<std::
 
 Figure measure_watched(const std::string& name, int watchers, bool reads, int repeats) {
   const Graph graph = graph_of(text_of_graph());
-  std::vector<std::int64_t> watched, alone;
+  std::vector<Duration> watched, alone;
   Stamp::begun.reserve(watched_ticks + 1);
   // a thread of its own: the figures after this one keep their timer slack
   std::thread([&] {

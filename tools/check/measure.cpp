@@ -62,7 +62,7 @@ Edit edit_of(const std::string& text, const TaskSpec& task, Duration wcet) {
 }  // namespace
 
 Measurement measure_tasks(Loaded& loaded, Duration end) {
-  if (thread_time_between_readings() == 0)
+  if (thread_time_between_readings() == Duration{})
     throw std::runtime_error(
         "this machine's clock of a thread's own time is too coarse to measure tasks; state their 'wcet' yourself");
   // a vehicle in lockstep is connected to; they do not finish, for what that keeps is for the next run
@@ -77,7 +77,7 @@ Measurement measure_tasks(Loaded& loaded, Duration end) {
   Measurement measured{end, {}, fault_report(executor.report())};
   for (std::size_t i = 0; i < loaded.graph->tasks.size(); ++i) {
     const Histogram& took = executor.team()->took(i);
-    measured.tasks.push_back({took.count(), Duration(took.max()), Duration(took.percentile(0.999))});
+    measured.tasks.push_back({took.count(), took.max(), took.percentile(0.999)});
   }
   return measured;
 }

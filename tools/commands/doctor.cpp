@@ -60,9 +60,9 @@ void print_json(const MachineFacts& m, const Arithmetic& a, const std::string& g
   for (const Lateness& l : measured)
     whole["lateness"].push_back({{"scheduler", l.scheduler},
                                  {"count", l.of.count()},
-                                 {"p50_ns", l.of.percentile(0.5)},
-                                 {"p99_ns", l.of.percentile(0.99)},
-                                 {"worst_ns", l.of.max()}});
+                                 {"p50_ns", l.of.percentile(0.5).count()},
+                                 {"p99_ns", l.of.percentile(0.99).count()},
+                                 {"worst_ns", l.of.max().count()}});
   std::cout << json_line(whole);
 }
 
@@ -99,10 +99,9 @@ void print_text(const MachineFacts& m, const Arithmetic& a, const std::string& g
   line("BLAS", a.blas.empty() ? "none is loaded" : a.blas + (a.blas_varies ? ", which picks by processor" : ""));
   std::cout << "lateness of bare sleeps at 1 kHz\n";
   for (const Lateness& l : measured)
-    line(
-        l.scheduler == "fifo" ? "SCHED_FIFO" : "ordinary",
-        fmt::format("p50 {}  p99 {}  worst {}  of {}", duration_text(Duration(l.of.percentile(0.5))),
-                    duration_text(Duration(l.of.percentile(0.99))), duration_text(Duration(l.of.max())), l.of.count()));
+    line(l.scheduler == "fifo" ? "SCHED_FIFO" : "ordinary",
+         fmt::format("p50 {}  p99 {}  worst {}  of {}", duration_text(l.of.percentile(0.5)),
+                     duration_text(l.of.percentile(0.99)), duration_text(l.of.max()), l.of.count()));
 }
 
 int examine(const DoctorOptions& options) {

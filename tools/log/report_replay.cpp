@@ -11,7 +11,7 @@ namespace jarol::tools {
 namespace {
 
 std::vector<MeasuredTask> measure(RecordedRun& run, const Graph& graph) {
-  if (thread_time_between_readings() == 0) return {};
+  if (thread_time_between_readings() == Duration{}) return {};
   // what was late then is run, too
   run.begin(graph);
   Executor executor(graph, replayed_channels(graph, run), {.digest = false, .sharing = Sharing::measure});
@@ -19,7 +19,7 @@ std::vector<MeasuredTask> measure(RecordedRun& run, const Graph& graph) {
   std::vector<MeasuredTask> measured;
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Histogram& took = executor.team()->took(i);
-    measured.push_back({took.count(), Duration(took.max()), Duration(took.percentile(0.999))});
+    measured.push_back({took.count(), took.max(), took.percentile(0.999)});
   }
   return measured;
 }

@@ -105,7 +105,7 @@ void require_executable(const std::string& file, const Graph& graph, const RealT
 }
 
 std::string to_text(const Graph& graph, const RealClock& clock) {
-  const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
+  const auto us = [](Duration of) { return static_cast<double>(of.count()) * 1e-3; };
   const Histogram& late = clock.lateness();
   std::string text = fmt::format("  lateness    {:.1f} us median, {:.1f} us 99 %, {:.1f} us worst\n",
                                  us(late.percentile(0.5)), us(late.percentile(0.99)), us(late.max()));
@@ -128,16 +128,16 @@ nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock) {
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const TaskTiming& t = clock.timing(i);
     tasks[graph.tasks[i].name] = {{"activations", t.execution.count()},
-                                  {"execution_99_ns", t.execution.percentile(0.99)},
-                                  {"execution_max_ns", t.execution.max()},
-                                  {"response_99_ns", t.response.percentile(0.99)},
-                                  {"response_max_ns", t.response.max()},
+                                  {"execution_99_ns", t.execution.percentile(0.99).count()},
+                                  {"execution_max_ns", t.execution.max().count()},
+                                  {"response_99_ns", t.response.percentile(0.99).count()},
+                                  {"response_max_ns", t.response.max().count()},
                                   {"late", t.late},
                                   {"left_out", t.left_out}};
   }
-  return {{"lateness_50_ns", late.percentile(0.5)},
-          {"lateness_99_ns", late.percentile(0.99)},
-          {"lateness_max_ns", late.max()},
+  return {{"lateness_50_ns", late.percentile(0.5).count()},
+          {"lateness_99_ns", late.percentile(0.99).count()},
+          {"lateness_max_ns", late.max().count()},
           {"tasks", tasks}};
 }
 

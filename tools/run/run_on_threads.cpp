@@ -26,7 +26,7 @@ namespace {
 
 class ThreadsRun : public AttendedRun {
  public:
-  ThreadsRun(ThreadsCore& core, Duration end, std::optional<Duration> longest_rest, const RealTimeOptions& options)
+  ThreadsRun(JarolCore& core, Duration end, std::optional<Duration> longest_rest, const RealTimeOptions& options)
       : core_(core), end_(end), longest_rest_(longest_rest), options_(options) {}
   void cover() override {
     // what one thread is refused, all are
@@ -49,7 +49,7 @@ class ThreadsRun : public AttendedRun {
   Finish finish(Futex::Time patience) override { return core_.finish(patience); }
 
  private:
-  ThreadsCore& core_;
+  JarolCore& core_;
   Duration end_;
   std::optional<Duration> longest_rest_;
   const RealTimeOptions& options_;
@@ -66,7 +66,7 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
   noted.add_to(looking_on);
   const std::vector<ExternalSystem*> channels = pointers_to(loaded.channels);
   RunSinks sinks(*loaded.graph, looking_on);
-  ThreadsCore core(*loaded.graph, std::move(loaded.channels), sinks.recorder());
+  JarolCore core(*loaded.graph, std::move(loaded.channels), sinks.recorder());
   core.on_rest([&](Duration begun) { sinks.judge_before(begun); });
   let_writing_fail();
   const std::optional<Duration> rest = longest_rest(*loaded.graph);

@@ -24,11 +24,11 @@ struct RunOutcome {
   const std::vector<FailsafeReport>& failsafe;
   const Noted& noted;
   const RunEnd& end;
-  const RealClock* clock = nullptr;      // of exotasks; null: none
-  const ThreadsCore* threads = nullptr;  // null: exotasks; with neither, the virtual clock
-  const Guard* guard = nullptr;          // null: the virtual clock
-  std::size_t workers = 1;               // that were asked for
-  const StageTeam* team = nullptr;       // null: one worker
+  const RealClock* clock = nullptr;    // of exotasks; null: none
+  const JarolCore* threads = nullptr;  // null: exotasks; with neither, the virtual clock
+  const Guard* guard = nullptr;        // null: the virtual clock
+  std::size_t workers = 1;             // that were asked for
+  const StageTeam* team = nullptr;     // null: one worker
   std::vector<LinkReport> links{};
   double seconds = 0;  // that it took, above zero
   Duration begun{};    // from which instant on

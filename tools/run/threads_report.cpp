@@ -6,9 +6,9 @@
 
 namespace jarol::tools {
 
-std::string to_text(const Graph& graph, const ThreadsCore& core) {
+std::string to_text(const Graph& graph, const JarolCore& core) {
   const ThreadsReport& threads = core.threads_report();
-  const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
+  const auto us = [](Duration of) { return static_cast<double>(of.count()) * 1e-3; };
   const auto line = [&](const char* what, const Histogram& of, const char* after) {
     return fmt::format("  {:<10}  {:.1f} us {}median, {:.1f} us 99 %, {:.1f} us worst\n", what, us(of.percentile(0.5)),
                        after, us(of.percentile(0.99)), us(of.max()));
@@ -29,25 +29,25 @@ std::string to_text(const Graph& graph, const ThreadsCore& core) {
   return text;
 }
 
-nlohmann::ordered_json to_json(const Graph& graph, const ThreadsCore& core) {
+nlohmann::ordered_json to_json(const Graph& graph, const JarolCore& core) {
   const ThreadsReport& threads = core.threads_report();
   auto tasks = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Histogram& execution = threads.execution[i];
     tasks[graph.tasks[i].name] = {{"activations", execution.count()},
-                                  {"execution_99_ns", execution.percentile(0.99)},
-                                  {"execution_max_ns", execution.max()}};
+                                  {"execution_99_ns", execution.percentile(0.99).count()},
+                                  {"execution_max_ns", execution.max().count()}};
   }
   return {{"period_ns", core.period().count()},
           {"rounds", threads.rounds},
           {"core_busy", threads.core_busy},
           {"unawaited_ticks", threads.unawaited_ticks},
-          {"outputs_50_ns", threads.round.percentile(0.5)},
-          {"outputs_99_ns", threads.round.percentile(0.99)},
-          {"outputs_max_ns", threads.round.max()},
-          {"lateness_50_ns", threads.lateness.percentile(0.5)},
-          {"lateness_99_ns", threads.lateness.percentile(0.99)},
-          {"lateness_max_ns", threads.lateness.max()},
+          {"outputs_50_ns", threads.round.percentile(0.5).count()},
+          {"outputs_99_ns", threads.round.percentile(0.99).count()},
+          {"outputs_max_ns", threads.round.max().count()},
+          {"lateness_50_ns", threads.lateness.percentile(0.5).count()},
+          {"lateness_99_ns", threads.lateness.percentile(0.99).count()},
+          {"lateness_max_ns", threads.lateness.max().count()},
           {"tasks", tasks}};
 }
 

@@ -8,7 +8,7 @@
 
 namespace jarol::tools {
 
-std::string to_text(const Graph& graph, const ThreadsCore& core);
-nlohmann::ordered_json to_json(const Graph& graph, const ThreadsCore& core);
+std::string to_text(const Graph& graph, const JarolCore& core);
+nlohmann::ordered_json to_json(const Graph& graph, const JarolCore& core);
 
 }  // namespace jarol::tools

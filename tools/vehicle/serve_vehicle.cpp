@@ -91,7 +91,7 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
   ToPeer to_link(link);
   const auto telemetry = make_telemetry(vehicle, vehicle_class, to_link, options.telemetry);
   messages::Receiver& to_peer = *telemetry;
-  SilenceLog diary(vehicle, vehicle_class);
+  SilenceLog silences(vehicle, vehicle_class);
   RealClock clock(0, real_time);
   for (const std::string& refusal : clock.prepare_thread()) std::cerr << "note: " << refusal << "\n";
   let_writing_fail();
@@ -101,8 +101,8 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
   std::cerr << vehicle_class.name << ": " << link.transport().text() << ", until Ctrl-C\n";
   int exit_code = exit_good;
   clock.start();
-  const std::int64_t grid = vehicle.grid().count();
-  std::int64_t instant = 0;
+  const Duration grid = vehicle.grid();
+  Duration instant{};
   Announcements announcements(vehicle, vehicle_class, link);
   const auto write = [&](Duration at) {
     if (options.motion != nullptr && at % options.period == Duration{}) options.motion->add(at, vehicle);
@@ -112,17 +112,17 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
   link.flush();
   write(Duration{});
   try {
-    for (; instant < end.count() && !interrupted.load(std::memory_order_relaxed); instant += grid) {
+    for (; instant < end && !interrupted.load(std::memory_order_relaxed); instant += grid) {
       clock.wait_until(instant + grid, interrupted);
       // commands hold from the instant after they have come
       vehicle.step();
       to_vehicle.heard = false;
       link.receive(to_vehicle);
-      diary.note(Duration(instant + grid), to_vehicle.heard);
-      announcements.reach(Duration(instant + grid));
+      silences.note(instant + grid, to_vehicle.heard);
+      announcements.reach(instant + grid);
       vehicle.sense(to_peer);
       link.flush();
-      write(Duration(instant + grid));
+      write(instant + grid);
     }
   } catch (const vehicles::NoState& error) {
     std::cerr << "error: " << error.what() << "\n";
@@ -132,13 +132,13 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
   const std::optional<vehicles::Mishap> mishap = vehicle.mishap();
   if (options.json) {
     nlohmann::ordered_json json{{"schema", "jarol.vehicle/1"}};
-    json.update(diary.to_json());
+    json.update(silences.to_json());
     json["link"] = to_json(link.report());
     json["mishap"] = mishap ? nlohmann::ordered_json(mishap->text) : nlohmann::ordered_json();
     std::cout << json_line(json);
   } else {
-    std::cout << vehicle_class.name << ": " << seconds_text(Duration(instant)) << " s in real time\n"
-              << diary.to_text() << to_text(link.report());
+    std::cout << vehicle_class.name << ": " << seconds_text(instant) << " s in real time\n"
+              << silences.to_text() << to_text(link.report());
   }
   if (mishap) report(*mishap, vehicle_class.name);
   return exit_of({exit_code, exit_of_signal(Interruptible::signal()), mishap ? exit_negative : exit_good});

@@ -194,7 +194,7 @@ connections: [i -> s.a, k -> s.b, s.out -> o]
     // rounds that a busy machine leaves out may be any, and all after the first
     CHECK(tests::at_some_speed([&](int times) {
       std::vector<double> handed;
-      ThreadsCore core(graph, sensor({{0ms, 1}}, handed));
+      JarolCore core(graph, sensor({{0ms, 1}}, handed));
       core.run_for(times * 100ms);
       REQUIRE(core.failsafe().size() == 1);
       if (core.failsafe().front().times == 0) return false;
@@ -287,7 +287,7 @@ connections: [i -> s.a, k -> s.b, s.out -> o]
   TEST_CASE("so it is on threads") {
     const Graph graph = graph_with_timeout("Accumulate");
     std::vector<double> handed;
-    ThreadsCore core(graph, sensor({{0ms, 1e308}, {1ms, 1e308}, {30ms, 1e308}}, handed));
+    JarolCore core(graph, sensor({{0ms, 1e308}, {1ms, 1e308}, {30ms, 1e308}}, handed));
     core.run_for(1min);  // two rounds, whenever they are
     core.close();
     CHECK(core.report().stopped);

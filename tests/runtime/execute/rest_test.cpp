@@ -251,7 +251,7 @@ TEST_SUITE("runtime/execute/rest") {
         const Graph graph = graph_of_flight(lands);
         World world(mission ? std::optional<Duration>(1s) : std::nullopt);
         Plant& plant = *world.plant;
-        ThreadsCore core(graph, std::move(world.channels));
+        JarolCore core(graph, std::move(world.channels));
         std::thread asks([&] {
           while (asked && core.now() < 150ms) std::this_thread::sleep_for(1ms);
           if (asked) core.ask_for_rest();
@@ -294,7 +294,7 @@ TEST_SUITE("runtime/execute/rest") {
       CHECK(rest.heard == each.heard);
       if (!each.heard) CHECK(rest.ended == 110ms);
       World other({}, Plant(each.from, each.until));
-      ThreadsCore core(graph, std::move(other.channels));
+      JarolCore core(graph, std::move(other.channels));
       core.run_for(50ms);
       CHECK(core.rest()->reached == each.heard);
       CHECK(core.rest()->heard == each.heard);
@@ -316,7 +316,7 @@ TEST_SUITE("runtime/execute/rest") {
   TEST_CASE("threads give it up after the longest time") {
     const Graph graph = graph_of_flight("{command: {wish: {height: 0}}, until: climb.height < -1, longest: 55ms}");
     World world;
-    ThreadsCore core(graph, std::move(world.channels));
+    JarolCore core(graph, std::move(world.channels));
     core.run_for(50ms);
     REQUIRE(core.rest().has_value());
     CHECK(!core.rest()->reached);

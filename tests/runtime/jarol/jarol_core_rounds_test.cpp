@@ -20,7 +20,7 @@ WholeRun run_whole(const std::string& text, Duration end) {
   WholeRun whole;
   CHECK(tests::at_some_speed([&](int times) {
     const Graph graph = graph_of(tests::slowed(text, times));
-    ThreadsCore core(graph, {});
+    JarolCore core(graph, {});
     core.run_for(times * end);
     const ThreadsReport& report = core.threads_report();
     whole = {report.rounds, core.report().digest, times};

@@ -115,7 +115,7 @@ TEST_SUITE("runtime/jarol_core") {
     // again where the machine left out all of them
     CHECK(tests::at_some_speed([](int times) {
       const Graph graph = graph_of(tests::slowed(counting, times));
-      ThreadsCore core(graph, {});
+      JarolCore core(graph, {});
       CHECK(core.period() == times * 10ms);
       core.run_for(times * 250ms);
       const std::uint64_t rounds = core.threads_report().rounds;
@@ -133,7 +133,7 @@ TEST_SUITE("runtime/jarol_core") {
   TEST_CASE("undisturbed it has the digest of a data-flow graph as exotasks") {
     CHECK(tests::at_some_speed([](int times) {
       const Graph graph = graph_of(tests::slowed(counting, times));
-      ThreadsCore core(graph, {});
+      JarolCore core(graph, {});
       core.run_for(times * 95ms);
       if (core.threads_report().rounds != 10) return false;
       Executor executor(graph, {});
@@ -149,7 +149,7 @@ TEST_SUITE("runtime/jarol_core") {
         const Graph graph = graph_with_outside(tests::slowed(reported, times));
         const Duration end = times * whole;
         External::Diary plant, op;
-        ThreadsCore core(graph, channels_of(plant, op));
+        JarolCore core(graph, channels_of(plant, op));
         const auto before = MachineClock::now();
         core.run_for(end);
         CHECK(MachineClock::now() >= before + end);
@@ -169,7 +169,7 @@ TEST_SUITE("runtime/jarol_core") {
   TEST_CASE("the run begins when its threads are prepared") {
     CHECK(tests::at_some_speed([](int times) {
       const Graph graph = graph_of(tests::slowed(counting, times));
-      ThreadsCore core(graph, {});
+      JarolCore core(graph, {});
       int prepared = 0;
       MachineClock::time_point last;
       std::mutex mutex;
@@ -212,7 +212,7 @@ connections: [from -> seldom.a, from -> seldom.b, seldom.out -> to, often -> rel
       if (sensor_is_slow) plant.slow_at = times * 190ms;
       std::vector<std::unique_ptr<ExternalSystem>> channels;
       channels.push_back(std::make_unique<External>(plant));
-      ThreadsCore core(graph, std::move(channels));
+      JarolCore core(graph, std::move(channels));
       core.run_for(times * 350ms);
       CHECK(plant.taken <= 2);
       CHECK(plant.handed.size() <= 2);
@@ -228,7 +228,7 @@ connections: [from -> seldom.a, from -> seldom.b, seldom.out -> to, often -> rel
     const Graph graph = graph_with_outside(text);
     std::uint64_t count = 0;
     for (Duration end = 100ms; count <= 1000 && end < 10s; end *= 2) {
-      ThreadsCore core(graph, {});
+      JarolCore core(graph, {});
       core.run_for(end);
       count = core.report().fault_count;
       CHECK(count == 50 * core.threads_report().rounds);
@@ -248,7 +248,7 @@ connections: [from -> seldom.a, from -> seldom.b, seldom.out -> to, often -> rel
       error = "nobody takes it";
     }
     SUBCASE("in several") { plant.lost_at = op.lost_at = 30ms; }
-    ThreadsCore core(graph, channels_of(plant, op));
+    JarolCore core(graph, channels_of(plant, op));
     CHECK_THROWS_WITH_AS(core.run_for(1h), error.c_str(), std::runtime_error);
     CHECK(core.now() >= 30ms);
     CHECK(core.now() < 1h);
@@ -256,7 +256,7 @@ connections: [from -> seldom.a, from -> seldom.b, seldom.out -> to, often -> rel
 
   TEST_CASE("a thread that can't be prepared ends the run before it begins") {
     const Graph graph = graph_of(counting);
-    ThreadsCore core(graph, {});
+    JarolCore core(graph, {});
     CHECK_THROWS_WITH_AS(core.run_for(1h, [] { throw std::runtime_error("not here"); }), "not here",
                          std::runtime_error);
     CHECK(core.threads_report().rounds == 0);
@@ -274,7 +274,7 @@ connections: [from -> seldom.a, from -> seldom.b, seldom.out -> to, often -> rel
       pthread_attr_setstacksize(&attributes, stack);
       pthread_setattr_default_np(&attributes);
       const Graph graph = graph_of(counting);
-      ThreadsCore core(graph, {});
+      JarolCore core(graph, {});
       std::size_t pages = 0;
       std::ifstream("/proc/self/statm") >> pages;
       const rlim_t room = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + 2 * stack + stack / 2;
@@ -296,14 +296,14 @@ connections: [from -> seldom.a, from -> seldom.b, seldom.out -> to, often -> rel
     const Graph graph =
         graph_of("graph: t\ntasks: {a: {type: Counter, period: 10ms}, b: {type: Counter, period: 15ms}}\n");
     CHECK_THROWS_WITH_AS(
-        ThreadsCore(graph, {}),
+        JarolCore(graph, {}),
         "threads count in periods of the vehicle's channels, 10ms; task 'b' has 15ms, which is no multiple of it",
         std::invalid_argument);
   }
 
   TEST_CASE("an interrupt ends it") {
     const Graph graph = graph_of(counting);
-    ThreadsCore core(graph, {});
+    JarolCore core(graph, {});
     std::thread other([&] {
       std::this_thread::sleep_for(30ms);
       core.interrupt();

@@ -29,7 +29,7 @@ struct Full : RecordSink {
 void append(Recorder& recorder, std::int64_t count) {
   for (std::int64_t i = 0; i < count; ++i) {
     const double number = static_cast<double>(i) / 3;
-    recorder.append(i, static_cast<std::uint32_t>(i % 7), &number, sizeof number);
+    recorder.append(Duration(i), static_cast<std::uint32_t>(i % 7), &number, sizeof number);
   }
 }
 }  // namespace
