@@ -17,6 +17,10 @@ namespace jarol {
 namespace {
 
 constexpr std::size_t max_values = 6'000'000;
+// many values in little text take up memory a hundred times the text's; those of a graph of a million tasks take 10
+// bytes
+constexpr std::size_t max_short_values = 100'000;
+constexpr std::size_t min_bytes_each = 6;  // beyond that many
 constexpr std::size_t max_aliased = 100'000;
 constexpr std::size_t max_depth = 64;
 // what yaml-cpp may scan before it has understood what it began with
@@ -31,12 +35,15 @@ struct TooMuch {
 // bracket that is never closed makes it scan on to the end.
 class Pieces : public std::streambuf {
  public:
-  explicit Pieces(std::string_view text) : end_(const_cast<char*>(text.data() + text.size())) {
+  explicit Pieces(std::string_view text) : text_(text.data()), end_(const_cast<char*>(text.data() + text.size())) {
     char* const begin = const_cast<char*>(text.data());  // a streambuf that is only read does not write
     setg(begin, begin, begin);
   }
 
   void understood() { bytes_ = marks_ = 0; }
+
+  /// Bytes so far.
+  std::size_t read() const { return static_cast<std::size_t>(egptr() - text_); }
 
  protected:
   int_type underflow() override {
@@ -52,6 +59,7 @@ class Pieces : public std::streambuf {
   }
 
  private:
+  const char* text_;
   char* end_;
   std::size_t bytes_ = 0, marks_ = 0;  // since something was understood; the marks are what YAML is made of
 };
@@ -172,6 +180,10 @@ class Builder : public YAML::EventHandler {
   void finish(Yaml value, YAML::anchor_t anchor) {
     if (++values_ > max_values)
       too_much(YAML::Mark::null_mark(), "the text holds more than " + std::to_string(max_values) + " values");
+    if (values_ > max_short_values + pieces_.read() / min_bytes_each)
+      too_much(YAML::Mark::null_mark(), "more than " + std::to_string(max_short_values) +
+                                            " values stand so close that " + "each takes less than " +
+                                            std::to_string(min_bytes_each) + " bytes");
     if (anchor != 0) keep(anchor, value);
     if (open_.empty()) {
       root_ = std::move(value);

@@ -132,8 +132,30 @@ TEST_SUITE("graph/yaml") {
 
   TEST_CASE("a text of too many values is an error") {
     std::string text = "a: [\n1";
-    for (int i = 0; i < 6'000'000; ++i) text += ",\n1";
+    for (int i = 0; i < 6'000'000; ++i) text += ",\n123456";
     CHECK(report_on(text + "]").starts_with("t.yaml:6000001:1: error: the text holds more than 6000000 values\n"));
+  }
+
+  TEST_CASE("so is one of many values that take next to no text each, long before its end") {
+    const std::string reason = "error: more than 100000 values stand so close that each takes less than 6 bytes\n";
+    const auto repeated = [](const std::string& piece) {
+      std::string text;
+      for (int i = 0; i < 1'000'000; ++i) text += piece;
+      return text;
+    };
+    const auto wrong = [](const std::string& text) {
+      const std::string report = report_on(text);
+      const std::size_t end = report.find(' ');
+      return report.substr(end + 1, report.find('\n') - end);
+    };
+    for (const char* const piece : {"-\n", "- []\n", "- a\n", "- {}\n", "- ''\n"})
+      CHECK(wrong(repeated(piece)) == reason);
+    std::string keys;
+    for (int i = 0; i < 1'000'000; ++i) keys += std::to_string(i) + ":\n";
+    CHECK(wrong(keys) == reason);
+    std::string few;
+    for (int i = 1; i < 100'000; ++i) few += "-\n";
+    CHECK(report_on(few) == "");
   }
 
   TEST_CASE("a text of more than 64 MiB is not read at all") {
