@@ -76,10 +76,12 @@ std::string describe_difference(const FloatingPointControl& control) {
 
 void restore_floating_point() { set_floating_point_control(default_floating_point_control()); }
 
-void reject_floating_point() {
-  const std::string difference = describe_difference(floating_point_control());
+void require_default_floating_point() {
+  const FloatingPointControl control = floating_point_control();
+  if (control == default_floating_point_control()) [[likely]]
+    return;
   restore_floating_point();
-  throw std::runtime_error("left another floating-point environment behind: " + difference);
+  throw std::runtime_error("left another floating-point environment behind: " + describe_difference(control));
 }
 
 }  // namespace jarol

@@ -151,10 +151,7 @@ inline void call(const TaskMemory& memory, const Tick& tick) {
                                     std::tuple<const Tick&>(own), present<const decltype(in_of<T>())>(memory.in),
                                     present<decltype(state_of<T>())>(memory.state),
                                     present<decltype(out_of<T>())>(memory.out)));
-  if constexpr (Checked) {
-    if (!computes_by_default()) [[unlikely]]
-      reject_floating_point();
-  }
+  if constexpr (Checked) require_default_floating_point();
 }
 
 template <class T, bool Checked>

@@ -78,7 +78,12 @@ struct Computed {
 /// Describes a channel: a member of In or Out.
 template <auto Member>
 constexpr Field<Member> channel(std::string_view text) {
-  return field<Member>("", text);
+  using Value = typename Field<Member>::Value;
+  if constexpr (jarol::detail::holds_value<Value>)
+    jarol::detail::require_value<Member, jarol::detail::Innermost<typename Value::Value>>();
+  else
+    jarol::detail::require_value<Member>();
+  return {"", text, {}};
 }
 
 /// A message of a message set, as imc::Depth.

@@ -73,7 +73,7 @@ constexpr Entry declarations[] = {
 
 // Jarol's own: what a task's form and values of changing size call.
 constexpr Entry own[] = {
-    {"|jarol::reject_floating_point()|jarol::restore_floating_point()|jarol::keep_text(*|",
+    {"|jarol::require_default_floating_point()|jarol::restore_floating_point()|jarol::keep_text(*|",
      "how the runtime contains what a task throws"},
     {"|__cxa_allocate_exception|__cxa_end_catch|", "exceptions, as the command passes them on to the C++ library"},
     {"|jarol::detail::throw_no_element(*|", "throws a standard exception, which keeps its text in memory of its own"},

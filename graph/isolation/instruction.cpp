@@ -230,8 +230,11 @@ Instruction made_of(const cs_insn& from) {
 }  // namespace
 
 std::vector<Instruction> decode(const Object& object, Address begin, Address end) {
+  return decode(object.bytes(begin, end), begin);
+}
+
+std::vector<Instruction> decode(Bytes bytes, Address begin) {
   static thread_local Disassembler disassembler;
-  const Bytes bytes = object.bytes(begin, end);
   const unsigned char* code = bytes.data();
   std::size_t left = bytes.size();
   Address at = begin;

@@ -42,6 +42,7 @@ struct Instruction {
 
 /// In order of address, up to the first bytes that are no instruction; these are not in it.
 std::vector<Instruction> decode(const Object& object, Address begin, Address end);
+std::vector<Instruction> decode(Bytes code, Address begin);
 
 /// As g++ begins a function that is protected, also one that never returns and so never looks:
 /// mov %fs:0x28, r; mov r, n(%rsp); xor r, r.

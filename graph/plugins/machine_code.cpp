@@ -7,6 +7,7 @@
 
 #include "graph/isolation/elf_file.h"
 #include "graph/isolation/import_list.h"
+#include "graph/isolation/instruction.h"
 
 namespace jarol {
 namespace {
@@ -55,10 +56,21 @@ bool leaves_it_alone(std::string_view name) {
   return isolation::is_mathematics(std::string(name));
 }
 
+// The x87 control word's are two bytes, which stand by chance in any longer code: here only as instructions count.
+// Those of compilers, around the conversion of a long double to an integer, restore it.
+bool loads_x87_control(Bytes code) {
+  const std::vector<isolation::Instruction> all = isolation::decode(code, 0);
+  if (!code.empty() && (all.empty() || all.back().next != code.size())) return true;  // it can't be read to its end
+  return std::any_of(all.begin(), all.end(), [](const isolation::Instruction& instruction) {
+    return *instruction.forbidden != '\0' && holds(" fldcw fldenv frstor fninit ", instruction.text);
+  });
+}
+
 std::string find_instruction(Bytes code) {
+  constexpr const char* reason = "holds an instruction that loads it";
   for (std::size_t i = 0; i < code.size(); ++i)
-    if (loads_control(code.subspan(i))) return "holds an instruction that loads it";
-  return "";
+    if (loads_control(code.subspan(i))) return reason;
+  return loads_x87_control(code) ? reason : "";
 }
 
 std::string find_call(const Elf& file, const Elf64_Shdr& table) {

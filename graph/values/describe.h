@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "graph/values/elements.h"
 #include "graph/values/members.h"
 #include "graph/values/ranged.h"
 #include "graph/values/substitutes.h"
@@ -69,6 +70,32 @@ constexpr std::string_view type_name() {
   return detail::last_identifier(detail::argument_of(detail::pretty_type<T>()));
 }
 
+template <class T>
+concept Described = requires {
+  T::fields();
+};
+
+/// An enumeration is a value once `enumerators(E)`, found by its argument, returns an array of Enumerator<E>.
+template <class E>
+concept DescribedEnum = std::is_enum_v<E> && requires(E e) {
+  enumerators(e);
+};
+
+namespace detail {
+
+// Is it one, down to the elements of its arrays and sequences?
+template <class T, class Part = Innermost<T>>
+inline constexpr bool is_value = (Described<Part> || DescribedEnum<Part> || std::is_arithmetic_v<Part> ||
+                                  std::same_as<Part, Duration> || std::same_as<Part, String>)&&!has_substitute<Part>;
+
+// What stands around a value in a distributer's channel.
+template <class T>
+inline constexpr bool holds_value = requires {
+  typename T::Value;
+};
+
+}  // namespace detail
+
 /// One described member: its name is the compiler's, its unit, meaning and range are the author's.
 template <auto Member>
 struct Field {
@@ -83,45 +110,59 @@ struct Field {
   /// With both ends; of arrays and sequences each element. A parameter or `init` outside is an error with its place, an
   /// output outside a fault. Of integers and durations whole numbers up to 2^53.
   consteval Field in(detail::BoundOf<Value> min, detail::BoundOf<Value> max) const {
-    return {unit, text, detail::range_of<Value>(min, max)};
+    if constexpr (detail::is_value<Value>) return {unit, text, detail::range_of<Value>(min, max)};
+    return *this;  // it has been rejected
   }
 };
 
 namespace detail {
 
-template <auto Member, class T = typename Field<Member>::Value>
+template <auto Member, class T = Innermost<typename Field<Member>::Value>>
 constexpr void require_value() {
   static_assert(!is_pointer<T>,
                 "a value owns what it holds: copy what a pointer leads to into the struct, or keep an index");
-  static_assert(!is_vector<T>,
+  static_assert(!is_container<T>,
                 "a value lies in its task's heap: use jarol::Sequence<T> or std::array in place of std::vector");
   static_assert(!is_text<T>, "a value lies in its task's heap: use jarol::String in place of std::string");
   static_assert(!is_choice<T>,
                 "a value has one form: use a bool beside a member in place of std::optional or std::variant");
+  static_assert(!std::is_array_v<T>, "a value is copied whole: use std::array in place of T[N]");
+  static_assert(!is_matrix<T>, "of Eigen a value holds columns of fixed size: use std::array or jarol::Sequence<T>");
+  static_assert(!is_odd_number<T>,
+                "a number is of one size everywhere: use std::int8_t for char, double for long double");
+  static_assert(is_value<T> || has_substitute<T>,
+                "a struct within a value needs a fields() of its own, an enumeration enumerators(E)");
 }
 
 #if defined(__clang__)
 // no place within a value can be an argument of a template here, so that the member's number stands for it
 #define JAROL_MEMBER(T, I) I
+#define JAROL_HOW_NAMED ", counted from 0"
 #else
 #define JAROL_MEMBER(T, I) detail::address_of_member<T, I>()
+#define JAROL_HOW_NAMED ""
 #endif
 
-template <auto...>
-inline constexpr bool never = false;
-
+// Named so that the compiler's lines around an assertion read well: "describes<&Value::depth> evaluates to false".
 template <auto Member>
-constexpr void reject_missing() {
-  static_assert(never<Member>, "fields() must describe every member of the struct; it lacks 'Member'");
-}
-template <auto Member, auto Field>
-constexpr void reject_order() {
-  static_assert(never<Member, Field>,
-                "fields() must describe the members in their order; 'Member' comes before 'Field'");
-}
-template <auto Field>
-constexpr void reject_surplus() {
-  static_assert(never<Field>, "fields() must describe each member once; 'Field' is there twice");
+inline constexpr bool describes = false;
+template <auto Member, auto Described>
+inline constexpr bool describes_in_order = false;
+template <auto Member>
+inline constexpr bool describes_once = false;
+
+// The first that stands in the list before; the length of the list if none does.
+template <auto... Member>
+constexpr std::size_t first_repeated() {
+  std::size_t first = sizeof...(Member), i = 0;
+  const auto look = [&]<auto One>(Field<One>*) {
+    std::size_t before = 0, j = 0;
+    ((before += j++ < i && std::is_same_v<Field<Member>, Field<One>> ? 1 : 0), ...);
+    if (before > 0 && first == sizeof...(Member)) first = i;
+    ++i;
+  };
+  (look(static_cast<Field<Member>*>(nullptr)), ...);
+  return first;
 }
 
 template <auto First, auto...>
@@ -146,21 +187,29 @@ constexpr std::tuple<Field<Member>...> describe(Field<Member>... fields) {
     using T = typename detail::OwnerOf<Member...>::Type;
     static_assert((std::is_same_v<typename Field<Member>::Owner, T> && ...),
                   "fields() may describe members of its own struct only");
-    constexpr std::size_t wrong = detail::first_difference<T, Member...>();
-    if constexpr (wrong < detail::member_count<T>()) {
-      constexpr auto field = detail::element<wrong, Member..., nullptr>();
-      if constexpr (wrong == sizeof...(Member)) {
-        detail::reject_missing<JAROL_MEMBER(T, wrong)>();
-      } else {
-        detail::reject_order<JAROL_MEMBER(T, wrong), field>();
+    // what has been rejected as no value has no members to be compared
+    if constexpr (((detail::is_value<typename Field<Member>::Value> ||
+                    detail::holds_value<typename Field<Member>::Value>)&&...)) {
+      constexpr std::size_t repeated = detail::first_repeated<Member...>();
+      constexpr std::size_t wrong = detail::first_difference<T, Member...>();
+      if constexpr (repeated < sizeof...(Member)) {
+        static_assert(detail::describes_once<detail::element<repeated, Member...>()>,
+                      "fields() must describe each member once; this one is there twice");
+      } else if constexpr (detail::is_described<T, wrong, Member...>()) {
+        static_assert(detail::describes_in_order<JAROL_MEMBER(T, wrong), detail::element<wrong, Member...>()>,
+                      "fields() must describe the members in their order; the first of these belongs before the "
+                      "second" JAROL_HOW_NAMED);
+      } else if constexpr (wrong < detail::member_count<T>()) {
+        static_assert(detail::describes<JAROL_MEMBER(T, wrong)>,
+                      "fields() must describe every member of the struct; it lacks this one" JAROL_HOW_NAMED);
       }
-    } else if constexpr (wrong < sizeof...(Member)) {
-      detail::reject_surplus<detail::element<wrong, Member...>()>();
     }
   }
   return {fields...};
 }
+
 #undef JAROL_MEMBER
+#undef JAROL_HOW_NAMED
 
 /// An enumerator and its name, as `enumerators(Mode)` lists them. One that people have to be told about has a meaning,
 /// as "there is water in the hull": a run's report says when it goes out.
@@ -169,17 +218,6 @@ struct Enumerator {
   std::string_view name;
   E value;
   std::string_view meaning = "";
-};
-
-template <class T>
-concept Described = requires {
-  T::fields();
-};
-
-/// An enumeration is a value once `enumerators(E)`, found by its argument, returns an array of Enumerator<E>.
-template <class E>
-concept DescribedEnum = std::is_enum_v<E> && requires(E e) {
-  enumerators(e);
 };
 
 }  // namespace jarol

@@ -191,4 +191,15 @@ constexpr std::size_t first_difference() {
   return first == no_difference && members != sizeof...(Described) ? both : first;
 }
 
+/// Is that member, by its number, in a list of pointers to members? One beyond the last member is not.
+template <class T, std::size_t I, auto... Described>
+constexpr bool is_described() {
+  if constexpr (I < member_count<T>()) {
+    const void* const member = address_of_member<T, I>();
+    return ((member == &(place<T>.value.*Described)) || ...);
+  } else {
+    return false;
+  }
+}
+
 }  // namespace jarol::detail

@@ -1,13 +1,15 @@
 // What can't be a member of a value, and what takes its place.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <variant>
-#include <vector>
+
+#include "graph/values/elements.h"
 
 namespace jarol::detail {
 
@@ -23,11 +25,21 @@ inline constexpr bool is_pointer =
 template <class T>
 inline constexpr bool is_text = IsA<T, std::basic_string>::value || IsA<T, std::basic_string_view>::value;
 template <class T>
-inline constexpr bool is_vector = IsA<T, std::vector>::value;
+inline constexpr bool is_matrix = std::is_base_of_v<Eigen::EigenBase<T>, T>;
+// of the standard library: vectors, maps, spans
+template <class T>
+inline constexpr bool is_container = !is_text<T> && !is_matrix<T> && requires(T & t) {
+  typename T::value_type;
+  t.begin();
+};
+template <class T>
+inline constexpr bool is_odd_number = std::is_arithmetic_v<T> &&
+                                      (std::same_as<T, char> || std::same_as<T, long double>);
 template <class T>
 inline constexpr bool is_choice = IsA<T, std::optional>::value || IsA<T, std::variant>::value;
 
 template <class T>
-inline constexpr bool has_substitute = is_pointer<T> || is_text<T> || is_vector<T> || is_choice<T>;
+inline constexpr bool has_substitute = is_pointer<T> || is_text<T> || is_matrix<T> || is_container<T> || is_choice<T> ||
+                                       is_odd_number<T> || std::is_array_v<T>;
 
 }  // namespace jarol::detail

@@ -86,23 +86,12 @@ void set_length_operations(Type& type) {
   }
 }
 
-template <class T>
-inline constexpr bool is_value = Described<T> || DescribedEnum<T> || std::is_arithmetic_v<T> ||
-                                 std::same_as<T, Duration> || std::same_as<T, String> || SequenceOf<T> || Array<T>;
-
-template <auto Member, class T>
-constexpr bool require_description() {
-  static_assert(is_value<T> || has_substitute<T>,
-                "a struct within a value needs a fields() of its own, an enumeration enumerators(E)");
-  return is_value<T>;
-}
-
-// False if something in the description has been rejected: then no more errors follow from it.
+// False if a field has been rejected: then no more errors follow from it.
 template <class T>
 constexpr bool is_well_described() {
   if constexpr (Described<T>) {
     return []<auto... Member>(std::tuple<Field<Member>...>*) {
-      return (require_description<Member, typename Field<Member>::Value>() && ...);
+      return (is_value<typename Field<Member>::Value> && ...);
     }
     (static_cast<decltype(T::fields())*>(nullptr));
   } else {

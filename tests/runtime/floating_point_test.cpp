@@ -16,6 +16,8 @@ using tests::lines_of;
 
 constexpr FloatingPointControl flush{0x9fc0, 0x33f}, upward{0x5f80, 0xb3f};
 
+bool computes_by_default() { return floating_point_control() == default_floating_point_control(); }
+
 // At its activation 1 it leaves an environment behind, and throws if it is told to.
 struct Careless {
   static constexpr std::string_view summary = "for tests";
@@ -112,22 +114,23 @@ TEST_SUITE("runtime/floating_point") {
     CHECK(describe_difference({0x1d80, 0x33f}) == "exceptions that raise a signal");
   }
 
-  TEST_CASE("four sums see every environment in which numbers are rounded or flushed otherwise") {
-    CHECK(computes_by_default());
-    for (const unsigned control : {0x9f80U, 0x1fc0U, 0x3f80U, 0x5f80U, 0x7f80U}) {
-      CAPTURE(control);
-      bool seen = false;
-      {
-        const DefaultFloatingPoint scope;
-        set_floating_point_control({control, 0x33f});
-        seen = !computes_by_default();
-      }
-      CHECK(seen);
-    }
-    CHECK(computes_by_default());
+  TEST_CASE("every environment that differs is found and ended, whatever numbers it leaves alone") {
+    const auto what_is_left = [](FloatingPointControl control) -> std::string {
+      const DefaultFloatingPoint scope;
+      set_floating_point_control(control);
+      try {
+        require_default_floating_point();
+      } catch (const std::runtime_error& error) { return computes_by_default() ? error.what() : "not ended"; }
+      return "";
+    };
+    const std::string left = "left another floating-point environment behind: ";
+    CHECK(what_is_left(default_floating_point_control()) == "");
+    for (const unsigned control : {0x9f80U, 0x1fc0U, 0x3f80U, 0x5f80U, 0x7f80U, 0x1d80U, 0x0f80U, 0x0000U})
+      CHECK(what_is_left({control, 0x33f}) == left + describe_difference({control, 0x33f}));
+    for (const unsigned x87 : {0x73fU, 0xb3fU, 0xf3fU, 0x03fU, 0x23fU, 0x33bU, 0x31fU})
+      CHECK(what_is_left({0x1f80, x87}) == left + describe_difference({0x1f80, x87}));
     std::feraiseexcept(FE_ALL_EXCEPT);  // flags are no difference
-    CHECK(computes_by_default());
-    CHECK(describe_difference(floating_point_control()) == "");
+    CHECK(what_is_left(default_floating_point_control()) == "");
     std::feclearexcept(FE_ALL_EXCEPT);
   }
 

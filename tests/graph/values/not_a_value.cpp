@@ -96,6 +96,43 @@ struct Value {
   double number = 3;
   static constexpr auto fields() { return describe(field<&Value::number>().in(0, 1)); }
 };
+#elif NOT_A_VALUE == 17  // a member in the middle that is not described
+struct Value {
+  double number = 0;
+  double forgotten = 0;
+  double other = 0;
+  static constexpr auto fields() { return describe(field<&Value::number>(), field<&Value::other>()); }
+};
+#elif NOT_A_VALUE == 18  // pointers in an array
+struct Value {
+  std::array<double*, 2> numbers{};
+  static constexpr auto fields() { return describe(field<&Value::numbers>()); }
+};
+#elif NOT_A_VALUE == 19  // strings of the standard library in a sequence
+struct Value {
+  jarol::Sequence<std::string> texts;
+  static constexpr auto fields() { return describe(field<&Value::texts>()); }
+};
+#elif NOT_A_VALUE == 20  // an array of C
+struct Value {
+  double numbers[3]{};
+  static constexpr auto fields() { return describe(field<&Value::numbers>()); }
+};
+#elif NOT_A_VALUE == 21  // a vector with a range
+struct Value {
+  std::vector<double> numbers;
+  static constexpr auto fields() { return describe(field<&Value::numbers>("m").in(0, 1)); }
+};
+#elif NOT_A_VALUE == 22  // a number whose sign the platform decides
+struct Value {
+  char letter = 0;
+  static constexpr auto fields() { return describe(field<&Value::letter>()); }
+};
+#elif NOT_A_VALUE == 23  // a matrix of changing size
+struct Value {
+  Eigen::MatrixXd numbers;
+  static constexpr auto fields() { return describe(field<&Value::numbers>()); }
+};
 #else
 struct Value {
   double number = 0;

@@ -1,4 +1,4 @@
-// A plugin whose task rounds upward from its activation 1 on; ROUNDS says how.
+// A plugin whose task changes the floating-point environment in its activation 1; ROUNDS says how.
 #include <dlfcn.h>
 
 #include <cfenv>
@@ -36,6 +36,21 @@ struct Rounds {
     reinterpret_cast<int (*)(int)>(dlsym(RTLD_DEFAULT, "fesetround"))(FE_UPWARD);
 #elif ROUNDS == 6
     jarol::set_floating_point_control({upward, 0x33f});
+#elif ROUNDS == 7
+    const unsigned short old_upward = 0xb7f;
+    asm volatile("fldcw %0" : : "m"(old_upward));
+#elif ROUNDS == 8
+    const unsigned short half_as_precise = 0x27f;
+    asm volatile("fldcw %0" : : "m"(half_as_precise));
+#elif ROUNDS == 9
+    // of its arithmetic nothing but a division by zero raises a signal
+    const unsigned unmasked = 0x1d80;
+    asm volatile("ldmxcsr %0" : : "m"(unmasked));
+#elif ROUNDS == 10
+    feenableexcept(FE_DIVBYZERO);
+#elif ROUNDS == 11
+    const unsigned precise = 0x0f80;  // every rounded result raises one
+    asm volatile("ldmxcsr %0" : : "m"(precise));
 #endif
   }
 };

@@ -1,0 +1,65 @@
+// Which values are numbers, and which have elements.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <concepts>
+#include <type_traits>
+
+#include "graph/values/duration.h"
+#include "graph/values/sequence.h"
+
+namespace jarol {
+
+namespace detail {
+
+template <class T>
+struct ArrayTraits {
+  static constexpr bool is_array = false;
+};
+template <class E, std::size_t N>
+struct ArrayTraits<std::array<E, N>> {
+  static constexpr bool is_array = true;
+  static constexpr std::size_t count = N;
+  using Element = E;
+};
+template <class E, int Rows, int Options>
+struct ArrayTraits<Eigen::Matrix<E, Rows, 1, Options, Rows, 1>> {
+  static constexpr bool is_array = Rows > 0;
+  static constexpr std::size_t count = Rows > 0 ? Rows : 0;
+  using Element = E;
+};
+
+template <class T>
+struct SequenceTraits {
+  static constexpr bool is_sequence = false;
+};
+template <class E>
+struct SequenceTraits<Sequence<E>> {
+  static constexpr bool is_sequence = true;
+  using Element = E;
+};
+
+template <class T>
+concept Integer = std::integral<T> && !std::same_as<T, bool> && !std::same_as<T, char>;
+
+template <class T>
+concept Array = ArrayTraits<T>::is_array;
+
+template <class T>
+concept SequenceOf = SequenceTraits<T>::is_sequence;
+
+// What arrays and sequences of such are made of in the end, or the type itself.
+template <class T>
+struct InnermostOf {
+  using Type = T;
+};
+template <Array T>
+struct InnermostOf<T> : InnermostOf<typename ArrayTraits<T>::Element> {};
+template <SequenceOf T>
+struct InnermostOf<T> : InnermostOf<typename SequenceTraits<T>::Element> {};
+template <class T>
+using Innermost = typename InnermostOf<T>::Type;
+
+}  // namespace detail
+}  // namespace jarol
