@@ -8,8 +8,9 @@
 namespace jarol {
 namespace {
 
+// Line 0 is the source as a whole, which could not be read.
 std::string place(const Location& where) {
-  if (!where.source) return "";
+  if (!where.source || where.line == 0) return "";
   return printable(where.source->name) + ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
 }
 
@@ -20,7 +21,7 @@ constexpr std::size_t max_words = 100;  // of a list
 // The line and a caret below the column. Tabs stay tabs, so that the caret stands where it should; what is not
 // printable is shown as a dot, and of a long line only what surrounds the place.
 std::string excerpt(const Location& where) {
-  if (!where.source) return "";
+  if (!where.source || where.line == 0) return "";
   const std::string_view line = line_of(*where.source, where.line);
   const std::size_t at = std::min(static_cast<std::size_t>(std::max(where.column, 1) - 1), line.size());
   const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(line[i]) & 0xc0) == 0x80; };

@@ -16,7 +16,8 @@ namespace jarol {
 namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
-  throw SpecError({{{}, "can't read '" + path + "': " + reason, {}}});
+  const auto whole = std::make_shared<Source>(Source{path, ""});
+  throw SpecError({{{whole, 0, 0}, "can't read '" + path + "': " + reason, {}}});
 }
 
 [[noreturn]] void fail_as_too_large(const std::string& path, std::size_t max) {

@@ -146,6 +146,14 @@ TEST_SUITE("tools/printed") {
       return std::string(problems[0]["text"]);
     };
     CHECK(text_of("replay --json no.log") == "can't read 'no.log': No such file or directory");
+    CHECK(text_of("nonsense --json").starts_with("there is no command 'nonsense'; there are: bench, "));
+    for (const std::string command : {"run ", "check ", "graph "})
+      CHECK(problems_of(command + "--json no.yaml")[0] ==
+            nlohmann::json{{"file", "no.yaml"},
+                           {"line", nullptr},
+                           {"column", nullptr},
+                           {"text", "can't read 'no.yaml': No such file or directory"},
+                           {"notes", nlohmann::json::array()}});
     CHECK(text_of("run --json") == "FILE is required");
     CHECK(text_of("run --json specs/counting.yaml --for 3") ==
           "--for: '3' has no unit; write one of h, min, s, ms, us or ns, as in 10ms");

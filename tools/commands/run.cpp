@@ -13,6 +13,7 @@
 #include "graph/text/escape.h"
 #include "runtime/execute/executor_run.h"
 #include "runtime/execute/log_end.h"
+#include "runtime/files/atomic_file.h"
 #include "tools/commands/commands.h"
 #include "tools/console/console.h"
 #include "tools/report/command_line.h"
@@ -141,13 +142,15 @@ int run(RunOptions options) {
   graph_run.set_origin(std::move(origin));
   SavedRun saved(graph_run, noted, end, pace.get());
   std::vector<Save> written_saves;
-  for (const Save& save : saves)
+  for (const Save& save : saves) {
+    require_no_input(save.file);
     saved.add({"--save", save.at,
                [&written_saves, &save](const Checkpoint& checkpoint) {
                  checkpoint.write(save.file);
                  written_saves.push_back(save);
                },
                "'" + save.file + "' is not written"});
+  }
   what_ifs.add_to(saved);
   if (resumed) restore(graph_run, noted, *resumed, options.checkpoints.resume);
   const auto save_in_recording = [&](const Checkpoint& checkpoint) {

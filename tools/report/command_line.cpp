@@ -263,6 +263,8 @@ CommandLine::Words CommandLine::split(int argc, char** argv) const {
 
 bool CommandLine::asks_for_json(int argc, char** argv) const {
   const Words words = split(argc, argv);
+  // where there is no such command the word itself has to do
+  if (words.command == app_.get()) return std::find(words.own.begin(), words.own.end(), "--json") != words.own.end();
   const std::vector<OptionWord> options = options_among(*words.command, words.own);
   return std::any_of(options.begin(), options.end(), [](const OptionWord& word) {
     return word.option != nullptr && word.option->check_name("--json") && !word.joined;

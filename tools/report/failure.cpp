@@ -17,6 +17,7 @@ nlohmann::ordered_json json_of(const Location& where, const std::string& text) {
   nlohmann::ordered_json json{{"file", nullptr}, {"line", nullptr}, {"column", nullptr}, {"text", text}};
   if (!where.source) return json;
   json["file"] = where.source->name;
+  if (where.line == 0) return json;
   json["line"] = where.line;
   json["column"] = where.column;
   return json;
