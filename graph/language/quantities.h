@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "graph/values/duration.h"
+#include "graph/language/duration.h"
 
 namespace jarol {
 

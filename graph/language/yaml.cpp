@@ -8,66 +8,25 @@
 #include <algorithm>
 #include <istream>
 #include <map>
-#include <streambuf>
 #include <unordered_set>
 
 #include "graph/language/read_source.h"
+#include "graph/language/text_pieces.h"
 
 namespace jarol {
 namespace {
 
 constexpr std::size_t max_values = 6'000'000;
-// many values in little text take up memory a hundred times the text's; those of a graph of a million tasks take 10
-// bytes
+// many values in little text take a hundred times its memory; those of a graph of a million tasks take 10 bytes each
 constexpr std::size_t max_short_values = 100'000;
 constexpr std::size_t min_bytes_each = 6;  // beyond that many
 constexpr std::size_t max_aliased = 100'000;
 constexpr std::size_t max_depth = 64;
-// what yaml-cpp may scan before it has understood what it began with
-constexpr std::size_t max_bytes_ahead = std::size_t{2} << 20;
-constexpr std::size_t max_marks_ahead = 250'000;
-
-struct TooMuch {
-  bool ahead = false;
-};
-
-// Gives yaml-cpp the text in pieces. What it has scanned and not understood yet, it keeps, in 250 bytes a mark; and a
-// bracket that is never closed makes it scan on to the end.
-class Pieces : public std::streambuf {
- public:
-  explicit Pieces(std::string_view text) : text_(text.data()), end_(const_cast<char*>(text.data() + text.size())) {
-    char* const begin = const_cast<char*>(text.data());  // a streambuf that is only read does not write
-    setg(begin, begin, begin);
-  }
-
-  void understood() { bytes_ = marks_ = 0; }
-
-  /// Bytes so far.
-  std::size_t read() const { return static_cast<std::size_t>(egptr() - text_); }
-
- protected:
-  int_type underflow() override {
-    constexpr std::ptrdiff_t piece = 4096;
-    if (gptr() == end_) return traits_type::eof();
-    const std::ptrdiff_t size = std::min(piece, end_ - gptr());
-    bytes_ += static_cast<std::size_t>(size);
-    for (const char c : std::string_view(gptr(), static_cast<std::size_t>(size)))
-      if (std::string_view("[]{},:'\"&*!?-|>%").find(c) != std::string_view::npos) ++marks_;
-    if (bytes_ > max_bytes_ahead || marks_ > max_marks_ahead) throw TooMuch{true};
-    setg(eback(), gptr(), gptr() + size);
-    return traits_type::to_int_type(*gptr());
-  }
-
- private:
-  const char* text_;
-  char* end_;
-  std::size_t bytes_ = 0, marks_ = 0;  // since something was understood; the marks are what YAML is made of
-};
 
 // Builds the tree from yaml-cpp's events, which still know anchors, quotes and every key.
 class Builder : public YAML::EventHandler {
  public:
-  Builder(std::shared_ptr<const Source> source, Pieces& pieces, Problems& problems)
+  Builder(std::shared_ptr<const Source> source, TextPieces& pieces, Problems& problems)
       : source_(std::move(source)), pieces_(pieces), problems_(problems) {}
 
   Yaml take() { return std::move(root_); }
@@ -233,7 +192,7 @@ class Builder : public YAML::EventHandler {
   }
 
   std::shared_ptr<const Source> source_;
-  Pieces& pieces_;
+  TextPieces& pieces_;
   Problems& problems_;
   Location last_{source_, 1, 1};
   Yaml root_;
@@ -279,7 +238,7 @@ Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) 
     problems.add({source, 1, 1}, "the text is larger than " + std::to_string(max_source_bytes >> 20) + " MiB");
     return {};
   }
-  Pieces pieces(source->text);
+  TextPieces pieces(source->text);
   Builder builder(source, pieces, problems);
   std::istream stream(&pieces);
   try {

@@ -6,7 +6,7 @@
 #include <concepts>
 #include <type_traits>
 
-#include "graph/values/duration.h"
+#include "graph/language/duration.h"
 #include "graph/values/sequence.h"
 
 namespace jarol {

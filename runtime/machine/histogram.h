@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "graph/values/duration.h"
+#include "graph/language/duration.h"
 
 namespace jarol {
 

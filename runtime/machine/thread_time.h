@@ -1,7 +1,7 @@
 // The processor time of the calling thread: it stands still while anything else runs there.
 #pragma once
 
-#include "graph/values/duration.h"
+#include "graph/language/duration.h"
 
 namespace jarol {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "graph/values/duration.h"
+#include "graph/language/duration.h"
 #include "graph/values/type.h"
 
 namespace jarol {

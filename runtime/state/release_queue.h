@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "graph/values/duration.h"
+#include "graph/language/duration.h"
 #include "runtime/state/calendar_queue.h"
 
 namespace jarol {
