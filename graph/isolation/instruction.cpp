@@ -227,18 +227,12 @@ Instruction made_of(const cs_insn& from) {
   return made;
 }
 
-}  // namespace
-
-std::vector<Instruction> decode(const Object& object, Address begin, Address end) {
-  return decode(object.bytes(begin, end), begin);
-}
-
-std::vector<Instruction> decode(Bytes bytes, Address begin) {
+// Up to the first bytes that are no instruction, or to where `stops` says so of what follows one.
+template <class Stops>
+void decode_on(Bytes bytes, Address at, const Stops& stops, std::vector<Instruction>& all) {
   static thread_local Disassembler disassembler;
   const unsigned char* code = bytes.data();
   std::size_t left = bytes.size();
-  Address at = begin;
-  std::vector<Instruction> all;
   bool after_conversion = false;
   while (left > 0) {
     const cs_insn* const found = disassembler.next(code, left, at);
@@ -249,6 +243,31 @@ std::vector<Instruction> decode(Bytes bytes, Address begin) {
     all.push_back(made_of(*found));
     if (after_conversion && found->id == X86_INS_FLDCW) all.back().forbidden = "";
     after_conversion = converts;
+    if (left > 0 && stops(all.back(), *code)) break;
+  }
+}
+
+}  // namespace
+
+std::vector<Instruction> decode(const Object& object, Address begin, Address end) {
+  std::vector<Instruction> all;
+  decode_on(
+      object.bytes(begin, end), begin, [](const Instruction&, unsigned char) { return false; }, all);
+  return all;
+}
+
+std::optional<std::vector<Instruction>> decode_section(Bytes code) {
+  const auto is_padding = [](const Instruction& before, unsigned char next) {
+    return next == 0 && (before.form == Form::end || before.form == Form::jump || before.form == Form::call);
+  };
+  std::vector<Instruction> all;
+  for (std::size_t at = 0; at < code.size();) {
+    const std::size_t known = all.size();
+    decode_on(code.subspan(at), at, is_padding, all);
+    if (all.size() == known) return std::nullopt;
+    at = all.back().next;
+    if (at < code.size() && code[at] != 0) return std::nullopt;
+    while (at < code.size() && code[at] == 0) ++at;
   }
   return all;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,9 @@ struct Instruction {
 
 /// In order of address, up to the first bytes that are no instruction; these are not in it.
 std::vector<Instruction> decode(const Object& object, Address begin, Address end);
-std::vector<Instruction> decode(Bytes code, Address begin);
+/// Of a whole section, by places within it, with the zeros that linkers lay between functions left out; none: some of
+/// it is no instruction.
+std::optional<std::vector<Instruction>> decode_section(Bytes code);
 
 /// As g++ begins a function that is protected, also one that never returns and so never looks:
 /// mov %fs:0x28, r; mov r, n(%rsp); xor r, r.

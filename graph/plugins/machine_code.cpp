@@ -59,9 +59,9 @@ bool leaves_it_alone(std::string_view name) {
 // The x87 control word's are two bytes, which stand by chance in any longer code: here only as instructions count.
 // Those of compilers, around the conversion of a long double to an integer, restore it.
 bool loads_x87_control(Bytes code) {
-  const std::vector<isolation::Instruction> all = isolation::decode(code, 0);
-  if (!code.empty() && (all.empty() || all.back().next != code.size())) return true;  // it can't be read to its end
-  return std::any_of(all.begin(), all.end(), [](const isolation::Instruction& instruction) {
+  const auto all = isolation::decode_section(code);
+  if (!all) return true;  // nobody knows
+  return std::any_of(all->begin(), all->end(), [](const isolation::Instruction& instruction) {
     return *instruction.forbidden != '\0' && holds(" fldcw fldenv frstor fninit ", instruction.text);
   });
 }
