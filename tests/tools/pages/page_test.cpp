@@ -87,7 +87,7 @@ TEST_SUITE("tools/pages") {
     const json& a = data["signals"][0];
     CHECK(a["name"] == "a.out");
     CHECK(a["min"] == 0);
-    CHECK(a["greatest"] == 9999);
+    CHECK(a["max"] == 9999);
     const std::int64_t piece = data["topics"][0]["piece_ns"];
     const std::vector<double> low = doubles(a["low"]), high = doubles(a["high"]);
     CHECK(low.size() == 2048);
