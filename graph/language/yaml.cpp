@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t max_values = 6'000'000;
 // many values in little text take a hundred times its memory; those of a graph of a million tasks take 10 bytes each
 constexpr std::size_t max_short_values = 100'000;
-constexpr std::size_t min_bytes_each = 6;  // beyond that many
+constexpr std::size_t min_bytes_each = 8;  // beyond that many
 constexpr std::size_t max_aliased = 100'000;
 constexpr std::size_t max_depth = 64;
 

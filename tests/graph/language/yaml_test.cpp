@@ -137,7 +137,7 @@ TEST_SUITE("graph/yaml") {
   }
 
   TEST_CASE("so is one of many values that take next to no text each, long before its end") {
-    const std::string reason = "error: more than 100000 values stand so close that each takes less than 6 bytes\n";
+    const std::string reason = "error: more than 100000 values stand so close that each takes less than 8 bytes\n";
     const auto repeated = [](const std::string& piece) {
       std::string text;
       for (int i = 0; i < 1'000'000; ++i) text += piece;
