@@ -74,6 +74,12 @@ class RecordedStream : public RecordSink {
   std::uint64_t dropped_ = 0;
 };
 
+constexpr std::array<Enumerator<RunEvent::Kind>, 3> enumerators(RunEvent::Kind) {
+  return {{{"fault", RunEvent::Kind::fault},
+           {"rest_begun", RunEvent::Kind::rest_begun},
+           {"at_rest", RunEvent::Kind::at_rest}}};
+}
+
 /// What happens beside publications, as it is recorded.
 struct RecordedEvent {
   RunEvent::Kind kind = RunEvent::Kind::fault;
@@ -86,11 +92,5 @@ struct RecordedEvent {
                     field<&RecordedEvent::cause>());
   }
 };
-
-constexpr std::array<Enumerator<RunEvent::Kind>, 3> enumerators(RunEvent::Kind) {
-  return {{{"fault", RunEvent::Kind::fault},
-           {"rest_begun", RunEvent::Kind::rest_begun},
-           {"at_rest", RunEvent::Kind::at_rest}}};
-}
 
 }  // namespace jarol
