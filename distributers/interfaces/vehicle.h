@@ -93,7 +93,7 @@ class Vehicle : public SteppedVehicle {
 /// What a number may be, both ends included.
 struct Range {
   double min = 0;
-  double greatest = 0;
+  double max = 0;
 };
 
 /// A kind of vehicle, by the name that its parameter files give.

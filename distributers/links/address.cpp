@@ -9,7 +9,7 @@
 namespace jarol::distributers {
 namespace {
 
-constexpr const char* descriptors = "write it as in 7000, 192.168.2.3:7000 or \"[::1]:7000\"";
+constexpr const char* forms = "write it as in 7000, 192.168.2.3:7000 or \"[::1]:7000\"";
 
 bool is_port(const std::string& text) {
   return !text.empty() && text.size() <= 5 && text.find_first_not_of("0123456789") == std::string::npos &&
@@ -26,7 +26,7 @@ Address Address::parse(const std::string& text) {
   }
   const bool brackets = host.size() > 1 && host.front() == '[' && host.back() == ']';
   if (!is_port(port) || host.empty() || (!brackets && host.find(':') != std::string::npos))
-    throw std::invalid_argument("'" + text + "' is not an address with a port; " + descriptors);
+    throw std::invalid_argument("'" + text + "' is not an address with a port; " + forms);
   if (brackets) host = host.substr(1, host.size() - 2);
   addrinfo hints{};
   hints.ai_family = AF_UNSPEC;

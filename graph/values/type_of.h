@@ -86,12 +86,19 @@ void set_length_operations(Type& type) {
   }
 }
 
+template <auto Member, class T = Innermost<typename Field<Member>::Value>>
+constexpr bool has_names() {
+  if constexpr (!asks_for_names_at_once)
+    static_assert(!std::is_enum_v<T> || DescribedEnum<T>, "an enumeration within a value needs enumerators(E)");
+  return !std::is_enum_v<T> || DescribedEnum<T>;
+}
+
 // False if a field has been rejected: then no more errors follow from it.
 template <class T>
 constexpr bool is_well_described() {
   if constexpr (Described<T>) {
     return []<auto... Member>(std::tuple<Field<Member>...>*) {
-      return (is_value<typename Field<Member>::Value> && ...);
+      return ((is_value<typename Field<Member>::Value> && has_names<Member>()) && ...);
     }
     (static_cast<decltype(T::fields())*>(nullptr));
   } else {

@@ -24,7 +24,7 @@ bool hear(SensorTrust& trust, bool is_new, double reading, std::uint32_t max_rep
   return max_repeats == 0 || trust.repeats < max_repeats;
 }
 
-// Takes a credible reading as a sign of life; shows whether to use it.
+// Takes a credible reading as a sign of life; returns whether to use it.
 bool believe(SensorTrust& trust, bool credible, double patience) {
   if (credible && !trust.lost) trust.silent = 0;
   trust.lost = trust.lost || trust.silent > patience;

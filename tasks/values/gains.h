@@ -15,7 +15,7 @@ struct PiddGains {
   }
 };
 
-/// Gains that were reported in flight, or not.
+/// Gains that the operator sent in flight, if any.
 struct ReceivedGains {
   PiddGains gains{};
   bool told = false;
@@ -36,7 +36,7 @@ struct ReceivedSignal {
   }
 };
 
-/// What the operator has changed of the laws' gains; what was never reported is as the laws have it.
+/// What the operator has changed of the laws' gains; what was never sent is as the laws have it.
 struct OperatorGains {
   ReceivedGains lean{}, yaw{}, altitude{}, position{};
   ReceivedSignal idle{};

@@ -43,7 +43,7 @@ std::unique_ptr<Transport> make_radio(const RadioSpec& spec, const Yaml&, const 
   return std::make_unique<Radio>(spec.frequency->value);
 }
 
-// What is heard of a buoy: its depth, and to be sent how far to sink.
+// What is heard of a buoy: its depth. What it is sent: how far to sink.
 struct Probe {
   static constexpr std::string_view summary = "a buoy";
   static constexpr bool is_vehicle = true;

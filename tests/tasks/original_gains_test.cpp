@@ -12,7 +12,7 @@ Tick tick_of(std::int64_t activation) { return {.now = activation * 15ms, .activ
 }  // namespace
 
 TEST_SUITE("tasks/original_gains") {
-  TEST_CASE("roll and yaw demand what the gains that were reported make of the error; pitch follows roll's") {
+  TEST_CASE("roll and yaw demand what the gains that were sent make of the error; pitch follows roll's") {
     OriginalAttitude::State state;
     OriginalAttitude::Out out;
     // 1 mrad, reached in a period of 15 ms
@@ -43,7 +43,7 @@ TEST_SUITE("tasks/original_gains") {
     CHECK(8000 * out.turn.yaw == doctest::Approx(2 * 100 + 0.5 * 101 * 100 * 0.015));
   }
 
-  TEST_CASE("altitude: 100 mm too low at kp 2 makes 200 more than the idle signal, which may be reported too") {
+  TEST_CASE("altitude: 100 mm too low at kp 2 makes 200 more than the idle signal, which may be sent too") {
     OriginalAltitude::State state;
     OriginalAltitude::Out out;
     OriginalAltitude::In in{.estimate = {.altitude = 0.9}, .directive = {.altitude = 1}};
@@ -66,7 +66,7 @@ TEST_SUITE("tasks/original_gains") {
     CHECK(out.goal.roll == doctest::Approx(0.1));
   }
 
-  TEST_CASE("flight starts from the idle signal that was reported") {
+  TEST_CASE("flight starts from the idle signal that was sent") {
     OriginalLogic::State state;
     OriginalLogic::Out out;
     OriginalLogic::In in;

@@ -20,7 +20,7 @@ double first(tasks::FlightState state) {
 }  // namespace
 
 TEST_SUITE("tools/javiator_gains") {
-  TEST_CASE("the rotors are spun up to the idle signal that was reported: 7000 in 140 periods") {
+  TEST_CASE("the rotors are spun up to the idle signal that was sent: 7000 in 140 periods") {
     CHECK(first(tasks::FlightState::flying) - first(tasks::FlightState::starting) == doctest::Approx(140 * 0.015));
   }
 

@@ -49,7 +49,7 @@ struct Stage {
   static void run(const Tick&, const In& in, State& state, Out& out) { pass_on(in.in, state, out.out); }
 };
 
-/// Passes nothing on and takes as long as it is commanded.
+/// Passes nothing on and takes as long as its parameter says.
 struct Body {
   static constexpr std::string_view summary = "takes time";
   struct Param {

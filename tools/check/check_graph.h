@@ -5,7 +5,7 @@
 
 namespace jarol::tools {
 
-/// Of paths beside the chains that the graph names, a report reports so many at most.
+/// Of paths beside the chains that the graph names, a report shows so many at most.
 inline constexpr std::size_t max_paths = 1000;
 
 /// Margins and suggestions come where they are found quickly, with `sensitivity` in any case; with `all_chains` also

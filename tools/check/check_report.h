@@ -1,4 +1,4 @@
-// What `jarol check` shows one graph, as text and as JSON.
+// What `jarol check` reports of one graph, as text and as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

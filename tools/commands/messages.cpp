@@ -69,7 +69,7 @@ void print_sets(const std::vector<const MessageSet*>& sets) {
     rows.push_back({std::string(set->name), std::to_string(set->messages.size()) + " messages",
                     std::string(set->title) + " " + std::string(set->version) + ": " + std::string(set->text)});
   print_rows(rows);
-  std::cout << "\njarol messages SET reports its messages, jarol messages SET NAME the fields of one\n";
+  std::cout << "\njarol messages SET lists its messages, jarol messages SET NAME the fields of one\n";
 }
 
 void print_set(const MessageSet& set) {

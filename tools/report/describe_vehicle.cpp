@@ -46,8 +46,7 @@ std::vector<Section> sections_of(const vehicles::VehicleClass& vehicle, const Va
   std::vector<Section> sections{{"state", "", entries_of(type_of<vehicles::VehicleState>(), nullptr)},
                                 {"inputs", "range", entries_of(*vehicle.inputs, nullptr)}};
   for (std::size_t i = 0; i < vehicle.ranges.size(); ++i)
-    sections[1].entries[i].value =
-        number_text(vehicle.ranges[i].min) + " to " + number_text(vehicle.ranges[i].greatest);
+    sections[1].entries[i].value = number_text(vehicle.ranges[i].min) + " to " + number_text(vehicle.ranges[i].max);
   // a group of outputs each: actuators, sensors
   for (const TypeField& group : vehicle.outputs->fields) {
     sections.push_back({group.name, "", {}});

@@ -1,4 +1,4 @@
-// The faults of a run, as a report reports them.
+// The faults of a run, as a report shows them.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

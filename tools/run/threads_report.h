@@ -1,4 +1,4 @@
-// What a run on threads shows its rounds.
+// What a run on threads reports of its rounds.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -52,8 +52,8 @@ std::vector<Commands> read_commands(const std::shared_ptr<const Source>& script,
       const vehicles::Range& range = vehicle.ranges[*columns[i]];
       double value = 0;
       std::string bad = parse_scalar(*leaf.type, cell.text, leaf.unit, &value);
-      if (bad.empty() && !(value >= range.min && value <= range.greatest))
-        bad = "is not between " + number_text(range.min) + " and " + number_text(range.greatest) +
+      if (bad.empty() && !(value >= range.min && value <= range.max))
+        bad = "is not between " + number_text(range.min) + " and " + number_text(range.max) +
               (leaf.unit.empty() ? "" : " " + leaf.unit);
       if (!bad.empty()) problems.add(cell.where, "column '" + leaf.path + "': '" + cell.text + "' " + bad);
       *reinterpret_cast<double*>(static_cast<std::byte*>(now.data()) + leaf.offset) = value;

@@ -1,4 +1,4 @@
-// What DUNE reports a console about a simulated submarine, and how often.
+// What DUNE reports to a console about a simulated submarine, and how often.
 #pragma once
 
 #include <array>

@@ -134,7 +134,7 @@ TEST_SUITE("distributers/javiator_operator") {
     CHECK_FALSE(command.heard);
   }
 
-  TEST_CASE("gains and idle signal are reported once after each change, those that never came as not reported") {
+  TEST_CASE("gains and idle signal are handed over once after each change, those that never came as not sent") {
     Typed<JaviatorOperator> adapter;
     tasks::OperatorGains gains;
     CHECK_FALSE(adapter.take<&JaviatorOperator::In::gains>(gains));

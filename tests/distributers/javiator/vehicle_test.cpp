@@ -113,7 +113,7 @@ TEST_SUITE("distributers/javiator_vehicle") {
     CHECK(v.take() == "s");
   }
 
-  TEST_CASE("each flag shows its own sensor") {
+  TEST_CASE("each flag stands for its own sensor") {
     Vehicle v;
     for (const auto& [flag, name] : std::vector<std::pair<std::uint16_t, std::string>>{
              {Flags::IMU, "i"}, {Flags::BMU, "b"}, {Flags::SONAR, "s"}, {Flags::X_POS, "x"}, {Flags::Y_POS, "y"}}) {

@@ -272,11 +272,11 @@ TEST_SUITE("distributers/links/counts") {
   }
 
   TEST_CASE("an address that can't be is reported with what would be right") {
-    const std::string descriptors = "; write it as in 7000, 192.168.2.3:7000 or \"[::1]:7000\"";
+    const std::string forms = "; write it as in 7000, 192.168.2.3:7000 or \"[::1]:7000\"";
     for (const char* bad : {"", "x", "70000", "127.0.0.1:", "::1:7000", ":7000", "127.0.0.1:-1"}) {
       CAPTURE(bad);
       CHECK_THROWS_WITH(Address::parse(bad),
-                        ("'" + std::string(bad) + "' is not an address with a port" + descriptors).c_str());
+                        ("'" + std::string(bad) + "' is not an address with a port" + forms).c_str());
     }
     CHECK(Address::parse("7000").text() == "127.0.0.1:7000");
     CHECK(Address::parse("[::1]:7000").text() == "[::1]:7000");

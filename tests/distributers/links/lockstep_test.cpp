@@ -14,7 +14,7 @@ namespace {
 using namespace jarol;
 using namespace jarol::distributers;
 
-// What a runner says to a vehicle's process whose welcome shows that grid.
+// What a runner says to a vehicle's process whose welcome states that grid.
 std::string said_to(std::int64_t grid) {
   const Descriptor socket = listen_at(Address::parse("0"));
   const Address address = Address::parse(std::to_string(port_of(socket)));

@@ -133,11 +133,16 @@ struct Value {
   Eigen::MatrixXd numbers;
   static constexpr auto fields() { return describe(field<&Value::numbers>()); }
 };
-#else
+#else                    // a value; the names of an enumeration within it can only stand behind it
 struct Value {
+  enum class Mode { on, off };
   double number = 0;
-  static constexpr auto fields() { return describe(field<&Value::number>()); }
+  Mode mode = Mode::on;
+  static constexpr auto fields() { return describe(field<&Value::number>(), field<&Value::mode>()); }
 };
+constexpr auto enumerators(Value::Mode) {
+  return std::array<jarol::Enumerator<Value::Mode>, 2>{{{"on", Value::Mode::on}, {"off", Value::Mode::off}}};
+}
 #endif
 }  // namespace
 

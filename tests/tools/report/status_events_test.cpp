@@ -1,4 +1,4 @@
-// What a run's report shows a vehicle's own decisions.
+// What a run's report says of a vehicle's own decisions.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -206,7 +206,7 @@ TEST_SUITE("vehicles/helicopter") {
     CHECK(found->parameters == &type_of<HelicopterParameters>());
   }
 
-  TEST_CASE("placed elsewhere its sensors shows there at once") {
+  TEST_CASE("placed elsewhere its sensors measure there at once") {
     Helicopter helicopter{HelicopterParameters{}};
     helicopter.place({.x = 3, .y = -2, .z = -1.2});
     const HelicopterInputs hover{8000, 8000, 8000, 8000};

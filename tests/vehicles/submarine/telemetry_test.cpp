@@ -55,7 +55,7 @@ TEST_SUITE("vehicles/submarine_telemetry") {
           doctest::Approx(-2000 / 83901.2).epsilon(1e-4).scale(0));
   }
 
-  TEST_CASE("in each of ten seconds a peer is reported as often as DUNE reports, and nothing else") {
+  TEST_CASE("in each of ten seconds a peer is sent reports as often as DUNE sends them, and nothing else") {
     SubmarineParameters parameters;
     parameters.sea.beacons.reach = 0;  // there are none where DUNE's simulator is
     Submarine submarine(parameters);
