@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "graph/language/yaml.h"
 #include "graph/values/archive.h"
 #include "graph/values/type_of.h"
 
@@ -81,6 +83,8 @@ class ExternalSystem {
 
   /// The instant at which the mission ends, for an external system that has one.
   virtual std::optional<Duration> end() const { return std::nullopt; }
+  /// What that mission is to reach: conditions, beside those of the key `expect` of the graph.
+  virtual std::span<const Yaml> expectations() const { return {}; }
 };
 
 }  // namespace jarol

@@ -50,6 +50,8 @@ struct LinkType {
   bool for_vehicles = false, for_operators = false;
   /// Carries no messages, so that the distributer needs no code.
   bool without_messages = false;
+  /// Plays a mission from a file, and joins nothing else.
+  bool is_mission = false;
 
   /// What is wrong goes to `problems`, and then there are no channels.
   std::function<std::unique_ptr<ExternalSystem>(const LinkRequest& request, Problems& problems)>

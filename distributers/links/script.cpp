@@ -67,6 +67,12 @@ ScriptSystem::ScriptSystem(const std::shared_ptr<const Source>& script, const Di
     rows_.push_back(std::move(row));
   }
   if (!rows_.empty()) end_ = rows_.back().time;
+  for (const Table::Cell& from : table.expectations) {
+    Yaml& condition = expectations_.emplace_back();
+    condition.kind = Yaml::Kind::scalar;
+    condition.text = from.text;
+    condition.where = from.where;
+  }
 }
 
 void ScriptSystem::reach(Duration instant) {
@@ -110,6 +116,7 @@ LinkType script_link() {
         return std::make_unique<ScriptSystem>(source, *request.whose().distributer_class, problems);
       });
   type.without_messages = true;
+  type.is_mission = true;
   return type;
 }
 

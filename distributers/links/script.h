@@ -15,7 +15,7 @@ struct LinkType;
 LinkType script_link();
 
 /// Columns: `time` (s), then `channel.field` of the distributer's `in` channels. A row holds until the next, an empty
-/// cell keeps what was. The mission ends at the time of the last row.
+/// cell keeps what was. The mission ends at the time of the last row. What it is to reach stands above, as `expect:`.
 class ScriptSystem : public ExternalSystem {
  public:
   /// Reads the rows; what is wrong goes to `problems` with file, line and column.
@@ -26,6 +26,7 @@ class ScriptSystem : public ExternalSystem {
   void hand_over(std::size_t, const void*) override {}
   void serialize(Archive& archive) override;
   std::optional<Duration> end() const override { return end_; }
+  std::span<const Yaml> expectations() const override { return expectations_; }
 
  private:
   struct Row {
@@ -44,6 +45,7 @@ class ScriptSystem : public ExternalSystem {
   std::vector<Playing> playing_;  // per channel
   const DistributerClass& distributer_;
   Duration end_{};
+  std::vector<Yaml> expectations_;
 };
 
 }  // namespace jarol::distributers

@@ -36,6 +36,18 @@ bool parse_time(const std::string& text, Duration& time) {
   return true;
 }
 
+// `rest` stands behind `expect:`, in that line of the source.
+void read_expectation(std::string_view rest, const Location& line, bool titled, Table& table, Problems& problems) {
+  if (titled) return problems.add(line, "'expect' stands below the title row; it has to stand above");
+  const std::string_view condition = trim(rest.substr(0, rest.find(" #")));
+  if (condition.empty())
+    return problems.add(line, "'expect' needs a condition, as in 'expect: depth of dune within 0.1 of 3'");
+  const std::string_view text = line.source->text;
+  const std::size_t begin = text.rfind('\n', static_cast<std::size_t>(condition.data() - text.data())) + 1;
+  const auto column = static_cast<int>(condition.data() - (text.data() + begin)) + 1;
+  table.expectations.push_back({std::string(condition), {line.source, line.line, column}});
+}
+
 }  // namespace
 
 Table read_table(const std::shared_ptr<const Source>& source, Problems& problems) {
@@ -55,6 +67,10 @@ Table read_table(const std::shared_ptr<const Source>& source, Problems& problems
     begin = end + 1;
     ++number;
     if (trim(line).empty() || trim(line)[0] == '#') continue;
+    if (constexpr std::string_view word = "expect:"; trim(line).starts_with(word)) {
+      read_expectation(trim(line).substr(word.size()), {source, number, 1}, titled, table, problems);
+      continue;
+    }
     std::vector<Table::Cell> cells = cells_of(source, line, number);
     const Table::Cell time = cells[0];
     cells.erase(cells.begin());

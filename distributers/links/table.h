@@ -9,8 +9,8 @@
 
 namespace jarol::distributers {
 
-/// A title row, the first of it `time`, then rows whose times (s) grow from 0 on. Lines that are empty or begin with #
-/// are left out.
+/// A title row, the first of it `time`, then rows whose times (s) grow from 0 on; before it lines `expect: CONDITION`
+/// may stand, of which no more is known here. Lines that are empty or begin with # are left out.
 struct Table {
   struct Cell {
     std::string text;  // may be empty
@@ -20,7 +20,8 @@ struct Table {
     Duration time{};
     std::vector<Cell> cells;  // as many as titles
   };
-  std::vector<Cell> titles;  // without `time`
+  std::vector<Cell> expectations;  // each a condition, up to where " #" begins a comment
+  std::vector<Cell> titles;        // without `time`
   std::vector<Row> rows;
 };
 

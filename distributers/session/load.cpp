@@ -28,14 +28,20 @@ const Type* recorded_type(const Loaded& loaded, const std::string& distributer, 
   return nullptr;
 }
 
+// Null: it has none, or of a type that is not known.
+const distributers::LinkType* link_of(const Distributer& distributer,
+                                      const NamedList<distributers::LinkType>& known) {
+  const Yaml* const type = distributer.link.kind == Yaml::Kind::mapping ? distributer.link.find("type") : nullptr;
+  return type == nullptr ? nullptr : known.find(type->text);
+}
+
 // Where the vehicle of each distributer is.
 std::vector<expect::TrueValues> true_values_of(const Loaded& loaded, const RecordingHeader* recorded) {
   using Where = expect::TrueValues::Where;
   std::vector<expect::TrueValues> all;
   for (std::size_t i = 0; i < loaded.graph->distributers.size(); ++i) {
     const Distributer& distributer = loaded.graph->distributers[i];
-    const Yaml* name = distributer.link.kind == Yaml::Kind::mapping ? distributer.link.find("type") : nullptr;
-    const distributers::LinkType* link = name == nullptr ? nullptr : loaded.known->links.find(name->text);
+    const distributers::LinkType* const link = link_of(distributer, loaded.known->links);
     const Type* type = i < loaded.channels.size() && loaded.channels[i]
                            ? loaded.channels[i]->true_type()
                            : recorded_type(loaded, distributer.name, recorded);
@@ -49,10 +55,16 @@ std::vector<expect::TrueValues> true_values_of(const Loaded& loaded, const Recor
 }
 
 // What hangs on where the vehicles are.
-void add_conditions(Loaded& loaded, Problems& problems, const RecordingHeader* recorded = nullptr) {
+void add_conditions(Loaded& loaded, Problems& problems,
+                    const std::vector<std::unique_ptr<ExternalSystem>>& missions,
+                    const RecordingHeader* recorded = nullptr) {
   loaded.true_values = true_values_of(loaded, recorded);
-  loaded.graph->expectations =
-      expect::read_expectations(loaded.spec.expect, *loaded.graph, loaded.true_values, problems);
+  std::vector<expect::Condition>& expectations = loaded.graph->expectations;
+  expectations = expect::read_expectations(loaded.spec.expect, *loaded.graph, loaded.true_values, problems);
+  for (const std::unique_ptr<ExternalSystem>& mission : missions)
+    for (const Yaml& text : mission ? mission->expectations() : std::span<const Yaml>{})
+      if (auto condition = expect::parse_condition(text, *loaded.graph, loaded.true_values, problems))
+        expectations.push_back(std::move(*condition));
   loaded.campaign = campaign::read_campaign(loaded.spec.campaign, *loaded.graph, loaded.true_values, problems);
   problems.throw_if_any();
 }
@@ -74,13 +86,23 @@ Loaded load(const GraphText& text, const distributers::Registries& known, const 
   return loaded;
 }
 
+// The channels of missions alone, which are read for what they expect.
+std::vector<std::unique_ptr<ExternalSystem>> missions_of(const Loaded& loaded, Problems& problems) {
+  std::vector<Distributer> distributers = loaded.graph->distributers;
+  for (Distributer& distributer : distributers) {
+    const distributers::LinkType* const link = link_of(distributer, loaded.known->links);
+    if (link == nullptr || !link->is_mission) distributer.link = {};
+  }
+  return distributers::make_external_systems(*loaded.graph, distributers, *loaded.known, 0, problems);
+}
+
 }  // namespace
 
 Loaded load_without_channels(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
                              const Overrides& overrides, const NoteSink& note, const RecordingHeader* recorded) {
   Problems problems;
   Loaded loaded = load(read_text(source, overrides, problems), known, note, problems);
-  add_conditions(loaded, problems, recorded);
+  add_conditions(loaded, problems, missions_of(loaded, problems), recorded);
   return loaded;
 }
 
@@ -98,7 +120,7 @@ Loaded load_graph(const std::shared_ptr<const Source>& source, const distributer
     if (fits(distributer.name, without_link)) distributer.link = {};
   loaded.files = {source};
   loaded.channels = distributers::make_external_systems(*loaded.graph, *loaded.known, seed, problems, &loaded.files);
-  add_conditions(loaded, problems);
+  add_conditions(loaded, problems, loaded.channels);
   return loaded;
 }
 

@@ -35,6 +35,8 @@ std::optional<std::size_t> find_input(const Table::Cell& title, const std::vecto
 std::vector<Commands> read_commands(const std::shared_ptr<const Source>& script, const vehicles::VehicleClass& vehicle,
                                     Problems& problems) {
   const Table table = distributers::read_table(script, problems);
+  for (const Table::Cell& condition : table.expectations)
+    problems.add(condition.where, "'expect' is for a mission of a graph, which jarol run judges; leave it out here");
   const std::vector<Leaf> inputs = leaves_of(*vehicle.inputs);
   std::vector<std::optional<std::size_t>> columns;
   for (const Table::Cell& title : table.titles) {
