@@ -3,6 +3,8 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <iterator>
+#include <span>
 #include <utility>
 
 #include "distributers/distributers.h"
@@ -29,8 +31,7 @@ const Type* recorded_type(const Loaded& loaded, const std::string& distributer, 
 }
 
 // Null: it has none, or of a type that is not known.
-const distributers::LinkType* link_of(const Distributer& distributer,
-                                      const NamedList<distributers::LinkType>& known) {
+const distributers::LinkType* link_of(const Distributer& distributer, const NamedList<distributers::LinkType>& known) {
   const Yaml* const type = distributer.link.kind == Yaml::Kind::mapping ? distributer.link.find("type") : nullptr;
   return type == nullptr ? nullptr : known.find(type->text);
 }
@@ -54,17 +55,27 @@ std::vector<expect::TrueValues> true_values_of(const Loaded& loaded, const Recor
   return all;
 }
 
-// What hangs on where the vehicles are.
-void add_conditions(Loaded& loaded, Problems& problems,
-                    const std::vector<std::unique_ptr<ExternalSystem>>& missions,
-                    const RecordingHeader* recorded = nullptr) {
-  loaded.true_values = true_values_of(loaded, recorded);
-  std::vector<expect::Condition>& expectations = loaded.graph->expectations;
-  expectations = expect::read_expectations(loaded.spec.expect, *loaded.graph, loaded.true_values, problems);
+// Of the missions, then of the graph; where that expects nothing of neither.
+std::vector<expect::Condition> expectations_of(const Loaded& loaded,
+                                               const std::vector<std::unique_ptr<ExternalSystem>>& missions,
+                                               Problems& problems) {
+  const Maybe<Yaml>& list = loaded.spec.expect;
+  std::vector<expect::Condition> all;
+  if (expect::expects_nothing(list)) return all;
   for (const std::unique_ptr<ExternalSystem>& mission : missions)
     for (const Yaml& text : mission ? mission->expectations() : std::span<const Yaml>{})
       if (auto condition = expect::parse_condition(text, *loaded.graph, loaded.true_values, problems))
-        expectations.push_back(std::move(*condition));
+        all.push_back(std::move(*condition));
+  std::vector<expect::Condition> own = expect::read_expectations(list, *loaded.graph, loaded.true_values, problems);
+  all.insert(all.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
+  return all;
+}
+
+// What hangs on where the vehicles are.
+void add_conditions(Loaded& loaded, Problems& problems, const std::vector<std::unique_ptr<ExternalSystem>>& missions,
+                    const RecordingHeader* recorded = nullptr) {
+  loaded.true_values = true_values_of(loaded, recorded);
+  loaded.graph->expectations = expectations_of(loaded, missions, problems);
   loaded.campaign = campaign::read_campaign(loaded.spec.campaign, *loaded.graph, loaded.true_values, problems);
   problems.throw_if_any();
 }

@@ -36,8 +36,8 @@ Loaded load_graph(const std::shared_ptr<const Source>& source, const distributer
 /// Does the name fit one of the patterns, with * for any part?
 bool fits(const std::string& name, const std::vector<std::string>& patterns);
 
-/// The same without channels: of the files that links name, missions alone are read, for what they expect. `recorded`: the true values of vehicles
-/// that this recording holds are known; null: none.
+/// The same without channels: of the files that links name, missions alone are read, for what they expect. `recorded`:
+/// the true values of vehicles that this recording holds are known; null: none.
 Loaded load_without_channels(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
                              const Overrides& overrides, const NoteSink& note = no_notes,
                              const RecordingHeader* recorded = nullptr);

@@ -246,10 +246,14 @@ std::optional<Condition> parse_state(const Yaml& text, const std::string& key, c
   } catch (const Stop&) { return std::nullopt; }
 }
 
+bool expects_nothing(const Maybe<Yaml>& list) {
+  return list && list->value.kind == Yaml::Kind::scalar && list->value.text == "nothing";
+}
+
 std::vector<Condition> read_expectations(const Maybe<Yaml>& list, const Graph& graph,
                                          const std::vector<TrueValues>& vehicles, Problems& problems) {
   std::vector<Condition> conditions;
-  if (!list || list->value.kind == Yaml::Kind::null) return conditions;
+  if (!list || expects_nothing(list)) return conditions;
   if (list->value.kind != Yaml::Kind::sequence) {
     problems.add(list->where, "'expect' needs a list of conditions, not " + std::string(kind_name(list->value)));
     return conditions;

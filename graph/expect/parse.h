@@ -26,7 +26,10 @@ std::optional<Measured> parse_measured(const Yaml& text, const std::string& key,
 /// A condition on what is published that holds at an instant or does not: VALUE COMPARISON. `key` begins messages.
 std::optional<Condition> parse_state(const Yaml& text, const std::string& key, const Graph& graph, Problems& problems);
 
-/// The key `expect` of a graph: a list of conditions.
+/// By the key `expect` of a graph no run is judged, by what its mission expects neither.
+bool expects_nothing(const Maybe<Yaml>& list);
+
+/// The key `expect` of a graph: a list of conditions, or `nothing`.
 std::vector<Condition> read_expectations(const Maybe<Yaml>& list, const Graph& graph,
                                          const std::vector<TrueValues>& vehicles, Problems& problems);
 

@@ -35,7 +35,8 @@ const std::vector<Key<GraphSpec>>& graph_keys() {
       section("chains", "paths whose reaction time and data age check reports"),
       section("platform", "what check analyses and run executes"),
       key<&GraphSpec::expect>("expect", Form::any,
-                              "conditions on which run judges itself, as in 'depth of dune within 0.1 of 3'"),
+                              "conditions on which run judges itself beside those of its mission, as in 'depth of dune "
+                              "within 0.1 of 3'; 'nothing': by neither"),
       key<&GraphSpec::fault_limit>("fault_limit", Form::share,
                                    "share of a task's activations that faults may leave without outputs, default 10%"),
       section("at_end", "how the vehicle comes to rest when a run on the real clock ends"),

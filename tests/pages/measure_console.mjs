@@ -92,7 +92,7 @@ async function opening(file) {
   if (!existsSync(file)) {
     const begun = performance.now();
     try {
-      execFileSync(process.env.JAROL_COMMAND, ['run', 'specs/exolauv.yaml', '--for', '24h', '--set', 'expect=null', '--record', file], {stdio: 'ignore'});
+      execFileSync(process.env.JAROL_COMMAND, ['run', 'specs/exolauv.yaml', '--for', '24h', '--set', 'expect=nothing', '--record', file], {stdio: 'ignore'});
     } catch {
       // it comes up when nobody has been heard for long
     }

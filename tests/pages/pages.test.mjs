@@ -218,7 +218,7 @@ test('pages are as wide as the window, light or dark as the browser is', vehicle
 });
 
 function campaignPage() {
-  runAnyway('campaign', 'specs/exolauv.yaml', '--set', 'expect=null', '--vary', 'tasks.depth.parameters.kp=0.1..0.9', '--runs', '6',
+  runAnyway('campaign', 'specs/exolauv.yaml', '--set', 'expect=nothing', '--vary', 'tasks.depth.parameters.kp=0.1..0.9', '--runs', '6',
     '--metric', 'deepest=max(depth of dune) < 3.22', '--metric', 'at_end=depth of dune', '--results', at('c.sqlite'), '--csv', at('c.csv'), '--report', at('c.html'));
   return at('c.html');
 }

@@ -51,7 +51,7 @@ Outcome outcome(const std::string& vehicle_words, const std::string& run_words, 
   if (!vehicle.says("until Ctrl-C")) return {-1, {}, {}, vehicle.errors(), {}};
   Outcome all;
   {
-    Process run("run " + run_words + " --clock real --json --set fault_limit=100% --set expect=null" +
+    Process run("run " + run_words + " --clock real --json --set fault_limit=100% --set expect=nothing" +
                 (log.empty() ? "" : " --log " + log));
     std::this_thread::sleep_for(8s);
     act(run);

@@ -79,7 +79,8 @@ TEST_SUITE("tools/changed_input") {
   TEST_CASE("one changed bit of one input is found and named by instant and field") {
     const TemporaryFolder folder;
     const std::string file = folder / "r.mcap", other = folder / "changed.mcap";
-    REQUIRE(command::run_jarol("run specs/exolauv.yaml --for 10s --set expect=null --record " + file).exit_code == 0);
+    REQUIRE(command::run_jarol("run specs/exolauv.yaml --for 10s --set expect=nothing --record " + file).exit_code ==
+            0);
     CHECK(command::run_jarol("replay " + file).exit_code == 0);
     // the third number of what the submarine reported, after four bytes in front
     const std::size_t third = 4 + 2 * 8;

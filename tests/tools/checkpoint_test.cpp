@@ -174,7 +174,7 @@ TEST_SUITE("tools/checkpoint") {
       std::string words = mission.spec;
       if (!mission.options.profile.empty()) words += " --profile " + mission.options.profile;
       for (const std::string& set : mission.options.set)
-        words += " --set expect=null --set '" + set + "'";  // they fly otherwise
+        words += " --set expect=nothing --set '" + set + "'";  // they fly otherwise
       runs.emplace_back(words, mission.length);
     }
     std::uint64_t number = 0;

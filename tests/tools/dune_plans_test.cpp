@@ -46,7 +46,7 @@ class Mission {
  private:
   static Session open(std::vector<std::string> set) {
     set.emplace_back("distributers.dune.link.parameters.dynamics=rigid");
-    set.emplace_back("expect=null");
+    set.emplace_back("expect=nothing");
     return jarol::open("specs/exolauv.yaml", {.set = std::move(set), .seed = 3, .fed = {"neptus"}});
   }
   void step() {

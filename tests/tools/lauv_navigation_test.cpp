@@ -22,7 +22,7 @@ struct Lost {
 Lost after_100_s(const std::string& profile, double north, double east, std::uint64_t seed,
                  std::vector<std::string> set = {}) {
   const std::string vehicle = "distributers.dune.link.parameters.";
-  set.push_back("expect=null");
+  set.push_back("expect=nothing");
   set.push_back(vehicle + "dynamics=rigid");
   set.push_back(vehicle + "sea.current_north=" + std::to_string(north));
   set.push_back(vehicle + "sea.current_east=" + std::to_string(east));

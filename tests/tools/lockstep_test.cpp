@@ -132,7 +132,7 @@ TEST_SUITE("tools/lockstep") {
                            port);
     REQUIRE(vehicle.says("in lockstep at"));
     const auto fly = [](const std::string& options) {
-      return command::run_jarol("run specs/javiator.yaml --set expect=null " + options, "2>&1 >/dev/null");
+      return command::run_jarol("run specs/javiator.yaml --set expect=nothing " + options, "2>&1 >/dev/null");
     };
     const std::string turned = "--set tasks.attitude.parameters.lean.effect=-66 ",
                       there = "--set 'distributers.robostix.link={type: lockstep, peer: " + port + "}'";
@@ -169,8 +169,8 @@ TEST_SUITE("tools/lockstep") {
     // each leaves something to report: it is too heavy to take off
     for (int runs = 0, tries = 0; runs < 3 && tries < 200; ++tries) {
       const auto run = command::run_jarol(
-          "run specs/javiator.yaml --set expect=null --set 'distributers.robostix.link={type: lockstep, peer: " + port +
-          "}'");
+          "run specs/javiator.yaml --set expect=nothing --set 'distributers.robostix.link={type: lockstep, peer: " +
+          port + "}'");
       if (run.exit_code == 3) std::this_thread::sleep_for(100ms);  // not yet there
       if (run.exit_code == 3 && runs == 0) continue;
       ++runs;

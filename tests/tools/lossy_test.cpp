@@ -91,7 +91,7 @@ class Flights {
     const std::string port = tests::free_port(SOCK_DGRAM);
     tests::UdpProxy proxy(Address::parse(port), bad_network, 1);
     Outcome o = fly(proxy, "submarine --bare --id 209 --link udp --listen " + port,
-                    "specs/exolauv_bare.yaml --set expect=null --set fault_limit=100% --profile dune --set "
+                    "specs/exolauv_bare.yaml --set expect=nothing --set fault_limit=100% --profile dune --set "
                     "distributers.dune.link.listen=0 "
                     "--set distributers.dune.link.peer=" +
                         std::to_string(proxy.port()) + " --set distributers.neptus.link.file=" + dive_,
@@ -102,7 +102,7 @@ class Flights {
   }
 
   std::string helicopter_graph(const std::string& link, const std::string& traced) const {
-    return "specs/javiator.yaml --set expect=null --set at_end=null --set fault_limit=100% --set "
+    return "specs/javiator.yaml --set expect=nothing --set at_end=null --set fault_limit=100% --set "
            "'distributers.robostix.link=" +
            link + "' --trace " + (folder_ / traced) +
            " --set distributers.terminal.link.file=" + (full() ? "missions/hover.csv" : hop_);

@@ -73,7 +73,7 @@ expect: [light of lamp within 0.1 of 291]
     CHECK(ran.exit_code == 0);
     // each run of a campaign makes the vehicle again
     const auto campaign =
-        command::run_jarol("campaign " + graph + " --for 1s --set expect=null --results " + (folder / "r.sqlite") +
+        command::run_jarol("campaign " + graph + " --for 1s --set expect=nothing --results " + (folder / "r.sqlite") +
                                " --vary 'distributers.lamp.link.parameters.gain=[1, 2]' --metric "
                                "'light=light of lamp'",
                            "2>/dev/null");

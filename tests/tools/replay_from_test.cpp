@@ -112,7 +112,7 @@ TEST_SUITE("tools/replay_from") {
     const TemporaryFolder folder;
     const std::string file = folder / "r.mcap";
     const auto run =
-        json_report("run specs/exolauv.yaml --profile at_sea --for 20s --set expect=null --seed 3 --record " + file +
+        json_report("run specs/exolauv.yaml --profile at_sea --for 20s --set expect=nothing --seed 3 --record " + file +
                     " --record-checkpoints 6s");
     const auto replay = json_report("replay " + file + " --from 13s");
     CHECK(replay["verdict"] == "same");

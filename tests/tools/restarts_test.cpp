@@ -72,12 +72,12 @@ class Scenarios {
     return "vehicle submarine --bare --link udp --listen " + port + " --id 209 --json " + more;
   }
   std::string submarine_control(const std::string& port, const std::string& more) const {
-    return "run specs/exolauv_bare.yaml --set expect=null --set fault_limit=100% --clock real --json --profile dune "
+    return "run specs/exolauv_bare.yaml --set expect=nothing --set fault_limit=100% --clock real --json --profile dune "
            "--set distributers.neptus.link.file=" +
            dive_ + " --set distributers.dune.link.listen=0 --set distributers.dune.link.peer=" + port + " " + more;
   }
   std::string helicopter_control(const std::string& link, const std::string& more) const {
-    return "run specs/javiator.yaml --set expect=null --set at_end=null --set fault_limit=100% --clock real --json "
+    return "run specs/javiator.yaml --set expect=nothing --set at_end=null --set fault_limit=100% --clock real --json "
            "--set "
            "distributers.terminal.link.file=" +
            rise_ + " --set 'distributers.robostix.link=" + link + "' " + more;
@@ -153,7 +153,8 @@ class Scenarios {
     }
     std::this_thread::sleep_for(1500ms);
     Process second(
-        "run specs/javiator.yaml --set expect=null --set at_end=null --set fault_limit=100% --clock real --json --for "
+        "run specs/javiator.yaml --set expect=nothing --set at_end=null --set fault_limit=100% --clock real --json "
+        "--for "
         "2s --set "
         "'distributers.robostix.link=" +
         link + "' --set distributers.terminal.link.file=" + wait_);

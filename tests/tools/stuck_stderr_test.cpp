@@ -56,7 +56,7 @@ class StuckRun {
     const std::string script = folder_.write(
         "deep.csv", "time,setpoint.depth,setpoint.heading,setpoint.speed\n0,3,0deg,1.2\n600,3,0deg,1.2\n");
     std::string line = std::string("exec ") + JAROL_COMMAND +
-                       " run specs/exolauv.yaml --clock real --for 1h --set expect=null --set fault_limit=100%"
+                       " run specs/exolauv.yaml --clock real --for 1h --set expect=nothing --set fault_limit=100%"
                        " --set 'at_end.until=navigation.motion.z < -100' --set at_end.longest=1s --set "
                        "distributers.neptus.link.file=" +
                        script + " --set 'distributers.dune.link={type: udp, peer: " + port +

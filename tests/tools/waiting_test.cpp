@@ -78,7 +78,7 @@ TEST_SUITE("tools/waiting") {
     Process vehicle("vehicle submarine --parameters specs/vehicles/submarine.yaml --link lockstep --listen " + port);
     REQUIRE(vehicle.says("in lockstep at"));
     const std::string run =
-        "run specs/exolauv.yaml --for 100h --set expect=null --set "
+        "run specs/exolauv.yaml --for 100h --set expect=nothing --set "
         "'distributers.dune.link={type: lockstep, peer: " +
         port + "}'";
     const Ended ended = end_by(SIGTERM, run, [&](Process& process) {

@@ -72,7 +72,7 @@ TEST_SUITE("tools/what_if") {
 
 #ifdef JAROL_VEHICLES
   TEST_CASE("a dive with another gain from 5 s on reaches another depth") {
-    const std::string dive = "specs/exolauv.yaml --set expect=null --for 10s ";
+    const std::string dive = "specs/exolauv.yaml --set expect=nothing --for 10s ";
     const json report = report_of(dive +
                                   "--what-if 'at=5s set=tasks.depth.parameters.kp=0.2 "
                                   "set=tasks.speed.parameters.kp=0.5'");

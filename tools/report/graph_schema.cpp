@@ -193,7 +193,7 @@ std::string graph_schema(const distributers::Registries& known) {
   describe_section(schema, "platform", platform_schema(known.graph));
   describe_section(schema, "at_end", at_end_schema());
   describe_section(schema, "campaign", campaign_schema());
-  describe_section(schema, "expect", texts());
+  describe_section(schema, "expect", {{"anyOf", {texts(), {{"const", "nothing"}}}}});
   describe_section(schema, "profiles", {{"type", "object"}, {"additionalProperties", {{"type", "object"}}}});
   add_grammar_keys(schema, known.graph);
   schema["anyOf"] = Json::array({some_of("tasks"), some_of("communicators"), some_of("distributers")});

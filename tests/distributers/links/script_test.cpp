@@ -109,6 +109,32 @@ TEST_SUITE("distributers/links/script") {
           "  ^");
   }
 
+  TEST_CASE("what a mission is to reach stands above its titles, each condition with its place") {
+    Problems problems;
+    const ScriptSystem script(
+        std::make_shared<Source>(Source{"m.csv",
+                                        "# a mission\nexpect: depth of dune within 0.1 of 3 # and no deeper\r\n\n"
+                                        "  expect:  max(a.b) < 3,2\ntime,setpoint.depth\n0,1\n"}),
+        operator_class(), problems);
+    CHECK(problems.empty());
+    const std::span<const Yaml> expected = script.expectations();
+    REQUIRE(expected.size() == 2);
+    CHECK(expected[0].kind == Yaml::Kind::scalar);
+    CHECK(expected[0].text == "depth of dune within 0.1 of 3");
+    CHECK(expected[0].where.line == 2);
+    CHECK(expected[0].where.column == 9);
+    CHECK(expected[1].text == "max(a.b) < 3,2");
+    CHECK(expected[1].where.line == 4);
+    CHECK(expected[1].where.column == 12);
+    CHECK(report_on_script("expect: # nothing\ntime,setpoint.depth\nexpect: a < 1\n0,1\n") ==
+          "m.csv:1:1: error: 'expect' needs a condition, as in 'expect: depth of dune within 0.1 of 3'\n"
+          "  expect: # nothing\n"
+          "  ^\n"
+          "m.csv:3:1: error: 'expect' stands below the title row; it has to stand above\n"
+          "  expect: a < 1\n"
+          "  ^");
+  }
+
   TEST_CASE("a table of more cells than anyone drives by is an error") {
     CHECK(report_on_script(std::string(1'000'001, ','))
               .starts_with("m.csv:1:1: error: the table has more than 1000000 cells; leave rows out\n"));

@@ -154,7 +154,7 @@ TEST_SUITE("tools/campaign") {
   TEST_CASE("dives are the same to the bit as runs of their own, for 1, 2 and 4 workers") {
     const TemporaryFolder folder;
     const std::string of =
-        "campaign specs/exolauv.yaml --profile at_sea --for 5s --set expect=null --vary "
+        "campaign specs/exolauv.yaml --profile at_sea --for 5s --set expect=nothing --vary "
         "tasks.depth.parameters.kp=0.05..0.5 --vary 'distributers.dune.link.parameters.hull.mass=normal(18, 0.2)' "
         "--vary "
         "seed=1..6 --metric 'deepest=max(depth of dune)' ";
@@ -177,7 +177,7 @@ TEST_SUITE("tools/campaign") {
     for (std::size_t i = 1; i < lines.size(); i += 2) {
       const std::vector<std::string> cells = cells_of(lines[i]);
       const json alone = json_of(
-          "run specs/exolauv.yaml --profile at_sea --for 5s --set expect=null --set tasks.depth.parameters.kp=" +
+          "run specs/exolauv.yaml --profile at_sea --for 5s --set expect=nothing --set tasks.depth.parameters.kp=" +
           cells[2] + " --set distributers.dune.link.parameters.hull.mass=" + cells[3] + " --seed " + cells[1]);
       CHECK(alone["digest"] == cells[8]);
     }
@@ -185,8 +185,8 @@ TEST_SUITE("tools/campaign") {
     const json& deepest = one["metrics"][0]["max"];
     const std::vector<std::string> row = cells_of(lines[static_cast<std::size_t>(deepest["run"]) + 1]);
     CHECK(deepest["command"] ==
-          "jarol run specs/exolauv.yaml --profile at_sea --set expect=null --set tasks.depth.parameters.kp=" + row[2] +
-              " --set distributers.dune.link.parameters.hull.mass=" + row[3] + " --seed " + row[1] +
+          "jarol run specs/exolauv.yaml --profile at_sea --set expect=nothing --set tasks.depth.parameters.kp=" +
+              row[2] + " --set distributers.dune.link.parameters.hull.mass=" + row[3] + " --seed " + row[1] +
               " --for 5s --record run_" + row[0] + ".mcap");
     CHECK(row[4] == json(deepest["value"]).dump());
   }

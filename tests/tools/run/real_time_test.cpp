@@ -210,7 +210,7 @@ TEST_SUITE("tools/real_time") {
   TEST_CASE("an operator that never speaks may not be there") {
     const auto [exit_code, json] = command::run_jarol(
         "run specs/javiator.yaml --set 'distributers.terminal.link={type: udp, peer: 9}' --set at_end=null "
-        "--set expect=null --set fault_limit=100% --clock real --for 100ms --json",
+        "--set expect=nothing --set fault_limit=100% --clock real --for 100ms --json",
         "2>/dev/null");
     CHECK(exit_code == 0);
     CHECK(nlohmann::json::parse(json)["links"][0]["heard"] == false);

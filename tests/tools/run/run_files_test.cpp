@@ -73,7 +73,7 @@ TEST_SUITE("tools/run_files") {
       "differs in") {
     const TemporaryFolder folder;
     const std::string picture = folder / "p.svg", recording = folder / "r.mcap", replayed = folder / "q.svg";
-    CHECK(run_jarol("run specs/exolauv.yaml --profile at_sea --seed 7 --for 20s --set expect=null --record " +
+    CHECK(run_jarol("run specs/exolauv.yaml --profile at_sea --seed 7 --for 20s --set expect=nothing --record " +
                     recording + " --plot " + picture)
               .exit_code == 0);
     const std::string svg = content(picture);
@@ -88,7 +88,7 @@ TEST_SUITE("tools/run_files") {
     CHECK(count(">commanded</text>") == 3);
     CHECK(count(">none</text>") == 1);
     for (const std::string fin : {"fins.0", "fins.1", "fins.2", "fins.3"}) CHECK(count(">" + fin + "</text>") == 1);
-    CHECK(count(">profile at_sea, seed 7, expect=null</text>") == 1);
+    CHECK(count(">profile at_sea, seed 7, expect=nothing</text>") == 1);
     CHECK(run_jarol("replay " + recording + " --plot " + replayed).exit_code == 0);
     CHECK(content(replayed) == svg);
   }
@@ -96,10 +96,12 @@ TEST_SUITE("tools/run_files") {
   TEST_CASE("a trace in words has a row of units, and names what enumerators and truth values mean") {
     const TemporaryFolder folder;
     const std::string plain = folder / "p.csv", words = folder / "w.csv";
-    CHECK(run_jarol("run specs/javiator.yaml --for 40ms --set expect=null --trace-fill --trace " + plain).exit_code ==
-          0);
-    CHECK(run_jarol("run specs/javiator.yaml --for 40ms --set expect=null --trace-fill --trace-words --trace " + words)
-              .exit_code == 0);
+    CHECK(
+        run_jarol("run specs/javiator.yaml --for 40ms --set expect=nothing --trace-fill --trace " + plain).exit_code ==
+        0);
+    CHECK(
+        run_jarol("run specs/javiator.yaml --for 40ms --set expect=nothing --trace-fill --trace-words --trace " + words)
+            .exit_code == 0);
     const auto table = [](const std::string& path) {
       std::vector<std::vector<std::string>> rows;
       std::istringstream text(content(path));

@@ -1,0 +1,81 @@
+// What a mission says that it is to reach: judged as what its graph expects is, wherever that is judged.
+#include <doctest/doctest.h>
+
+#include <sstream>
+#include <string>
+
+#include "tests/tools/run_command.h"
+
+namespace {
+using command::run_jarol;
+using command::TemporaryFolder;
+
+const std::string titles = "time,setpoint.depth,setpoint.heading,setpoint.speed\n";
+
+std::string dive_by(const TemporaryFolder& folder, const std::string& expected) {
+  return "specs/exolauv.yaml --set distributers.neptus.link.file=" +
+         folder.write("mission.csv", expected + titles + "0,0,0deg,0\n1,2,0deg,1\n3,2,0deg,1\n");
+}
+
+std::string expected_lines(const std::string& output) {
+  std::string lines;
+  std::istringstream in(output);
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("  expected ")) lines += line + "\n";
+  return lines;
+}
+}  // namespace
+
+TEST_SUITE("tools/mission") {
+  TEST_CASE("a run is judged by its mission first, then by its graph, and a dive that is too short fails") {
+    const TemporaryFolder folder;
+    const std::string command = "run " + dive_by(folder,
+                                                 "expect: depth of dune > 1.9  # it is on its way\n"
+                                                 "expect: never depth of dune > 3\n");
+    const auto run = run_jarol(command, "2>&1");
+    CHECK(run.exit_code == 1);
+    const std::string lines = expected_lines(run.output);
+    CAPTURE(lines);
+    CHECK(lines.starts_with("  expected    depth of dune > 1.9: FAILS: reached "));
+    CHECK(lines.ends_with(" m\n  expected    never depth of dune > 3: holds\n"
+                          "  expected    never supervisor.condition.alarm is not none: holds\n"));
+    CHECK(run.output.find("error: expected 'depth of dune > 1.9', but it ") != std::string::npos);
+    const auto none = run_jarol(command + " --set expect=nothing", "2>&1");
+    CHECK(none.exit_code == 0);
+    CHECK(expected_lines(none.output) == "");
+  }
+
+  TEST_CASE("check finds what is wrong in a condition, at its place in the mission") {
+    const TemporaryFolder folder;
+    const std::string command = dive_by(folder, "expect: depht of dune > 1.9\n");
+    const auto check = run_jarol("check " + command, "2>&1");
+    CHECK(check.exit_code == 2);
+    CHECK(check.output.find(folder / "mission.csv" + ":1:9: error: ") != std::string::npos);
+    CHECK(check.output.find("\n  expect: depht of dune > 1.9\n          ^\n") != std::string::npos);
+  }
+
+  TEST_CASE("a replay judges by the mission that was recorded, whatever its file says now") {
+    const TemporaryFolder folder;
+    const std::string log = folder / "run.mcap";
+    const std::string command = dive_by(folder, "expect: depth of dune > 1.9\n");
+    REQUIRE(run_jarol("run " + command + " --record " + log, "2>/dev/null").exit_code == 1);
+    folder.write("mission.csv", titles + "0,0,0deg,0\n1,2,0deg,1\n3,2,0deg,1\n");
+    const auto replay = run_jarol("replay " + log, "2>&1");
+    CHECK(replay.exit_code == 1);
+    CHECK(expected_lines(replay.output).starts_with("  expected    depth of dune > 1.9: FAILS: reached "));
+    const auto of_now = run_jarol("replay " + log + " specs/exolauv.yaml", "2>&1");
+    CHECK(of_now.exit_code == 0);
+    CHECK(expected_lines(of_now.output) == "  expected    never supervisor.condition.alarm is not none: holds\n");
+  }
+
+  TEST_CASE("jarol vehicle, which no graph judges, refuses what a mission expects") {
+    const TemporaryFolder folder;
+    const std::string script = folder.write("script.csv", "expect: depth < 1\ntime,thruster\n0,0\n1,0\n");
+    const auto run = run_jarol("vehicle submarine --script " + script + " --csv " + (folder / "motion.csv"), "2>&1");
+    CHECK(run.exit_code == 2);
+    CHECK(run.output ==
+          script + ":1:9: error: 'expect' is for a mission of a graph, which jarol run judges; leave it out here\n"
+                   "  expect: depth < 1\n"
+                   "          ^\n1 error\n");
+  }
+}
