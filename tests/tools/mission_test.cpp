@@ -37,8 +37,9 @@ TEST_SUITE("tools/mission") {
     const std::string lines = expected_lines(run.output);
     CAPTURE(lines);
     CHECK(lines.starts_with("  expected    depth of dune > 1.9: FAILS: reached "));
-    CHECK(lines.ends_with(" m\n  expected    never depth of dune > 3: holds\n"
-                          "  expected    never supervisor.condition.alarm is not none: holds\n"));
+    CHECK(
+        lines.ends_with(" m\n  expected    never depth of dune > 3: holds\n"
+                        "  expected    never supervisor.condition.alarm is not none: holds\n"));
     CHECK(run.output.find("error: expected 'depth of dune > 1.9', but it ") != std::string::npos);
     const auto none = run_jarol(command + " --set expect=nothing", "2>&1");
     CHECK(none.exit_code == 0);
@@ -74,8 +75,9 @@ TEST_SUITE("tools/mission") {
     const auto run = run_jarol("vehicle submarine --script " + script + " --csv " + (folder / "motion.csv"), "2>&1");
     CHECK(run.exit_code == 2);
     CHECK(run.output ==
-          script + ":1:9: error: 'expect' is for a mission of a graph, which jarol run judges; leave it out here\n"
-                   "  expect: depth < 1\n"
-                   "          ^\n1 error\n");
+          script +
+              ":1:9: error: 'expect' is for a mission of a graph, which jarol run judges; leave it out here\n"
+              "  expect: depth < 1\n"
+              "          ^\n1 error\n");
   }
 }

@@ -17,6 +17,7 @@
 #include "tools/console/options.h"
 #include "tools/log/recorded_graph.h"
 #include "tools/report/command_line.h"
+#include "tools/run/crash_line.h"
 #include "tools/run/interrupt.h"
 
 namespace jarol::tools {

@@ -1,11 +1,6 @@
 #include "tools/report/exit_code.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <iostream>
-
-#include "runtime/files/temporary_files.h"
 
 namespace jarol::tools {
 namespace {
@@ -26,13 +21,6 @@ int exit_of_signal(int signal) { return signal == 0 ? int{exit_good} : 128 + sig
 
 int exit_of(std::initializer_list<int> codes) {
   return std::max(codes, [](int a, int b) { return weight_of(a) < weight_of(b); });
-}
-
-void end_at_once(int exit_code) {
-  std::cout.flush();
-  std::cerr.flush();
-  remove_temporary_files();
-  ::_exit(exit_code);
 }
 
 }  // namespace jarol::tools

@@ -13,7 +13,4 @@ int exit_of_signal(int signal);
 /// Bad input before what was not brought to an end, that before a signal, that before a negative verdict.
 int exit_of(std::initializer_list<int> codes);
 
-/// Ends the process where threads run that never end: what was printed goes out, nothing else is waited for.
-[[noreturn]] void end_at_once(int exit_code);
-
 }  // namespace jarol::tools

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -189,8 +190,7 @@ extern "C" void on_crash(int signal, siginfo_t* info, void* context) {
 // In the thread that called it, before anything else is torn down.
 void on_exit_called(std::string_view call, std::optional<int> code = {}) {
   PageGuard::lift();
-  if (running_graph.load() == nullptr || running_task.memory.load(std::memory_order_relaxed) == nullptr) return;
-  if (::getpid() != own_process) return;
+  if (running_graph.load() == nullptr || ::getpid() != own_process) return;
   wait_if_second();
   Line line;
   name_task(line);
@@ -237,10 +237,18 @@ CrashLine::~CrashLine() {
   running_graph.store(nullptr);
 }
 
+void end_at_once(int exit_code) {
+  std::cout.flush();
+  std::cerr.flush();
+  remove_temporary_files();
+  wait_for_crash();
+  end_process(exit_code);
+}
+
 }  // namespace jarol::tools
 
-// In the place of the C library's, for what is called from a task: nothing of the program would learn of it. Libraries
-// that a program loads find its own first.
+// In the place of the C library's, for what is called while a run goes on: nothing of the program would learn of it.
+// Libraries that a program loads find its own first.
 extern "C" {
 void _exit(int code) {
   jarol::tools::on_exit_called("_exit", code);

@@ -1,5 +1,5 @@
-// What is said when a task ends the whole process: by exit, quick_exit, _exit, abort, a segmentation fault, an overflow
-// of its stack.
+// What is said when a task, or a thread that it has started, ends the whole process: by exit, quick_exit, _exit, abort,
+// a segmentation fault, an overflow of its stack.
 #pragma once
 
 #include <string>
@@ -27,5 +27,9 @@ class CrashLine {
  private:
   SignalStack stack_;  // of the thread that made it, which runs tasks too
 };
+
+/// Ends the process where threads run that never end, and is no crash: what was printed goes out, nothing else is
+/// waited for.
+[[noreturn]] void end_at_once(int exit_code);
 
 }  // namespace jarol::tools

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
+#include <thread>
 
 #include "graph/plugins/plugin.h"
 #include "tasks/values/javiator.h"
@@ -22,11 +23,12 @@ enum class Way : std::uint8_t {
   overflow,
   terminate,
   divide,
-  bytes
+  bytes,
+  thread_exit
 };
 
 constexpr auto enumerators(Way) {
-  return std::array<Enumerator<Way>, 10>{{{"none", Way::none},
+  return std::array<Enumerator<Way>, 11>{{{"none", Way::none},
                                           {"exit", Way::exit},
                                           {"quick_exit", Way::quick_exit},
                                           {"underscore_exit", Way::underscore_exit},
@@ -35,7 +37,8 @@ constexpr auto enumerators(Way) {
                                           {"overflow", Way::overflow},
                                           {"terminate", Way::terminate},
                                           {"divide", Way::divide},
-                                          {"bytes", Way::bytes}}};
+                                          {"bytes", Way::bytes},
+                                          {"thread_exit", Way::thread_exit}}};
 }
 
 volatile int zero = 0;
@@ -70,6 +73,7 @@ __attribute__((no_sanitize("undefined"))) __attribute__((no_sanitize("address"))
     }
     case Way::terminate: throw_without_leave(); return;
     case Way::divide: zero = 7 / zero; return;
+    case Way::thread_exit: std::thread([] { std::exit(0); }).join(); return;
     case Way::bytes: throw std::runtime_error("\xff\xc3\x28 \x1b[31m \x01\xed\xa0\x80\"\\");
   }
 }

@@ -68,6 +68,19 @@ TEST_SUITE("tools/crash_line") {
     }
   }
 
+  TEST_CASE("a thread that a task has started may not end the process unseen either") {
+    const TemporaryFolder folder;
+    const std::string file = crashing(folder, "thread_exit");
+    for (const std::string how : {"run ", "run --clock real ", "check --measure "}) {
+      CAPTURE(how);
+      Process process(how + file + " --for 1s");
+      CHECK(process.end() == 3);
+      CHECK(process.errors().find("crash: no task ran in this thread: called exit(0); the process ends\n") !=
+            std::string::npos);
+      CHECK(process.output() == "");
+    }
+  }
+
   TEST_CASE("what another process sends is no task's fault") {
     const TemporaryFolder folder;
     Process process("run " + crashing(folder, "none") + " --clock real --for 1h");
