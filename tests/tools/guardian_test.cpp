@@ -30,11 +30,14 @@ int end_of(pid_t process) {
 }
 
 struct Way {
-  std::string name;  // of the plugin's, or "kill"
+  std::string name;  // of the plugin's, or of what is sent from outside
   int exit_code;
   std::string line;  // what the controller says
+  int signal = 0;    // from outside; 0: none
 };
-const std::vector<Way> ways{{"kill", -SIGKILL, ""},
+const std::vector<Way> ways{{"kill", -SIGKILL, "", SIGKILL},
+                            {"quit", -SIGQUIT, "", SIGQUIT},
+                            {"alarm", -SIGALRM, "", SIGALRM},
                             {"exit", 3, "called exit(0); the process ends\n"},
                             {"underscore_exit", 3, "called _exit(0); the process ends\n"},
                             {"abort", -SIGABRT, "abort; the process ends\n"},
@@ -50,7 +53,7 @@ struct Outcome {
 Outcome end_once(const command::TemporaryFolder& folder, const std::string& link, bool helicopter,
                  const std::string& model, const Way& way) {
   GuardedVehicle vehicle(link, helicopter);
-  const bool kill = way.name == "kill";
+  const bool kill = way.signal != 0;
   Process run(tests::guarded_run(folder, vehicle, model, kill ? "none" : way.name));
   std::string wrong;
   const auto expect = [&](bool good, const std::string& what) { wrong += good ? "" : what + "; "; };
@@ -62,7 +65,7 @@ Outcome end_once(const command::TemporaryFolder& folder, const std::string& link
   expect(vehicle.listen_until(steered), "not steered, or no guardian");
   const std::uint64_t flawed = vehicle.flawed();  // a line echoes until it is opened
   auto gone = GuardedVehicle::Clock::now();
-  if (kill) run.kill();
+  if (kill) run.signal(way.signal);
   vehicle.leans = true;
   if (!vehicle.listen_until([&] { return vehicle.is_at_rest(); })) return {"no safe: " + run.errors(), {}};
   if (!kill) gone = vehicle.steered_at;
@@ -139,7 +142,7 @@ TEST_SUITE("tools/guardian") {
 
   TEST_CASE("so is the submarine, by packets that report the time at which they are sent") {
     try_all({{"udp", "table", false}, {"tcp_server", "threads", false}, {"serial", "fixed_priority", false}},
-            {ways[0], ways[3]});
+            {ways[0], ways[5]});
   }
 
   TEST_CASE("so is a vehicle on a link with a key, by packets that it takes for the controller's") {
@@ -147,7 +150,7 @@ TEST_SUITE("tools/guardian") {
     for (const std::string link : {"udp", "udp without peer", "tcp_client", "tcp_server"})
       for (const bool helicopter : {true, false})
         cases.push_back({link + " with a key", helicopter ? "table" : "threads", helicopter});
-    try_all(cases, {ways[0], ways[3]});
+    try_all(cases, {ways[0], ways[5]});
   }
 
   TEST_CASE("without a guardian a crash leaves the last command in force, and nobody says otherwise") {
