@@ -95,7 +95,7 @@ test('a task is added, connected by the mouse and by the form, renamed and remov
   await drawn(shown, 'task brain,');
   const renamed = await shown.source();
   assert.match(renamed, /  - brain\.directive -> javiator_filter\.directive\n/);
-  assert.match(renamed, /  - brain\.directive\.state is ground\n/);
+  assert.match(renamed, /  - never brain\.directive\.cause is not none\n/);
   assert.match(renamed, /until: brain\.directive\.state is ground or halt/);
   assert.match(renamed, /tasks\.brain\.type: OriginalLogic/);
   assert.ok(!/\blogic\b/.test(renamed));

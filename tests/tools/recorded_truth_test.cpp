@@ -56,7 +56,7 @@ TEST_SUITE("tools/recorded_truth") {
     const auto replay = command::run_jarol("replay " + file + " --set tasks.depth.parameters.kp=0.2", "2>/dev/null");
     CHECK(
         judged(replay.output)
-            .find("  expected    2 conditions: not judged: the vehicle of 'dune' is not simulated in this process\n") !=
+            .find("  expected    6 conditions: not judged: the vehicle of 'dune' is not simulated in this process\n") !=
         std::string::npos);
   }
 

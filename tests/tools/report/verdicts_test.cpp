@@ -139,7 +139,7 @@ TEST_SUITE("tools/verdicts") {
       const Result again = command::run_jarol("replay " + log);
       CHECK(again.exit_code == run.exit_code);
       CHECK(contains(again.output,
-                     "  expected    speed of dune < 3: not judged: the vehicle of 'dune' is not simulated "
+                     "  expected    5 conditions: not judged: the vehicle of 'dune' is not simulated "
                      "in this process\n"));
       const std::size_t published = run.output.find("  expected    to_neptus");
       REQUIRE(published != std::string::npos);
