@@ -56,7 +56,7 @@ class Typed final : public AnyDistributer {
   // of a distributer that does not say what it has beside `in`, it is looked whether there can be anything
   void serialize(Archive& archive) override {
     if constexpr (requires { distributer_.in; })
-      std::apply([&](auto... f) { archive((distributer_.in.*(f.pointer))...); }, In::fields());
+      with_fields(In::fields(), [&](auto... f) { archive((distributer_.in.*(f.pointer))...); });
     if constexpr (detail::has_serialize<D>)
       distributer_.serialize(archive);
     else if constexpr (!has_nothing_beside_in())
@@ -100,8 +100,8 @@ class Typed final : public AnyDistributer {
 
   using Handlers = decltype(D::handlers());
   static constexpr std::size_t entry_count = std::tuple_size_v<Handlers>;
-  static constexpr std::size_t in_count = std::tuple_size_v<decltype(In::fields())>;
-  static constexpr std::size_t out_count = std::tuple_size_v<decltype(Out::fields())>;
+  static constexpr std::size_t in_count = decltype(In::fields())::count;
+  static constexpr std::size_t out_count = decltype(Out::fields())::count;
 
   static constexpr bool has_nothing_beside_in() {
     if constexpr (requires(D & d) { d.in; })
@@ -244,11 +244,11 @@ class Typed final : public AnyDistributer {
   }
 
   // In the order of their description.
-  static constexpr auto takes = []<auto... Channel>(std::tuple<Field<Channel>...>) {
+  static constexpr auto takes = []<auto... Channel>(FieldList<Channel...>) {
     return std::array<bool (*)(D&, void*), sizeof...(Channel)>{&take_channel<Channel>...};
   }
   (In::fields());
-  static constexpr auto sends = []<auto... Channel>(std::tuple<Field<Channel>...>) {
+  static constexpr auto sends = []<auto... Channel>(FieldList<Channel...>) {
     return std::array<void (*)(D&, const void*, messages::Receiver&), sizeof...(Channel)>{&send_channel<Channel>...};
   }
   (Out::fields());
@@ -261,20 +261,16 @@ template <class D>
 DistributerClass distributer_class() {
   using T = Typed<D>;
   DistributerClass made{std::string(type_name<D>()), std::string(D::summary), {}, D::is_vehicle};
-  std::apply(
-      [&](auto... f) {
-        (made.channels.push_back(
-             {std::string(f.name), Direction::in, &type_of<typename decltype(f)::Value::Value>(), std::string(f.text)}),
-         ...);
-      },
-      T::In::fields());
-  std::apply(
-      [&](auto... f) {
-        (made.channels.push_back(
-             {std::string(f.name), Direction::out, &type_of<typename decltype(f)::Value>(), std::string(f.text)}),
-         ...);
-      },
-      T::Out::fields());
+  with_fields(T::In::fields(), [&](auto... f) {
+    (made.channels.push_back(
+         {std::string(f.name), Direction::in, &type_of<typename decltype(f)::Value::Value>(), std::string(f.text)}),
+     ...);
+  });
+  with_fields(T::Out::fields(), [&](auto... f) {
+    (made.channels.push_back(
+         {std::string(f.name), Direction::out, &type_of<typename decltype(f)::Value>(), std::string(f.text)}),
+     ...);
+  });
   if constexpr (detail::WithParameters<D>) made.parameters = &type_of<typename D::Param>();
   made.message_set = &D::message_set;
   made.make = []([[maybe_unused]] const void* parameters) -> std::unique_ptr<AnyDistributer> {

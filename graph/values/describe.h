@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -188,10 +187,22 @@ constexpr Field<Member> field(std::string_view unit = "", std::string_view text 
   return {unit, text, {}};
 }
 
+/// Fields of one struct. In place of a std::tuple, which takes longer to compile than all that is done with it.
+template <auto... Member>
+struct FieldList : Field<Member>... {
+  static constexpr std::size_t count = sizeof...(Member);
+};
+
+/// Calls function(field...) with all of a list.
+template <auto... Member, class Function>
+constexpr decltype(auto) with_fields([[maybe_unused]] const FieldList<Member...>& fields, Function&& function) {
+  return function(static_cast<const Field<Member>&>(fields)...);
+}
+
 /// The description of a struct: its fields in the order of their declaration. One that is missing, twice or misplaced
 /// does not compile, and the compiler's lines name it.
 template <auto... Member>
-constexpr std::tuple<Field<Member>...> describe(Field<Member>... fields) {
+constexpr auto describe(Field<Member>... fields) {
   if constexpr (sizeof...(Member) > 0) {
     using T = typename detail::OwnerOf<Member...>::Type;
     static_assert((std::is_same_v<typename Field<Member>::Owner, T> && ...),
@@ -204,6 +215,7 @@ constexpr std::tuple<Field<Member>...> describe(Field<Member>... fields) {
       if constexpr (repeated < sizeof...(Member)) {
         static_assert(detail::describes_once<detail::element<repeated, Member...>()>,
                       "fields() must describe each member once; this one is there twice");
+        return FieldList<>{};
       } else if constexpr (detail::is_described<T, wrong, Member...>()) {
         static_assert(detail::describes_in_order<JAROL_MEMBER(T, wrong), detail::element<wrong, Member...>()>,
                       "fields() must describe the members in their order; the first of these belongs before the "
@@ -214,7 +226,7 @@ constexpr std::tuple<Field<Member>...> describe(Field<Member>... fields) {
       }
     }
   }
-  return {fields...};
+  return FieldList<Member...>{fields...};
 }
 
 #undef JAROL_MEMBER

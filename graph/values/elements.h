@@ -1,13 +1,20 @@
 // Which values are numbers, and which have elements.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <concepts>
 #include <type_traits>
 
 #include "graph/language/duration.h"
 #include "graph/values/sequence.h"
+
+// Whoever has one in a value includes Eigen; others need not wait for their compiler to read it.
+namespace Eigen {
+template <class Scalar, int Rows, int Columns, int Options, int MaxRows, int MaxColumns>
+class Matrix;
+template <class Derived>
+struct EigenBase;
+}  // namespace Eigen
 
 namespace jarol {
 

@@ -1,6 +1,7 @@
 // The members of a struct, which the compiler finds without their names.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <tuple>
 #include <utility>
@@ -42,129 +43,141 @@ inline Place<T> place{};
 inline constexpr std::size_t max_members = 32;
 inline constexpr std::size_t no_difference = static_cast<std::size_t>(-1);
 
-template <class T, std::size_t I>
-constexpr auto* address_of_member() {
+// Calls function(member...) with all members of a struct.
+template <class T, class Function>
+constexpr auto with_members(T& v, Function function) {
   constexpr std::size_t count = member_count<T>();
-  auto& v = place<T>.value;
   if constexpr (count == 1) {
     auto& [m0] = v;
-    return &m0;
+    return function(m0);
   } else if constexpr (count == 2) {
     auto& [m0, m1] = v;
-    return &std::get<I>(std::tie(m0, m1));
+    return function(m0, m1);
   } else if constexpr (count == 3) {
     auto& [m0, m1, m2] = v;
-    return &std::get<I>(std::tie(m0, m1, m2));
+    return function(m0, m1, m2);
   } else if constexpr (count == 4) {
     auto& [m0, m1, m2, m3] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3));
+    return function(m0, m1, m2, m3);
   } else if constexpr (count == 5) {
     auto& [m0, m1, m2, m3, m4] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4));
+    return function(m0, m1, m2, m3, m4);
   } else if constexpr (count == 6) {
     auto& [m0, m1, m2, m3, m4, m5] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5));
+    return function(m0, m1, m2, m3, m4, m5);
   } else if constexpr (count == 7) {
     auto& [m0, m1, m2, m3, m4, m5, m6] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6));
+    return function(m0, m1, m2, m3, m4, m5, m6);
   } else if constexpr (count == 8) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7);
   } else if constexpr (count == 9) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8);
   } else if constexpr (count == 10) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9);
   } else if constexpr (count == 11) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10);
   } else if constexpr (count == 12) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11);
   } else if constexpr (count == 13) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12);
   } else if constexpr (count == 14) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13);
   } else if constexpr (count == 15) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14);
   } else if constexpr (count == 16) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15);
   } else if constexpr (count == 17) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16);
   } else if constexpr (count == 18) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17);
   } else if constexpr (count == 19) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18);
   } else if constexpr (count == 20) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19] = v;
-    return &std::get<I>(
-        std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19);
   } else if constexpr (count == 21) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20] = v;
-    return &std::get<I>(
-        std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20);
   } else if constexpr (count == 22) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21] = v;
-    return &std::get<I>(
-        std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21);
   } else if constexpr (count == 23) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21, m22] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18,
-                                 m19, m20, m21, m22));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21,
+                    m22);
   } else if constexpr (count == 24) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21, m22,
            m23] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18,
-                                 m19, m20, m21, m22, m23));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21,
+                    m22, m23);
   } else if constexpr (count == 25) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21, m22, m23,
            m24] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18,
-                                 m19, m20, m21, m22, m23, m24));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21,
+                    m22, m23, m24);
   } else if constexpr (count == 26) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21, m22, m23,
            m24, m25] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18,
-                                 m19, m20, m21, m22, m23, m24, m25));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21,
+                    m22, m23, m24, m25);
   } else if constexpr (count == 27) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21, m22, m23,
            m24, m25, m26] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18,
-                                 m19, m20, m21, m22, m23, m24, m25, m26));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21,
+                    m22, m23, m24, m25, m26);
   } else if constexpr (count == 28) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21, m22, m23,
            m24, m25, m26, m27] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18,
-                                 m19, m20, m21, m22, m23, m24, m25, m26, m27));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21,
+                    m22, m23, m24, m25, m26, m27);
   } else if constexpr (count == 29) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21, m22, m23,
            m24, m25, m26, m27, m28] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18,
-                                 m19, m20, m21, m22, m23, m24, m25, m26, m27, m28));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21,
+                    m22, m23, m24, m25, m26, m27, m28);
   } else if constexpr (count == 30) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21, m22, m23,
            m24, m25, m26, m27, m28, m29] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18,
-                                 m19, m20, m21, m22, m23, m24, m25, m26, m27, m28, m29));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21,
+                    m22, m23, m24, m25, m26, m27, m28, m29);
   } else if constexpr (count == 31) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21, m22, m23,
            m24, m25, m26, m27, m28, m29, m30] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18,
-                                 m19, m20, m21, m22, m23, m24, m25, m26, m27, m28, m29, m30));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21,
+                    m22, m23, m24, m25, m26, m27, m28, m29, m30);
   } else if constexpr (count == 32) {
     auto& [m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21, m22, m23,
            m24, m25, m26, m27, m28, m29, m30, m31] = v;
-    return &std::get<I>(std::tie(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18,
-                                 m19, m20, m21, m22, m23, m24, m25, m26, m27, m28, m29, m30, m31));
+    return function(m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19, m20, m21,
+                    m22, m23, m24, m25, m26, m27, m28, m29, m30, m31);
+  } else {
+    return function();
   }
+}
+
+// The addresses of the members, in their order.
+template <class T>
+constexpr auto addresses_of_members() {
+  return with_members(place<T>.value,
+                      [](auto&... member) { return std::array<const void*, sizeof...(member)>{&member...}; });
+}
+
+// The same of one member, as what an error names.
+template <class T, std::size_t I>
+constexpr auto* address_of_member() {
+  return with_members(place<T>.value, [](auto&... member) { return &std::get<I>(std::tie(member...)); });
 }
 
 template <std::size_t I, auto... Values>
@@ -179,23 +192,18 @@ constexpr std::size_t first_difference() {
   constexpr std::size_t members = member_count<T>();
   static_assert(members <= max_members, "a struct has at most 32 members; put some into a struct of their own");
   constexpr std::size_t both = members < sizeof...(Described) ? members : sizeof...(Described);
-  const void* const described[] = {nullptr, &(place<T>.value.*Described)...};
-  std::size_t first = no_difference;
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    const auto compare = [&](std::size_t i, const void* member) {
-      if (first == no_difference && member != described[i + 1]) first = i;
-    };
-    (compare(I, address_of_member<T, I>()), ...);
-  }
-  (std::make_index_sequence<both>{});
-  return first == no_difference && members != sizeof...(Described) ? both : first;
+  constexpr std::array<const void*, sizeof...(Described)> described{&(place<T>.value.*Described)...};
+  constexpr auto addresses = addresses_of_members<T>();
+  for (std::size_t i = 0; i < both && i < addresses.size(); ++i)
+    if (addresses[i] != described[i]) return i;
+  return members != sizeof...(Described) ? both : no_difference;
 }
 
 /// Is that member, by its number, in a list of pointers to members? One beyond the last member is not.
 template <class T, std::size_t I, auto... Described>
 constexpr bool is_described() {
   if constexpr (I < member_count<T>()) {
-    const void* const member = address_of_member<T, I>();
+    const void* const member = addresses_of_members<T>()[I];
     return ((member == &(place<T>.value.*Described)) || ...);
   } else {
     return false;

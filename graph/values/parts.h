@@ -1,8 +1,6 @@
 // What values are made of: which of them change their size.
 #pragma once
 
-#include <tuple>
-
 #include "graph/values/describe.h"
 
 namespace jarol::detail {
@@ -15,7 +13,7 @@ constexpr bool is_deep() {
   } else if constexpr (Array<T>) {
     return is_deep<typename ArrayTraits<T>::Element>();
   } else if constexpr (Described<T>) {
-    return std::apply([](auto... f) { return (is_deep<typename decltype(f)::Value>() || ...); }, T::fields());
+    return with_fields(T::fields(), [](auto... f) { return (is_deep<typename decltype(f)::Value>() || ...); });
   } else {
     return false;
   }

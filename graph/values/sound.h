@@ -39,8 +39,8 @@ inline std::uint64_t any_non_finite(const T& value) {
     }
     return any;
   } else if constexpr (Described<T>) {
-    return std::apply([&](auto... f) { return (std::uint64_t{0} | ... | any_non_finite(value.*(f.pointer))); },
-                      T::fields());
+    return with_fields(T::fields(),
+                       [&](auto... f) { return (std::uint64_t{0} | ... | any_non_finite(value.*(f.pointer))); });
   } else {
     return 0;
   }
@@ -59,9 +59,9 @@ constexpr bool has_ranges() {
   } else if constexpr (SequenceOf<T>) {
     return has_ranges<typename SequenceTraits<T>::Element>();
   } else if constexpr (Described<T>) {
-    return std::apply(
-        [](auto... f) { return ((f.range.is_stated() || has_ranges<typename decltype(f)::Value>()) || ...); },
-        T::fields());
+    return with_fields(T::fields(), [](auto... f) {
+      return ((f.range.is_stated() || has_ranges<typename decltype(f)::Value>()) || ...);
+    });
   } else {
     return false;
   }
@@ -98,18 +98,18 @@ constexpr bool is_in_range(const T& value) {
       if (!is_in_range(element)) return false;
     return true;
   } else {
-    return [&]<std::size_t... I>(std::index_sequence<I...>) {
-      const auto field_is_in = [&]<std::size_t J>(std::integral_constant<std::size_t, J>) {
-        constexpr auto field = std::get<J>(T::fields());
+    return [&]<auto... Member>(FieldList<Member...>*) {
+      const auto field_is_in = [&]<auto One>(Field<One>*) {
+        constexpr Field<One> field = T::fields();
         const auto& member = value.*(field.pointer);
         if constexpr (field.range.is_stated()) {
           if (!is_in(field.range, member)) return false;
         }
         return is_in_range(member);
       };
-      return (field_is_in(std::integral_constant<std::size_t, I>{}) && ...);
+      return (field_is_in(static_cast<Field<Member>*>(nullptr)) && ...);
     }
-    (std::make_index_sequence<std::tuple_size_v<decltype(T::fields())>>{});
+    (static_cast<decltype(T::fields())*>(nullptr));
   }
 }
 

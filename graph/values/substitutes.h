@@ -1,7 +1,6 @@
 // What can't be a member of a value, and what takes its place.
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <string>

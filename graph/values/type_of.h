@@ -22,7 +22,7 @@ void adopt(T& value, std::pmr::memory_resource* memory) {
     if constexpr (Array<T>) {
       for (auto& element : value) adopt(element, memory);
     } else {
-      std::apply([&](auto... f) { (adopt(value.*(f.pointer), memory), ...); }, T::fields());
+      with_fields(T::fields(), [&](auto... f) { (adopt(value.*(f.pointer), memory), ...); });
     }
   }
 }
@@ -97,7 +97,7 @@ constexpr bool has_names() {
 template <class T>
 constexpr bool is_well_described() {
   if constexpr (Described<T>) {
-    return []<auto... Member>(std::tuple<Field<Member>...>*) {
+    return []<auto... Member>(FieldList<Member...>*) {
       return ((is_value<typename Field<Member>::Value> && has_names<Member>()) && ...);
     }
     (static_cast<decltype(T::fields())*>(nullptr));
@@ -161,20 +161,18 @@ void fill_type(Type& type) {
   } else {
     static_assert(Described<T>, "a struct is a value once its fields() describes every member");
     static_assert(std::is_aggregate_v<T>, "a value is a plain struct without constructors or private members");
-    static_assert(std::tuple_size_v<decltype(T::fields())> > 0 || member_count<T>() == 0,
+    static_assert(decltype(T::fields())::count > 0 || member_count<T>() == 0,
                   "fields() must describe every member of the struct; it describes none");
     if constexpr (has_ranges<T>() && has_constant_default<T>)
       static_assert(is_in_range(T{}), "a default value is outside the range of its field");
     type.name = type_name<T>();
     type.kind = Kind::structure;
     const T& value = example<T>();
-    std::apply(
-        [&](auto... f) {
-          (add_field(type, f.name, f.unit, f.text, f.range, &value, &(value.*(f.pointer)),
-                     type_of<typename decltype(f)::Value>()),
-           ...);
-        },
-        T::fields());
+    with_fields(T::fields(), [&](auto... f) {
+      (add_field(type, f.name, f.unit, f.text, f.range, &value, &(value.*(f.pointer)),
+                 type_of<typename decltype(f)::Value>()),
+       ...);
+    });
   }
 }
 

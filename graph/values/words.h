@@ -45,7 +45,7 @@ inline void for_each_word(const T& value, Visit&& visit) {
     visit(static_cast<std::uint64_t>(value.size()));
     for_each_packed_word(value.view(), visit);
   } else {
-    std::apply([&](auto... f) { (for_each_word(value.*(f.pointer), visit), ...); }, T::fields());
+    with_fields(T::fields(), [&](auto... f) { (for_each_word(value.*(f.pointer), visit), ...); });
   }
 }
 

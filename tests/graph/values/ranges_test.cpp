@@ -1,6 +1,7 @@
 // Ranges that fields are declared with; what does not compile is in not_a_value.cpp.
 #include <doctest/doctest.h>
 
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 

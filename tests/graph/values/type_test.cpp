@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <Eigen/Core>
 #include <limits>
 
 #include "graph/values/bind.h"
