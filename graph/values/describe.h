@@ -187,22 +187,35 @@ constexpr Field<Member> field(std::string_view unit = "", std::string_view text 
   return {unit, text, {}};
 }
 
+namespace detail {
+
+// By its place, as one may be there twice, which is an error that is to be said alone.
+template <std::size_t I, auto Member>
+struct PlacedField : Field<Member> {};
+template <class Places, auto... Member>
+struct PlacedFields;
+template <std::size_t... I, auto... Member>
+struct PlacedFields<std::index_sequence<I...>, Member...> : PlacedField<I, Member>... {};
+
+}  // namespace detail
+
 /// Fields of one struct. In place of a std::tuple, which takes longer to compile than all that is done with it.
 template <auto... Member>
-struct FieldList : Field<Member>... {
+struct FieldList : detail::PlacedFields<std::make_index_sequence<sizeof...(Member)>, Member...> {
   static constexpr std::size_t count = sizeof...(Member);
 };
 
 /// Calls function(field...) with all of a list.
-template <auto... Member, class Function>
-constexpr decltype(auto) with_fields([[maybe_unused]] const FieldList<Member...>& fields, Function&& function) {
-  return function(static_cast<const Field<Member>&>(fields)...);
+template <std::size_t... I, auto... Member, class Function>
+constexpr decltype(auto) with_fields(
+    [[maybe_unused]] const detail::PlacedFields<std::index_sequence<I...>, Member...>& fields, Function&& function) {
+  return function(static_cast<const Field<Member>&>(static_cast<const detail::PlacedField<I, Member>&>(fields))...);
 }
 
 /// The description of a struct: its fields in the order of their declaration. One that is missing, twice or misplaced
 /// does not compile, and the compiler's lines name it.
 template <auto... Member>
-constexpr auto describe(Field<Member>... fields) {
+constexpr FieldList<Member...> describe(Field<Member>... fields) {
   if constexpr (sizeof...(Member) > 0) {
     using T = typename detail::OwnerOf<Member...>::Type;
     static_assert((std::is_same_v<typename Field<Member>::Owner, T> && ...),
@@ -215,7 +228,6 @@ constexpr auto describe(Field<Member>... fields) {
       if constexpr (repeated < sizeof...(Member)) {
         static_assert(detail::describes_once<detail::element<repeated, Member...>()>,
                       "fields() must describe each member once; this one is there twice");
-        return FieldList<>{};
       } else if constexpr (detail::is_described<T, wrong, Member...>()) {
         static_assert(detail::describes_in_order<JAROL_MEMBER(T, wrong), detail::element<wrong, Member...>()>,
                       "fields() must describe the members in their order; the first of these belongs before the "
@@ -226,7 +238,7 @@ constexpr auto describe(Field<Member>... fields) {
       }
     }
   }
-  return FieldList<Member...>{fields...};
+  return {{{fields}...}};
 }
 
 #undef JAROL_MEMBER
