@@ -1,6 +1,7 @@
 #include "graph/values/bind.h"
 
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 #include "graph/language/quantities.h"

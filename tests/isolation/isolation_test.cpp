@@ -1,6 +1,7 @@
 // Is found what compiled tasks reach, and by which way?
 #include <doctest/doctest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <sys/socket.h>
 
+#include <cmath>
 #include <future>
 #include <map>
 #include <nlohmann/json.hpp>

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <sys/socket.h>
 
+#include <cmath>
 #include <future>
 #include <thread>
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <sys/socket.h>
 
+#include <cstdlib>
 #include <thread>
 
 #include "distributers/interfaces/vehicle_file.h"

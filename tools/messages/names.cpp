@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <climits>
+#include <cmath>
 #include <set>
 
 #include "tools/messages/write.h"

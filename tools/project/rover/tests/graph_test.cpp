@@ -1,6 +1,9 @@
 // The whole graph with its vehicle on the virtual clock, and its law alone.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
+
+#include <cmath>
+
 #include <jarol/session.h>
 
 #include "tasks/drive_to.h"
