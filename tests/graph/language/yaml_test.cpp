@@ -137,7 +137,8 @@ TEST_SUITE("graph/yaml") {
   }
 
   TEST_CASE("so is one of many values that take next to no text each, long before its end") {
-    const std::string reason = "error: more than 100000 values stand so close that each takes less than 8 bytes\n";
+    const std::string empty = "error: more than 100000 values are empty\n";
+    const std::string close = "error: more than 100000 values stand so close that each takes less than 4 bytes\n";
     const auto repeated = [](const std::string& piece) {
       std::string text;
       for (int i = 0; i < 1'000'000; ++i) text += piece;
@@ -148,14 +149,20 @@ TEST_SUITE("graph/yaml") {
       const std::size_t end = report.find(' ');
       return report.substr(end + 1, report.find('\n') - end);
     };
-    for (const char* const piece : {"-\n", "- []\n", "- a\n", "- {}\n", "- ''\n"})
-      CHECK(wrong(repeated(piece)) == reason);
+    for (const char* const piece : {"-\n", "- []\n", "- {}\n", "- ''\n"}) CHECK(wrong(repeated(piece)) == empty);
+    CHECK(wrong(repeated("- [a,b,c,d]\n")) == close);
     std::string keys;
     for (int i = 0; i < 1'000'000; ++i) keys += std::to_string(i) + ":\n";
-    CHECK(wrong(keys) == reason);
+    CHECK(wrong(keys) == empty);
     std::string few;
     for (int i = 1; i < 100'000; ++i) few += "-\n";
     CHECK(report_on(few) == "");
+  }
+
+  TEST_CASE("a large graph may be written as tersely as can be") {
+    std::string text = "tasks:\n";
+    for (int i = 0; i < 120'000; ++i) text += " t" + std::to_string(i) + ": {type: Sum, period: 1ms}\n";
+    CHECK(report_on(text) == "");
   }
 
   TEST_CASE("a text of more than 64 MiB is not read at all") {
