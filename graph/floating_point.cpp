@@ -1,6 +1,7 @@
 #include "graph/floating_point.h"
 
 #include <cfenv>
+#include <cstdint>
 #include <stdexcept>
 
 namespace jarol {
@@ -9,7 +10,7 @@ namespace {
 #if defined(__x86_64__)
 // Intel SDM volume 1, 8.1.5 and 10.2.3
 constexpr unsigned vector_flags = 0x3f;
-constexpr FloatingPointControl by_default{0x1f80, 0x37f};
+constexpr FloatingPointControl by_default{0x1f80, 0x37f, 0};
 constexpr unsigned masks = 0x3f, vector_masks = masks << 7;
 constexpr unsigned flush_to_zero = 1U << 15, denormals_are_zero = 1U << 6;
 constexpr unsigned vector_rounding = 3U << 13, x87_rounding = 3U << 10, x87_precision = 3U << 8;
@@ -26,22 +27,25 @@ const char* rounding_name(unsigned bits) {
 
 FloatingPointControl floating_point_control() {
   unsigned vector = 0;
-  unsigned short x87 = 0;
+  struct {
+    std::uint32_t control = 0, status = 0, tags = 0, pointers[4] = {};
+  } x87;
   asm volatile("stmxcsr %0" : "=m"(vector));
-  asm volatile("fnstcw %0" : "=m"(x87));
+  // that masks exceptions, which is the default
+  asm volatile("fnstenv %0" : "=m"(x87));
   // bit 6 of the x87 control word is reserved and reads as either
-  return {vector & ~vector_flags, x87 & ~0xe0c0U};
+  return {vector & ~vector_flags, x87.control & 0x1f3fU, ~x87.tags & 0xffffU};
 }
 
 void set_floating_point_control(const FloatingPointControl& control) {
   const unsigned vector = control.vector;
   const auto x87 = static_cast<unsigned short>(control.x87 | 0x40U);
   asm volatile("ldmxcsr %0" : : "m"(vector));
-  // flags that are set would raise what the new word no longer masks
-  asm volatile("fnclex\n\tfldcw %0" : : "m"(x87));
+  // flags that are set would raise what the new word no longer masks; registers are empty then
+  asm volatile("fninit\n\tfldcw %0" : : "m"(x87));
 }
 
-FloatingPointControl default_floating_point_control() { return {by_default.vector, by_default.x87 & ~0x40U}; }
+FloatingPointControl default_floating_point_control() { return {by_default.vector, by_default.x87 & ~0x40U, 0}; }
 
 std::string describe_difference(const FloatingPointControl& control) {
   const FloatingPointControl expected = default_floating_point_control();
@@ -55,18 +59,19 @@ std::string describe_difference(const FloatingPointControl& control) {
     add(std::string("rounding of long double ") + rounding_name(control.x87 >> 10));
   if ((x87 & x87_precision) != 0) add("less precision of long double");
   if ((vector & vector_masks) != 0 || (x87 & masks) != 0) add("exceptions that raise a signal");
+  if (control.used != 0) add("registers of long double in use");
   return text;
 }
 
 #else
 
-FloatingPointControl floating_point_control() { return {static_cast<unsigned>(std::fegetround()), 0}; }
+FloatingPointControl floating_point_control() { return {static_cast<unsigned>(std::fegetround()), 0, 0}; }
 
 void set_floating_point_control(const FloatingPointControl& control) {
   std::fesetround(static_cast<int>(control.vector));
 }
 
-FloatingPointControl default_floating_point_control() { return {FE_TONEAREST, 0}; }
+FloatingPointControl default_floating_point_control() { return {FE_TONEAREST, 0, 0}; }
 
 std::string describe_difference(const FloatingPointControl& control) {
   return control == default_floating_point_control() ? "" : "another rounding mode";

@@ -10,11 +10,12 @@ namespace jarol {
 struct FloatingPointControl {
   unsigned vector = 0;  // MXCSR without its flags
   unsigned x87 = 0;     // control word
+  unsigned used = 0;    // registers of long double that hold something, two bits each: none, between tasks
 
   friend bool operator==(const FloatingPointControl&, const FloatingPointControl&) = default;
 };
 
-/// Of the calling thread.
+/// Of the calling thread, whose x87 exceptions are masked from then on, as they are by default.
 FloatingPointControl floating_point_control();
 void set_floating_point_control(const FloatingPointControl& control);
 

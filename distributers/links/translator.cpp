@@ -68,7 +68,9 @@ Translator::Translator(const messages::MessageSet& set, const LinkOptions& optio
     accepted_.push_back({&find_header_field(*set.header, name, value), value, value});
   for (const auto& [name, id] : options.header)
     for (const messages::FieldDescriptor& field : set.header->fields)
-      if (name == "src" && field.name == "dst") destination_ = {&field, id, default_of(*set.header, field)};
+      if (name == "src" && field.name == "dst")
+        destination_ = {&field, id, default_of(*set.header, field)},
+        sender_ = &find_header_field(*set.header, name, id);
 }
 
 bool Translator::take(std::span<const std::byte> bytes, std::uint32_t peer) {
@@ -168,7 +170,15 @@ bool Translator::take_sealed_stream(std::span<const std::byte> bytes) {
 std::atomic<std::uint64_t> Translator::Counts::*Translator::why_not(messages::MessageRef header) const {
   for (const Accepted& field : accepted_)
     if (!field.accepts(header)) return &Counts::others;
-  return destination_ && !destination_->accepts(header) ? &Counts::elsewhere : nullptr;
+  const bool is_for_us = !destination_ || destination_->accepts(header) || is_to_itself(header);
+  return is_for_us ? nullptr : &Counts::elsewhere;
+}
+
+// DUNE sends what its tasks tell each other, as which entity is which, addressed to its own system.
+bool Translator::is_to_itself(messages::MessageRef header) const {
+  const auto* const value = static_cast<const std::byte*>(header.value);
+  const messages::FieldDescriptor& to = *destination_->field;
+  return std::memcmp(value + sender_->offset, value + to.offset, size_of(to.wire)) == 0;
 }
 
 // False: it does not count, as from another sender than the one that does.

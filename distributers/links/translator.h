@@ -59,6 +59,7 @@ class Translator : public ByteSink {
   bool take_stream(std::span<const std::byte> bytes);
   bool take_sealed(std::span<const std::byte> bytes, std::uint32_t peer);
   bool take_sealed_stream(std::span<const std::byte> bytes);
+  bool is_to_itself(messages::MessageRef header) const;
   bool write(messages::MessageRef header, std::span<const std::byte> packet, std::uint32_t peer);
   void store(const messages::PacketCounts& now);
 
@@ -86,8 +87,9 @@ class Translator : public ByteSink {
   StampOrder order_;
   std::vector<std::byte> entry_;
   std::vector<Accepted> accepted_;
-  std::optional<Accepted> destination_;       // this system, or any
-  messages::PacketCounts reported_, before_;  // before_: of the streams that have ended
+  std::optional<Accepted> destination_;                // this system, or any
+  const messages::FieldDescriptor* sender_ = nullptr;  // where there is a destination
+  messages::PacketCounts reported_, before_;           // before_: of the streams that have ended
   Counts counts_;
 };
 

@@ -15,31 +15,40 @@ Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
-void Session::run_until(Duration end) { run_->run_until(end); }
-Checkpoint Session::checkpoint() { return run_->checkpoint(); }
-void Session::restore(const Checkpoint& checkpoint) { run_->restore(checkpoint); }
-Duration Session::now() const { return run_->graph_run().executor().now(); }
-Duration Session::end_of_mission() const { return jarol::end_of_mission(run_->graph_run().channels()); }
-const Graph& Session::graph() const { return run_->graph_run().graph(); }
-const Report& Session::report() const { return run_->graph_run().executor().report(); }
-void Session::watch(const std::string& pattern) { run_->observed->watch(pattern); }
-RunVerdict Session::finish() { return run_->finish(); }
+Session::Run& Session::run() const {
+  if (run_ == nullptr) throw RunOver("this session was moved from; use the one that it was moved to");
+  return *run_;
+}
 
-void Session::feed_value(std::string_view name, const Type& type, const void* value) { run_->feed(name, type, value); }
+void Session::run_until(Duration end) { run().run_until(end); }
+void Session::run_for(Duration length) {
+  const Duration now = this->now();
+  run().run_until(length > Duration::max() - now ? Duration::max() : now + length);
+}
+Checkpoint Session::checkpoint() { return run().checkpoint(); }
+void Session::restore(const Checkpoint& checkpoint) { run().restore(checkpoint); }
+Duration Session::now() const { return run().graph_run().executor().now(); }
+Duration Session::end_of_mission() const { return jarol::end_of_mission(run().graph_run().channels()); }
+const Graph& Session::graph() const { return run().graph_run().graph(); }
+const Report& Session::report() const { return run().graph_run().executor().report(); }
+void Session::watch(const std::string& pattern) { run().observed->watch(pattern); }
+RunVerdict Session::finish() { return run().finish(); }
+
+void Session::feed_value(std::string_view name, const Type& type, const void* value) { run().feed(name, type, value); }
 
 const void* Session::last_value(std::string_view name, const Type& type) const {
-  return run_->observed->last(run_->observed->find(name, type));
+  return run().observed->last(run().observed->find(name, type));
 }
 
 void Session::for_each_kept(std::string_view name, const Type& type,
                             void (*visit)(void* to, Duration instant, const void* value), void* to) const {
-  const Place place = run_->observed->find(name, type);
-  for (const auto& [instant, value] : run_->observed->series(place))
+  const Place place = run().observed->find(name, type);
+  for (const auto& [instant, value] : run().observed->series(place))
     visit(to, instant, static_cast<const std::byte*>(value.data()) + place.offset);
 }
 
 double Session::true_value(const std::string& field_of_distributer) const {
-  const std::vector<TrueState> states = find_true_states(graph(), run_->graph_run().channels());
+  const std::vector<TrueState> states = find_true_states(graph(), run().graph_run().channels());
   std::vector<std::string> names;
   for (const TrueState& state : states)
     for (const Leaf& leaf : leaves_of(*state.values.type())) {

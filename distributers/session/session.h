@@ -22,7 +22,7 @@ struct SessionOptions {
   std::uint64_t seed = 0;          // of all noise
   std::vector<std::string> fed{};  // what the program feeds, by name, * for any part: distributers, whose links are
                                    // not used, and `in` communicators that have no channel
-  std::size_t workers = 1;         // threads that run tasks; the outcome is the same for any number
+  std::size_t workers = 1;         // threads that run tasks, 1 to 64; the outcome is the same for any number
   bool real_clock = false;         // against the machine's clock; else as fast as possible
   RealTimeOptions real_time{};     // on the real clock: priority and CPUs of the threads that run the graph
   bool force = false;              // on the real clock: also what check has a negative verdict on
@@ -38,12 +38,13 @@ struct Sample {
 };
 
 /// Names are those of the trace: "task.output", "communicator", and fields within their values, as "depth.moment.z" or
-/// "fins.actuation.fins.0". Used by one thread at a time; any number of sessions may live side by side.
+/// "fins.actuation.fins.0". Used by one thread at a time; any number of sessions may live side by side. One that was
+/// moved from throws RunOver, whatever is asked of it.
 class Session {
  public:
   /// A graph's file with what it may name, which outlives the session. Throws SpecError with all that is wrong with the
   /// file, the options and the links; UnknownName where nothing fits a name in `fed`; NeedsRealClock;
-  /// NotExecutable.
+  /// NotExecutable, for a number of workers that can't be, too.
   Session(const distributers::Registries& known, const std::string& path, SessionOptions options = {});
   /// The same of a text; paths in it are relative to the folder of the source's name.
   Session(const distributers::Registries& known, std::shared_ptr<const Source> source, SessionOptions options = {});
@@ -52,14 +53,15 @@ class Session {
   Session& operator=(Session&&) noexcept;
 
   /// Covers the instants from `now()` to before `end`; in pieces it is the same run. Ends earlier at a fault that stops
-  /// the run. Throws WrongInstant for an `end` before `now()`; RunOver where it was stopped before, or finished;
-  /// SystemLost.
+  /// the run. Throws WrongInstant for an `end` before `now()` or after ten years; RunOver where it was stopped before,
+  /// or finished; SystemLost.
   ///
   /// On the real clock instant 0 is at the first call. The calling thread keeps the time, and gets its priority and
   /// CPUs; values that nobody could take in time are lost, which `finish` reports by an exception. What has a `safe`
   /// gets that at the end, also if the process dies; `at_end` of a graph is for jarol run.
   void run_until(Duration end);
-  void run_for(Duration length) { run_until(now() + length); }
+  /// Throws WrongInstant for what is longer than ten years from the start, too.
+  void run_for(Duration length);
 
   /// The run as it is now, on the virtual clock: tasks, their heaps, values under way, vehicles, noise, conditions. The
   /// same session, or another of the same graph, overrides and seed, in this program or in another process of it, goes
@@ -80,7 +82,7 @@ class Session {
 
   /// Gives an `in` communicator, or the channel "distributer.channel", a value: it is taken at the next instant at
   /// which that acts, now() included. A value that is not finite is counted and not taken. Throws UnknownName,
-  /// WrongType, NotFed.
+  /// WrongType, NotFed; RunOver after finish.
   template <class T>
   void feed(std::string_view name, const T& value) {
     feed_value(name, type_of<T>(), &value);
@@ -121,7 +123,9 @@ class Session {
                      void (*visit)(void* to, Duration instant, const void* value), void* to) const;
 
   class Run;
-  std::unique_ptr<Run> run_;
+  Run& run() const;
+
+  std::unique_ptr<Run> run_;  // null: moved from
 };
 
 }  // namespace jarol

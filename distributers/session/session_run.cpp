@@ -9,6 +9,8 @@
 namespace jarol {
 namespace {
 
+constexpr std::size_t max_workers = 64;
+
 bool can_be_fed(const Communicator& c) { return c.direction == Direction::in && !c.distributer; }
 
 // What can be fed, by name.
@@ -40,6 +42,9 @@ void require_no_clock(const Loaded& loaded) {
 Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const Source> source,
                   const SessionOptions& options)
     : note_(options.note) {
+  if (options.workers < 1 || options.workers > max_workers)
+    throw NotExecutable("a run has 1 to " + std::to_string(max_workers) + " workers, not " +
+                        std::to_string(options.workers));
   Loaded loaded = feed_in_place_of_links(load_graph(source, known, {options.profile, options.set, options.no_plugins},
                                                     options.seed, options.note, options.fed),
                                          options.fed);
@@ -123,6 +128,7 @@ Loaded Session::Run::feed_in_place_of_links(Loaded loaded, const std::vector<std
 void Session::Run::run_until(Duration end) {
   Executor& executor = graph_run_->executor();
   if (!over_.empty()) throw RunOver("the run is over at " + seconds_text(executor.now()) + " s: " + over_);
+  if (end > longest_duration) throw WrongInstant("a run has ten years at most, not " + seconds_text(end) + " s");
   if (end < executor.now())
     throw WrongInstant("a run does not go back: it has reached " + seconds_text(executor.now()) +
                        " s, and was to run until " + seconds_text(end) + " s");
@@ -164,6 +170,7 @@ void Session::Run::restore(const Checkpoint& checkpoint) {
 }
 
 void Session::Run::feed(std::string_view name, const Type& type, const void* value) {
+  if (finished_) throw RunOver("the run is over: " + over_);
   const Graph& graph = graph_run_->graph();
   std::vector<std::string> names;
   for (const Communicator& c : graph.communicators) {

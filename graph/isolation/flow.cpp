@@ -213,17 +213,17 @@ class Walk {
       if (operand.kind != Operand::Kind::memory) continue;
       if (operand.thread_local_data) offend_thread_local(instruction.at, "");
       if (operand.reads_guard && !puts_guard_aside(code_, instruction)) reads_guard_ = instruction.at;
-      if (operand.reg != instruction_pointer) continue;
-      const Address at = instruction.place(operand);
-      const Pointer* const pointer = object_.pointer_at(at);
+      const std::optional<Address> at = values_.known_address(instruction, operand, state);
+      if (!at) continue;
+      const Pointer* const pointer = object_.pointer_at(*at);
       const bool loads = instruction.form == Form::move || instruction.form == Form::push ||
                          instruction.form == Form::other || instruction.form == Form::add;
       // what the offset table holds is meant, not the place in it
-      if (object_.place_of(at) == Place::offset_table && pointer != nullptr &&
+      if (object_.place_of(*at) == Place::offset_table && pointer != nullptr &&
           (loads || pointer->to == Pointer::To::thread_local_data)) {
         follow_pointer(instruction.at, *pointer, Finding::What::reference, state);
       } else {
-        add(Finding::What::reference, instruction.at, at);
+        add(Finding::What::reference, instruction.at, *at);
       }
     }
   }

@@ -5,6 +5,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "graph/isolation/forbidden.h"
+
 namespace jarol::isolation {
 namespace {
 
@@ -66,89 +68,6 @@ Register register_of(unsigned reg) {
   return reg < numbers.size() ? numbers[reg] : no_register;
 }
 
-// Why no task may hold an instruction; empty: it may.
-const char* reason_against(const cs_insn& instruction) {
-  switch (instruction.id) {
-    case X86_INS_SYSCALL:
-    case X86_INS_SYSENTER:
-    case X86_INS_INT:
-    case X86_INS_INT1:
-    case X86_INS_INTO: return "a system call";
-    case X86_INS_RDTSC:
-    case X86_INS_RDTSCP:
-    case X86_INS_RDPMC: return "which reads a counter of cycles";
-    case X86_INS_RDRAND:
-    case X86_INS_RDSEED: return "which makes random numbers";
-    case X86_INS_CPUID:
-    case X86_INS_XGETBV:
-    case X86_INS_SGDT:
-    case X86_INS_SIDT:
-    case X86_INS_SLDT:
-    case X86_INS_STR:
-    case X86_INS_SMSW:
-    case X86_INS_LSL:
-    case X86_INS_LAR: return "which asks what processor or core this is";
-    case X86_INS_LDMXCSR:
-    case X86_INS_VLDMXCSR:
-    case X86_INS_FXRSTOR:
-    case X86_INS_FXRSTOR64:
-    case X86_INS_XRSTOR:
-    case X86_INS_XRSTOR64:
-    case X86_INS_FLDCW:
-    case X86_INS_FLDENV:
-    case X86_INS_FRSTOR:
-    case X86_INS_FNINIT:
-    case X86_INS_EMMS: return "which changes the floating-point environment";
-    case X86_INS_STMXCSR:
-    case X86_INS_VSTMXCSR:
-    case X86_INS_FXSAVE:
-    case X86_INS_FXSAVE64:
-    case X86_INS_XSAVE:
-    case X86_INS_XSAVE64:
-    case X86_INS_XSAVEOPT:
-    case X86_INS_XSAVEC:
-    case X86_INS_FNSTENV:
-    case X86_INS_FNSAVE:
-    case X86_INS_FNSTSW: return "which reads the floating-point environment";
-    case X86_INS_RDFSBASE:
-    case X86_INS_RDGSBASE:
-    case X86_INS_WRFSBASE:
-    case X86_INS_WRGSBASE:
-    case X86_INS_SWAPGS: return "which reaches thread-local storage";
-    case X86_INS_IN:
-    case X86_INS_OUT:
-    case X86_INS_INSB:
-    case X86_INS_INSW:
-    case X86_INS_INSD:
-    case X86_INS_OUTSB:
-    case X86_INS_OUTSW:
-    case X86_INS_OUTSD: return "which talks to a device";
-    case X86_INS_POPF:
-    case X86_INS_POPFD:
-    case X86_INS_POPFQ:
-    case X86_INS_STD: return "which changes the processor's flags for others";
-    case X86_INS_XBEGIN:
-    case X86_INS_XABORT:
-    case X86_INS_XTEST:
-    case X86_INS_XEND: return "a memory transaction, which may fail at any time";
-    case X86_INS_LCALL:
-    case X86_INS_LJMP:
-    case X86_INS_RETF:
-    case X86_INS_RETFQ:
-    case X86_INS_IRET:
-    case X86_INS_IRETD:
-    case X86_INS_IRETQ: return "a jump to another segment";
-    default: break;
-  }
-  for (std::uint8_t i = 0; i < instruction.detail->groups_count; ++i) {
-    const std::uint8_t group = instruction.detail->groups[i];
-    // to end the process at once is no way out of it
-    const bool ends = instruction.id == X86_INS_HLT || instruction.id == X86_INS_INT3 || instruction.id == X86_INS_UD2;
-    if (group == CS_GRP_PRIVILEGE && !ends) return "which only a system may execute";
-  }
-  return "";
-}
-
 Instruction::Form form_of(const cs_insn& instruction) {
   switch (instruction.id) {
     case X86_INS_MOV:
@@ -193,6 +112,7 @@ Operand operand_of(const cs_x86_op& from) {
       made.reg = register_of(from.mem.base);
       made.index = register_of(from.mem.index);
       made.number = from.mem.disp;
+      made.scale = static_cast<std::uint8_t>(from.mem.scale);
       if (from.mem.segment == X86_REG_FS || from.mem.segment == X86_REG_GS) {
         made.reads_guard = from.mem.segment == X86_REG_FS && from.mem.base == X86_REG_INVALID &&
                            from.mem.index == X86_REG_INVALID && from.mem.disp == 0x28 && !made.written;
@@ -211,6 +131,7 @@ Instruction made_of(const cs_insn& from) {
   made.form = form_of(from);
   made.forbidden = reason_against(from);
   made.subtracts = from.id == X86_INS_SUB;
+  made.x87 = from.mnemonic[0] == 'f' || uses_mmx(from);  // no other begins so
   if (*made.forbidden != '\0') made.text = from.mnemonic;
   const cs_x86& x86 = from.detail->x86;
   for (std::size_t i = 0; i < made.operands.size() && i < x86.op_count; ++i) {

@@ -22,6 +22,7 @@ struct Operand {
   bool thread_local_data = false;  // relative to fs or gs, but for the next
   bool reads_guard = false;        // the stack protector's number
   std::uint8_t size = 0;           // bytes
+  std::uint8_t scale = 1;          // of the index
   Register reg = no_register;      // of memory: the base
   Register index = no_register;
   std::int64_t number = 0;  // of memory: the displacement
@@ -35,6 +36,7 @@ struct Instruction {
   std::uint16_t writes = 0;    // general registers, a bit each
   bool subtracts = false;      // `add` has a sign
   bool clears = false;         // its first operand, by xor
+  bool x87 = false;            // computes with the registers of long double
   const char* forbidden = "";  // why no task may hold it
   std::string text{};          // of one that is forbidden: "rdtsc"
   /// The address that a memory operand relative to the instruction pointer names.

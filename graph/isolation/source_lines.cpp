@@ -80,6 +80,15 @@ struct SourceLines::Reader {
   Dwfl* session = nullptr;
   Dwfl_Module* module = nullptr;
   Dwarf_Addr begin = 0;  // where the session sees the file's address 0
+
+  // The unit that has the code there, or null. clang writes no table of which has what: each is asked.
+  Dwarf_Die* unit_at(Dwarf_Addr at, Dwarf_Addr& bias) const {
+    if (Dwarf_Die* const unit = dwfl_module_addrdie(module, at, &bias)) return unit;
+    Dwarf_Die* unit = nullptr;
+    while ((unit = dwfl_module_nextcu(module, unit, &bias)) != nullptr)
+      if (dwarf_haspc(unit, at - bias) > 0) return unit;
+    return nullptr;
+  }
 };
 
 SourceLines::SourceLines(const std::string& path) : reader_(std::make_unique<Reader>()) {
@@ -101,11 +110,12 @@ std::vector<Frame> SourceLines::frames_at(Address address) const {
   std::vector<Frame> frames;
   if (reader_->module == nullptr) return {{}};
   Dwarf_Addr bias = 0;
-  Dwarf_Die* const unit = dwfl_module_addrdie(reader_->module, address + reader_->begin, &bias);
+  Dwarf_Die* const unit = reader_->unit_at(address + reader_->begin, bias);
   if (unit == nullptr) return {{}};
   Frame innermost;
-  if (Dwfl_Line* const line = dwfl_module_getsrc(reader_->module, address + reader_->begin))
-    if (const char* const file = dwfl_lineinfo(line, nullptr, &innermost.line, nullptr, nullptr, nullptr))
+  if (Dwarf_Line* const line = dwarf_getsrc_die(unit, address + reader_->begin - bias))
+    if (const char* const file = dwarf_linesrc(line, nullptr, nullptr);
+        file != nullptr && dwarf_lineno(line, &innermost.line) == 0)
       innermost.file = file;
   Dwarf_Die* scopes = nullptr;
   const int count = dwarf_getscopes(unit, address + reader_->begin - bias, &scopes);

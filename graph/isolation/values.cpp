@@ -89,6 +89,18 @@ Origin Values::address_of(const Instruction& instruction, const Operand& operand
   return unknown;
 }
 
+std::optional<Address> Values::known_address(const Instruction& instruction, const Operand& operand,
+                                             const State& state) const {
+  if (operand.reg == instruction_pointer) return instruction.place(operand);
+  if (instruction.form == Form::address) return std::nullopt;
+  const Origin base = operand.reg >= 0 ? state.registers[static_cast<std::size_t>(operand.reg)] : number(0);
+  const Origin index = operand.index >= 0 ? state.registers[static_cast<std::size_t>(operand.index)] : number(0);
+  const bool known = (base.kind == Kind::address && index.kind == Kind::number) ||
+                     (base.kind == Kind::number && index.kind == Kind::address && operand.scale == 1);
+  if (!known) return std::nullopt;
+  return static_cast<Address>(base.at + index.at * operand.scale + operand.number);
+}
+
 Origin Values::value_of(const Instruction& instruction, const Operand& operand, const State& state) const {
   switch (operand.kind) {
     case Operand::Kind::reg: return state.registers[static_cast<std::size_t>(operand.reg)];

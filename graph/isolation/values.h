@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 
 #include "graph/isolation/instruction.h"
 #include "graph/isolation/object.h"
@@ -53,6 +54,10 @@ class Values {
   explicit Values(const Object& object) : object_(object) {}
 
   Origin value_of(const Instruction& instruction, const Operand& operand, const State& state) const;
+  /// Where an operand in memory lies, as far as that is in the object and known; none: it isn't, or it is the address
+  /// alone that is taken of what registers lead to, as of the end of an array.
+  std::optional<Address> known_address(const Instruction& instruction, const Operand& operand,
+                                       const State& state) const;
   /// What the instruction makes of the state; calls and jumps apart.
   void apply(const Instruction& instruction, State& state) const;
   /// A call that returns; `thrown` is joined with what holds where its exception is caught.

@@ -56,21 +56,25 @@ bool leaves_it_alone(std::string_view name) {
   return isolation::is_mathematics(std::string(name));
 }
 
+constexpr const char* loads = "holds an instruction that loads it";
+
 // The x87 control word's are two bytes, which stand by chance in any longer code: here only as instructions count.
-// Those of compilers, around the conversion of a long double to an integer, restore it.
-bool loads_x87_control(Bytes code) {
+// Whatever else computes with x87 registers, or with those of MMX, which are the same, may leave some in use.
+std::string find_x87(Bytes code) {
   const auto all = isolation::decode_section(code);
-  if (!all) return true;  // nobody knows
-  return std::any_of(all->begin(), all->end(), [](const isolation::Instruction& instruction) {
-    return *instruction.forbidden != '\0' && holds(" fldcw fldenv frstor fninit ", instruction.text);
-  });
+  if (!all) return loads;  // nobody knows
+  std::string found;
+  for (const isolation::Instruction& instruction : *all) {
+    if (*instruction.forbidden != '\0' && holds(" fldcw fldenv frstor fninit ", instruction.text)) return loads;
+    if (instruction.x87) found = "computes with x87 registers";
+  }
+  return found;
 }
 
 std::string find_instruction(Bytes code) {
-  constexpr const char* reason = "holds an instruction that loads it";
   for (std::size_t i = 0; i < code.size(); ++i)
-    if (loads_control(code.subspan(i))) return reason;
-  return loads_x87_control(code) ? reason : "";
+    if (loads_control(code.subspan(i))) return loads;
+  return find_x87(code);
 }
 
 std::string find_call(const Elf& file, const Elf64_Shdr& table) {

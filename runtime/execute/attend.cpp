@@ -195,6 +195,8 @@ RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std:
   Finish finish = run.finish(until);
   end.hangs = !finish.done;
   end.hanging = std::move(finish.hanging);
+  // of an activation that had still to end when the time was over
+  if (end.ending.cause == Ending::Cause::over && run.stopped_by_fault()) end.ending = Ending::fault();
   return end;
 }
 

@@ -2,6 +2,7 @@
 #include "tests/isolation/task.h"
 
 namespace {
+[[gnu::used]] double far_away asm("far_away") = 0;
 
 using Function = double (*)(double);
 
@@ -72,6 +73,27 @@ TASK(SetsOldRounding, {
   const unsigned short upward = 0xb3f;
   asm volatile("fldcw %0" : : "m"(upward));
 })
+// offends: forbidden instruction: paddw: UsesMmx::run
+TASK(UsesMmx, { asm volatile("paddw %%mm0, %%mm1" ::: "mm1"); })
+// offends: forbidden instruction: ffree: FreesRegister::run
+TASK(FreesRegister, { asm volatile("ffree %st(0)"); })
+// offends: forbidden instruction: fincstp: TurnsRegisters::run
+TASK(TurnsRegisters, { asm volatile("fincstp"); })
+// offends: forbidden instruction: xlatb: LooksUpByte::run
+TASK(LooksUpByte, { asm volatile("fs xlatb" ::: "rax"); })
+// offends: a writable global: far_away: ReachesByDistance::run
+TASK(ReachesByDistance, {
+  double* place;
+  asm("leaq 1f(%%rip), %0\n1: movabsq $far_away-1b, %%rcx\n addq %%rcx, %0" : "=r"(place) : : "rcx");
+  out.out = *place += 1;
+})
+// offends: a writable global: far_away: ReachesByIndex::run
+TASK(ReachesByIndex, {
+  asm volatile("leaq 1f(%%rip), %%rax\n1: movabsq $far_away-1b, %%rcx\n movsd (%%rax,%%rcx), %0"
+               : "=x"(out.out)
+               :
+               : "rax", "rcx");
+})
 // offends: forbidden instruction: in: TalksToDevice::run
 TASK(TalksToDevice, {
   unsigned char byte;
@@ -130,4 +152,4 @@ TASK(Numbers, {
 JAROL_PLUGIN(SystemCall, OldSystemCall, Cycles, CyclesAndCore, HardwareRandom, HardwareSeed, AsksProcessor, AsksState,
              SetsRounding, ReadsFlags, SetsOldRounding, TalksToDevice, ReadsSegment, ReadsGuard, WritesGuard,
              MiddleOfInstruction, ForgedFromInput, ForgedFromState, ForgedBesideGood, ForgedTailCall, ForgedObject,
-             Numbers)
+             Numbers, UsesMmx, FreesRegister, TurnsRegisters, LooksUpByte, ReachesByDistance, ReachesByIndex)

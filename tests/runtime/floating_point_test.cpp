@@ -129,9 +129,29 @@ TEST_SUITE("runtime/floating_point") {
       CHECK(what_is_left({control, 0x33f}) == left + describe_difference({control, 0x33f}));
     for (const unsigned x87 : {0x73fU, 0xb3fU, 0xf3fU, 0x03fU, 0x23fU, 0x33bU, 0x31fU})
       CHECK(what_is_left({0x1f80, x87}) == left + describe_difference({0x1f80, x87}));
+    CHECK(what_is_left({0x1f80, 0x33f, 0}) == "");
     std::feraiseexcept(FE_ALL_EXCEPT);  // flags are no difference
     CHECK(what_is_left(default_floating_point_control()) == "");
     std::feclearexcept(FE_ALL_EXCEPT);
+  }
+
+  TEST_CASE("registers of long double that hold something are found and emptied, wherever the top of them is") {
+    const auto what_is_left = [](void (*leave)()) -> std::string {
+      const DefaultFloatingPoint scope;
+      leave();
+      try {
+        require_default_floating_point();
+      } catch (const std::runtime_error& error) {
+        const long double one = 1;
+        return computes_by_default() && one / 4 == 0.25L ? error.what() : "not ended";
+      }
+      return "";
+    };
+    const std::string left = "left another floating-point environment behind: registers of long double in use";
+    CHECK(what_is_left([] { asm volatile("fld1"); }) == left);
+    CHECK(what_is_left([] { asm volatile("fld1\n fld1\n fld1\n fld1\n fld1\n fld1\n fld1\n fld1"); }) == left);
+    CHECK(what_is_left([] { asm volatile("pxor %%mm0, %%mm0" ::: "mm0"); }) == left);
+    CHECK(what_is_left([] { asm volatile("fld1\n fstp %st(0)"); }) == "");
   }
 
   TEST_CASE("a task that leaves another environment behind has a fault, and no other task computes in it") {

@@ -112,6 +112,13 @@ connections: [count.out -> sum.in, sum.out -> flow.in]
     CHECK(has(diff.output, "  signal      sum.out from 0.01 s on, by at most 2 at 0.03 s\n"));
     const auto json = nlohmann::json::parse(command::run_jarol("log diff --json " + a + " " + b, "2>/dev/null").output);
     CHECK(json["verdict"] == "different");
+    // of one that breaks off it is said where
+    const std::string broken = folder / "broken.mcap";
+    std::filesystem::copy_file(a, broken);
+    std::filesystem::resize_file(broken, std::filesystem::file_size(broken) / 2);
+    const auto cut = command::run_jarol("log diff " + a + " " + broken);
+    CHECK(has(cut.output, "  breaks off  B at byte "));
+    CHECK(cut.output.ends_with("; what it lacks after that counts as different\n"));
     // with --record-what only what is chosen
     const std::string part = folder / "part.mcap";
     REQUIRE(command::run_jarol(run + part + " --record-what 'count.*'").exit_code == 0);

@@ -55,6 +55,7 @@ TEST_SUITE("tools/machine_code") {
     CHECK(find_floating_point_change(rounds(5)) == "calls 'dlsym'");
     CHECK(find_floating_point_change(rounds(6)) ==
           "calls '_ZN5jarol26set_floating_point_controlERKNS_20FloatingPointControlE'");
+    for (const int how : {12, 13}) CHECK(find_floating_point_change(rounds(how)) == "computes with x87 registers");
     CHECK(find_floating_point_change(rounds(10)) == "calls 'feenableexcept'");
     CHECK(find_floating_point_change(library("linked_fast_math")) == "holds an instruction that loads it");
     CHECK(find_floating_point_change(library("linked_elsewhere")) == "uses the library 'libz.so.1'");
@@ -93,7 +94,9 @@ TEST_SUITE("tools/machine_code") {
                                            "less precision of long double",
                                            "exceptions that raise a signal",
                                            "exceptions that raise a signal",
-                                           "exceptions that raise a signal"};
+                                           "exceptions that raise a signal",
+                                           "registers of long double in use",
+                                           "registers of long double in use"};
     for (std::size_t how = 0; how < left.size(); ++how) {
       CAPTURE(how);
       const std::string graph = folder.write(

@@ -177,6 +177,7 @@ int check_at_once(const CheckOptions& options) {
 
 int check_files(const CheckOptions& options) {
   for (const std::string& file : options.files) require_apart({{"FILE", file}}, {{"--svg", options.svg}});
+  require_extension({"--svg", options.svg}, ".svg", "an SVG picture");
   // what is measured would be disturbed by others
   if (options.files.size() > 1 && !options.measuring.measure && !options.measuring.write) return check_at_once(options);
   int exit_code = exit_good;

@@ -6,6 +6,7 @@
 #include "tools/log/log_commands.h"
 #include "tools/report/command_line.h"
 #include "tools/report/duration_option.h"
+#include "tools/run/apart.h"
 
 namespace jarol::tools {
 namespace {
@@ -29,6 +30,8 @@ int look(const Command& command, Words& words) {
   if (what != "csv") command.refuse({"--by-rate"}, "belongs to csv");
   if (!has_graph) command.refuse({"--out"}, "belongs to trace and report");
   if (what == "cat" || what == "csv" || has_graph) command.refuse({"--json"}, "belongs to info, verify and diff");
+  if (what == "trace") require_extension({"--out", words.out}, ".json", "trace events in JSON");
+  if (what == "report") require_extension({"--out", words.out}, ".html", "a page in HTML");
   if (what == "info") return log_info(words);
   if (what == "cat") return log_cat(words);
   if (what == "csv") return log_csv(words);

@@ -43,6 +43,14 @@ Common common_of(const Recording& a, const Recording& b) {
   return common;
 }
 
+// Which of them are not whole, and where they end.
+std::map<std::string, std::string> breaks_of(const Recording& a, const Recording& b) {
+  std::map<std::string, std::string> breaks;
+  if (!a.is_whole()) breaks.emplace("A", a.text_of_break());
+  if (!b.is_whole()) breaks.emplace("B", b.text_of_break());
+  return breaks;
+}
+
 // Goes through two instants that are one, by name.
 void compare_instant(Duration instant, const std::vector<RecordedInstants::Message>& was,
                      const std::vector<RecordedInstants::Message>& is, const Common& common, Differences& differences) {
@@ -88,12 +96,17 @@ int log_diff(const LogOptions& options) {
     json["schema"] = "jarol.log_diff/1";
     json["verdict"] = same ? "same" : "different";
     json["apart"] = common.apart;
+    json["breaks_off"] = nlohmann::ordered_json::object();
+    for (const auto& [name, where] : breaks_of(a, b)) json["breaks_off"][name] = where;
     std::cout << json_line(json);
   } else {
     if (same) std::cout << fmt::format("the same, {} values\n", differences.compared());
     if (!same) std::cout << fmt::format("DIFFERENT, {} values compared\n", differences.compared());
     std::cout << text_of(differences);
     for (const std::string& text : common.apart) std::cout << "  apart       " << printable(text) << "\n";
+    for (const auto& [name, where] : breaks_of(a, b))
+      std::cout << fmt::format("  breaks off  {} {}; what it lacks after that counts as different\n", name,
+                               printable(where));
   }
   return same ? exit_good : exit_negative;
 }

@@ -34,4 +34,11 @@ void require_apart(const std::vector<NamedFile>& inputs, const std::vector<Named
   }
 }
 
+void require_extension(const NamedFile& output, const std::string& extension, const std::string& what) {
+  const fs::path path(output.path);
+  if (path.extension().empty() || path.extension() == extension || path.string().starts_with("/dev/")) return;
+  throw std::invalid_argument(output.option + ": '" + output.path + "' would hold " + what + "; name it " +
+                              fs::path(path).replace_extension(extension).string());
+}
+
 }  // namespace jarol::tools

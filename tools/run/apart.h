@@ -1,4 +1,4 @@
-// Files that a command names: none replaces another.
+// Files that a command names: none replaces another, or has the name of something else.
 #pragma once
 
 #include <string>
@@ -14,5 +14,9 @@ struct NamedFile {
 
 /// Throws std::invalid_argument where an output would replace an input or another output.
 void require_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
+
+/// Throws std::invalid_argument where the name of an output promises something else than what it will hold, as "p.png"
+/// for an SVG picture; one without an extension promises nothing. `what`: "an SVG picture".
+void require_extension(const NamedFile& output, const std::string& extension, const std::string& what);
 
 }  // namespace jarol::tools

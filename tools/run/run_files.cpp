@@ -1,13 +1,13 @@
 #include "tools/run/run_files.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 
 #include "runtime/files/atomic_file.h"
 #include "runtime/record/trace_csv.h"
 #include "tools/report/command_line.h"
+#include "tools/run/apart.h"
 #include "tools/run/panels.h"
 
 namespace jarol::tools {
@@ -16,14 +16,6 @@ namespace {
 constexpr char of_stdout[] = "/dev/stdout";
 
 std::string path_of(const std::string& name) { return name == "-" ? of_stdout : name; }
-
-// A name that promises another kind of picture.
-void require_svg(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension();
-  if (!extension.empty() && extension != ".svg")
-    throw std::invalid_argument("--plot: '" + path + "' would hold an SVG picture; name it " +
-                                std::filesystem::path(path).replace_extension(".svg").string());
-}
 
 }  // namespace
 
@@ -67,7 +59,7 @@ RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments, std::s
   const std::string trace = path_of(arguments.trace), plot = path_of(arguments.plot);
   for (const std::string& path : {trace, plot})
     if (!path.empty()) require_no_input(path);
-  require_svg(plot);
+  require_extension({"--plot", plot}, ".svg", "an SVG picture");
   const std::vector<Output> outputs = outputs_of(graph);
   if (!trace.empty())
     sinks_.push_back(

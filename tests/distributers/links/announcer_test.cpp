@@ -110,5 +110,14 @@ TEST_SUITE("distributers/links/announcer") {
     right->flush();
     CHECK(waits("peers", 1) == 1);
     CHECK(count("dropped: other source") == 1);
+    // what a system says to itself, all that hear it may know
+    const auto listens = make(0x4001, Address::parse("0"), {}, options);
+    const auto itself =
+        make(0xd1, Address::parse("0"), Address::parse(listens->transport().address().substr(6)), to(0xd1));
+    itself->send(messages::refer_to(imc::Heartbeat{}));
+    itself->flush();
+    for (int i = 0; i < 20'000 && listens->report().heard == 0; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    CHECK(listens->report().heard == 1);
   }
 }

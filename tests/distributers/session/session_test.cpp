@@ -128,6 +128,23 @@ TEST_SUITE("distributers/session") {
     CHECK(session.report().non_finite_inputs == 1);
   }
 
+  TEST_CASE("what can't be is refused at the edge, by type") {
+    CHECK_THROWS_WITH_AS(session_of(counting, {.workers = 0}), "a run has 1 to 64 workers, not 0", NotExecutable);
+    CHECK_THROWS_WITH_AS(session_of(counting, {.workers = 65}), "a run has 1 to 64 workers, not 65", NotExecutable);
+    Session session = session_of(adding, {.fed = {"*"}});
+    session.run_for(1s);
+    CHECK_THROWS_WITH_AS(session.run_for(Duration::max()), "a run has ten years at most, not 9223372036.854775807 s",
+                         WrongInstant);
+    CHECK_THROWS_WITH_AS(session.run_for(Duration::min()),
+                         "a run does not go back: it has reached 1 s, and was to run until -9223372035.854775808 s",
+                         WrongInstant);
+    session.finish();
+    CHECK_THROWS_WITH_AS(session.feed("a", 2.0), "the run is over: it was finished", RunOver);
+    const Session other = std::move(session);
+    CHECK(other.now() == 1s);
+    CHECK_THROWS_WITH_AS(session.now(), "this session was moved from; use the one that it was moved to", RunOver);
+  }
+
   TEST_CASE("what is not there is refused with what is") {
     Session session = session_of(adding, {.fed = {"a", "neptus"}});
     CHECK_THROWS_WITH_AS(session.value<double>("som.out"),

@@ -28,11 +28,14 @@ class Run : public AttendedRun {
   bool resting() const override { return rests; }
   void close(const Ending&, Futex::Time) override { closed = true; }
   std::vector<HangingTask> running() const override { return now_running; }
-  Finish finish(Futex::Time) override { return {}; }
+  Finish finish(Futex::Time) override {
+    has_fault = has_fault || fails_at_last;
+    return {};
+  }
 
   std::optional<Duration> longest = 1h;
   Duration takes = 30ms;
-  bool fails = false;
+  bool fails = false, fails_at_last = false;
   std::vector<HangingTask> now_running;
   std::atomic<bool> over{false}, has_fault{false}, asked{false}, rests{false}, closed{false};
 };
@@ -56,6 +59,16 @@ TEST_SUITE("runtime/execute/attend") {
     REQUIRE(end.before_rest.has_value());
     CHECK(end.before_rest->reason == "SIGTERM ended the run");
     CHECK(said == std::vector<std::string>{"SIGTERM ended the run"});
+  }
+
+  TEST_CASE("a fault of what had still to end when the time was over stops the run, too") {
+    Run run;
+    run.longest.reset();
+    run.over = true;
+    run.fails_at_last = true;
+    CHECK(attend(
+              run, [] {}, no_wish, [](const Ending&) {})
+              .ending.cause == Ending::Cause::fault);
   }
 
   TEST_CASE("an activation that takes long is reported, once, and the run goes on") {

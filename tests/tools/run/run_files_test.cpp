@@ -130,12 +130,18 @@ TEST_SUITE("tools/run_files") {
   }
 #endif
 
-  TEST_CASE("SVG is not written under the name of another kind of picture") {
+  TEST_CASE("nothing is written under the name of another kind of file") {
     for (const std::string name : {"p.png", "p.pdf", "p.SVG"}) {
       CHECK(run_jarol(counting + "--plot " + name).output ==
             "error: --plot: '" + name + "' would hold an SVG picture; name it p.svg\n");
+      CHECK(run_jarol("check specs/counting.yaml --svg " + name).output ==
+            "error: --svg: '" + name + "' would hold an SVG picture; name it p.svg\n");
       CHECK(!std::filesystem::exists(name));
     }
+    CHECK(run_jarol("log report a.mcap -o a.png").output ==
+          "error: --out: 'a.png' would hold a page in HTML; name it a.html\n");
+    CHECK(run_jarol("log trace a.mcap -o a.png").output ==
+          "error: --out: 'a.png' would hold trace events in JSON; name it a.json\n");
   }
 
   TEST_CASE("- is stdout, which holds nothing else then") {

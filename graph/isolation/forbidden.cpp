@@ -1,0 +1,114 @@
+#include "graph/isolation/forbidden.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace jarol::isolation {
+
+bool uses_mmx(const cs_insn& instruction) {
+  const cs_x86& x86 = instruction.detail->x86;
+  return std::any_of(x86.operands, x86.operands + x86.op_count, [](const cs_x86_op& operand) {
+    return operand.type == X86_OP_REG && operand.reg >= X86_REG_MM0 && operand.reg <= X86_REG_MM7;
+  });
+}
+
+const char* reason_against(const cs_insn& instruction) {
+  switch (instruction.id) {
+    case X86_INS_SYSCALL:
+    case X86_INS_SYSENTER:
+    case X86_INS_INT:
+    case X86_INS_INT1:
+    case X86_INS_INTO: return "a system call";
+    case X86_INS_RDTSC:
+    case X86_INS_RDTSCP:
+    case X86_INS_RDPMC: return "which reads a counter of cycles";
+    case X86_INS_RDRAND:
+    case X86_INS_RDSEED: return "which makes random numbers";
+    case X86_INS_CPUID:
+    case X86_INS_XGETBV:
+    case X86_INS_SGDT:
+    case X86_INS_SIDT:
+    case X86_INS_SLDT:
+    case X86_INS_STR:
+    case X86_INS_SMSW:
+    case X86_INS_VERR:
+    case X86_INS_VERW:
+    case X86_INS_GETSEC:
+    case X86_INS_ENCLU:
+    case X86_INS_LSL:
+    case X86_INS_LAR: return "which asks what processor or core this is";
+    case X86_INS_LDMXCSR:
+    case X86_INS_VLDMXCSR:
+    case X86_INS_FXRSTOR:
+    case X86_INS_FXRSTOR64:
+    case X86_INS_XRSTOR:
+    case X86_INS_XRSTOR64:
+    case X86_INS_FLDCW:
+    case X86_INS_FLDENV:
+    case X86_INS_FRSTOR:
+    case X86_INS_FNINIT:
+    case X86_INS_FNCLEX:
+    case X86_INS_FFREE:
+    case X86_INS_FFREEP:
+    case X86_INS_FINCSTP:
+    case X86_INS_FDECSTP:
+    case X86_INS_FEMMS:
+    case X86_INS_EMMS: return "which changes the floating-point environment";
+    case X86_INS_STMXCSR:
+    case X86_INS_VSTMXCSR:
+    case X86_INS_FXSAVE:
+    case X86_INS_FXSAVE64:
+    case X86_INS_XSAVE:
+    case X86_INS_XSAVE64:
+    case X86_INS_XSAVEOPT:
+    case X86_INS_XSAVEC:
+    case X86_INS_XSAVES:
+    case X86_INS_XSAVES64:
+    case X86_INS_FNSTENV:
+    case X86_INS_FNSAVE:
+    case X86_INS_FNSTSW: return "which reads the floating-point environment";
+    case X86_INS_RDFSBASE:
+    case X86_INS_RDGSBASE:
+    case X86_INS_WRFSBASE:
+    case X86_INS_WRGSBASE:
+    case X86_INS_LFS:
+    case X86_INS_LGS:
+    case X86_INS_LSS:
+    case X86_INS_XLATB:
+    case X86_INS_SWAPGS: return "which reaches thread-local storage";
+    case X86_INS_IN:
+    case X86_INS_OUT:
+    case X86_INS_INSB:
+    case X86_INS_INSW:
+    case X86_INS_INSD:
+    case X86_INS_OUTSB:
+    case X86_INS_OUTSW:
+    case X86_INS_OUTSD: return "which talks to a device";
+    case X86_INS_POPF:
+    case X86_INS_POPFD:
+    case X86_INS_POPFQ:
+    case X86_INS_STD: return "which changes the processor's flags for others";
+    case X86_INS_XBEGIN:
+    case X86_INS_XABORT:
+    case X86_INS_XTEST:
+    case X86_INS_XEND: return "a memory transaction, which may fail at any time";
+    case X86_INS_LCALL:
+    case X86_INS_LJMP:
+    case X86_INS_RETF:
+    case X86_INS_RETFQ:
+    case X86_INS_IRET:
+    case X86_INS_IRETD:
+    case X86_INS_IRETQ: return "a jump to another segment";
+    default: break;
+  }
+  if (uses_mmx(instruction)) return "which leaves the registers of long double in use";
+  for (std::uint8_t i = 0; i < instruction.detail->groups_count; ++i) {
+    const std::uint8_t group = instruction.detail->groups[i];
+    // to end the process at once is no way out of it
+    const bool ends = instruction.id == X86_INS_HLT || instruction.id == X86_INS_INT3 || instruction.id == X86_INS_UD2;
+    if (group == CS_GRP_PRIVILEGE && !ends) return "which only a system may execute";
+  }
+  return "";
+}
+
+}  // namespace jarol::isolation
