@@ -26,15 +26,17 @@ const char* rounding_name(unsigned bits) {
 #if defined(__x86_64__)
 
 FloatingPointControl floating_point_control() {
-  unsigned vector = 0;
-  struct {
-    std::uint32_t control = 0, status = 0, tags = 0, pointers[4] = {};
-  } x87;
-  asm volatile("stmxcsr %0" : "=m"(vector));
-  // that masks exceptions, which is the default
-  asm volatile("fnstenv %0" : "=m"(x87));
+  // the one instruction that shows all three; Intel SDM volume 1, 10.5.1
+  struct alignas(16) {
+    std::uint16_t x87, status;
+    std::uint8_t used, reserved[19];
+    std::uint32_t vector;
+    std::uint8_t rest[484];
+  } saved;  // written whole, so that nothing is to be laid there before
+  static_assert(sizeof saved == 512);
+  asm volatile("fxsave %0" : "=m"(saved));
   // bit 6 of the x87 control word is reserved and reads as either
-  return {vector & ~vector_flags, x87.control & 0x1f3fU, ~x87.tags & 0xffffU};
+  return {saved.vector & ~vector_flags, saved.x87 & ~0xe0c0U, saved.used};
 }
 
 void set_floating_point_control(const FloatingPointControl& control) {

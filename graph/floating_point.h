@@ -10,12 +10,12 @@ namespace jarol {
 struct FloatingPointControl {
   unsigned vector = 0;  // MXCSR without its flags
   unsigned x87 = 0;     // control word
-  unsigned used = 0;    // registers of long double that hold something, two bits each: none, between tasks
+  unsigned used = 0;    // registers of long double that hold something, a bit each: none, between tasks
 
   friend bool operator==(const FloatingPointControl&, const FloatingPointControl&) = default;
 };
 
-/// Of the calling thread, whose x87 exceptions are masked from then on, as they are by default.
+/// Of the calling thread.
 FloatingPointControl floating_point_control();
 void set_floating_point_control(const FloatingPointControl& control);
 
@@ -43,8 +43,8 @@ class DefaultFloatingPoint {
 void restore_floating_point();
 
 /// After a task: where the calling thread's environment isn't the default, restores that and throws std::runtime_error
-/// that says how it differed. Takes a few nanoseconds, for MXCSR is slow to read; tasks whose machine code can't change
-/// the environment go without (graph/plugins/machine_code.h).
+/// that says how it differed. Takes some 25 ns, for the registers in use are slow to read; tasks whose machine code
+/// can't change the environment go without (graph/plugins/machine_code.h).
 void require_default_floating_point();
 
 }  // namespace jarol

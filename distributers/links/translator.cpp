@@ -68,9 +68,10 @@ Translator::Translator(const messages::MessageSet& set, const LinkOptions& optio
     accepted_.push_back({&find_header_field(*set.header, name, value), value, value});
   for (const auto& [name, id] : options.header)
     for (const messages::FieldDescriptor& field : set.header->fields)
-      if (name == "src" && field.name == "dst")
-        destination_ = {&field, id, default_of(*set.header, field)},
+      if (name == "src" && field.name == "dst") {
+        destination_ = {&field, id, default_of(*set.header, field)};
         sender_ = &find_header_field(*set.header, name, id);
+      }
 }
 
 bool Translator::take(std::span<const std::byte> bytes, std::uint32_t peer) {

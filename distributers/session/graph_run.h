@@ -15,6 +15,9 @@
 
 namespace jarol {
 
+/// Workers of one run on the virtual clock.
+inline constexpr std::size_t max_workers = 64;
+
 struct GraphRunOptions {
   std::vector<RecordSink*> sinks{};  // get all that is published; they outlive the run
   std::size_t workers = 1;

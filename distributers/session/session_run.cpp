@@ -9,8 +9,6 @@
 namespace jarol {
 namespace {
 
-constexpr std::size_t max_workers = 64;
-
 bool can_be_fed(const Communicator& c) { return c.direction == Direction::in && !c.distributer; }
 
 // What can be fed, by name.

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "distributers/session/graph_run.h"
 #include "tools/report/command_line.h"
 #include "tools/report/duration_option.h"
 #include "tools/run/apart.h"
@@ -25,7 +26,7 @@ void add_run_options(Command& command, RunOptions& options) {
       .add_option("--workers", options.workers,
                   "Threads that run tasks; stages are shared where that pays, and the outcome is the same for any "
                   "number; default 1")
-      ->in_range(1, 64);
+      ->in_range(1, max_workers);
   command.add_option("--clock", options.clock, "virtual (default) or real")->one_of({"virtual", "real"});
   command
       .add_option(

@@ -1,4 +1,4 @@
-// What the report of a check says of responses and of cores that are too full.
+// What the report of a check says of responses, of what is late, and of cores that are too full.
 #include "tools/check/check_report.h"
 
 #include <doctest/doctest.h>
@@ -16,6 +16,19 @@ using command::TemporaryFolder;
 }  // namespace
 
 TEST_SUITE("tools/check_report") {
+  TEST_CASE("where no time line is drawn, how long a late task takes stands alone") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {policy: fixed_priority_nonpreemptive}
+tasks:
+  a: {type: Counter, period: 10ms, wcet: 2ms, jitter: 25ms}
+  b: {type: Counter, period: 50ms, wcet: 30ms}
+)");
+    const auto no = run_jarol("check " + file);
+    CHECK(no.exit_code == 1);
+    CHECK(no.output.find("\n  from release to end 32ms\n") != std::string::npos);
+  }
+
   TEST_CASE("a response is the longest there is, or said to be no more than a bound") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t

@@ -39,19 +39,6 @@ bool proposes(const std::vector<std::string>& texts, const std::string& text) {
 }  // namespace
 
 TEST_SUITE("tools/remedies") {
-  TEST_CASE("where no time line is drawn, how long a late task takes stands alone") {
-    const TemporaryFolder folder;
-    const std::string file = folder.write("t.yaml", R"(graph: t
-platform: {policy: fixed_priority_nonpreemptive}
-tasks:
-  a: {type: Counter, period: 10ms, wcet: 2ms, jitter: 25ms}
-  b: {type: Counter, period: 50ms, wcet: 30ms}
-)");
-    const auto no = command::run_jarol("check " + file);
-    CHECK(no.exit_code == 1);
-    CHECK(no.output.find("\n  from release to end 32ms\n") != std::string::npos);
-  }
-
   TEST_CASE("a task that is late by the work of another gets an offset, and that comes first") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t
