@@ -9,10 +9,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <new>
 #include <stdexcept>
 #include <utility>
+
+#include "runtime/machine/map_line.h"
 
 namespace jarol {
 namespace {
@@ -37,33 +38,6 @@ std::uintptr_t find_stack_size() {
   return size;
 }
 
-std::uintptr_t read_hexadecimal(std::string_view& line) {
-  std::uintptr_t read = 0;
-  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), read, 16);
-  line.remove_prefix(static_cast<std::size_t>(end - line.data()));
-  return read;
-}
-
-// A line of /proc/self/maps: "7f00-7f10 rw-p 00000000 00:00 0    [heap]".
-struct MapLine {
-  explicit MapLine(std::string_view line) {
-    begin = read_hexadecimal(line);
-    line.remove_prefix(1);
-    end = read_hexadecimal(line);
-    permissions = line.substr(1, 4);
-    const std::size_t name_at = line.find_first_of("/[");
-    if (name_at != std::string_view::npos) name = line.substr(name_at);
-  }
-  bool is_writable() const { return permissions[1] == 'w'; }
-  bool is_closed() const { return permissions.starts_with("---"); }
-  int protection() const {
-    return (permissions[0] == 'r' ? PROT_READ : 0) | PROT_WRITE | (permissions[2] == 'x' ? PROT_EXEC : 0);
-  }
-
-  std::uintptr_t begin = 0, end = 0;
-  std::string_view permissions, name;
-};
-
 }  // namespace
 
 PageGuard::PageGuard() {
@@ -80,6 +54,7 @@ PageGuard::PageGuard() {
     ::close(maps_);
     throw std::runtime_error("there is no memory for it");
   }
+  static_assert(sizeof(Flags) <= page);
   flags_ = new (flags) Flags;
   regions_.reserve(max_regions);
   leave_out(flags, page);
@@ -95,6 +70,7 @@ PageGuard::PageGuard() {
 
 PageGuard::~PageGuard() {
   open();
+  protect_all(true);
   guard.store(nullptr);
   ::munmap(flags_, page);
   ::close(maps_);
@@ -123,26 +99,39 @@ void PageGuard::close(std::span<std::byte> own) {
     flags_->thread.store(this_thread());
   }
   own_ = {number(own.data()), number(own.data() + own.size())};
-  read_maps();
-  if (read_ != text_) {
-    flags_->changing.store(true);
-    text_.swap(read_);
-    find_regions();
-    flags_->changing.store(false);
-  }
+  look_for_changes();
   flags_->suspended.store(false);
   flags_->to_open.store(true);
   flags_->closed.store(true);
-  protect(false);
+  const bool all = flags_->all_open.exchange(false);
+  for (const Region& region : regions_)
+    if (all || !region.is_seldom_written || is_written(region)) protect(region, false);
 }
 
 void PageGuard::open() {
   flags_->suspended.store(false);
   if (!flags_->to_open.load()) return;
   // also where another thread has lifted it: that may have been while it was being closed
-  protect(true);
+  for (const Region& region : regions_)
+    if (!region.is_seldom_written || is_written(region)) protect(region, true);
   flags_->closed.store(false);
   flags_->to_open.store(false);
+}
+
+// Whatever was mapped since, or is protected otherwise. The text is that of an open guard, with those closed that are
+// seldom written; the first one after the regions were found differs from theirs in that alone.
+void PageGuard::look_for_changes() {
+  read_maps();
+  if (std::exchange(is_text_due_, false) && find_mapped(read_) == mapped_) text_ = read_;
+  if (read_ == text_) return;
+  flags_->changing.store(true);
+  protect_all(true);
+  read_maps();
+  text_.swap(read_);
+  mapped_ = find_mapped(text_);
+  find_regions();
+  is_text_due_ = true;
+  flags_->changing.store(false);
 }
 
 // Reading must allocate nothing that changes what is read: the text has room from the first time on.
@@ -160,35 +149,36 @@ void PageGuard::read_maps() {
 
 // What is writable, but for what is left out and the stacks of threads.
 void PageGuard::find_regions() {
+  std::vector<std::uintptr_t> written;
+  for (const Region& region : regions_)
+    if (is_written(region)) written.push_back(region.pages.begin);
   regions_.clear();
   static const std::uintptr_t stack_size = find_stack_size() + largest_stack_guard;
-  std::string_view text = std::string_view(text_).substr(0, text_.find('\0'));
-  std::uintptr_t guard_begin = 0, guard_end = 0;  // of a stack
-  std::string_view file;                          // of the line before, and where that ends
+  std::string_view text = text_;
+  Pages closed;           // the last that were, which may be a stack's guard
+  std::string_view file;  // of the line before, and where that ends
   std::uintptr_t file_end = 0;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    MapLine line(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (line.is_closed()) {
-      guard_begin = line.begin;
-      guard_end = line.end;
-    }
+  while (MapLine::is_left(text)) {
+    MapLine line(text);
+    if (line.is_closed()) closed = line.pages;
     // what begins as zeros lies behind the file's own data, without its name
     const std::string_view of_file = std::exchange(file, line.name.starts_with('/') ? line.name : std::string_view());
-    const bool follows = line.begin == std::exchange(file_end, line.end);
+    const bool follows = line.pages.begin == std::exchange(file_end, line.pages.end);
     if (line.name.empty() && follows) line.name = of_file;
     if (!line.is_writable()) continue;
-    const bool has_guard = line.begin == guard_end && guard_end - guard_begin <= largest_stack_guard;
+    const bool has_guard = line.pages.begin == closed.end && closed.end - closed.begin <= largest_stack_guard;
     if (line.name == "[stack]") continue;
     // the system may make one of a stack and what lies above it
     const std::uintptr_t begin =
-        has_guard && line.name.empty() ? std::min(line.begin + stack_size, line.end) : line.begin;
+        has_guard && line.name.empty() ? std::min(line.pages.begin + stack_size, line.pages.end) : line.pages.begin;
     const std::size_t slash = line.name.rfind('/');
-    add_region({{begin, line.end},
-                line.protection(),
+    add_region({{begin, line.pages.end},
+                line.writable_protection(),
+                line.is_of_system_library(),
                 std::string(slash == std::string_view::npos ? line.name : line.name.substr(slash + 1))});
   }
+  for (const Region& region : regions_)
+    written_of(region).store(std::find(written.begin(), written.end(), region.pages.begin) != written.end());
 }
 
 // Without what is left out. Those beyond the room that there is stay writable.
@@ -204,18 +194,27 @@ void PageGuard::add_region(Region region) {
 }
 
 // What is mapped no more is passed over.
-void PageGuard::protect(bool writable) const {
-  const auto set = [&](std::uintptr_t begin, std::uintptr_t end, int protection) {
-    if (begin < end)
-      ::mprotect(reinterpret_cast<void*>(begin), end - begin, writable ? protection : protection & ~PROT_WRITE);
+void PageGuard::protect(const Region& region, bool writable) const {
+  const int protection = writable ? region.protection : region.protection & ~PROT_WRITE;
+  const auto set = [&](std::uintptr_t begin, std::uintptr_t end) {
+    if (begin < end) ::mprotect(reinterpret_cast<void*>(begin), end - begin, protection);
   };
-  for (const Region& region : regions_) {
-    const auto [begin, end] = region.pages;
-    const std::uintptr_t first = std::clamp(own_.begin, begin, end), last = std::clamp(own_.end, begin, end);
-    set(begin, first, region.protection);
-    set(last, end, region.protection);
-  }
+  const auto [begin, end] = region.pages;
+  const std::uintptr_t first = std::clamp(own_.begin, begin, end), last = std::clamp(own_.end, begin, end);
+  set(begin, first);
+  set(last, end);
 }
+
+void PageGuard::protect_all(bool writable) const {
+  for (const Region& region : regions_) protect(region, writable);
+  if (writable) flags_->all_open.store(true);
+}
+
+std::atomic<bool>& PageGuard::written_of(const Region& region) const {
+  return flags_->written[static_cast<std::size_t>(&region - regions_.data())];
+}
+
+bool PageGuard::is_written(const Region& region) const { return written_of(region).load(); }
 
 void PageGuard::suspend() {
   PageGuard* const of = guard.load();
@@ -263,20 +262,29 @@ PageGuard::Fault PageGuard::judge(const void* address) {
     const timespec look{0, 100'000};
     ::nanosleep(&look, nullptr);
   }
-  const bool known = of->find(address) != nullptr;
-  if (known && !(guarded && closed)) {
+  const Region* const region = of->find(address);
+  if (region != nullptr && !(guarded && closed)) {
     // it was writable, and is as soon as the guard is open
     of->wait_for_others();
+    if (region->is_seldom_written) of->open_for_good(*region);
     return Fault::waited;
   }
   lift();
-  return known ? Fault::forbidden : Fault::other;
+  return region != nullptr ? Fault::forbidden : Fault::other;
+}
+
+// In a handler: from now on this region is opened with the others. Where a task has begun meanwhile it stays closed:
+// the next write has the next fault.
+void PageGuard::open_for_good(const Region& region) const {
+  written_of(region).store(true);
+  protect(region, true);
+  if (flags_->closed.load()) protect(region, false);
 }
 
 void PageGuard::lift() {
   const PageGuard* const of = guard.load();
-  if (of == nullptr || !of->flags_->closed.load()) return;
-  of->protect(true);
+  if (of == nullptr || (!of->flags_->closed.load() && of->flags_->all_open.load())) return;
+  of->protect_all(true);
   of->flags_->closed.store(false);
 }
 

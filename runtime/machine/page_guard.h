@@ -1,9 +1,12 @@
 // All memory of the process that is not left out, kept from being written for a while. Page protection does it, which
-// holds for every thread: others that write meanwhile wait, a second at most.
+// holds for every thread: others that write meanwhile wait, a second at most. A change of protection costs some
+// microseconds for each region, and most regions are data of the system's libraries that hardly anybody writes to:
+// those stay closed while the guard is open until somebody does.
 #pragma once
 
 #include <sys/types.h>
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +14,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "runtime/machine/map_line.h"
 
 namespace jarol {
 
@@ -49,35 +54,43 @@ class PageGuard {
   static std::string_view name_of(const void* address);
 
  private:
-  struct Pages {
-    std::uintptr_t begin = 0, end = 0;
-  };
   struct Region {
     Pages pages;
     int protection = 0;
+    bool is_seldom_written = false;
     std::string name;
   };
   // stays writable itself
+  static constexpr std::size_t max_regions = 2048;
   struct Flags {
     std::atomic<bool> closed{false};
     std::atomic<bool> to_open{false};  // it was closed since it was opened last, whoever has lifted it meanwhile
     std::atomic<bool> suspended{false};
     std::atomic<bool> changing{false};  // the regions
+    std::atomic<bool> all_open{true};   // also those that are seldom written
     std::atomic<pid_t> thread{0};
+    // of those that are seldom written: somebody has
+    std::array<std::atomic<bool>, max_regions> written{};
   };
-  static constexpr std::size_t max_regions = 4096;
 
   void leave_out(const void* begin, std::size_t size);
   void leave_out_stacks();
   void read_maps();
+  void look_for_changes();
   void find_regions();
   void add_region(Region region);
-  void protect(bool writable) const;
+  void protect(const Region& region, bool writable) const;
+  void protect_all(bool writable) const;
   const Region* find(const void* address) const;
+  std::atomic<bool>& written_of(const Region& region) const;
+  bool is_written(const Region& region) const;
+  void open_for_good(const Region& region) const;
   void wait_for_others() const;
 
   int maps_ = -1;
-  std::string text_, read_;      // of /proc/self/maps, as the regions were found, and now
+  std::string text_, read_;      // of /proc/self/maps, as it was while the guard was open, and now
+  bool is_text_due_ = false;     // the regions have just been found, with all of them open
+  std::vector<Pages> mapped_;    // of any protection, as the regions were found
   std::vector<Pages> left_out_;  // always
   std::vector<Region> regions_;  // never moves
   Pages own_;

@@ -66,8 +66,10 @@ export class Console {
     return this.page.evaluate(`(() => { const [m, s] = document.querySelector('header output').textContent.split(':'); return 60 * m + Number(s); })()`);
   }
 
+  /** Until that instant is looked at. */
   reach(t) {
-    return this.page.until(`(() => { const [m, s] = document.querySelector('header output')?.textContent.split(':') ?? [0, 0]; return 60 * m + Number(s) >= ${t}; })()`);
+    const shown = `document.querySelector('header output')?.textContent`;
+    return this.page.until(`(() => { const [m, s] = ${shown}?.split(':') ?? [0, 0]; return 60 * m + Number(s) >= ${t}; })()`, `${shown} ?? null`);
   }
 
   /** Until what the run does is called that. */

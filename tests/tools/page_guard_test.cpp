@@ -1,6 +1,7 @@
 // A guard that is closed and opened again and again, while other threads write all the time.
 #include "runtime/machine/page_guard.h"
 
+#include <dlfcn.h>
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <sys/mman.h>
@@ -90,5 +91,35 @@ TEST_SUITE("tools/page_guard") {
     }
     CHECK(written == 1);
     CHECK(faults_of_guarded.load() == 0);
+  }
+
+  TEST_CASE(
+      "data of a system's library stays closed until somebody writes to it, and is opened with the rest from then on") {
+    const HandledFaults handled;
+    void* const library = ::dlopen("libm.so.6", RTLD_NOW);
+    REQUIRE(library != nullptr);
+    volatile int& written = *static_cast<int*>(::dlsym(library, "signgam"));
+    written = 1;
+    std::array<int, 4> faults{};
+    {
+      PageGuard guard;
+      for (int& after : faults) {
+        guard.close({});
+        guard.open();
+        written = written + 1;
+        after = faults_of_guarded.load();
+      }
+      // another thread's first write may come while the guard is closed: it waits for its end
+      guard.close({});
+      std::thread other([&] { written = written + 1; });
+      ::usleep(20'000);
+      guard.open();
+      other.join();
+    }
+    written = written + 1;
+    CHECK(written == 7);
+    CHECK(faults == std::array{1, 1, 1, 1});
+    CHECK(faults_of_guarded.load() == 1);
+    ::dlclose(library);
   }
 }

@@ -12,6 +12,7 @@
 #include "tools/bench/echo.h"
 #include "tools/bench/floors.h"
 #include "tools/bench/graphs.h"
+#include "tools/bench/guarded.h"
 #include "tools/bench/ports.h"
 #include "tools/bench/recording.h"
 #include "tools/bench/sharing.h"
@@ -124,6 +125,7 @@ std::vector<std::string> figure_names() {
                                  "workers_2_10us",
                                  "deep_1k",
                                  "fault",
+                                 "guard",
                                  "load_1000",
                                  "load_million",
                                  "check_1000",
@@ -164,6 +166,7 @@ Figure measure(const std::string& name, int repeats) {
   if (name == "workers_2_10us") return measure_10us(repeats);
   if (name == "deep_1k") return measure_deep(repeats);
   if (name == "fault") return fault_figure(repeats);
+  if (name == "guard") return measure_guard(name, repeats);
   if (name == "load_1000") return load_figure(repeats);
   if (name == "load_million") return load_million(name);
   if (name == "check_1000") return measure_check(name, 1000, 30, repeats);
