@@ -37,7 +37,8 @@ test('a run of a graph without a vehicle is watched to its end, and the page has
 });
 
 test('a dive is paused, stepped by one instant, looked back at and gone on with to its end', vehicles, async () => {
-  const run = start('run', 'specs/exolauv.yaml', '--console', '--pace', '2');
+  const dive = ['run', 'specs/exolauv.yaml', '--for', '400s'];  // for a slow machine there is time until it ends
+  const run = start(...dive, '--console', '--pace', '2');
   const shown = await Console.open(browser, await run.url);
   for (const panel of panels) await shown.page.until(`document.querySelector('section[aria-label="${panel}"]') !== null`);
   await shown.reach(30);
@@ -69,7 +70,7 @@ test('a dive is paused, stepped by one instant, looked back at and gone on with 
   const {code, output} = await run.ended;
   assert.equal(code, 0);
   assert.equal(digestIn(await shown.text('[role=log]')), digestIn(output));
-  assert.equal(digestIn(output), digestIn(execFileSync(jarol, ['run', 'specs/exolauv.yaml'], {encoding: 'utf8'})));
+  assert.equal(digestIn(output), digestIn(execFileSync(jarol, dive, {encoding: 'utf8'})));
   await shown.close();
 });
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tools/console/seconds.h"
+#include "tools/console/shortened.h"
 
 namespace jarol::tools::console {
 namespace {
@@ -70,7 +71,7 @@ Console::Console(Watched watched, std::size_t max_at_once, std::vector<std::uint
 void Console::open() {
   server_ = std::make_unique<Server>(
       watched_.server, dump({{"hello", hello_of(watched_, desk_)}}), [this] { return next_messages(); },
-      [this](std::uint64_t page, const std::string& message) { return answer(page, message); },
+      [this](const Page& page, const std::string& message) { return answer(page, message); },
       [this](std::uint64_t page) { desk_.leave(page); });
 }
 
@@ -111,10 +112,10 @@ std::vector<std::string> Console::next_messages() {
   return messages;
 }
 
-std::string Console::answer(std::uint64_t page, const std::string& message) {
+std::string Console::answer(const Page& page, const std::string& message) {
   const nlohmann::json json = parse(message);
   if (json.contains("desk")) {
-    desk_.obey(page, json, Desk::Clock::now());
+    desk_.obey(page.number, json, Desk::Clock::now(), page.behind);
   } else if (watched_.pace != nullptr) {
     obey(*watched_.pace, message);
   } else {
@@ -141,7 +142,7 @@ void obey(Pace& pace, const std::string& message) {
       throw std::invalid_argument("'speed' is no number from 0.001 to 1000, nor \"max\"");
     return pace.set_speed(speed.get<double>());
   }
-  throw std::invalid_argument("there is no '" + what + "' to do; there are: pause, go_on, step, speed");
+  throw std::invalid_argument("there is no '" + shortened(what) + "' to do; there are: pause, go_on, step, speed");
 }
 
 }  // namespace jarol::tools::console

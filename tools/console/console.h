@@ -41,7 +41,7 @@ class Console {
 
  private:
   std::vector<std::string> next_messages();
-  std::string answer(std::uint64_t page, const std::string& message);
+  std::string answer(const Page& page, const std::string& message);
 
   const Watched watched_;
   Feed feed_;

@@ -9,6 +9,7 @@
 
 #include "distributers/messages/json.h"
 #include "graph/language/problems.h"
+#include "tools/console/shortened.h"
 
 namespace jarol::tools::console {
 namespace {
@@ -22,6 +23,17 @@ std::string text_of(const Received& message, const char* key) {
   return *found;
 }
 
+std::string seconds_text(Duration duration) {
+  return fmt::format("{:.1f} s", std::chrono::duration<double>(duration).count());
+}
+
+// These are obeyed however late they come: who sends them wants an end, whatever it is that he sees.
+bool is_for_emergencies(const Received& message) {
+  if (text_of(message, "do") != "send") return false;
+  const std::string abbrev = text_of(message, "message");
+  return abbrev == "Abort" || abbrev == "SHUT_DOWN";
+}
+
 // What a take-over could jerk the vehicle by.
 void require_centred(const Received& message) {
   const auto sticks = message.find("sticks");
@@ -29,7 +41,8 @@ void require_centred(const Received& message) {
     throw std::invalid_argument("expected the sticks' places as \"sticks\", as in {\"roll\": 0}");
   for (const auto& [name, place] : sticks->items())
     if (!place.is_number() || !(std::abs(place.get<double>()) <= Desk::centred))
-      throw std::invalid_argument(fmt::format("stick '{}' is at {}; centre it to take over", name, place.dump()));
+      throw std::invalid_argument(
+          fmt::format("stick '{}' is at {}; centre it to take over", shortened(name), shortened(place.dump())));
 }
 
 }  // namespace
@@ -45,9 +58,13 @@ nlohmann::ordered_json Desk::describe() const {
   return desks;
 }
 
-void Desk::obey(std::uint64_t page, const Received& message, Clock::time_point now) {
+void Desk::obey(std::uint64_t page, const Received& message, Clock::time_point now, Duration behind) {
   const std::string what = text_of(message, "do");
   Seat& seat = find(message);
+  if (behind > max_behind && what != "release" && !is_for_emergencies(message)) {
+    if (seat.page == page || what == "take") leave_out(seat, message, behind);
+    return;
+  }
   if (what == "take") {
     take(seat, page, message);
   } else if (seat.page != page) {
@@ -58,9 +75,19 @@ void Desk::obey(std::uint64_t page, const Received& message, Clock::time_point n
     free(seat, "it was released");
   } else if (what != "alive") {
     throw std::invalid_argument(
-        fmt::format("there is no '{}' to do at a desk; there are: alive, release, send, take", what));
+        fmt::format("there is no '{}' to do at a desk; there are: alive, release, send, take", shortened(what)));
   }
   seat.heard = now;
+  seat.behind = {};
+}
+
+void Desk::leave_out(Seat& seat, const Received& message, Duration behind) {
+  const std::string what = text_of(message, "do");
+  const std::string age = fmt::format("what this page shows is {} old", seconds_text(behind));
+  if (what == "take") throw std::invalid_argument(age + ": it can't take over");
+  seat.behind = behind;
+  if (what != "alive")
+    throw std::invalid_argument(fmt::format("{}: '{}' is not sent", age, shortened(text_of(message, "message"))));
 }
 
 void Desk::leave(std::uint64_t page) {
@@ -70,7 +97,10 @@ void Desk::leave(std::uint64_t page) {
 
 nlohmann::ordered_json Desk::news(Clock::time_point now) {
   for (Seat& seat : seats_)
-    if (seat.page && now - seat.heard > patience) free(seat, "the page that commanded was silent");
+    if (seat.page && now - seat.heard > patience)
+      free(seat, seat.behind == Duration{}
+                     ? "the page that commanded was silent"
+                     : "what the page that commanded shows is " + seconds_text(seat.behind) + " old");
   if (seats_.empty() || (!std::exchange(changed_, false) && now - reported_ < repeat)) return {};
   reported_ = now;
   nlohmann::ordered_json news;
@@ -106,7 +136,7 @@ Desk::Seat& Desk::find(const Received& message) {
     if (seat.of.name == name) return seat;
     names.push_back(seat.of.name);
   }
-  throw std::invalid_argument(fmt::format("there is no desk of '{}'; there are: {}", name, list_of(names)));
+  throw std::invalid_argument(fmt::format("there is no desk of '{}'; there are: {}", shortened(name), list_of(names)));
 }
 
 void Desk::take(Seat& seat, std::uint64_t page, const Received& message) {
@@ -131,7 +161,8 @@ void Desk::send(Seat& seat, const Received& message) {
   const messages::MessageSet& set = seat.of.port->message_set();
   const std::string abbrev = text_of(message, "message");
   const messages::MessageDescriptor* const descriptor = set.find(abbrev);
-  if (descriptor == nullptr) throw std::invalid_argument(fmt::format("{} has no message '{}'", set.name, abbrev));
+  if (descriptor == nullptr)
+    throw std::invalid_argument(fmt::format("{} has no message '{}'", set.name, shortened(abbrev)));
   messages::Message made(*descriptor);
   std::string why;
   const auto fields = message.find("fields");

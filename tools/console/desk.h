@@ -33,8 +33,8 @@ class Desk {
   nlohmann::ordered_json describe() const;
 
   /// What page number so-and-so asks for: {"do": "take" | "alive" | "send" | "release", "desk": NAME, ...}. Throws
-  /// std::invalid_argument, of which the page is shown the text.
-  void obey(std::uint64_t page, const nlohmann::json& message, Clock::time_point now);
+  /// std::invalid_argument, of which the page is shown the text. `behind`: so old is what the page shows.
+  void obey(std::uint64_t page, const nlohmann::json& message, Clock::time_point now, Duration behind = {});
   /// The page is gone.
   void leave(std::uint64_t page);
   /// Who commands, if that has changed since the last call, and again after `repeat`, for pages that missed it; else
@@ -47,6 +47,8 @@ class Desk {
 
   /// So long a page that is silent still commands.
   static constexpr std::chrono::milliseconds patience{1000};
+  /// Who looks at what is older than that does not command, as who is silent does not.
+  static constexpr std::chrono::milliseconds max_behind{1000};
   /// So often it is said who commands where that does not change.
   static constexpr std::chrono::milliseconds repeat{2000};
   /// A stick within that part of its way is centred.
@@ -59,11 +61,13 @@ class Desk {
     std::string as{};                     // what it calls itself
     std::uint64_t sequence = 0;           // of the newest message
     Clock::time_point heard{};
+    Duration behind{};  // of what came since, which does not count
     std::string why{};  // nobody commands any more
   };
   Seat& find(const nlohmann::json& message);
   void take(Seat& seat, std::uint64_t page, const nlohmann::json& message);
   void send(Seat& seat, const nlohmann::json& message);
+  void leave_out(Seat& seat, const nlohmann::json& message, Duration behind);
   void free(Seat& seat, const std::string& why);
 
   std::vector<Seat> seats_;

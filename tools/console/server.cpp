@@ -20,6 +20,7 @@
 
 #include "tools/console/history.h"
 #include "tools/console/page.h"
+#include "tools/console/unseen.h"
 
 namespace jarol::tools::console {
 namespace {
@@ -32,6 +33,9 @@ using tcp = asio::ip::tcp;
 using Error = beast::error_code;
 using Request = http::request<http::empty_body>;
 using namespace std::chrono_literals;
+
+// A page that is slow, and goes on, gets what there was until then.
+constexpr auto longest_end = 5s;
 
 // Pages show what is new so often.
 constexpr auto frame = 33ms;
@@ -110,6 +114,18 @@ http::response<http::string_body> answer_to(const Request& request) {
   return response;
 }
 
+// Of {"do": "seen", "messages": 12} the number; nothing: it is another message.
+std::optional<std::uint64_t> read_seen(const std::string& message) {
+  constexpr std::size_t longest = 100;
+  if (message.size() > longest) return std::nullopt;
+  const auto json = nlohmann::json::parse(message, nullptr, false);
+  if (!json.is_object() || json.value("do", nlohmann::json()) != "seen") return std::nullopt;
+  const auto messages = json.value("messages", nlohmann::json());
+  if (!messages.is_number_unsigned())
+    throw std::invalid_argument("expected a whole number as in {\"do\": \"seen\", \"messages\": 12}");
+  return messages.get<std::uint64_t>();
+}
+
 // So many a second, and no more at once.
 class Allowance {
  public:
@@ -145,9 +161,10 @@ class Server::Implementation {
   void accept();
   void show_next();
   void end();
+  void wait_for_end();
 
   const std::string token_ = make_token();
-  const std::size_t max_message_;
+  const std::size_t max_message_, max_answers_;
   const std::shared_ptr<const std::string> hello_;
   const NextMessages next_;
   const Answer answer_;
@@ -160,6 +177,7 @@ class Server::Implementation {
   asio::steady_timer timer_{context_}, end_timer_{context_};
   std::set<std::shared_ptr<Watcher>> watchers_;
   bool ending_ = false;
+  std::chrono::steady_clock::time_point latest_end_{};
   std::string url_;
   std::thread thread_;
 };
@@ -185,7 +203,8 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
       self->place_ = self->server_.history_.begin();
       self->server_.watchers_.insert(self);
       self->read();
-      self->own_.push_back(self->server_.hello_);
+      self->add_own(self->server_.hello_);
+      self->answered_ = 0;
       self->write();
     });
   }
@@ -194,21 +213,28 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
 
   /// For this page alone.
   void send(std::string message) {
-    own_.push_back(std::make_shared<const std::string>(std::move(message)));
+    if (closing_) return;
+    answered_ += message.size();
+    if (answered_ > server_.max_answers_) return refuse("does not take its answers");
+    add_own(std::make_shared<const std::string>(std::move(message)));
     write();
   }
 
   /// Something new is there.
   void write() {
     if (writing_ || closing_) return;
-    now_ = next();
-    if (!now_) {
-      if (server_.ending_) close(websocket::close_code::going_away);
+    const auto now = std::chrono::steady_clock::now();
+    // a run that ends ends with its report
+    if (!unseen_.has_room(now) && !server_.ending_) return;
+    now_ = next(now);
+    if (!now_.text) {
+      if (server_.ending_ && unseen_.is_all_seen()) close(websocket::close_code::going_away);
       return;
     }
+    unseen_.send(now_.of, now);
     writing_ = true;
     socket_.text(true);
-    socket_.async_write(asio::buffer(*now_), [self = shared_from_this()](Error error, std::size_t) {
+    socket_.async_write(asio::buffer(*now_.text), [self = shared_from_this()](Error error, std::size_t) {
       self->writing_ = false;
       if (error) return self->leave();
       self->write();
@@ -216,16 +242,17 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
   }
 
  private:
-  History::Message next() {
+  History::Message next(History::Time now) {
     if (own_.empty()) {
-      History::Message message = server_.history_.next(place_);
+      History::Message message = server_.history_.next(place_, !unseen_.has_room(now));
       if (place_.missed == 0) return message;
-      own_.push_back(
-          std::make_shared<const std::string>(nlohmann::json{{"missed", std::exchange(place_.missed, 0)}}.dump()));
-      if (message) own_.push_back(std::move(message));
+      if (message.text) own_.push_back(std::move(message));
+      const nlohmann::json missed{{"missed", std::exchange(place_.missed, 0)}};
+      return {std::make_shared<const std::string>(missed.dump()), now};
     }
     History::Message message = std::move(own_.front());
     own_.pop_front();
+    answered_ -= std::min(answered_, message.text->size());
     return message;
   }
 
@@ -243,12 +270,20 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
     if (!socket_.got_text()) return refuse("expected text, got bytes");
     if (!allowance_.take()) return refuse(fmt::format("sent more than {} messages a second", max_messages_a_second));
     try {
-      answer = server_.answer_(page_, message);
+      if (const auto seen = read_seen(message)) {
+        unseen_.see(*seen);
+        if (server_.ending_) server_.wait_for_end();
+        return write();
+      }
+      const History::Time* const next = own_.empty() ? server_.history_.next_time(place_) : &own_.front().of;
+      answer = server_.answer_({page_, unseen_.behind(std::chrono::steady_clock::now(), next)}, message);
     } catch (const std::invalid_argument& wrong) {
       answer = nlohmann::json{{"error", wrong.what()}}.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     }
     if (!answer.empty()) send(std::move(answer));
   }
+
+  void add_own(History::Text text) { own_.push_back({std::move(text), std::chrono::steady_clock::now()}); }
 
   void refuse(const std::string& why) { close({websocket::close_code::policy_error, why}); }
 
@@ -272,7 +307,9 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
   Allowance allowance_;
   History::Place place_;
   std::deque<History::Message> own_;  // before what all get
+  std::size_t answered_ = 0;          // bytes of these
   History::Message now_;              // is written
+  Unseen unseen_;
   bool writing_ = false, closing_ = false, has_left_ = false;
 };
 
@@ -336,6 +373,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
 Server::Implementation::Implementation(const ServerOptions& options, std::string hello, NextMessages next,
                                        Answer answer, Left left)
     : max_message_(options.max_message),
+      max_answers_(options.max_answers),
       hello_(std::make_shared<const std::string>(std::move(hello))),
       next_(std::move(next)),
       answer_(std::move(answer)),
@@ -388,7 +426,7 @@ void Server::Implementation::accept() {
 }
 
 void Server::Implementation::show_next() {
-  for (std::string& message : next_()) history_.add(std::move(message));
+  for (std::string& message : next_()) history_.add(std::move(message), std::chrono::steady_clock::now());
   // those who leave meanwhile are taken out
   for (const auto& watcher : std::vector(watchers_.begin(), watchers_.end())) watcher->write();
   if (ending_) return;
@@ -411,10 +449,18 @@ void Server::Implementation::end() {
   acceptor_.close(ignored);
   timer_.cancel();
   show_next();
-  end_timer_.expires_after(1s);
-  end_timer_.async_wait([this](Error) { context_.stop(); });
+  latest_end_ = std::chrono::steady_clock::now() + longest_end;
+  wait_for_end();
   // nothing to wait for: no page is there
   if (watchers_.empty()) context_.stop();
+}
+
+// For a second; and again for one where a page goes on seeing what it is sent.
+void Server::Implementation::wait_for_end() {
+  end_timer_.expires_at(std::min(std::chrono::steady_clock::now() + 1s, latest_end_));
+  end_timer_.async_wait([this](Error error) {
+    if (error != asio::error::operation_aborted) context_.stop();
+  });
 }
 
 Server::Server(const ServerOptions& options, std::string hello, NextMessages next, Answer answer, Left left)

@@ -16,12 +16,19 @@ struct ServerOptions {
   int port = 0;                                     // 0: any that is free
   std::string page = "/";                           // where the page is that the address leads to
   std::size_t max_message = std::size_t{16} << 10;  // bytes, of what a page sends
+  std::size_t max_answers = std::size_t{4} << 20;   // bytes that a page was answered and has not taken
   bool skips = true;                                // a page that is slow goes on with the newest
 };
 
-/// What the page of that number asks for; the answer goes to that page alone, empty: there is none. Throws
-/// std::invalid_argument, of which the page is shown the text.
-using Answer = std::function<std::string(std::uint64_t page, const std::string& message)>;
+/// Who asks.
+struct Page {
+  std::uint64_t number = 0;
+  Duration behind{};  // what it shows was so long ago
+};
+
+/// What a page asks for; the answer goes to that page alone, empty: there is none. Throws std::invalid_argument, of
+/// which the page is shown the text.
+using Answer = std::function<std::string(const Page& page, const std::string& message)>;
 
 /// The page of that number is gone.
 using Left = std::function<void(std::uint64_t page)>;
@@ -33,7 +40,8 @@ class Server {
  public:
   /// `hello` is the first message that each page gets. Throws std::runtime_error where the port can't be had.
   Server(const ServerOptions& options, std::string hello, NextMessages next, Answer answer, Left left = {});
-  /// Pages have got what there was, as far as they took it within a second.
+  /// Pages have got what there was, as far as they took it within a second, or within five where they are slow and go
+  /// on.
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "graph/plugins/plugins.h"
+#include "tools/console/shortened.h"
 #include "tools/edit/catalogue.h"
 #include "tools/edit/verdict.h"
 #include "tools/library/built_in.h"
@@ -68,9 +69,10 @@ Editor::Editor(EditorOptions options) : options_(std::move(options)), file_(opti
   console::ServerOptions server = options_.server;
   server.page = "/edit.html";
   server.max_message = max_message;
+  server.max_answers = max_answers;
   server_ = std::make_unique<console::Server>(
       server, dump({{"hello", hello_of(options_, plugins_)}}), [this] { return next_messages(); },
-      [this](std::uint64_t page, const std::string& message) { return answer(page, message); });
+      [this](const console::Page& page, const std::string& message) { return answer(page.number, message); });
 }
 
 Editor::~Editor() {
@@ -103,7 +105,8 @@ std::string Editor::answer(std::uint64_t page, const std::string& message) {
     if (trial_) trial_->stop();
     return "";
   }
-  throw std::invalid_argument("there is no '" + what + "' to do; there are: open, judge, save, run, stop");
+  throw std::invalid_argument("there is no '" + console::shortened(what) +
+                              "' to do; there are: open, judge, save, run, stop");
 }
 
 // Verdict, drawing and suggestions come when they are there, each by a thread of its own; those that help a graph that

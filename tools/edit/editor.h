@@ -34,6 +34,8 @@ class Editor {
 
   /// Of a text that a page sends, escapes included.
   static constexpr std::size_t max_message = std::size_t{16} << 20;
+  /// Of answers that a page does not take.
+  static constexpr std::size_t max_answers = std::size_t{64} << 20;
 
  private:
   using Clock = std::chrono::steady_clock;

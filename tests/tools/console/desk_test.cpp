@@ -168,6 +168,62 @@ TEST_SUITE("console/desk") {
     CHECK_NOTHROW(desks.send(7, 100, 0));
   }
 
+  TEST_CASE("who looks at what is old does not command, and all learn why") {
+    Desks desks;
+    desks.take(7);
+    desks.desk.news(desks.now);
+    const Duration old = Desk::max_behind + 400ms;
+    const auto ask = [&](const std::string& message, Duration behind) {
+      desks.desk.obey(7, json::parse(message), desks.now, behind);
+    };
+    const std::string lean =
+        R"({"do": "send", "desk": "terminal", "message": "COMMAND_DATA", "sequence": 1, "fields": {"roll": 9}})";
+    ask(lean, Desk::max_behind);
+    CHECK(desks.taken() == std::vector<int>{9});
+    CHECK_THROWS_WITH_AS(ask(lean, old), "what this page shows is 1.4 s old: 'COMMAND_DATA' is not sent",
+                         std::invalid_argument);
+    CHECK(desks.taken().empty());
+    // nor is it heard
+    desks.now += Desk::patience;
+    CHECK_NOTHROW(ask(R"({"do": "alive", "desk": "terminal"})", old));
+    desks.now += 1ms;
+    CHECK(json(desks.desk.news(desks.now)) ==
+          json{{"terminal", {{"commander", nullptr}, {"why", "what the page that commanded shows is 1.4 s old"}}}});
+    const std::string take = R"({"do": "take", "desk": "terminal", "as": "me", "sticks": {"roll": 0}})";
+    CHECK_THROWS_WITH_AS(ask(take, old), "what this page shows is 1.4 s old: it can't take over",
+                         std::invalid_argument);
+    CHECK_NOTHROW(ask(take, 0ms));
+    CHECK(desks.commander() == "me");
+    // who is silent after that was silent
+    desks.now += Desk::patience + 1ms;
+    CHECK(desks.desk.news(desks.now)["terminal"]["why"] == "the page that commanded was silent");
+  }
+
+  TEST_CASE("what ends all is obeyed however old that is which the page shows") {
+    const auto port = std::make_shared<distributers::ConsolePort>(messages::imc::message_set());
+    Desk desk{{{"neptus", "LauvOperator", port}}};
+    const Desk::Clock::time_point now{};
+    const auto ask = [&](const std::string& message, Duration behind) {
+      desk.obey(7, json::parse(message), now, behind);
+    };
+    ask(R"({"do": "take", "desk": "neptus", "as": "me", "sticks": {}})", 0ms);
+    ask(R"({"do": "send", "desk": "neptus", "message": "Abort", "sequence": 1})", 30s);
+    struct Aborts : messages::Receiver {
+      void receive(messages::MessageRef message) override { all.emplace_back(message.descriptor->name); }
+      std::vector<std::string> all;
+    } aborts;
+    port->receive(aborts);
+    CHECK(aborts.all == std::vector<std::string>{"Abort"});
+    ask(R"({"do": "release", "desk": "neptus"})", 30s);
+    CHECK(json(desk.news(now))["neptus"]["why"] == "it was released");
+    // a desk of the helicopter
+    Desks desks;
+    desks.take(7);
+    CHECK_NOTHROW(
+        desks.desk.obey(7, json::parse(R"({"do": "send", "desk": "terminal", "message": "SHUT_DOWN", "sequence": 1})"),
+                        desks.now, 30s));
+  }
+
   TEST_CASE("what an operator's distributer says reaches the pages once, in its words") {
     const auto port = std::make_shared<distributers::ConsolePort>(messages::imc::message_set());
     Desk desk{{{"neptus", "LauvOperator", port}}};
@@ -196,6 +252,8 @@ TEST_SUITE("console/desk") {
       CHECK_THROWS_WITH_AS(desks.ask(7, message), why, std::invalid_argument);
     };
     refused(R"({"do": "take", "desk": "neptus"})", "there is no desk of 'neptus'; there are: terminal");
+    refused(R"({"do": "take", "desk": ")" + std::string(5000, 'x') + R"("})",
+            ("there is no desk of '" + std::string(60, 'x') + "...'; there are: terminal").c_str());
     refused(R"({"do": "take", "desk": 1})", "expected a text as \"desk\"");
     refused(R"({"do": "fly", "desk": "terminal"})",
             "there is no 'fly' to do at a desk; there are: alive, release, send, take");

@@ -52,10 +52,10 @@ TEST_SUITE("console/feed") {
     History history(1 << 20, false);
     history.add("first");
     History::Place place = history.begin();
-    CHECK(*history.next(place) == "first");
-    CHECK(history.next(place) == nullptr);
+    CHECK(*history.next(place).text == "first");
+    CHECK(history.next(place).text == nullptr);
     for (std::uint64_t i = 0; i < 2 * History::max_behind; ++i) history.add(std::to_string(i));
-    for (std::uint64_t i = 0; i < 2 * History::max_behind; ++i) CHECK(*history.next(place) == std::to_string(i));
+    for (std::uint64_t i = 0; i < 2 * History::max_behind; ++i) CHECK(*history.next(place).text == std::to_string(i));
     CHECK(place.missed == 0);
   }
 
@@ -157,11 +157,11 @@ TEST_SUITE("console/history") {
     history.add("one");
     history.add("two");
     History::Place place = history.begin();
-    CHECK(*history.next(place) == "one");
-    CHECK(*history.next(place) == "two");
-    CHECK(history.next(place) == nullptr);
+    CHECK(*history.next(place).text == "one");
+    CHECK(*history.next(place).text == "two");
+    CHECK(history.next(place).text == nullptr);
     history.add("three");
-    CHECK(*history.next(place) == "three");
+    CHECK(*history.next(place).text == "three");
     CHECK(place.missed == 0);
   }
 
@@ -171,21 +171,46 @@ TEST_SUITE("console/history") {
     History::Place place = history.begin();
     history.add("bbbb");
     history.add("cccc");
-    CHECK(*history.next(place) == "bbbb");
+    CHECK(*history.next(place).text == "bbbb");
     CHECK(place.missed == 1);
     history.add(std::string(50, 'd'));
-    CHECK(history.next(place)->size() == 50);
+    CHECK(history.next(place).text->size() == 50);
     CHECK(place.missed == 2);
-    CHECK(history.next(place) == nullptr);
+    CHECK(history.next(place).text == nullptr);
   }
 
-  TEST_CASE("a page that had caught up and falls behind goes on with the newest") {
+  TEST_CASE("a page that has had what was there before it, and falls behind, goes on with the newest") {
     History history(1 << 20);
-    History::Place slow = history.begin(), late = history.begin();
-    CHECK(history.next(slow) == nullptr);
+    History::Place slow = history.begin();
     for (std::uint64_t i = 0; i <= History::max_behind; ++i) history.add(std::to_string(i));
-    CHECK(*history.next(slow) == std::to_string(History::max_behind));
+    History::Place late = history.begin();
+    CHECK(*history.next(slow).text == std::to_string(History::max_behind));
     CHECK(slow.missed == History::max_behind);
-    CHECK(*history.next(late) == "0");
+    for (std::uint64_t i = 0; i <= History::max_behind; ++i) CHECK(*history.next(late).text == std::to_string(i));
+    CHECK(late.missed == 0);
+    for (std::uint64_t i = 0; i <= History::max_behind; ++i) history.add("more " + std::to_string(i));
+    CHECK(*history.next(late).text == "more " + std::to_string(History::max_behind));
+  }
+
+  TEST_CASE("a page that is behind when all ends gets the last few") {
+    History history(1 << 20);
+    History::Place place = history.begin();
+    for (int i = 0; i < 10; ++i) history.add(std::to_string(i));
+    CHECK(*history.next(place).text == "0");
+    for (const char* const last : {"7", "8", "9"}) CHECK(*history.next(place, true).text == last);
+    CHECK(history.next(place, true).text == nullptr);
+    CHECK(place.missed == 6);
+  }
+
+  TEST_CASE("of what time the next message is can be asked before it is taken") {
+    History history(1 << 20);
+    History::Place place = history.begin();
+    CHECK(history.next_time(place) == nullptr);
+    const History::Time first{1s}, second{2s};
+    history.add("one", first);
+    history.add("two", second);
+    CHECK(*history.next_time(place) == first);
+    CHECK(history.next(place).of == first);
+    CHECK(*history.next_time(place) == second);
   }
 }

@@ -8,6 +8,8 @@ import { vehicleOf, type Vehicle } from "./vehicles.ts";
 /** Milliseconds without news after which a run that has such a pace is not heard any more. */
 const patience = 3000;
 const minPace = 0.2;
+/** The server learns what was seen no more often than each so many milliseconds. */
+const seenRate = 50;
 
 export class Run {
   hello: Hello | undefined = $state.raw();
@@ -43,6 +45,10 @@ export class Run {
   private news = false;
   private lastFrame = 0;
   private heard = 0;
+  private got = 0;
+  private seen = 0;
+  private seenAt = -Infinity;
+  private seenTimer: ReturnType<typeof setTimeout> | undefined;
 
   get time(): number {
     return this.cursor ?? this.newest;
@@ -52,7 +58,10 @@ export class Run {
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     this.socket = new WebSocket(`${scheme}://${location.host}/socket${location.search}`);
     this.socket.onopen = () => (this.link = "open");
-    this.socket.onmessage = (event: MessageEvent<string>) => this.take(event.data);
+    this.socket.onmessage = (event: MessageEvent<string>) => {
+      this.take(event.data);
+      this.see();
+    };
     this.socket.onclose = () => {
       this.link = "lost";
       if (this.hello?.clock === "recorded") return;
@@ -62,7 +71,26 @@ export class Run {
   }
 
   ask(what: object): void {
-    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(what));
+    if (this.socket?.readyState !== WebSocket.OPEN) return;
+    this.saySeen();
+    this.socket.send(JSON.stringify(what));
+  }
+
+  /** The server sends no more than what is seen soon, and knows how old that is which somebody at a desk looks at. */
+  private saySeen(): void {
+    clearTimeout(this.seenTimer);
+    this.seenTimer = undefined;
+    if (this.seen === this.got || this.socket?.readyState !== WebSocket.OPEN) return;
+    this.seen = this.got;
+    this.seenAt = performance.now();
+    this.socket.send(JSON.stringify({ do: "seen", messages: this.got }));
+  }
+
+  private see(): void {
+    ++this.got;
+    const wait = this.seenAt + seenRate - performance.now();
+    if (wait <= 0) this.saySeen();
+    else this.seenTimer ??= setTimeout(() => this.saySeen(), wait);
   }
 
   look(t: number): void {
