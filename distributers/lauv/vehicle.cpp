@@ -15,7 +15,8 @@ using tasks::Instruments;
 
 namespace {
 
-constexpr Duration ask_period = std::chrono::seconds(5);
+// well below the time after which an instrument that was not heard is lost
+constexpr Duration ask_period = std::chrono::seconds(1);
 constexpr double flat_earth = 100e3;  // m from the origin, as far as plans go
 
 // what a device does not measure it writes as no number beside what it does

@@ -26,6 +26,15 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
   constexpr Alarm alarms[] = {Alarm::depth_gauge, Alarm::ctd,   Alarm::attitude, Alarm::attitude,  Alarm::forces,
                               Alarm::heading,     Alarm::speed, Alarm::speed,    Alarm::altimeter, Alarm::ctd,
                               Alarm::ctd,         Alarm::leak,  Alarm::battery,  Alarm::battery};
+  if (!state.heard) {
+    state.heard = std::any_of(std::begin(counts), std::end(counts), [](std::int64_t count) { return count > 0; });
+    // from now on each instrument has its time, whenever the vehicle came
+    if (state.heard && state.alarm == Alarm::no_vehicle) {
+      state.alarm = Alarm::none;
+      state.silences = {};
+      state.since_fix = 0;
+    }
+  }
   Alarm found = Alarm::none;
   for (std::size_t k = state.counts.size(); k-- > 0;) {
     const bool fitted = counts[k] >= 0;
@@ -37,7 +46,8 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
   state.since_fix =
       i.place.count > state.fixes || i.place.count < 0 || i.depth.value > surface_depth ? 0 : state.since_fix + dt;
   state.fixes = i.place.count;
-  return found == Alarm::none && state.since_fix > p.gps_timeout ? Alarm::gps : found;
+  if (found == Alarm::none && state.since_fix > p.gps_timeout) found = Alarm::gps;
+  return found == Alarm::none || state.heard ? found : Alarm::no_vehicle;
 }
 
 // Speed of the propeller through quadratic and linear drag, at once and for ever.
@@ -110,7 +120,6 @@ Alarm find_fin(const Param& p, const FinCondition& fins) {
 Alarm find_exceeded(const Param& p, const LauvSupervisor::In& in) {
   const Instruments& i = in.instruments;
   if (in.contact.silence > p.operator_timeout) return Alarm::operator_lost;
-  if (i.leak.value > 0.5) return Alarm::leak;
   if (i.depth.value > p.max_depth) return Alarm::depth_limit;
   if (i.altitude.count > 0 && i.altitude.value < p.min_altitude) return Alarm::altitude_limit;
   if (std::abs(i.attitude.y) > p.max_pitch) return Alarm::pitch_limit;
@@ -126,7 +135,8 @@ bool steerable(Alarm alarm) {
     case Alarm::speed:
     case Alarm::pitch_limit:
     case Alarm::voltage_limit:
-    case Alarm::gps: return false;
+    case Alarm::gps:
+    case Alarm::no_vehicle: return false;
     case Alarm::none:
     case Alarm::operator_lost:
     case Alarm::depth_limit:
@@ -152,9 +162,10 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   const Alarm lost = find_lost(p, in.instruments, dt, state), liar = find_liar(p, in.instruments, dt, state);
   const bool stopped = in.contact.stops != state.stops;
   state.stops = in.contact.stops;
+  const Alarm leak = in.instruments.leak.value > 0.5 ? Alarm::leak : Alarm::none;
   if (state.alarm == Alarm::none || stopped) {
     Alarm found = Alarm::none;
-    for (const Alarm next : {lost, liar, find_fin(p, in.fins), find_exceeded(p, in)})
+    for (const Alarm next : {leak, lost, liar, find_fin(p, in.fins), find_exceeded(p, in)})
       if (found == Alarm::none) found = next;
     if (state.alarm == Alarm::none || found == Alarm::none) {
       state.alarm = found;
@@ -168,6 +179,8 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
       return;
     }
   }
+  // how it comes up stays: what can't be steered can't be for a leak
+  if (leak != Alarm::none) state.surfaced |= !steerable(std::exchange(state.alarm, leak));
   // a climb gone wrong is given up
   if (!steerable(lost) || !steerable(liar)) state.surfaced = true;
   const bool sinks = in.instruments.depth.value > state.depth_at_alarm + p.climb_sink;

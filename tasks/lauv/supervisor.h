@@ -19,7 +19,8 @@ namespace jarol::tasks {
 /// without steps: each from when both have reported something. Once alarmed it comes up: nose up at some speed until
 /// GPS finds the surface, or, where attitude or speed are in doubt, or the nose does not come up and it sinks, with
 /// propeller off, by buoyancy. It stays alarmed, whatever becomes of the cause, until the operator demands a stop when
-/// there is none any more: then it is a vehicle at rest, to be commanded anew.
+/// there is none any more: then it is a vehicle at rest, to be commanded anew. Water in the hull takes the place of any
+/// other cause. A vehicle of which nothing was heard since the start is not lost but waited for, with propeller off.
 struct LauvSupervisor {
   static constexpr std::string_view summary = "passes the operator's setpoint on, or brings the submarine up";
   struct Param {
@@ -83,6 +84,7 @@ struct LauvSupervisor {
     }
   };
   struct State {
+    bool heard = false;
     Alarm alarm = Alarm::none;
     double since_alarm = 0;
     std::int64_t fixes_at_alarm = 0;
@@ -99,11 +101,12 @@ struct LauvSupervisor {
     static constexpr auto fields() {
       using S = State;
       return describe(
-          field<&S::alarm>(), field<&S::since_alarm>("s"), field<&S::fixes_at_alarm>(),
-          field<&S::depth_at_alarm>("m", "by the gauge"), field<&S::stops>("", "of the operator, up to now"),
-          field<&S::surfaced>(), field<&S::counts>("", "of each instrument"),
-          field<&S::silences>("s", "of each instrument"), field<&S::since_fix>("s", "at the surface"),
-          field<&S::fixes>(), field<&S::wrong_for>("s", "each difference, for so long"), field<&S::attitude_started>(),
+          field<&S::heard>("", "any instrument, up to now"), field<&S::alarm>(), field<&S::since_alarm>("s"),
+          field<&S::fixes_at_alarm>(), field<&S::depth_at_alarm>("m", "by the gauge"),
+          field<&S::stops>("", "of the operator, up to now"), field<&S::surfaced>(),
+          field<&S::counts>("", "of each instrument"), field<&S::silences>("s", "of each instrument"),
+          field<&S::since_fix>("s", "at the surface"), field<&S::fixes>(),
+          field<&S::wrong_for>("s", "each difference, for so long"), field<&S::attitude_started>(),
           field<&S::speed_started>(), field<&S::floor_started>(), field<&S::theta>("rad", "that the rates add up to"),
           field<&S::psi>("rad", "that the rates add up to"), field<&S::speed>("m/s", "that the propeller gives"),
           field<&S::floor>("m", "depth of the sea floor"));

@@ -8,7 +8,8 @@
 
 namespace jarol::tasks {
 
-/// Why the vehicle comes up; the first cause stays until the operator has it forgotten.
+/// Why the vehicle comes up; the first cause stays until the operator has it forgotten, but that water in the hull
+/// takes its place.
 enum class Alarm : std::uint8_t {
   none,
   operator_lost,
@@ -29,12 +30,13 @@ enum class Alarm : std::uint8_t {
   bottom_fin,
   port_fin,
   starboard_fin,
-  top_fin
+  top_fin,
+  no_vehicle
 };
 
 constexpr auto enumerators(Alarm) {
   using enum Alarm;
-  return std::array<Enumerator<Alarm>, 20>{
+  return std::array<Enumerator<Alarm>, 21>{
       {{"none", none},
        {"operator_lost", operator_lost, "it comes up, as the operator is silent"},
        {"depth_limit", depth_limit, "it comes up, as it is deeper than the limit"},
@@ -54,7 +56,8 @@ constexpr auto enumerators(Alarm) {
        {"bottom_fin", bottom_fin, "it comes up, as the bottom rudder is stuck or its servo silent"},
        {"port_fin", port_fin, "it comes up, as the port elevator is stuck or its servo silent"},
        {"starboard_fin", starboard_fin, "it comes up, as the starboard elevator is stuck or its servo silent"},
-       {"top_fin", top_fin, "it comes up, as the top rudder is stuck or its servo silent"}}};
+       {"top_fin", top_fin, "it comes up, as the top rudder is stuck or its servo silent"},
+       {"no_vehicle", no_vehicle, "nothing was heard of the vehicle yet; it begins when that is"}}};
 }
 
 struct Condition {

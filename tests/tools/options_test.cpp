@@ -49,7 +49,8 @@ TEST_SUITE("tools/options") {
     check_refused(check + "--for 1s",
                   "--for says how long to measure, and a verdict holds for ever; add --measure or --write, or leave it "
                   "out");
-    CHECK(run_jarol(check + "--measure --for 1s").exit_code == 0);
+    // whatever a busy machine measures
+    CHECK(run_jarol(check + "--measure --for 1s").exit_code != 2);
   }
 
   TEST_CASE("check: what is asked for and not there is reported") {

@@ -17,8 +17,8 @@ void Unseen::send(Time of, Time now) {
 void Unseen::see(std::uint64_t messages) {
   const std::uint64_t sent = seen_ + all_.size();
   if (messages > sent || (says_ && messages < seen_))
-    throw std::invalid_argument(fmt::format("'messages' of seen is {}, of {} that were sent and {} seen", messages,
-                                            sent, says_ ? seen_ : 0));
+    throw std::invalid_argument(
+        fmt::format("'messages' of seen is {}, of {} that were sent and {} seen", messages, sent, says_ ? seen_ : 0));
   says_ = true;
   for (; seen_ < messages; ++seen_) all_.pop_front();
 }

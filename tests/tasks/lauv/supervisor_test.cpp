@@ -85,6 +85,75 @@ TEST_SUITE("tasks/lauv_supervisor") {
     CHECK(out.condition.alarm == Alarm::leak);
   }
 
+  TEST_CASE("water in the hull takes the place of any other cause, and how it comes up stays") {
+    const auto then_leaks = [](auto change) {
+      LauvSupervisor::State state;
+      LauvSupervisor::Out out;
+      for (int k = 1; k < 40; ++k) {
+        LauvSupervisor::In in = calm_submarine(k);
+        if (k >= 10) change(in);
+        in.instruments.leak.value = k >= 30 ? 1 : 0;
+        LauvSupervisor::run({}, every_50_ms, in, state, out);
+        if (k == 29) CHECK(out.condition.alarm != Alarm::leak);
+      }
+      CHECK(state.since_alarm == doctest::Approx(0.05 * 30));
+      return out;
+    };
+    const auto climbs = then_leaks([](LauvSupervisor::In& in) { in.contact.silence = 6; });
+    CHECK(climbs.condition.alarm == Alarm::leak);
+    CHECK(climbs.setpoint.speed == 1);
+    const auto floats = then_leaks([](LauvSupervisor::In& in) { in.instruments.attitude.y = 1; });
+    CHECK(floats.condition.alarm == Alarm::leak);
+    CHECK(floats.setpoint.speed == 0);
+  }
+
+  TEST_CASE("of several causes at once water in the hull is the one") {
+    const auto out = after(1.1, [](LauvSupervisor::In& in) {
+      in.instruments.leak.value = 1;
+      in.contact.silence = 6;
+      in.fins.states[0] = FinState::stuck;
+    });
+    CHECK(out.condition.alarm == Alarm::leak);
+  }
+
+  TEST_CASE(
+      "a vehicle that comes after the graph is waited for with propeller off, and then each instrument has its time") {
+    LauvSupervisor::State state;
+    LauvSupervisor::Out out;
+    LauvSupervisor::In nothing = calm_submarine(0);
+    const auto wait = [&](double seconds) {
+      for (int k = 0; k < static_cast<int>(20 * seconds); ++k)
+        LauvSupervisor::run({}, every_50_ms, nothing, state, out);
+      return out;
+    };
+    CHECK(wait(2.5).condition.alarm == Alarm::none);
+    CHECK(wait(0.1).condition.alarm == Alarm::no_vehicle);
+    CHECK(out.setpoint.speed == 0);
+    CHECK(wait(60).condition.alarm == Alarm::no_vehicle);
+    // all but the depth gauge report something
+    const auto report = [&](double seconds, std::int64_t depth_count) {
+      static std::int64_t k = 0;
+      for (const std::int64_t end = k + static_cast<std::int64_t>(20 * seconds); k < end;) {
+        LauvSupervisor::In in = calm_submarine(++k);
+        in.instruments.depth.count = std::min(k, depth_count);
+        LauvSupervisor::run({}, every_50_ms, in, state, out);
+      }
+      return out;
+    };
+    CHECK(report(2.4, 0).condition.alarm == Alarm::none);
+    CHECK(out.setpoint.speed == wanted.speed);
+    CHECK(report(10, 1000).condition.alarm == Alarm::none);
+    CHECK(report(3, 0).condition.alarm == Alarm::depth_gauge);
+  }
+
+  TEST_CASE("a vehicle of which something was heard is lost when it falls silent") {
+    LauvSupervisor::State state;
+    LauvSupervisor::Out out;
+    LauvSupervisor::run({}, every_50_ms, calm_submarine(1), state, out);
+    for (int k = 0; k < 60; ++k) LauvSupervisor::run({}, every_50_ms, calm_submarine(1), state, out);
+    CHECK(out.condition.alarm == Alarm::depth_gauge);
+  }
+
   TEST_CASE("a stop of the operator has an alarm forgotten whose cause is gone, and no other") {
     LauvSupervisor::State state;
     LauvSupervisor::Out out;
