@@ -108,6 +108,11 @@ bool Guardian::close() {
   return end() && was_there;
 }
 
+bool Guardian::is_gone() const {
+  pollfd its{socket_.get(), 0, 0};
+  return process_ >= 0 && ::poll(&its, 1, 0) == 1 && (its.revents & (POLLHUP | POLLERR)) != 0;
+}
+
 void Guardian::wake() const { say(socket_.get(), {Word::crashed, 0}); }
 
 // Its end of the sockets goes with it.

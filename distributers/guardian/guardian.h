@@ -41,6 +41,9 @@ class Guardian {
   /// std::runtime_error if it is not to be had.
   void await_ready(std::optional<int> priority = {});
 
+  /// It has ended, though it should not have.
+  bool is_gone() const;
+
   /// From now on the program's end is a crash.
   void arm() const;
   /// In good order: nothing is sent. Waits for the end of the process, a second at most. False: it had been gone

@@ -64,6 +64,12 @@ void Guard::arm() const {
   if (guardian_) guardian_->arm();
 }
 
+void Guard::look(const NoteSink& note) {
+  if (reported_ || !guardian_ || !guardian_->is_gone()) return;
+  reported_ = true;
+  note("the guardian is gone; the run goes on, and from now on a crash leaves the last commands in force");
+}
+
 void Guard::close() {
   if (guardian_ && !guardian_->close()) missing_ = "it was gone before the run ended";
 }

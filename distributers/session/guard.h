@@ -21,6 +21,8 @@ class Guard {
 
   /// The first instant comes: from now on what ends the process without `close` is a crash.
   void arm() const;
+  /// Now and then while the run goes on: notes once that it is gone.
+  void look(const NoteSink& note);
   /// After the links were closed.
   void close();
 
@@ -38,6 +40,7 @@ class Guard {
   std::vector<std::string> safe_, unreached_;
   std::unique_ptr<distributers::Guardian> guardian_;
   std::string missing_;
+  bool reported_ = false;
 };
 
 /// Empty, or why no guardian can be started on this machine.

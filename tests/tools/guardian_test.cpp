@@ -186,12 +186,16 @@ TEST_SUITE("tools/guardian") {
       }
   }
 
-  TEST_CASE("a guardian that is killed is missed in the report, and the run goes on") {
+  TEST_CASE("a guardian that is killed is missed at once and in the report, and the run goes on") {
     const command::TemporaryFolder folder;
     GuardedVehicle vehicle("udp", true);
     Process run(tests::guarded_run(folder, vehicle, "table", "none"));
     REQUIRE(vehicle.listen_until([&] { return vehicle.is_steered(); }));
     CHECK(kill(tests::find_guardian(run.id()), SIGKILL) == 0);
+    const std::string note =
+        "note: the guardian is gone; the run goes on, and from now on a crash leaves the last commands in force\n";
+    CHECK(run.says(note));
+    CHECK(run.errors().find(note) == run.errors().rfind(note));
     run.interrupt();
     CHECK(run.end() == 130);
     CHECK(run.json()["guardian"] ==

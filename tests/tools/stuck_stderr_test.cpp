@@ -1,4 +1,4 @@
-// Runs that end while nobody reads what they say: a pipe that is full.
+// Runs that end while nobody reads what they say or report: a pipe that is full.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -86,6 +86,7 @@ class StuckRun {
   StuckRun(const StuckRun&) = delete;
   StuckRun& operator=(const StuckRun&) = delete;
 
+  void fill_stdout() const { out_.fill(); }
   void interrupt() const { kill(id_, SIGINT); }
   // what it has printed once it prints that; empty: it does not come
   std::string report_with(const std::string& words) {
@@ -127,6 +128,16 @@ TEST_SUITE("tools/run/stuck_stderr") {
       run.interrupt();
       const std::string report = run.report_with("NOT AT REST");
       CHECK(report.find("NOT AT REST after 1") != std::string::npos);
+    }
+  }
+
+  TEST_CASE("a run whose report nobody reads ends by the first signal all the same, a second after it is at rest") {
+    for (const char* more : {"", "--concurrency threads"}) {
+      CAPTURE(more);
+      StuckRun run(more);
+      run.fill_stdout();
+      run.interrupt();
+      CHECK(run.ended_by() == SIGINT);
     }
   }
 

@@ -190,7 +190,11 @@ int run(RunOptions options) {
         if (guard) guard->arm();
         start = std::chrono::steady_clock::now();
       },
-      Interruptible::wish, [&](const Ending& why) { write_promptly(printable_lines(rest_begins_text(graph, why))); },
+      [&] {
+        if (guard) guard->look(note_promptly);
+        return Interruptible::wish();
+      },
+      [&](const Ending& why) { write_promptly(printable_lines(rest_begins_text(graph, why))); },
       Interruptible::forbid_haste, {.report = report_stuck});
   progress.reset();
   // a link that is in use can't be finished, and what it has to be handed is left to the guardian
@@ -241,7 +245,7 @@ int run(RunOptions options) {
                            .simulated = report.simulated,
                            .verdict = verdict,
                            .true_states = run_end.hangs ? std::vector<TrueState>{} : find_true_states(graph, channels)};
-  print(options, outcome, written_saves, what_ifs, written);
+  Interruptible::report([&] { print(options, outcome, written_saves, what_ifs, written); });
   if (console) console->end(to_text(outcome) + failures_text(verdict));
   std::cerr << errors_of(run_end, executor.now()) << failures_text(verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";

@@ -1,7 +1,11 @@
 #include "tools/run/interrupt.h"
 
+#include <signal.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <ctime>
+#include <iostream>
 #include <utility>
 
 #include "runtime/files/temporary_files.h"
@@ -16,9 +20,26 @@ std::atomic<int> last_signal{0};
 std::atomic<bool> alive{false};
 std::atomic<bool> may_hasten{false}, hastened{false};
 std::atomic<std::int64_t> counted_at{0};  // ns, of the newest that counts; 0: none has come
+std::atomic<bool> only_report_left{false};
 std::function<void()> call;
 
+constexpr unsigned report_patience = 1;            // s
 constexpr std::int64_t second_from = 500'000'000;  // ns: what comes sooner is the same wish, reported twice
+
+// Nobody reads the report.
+extern "C" void end_without_report(int) {
+  const int signal = last_signal.load();
+  std::signal(signal, SIG_DFL);
+  remove_temporary_files();
+  write_promptly("nobody reads what is printed: ended without the rest of the report\n");
+  // not this thread alone, which may leave signals to others
+  ::kill(::getpid(), signal);
+}
+
+void end_soon() {
+  std::signal(SIGALRM, end_without_report);
+  ::alarm(report_patience);
+}
 
 std::int64_t now() {
   timespec time{};
@@ -34,6 +55,7 @@ extern "C" void interrupt(int signal) {
     last_signal.store(signal);
     flag.store(true);
     if (alive.load()) call();
+    if (only_report_left.load()) end_soon();
     return;
   }
   if (now() - before < second_from) return;
@@ -59,6 +81,7 @@ Interruptible::Interruptible(std::function<void()> at_once, HaltKey halt_key, Se
   may_hasten.store(second_signal == SecondSignal::hastens);
   hastened.store(false);
   counted_at.store(0);
+  only_report_left.store(false);
   forget_asked_to_end();
   alive.store(true);
   for (std::size_t i = 0; i < count_; ++i) {
@@ -82,6 +105,15 @@ int Interruptible::signal() { return last_signal.load(); }
 Wish Interruptible::wish() { return {last_signal.load(), hastened.load()}; }
 
 void Interruptible::forbid_haste() { may_hasten.store(false); }
+
+void Interruptible::report(const std::function<void()>& print) {
+  only_report_left.store(true);
+  if (flag.load()) end_soon();
+  print();
+  std::cout.flush();
+  only_report_left.store(false);
+  ::alarm(0);
+}
 
 void let_writing_fail() {
   std::signal(SIGPIPE, SIG_IGN);

@@ -37,6 +37,9 @@ class Interruptible {
   static Wish wish();
   /// From now on there is nothing left to hasten: a second signal ends the program.
   static void forbid_haste();
+  /// Prints what nobody may be reading: a second after a first signal, whether it has come or comes meanwhile, the
+  /// program ends.
+  static void report(const std::function<void()>& print);
 
  private:
   static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP, SIGTSTP};

@@ -18,8 +18,10 @@ void write_promptly(std::string_view line) {
       ::write(STDERR_FILENO, line.data(), std::min<std::size_t>(line.size(), PIPE_BUF));
 }
 
+void note_promptly(const std::string& text) { write_promptly("note: " + printable(text) + "\n"); }
+
 void report_stuck(const HangingTask& task) {
-  write_promptly(printable_lines("note: " + to_text(task) + " for a while; if it never does, Ctrl-C ends the run\n"));
+  note_promptly(to_text(task) + " for a while; if it never does, Ctrl-C ends the run");
 }
 
 }  // namespace jarol::tools

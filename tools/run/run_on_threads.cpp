@@ -83,7 +83,10 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
         guard.arm();
         start = std::chrono::steady_clock::now();
       },
-      Interruptible::wish,
+      [&] {
+        guard.look(note_promptly);
+        return Interruptible::wish();
+      },
       [&](const Ending& why) { write_promptly(printable_lines(rest_begins_text(*loaded.graph, why))); },
       Interruptible::forbid_haste, {.report = report_stuck});
   if (run_end.links_are_free()) {
@@ -113,7 +116,7 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
       .simulated = core.report().simulated,
       .verdict = verdict,
       .true_states = run_end.hangs ? std::vector<TrueState>{} : find_true_states(*loaded.graph, channels)};
-  print(run_options, outcome, {}, WhatIfs(std::vector<std::string>{}), false);
+  Interruptible::report([&] { print(run_options, outcome, {}, WhatIfs(std::vector<std::string>{}), false); });
   std::cerr << errors_of(run_end, core.now()) << failures_text(verdict);
   if (!unwatched.empty()) std::cerr << "error: " << unwatched << "\n";
   const int exit_code =
