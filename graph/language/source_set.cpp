@@ -24,6 +24,8 @@ std::shared_ptr<const Source> SourceSet::given_at(const std::string& path) {
   return at == newest->given_.end() ? nullptr : std::make_shared<Source>(Source{path, at->second});
 }
 
+std::string SourceSet::closed() { return newest == nullptr ? "" : newest->closed_; }
+
 void SourceSet::note(const std::shared_ptr<const Source>& source) {
   if (newest != nullptr) newest->read_[full_path(source->name)] = source;
 }

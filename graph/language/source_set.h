@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "graph/language/yaml.h"
@@ -21,6 +22,9 @@ class SourceSet {
   /// From now on that is what is read there.
   void give(const std::string& path, std::string text);
 
+  /// From now on nothing else is read: `why` is the reason of the error.
+  void close(std::string why) { closed_ = std::move(why); }
+
   /// From the root; "-" is what comes on stdin.
   static std::string full_path(const std::string& path);
 
@@ -30,10 +34,13 @@ class SourceSet {
   /// What read_source asks and reports. Null: it was not given.
   static std::shared_ptr<const Source> given_at(const std::string& path);
   static void note(const std::shared_ptr<const Source>& source);
+  /// Why nothing that was not given is read; empty: it is.
+  static std::string closed();
 
  private:
   SourceSet* const before_;
   std::map<std::string, std::string> given_;
+  std::string closed_;
   std::map<std::string, std::shared_ptr<const Source>> read_;
 };
 

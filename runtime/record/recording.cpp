@@ -81,6 +81,7 @@ void Recording::read_begin(mcap::Reader& reader) {
   good_until_ = reader.offset();
   for (mcap::Record record; reader.next(record) && record.opcode == mcap::Opcode::attachment;) {
     mcap::Attachment file = attachment_of(record, path_);
+    note_input(file.name);
     files_.push_back({std::move(file.name), std::move(file.data)});
     good_until_ = reader.offset();
   }

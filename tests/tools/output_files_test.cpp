@@ -242,6 +242,18 @@ tasks: {a: {type: Counter, period: 10ms}}
     fs::create_hard_link(log, same);
     CHECK(command::run_jarol("replay " + log + " --trace " + same).exit_code == 2);
     CHECK(command::run_jarol("replay " + log).exit_code == 0);
+#ifdef JAROL_VEHICLES
+    // and what a recording holds is as good as read: its run came from there
+    const std::string mission = folder.write(
+                          "dive.csv", "time,setpoint.depth,setpoint.heading,setpoint.speed\n0,2,0deg,1\n1,2,0deg,1\n"),
+                      run = folder / "r.mcap", before = content(mission);
+    REQUIRE(command::run_jarol("run specs/exolauv.yaml --set expect=nothing --set distributers.neptus.link.file=" +
+                               mission + " --record " + run)
+                .exit_code == 0);
+    CHECK(command::run_jarol("replay " + run + " --trace " + mission).output ==
+          "error: can't write '" + mission + "': it is '" + mission + "', which was read; choose another file\n");
+    CHECK(content(mission) == before);
+#endif
   }
 
   TEST_CASE("of two runs into one log the second is refused, and the first goes on") {

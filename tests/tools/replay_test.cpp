@@ -12,7 +12,9 @@
 #include "tests/tools/process.h"
 #endif
 #include "runtime/record/recorded_run.h"
+#include "runtime/record/recording_writer.h"
 #include "tests/tools/run_command.h"
+#include "tools/run/load_graph.h"
 
 namespace {
 using namespace jarol;
@@ -44,6 +46,27 @@ TEST_SUITE("tools/replay") {
     CHECK(line_of(replay.output, "digest") == line_of(run.output, "digest"));
     CHECK(line_of(replay.output, "activations") == line_of(run.output, "activations"));
     CHECK(content(again) == content(trace));
+  }
+
+  TEST_CASE("a recording does not say which files are read: what it does not hold is shown to nobody") {
+    const TemporaryFolder folder;
+    const std::string secret = folder.write("secret", "root:$6$hunter2:19000:0:99999:7:::\n"),
+                      log = folder / "run.mcap";
+    const Graph graph = std::move(*tools::load_graph("specs/counting.yaml", {}).graph);
+    RecordingWriter writer(log, {.graph = "counting", .file = secret, .overrides = {}, .clock = "virtual"}, {}, graph);
+    writer.open();
+    writer.close({});
+    for (const std::string& command : {"replay " + log, "log report " + log, "log csv " + log}) {
+      CAPTURE(command);
+      const auto refused = command::run_jarol(command, "2>&1");
+      CHECK(refused.output.find("hunter2") == std::string::npos);
+    }
+    const auto refused = command::run_jarol("replay " + log, "2>&1");
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output.find("error: can't read '" + secret +
+                              "': the recording does not hold it, and is not to say what else is read; name the graph: "
+                              "jarol replay LOG FILE\n") != std::string::npos);
+    CHECK(command::run_jarol("replay " + log + " specs/counting.yaml", "2>&1").exit_code != 2);
   }
 
   TEST_CASE("a replay with something changed says that it diverged") {

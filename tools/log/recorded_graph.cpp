@@ -7,6 +7,7 @@
 #include "runtime/record/cdr.h"
 #include "runtime/record/instants.h"
 #include "tools/run/load_graph.h"
+#include "tools/run/replay_start.h"
 
 namespace jarol::tools {
 
@@ -18,7 +19,7 @@ Loaded load_recorded_graph(const Recording& recording, const std::string& file, 
   overrides.no_plugins =
       "the recording names this graph, and a recording names no code; name it yourself: " + command + " FILE GRAPH";
   SourceSet sources;
-  for (const RecordedFile& read : recording.files()) sources.give(read.path, read.text);
+  give_recorded(recording, overrides, command + " FILE GRAPH", sources);
   return load_without_channels(recording.header().file, overrides, recorded);
 }
 

@@ -32,6 +32,14 @@ Overrides overrides_of(const Recording& recording, const std::string& file, cons
   return overrides;
 }
 
+void give_recorded(const Recording& recording, const Overrides& overrides, const std::string& command,
+                   SourceSet& sources) {
+  for (const RecordedFile& recorded : recording.files()) sources.give(recorded.path, recorded.text);
+  const Overrides& own = recording.header().overrides;
+  if (overrides.set == own.set && overrides.profile == own.profile)
+    sources.close("the recording does not hold it, and is not to say what else is read; name the graph: " + command);
+}
+
 Loaded load_recorded(const Recording& recording, const std::string& file, const Overrides& overrides,
                      RecordedWorld world) {
   const auto load = [&](const std::string& path) {
@@ -40,7 +48,7 @@ Loaded load_recorded(const Recording& recording, const std::string& file, const 
   };
   if (!file.empty()) return load(file);
   SourceSet sources;
-  for (const RecordedFile& recorded : recording.files()) sources.give(recorded.path, recorded.text);
+  give_recorded(recording, overrides, "jarol replay LOG FILE", sources);
   return load(recording.header().file);
 }
 

@@ -6,6 +6,7 @@
 
 #include "distributers/session/graph_run.h"
 #include "distributers/session/load.h"
+#include "graph/language/source_set.h"
 #include "runtime/record/recorded_run.h"
 
 namespace jarol::tools {
@@ -20,6 +21,11 @@ enum class RecordedWorld {
   truth,    // where its vehicles truly were, if the recording has that
   systems,  // its external systems, to go on with
 };
+
+/// The files that the recording holds, and, where the user adds nothing to what the run was given, no others: a
+/// recording may come from anybody, and what it names is not the user's word. `command` names the graph.
+void give_recorded(const Recording& recording, const Overrides& overrides, const std::string& command,
+                   SourceSet& sources);
 
 /// The graph of the run as it was then, or `file` in its place.
 Loaded load_recorded(const Recording& recording, const std::string& file, const Overrides& overrides,
