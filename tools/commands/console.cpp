@@ -83,7 +83,8 @@ int show(const ConsoleOptions& options) {
   loaded.channels = recorded_channels(loaded, log);
   console::Console console(
       {{*loaded.graph, options.log, "recorded", log.covered(), types_of_truth(loaded),
-        console::find_flow(*loaded.graph, loaded.known->vehicles, sources_of(log.recording().files()))},
+        console::find_flow(*loaded.graph, loaded.known->vehicles, sources_of(log.recording().files())),
+        console::Given{log.header().file, log.header().overrides, log.header().seed}},
        server},
       max_samples, strides_of(*loaded.graph, log.covered()));
   GraphRun run(std::move(loaded), {.sinks = {&console.feed()}, .misses = misses, .truth = true, .watched = true});

@@ -72,7 +72,8 @@ std::unique_ptr<console::Console> make_console(const RunOptions& options, const 
   if (!options.console.wanted()) return nullptr;
   return std::make_unique<console::Console>(
       console::Watched{{*loaded.graph, options.file, options.clock, until, true_types,
-                        console::find_flow(*loaded.graph, loaded.known->vehicles, loaded.files)},
+                        console::find_flow(*loaded.graph, loaded.known->vehicles, loaded.files),
+                        console::Given{options.file, options.overrides, options.seed}},
                        server_of(options.console),
                        pace,
                        operators_at_console(loaded)});

@@ -126,6 +126,11 @@ Json pairs_json(const Graph& graph) {
 nlohmann::ordered_json describe_run(const Described& run) {
   const Graph& graph = run.graph;
   Json json{{"schema", "jarol.console/1"}, {"graph", graph.name}, {"file", run.file}, {"clock", run.clock}};
+  if (const auto& given = run.given)
+    json["given"] = {{"file", given->file},
+                     {"profile", given->overrides.profile},
+                     {"set", given->overrides.set},
+                     {"seed", given->seed}};
   if (run.until != Duration::max()) json["until"] = seconds(run.until);
   json["outputs"] = outputs_json(run);
   describe_tasks(graph, json);

@@ -46,8 +46,14 @@ TEST_SUITE("console/console") {
   TEST_CASE("the first message describes the run from its types") {
     const Loaded loaded = load(counting);
     const auto truth = no_truth(*loaded.graph);
-    Console console(
-        Watched{.run = {*loaded.graph, "counting.yaml", "virtual", 2s, truth}, .server = {}, .pace = nullptr});
+    Console console(Watched{.run = {.graph = *loaded.graph,
+                                    .file = "counting.yaml",
+                                    .clock = "virtual",
+                                    .until = 2s,
+                                    .true_types = truth,
+                                    .given = tools::console::Given{"g.yaml", {.profile = "p", .set = {"a=1"}}, 7}},
+                            .server = {},
+                            .pace = nullptr});
     console.open();
     const json hello = PageSocket(console.url()).read()->at("hello");
     CHECK(hello["schema"] == "jarol.console/1");
@@ -55,6 +61,7 @@ TEST_SUITE("console/console") {
     CHECK(hello["clock"] == "virtual");
     CHECK(hello["until"] == 2.0);
     CHECK(hello["paced"] == false);
+    CHECK(hello["given"] == json::parse(R"({"file": "g.yaml", "profile": "p", "set": ["a=1"], "seed": 7})"));
     REQUIRE(hello["outputs"].size() == 2);
     CHECK(hello["outputs"][0]["name"] == "count.out");
     CHECK(hello["outputs"][0]["kind"] == "task");

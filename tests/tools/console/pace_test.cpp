@@ -16,14 +16,14 @@ using tools::parse_pace;
 using tools::console::obey;
 
 // Counts every 10 ms.
-constexpr const char* counting = R"(
+constexpr const char* counting_text = R"(
 graph: counting
 timing: {period: 10ms}
 tasks: {count: {type: Counter, wcet: 10us}}
 )";
 
 GraphRun make_run() {
-  return GraphRun(tools::load_graph(std::make_shared<Source>(Source{"counting.yaml", counting}), {}), {});
+  return GraphRun(tools::load_graph(std::make_shared<Source>(Source{"counting.yaml", counting_text}), {}), {});
 }
 
 std::string refused(Pace& pace, const std::string& message) {

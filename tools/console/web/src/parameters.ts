@@ -21,9 +21,15 @@ export function quoted(word: string): string {
   return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", `'\\''`)}'`;
 }
 
-/** `changed`: texts by "task.path". */
+/** Of a run with what this one was begun with, and with what is changed: texts by "task.path". */
 export function commandOf(hello: Hello, changed: ReadonlyMap<string, string>): string {
-  const words = ["jarol", "run", hello.file];
+  const { file, profile, set, seed } = hello.given ?? { file: hello.file, profile: "", set: [], seed: 0 };
+  const words = ["jarol", "run", file];
+  if (profile) words.push("--profile", profile);
+  if (seed) words.push("--seed", String(seed));
+  // what is changed takes the place of what was set
+  const anew = (each: string): boolean => changed.has(each.slice(0, each.indexOf("=")).replace(/^tasks\.(\w+)\.parameters\./, "$1."));
+  for (const each of set) if (!anew(each)) words.push("--set", each);
   for (const task of hello.tasks)
     for (const parameter of task.parameters) {
       const text = changed.get(`${task.name}.${parameter.path}`);

@@ -123,12 +123,21 @@ export interface DeskDescription {
   messages: string;
 }
 
+/** What the run was begun with. */
+export interface Given {
+  file: string;
+  profile: string;
+  set: string[];
+  seed: number;
+}
+
 export interface Hello {
   schema: string;
   graph: string;
   file: string;
   clock: "virtual" | "real" | "recorded";
   until?: number;
+  given?: Given;
   paced: boolean;
   outputs: (Output | null)[];
   tasks: Task[];

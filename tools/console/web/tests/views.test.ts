@@ -74,3 +74,19 @@ test("changes become the command of the next run, safe in a shell", () => {
   );
   assert.equal(quoted("a=b,c"), "a=b,c");
 });
+
+test("the next run has what this one was begun with, too, but for what is changed", () => {
+  const hello = {
+    file: "dive.mcap",
+    given: { file: "specs/dive.yaml", profile: "at_sea", seed: 7, set: ["tasks.depth.parameters.kp=0.3", "at_end.longest=2 s"] },
+    tasks: [task({ name: "depth", parameters: [parameter({})] })],
+  } as unknown as Hello;
+  assert.equal(
+    commandOf(hello, new Map()),
+    "jarol run specs/dive.yaml --profile at_sea --seed 7 --set tasks.depth.parameters.kp=0.3 --set 'at_end.longest=2 s'",
+  );
+  assert.equal(
+    commandOf(hello, new Map([["depth.kp", "0.2"]])),
+    "jarol run specs/dive.yaml --profile at_sea --seed 7 --set 'at_end.longest=2 s' --set tasks.depth.parameters.kp=0.2",
+  );
+});
