@@ -108,6 +108,7 @@ TEST_SUITE("tools/campaign") {
             of + "--results " + results + " --csv " + csv,
             "2>&1 & id=$!; until [ -s " + results + "-wal ] || ! kill -0 $id 2>&-; do sleep 0.01; done; sleep " +
                 std::to_string(0.1 * pieces) + "; kill -" + signal + " $id 2>&-; wait $id; echo code $?");
+        REQUIRE(part.output.find("code 2\n") == std::string::npos);
         done = part.output.find("code 0\n") != std::string::npos;
         if (!done && signal == "INT" && part.output.find("code 130") != std::string::npos)
           CHECK(part.output.find("runs are left; the same command goes on where this one ended\n") !=
