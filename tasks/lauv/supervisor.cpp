@@ -29,8 +29,8 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
   if (!state.heard) {
     state.heard = std::any_of(std::begin(counts), std::end(counts), [](std::int64_t count) { return count > 0; });
     // from now on each instrument has its time, whenever the vehicle came
-    if (state.heard && state.alarm == Alarm::no_vehicle) {
-      state.alarm = Alarm::none;
+    if (state.heard) {
+      if (state.alarm == Alarm::no_vehicle) state.alarm = Alarm::none;
       state.silences = {};
       state.since_fix = 0;
     }

@@ -48,7 +48,7 @@ class Desk {
   /// So long a page that is silent still commands.
   static constexpr std::chrono::milliseconds patience{1000};
   /// Who looks at what is older than that does not command, as who is silent does not.
-  static constexpr std::chrono::milliseconds max_behind{1000};
+  static constexpr std::chrono::milliseconds max_behind{3000};
   /// So often it is said who commands where that does not change.
   static constexpr std::chrono::milliseconds repeat{2000};
   /// A stick within that part of its way is centred.

@@ -39,7 +39,7 @@ class History {
   /// Of what time the next message is; null: there is none now.
   const Time* next_time(const Place& place) const;
 
-  static constexpr std::uint64_t max_behind = 30;
+  static constexpr std::uint64_t max_behind = 10;
   static constexpr std::uint64_t last_few = 3;
 
  private:

@@ -146,6 +146,17 @@ TEST_SUITE("tasks/lauv_supervisor") {
     CHECK(report(3, 0).condition.alarm == Alarm::depth_gauge);
   }
 
+  TEST_CASE("so has an instrument of a vehicle that comes soon after the graph, and it later") {
+    LauvSupervisor::State state;
+    LauvSupervisor::Out out;
+    for (int k = 0; k < 80; ++k) {
+      LauvSupervisor::In in = calm_submarine(std::max(0, k - 39));  // from 2 s on
+      in.instruments.depth.count = std::max(0, k - 59);             // and the depth gauge from 3 s on
+      LauvSupervisor::run({}, every_50_ms, in, state, out);
+      CHECK(out.condition.alarm == Alarm::none);
+    }
+  }
+
   TEST_CASE("a vehicle of which something was heard is lost when it falls silent") {
     LauvSupervisor::State state;
     LauvSupervisor::Out out;

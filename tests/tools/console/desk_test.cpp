@@ -180,7 +180,7 @@ TEST_SUITE("console/desk") {
         R"({"do": "send", "desk": "terminal", "message": "COMMAND_DATA", "sequence": 1, "fields": {"roll": 9}})";
     ask(lean, Desk::max_behind);
     CHECK(desks.taken() == std::vector<int>{9});
-    CHECK_THROWS_WITH_AS(ask(lean, old), "what this page shows is 1.4 s old: 'COMMAND_DATA' is not sent",
+    CHECK_THROWS_WITH_AS(ask(lean, old), "what this page shows is 3.4 s old: 'COMMAND_DATA' is not sent",
                          std::invalid_argument);
     CHECK(desks.taken().empty());
     // nor is it heard
@@ -188,9 +188,9 @@ TEST_SUITE("console/desk") {
     CHECK_NOTHROW(ask(R"({"do": "alive", "desk": "terminal"})", old));
     desks.now += 1ms;
     CHECK(json(desks.desk.news(desks.now)) ==
-          json{{"terminal", {{"commander", nullptr}, {"why", "what the page that commanded shows is 1.4 s old"}}}});
+          json{{"terminal", {{"commander", nullptr}, {"why", "what the page that commanded shows is 3.4 s old"}}}});
     const std::string take = R"({"do": "take", "desk": "terminal", "as": "me", "sticks": {"roll": 0}})";
-    CHECK_THROWS_WITH_AS(ask(take, old), "what this page shows is 1.4 s old: it can't take over",
+    CHECK_THROWS_WITH_AS(ask(take, old), "what this page shows is 3.4 s old: it can't take over",
                          std::invalid_argument);
     CHECK_NOTHROW(ask(take, 0ms));
     CHECK(desks.commander() == "me");

@@ -19,20 +19,21 @@ struct Served {
   std::vector<std::string> next;
   std::atomic<int> asked{0};
   tools::console::Server server{{},
-                R"({"hello": {"schema": "test"}})",
-                [this] {
-                  const std::lock_guard lock(mutex);
-                  return std::exchange(next, {});
-                },
-                [this](const tools::console::Page& page, const std::string& message) -> std::string {
-                  ++asked;
-                  if (message == "number") return R"({"number": )" + std::to_string(page.number) + "}";
-                  if (message == "behind") return R"({"behind": )" + std::to_string(page.behind.count()) + "}";
-                  if (message == "large") return R"({"large": ")" + std::string(100'000, 'x') + "\"}";
-                  if (message == "wrong") throw std::invalid_argument("expected something else");
-                  return message == "echo" ? R"({"echo": 1})" : "";
-                },
-                [this](std::uint64_t page) { say(R"({"left": )" + std::to_string(page) + "}"); }};
+                                R"({"hello": {"schema": "test"}})",
+                                [this] {
+                                  const std::lock_guard lock(mutex);
+                                  return std::exchange(next, {});
+                                },
+                                [this](const tools::console::Page& page, const std::string& message) -> std::string {
+                                  ++asked;
+                                  if (message == "number") return R"({"number": )" + std::to_string(page.number) + "}";
+                                  if (message == "behind")
+                                    return R"({"behind": )" + std::to_string(page.behind.count()) + "}";
+                                  if (message == "large") return R"({"large": ")" + std::string(100'000, 'x') + "\"}";
+                                  if (message == "wrong") throw std::invalid_argument("expected something else");
+                                  return message == "echo" ? R"({"echo": 1})" : "";
+                                },
+                                [this](std::uint64_t page) { say(R"({"left": )" + std::to_string(page) + "}"); }};
 
   void say(const std::string& message) {
     const std::lock_guard lock(mutex);
