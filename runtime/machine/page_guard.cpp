@@ -70,7 +70,7 @@ PageGuard::PageGuard() {
 
 PageGuard::~PageGuard() {
   open();
-  protect_all(true);
+  open_all();
   guard.store(nullptr);
   ::munmap(flags_, page);
   ::close(maps_);
@@ -125,7 +125,7 @@ void PageGuard::look_for_changes() {
   if (std::exchange(is_text_due_, false) && find_mapped(read_) == mapped_) text_ = read_;
   if (read_ == text_) return;
   flags_->changing.store(true);
-  protect_all(true);
+  open_all();
   read_maps();
   text_.swap(read_);
   mapped_ = find_mapped(text_);
@@ -205,9 +205,9 @@ void PageGuard::protect(const Region& region, bool writable) const {
   set(last, end);
 }
 
-void PageGuard::protect_all(bool writable) const {
-  for (const Region& region : regions_) protect(region, writable);
-  if (writable) flags_->all_open.store(true);
+void PageGuard::open_all() const {
+  for (const Region& region : regions_) protect(region, true);
+  flags_->all_open.store(true);
 }
 
 std::atomic<bool>& PageGuard::written_of(const Region& region) const {
@@ -284,7 +284,7 @@ void PageGuard::open_for_good(const Region& region) const {
 void PageGuard::lift() {
   const PageGuard* const of = guard.load();
   if (of == nullptr || (!of->flags_->closed.load() && of->flags_->all_open.load())) return;
-  of->protect_all(true);
+  of->open_all();
   of->flags_->closed.store(false);
 }
 

@@ -1,7 +1,7 @@
 // All memory of the process that is not left out, kept from being written for a while. Page protection does it, which
-// holds for every thread: others that write meanwhile wait, a second at most. A change of protection costs some
-// microseconds for each region, and most regions are data of the system's libraries that hardly anybody writes to:
-// those stay closed while the guard is open until somebody does.
+// holds for every thread: others that write meanwhile wait, a second at most. Each region costs a system call,
+// and most are data of the system's libraries that hardly anybody writes to: those stay closed while the guard is open
+// until somebody does.
 #pragma once
 
 #include <sys/types.h>
@@ -60,8 +60,8 @@ class PageGuard {
     bool is_seldom_written = false;
     std::string name;
   };
-  // stays writable itself
   static constexpr std::size_t max_regions = 2048;
+  // stays writable itself
   struct Flags {
     std::atomic<bool> closed{false};
     std::atomic<bool> to_open{false};  // it was closed since it was opened last, whoever has lifted it meanwhile
@@ -80,7 +80,7 @@ class PageGuard {
   void find_regions();
   void add_region(Region region);
   void protect(const Region& region, bool writable) const;
-  void protect_all(bool writable) const;
+  void open_all() const;
   const Region* find(const void* address) const;
   std::atomic<bool>& written_of(const Region& region) const;
   bool is_written(const Region& region) const;

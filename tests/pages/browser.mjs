@@ -108,12 +108,12 @@ class Page {
    * Until an expression comes to anything true in the page, which is what it comes to. What does not within two minutes never
    * will, unless `progress`, another expression, has changed meanwhile: then the machine is slow.
    */
-  async until(expression, progress = 'null') {
+  async until(expression, progress = null) {
     let last = null;
     for (let end = Date.now() + 120_000; ; ) {
       const value = await this.evaluate(expression);
       if (value) return value;
-      const now = await this.evaluate(progress);
+      const now = progress && await this.evaluate(progress);
       if (now !== last) end = Date.now() + 120_000;
       last = now;
       if (Date.now() > end) throw new Error(`it did not come to be: ${expression}; the page shows: ${await this.evaluate('document.body.innerText.slice(0, 2000)')}`);

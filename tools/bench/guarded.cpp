@@ -22,7 +22,7 @@ Figure measure_guard(const std::string& name, int repeats) {
   Executor executor({graph, Spacing::pages}, {}, {.guard = &guard});
   Duration until = slice;
   executor.run_until(until);  // pages are touched, and regions found
-  // the floor is a unit, one microsecond; there is no goal but that it is known
+  // the goal is absolute: the floor is its unit, one microsecond
   Figure figure{name, 1e300, "us", 1, 0, 2000, "activation with --guard / 1 us"};
   for (int i = 0; i < std::max(1, repeats / 4); ++i) {
     until += slice;

@@ -5,8 +5,7 @@
 
 namespace jarol::bench {
 
-/// Microseconds of one activation under guard, of a graph that comes with the vehicles; the floor is a microsecond. By
-/// the main thread.
+/// Microseconds of one activation under guard, of a chain of ten tasks; the floor is a microsecond. By the main thread.
 Figure measure_guard(const std::string& name, int repeats);
 
 }  // namespace jarol::bench

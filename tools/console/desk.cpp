@@ -9,6 +9,7 @@
 
 #include "distributers/messages/json.h"
 #include "graph/language/problems.h"
+#include "graph/language/quantities.h"
 #include "tools/console/shortened.h"
 
 namespace jarol::tools::console {
@@ -23,16 +24,16 @@ std::string text_of(const Received& message, const char* key) {
   return *found;
 }
 
-std::string seconds_text(Duration duration) {
-  return fmt::format("{:.1f} s", std::chrono::duration<double>(duration).count());
+std::string age_text(Duration age) {
+  return seconds_text(std::chrono::round<std::chrono::duration<std::int64_t, std::deci>>(age)) + " s";
+}
+
+bool sends(const Received& message, const char* abbrev) {
+  return text_of(message, "do") == "send" && text_of(message, "message") == abbrev;
 }
 
 // These are obeyed however late they come: who sends them wants an end, whatever it is that he sees.
-bool is_for_emergencies(const Received& message) {
-  if (text_of(message, "do") != "send") return false;
-  const std::string abbrev = text_of(message, "message");
-  return abbrev == "Abort" || abbrev == "SHUT_DOWN";
-}
+bool is_for_emergencies(const Received& message) { return sends(message, "Abort") || sends(message, "SHUT_DOWN"); }
 
 // What a take-over could jerk the vehicle by.
 void require_centred(const Received& message) {
@@ -65,6 +66,11 @@ void Desk::obey(std::uint64_t page, const Received& message, Clock::time_point n
     if (seat.page == page || what == "take") leave_out(seat, message, behind);
     return;
   }
+  // a page that may not take over, as what it shows is old, aborts all the same
+  if (!seat.page && sends(message, "Abort")) {
+    seat.sequence = 0;
+    return send(seat, message);
+  }
   if (what == "take") {
     take(seat, page, message);
   } else if (seat.page != page) {
@@ -83,7 +89,7 @@ void Desk::obey(std::uint64_t page, const Received& message, Clock::time_point n
 
 void Desk::leave_out(Seat& seat, const Received& message, Duration behind) {
   const std::string what = text_of(message, "do");
-  const std::string age = fmt::format("what this page shows is {} old", seconds_text(behind));
+  const std::string age = fmt::format("what this page shows is {} old", age_text(behind));
   if (what == "take") throw std::invalid_argument(age + ": it can't take over");
   seat.behind = behind;
   if (what != "alive")
@@ -98,9 +104,8 @@ void Desk::leave(std::uint64_t page) {
 nlohmann::ordered_json Desk::news(Clock::time_point now) {
   for (Seat& seat : seats_)
     if (seat.page && now - seat.heard > patience)
-      free(seat, seat.behind == Duration{}
-                     ? "the page that commanded was silent"
-                     : "what the page that commanded shows is " + seconds_text(seat.behind) + " old");
+      free(seat, seat.behind == Duration{} ? "the page that commanded was silent"
+                                           : "what the page that commanded shows is " + age_text(seat.behind) + " old");
   if (seats_.empty() || (!std::exchange(changed_, false) && now - reported_ < repeat)) return {};
   reported_ = now;
   nlohmann::ordered_json news;

@@ -114,18 +114,6 @@ http::response<http::string_body> answer_to(const Request& request) {
   return response;
 }
 
-// Of {"do": "seen", "messages": 12} the number; nothing: it is another message.
-std::optional<std::uint64_t> read_seen(const std::string& message) {
-  constexpr std::size_t longest = 100;
-  if (message.size() > longest) return std::nullopt;
-  const auto json = nlohmann::json::parse(message, nullptr, false);
-  if (!json.is_object() || json.value("do", nlohmann::json()) != "seen") return std::nullopt;
-  const auto messages = json.value("messages", nlohmann::json());
-  if (!messages.is_number_unsigned())
-    throw std::invalid_argument("expected a whole number as in {\"do\": \"seen\", \"messages\": 12}");
-  return messages.get<std::uint64_t>();
-}
-
 // So many a second, and no more at once.
 class Allowance {
  public:
@@ -204,7 +192,6 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
       self->server_.watchers_.insert(self);
       self->read();
       self->add_own(self->server_.hello_);
-      self->answered_ = 0;
       self->write();
     });
   }
@@ -214,8 +201,7 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
   /// For this page alone.
   void send(std::string message) {
     if (closing_) return;
-    answered_ += message.size();
-    if (answered_ > server_.max_answers_) return refuse("does not take its answers");
+    if (own_bytes_ + message.size() > server_.max_answers_) return refuse("does not take its answers");
     add_own(std::make_shared<const std::string>(std::move(message)));
     write();
   }
@@ -224,9 +210,10 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
   void write() {
     if (writing_ || closing_) return;
     const auto now = std::chrono::steady_clock::now();
+    const bool is_late = !unseen_.has_room(now);
     // a run that ends ends with its report
-    if (!unseen_.has_room(now) && !server_.ending_) return;
-    now_ = next(now);
+    if (is_late && !server_.ending_) return;
+    now_ = next(now, is_late);
     if (!now_.text) {
       if (server_.ending_ && unseen_.is_all_seen()) close(websocket::close_code::going_away);
       return;
@@ -242,18 +229,25 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
   }
 
  private:
-  History::Message next(History::Time now) {
-    if (own_.empty()) {
-      History::Message message = server_.history_.next(place_, !unseen_.has_room(now));
-      if (place_.missed == 0) return message;
-      if (message.text) own_.push_back(std::move(message));
-      const nlohmann::json missed{{"missed", std::exchange(place_.missed, 0)}};
-      return {std::make_shared<const std::string>(missed.dump()), now};
+  History::Message next(History::Time now, bool only_last_few) {
+    if (!own_.empty()) {
+      History::Message message = std::move(own_.front());
+      own_.pop_front();
+      own_bytes_ -= message.text->size();
+      return message;
     }
-    History::Message message = std::move(own_.front());
-    own_.pop_front();
-    answered_ -= std::min(answered_, message.text->size());
-    return message;
+    if (after_missed_.text) return std::exchange(after_missed_, {});
+    History::Message message = server_.history_.next(place_, only_last_few);
+    if (place_.missed == 0) return message;
+    after_missed_ = std::move(message);
+    const nlohmann::json missed{{"missed", std::exchange(place_.missed, 0)}};
+    return {std::make_shared<const std::string>(missed.dump()), now};
+  }
+
+  // Of what time that message is; null: there is none.
+  const History::Time* next_time() const {
+    if (!own_.empty()) return &own_.front().of;
+    return after_missed_.text ? &after_missed_.of : server_.history_.next_time(place_);
   }
 
   void read() {
@@ -275,15 +269,17 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
         if (server_.ending_) server_.wait_for_end();
         return write();
       }
-      const History::Time* const next = own_.empty() ? server_.history_.next_time(place_) : &own_.front().of;
-      answer = server_.answer_({page_, unseen_.behind(std::chrono::steady_clock::now(), next)}, message);
+      answer = server_.answer_({page_, unseen_.behind(std::chrono::steady_clock::now(), next_time())}, message);
     } catch (const std::invalid_argument& wrong) {
       answer = nlohmann::json{{"error", wrong.what()}}.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     }
     if (!answer.empty()) send(std::move(answer));
   }
 
-  void add_own(History::Text text) { own_.push_back({std::move(text), std::chrono::steady_clock::now()}); }
+  void add_own(History::Text text) {
+    own_bytes_ += text->size();
+    own_.push_back({std::move(text), std::chrono::steady_clock::now()});
+  }
 
   void refuse(const std::string& why) { close({websocket::close_code::policy_error, why}); }
 
@@ -307,8 +303,9 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
   Allowance allowance_;
   History::Place place_;
   std::deque<History::Message> own_;  // before what all get
-  std::size_t answered_ = 0;          // bytes of these
-  History::Message now_;              // is written
+  std::size_t own_bytes_ = 0;
+  History::Message after_missed_;  // taken, behind the notice of what it has missed
+  History::Message now_;           // is written
   Unseen unseen_;
   bool writing_ = false, closing_ = false, has_left_ = false;
 };

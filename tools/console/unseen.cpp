@@ -2,9 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace jarol::tools::console {
+
+std::optional<std::uint64_t> read_seen(const std::string& message) {
+  constexpr std::size_t longest = 100;
+  if (message.size() > longest) return std::nullopt;
+  const auto json = nlohmann::json::parse(message, nullptr, false);
+  if (!json.is_object() || json.value("do", nlohmann::json()) != "seen") return std::nullopt;
+  const auto messages = json.value("messages", nlohmann::json());
+  if (!messages.is_number_unsigned())
+    throw std::invalid_argument("expected a whole number as in {\"do\": \"seen\", \"messages\": 12}");
+  return messages.get<std::uint64_t>();
+}
 
 void Unseen::send(Time of, Time now) {
   if (!says_ && all_.size() == max_kept) {

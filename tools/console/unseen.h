@@ -6,10 +6,16 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <optional>
+#include <string>
 
 #include "graph/language/duration.h"
 
 namespace jarol::tools::console {
+
+/// Of {"do": "seen", "messages": 12} the number; nothing: it is another message. Throws std::invalid_argument where the
+/// number is none.
+std::optional<std::uint64_t> read_seen(const std::string& message);
 
 class Unseen {
  public:
@@ -34,7 +40,7 @@ class Unseen {
 
   static constexpr std::chrono::milliseconds patience{200};
   /// Of pages that don't say what they see no more is kept.
-  static constexpr std::size_t max_kept = 100'000;
+  static constexpr std::size_t max_kept = 1000;
 
  private:
   struct Sent {

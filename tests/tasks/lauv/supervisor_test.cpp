@@ -146,7 +146,7 @@ TEST_SUITE("tasks/lauv_supervisor") {
     CHECK(report(3, 0).condition.alarm == Alarm::depth_gauge);
   }
 
-  TEST_CASE("so has an instrument of a vehicle that comes soon after the graph, and it later") {
+  TEST_CASE("an instrument that comes a second after a vehicle that came two seconds after the graph is not lost") {
     LauvSupervisor::State state;
     LauvSupervisor::Out out;
     for (int k = 0; k < 80; ++k) {

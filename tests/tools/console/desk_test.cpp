@@ -214,8 +214,21 @@ TEST_SUITE("console/desk") {
     } aborts;
     port->receive(aborts);
     CHECK(aborts.all == std::vector<std::string>{"Abort"});
+    aborts.all.clear();
+    // another page does not abort what this one commands, and does where nobody commands
+    const auto abort_of_another = [&] {
+      desk.obey(8, json::parse(R"({"do": "send", "desk": "neptus", "message": "Abort", "sequence": 1})"), now, 30s);
+    };
+    CHECK_THROWS_WITH_AS(abort_of_another(), "this page does not command 'neptus'; take it first",
+                         std::invalid_argument);
     ask(R"({"do": "release", "desk": "neptus"})", 30s);
     CHECK(json(desk.news(now))["neptus"]["why"] == "it was released");
+    port->receive(aborts);
+    CHECK(aborts.all.empty());
+    CHECK_NOTHROW(abort_of_another());
+    port->receive(aborts);
+    CHECK(aborts.all == std::vector<std::string>{"Abort"});
+    CHECK(json(desk.news(now)).is_null());  // nor does that page command now
     // a desk of the helicopter
     Desks desks;
     desks.take(7);
