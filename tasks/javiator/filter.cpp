@@ -45,10 +45,26 @@ void compare_climb(JaviatorFilter::State& state, const JaviatorFilter::Param& p,
   state.climb_was_off = std::max(state.climb_was_off * (1 - dt / p.drift.climb_memory), std::abs(state.climb_off));
 }
 
+void hear(GroundPressure& ground, double pressure, double last) {
+  if (ground.mean == 0) {
+    ground.mean = pressure;
+    return;
+  }
+  ground.mean += 0.1 * (pressure - ground.mean);
+  const double step = pressure - last;
+  ground.steps = std::min(ground.steps + 1, 200U);
+  ground.step_squared += (step * step - ground.step_squared) / ground.steps;
+}
+
+// How noisy it was on the ground, it may be in flight.
+double credible_step(const JaviatorFilter::State& state, const JaviatorFilter::Param& p) {
+  return std::clamp(p.pressure_noise * std::sqrt(state.ground.step_squared), p.pressure_jump, 4 * p.pressure_jump);
+}
+
 // Without a sonar the pressure has to do; with one, each shows whether the other can be believed, and what is felt
 // which of the two.
 void weigh_pressure(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double pressure) {
-  const double residual = (state.zero_pressure - pressure) / pascal_per_metre - state.z.place;
+  const double residual = (state.ground.mean - pressure) / pascal_per_metre - state.z.place;
   state.disagreement += 0.05 * (residual - state.disagreement);
   if (!state.sonar.lost && std::abs(state.disagreement) > p.disagreement) {
     if (state.climb_was_off < p.drift.climb) {
@@ -194,7 +210,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     forgive(state.sonar, new_z);
     if (new_z) settle(state.z, state.zero_z, z, state.has_flown);
     forgive(state.pressure, new_pressure);
-    if (new_pressure) state.zero_pressure += (state.zero_pressure == 0 ? 1 : 0.1) * (s.pressure - state.zero_pressure);
+    if (new_pressure) hear(state.ground, s.pressure, last_pressure);
     state.disagreement = 0;
   } else {
     predict(state.x, a.x(), dt);
@@ -211,7 +227,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     }
     compare_climb(state, p, dt);
     // no climb is that fast: a pressure that jumps is wrong
-    if (new_pressure && std::abs(s.pressure - last_pressure) > p.pressure_jump) state.pressure.lost = true;
+    if (new_pressure && std::abs(s.pressure - last_pressure) > credible_step(state, p)) state.pressure.lost = true;
     if (believe(state.pressure, new_pressure, p.patience)) weigh_pressure(state, p, s.pressure);
     // what it has learnt of late may be what is wrong with the sonar
     if (had_sonar && state.sonar.lost) {

@@ -69,6 +69,7 @@ struct JaviatorFilter {
     double sonar_jump_rate = 0.1;
     double angle_jump = 0.1;
     double pressure_jump = 15;
+    double pressure_noise = 6;
     double disagreement = 0.6;
     DriftLimits drift{};
     double pressure_place = 0.05;
@@ -98,6 +99,8 @@ struct JaviatorFilter {
           field<&P::sonar_jump_rate>("m/s", "at which that grows until the next one, up to that of any range"),
           field<&P::angle_jump>("rad", "the same, for roll and pitch"),
           field<&P::pressure_jump>("Pa", "from one reading to the next, which is not credible"),
+          field<&P::pressure_noise>(
+              "", "times that between readings on the ground, if it is more; at most 4 pressure_jump"),
           field<&P::disagreement>("m", "between sonar and pressure from which on one of them is not credible"),
           field<&P::drift>("", "of sensors, how it is found"),
           field<&P::pressure_place>("", "part of what the pressure differs by that is taken without a sonar"),
@@ -120,7 +123,8 @@ struct JaviatorFilter {
     SlowAngle slow_roll{}, slow_pitch{};
     LastTurn last_turn{};
     SensorTrust imu{}, angles{}, laser_x{}, laser_y{}, sonar{}, pressure{};
-    double zero_x = 0, zero_y = 0, zero_z = 0, zero_yaw = 0, zero_pressure = 0;
+    double zero_x = 0, zero_y = 0, zero_z = 0, zero_yaw = 0;
+    GroundPressure ground{};
     double roll = 0, pitch = 0, yaw = 0;
     double disagreement = 0, climb_off = 0, climb_was_off = 0, roll_off = 0, pitch_off = 0, unanswered = 0;
     double slant_roll = 0, slant_pitch = 0;
@@ -134,8 +138,8 @@ struct JaviatorFilter {
                       field<&S::last_turn>(), field<&S::imu>(), field<&S::angles>(), field<&S::laser_x>(),
                       field<&S::laser_y>(), field<&S::sonar>(), field<&S::pressure>(),
                       field<&S::zero_x>("m", "measured where it stands"), field<&S::zero_y>("m"),
-                      field<&S::zero_z>("m"), field<&S::zero_yaw>("rad"), field<&S::zero_pressure>("Pa"),
-                      field<&S::roll>("rad"), field<&S::pitch>("rad"), field<&S::yaw>("rad", "all turns counted"),
+                      field<&S::zero_z>("m"), field<&S::zero_yaw>("rad"), field<&S::ground>(), field<&S::roll>("rad"),
+                      field<&S::pitch>("rad"), field<&S::yaw>("rad", "all turns counted"),
                       field<&S::disagreement>("m", "of pressure and altitude, averaged"),
                       field<&S::climb_off>("m/s", "of the sonar's climb and the slow one, averaged"),
                       field<&S::climb_was_off>("m/s", "of late, at most"),

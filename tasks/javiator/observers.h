@@ -38,6 +38,18 @@ struct LastTurn {
   }
 };
 
+/// The pressure where it stands.
+struct GroundPressure {
+  double mean = 0, step_squared = 0;
+  std::uint32_t steps = 0;
+
+  static constexpr auto fields() {
+    using G = GroundPressure;
+    return describe(field<&G::mean>("Pa"), field<&G::step_squared>("Pa^2", "from one reading to the next, averaged"),
+                    field<&G::steps>("", "in that average, up to 200"));
+  }
+};
+
 /// Acceleration (m/s^2) is integrated over dt (s).
 void predict(AxisObserver& axis, double acceleration, double dt);
 

@@ -24,13 +24,8 @@ struct Dive {
   double depth = 0, at_limit = 0;
 };
 Dive dive(std::vector<std::string> set) {
-  for (const char* each :
-       {"distributers.dune.link.vehicle=vehicles/submarine_dune.yaml",
-        "distributers.dune.link.parameters.dynamics=rigid", "tasks.supervisor.parameters.thrust_coefficient=0.0243",
-        "tasks.supervisor.parameters.advance_coefficient=2.005", "tasks.supervisor.parameters.max_thrust=12",
-        "tasks.supervisor.parameters.speed_error=0.8"})
-    set.insert(set.begin(), each);
-  auto session = jarol::open("specs/exolauv.yaml", {.set = set});
+  set.insert(set.begin(), "distributers.dune.link.parameters.dynamics=rigid");
+  auto session = jarol::open("specs/exolauv.yaml", {.profile = "submarine_dune", .set = set});
   Dive done;
   while (session.now() < session.end_of_mission()) {
     session.run_for(50ms);

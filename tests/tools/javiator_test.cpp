@@ -167,6 +167,17 @@ TEST_SUITE("tools/javiator") {
     }
   }
 
+  TEST_CASE("with three times the noise in its pressure it flies the mission all the same") {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      const Flight flight = tests::fly({.set = {"distributers.robostix.link.parameters.dynamics=rigid",
+                                                "distributers.robostix.link.parameters.noise.pressure=6 Pa"},
+                                        .seed = seed});
+      CHECK(flight.at(28).y == doctest::Approx(3).scale(0).epsilon(0.02));
+      CHECK(flight.touch_down() < 0.5);
+      CHECK(flight.last().cause == tasks::LandingCause::none);
+    }
+  }
+
   TEST_CASE("the V2 flies the same mission, and lands as softly") {
     const Flight flight = tests::fly({.profile = "v2"});
     CHECK(flight.at(13).altitude == doctest::Approx(1).scale(0).epsilon(0.02));

@@ -153,6 +153,25 @@ TEST_SUITE("tasks/javiator_filter/edges") {
   }
 
   TEST_CASE(
+      "a pressure that was noisy on the ground may jump by six times as much as there, but by no more than 60 Pa") {
+    for (const auto& [step, max] : {std::pair{2.0, 15.0}, {7.0, 42.0}, {20.0, 60.0}}) {
+      CAPTURE(step);
+      HeardHelicopter noisy;
+      for (int i = 0; i < 300; ++i) {
+        noisy.sensors.pressure += i % 2 == 0 ? step : -step;
+        noisy.run(1);
+      }
+      noisy.directive.state = FlightState::flying;
+      noisy.run(1);
+      for (const double part : {0.99, 1.01}) {
+        HeardHelicopter heard = noisy;
+        heard.sensors.pressure += part * max;
+        CHECK(heard.run(1).pressure_known == (part < 1));
+      }
+    }
+  }
+
+  TEST_CASE(
       "a sonar whose climb was not felt is lost where pressure differs by more than 60 cm, averaged over twenty "
       "readings") {
     for (const double side : {-1.0, 1.0}) {

@@ -29,7 +29,8 @@ std::string mission_that_stops(const TemporaryFolder& folder) {
 TEST_SUITE("tools/verdicts") {
   TEST_CASE("every shipped mission holds what it expects, in every profile that needs nobody else") {
     for (const std::string run :
-         {"exolauv", "exolauv --profile at_sea --seed 1", "exolauv_bare", "javiator", "javiator --profile wind",
+         {"exolauv", "exolauv --profile at_sea --seed 1", "exolauv --profile submarine_dune",
+          "exolauv --profile submarine_vsim", "exolauv_bare", "javiator", "javiator --profile wind",
           "javiator --profile wind --seed 3", "javiator --profile radio", "javiator --profile radio --seed 3",
           "javiator --profile v2", "javiator --profile original"}) {
       CAPTURE(run);
