@@ -133,6 +133,7 @@ connections: [a.out -> b.in]
     CHECK(report_on("at_load_2") == "does not end to load within 5 s; look at its static objects");
     CHECK(report_on("at_load_3").rfind("ends the process when it is loaded", 0) == 0);
     CHECK(report_on("at_load_4") == "ends the process when it is loaded, with exit code 0");
+    CHECK(report_on("at_load_6") == "starts a process when it is loaded");
 #if defined(__x86_64__)
     CHECK(report_on("at_load_5") ==
           "leaves another floating-point environment behind when it is loaded (flush-to-zero, denormals-are-zero), as "

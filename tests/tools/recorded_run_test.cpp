@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
+#include <regex>
 #include <string>
 
 #include "runtime/execute/log_end.h"
@@ -176,6 +177,15 @@ TEST_SUITE("tools/recorded_run") {
     CHECK(with_header("{}") == is_none);
     CHECK(with_header("{\"schema\": \"jarol.recording/1\", \"graph\": 3}") == is_none);
     CHECK(with_header("{\"schema\": " + std::string(1'000'000, '[')) == is_none);
+    const std::string whole = content(folder / "log");
+    const std::size_t begin = whole.rfind('{', whole.find("jarol.recording/1"));
+    const std::string header = whole.substr(begin, whole.find("\n}\n", begin) + 3 - begin);
+    CHECK(with_header(header) != is_none);
+    for (const std::string time : {"until", "mission"}) {
+      const std::string before = std::regex_replace(header, std::regex("\"" + time + "_ns\": "), "$&-");
+      CHECK(before != header);
+      CHECK(with_header(before) == is_none);
+    }
     CHECK(wrong_with(folder / "nothing") == "can't read '" + folder / "nothing" + "': No such file or directory");
   }
 

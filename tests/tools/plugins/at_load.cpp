@@ -1,4 +1,6 @@
 // A plugin that does something when it is loaded; AT_LOAD says what.
+#include <unistd.h>
+
 #include <cstdlib>
 #include <stdexcept>
 
@@ -23,6 +25,8 @@ const struct AtLoad {
     std::_Exit(0);
 #elif AT_LOAD == 5
     jarol::set_floating_point_control({0x9fc0, 0x33f});
+#elif AT_LOAD == 6
+    static_cast<void>(::fork());
 #endif
   }
 } at_load;
