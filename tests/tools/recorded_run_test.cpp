@@ -182,7 +182,7 @@ TEST_SUITE("tools/recorded_run") {
     const std::string header = whole.substr(begin, whole.find("\n}\n", begin) + 3 - begin);
     CHECK(with_header(header) != is_none);
     for (const std::string time : {"until", "mission"}) {
-      const std::string before = std::regex_replace(header, std::regex("\"" + time + "_ns\": "), "$&-");
+      const std::string before = std::regex_replace(header, std::regex("\"" + time + "_ns\": "), "$&-1");
       CHECK(before != header);
       CHECK(with_header(before) == is_none);
     }

@@ -246,7 +246,7 @@ void SubmarineSensors::report_place(messages::Receiver& receiver) const {
     const EarthRadii radii = earth_radii(sea_.latitude);
     imc::GpsFix fix;
     fix.validity = imc::GpsFix::Validity::VALID_POS;
-    fix.type = imc::GpsFix::Type::SIM;
+    fix.type = imc::GpsFix::Type::SIMULATION;
     fix.lat = sea_.latitude + gps_.values()[0] / radii.north;
     fix.lon = sea_.longitude + gps_.values()[1] / radii.east;
     receiver.receive(messages::refer_to(fix));

@@ -100,7 +100,7 @@ void SubmarineTelemetry::report_water(const imc::SimulatedState& s) {
   const Eigen::Vector3d v_b =
       Eigen::Vector3d(s.u, s.v, s.w) + attitude_of(s).transpose() * Eigen::Vector3d(s.svx, s.svy, s.svz);
   to_.receive(messages::refer_to(
-      imc::GroundVelocity{Validity::VAL_VEL_X | Validity::VAL_VEL_Y | Validity::VAL_VEL_Z, v_b.x(), v_b.y(), v_b.z()}));
+      imc::GroundVelocity{Validity::VEL_X | Validity::VEL_Y | Validity::VEL_Z, v_b.x(), v_b.y(), v_b.z()}));
 }
 
 messages::Message announcement_of(const Vehicle& vehicle, const std::string& address) {
