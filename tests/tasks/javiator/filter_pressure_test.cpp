@@ -3,7 +3,6 @@
 
 #include <utility>
 
-
 #include "tests/tasks/heard_helicopter.h"
 
 namespace {
