@@ -125,13 +125,18 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     state.lifted = wants_up && e.altitude > ground;
     state.z = {e.altitude, std::max(e.climb, 0.0)};
     state.expected = state.sunk = 0;
-    state.mean_trim = state.trim;
+    state.mean_trim = std::min(state.trim, 1.0);  // what lifts it is more than what carries it
     thrust = state.trim;
     return;
   }
-  // blind, near what carried it, with the sonar alone; the flow through the rotors damps
+  // blind, near what carried it, with the sonar alone; the flow through the rotors damps. In the climb that was not learnt
+  // yet: it makes up for it, and on the ground it does not stay light
   if (!e.rates_known) {
-    thrust = state.mean_trim - 0.03 + limited(p.blind_gain * (-p.blind_speed - e.climb), 0.06);
+    const double too_slow = -p.blind_speed - e.climb;
+    if (e.altitude_known) state.blind_trim = limited(state.blind_trim + p.blind_ki * too_slow * dt, 0.2);
+    if (e.altitude_known && e.altitude < ground) state.mean_trim -= dt / 0.5;
+    const double more = std::clamp(p.blind_gain * too_slow, -0.2, 0.06);
+    thrust = std::max(state.mean_trim - 0.03 + state.blind_trim + more, 0.0);
     return;
   }
   if (d.state == FlightState::landing) {

@@ -163,6 +163,7 @@ struct AltitudeControl {
     double overdue = 0.05;
     double spin_up = 1.5;
     double blind_gain = 0.15;
+    double blind_ki = 0.1;
     double blind_speed = 0.25;
     static constexpr auto fields() {
       using P = Param;
@@ -181,6 +182,7 @@ struct AltitudeControl {
                       field<&P::overdue>("m/s^2", "by which its last part gets faster then, up to twice its speed"),
                       field<&P::spin_up>("s", "from rest to idle"),
                       field<&P::blind_gain>("s/m", "thrust per error of descent when the IMU is lost"),
+                      field<&P::blind_ki>("1/m", "thrust per integral of that error"),
                       field<&P::blind_speed>("m/s", "of descent then"));
     }
   };
@@ -197,7 +199,7 @@ struct AltitudeControl {
     Approach z{};
     double trim = 0, mean_trim = 0;
     double expected = 0;
-    double sunk = 0;
+    double sunk = 0, blind_trim = 0;
     double landing = 0;
     bool lifted = false;
     static constexpr auto fields() {
@@ -206,6 +208,7 @@ struct AltitudeControl {
           field<&S::z>(), field<&S::trim>("", "thrust at rest, learnt"), field<&S::mean_trim>("", "over a second"),
           field<&S::expected>("", "thrust that should be felt now, less the trim"),
           field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
+          field<&S::blind_trim>("", "thrust that makes up for what carried it being wrong"),
           field<&S::landing>("s", "since it began to land"), field<&S::lifted>("", "it has left the ground"));
     }
   };

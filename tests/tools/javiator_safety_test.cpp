@@ -72,6 +72,27 @@ TEST_SUITE("tools/javiator_safety") {
     check_safe(fly_failing({"imu", "stuck", "0", LandingCause::imu_lost}), LandingCause::imu_lost);
   }
 
+  TEST_CASE("it lands softly, on its feet, when its IMU fails in the climb, before it has learnt what carries it") {
+    double worst = 0;
+    for (const std::string kind : {"lost", "stuck"})
+      for (const std::string at : {"3.6s", "4s", "4.5s", "5s", "6s"})
+        for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+          INFO(kind << " at " << at << ", seed " << seed);
+          const std::string imu = "distributers.robostix.link.parameters.failures.imu.";
+          const Flight flight = tests::fly({.set = {"distributers.robostix.link.parameters.dynamics=rigid",
+                                                    imu + "kind=" + kind, imu + "at=" + at},
+                                            .pilot = tests::hover_command,
+                                            .seconds = 20,
+                                            .seed = seed});
+          worst = std::max(worst, flight.touch_down());
+          CHECK(flight.touch_down() < 0.5);
+          CHECK(flight.last().state == tasks::FlightState::ground);
+          CHECK(std::abs(flight.path.back().roll) < 0.1);
+          CHECK(std::abs(flight.path.back().pitch) < 0.1);
+        }
+    MESSAGE("touches down with " << worst << " m/s at most");
+  }
+
   TEST_CASE("it lands safely whichever sensor is suddenly far off") {
     check_safe(fly_failing({"sonar", "biased", "0.8", LandingCause::sonar_lost}), LandingCause::sonar_lost);
     check_safe(fly_failing({"laser_north", "biased", "1", LandingCause::position_lost}), LandingCause::position_lost);

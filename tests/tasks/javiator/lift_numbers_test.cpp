@@ -232,16 +232,43 @@ TEST_SUITE("tasks/javiator_control/lift") {
     CHECK(a.state.z.place == 0.85);
   }
 
-  TEST_CASE("blind, it sinks at 25 cm/s near what carried it, by 6 hundredths of it at most") {
+  TEST_CASE("blind, it sinks at 25 cm/s near what carried it, with up to 6 hundredths more and 20 less") {
     Altitude a;
     a.in.estimate.rates_known = false;
+    a.in.estimate.altitude_known = false;
     a.in.estimate.climb = -0.25;
     CHECK(a.run() == doctest::Approx(1 - 0.03));
     a.in.estimate.climb = -0.15;
     CHECK(a.run() == doctest::Approx(1 - 0.03 - 0.15 * 0.1));
-    a.in.estimate.climb = 1;
-    CHECK(a.run() == doctest::Approx(1 - 0.03 - 0.06));
+    a.in.estimate.climb = 2;
+    CHECK(a.run() == doctest::Approx(1 - 0.03 - 0.2));
     a.in.estimate.climb = -1;
     CHECK(a.run() == doctest::Approx(1 - 0.03 + 0.06));
+  }
+
+  TEST_CASE("blind, it learns what carries it as long as its sonar is known, up to 20 hundredths of it") {
+    for (const double side : {-1.0, 1.0}) {
+      Altitude a;
+      a.in.estimate.rates_known = false;
+      a.in.estimate.climb = -0.25 - 0.1 * side;
+      const double at_first = 1 - 0.03 + 0.015 * side;
+      CHECK(a.run(100) == doctest::Approx(at_first + 0.1 * 0.1 * side * 100 * dt));
+      CHECK(a.run(2000) == doctest::Approx(at_first + 0.2 * side));
+      a.in.estimate.altitude_known = false;
+      a.in.estimate.climb = -0.25;
+      CHECK(a.run(100) == doctest::Approx(1 - 0.03 + 0.2 * side));
+    }
+  }
+
+  TEST_CASE("blind, where the sonar shows less than 2 cm, it takes back its thrust within half a second") {
+    Altitude a;
+    a.in.estimate.rates_known = false;
+    a.in.estimate.climb = -0.25;
+    a.in.estimate.altitude = 0.021;
+    CHECK(a.run(10) == doctest::Approx(1 - 0.03));
+    a.in.estimate.altitude = 0.019;
+    CHECK(a.run(10) == doctest::Approx(1 - 0.03 - 10 * dt / 0.5));
+    a.in.estimate.altitude_known = false;
+    CHECK(a.run(10) == doctest::Approx(1 - 0.03 - 10 * dt / 0.5));
   }
 }
