@@ -90,6 +90,7 @@ void LauvVehicle::reach(Duration instant, messages::Receiver& system) {
 void LauvVehicle::peer_changed() {
   entities_.forget();
   leaks_ = {};
+  steers_itself_ = false;
 }
 
 bool LauvVehicle::all_finite(std::initializer_list<double> values) {
@@ -241,7 +242,13 @@ void LauvVehicle::announce(Duration instant, messages::Receiver& all) {
       messages::refer_to(imc::make_announce({.name = "jarol", .type = imc::SystemType::CCU, .address = address_})));
 }
 
+void LauvVehicle::vehicle_state(const imc::VehicleState& m) {
+  using Loops = imc::CLoopsMask;
+  steers_itself_ = (m.control_loops & ~(Loops::EXTERNAL | Loops::NO_OVERRIDE)) != 0;
+}
+
 void LauvVehicle::send_actuation(const tasks::Actuation& actuation, messages::Receiver& system) {
+  if (steers_itself_) return;
   system.receive(messages::refer_to(imc::SetThrusterActuation{0, static_cast<float>(actuation.thruster)}));
   sent_fins_ = actuation.fins;
   for (std::uint8_t i = 0; i < actuation.fins.size(); ++i)

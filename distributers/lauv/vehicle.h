@@ -63,7 +63,8 @@ struct LauvVehicleParameters {
 /// Speaks IMC: SimulatedState or EstimatedState, whichever came last, and what instruments report in;
 /// SetThrusterActuation and SetServoPosition out. A field that is no number beside others that are is one that the
 /// instrument does not measure; a reading that is not finite otherwise is counted and left out. Which entity is which
-/// instrument, the parameters say by the labels that the vehicle gives its entities.
+/// instrument, the parameters say by the labels that the vehicle gives its entities. While a vehicle says that control
+/// loops of its own are on (VehicleState), nothing is sent: two controllers at one fin are worse than either.
 class LauvVehicle {
  public:
   static constexpr std::string_view summary = "the submarine, over IMC";
@@ -96,7 +97,8 @@ class LauvVehicle {
                   on<imc::Distance>(&V::distance), on<imc::EntityState>(&V::entity), on<imc::Voltage>(&V::voltage),
                   on<imc::Current>(&V::current), on<imc::EntityInfo>(&V::entity_info),
                   on<imc::EntityList>(&V::entity_list), on<imc::LblConfig>(&V::beacons), on<imc::LblRange>(&V::range),
-                  on<imc::ServoPosition>(&V::servo), send<&Out::actuation>(&V::send_actuation));
+                  on<imc::ServoPosition>(&V::servo), on<imc::VehicleState>(&V::vehicle_state),
+                  send<&Out::actuation>(&V::send_actuation));
   }
 
   explicit LauvVehicle(const Param& parameters);
@@ -110,7 +112,8 @@ class LauvVehicle {
   std::uint64_t non_finite_inputs() const { return non_finite_inputs_; }
   /// Without what concerns a link to elsewhere.
   void serialize(Archive& archive) {
-    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, latitude_, longitude_, beacons_, sent_fins_);
+    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, latitude_, longitude_, beacons_, sent_fins_,
+            steers_itself_);
   }
 
   In in;
@@ -137,6 +140,7 @@ class LauvVehicle {
   void beacons(const imc::LblConfig& m);
   void range(const imc::LblRange& m, const messages::MessageRef& from);
   void servo(const imc::ServoPosition& m, const messages::MessageRef& from);
+  void vehicle_state(const imc::VehicleState& m);
   void send_actuation(const tasks::Actuation& actuation, messages::Receiver& system);
 
   void place(double latitude, double longitude);
@@ -171,6 +175,7 @@ class LauvVehicle {
   double latitude_ = 0, longitude_ = 0;  // of the origin
   std::array<Beacon, 2> beacons_{};
   std::array<double, 4> sent_fins_{};
+  bool steers_itself_ = false;
   std::string address_;
   messages::imc::AnnounceTimer announce_timer_;
 };

@@ -129,8 +129,8 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     thrust = state.trim;
     return;
   }
-  // blind, near what carried it, with the sonar alone; the flow through the rotors damps. In the climb that was not learnt
-  // yet: it makes up for it, and on the ground it does not stay light
+  // blind, near what carried it, with the sonar alone; the flow through the rotors damps. In the climb that was not
+  // learnt yet: it makes up for it, and on the ground it does not stay light
   if (!e.rates_known) {
     const double too_slow = -p.blind_speed - e.climb;
     if (e.altitude_known) state.blind_trim = limited(state.blind_trim + p.blind_ki * too_slow * dt, 0.2);

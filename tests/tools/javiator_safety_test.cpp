@@ -79,11 +79,11 @@ TEST_SUITE("tools/javiator_safety") {
         for (std::uint64_t seed = 1; seed <= 6; ++seed) {
           INFO(kind << " at " << at << ", seed " << seed);
           const std::string imu = "distributers.robostix.link.parameters.failures.imu.";
-          const Flight flight = tests::fly({.set = {"distributers.robostix.link.parameters.dynamics=rigid",
-                                                    imu + "kind=" + kind, imu + "at=" + at},
-                                            .pilot = tests::hover_command,
-                                            .seconds = 20,
-                                            .seed = seed});
+          const Flight flight = tests::fly(
+              {.set = {"distributers.robostix.link.parameters.dynamics=rigid", imu + "kind=" + kind, imu + "at=" + at},
+               .pilot = tests::hover_command,
+               .seconds = 20,
+               .seed = seed});
           worst = std::max(worst, flight.touch_down());
           CHECK(flight.touch_down() < 0.5);
           CHECK(flight.last().state == tasks::FlightState::ground);

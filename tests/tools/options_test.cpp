@@ -50,7 +50,8 @@ TEST_SUITE("tools/options") {
                   "--for says how long to measure, and a verdict holds for ever; add --measure or --write, or leave it "
                   "out");
     const TemporaryFolder folder;
-    const std::string seldom = folder.write("s.yaml", "{graph: s, tasks: {a: {type: Counter, period: 10s, wcet: 1s}}}\n");
+    const std::string seldom =
+        folder.write("s.yaml", "{graph: s, tasks: {a: {type: Counter, period: 10s, wcet: 1s}}}\n");
     CHECK(run_jarol("check " + seldom + " --measure --for 100s").exit_code == 0);
   }
 

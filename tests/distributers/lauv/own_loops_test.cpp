@@ -1,0 +1,50 @@
+// A vehicle whose own controllers steer it, as a DUNE that flies a plan, is left alone until they are off.
+#include <doctest/doctest.h>
+
+#include "distributers/interfaces/typed.h"
+#include "distributers/lauv/vehicle.h"
+#include "distributers/messages/imc.h"
+#include "distributers/messages/payload.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+namespace imc = messages::imc;
+
+struct Counted : messages::Receiver {
+  void receive(messages::MessageRef) override { ++sent; }
+  int sent = 0;
+};
+
+// How many messages an actuation becomes, after the vehicle has said which loops are on.
+int sent_by(Typed<LauvVehicle>& adapter, std::uint32_t loops) {
+  imc::VehicleState state;
+  state.control_loops = loops;
+  adapter.receive(messages::refer_to(state));
+  Counted counted;
+  adapter.hand_over<&LauvVehicle::Out::actuation>({0.5, {0.1, 0.2, 0.3, 0.4}}, counted);
+  return counted.sent;
+}
+}  // namespace
+
+TEST_SUITE("distributers/lauv_vehicle/own_loops") {
+  TEST_CASE("while control loops of the vehicle's own are on nothing is sent, and all as soon as they are off") {
+    using Loops = imc::CLoopsMask;
+    Typed<LauvVehicle> adapter;
+    CHECK(sent_by(adapter, 0) == 5);
+    CHECK(sent_by(adapter, 0x4C9) == 0);  // DUNE's Goto: path, depth, yaw, speed, torque
+    CHECK(sent_by(adapter, Loops::TORQUE) == 0);
+    CHECK(sent_by(adapter, Loops::EXTERNAL | Loops::NO_OVERRIDE) == 5);
+    CHECK(sent_by(adapter, Loops::EXTERNAL | Loops::SPEED) == 0);
+    CHECK(sent_by(adapter, 0) == 5);
+  }
+
+  TEST_CASE("of another vehicle at the link that is not known") {
+    Typed<LauvVehicle> adapter;
+    CHECK(sent_by(adapter, 0x4C9) == 0);
+    adapter.peer_changed();
+    Counted counted;
+    adapter.hand_over<&LauvVehicle::Out::actuation>({0.5, {}}, counted);
+    CHECK(counted.sent == 5);
+  }
+}
