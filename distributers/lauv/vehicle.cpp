@@ -17,6 +17,8 @@ namespace {
 
 // well below the time after which an instrument that was not heard is lost
 constexpr Duration ask_period = std::chrono::seconds(1);
+// DUNE says it each second
+constexpr Duration state_patience = std::chrono::seconds(5);
 constexpr double flat_earth = 100e3;  // m from the origin, as far as plans go
 
 // what a device does not measure it writes as no number beside what it does
@@ -81,6 +83,7 @@ void LauvVehicle::note(tasks::VectorReading Instruments::*reading, const LauvIns
 }
 
 void LauvVehicle::reach(Duration instant, messages::Receiver& system) {
+  reached_ = instant;
   if (!label_lacks_ || (asked_ && instant - *asked_ < ask_period)) return;
   asked_ = instant;
   label_lacks_ = false;
@@ -90,7 +93,7 @@ void LauvVehicle::reach(Duration instant, messages::Receiver& system) {
 void LauvVehicle::peer_changed() {
   entities_.forget();
   leaks_ = {};
-  steers_itself_ = false;
+  steers_itself_.reset();
 }
 
 bool LauvVehicle::all_finite(std::initializer_list<double> values) {
@@ -233,7 +236,8 @@ void LauvVehicle::servo(const imc::ServoPosition& m, const messages::MessageRef&
   if (Entities::sender_of(from) != Entities::nobody) angle *= parameters_.servos.scale;
   if (!all_finite({angle})) return;
   tasks::ServoReading& r = in.servos.renew().fins[m.id];
-  r = {angle, sent_fins_[m.id], std::max<std::int64_t>(r.count, 0) + 1};
+  // where others send it, it goes as they want
+  r = {angle, steers_itself() ? angle : sent_fins_[m.id], std::max<std::int64_t>(r.count, 0) + 1};
 }
 
 void LauvVehicle::announce(Duration instant, messages::Receiver& all) {
@@ -244,11 +248,14 @@ void LauvVehicle::announce(Duration instant, messages::Receiver& all) {
 
 void LauvVehicle::vehicle_state(const imc::VehicleState& m) {
   using Loops = imc::CLoopsMask;
-  steers_itself_ = (m.control_loops & ~(Loops::EXTERNAL | Loops::NO_OVERRIDE)) != 0;
+  const bool own_loops = (m.control_loops & ~(Loops::EXTERNAL | Loops::NO_OVERRIDE)) != 0;
+  steers_itself_ = own_loops ? std::optional(reached_) : std::nullopt;
 }
 
+bool LauvVehicle::steers_itself() const { return steers_itself_ && reached_ - *steers_itself_ < state_patience; }
+
 void LauvVehicle::send_actuation(const tasks::Actuation& actuation, messages::Receiver& system) {
-  if (steers_itself_) return;
+  if (steers_itself()) return;
   system.receive(messages::refer_to(imc::SetThrusterActuation{0, static_cast<float>(actuation.thruster)}));
   sent_fins_ = actuation.fins;
   for (std::uint8_t i = 0; i < actuation.fins.size(); ++i)

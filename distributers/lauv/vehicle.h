@@ -113,7 +113,7 @@ class LauvVehicle {
   /// Without what concerns a link to elsewhere.
   void serialize(Archive& archive) {
     archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, latitude_, longitude_, beacons_, sent_fins_,
-            steers_itself_);
+            reached_, steers_itself_);
   }
 
   In in;
@@ -150,6 +150,7 @@ class LauvVehicle {
   void note(tasks::VectorReading tasks::Instruments::*reading, const LauvInstrument& instrument,
             const messages::MessageRef& from, double x, double y, double z);
   bool is(const LauvInstrument& instrument, const messages::MessageRef& from);
+  bool steers_itself() const;
   bool all_finite(std::initializer_list<double> values);  // else that is counted
 
   // An entity that may be a leak detector.
@@ -175,7 +176,8 @@ class LauvVehicle {
   double latitude_ = 0, longitude_ = 0;  // of the origin
   std::array<Beacon, 2> beacons_{};
   std::array<double, 4> sent_fins_{};
-  bool steers_itself_ = false;
+  Duration reached_{};                     // instant
+  std::optional<Duration> steers_itself_;  // when it last said so
   std::string address_;
   messages::imc::AnnounceTimer announce_timer_;
 };

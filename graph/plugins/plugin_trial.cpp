@@ -22,8 +22,10 @@ namespace {
 constexpr std::chrono::seconds patience{5};
 
 int report_to = -1;  // in the trial's process
+pid_t trial = 0;
 
 [[noreturn]] void end_trial(const std::string& report) {
+  if (getpid() != trial) _exit(0);  // a process that the library started, and that would go on as this one
   // what does not fit is lost, no more
   [[maybe_unused]] const ssize_t written = write(report_to, report.data(), report.size());
   _exit(0);
@@ -47,18 +49,16 @@ int report_to = -1;  // in the trial's process
   setrlimit(RLIMIT_CORE, &no_core);
   std::set_terminate(on_terminate);
   set_floating_point_control(default_floating_point_control());
-  const pid_t trial = getpid();
   try {
     PluginLibrary library;
     const std::string wrong = open_plugin(path, library);
-    if (getpid() != trial) _exit(0);  // a process that it started, and that would go on as jarol
     if (!wrong.empty()) end_trial(wrong);
-    if (waitpid(-1, nullptr, WNOHANG) >= 0) end_trial("starts a process when it is loaded");
     if (const std::string difference = describe_difference(floating_point_control()); !difference.empty())
       end_trial("leaves another floating-point environment behind when it is loaded (" + difference +
                 "), as what is linked with -ffast-math does; link it without");
     PluginParts added;
     library.add(added);
+    if (waitpid(-1, nullptr, WNOHANG) >= 0) end_trial("starts a process when it is loaded");
   } catch (const std::exception& error) {
     end_trial(std::string("throws when it is loaded: ") + error.what());
   } catch (...) { end_trial("throws when it is loaded"); }
@@ -96,6 +96,7 @@ std::string try_plugin(const std::string& path) {
   }
   if (child == 0) {
     report_to = ends[1];
+    trial = getpid();
     close(ends[0]);
     run_trial(path);
   }

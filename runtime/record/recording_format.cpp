@@ -79,7 +79,7 @@ RecordingHeader parse_header(const std::string& text) {
                            .split = json.value("split_bytes", std::uint64_t{0}),
                            .part = json.value("part", std::size_t{1}),
                            .follows = json.value("follows", "")};
-    if (header.begin < Duration{} || header.until < header.begin || header.mission < Duration{})
+    if (header.begin < Duration{} || header.until < Duration{} || header.mission < Duration{})
       throw LogError("is no recording");
     for (const auto& input : json.at("inputs")) header.inputs.push_back({input.at("name"), input.at("type")});
     for (const auto& truth : json.value("truths", nlohmann::json::array()))

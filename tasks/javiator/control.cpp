@@ -122,23 +122,30 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     // thrust grows slowly until the ground is left, and is learnt on the way
     const bool wants_up = d.state == FlightState::flying && d.altitude > ground;
     state.trim = std::clamp(state.trim + (wants_up ? p.lift_rate : -p.lift_rate) * dt, p.idle, 1.5);
-    state.lifted = wants_up && e.altitude > ground;
+    state.lifted = (wants_up || d.state == FlightState::landing) && e.altitude > ground;
     state.z = {e.altitude, std::max(e.climb, 0.0)};
     state.expected = state.sunk = 0;
-    state.mean_trim = std::min(state.trim, 1.0);  // what lifts it is more than what carries it
+    // what lifts it is more than what carries it
+    state.mean_trim = std::min(state.trim, 1.0);
+    state.aloft = 0.2;
+    state.blind_trim = state.blind_cut = 0;
     thrust = state.trim;
     return;
   }
-  // blind, near what carried it, with the sonar alone; the flow through the rotors damps. In the climb that was not
-  // learnt yet: it makes up for it, and on the ground it does not stay light
+  // blind: what carried it, corrected by the sonar's climb; where it is lost in the climb that thrust is half learnt
   if (!e.rates_known) {
-    const double too_slow = -p.blind_speed - e.climb;
-    if (e.altitude_known) state.blind_trim = limited(state.blind_trim + p.blind_ki * too_slow * dt, 0.2);
-    if (e.altitude_known && e.altitude < ground) state.mean_trim -= dt / 0.5;
-    const double more = std::clamp(p.blind_gain * too_slow, -0.2, 0.06);
-    thrust = std::max(state.mean_trim - 0.03 + state.blind_trim + more, 0.0);
+    const bool measured = e.altitude_known && e.answers_known;
+    const double excess = -p.blind_speed - e.climb;  // of its descent
+    state.blind_trim =
+        measured ? limited(state.blind_trim + p.blind_ki * excess * dt, 0.2) : std::min(state.blind_trim, 0.0);
+    // near the ground it would stay light; where nobody measures it comes down in the end
+    const double cut = !measured ? 0.005 : e.altitude < ground ? 2.0 : 0.0;  // per s
+    state.blind_cut = std::min(state.blind_cut + cut * dt, 2.0);
+    const double correction = std::clamp(p.blind_gain * excess, measured ? -0.2 : -0.06, 0.06);
+    thrust = std::max(state.mean_trim - 0.03 + state.blind_trim - state.blind_cut + correction, 0.0);
     return;
   }
+  state.blind_trim = state.blind_cut = 0;
   if (d.state == FlightState::landing) {
     state.landing += dt;
     const double overdue = std::clamp(p.overdue * (state.landing - p.landing_time), 0.0, p.touch_speed);
@@ -157,7 +164,8 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   // sag of the battery, flow through the rotors, the ground: whatever thrust is lost or gained is felt at once
   const double felt = e.lift / gravity;
   state.trim = std::clamp(state.trim + p.lift_bandwidth * dt * (1 + state.expected - felt), 0.4, 1.7);
-  state.mean_trim += (state.trim - state.mean_trim) * dt / 1.0;
+  state.aloft = std::min(state.aloft + dt, 1.0);
+  state.mean_trim += (state.trim - state.mean_trim) * dt / state.aloft;
   const double error = state.z.place - e.altitude;
   state.sunk = limited(state.sunk + p.ki * error * dt, 1);
   const double a = state.z.demand + p.kp * error + p.kd * (state.z.speed - e.climb) + state.sunk;

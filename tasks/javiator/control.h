@@ -199,17 +199,19 @@ struct AltitudeControl {
     Approach z{};
     double trim = 0, mean_trim = 0;
     double expected = 0;
-    double sunk = 0, blind_trim = 0;
+    double sunk = 0, blind_trim = 0, blind_cut = 0, aloft = 0;
     double landing = 0;
     bool lifted = false;
     static constexpr auto fields() {
       using S = State;
-      return describe(
-          field<&S::z>(), field<&S::trim>("", "thrust at rest, learnt"), field<&S::mean_trim>("", "over a second"),
-          field<&S::expected>("", "thrust that should be felt now, less the trim"),
-          field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
-          field<&S::blind_trim>("", "thrust that makes up for what carried it being wrong"),
-          field<&S::landing>("s", "since it began to land"), field<&S::lifted>("", "it has left the ground"));
+      return describe(field<&S::z>(), field<&S::trim>("", "thrust at rest, learnt"),
+                      field<&S::mean_trim>("", "over the last second aloft"),
+                      field<&S::expected>("", "thrust that should be felt now, less the trim"),
+                      field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
+                      field<&S::blind_trim>("", "correction of the mean, learnt blind"),
+                      field<&S::blind_cut>("", "thrust that is taken back, blind"),
+                      field<&S::aloft>("s", "up to a second"), field<&S::landing>("s", "since it began to land"),
+                      field<&S::lifted>("", "it has left the ground"));
     }
   };
   struct Out {

@@ -45,18 +45,18 @@ void compare_climb(JaviatorFilter::State& state, const JaviatorFilter::Param& p,
   state.climb_was_off = std::max(state.climb_was_off * (1 - dt / p.drift.climb_memory), std::abs(state.climb_off));
 }
 
-void hear(GroundPressure& ground, double pressure, double last) {
-  if (ground.mean == 0) {
+void learn(GroundPressure& ground, double pressure, double last) {
+  ground.readings = std::min(ground.readings + 1, 200U);
+  if (ground.readings == 1) {
     ground.mean = pressure;
     return;
   }
   ground.mean += 0.1 * (pressure - ground.mean);
-  const double step = pressure - last;
-  ground.steps = std::min(ground.steps + 1, 200U);
-  ground.step_squared += (step * step - ground.step_squared) / ground.steps;
+  const double step = limited(pressure - last, 20);  // one gust is no noise
+  ground.step_squared += (step * step - ground.step_squared) / (ground.readings - 1);
 }
 
-// How noisy it was on the ground, it may be in flight.
+// In flight it may be as noisy as on the ground.
 double credible_step(const JaviatorFilter::State& state, const JaviatorFilter::Param& p) {
   return std::clamp(p.pressure_noise * std::sqrt(state.ground.step_squared), p.pressure_jump, 4 * p.pressure_jump);
 }
@@ -210,7 +210,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     forgive(state.sonar, new_z);
     if (new_z) settle(state.z, state.zero_z, z, state.has_flown);
     forgive(state.pressure, new_pressure);
-    if (new_pressure) hear(state.ground, s.pressure, last_pressure);
+    if (new_pressure && state.pressure.repeats == 0) learn(state.ground, s.pressure, last_pressure);
     state.disagreement = 0;
   } else {
     predict(state.x, a.x(), dt);

@@ -98,9 +98,10 @@ struct JaviatorFilter {
           field<&P::sonar_jump>("m", "the same, of the sonar right after a credible range"),
           field<&P::sonar_jump_rate>("m/s", "at which that grows until the next one, up to that of any range"),
           field<&P::angle_jump>("rad", "the same, for roll and pitch"),
-          field<&P::pressure_jump>("Pa", "from one reading to the next, which is not credible"),
+          field<&P::pressure_jump>("Pa", "from one reading to the next, which is not credible").in(0, 1000),
           field<&P::pressure_noise>(
-              "", "times that between readings on the ground, if it is more; at most 4 pressure_jump"),
+              "", "times the RMS step on the ground that one in flight may have, up to 4 pressure_jump")
+              .in(0, 100),
           field<&P::disagreement>("m", "between sonar and pressure from which on one of them is not credible"),
           field<&P::drift>("", "of sensors, how it is found"),
           field<&P::pressure_place>("", "part of what the pressure differs by that is taken without a sonar"),

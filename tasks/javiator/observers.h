@@ -1,6 +1,8 @@
 // Fixed-gain observers of the helicopter's filter: one axis of place, and an angle that is slow to be corrected.
 #pragma once
 
+#include <cstdint>
+
 #include "graph/values/describe.h"
 
 namespace jarol::tasks {
@@ -41,12 +43,12 @@ struct LastTurn {
 /// The pressure where it stands.
 struct GroundPressure {
   double mean = 0, step_squared = 0;
-  std::uint32_t steps = 0;
+  std::uint32_t readings = 0;
 
   static constexpr auto fields() {
     using G = GroundPressure;
     return describe(field<&G::mean>("Pa"), field<&G::step_squared>("Pa^2", "from one reading to the next, averaged"),
-                    field<&G::steps>("", "in that average, up to 200"));
+                    field<&G::readings>("", "in these averages, up to 200"));
   }
 };
 

@@ -48,8 +48,8 @@ std::vector<Mission> missions() {
   const std::vector<Mission> flown{
       {"specs/exolauv.yaml", {}, dive},
       {"specs/exolauv.yaml", {.profile = "at_sea", .seed = 3}, dive},
-      {"specs/exolauv.yaml", {.set = {"distributers.dune.link.vehicle=vehicles/submarine_dune.yaml"}}, dive},
-      {"specs/exolauv.yaml", {.set = {"distributers.dune.link.vehicle=vehicles/submarine_vsim.yaml"}}, dive},
+      {"specs/exolauv.yaml", {.profile = "submarine_dune"}, dive},
+      {"specs/exolauv.yaml", {.profile = "submarine_vsim"}, dive},
       {"specs/exolauv.yaml",
        {.profile = "at_sea", .set = {"distributers.dune.link.parameters={dynamics: rigid}"}},
        dive},

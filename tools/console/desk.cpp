@@ -66,7 +66,7 @@ void Desk::obey(std::uint64_t page, const Received& message, Clock::time_point n
     if (seat.page == page || what == "take") leave_out(seat, message, behind);
     return;
   }
-  // a page that may not take over, as what it shows is old, aborts all the same
+  // where nobody commands any page may abort, however old what it shows
   if (!seat.page && sends(message, "Abort")) {
     seat.sequence = 0;
     return send(seat, message);

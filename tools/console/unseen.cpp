@@ -19,24 +19,24 @@ std::optional<std::uint64_t> read_seen(const std::string& message) {
 }
 
 void Unseen::send(Time of, Time now) {
-  if (!says_ && all_.size() == max_kept) {
+  if (!said_ && all_.size() == max_kept) {
     all_.pop_front();
-    ++seen_;
+    ++gone_;
   }
   all_.push_back({of, now});
 }
 
 void Unseen::see(std::uint64_t messages) {
-  const std::uint64_t sent = seen_ + all_.size();
-  if (messages > sent || (says_ && messages < seen_))
+  const std::uint64_t sent = gone_ + all_.size();
+  if (messages > sent || messages < said_.value_or(0))
     throw std::invalid_argument(
-        fmt::format("'messages' of seen is {}, of {} that were sent and {} seen", messages, sent, says_ ? seen_ : 0));
-  says_ = true;
-  for (; seen_ < messages; ++seen_) all_.pop_front();
+        fmt::format("'messages' of seen is {}, of {} that were sent and {} seen", messages, sent, said_.value_or(0)));
+  said_ = messages;
+  for (; gone_ < messages; ++gone_) all_.pop_front();
 }
 
 Duration Unseen::behind(Time now, const Time* next) const {
-  if (!says_) return {};
+  if (!said_) return {};
   if (!all_.empty()) return now - all_.front().of;
   return next == nullptr ? Duration{} : now - *next;
 }

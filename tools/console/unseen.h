@@ -29,10 +29,10 @@ class Unseen {
   void see(std::uint64_t messages);
 
   /// Of a page that says what it has seen: it did so within `patience`, or has seen all.
-  bool has_room(Time now) const { return !says_ || all_.empty() || now - all_.front().sent <= patience; }
+  bool has_room(Time now) const { return !said_ || all_.empty() || now - all_.front().sent <= patience; }
 
   /// Or it does not say.
-  bool is_all_seen() const { return !says_ || all_.empty(); }
+  bool is_all_seen() const { return !said_ || all_.empty(); }
 
   /// How long ago it was what the page sees; zero where it has seen all, or does not say. `next`: of what time the
   /// message tells that is not even sent.
@@ -47,8 +47,8 @@ class Unseen {
     Time of, sent;
   };
   std::deque<Sent> all_;
-  std::uint64_t seen_ = 0;
-  bool says_ = false;
+  std::uint64_t gone_ = 0;             // no longer kept
+  std::optional<std::uint64_t> said_;  // to be seen
 };
 
 }  // namespace jarol::tools::console

@@ -1,6 +1,9 @@
 // A vehicle whose own controllers steer it, as a DUNE that flies a plan, is left alone until they are off.
 #include <doctest/doctest.h>
 
+#include <chrono>
+#include <utility>
+
 #include "distributers/interfaces/typed.h"
 #include "distributers/lauv/vehicle.h"
 #include "distributers/messages/imc.h"
@@ -37,6 +40,34 @@ TEST_SUITE("distributers/lauv_vehicle/own_loops") {
     CHECK(sent_by(adapter, Loops::EXTERNAL | Loops::NO_OVERRIDE) == 5);
     CHECK(sent_by(adapter, Loops::EXTERNAL | Loops::SPEED) == 0);
     CHECK(sent_by(adapter, 0) == 5);
+  }
+
+  TEST_CASE("a vehicle that no longer says so for 5 s is steered again") {
+    Typed<LauvVehicle> adapter;
+    Counted nobody;
+    adapter.reach(std::chrono::seconds(2), nobody);
+    CHECK(sent_by(adapter, 0x4C9) == 0);
+    for (const auto& [instant, sent] :
+         {std::pair{std::chrono::milliseconds(6999), 0}, {std::chrono::milliseconds(7000), 5}}) {
+      Counted counted;
+      adapter.reach(instant, nobody);
+      adapter.hand_over<&LauvVehicle::Out::actuation>({0.5, {}}, counted);
+      CHECK(counted.sent == sent);
+    }
+  }
+
+  TEST_CASE("its fins go meanwhile where it wants them: none of them sticks") {
+    Typed<LauvVehicle> adapter;
+    const auto sent_of = [&](std::uint32_t loops) {
+      CHECK(sent_by(adapter, loops) >= 0);
+      adapter.receive(messages::refer_to(imc::ServoPosition{2, 0.25F}));
+      tasks::Servos servos;
+      CHECK(adapter.take<&LauvVehicle::In::servos>(servos));
+      return servos.fins[2].commanded;
+    };
+    CHECK(sent_of(0) == 0.3);
+    CHECK(sent_of(0x4C9) == 0.25);
+    CHECK(sent_of(0) == 0.3);
   }
 
   TEST_CASE("of another vehicle at the link that is not known") {

@@ -31,7 +31,7 @@ TEST_SUITE("tasks/javiator_filter/pressure") {
       HeardHelicopter noisy;
       for (int i = 0; i < 300; ++i) {
         noisy.sensors.pressure += i % 2 == 0 ? step : -step;
-        noisy.run(1);
+        noisy.run(3);  // what repeats is no other reading
       }
       noisy.directive.state = FlightState::flying;
       noisy.run(1);
@@ -41,6 +41,32 @@ TEST_SUITE("tasks/javiator_filter/pressure") {
         CHECK(heard.run(1).pressure_known == (part < 1));
       }
     }
+  }
+
+  TEST_CASE("one gust on the ground is no noise, and what is no noise any more is forgotten after 200 readings") {
+    const auto credible = [](HeardHelicopter heard, double step) {
+      heard.directive.state = FlightState::flying;
+      heard.run(1);
+      heard.sensors.pressure += step;
+      return heard.run(1).pressure_known;
+    };
+    HeardHelicopter heard;
+    const auto hear = [&](double step, int readings) {
+      for (int i = 0; i < readings; ++i) {
+        heard.sensors.pressure += i % 2 == 0 ? step : -step;
+        heard.run(1);
+      }
+    };
+    hear(0.1, 300);
+    hear(1000, 2);
+    hear(0.1, 50);  // until its zero is right again
+    CHECK(credible(heard, 14.9));
+    CHECK_FALSE(credible(heard, 15.1));
+    hear(7, 1000);
+    CHECK(credible(heard, 41));
+    hear(0.1, 200);  // a part of 1/e is left of it: 42 / sqrt(e) = 25.5
+    CHECK(credible(heard, 25));
+    CHECK_FALSE(credible(heard, 26));
   }
 
   TEST_CASE(

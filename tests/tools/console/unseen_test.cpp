@@ -24,6 +24,16 @@ TEST_SUITE("console/unseen") {
     CHECK_NOTHROW(unseen.see(Unseen::max_kept + 10));
   }
 
+  TEST_CASE("a page that says late how much it has seen, more than is kept, goes on from there") {
+    Unseen unseen;
+    for (std::size_t i = 0; i < Unseen::max_kept + 10; ++i) unseen.send(Time{1s}, Time{1s});
+    for (const std::uint64_t seen : {1U, 2U, 11U}) CHECK_NOTHROW(unseen.see(seen));
+    CHECK_THROWS_WITH_AS(unseen.see(10), "'messages' of seen is 10, of 1010 that were sent and 11 seen",
+                         std::invalid_argument);
+    unseen.see(Unseen::max_kept + 10);
+    CHECK(unseen.is_all_seen());
+  }
+
   TEST_CASE("a page has room while the oldest that it has not seen was sent a moment ago") {
     Unseen unseen;
     unseen.see(0);
