@@ -127,7 +127,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     state.expected = state.sunk = 0;
     // what lifts it is more than what carries it
     state.mean_trim = std::min(state.trim, 1.0);
-    state.aloft = 0.2;
+    state.aloft = 0.4;
     state.blind_trim = state.blind_cut = 0;
     thrust = state.trim;
     return;

@@ -75,7 +75,7 @@ TEST_SUITE("tools/javiator_safety") {
   TEST_CASE("it lands softly, on its feet, when its IMU fails in the climb, before it has learnt what carries it") {
     double worst = 0;
     for (const std::string kind : {"lost", "stuck"})
-      for (const std::string at : {"3.6s", "4s", "4.5s", "5s", "6s"})
+      for (const std::string at : {"3.8s", "4s", "4.5s", "5s", "6s"})
         for (std::uint64_t seed = 1; seed <= 6; ++seed) {
           INFO(kind << " at " << at << ", seed " << seed);
           const std::string imu = "distributers.robostix.link.parameters.failures.imu.";

@@ -6,33 +6,16 @@
 
 #include "tasks/javiator/control.h"
 #include "tests/tasks/javiator/every_15_ms.h"
+#include "tests/tasks/javiator/hovering_law.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
 using namespace std::chrono_literals;
 
+using tests::Altitude;
 using tests::dt;
 using tests::gravity;
-using tests::tick;
-
-// Hovering at 1 m.
-struct Altitude {
-  AltitudeControl::State state{.z = {.place = 1}, .trim = 1, .mean_trim = 1, .aloft = 1, .lifted = true};
-  AltitudeControl::Out out{};
-  AltitudeControl::In in{.estimate = {.altitude = 1,
-                                      .lift = gravity,
-                                      .rates_known = true,
-                                      .attitude_known = true,
-                                      .altitude_known = true,
-                                      .answers_known = true},
-                         .directive = {.state = FlightState::flying, .altitude = 1}};
-
-  double run(int periods = 1) {
-    for (int i = 0; i < periods; ++i) AltitudeControl::run({}, tick, in, state, out);
-    return out.lift.thrust;
-  }
-};
 
 // Standing with rotors at idle.
 struct Grounded : Altitude {
@@ -234,87 +217,5 @@ TEST_SUITE("tasks/javiator_control/lift") {
     CHECK(a.state.z.place == doctest::Approx(1 - (5 - 2 * dt) * dt));
     a.run(3);
     CHECK(a.state.z.place == 0.85);
-  }
-
-  TEST_CASE("blind, it sinks at 25 cm/s near what carried it, with up to 6 hundredths more and 20 less") {
-    const auto first = [](double climb, bool measured) {
-      Altitude a;
-      a.in.estimate.rates_known = false;
-      a.in.estimate.answers_known = measured;
-      a.in.estimate.climb = climb;
-      return a.run() + (measured ? -a.state.blind_trim : a.state.blind_cut);
-    };
-    for (const bool measured : {true, false}) {
-      CHECK(first(-0.25, measured) == doctest::Approx(1 - 0.03));
-      CHECK(first(-0.15, measured) == doctest::Approx(1 - 0.03 - 0.15 * 0.1));
-      CHECK(first(2, measured) == doctest::Approx(1 - 0.03 - (measured ? 0.2 : 0.06)));
-      CHECK(first(-2, measured) == doctest::Approx(1 - 0.03 + 0.06));
-    }
-  }
-
-  TEST_CASE("blind, it learns what carries it as long as that is measured, up to 20 hundredths") {
-    for (const double side : {-1.0, 1.0}) {
-      Altitude a;
-      a.in.estimate.rates_known = false;
-      a.in.estimate.climb = -0.25 - 0.1 * side;
-      const double at_first = 1 - 0.03 + 0.015 * side;
-      CHECK(a.run(100) == doctest::Approx(at_first + 0.1 * 0.1 * side * 100 * dt));
-      CHECK(a.run(2000) == doctest::Approx(at_first + 0.2 * side));
-      a.in.estimate.climb = -0.25;
-      a.in.estimate.rates_known = true;
-      a.run();
-      a.in.estimate.rates_known = false;
-      CHECK(a.run() == doctest::Approx(a.state.mean_trim - 0.03));
-    }
-  }
-
-  TEST_CASE("blind, with nothing measured, it keeps nothing that lifts it, and comes down in the end") {
-    for (const auto lost : {&FlightEstimate::altitude_known, &FlightEstimate::answers_known}) {
-      Altitude a;
-      a.state.blind_trim = 0.15;
-      a.in.estimate.rates_known = a.in.estimate.*lost = false;
-      a.in.estimate.climb = -0.25;
-      CHECK(a.run() == doctest::Approx(1 - 0.03 - 0.005 * dt));
-      CHECK(a.run(999) == doctest::Approx(1 - 0.03 - 0.005 * 1000 * dt));
-      CHECK(a.run(20'000) == 0);
-    }
-  }
-
-  TEST_CASE("blind, where the sonar shows less than 2 cm, it takes back its thrust within half a second, for good") {
-    Altitude a;
-    a.in.estimate.rates_known = false;
-    a.in.estimate.climb = -0.25;
-    a.in.estimate.altitude = 0.021;
-    CHECK(a.run(10) == doctest::Approx(1 - 0.03));
-    a.in.estimate.altitude = 0.019;
-    CHECK(a.run(10) == doctest::Approx(1 - 0.03 - 10 * dt / 0.5));
-    a.in.estimate.altitude = 0.03;
-    CHECK(a.run(10) == doctest::Approx(1 - 0.03 - 10 * dt / 0.5));
-    a.in.estimate.altitude = 0.01;
-    CHECK(a.run(100) == 0);
-  }
-
-  TEST_CASE("what carries it is the mean since it left the ground, a second at most, begun with hover's") {
-    Altitude a;
-    a.state.lifted = false;
-    a.state.trim = 1.2;
-    a.in.estimate.altitude = 0.021;
-    a.run();
-    CHECK(a.state.lifted);
-    CHECK(a.state.mean_trim == 1);
-    CHECK(a.state.aloft == 0.2);
-    a.run();
-    CHECK(a.state.mean_trim == doctest::Approx((0.2 + dt * a.state.trim) / (0.2 + dt)));
-    a.run(1000);
-    CHECK(a.state.aloft == 1);
-  }
-
-  TEST_CASE("what it has left the ground with when it is to land is a flight") {
-    Altitude a;
-    a.state.lifted = false;
-    a.in.directive.state = FlightState::landing;
-    a.in.estimate.altitude = 0.021;
-    a.run();
-    CHECK(a.state.lifted);
   }
 }
