@@ -230,7 +230,8 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     if (new_pressure && std::abs(s.pressure - last_pressure) > credible_step(state, p)) state.pressure.lost = true;
     if (believe(state.pressure, new_pressure, p.patience)) weigh_pressure(state, p, s.pressure);
     // what it has learnt of late may be what is wrong with the sonar
-    if (had_sonar && state.sonar.lost) {
+    const bool begins_to_repeat = new_z && p.sonar_repeats > 0 && state.sonar.repeats == p.sonar_repeats;
+    if (had_sonar && (state.sonar.lost || begins_to_repeat)) {
       state.z.speed = state.z_slow.speed;
       state.z.bias = state.z_slow.bias;
     }

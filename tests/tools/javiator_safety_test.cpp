@@ -93,6 +93,29 @@ TEST_SUITE("tools/javiator_safety") {
     MESSAGE("touches down with " << worst << " m/s at most");
   }
 
+  TEST_CASE("it lands softly when its sonar sticks on the way down") {
+    double worst = 0;
+    const auto pilot = [](double time) {
+      tasks::PilotCommand command = tests::hover_command(time);
+      if (time >= 12) command.state_switches = 3;
+      return command;
+    };
+    for (const std::string at : {"12.5s", "12.8s", "13.3s", "14s", "15s"})
+      for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        INFO("stuck at " << at << ", seed " << seed);
+        const std::string sonar = "distributers.robostix.link.parameters.failures.sonar.";
+        const Flight flight = tests::fly(
+            {.set = {"distributers.robostix.link.parameters.dynamics=rigid", sonar + "kind=stuck", sonar + "at=" + at},
+             .pilot = pilot,
+             .seconds = 25,
+             .seed = seed});
+        worst = std::max(worst, flight.touch_down());
+        CHECK(flight.touch_down() < 0.5);
+        CHECK(flight.last().state == tasks::FlightState::ground);
+      }
+    MESSAGE("touches down with " << worst << " m/s at most");
+  }
+
   TEST_CASE("it lands safely whichever sensor is suddenly far off") {
     check_safe(fly_failing({"sonar", "biased", "0.8", LandingCause::sonar_lost}), LandingCause::sonar_lost);
     check_safe(fly_failing({"laser_north", "biased", "1", LandingCause::position_lost}), LandingCause::position_lost);

@@ -1,5 +1,18 @@
 #include "tools/report/version.h"
 
+#include <capstone/capstone.h>
+#include <elfutils/version.h>
+#include <fmt/format.h>
+#include <graphviz/graphviz_version.h>
+#include <lz4.h>
+#include <oneapi/tbb/version.h>
+#include <sodium/version.h>
+#include <sqlite3.h>
+#include <xxhash.h>
+#include <zstd.h>
+
+#include <boost/version.hpp>
+
 #include "tools/report/commit.h"
 
 namespace jarol::tools {
@@ -11,11 +24,22 @@ constexpr char compiler[] = "clang " __clang_version__;
 constexpr char compiler[] = "g++ " __VERSION__;
 #endif
 
+// those that CMake does not know the versions of
+std::string other_libraries() {
+  return fmt::format(
+      "Boost {}.{}, oneTBB {}.{}, SQLite {}, lz4 {}, zstd {}, xxHash {}.{}.{}, sodium {}, Capstone {}.{}, elfutils {}, "
+      "Graphviz {}",
+      BOOST_VERSION / 100'000, BOOST_VERSION / 100 % 1'000, TBB_VERSION_MAJOR, TBB_VERSION_MINOR, SQLITE_VERSION,
+      LZ4_VERSION_STRING, ZSTD_VERSION_STRING, XXH_VERSION_MAJOR, XXH_VERSION_MINOR, XXH_VERSION_RELEASE,
+      SODIUM_VERSION_STRING, CS_API_MAJOR, CS_API_MINOR, _ELFUTILS_VERSION, PACKAGE_VERSION);
+}
+
 }  // namespace
 
 std::string version_text() {
   const std::string commit = JAROL_COMMIT;
-  return "jarol " JAROL_VERSION + (commit.empty() ? "" : ", commit " + commit) + "\n" + compiler + ", " JAROL_LIBRARIES;
+  return "jarol " JAROL_VERSION + (commit.empty() ? "" : ", commit " + commit) + "\n" + compiler +
+         ", " JAROL_LIBRARIES ",\n" + other_libraries();
 }
 
 }  // namespace jarol::tools

@@ -57,6 +57,22 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     }
   }
 
+  TEST_CASE("what a sonar has taught before it was seen to repeat for the sixth time is forgotten") {
+    HeardHelicopter heard = hovering();
+    heard.param.sonar_repeats = 6;
+    heard.state.sonar.repeats = 0;
+    heard.state.z_slow.speed = -0.3;
+    heard.state.z_slow.bias = 0.02;
+    heard.run(5);
+    CHECK(std::abs(heard.state.z.speed) < 0.01);
+    heard.run(1);
+    CHECK(heard.state.z.speed == heard.state.z_slow.speed);
+    CHECK(heard.state.z.bias == heard.state.z_slow.bias);
+    heard.state.z.speed = 0;
+    heard.run(1);
+    CHECK(std::abs(heard.state.z.speed) < 0.01);
+  }
+
   TEST_CASE("a laser's reading that repeats is not used, and a sixth time it is no sign of life") {
     HeardHelicopter heard = hovering();
     heard.param.laser_repeats = 5;
