@@ -174,6 +174,19 @@ tasks: {count: {type: Counter, period: 1ms}}
     const auto part = command::run_jarol("log info " + folder.write("part", bytes.substr(0, bytes.size() - 1)));
     CHECK(part.exit_code == 0);
     CHECK(has(part.output, "  breaks off at byte "));
+    for (const std::string command : {"cat", "csv", "trace", "report"}) {
+      CAPTURE(command);
+      const std::string shown = " --out " + (folder / "shown");
+      const auto note = [&](const std::string& of) {
+        const bool prints = command == "cat" || command == "csv";
+        return command::run_jarol("log " + command + " " + of + (prints ? "" : shown), "2>&1 >/dev/null");
+      };
+      const auto cut = note(folder / "part");
+      CHECK(cut.exit_code == 0);
+      CHECK(cut.output.starts_with("note: '" + (folder / "part") + "' breaks off at byte "));
+      CHECK(cut.output.ends_with(": this is what there is before\n"));
+      CHECK(note(file).output == "");
+    }
   }
 
   TEST_CASE("log verify finds each changed byte of a small recording") {

@@ -6,6 +6,7 @@
 #include "graph/text/escape.h"
 #include "runtime/record/instants.h"
 #include "runtime/record/message_layout.h"
+#include "tools/log/break_note.h"
 #include "tools/log/log_commands.h"
 #include "tools/report/exit_code.h"
 
@@ -13,6 +14,7 @@ namespace jarol::tools {
 
 int log_cat(const LogOptions& options) {
   const Recording recording(options.file);
+  note_break(recording, options.file);
   std::vector<bool> wanted = channels_named(recording, "--topic", options.topics.empty() ? "*" : options.topics);
   // whole runs, which are not for people
   if (const ReadTopic* saved = recording.find(topics::checkpoints); saved != nullptr && options.topics.empty())

@@ -9,6 +9,7 @@
 #include "runtime/files/atomic_file.h"
 #include "runtime/record/instants.h"
 #include "runtime/record/message_layout.h"
+#include "tools/log/break_note.h"
 #include "tools/log/log_commands.h"
 #include "tools/report/exit_code.h"
 
@@ -88,6 +89,7 @@ std::string rate_of(const ReadTopic& topic) {
 
 int log_csv(const LogOptions& options) {
   const Recording recording(options.file);
+  note_break(recording, options.file);
   const std::vector<bool> wanted =
       options.topics.empty() ? published_channels(recording) : channels_named(recording, "--topic", options.topics);
   std::map<std::string, std::vector<const ReadTopic*>> groups;

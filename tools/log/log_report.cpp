@@ -13,6 +13,7 @@
 #include "tools/campaign/repeat.h"
 #include "tools/drawing/drawing_json.h"
 #include "tools/drawing/layout.h"
+#include "tools/log/break_note.h"
 #include "tools/log/log_commands.h"
 #include "tools/log/recorded_graph.h"
 #include "tools/log/report_graph.h"
@@ -142,6 +143,7 @@ Json pairs_json(const Graph& graph) {
 
 int log_report(const LogOptions& options) {
   RecordedRun run(options.file);
+  note_break(run.recording(), options.file);
   if (run.header().begin > Duration{})
     throw std::invalid_argument("'" + options.file + "' is of a run that went on from " +
                                 seconds_text(run.header().begin) + " s; jarol log report shows whole runs");

@@ -10,6 +10,7 @@
 
 #include "runtime/files/atomic_file.h"
 #include "runtime/record/recorded_run.h"
+#include "tools/log/break_note.h"
 #include "tools/log/log_commands.h"
 #include "tools/log/recorded_graph.h"
 #include "tools/report/exit_code.h"
@@ -139,6 +140,7 @@ void add_events(Events& events, const Graph& graph, const RecordedEvents& record
 int log_trace(const LogOptions& options) {
   RecordedRun run(options.file);
   const Recording& recording = run.recording();
+  note_break(recording, options.file);
   require_apart({{"FILE", options.file}, {"GRAPH", options.other}}, {{"--out", options.out}});
   const Loaded loaded = load_recorded_graph(recording, options.other, "jarol log trace", false);
   const Graph& graph = *loaded.graph;
