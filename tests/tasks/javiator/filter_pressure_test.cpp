@@ -26,7 +26,8 @@ TEST_SUITE("tasks/javiator_filter/pressure") {
 
   TEST_CASE(
       "a pressure that was noisy on the ground may jump by six times as much as there, but by no more than 60 Pa") {
-    for (const auto& [step, max] : {std::pair{2.0, 15.0}, {7.0, 42.0}, {20.0, 60.0}}) {
+    for (const std::pair<double, double>& noise : {std::pair{2.0, 15.0}, {7.0, 42.0}, {20.0, 60.0}}) {
+      const double step = noise.first, max = noise.second;
       CAPTURE(step);
       HeardHelicopter noisy;
       for (int i = 0; i < 300; ++i) {
