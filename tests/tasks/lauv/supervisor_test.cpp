@@ -91,7 +91,7 @@ TEST_SUITE("tasks/lauv_supervisor") {
       LauvSupervisor::Out out;
       for (int k = 1; k < 40; ++k) {
         LauvSupervisor::In in = calm_submarine(k);
-        if (k >= 10) change(in);
+        if (k >= 10 && k < 30) change(in);
         in.instruments.leak.value = k >= 30 ? 1 : 0;
         LauvSupervisor::run({}, every_50_ms, in, state, out);
         if (k == 29) CHECK(out.condition.alarm != Alarm::leak);
@@ -102,9 +102,14 @@ TEST_SUITE("tasks/lauv_supervisor") {
     const auto climbs = then_leaks([](LauvSupervisor::In& in) { in.contact.silence = 6; });
     CHECK(climbs.condition.alarm == Alarm::leak);
     CHECK(climbs.setpoint.speed == 1);
-    const auto floats = then_leaks([](LauvSupervisor::In& in) { in.instruments.attitude.y = 1; });
-    CHECK(floats.condition.alarm == Alarm::leak);
-    CHECK(floats.setpoint.speed == 0);
+    const auto leans = [](LauvSupervisor::In& in) { in.instruments.attitude.y = 1; };
+    const auto is_flat = [](LauvSupervisor::In& in) {
+      in.instruments.voltage.value = LauvSupervisor::Param{}.min_voltage - 0.1;
+    };
+    for (const auto floats : {then_leaks(leans), then_leaks(is_flat)}) {
+      CHECK(floats.condition.alarm == Alarm::leak);
+      CHECK(floats.setpoint.speed == 0);
+    }
   }
 
   TEST_CASE("of several causes at once water in the hull is the one") {
