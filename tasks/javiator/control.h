@@ -205,12 +205,13 @@ struct AltitudeControl {
     static constexpr auto fields() {
       using S = State;
       return describe(field<&S::z>(), field<&S::trim>("", "thrust at rest, learnt"),
-                      field<&S::mean_trim>("", "over the last second aloft"),
+                      field<&S::mean_trim>("", "over the last second aloft, with what hover takes at first"),
                       field<&S::expected>("", "thrust that should be felt now, less the trim"),
                       field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
                       field<&S::blind_trim>("", "correction of the mean, learnt blind"),
                       field<&S::blind_cut>("", "thrust that is taken back, blind"),
-                      field<&S::aloft>("s", "up to a second"), field<&S::landing>("s", "since it began to land"),
+                      field<&S::aloft>("s", "over which that mean is, up to 1: 0.4 of hover's at first"),
+                      field<&S::landing>("s", "since it began to land"),
                       field<&S::lifted>("", "it has left the ground"));
     }
   };
