@@ -133,9 +133,9 @@ TEST_SUITE("tools/campaign") {
     bool interrupted = false;
     for (int piece = 0; piece < 100 && !interrupted; ++piece) {
       // the search begins at once, as all runs are there; a signal before it ends the program as ever
-      const command::Result part =
-          command::run_jarol(of + " --shrink", "2>&1 & id=$!; sleep " + std::to_string(0.02 * piece) +
-                                                   "; kill -INT $id 2>&-; wait $id; echo code $?");
+      const command::Result part = command::run_jarol(
+          of + " --shrink", "2>&1 & id=$!; " + command::until_taken + "sleep " + std::to_string(0.02 * piece) +
+                                "; kill -INT $id 2>&-; wait $id; echo code $?");
       interrupted = part.output.find("interrupted: ") != std::string::npos;
       if (!interrupted) continue;
       CHECK(part.output.find("2 of 2 runs, 0 good, 2 bad") != std::string::npos);

@@ -18,6 +18,13 @@ using namespace jarol;
 using namespace jarol::tools;
 using analysis::Verdict;
 
+// fifteen times as slow; then not every combination
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
 // With what its file says, but no vehicle, link or plugin.
 Graph graph_of(const std::shared_ptr<const Source>& source, const Overrides& overrides) {
   Problems problems;
@@ -45,8 +52,10 @@ chains:
 
 std::vector<std::shared_ptr<const Source>> graphs() {
   std::vector<std::shared_ptr<const Source>> all;
-  for (const char* name : {"counting", "exolauv", "exolauv_bare", "javiator", "passthrough", "window"})
+  for (const char* name : {"counting", "exolauv", "exolauv_bare", "javiator", "passthrough", "window"}) {
+    if (sanitized && name == std::string("exolauv")) continue;  // its tasks are in the bare one
     all.push_back(read_source("specs/" + std::string(name) + ".yaml"));
+  }
   const auto add = [&](const std::string& name, const std::string& text) {
     all.push_back(std::make_shared<Source>(Source{name, text}));
   };
@@ -156,6 +165,7 @@ TEST_SUITE("tools/check_graph") {
       for (const Policy& policy : built_in().graph.policies())
         for (const char* cores : {"1", "3"})
           for (const std::string& overhead : overheads()) {
+            if (sanitized && !overhead.empty() && cores == std::string("3")) continue;
             std::vector<Verdict> verdicts;
             for (const std::string& phasing : Words<Phasing>::list()) {
               Overrides overrides{"",

@@ -13,11 +13,7 @@ namespace {
 using command::content;
 using command::run_jarol;
 using command::TemporaryFolder;
-
-// Waits, in a shell, until process $id takes the signals HUP, INT and TERM, or is gone.
-const std::string until_taken =
-    "until grep -Eq '^SigCgt:.*[4-7c-f]..[37bf]$|^State:.Z' /proc/$id/status; do sleep 0.01; done; ";
-
+using command::until_taken;
 }  // namespace
 
 TEST_SUITE("tools/interrupt") {
