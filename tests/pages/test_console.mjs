@@ -89,6 +89,25 @@ test('a flight is watched, also on a tablet, and its interruption is said', vehi
   await shown.close();
 });
 
+test('on a small screen and on a tablet a desk is seen whole, with sliders that a hand can set, the vehicle above it', vehicles, async () => {
+  for (const spec of ['specs/javiator.yaml', 'specs/exolauv.yaml'])
+    for (const options of [{width: 1280, height: 720}, {width: 820, height: 1180, touch: true}]) {
+      const run = start('run', spec, '--profile', 'desk', '--console', '--for', '1h');
+      const shown = await Console.open(browser, await run.url, options);
+      const where = `${spec} at ${options.width} by ${options.height}`;
+      await shown.page.until(`document.querySelector('#panel-desk input[type=range]') !== null`);
+      const seen = JSON.parse(await shown.page.evaluate(`JSON.stringify({
+        hidden: (({scrollHeight, clientHeight}) => scrollHeight - clientHeight)(document.querySelector('#panel-desk .body')),
+        sliders: [...document.querySelectorAll('#panel-desk input[type=range]')].map((slider) => slider.clientWidth),
+        bottoms: ['#panel-3d', '#panel-desk'].map((panel) => document.querySelector(panel).getBoundingClientRect().bottom)})`));
+      assert.equal(seen.hidden, 0, where);
+      assert.ok(seen.sliders.length >= 2 && Math.min(...seen.sliders) > 250, `${where}: ${seen.sliders}`);
+      assert.ok(Math.max(...seen.bottoms) <= options.height, `${where}: ${seen.bottoms}`);
+      await run.stop();
+      await shown.close();
+    }
+});
+
 test('a recording is looked at from its begin, at any instant, and played', vehicles, async () => {
   const file = join(folder, 'dive.mcap');
   execFileSync(jarol, ['run', 'specs/exolauv.yaml', '--record', file]);

@@ -11,12 +11,29 @@ export function shownUnit(unit: string): { factor: number; unit: string } {
   return { factor: 1, unit };
 }
 
-export function formatNumber(value: number, digits = 3): string {
+/** With so many digits after the point; without their number three, and what is too small for them with its exponent. */
+export function formatNumber(value: number, digits?: number): string {
   if (!Number.isFinite(value)) return "–";
   const size = Math.abs(value);
-  if (size !== 0 && (size >= 1e6 || size < 1e-4)) return value.toExponential(2);
-  const text = value.toFixed(size >= 1000 ? 0 : size >= 100 ? Math.min(1, digits) : digits);
+  if (size >= 1e6 || (digits === undefined && size !== 0 && size < 1e-4)) return value.toExponential(2);
+  const after = digits ?? 3;
+  const text = value.toFixed(size >= 1000 ? 0 : size >= 100 ? Math.min(1, after) : after);
   return Number(text) === 0 ? text.replace("-", "") : text;
+}
+
+/** The evenly spaced marks of an axis, all with the digits that the distance between them has. */
+export function formatMarks(marks: readonly number[]): string[] {
+  const step = Math.abs((marks[1] ?? 1) - (marks[0] ?? 0));
+  const power = Math.floor(Math.log10(step) + 1e-9);
+  const parts = step / 10 ** power; // 1, 2, 2.5 or 5
+  const digits = (Math.abs(parts - Math.round(parts)) < 1e-6 ? 0 : 1) - power;
+  const far = Math.max(...marks.map(Math.abs));
+  return marks.map((mark) => {
+    if (Math.abs(mark) < step / 2) return "0";
+    return far >= 1e6 || digits > 5
+      ? mark.toExponential(Math.max(0, Math.floor(Math.log10(Math.abs(mark)) + 1e-9) + digits))
+      : mark.toFixed(Math.max(0, digits));
+  });
 }
 
 export function wordOf(leaf: Leaf, value: number): string {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { EventLog, maxEvents } from "../src/events.ts";
-import { formatCell, formatDuration, formatNumber, formatTime } from "../src/format.ts";
+import { formatCell, formatDuration, formatMarks, formatNumber, formatTime } from "../src/format.ts";
 import { GraphModel } from "../src/graph.ts";
 import { parseMessage, schema, type Hello, type Leaf } from "../src/protocol.ts";
 import { Store } from "../src/series.ts";
@@ -21,9 +21,21 @@ test("numbers have their unit, angles are degrees", () => {
   assert.equal(formatCell(leaf("text"), [1, 2]), "[1,2]");
 });
 
+test("the marks of an axis can be told apart, at any size", () => {
+  assert.deepEqual(formatMarks([-0.5, 0, 0.5, 1]), ["-0.5", "0", "0.5", "1.0"]);
+  assert.deepEqual(formatMarks([0, 0.25, 0.5]), ["0", "0.25", "0.50"]);
+  assert.deepEqual(formatMarks([100, 102, 104]), ["100", "102", "104"]);
+  assert.deepEqual(formatMarks([0, 25]), ["0", "25"]);
+  assert.deepEqual(formatMarks([-2e-7, 0, 2e-7]), ["-2e-7", "0", "2e-7"]);
+  assert.deepEqual(formatMarks([1e-6, 1.25e-6]), ["1.00e-6", "1.25e-6"]);
+  assert.deepEqual(formatMarks([9.99e6, 1e7]), ["9.99e+6", "1.000e+7"]);
+  assert.deepEqual(formatMarks([7]), ["7"]);
+});
+
 test("numbers of any size fit", () => {
   assert.equal(formatNumber(-0.0001, 1), "0.0");
   assert.equal(formatNumber(1e-9), "1.00e-9");
+  assert.equal(formatNumber(-9e-16, 2), "0.00");
   assert.equal(formatNumber(12345.6), "12346");
   assert.equal(formatNumber(NaN), "–");
   assert.equal(formatDuration(0.05), "50 ms");
