@@ -101,6 +101,15 @@ TEST_SUITE("tools/page_guard") {
     volatile int& written = *static_cast<int*>(::dlsym(library, "signgam"));
     written = 1;
     std::array<int, 4> faults{};
+    std::atomic<int> step{0};
+    int while_closed = 0;
+    // before the guard: a new thread's memory has it look for all regions again
+    std::thread other([&] {
+      while (step.load() != 1) {}
+      step = 2;
+      written = written + 1;
+      step = 3;
+    });
     {
       PageGuard guard;
       for (int& after : faults) {
@@ -109,17 +118,18 @@ TEST_SUITE("tools/page_guard") {
         written = written + 1;
         after = faults_of_guarded.load();
       }
-      // another thread's first write may come while the guard is closed: it waits for its end
+      // closed with the rest, too: another thread's write waits. Nothing is called here, as that might write
       guard.close({});
-      std::thread other([&] { written = written + 1; });
-      ::usleep(20'000);
+      step = 1;
+      while (step.load() < 2) {}
+      for (int i = 0; i < 20'000'000; ++i) while_closed = step.load();
       guard.open();
       other.join();
     }
     written = written + 1;
     CHECK(written == 7);
     CHECK(faults == std::array{1, 1, 1, 1});
-    CHECK(faults_of_guarded.load() == 1);
+    CHECK(while_closed == 2);
     ::dlclose(library);
   }
 }
