@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <string>
 
 #include "graph/floating_point.h"
@@ -71,6 +72,10 @@ using Thunk = Outcome (*)(const TaskMemory& memory, const Tick& tick);
 /// Runs an activation, and nothing else.
 using Body = void (*)(const TaskMemory& memory, const Tick& tick);
 
+/// What becomes of a task's four structs outside its `run`, each at a place of its own: they are made, copied and
+/// ended. Nothing calls it; isolation looks at what it reaches.
+using Handling = void (*)(void* const* places);
+
 /// A task type: its inputs are the fields of `in`, its outputs those of `out`.
 struct TaskClass {
   std::string name;
@@ -88,6 +93,7 @@ struct TaskClass {
     Thunk run = nullptr;
     Body body = nullptr;
   } unchecked{};
+  Handling handling = nullptr;
   void trust_floating_point() {
     run = unchecked.run;
     body = unchecked.body;
@@ -165,6 +171,25 @@ Outcome thunk(const TaskMemory& memory, const Tick& tick) {
   return is_in_range(out) ? Outcome::good : Outcome::out_of_range;
 }
 
+template <class V>
+void* const* handle_value(void* const* places) {
+  new (*places++) V{};
+  if constexpr (is_deep<V>()) {
+    *static_cast<V*>(places[0]) = *static_cast<const V*>(places[1]);
+    std::destroy_at(static_cast<V*>(places[2]));
+    places += 3;
+  }
+  return places;
+}
+
+template <class T>
+void handle_values(void* const* places) {
+  places = handle_value<decltype(parameters_of<T>())>(places);
+  places = handle_value<decltype(in_of<T>())>(places);
+  places = handle_value<decltype(state_of<T>())>(places);
+  handle_value<decltype(out_of<T>())>(places);
+}
+
 }  // namespace detail
 
 /// The class of a task form: an empty struct with `summary`, any of Param, In, State, Out, and
@@ -180,7 +205,8 @@ TaskClass task_class() {
           &type_of<decltype(detail::out_of<T>())>(),
           &detail::thunk<T, true>,
           &detail::call<T, true>,
-          {&detail::thunk<T, false>, &detail::call<T, false>}};
+          {&detail::thunk<T, false>, &detail::call<T, false>},
+          &detail::handle_values<T>};
 }
 
 /// The same for a task whose machine code can't change the floating-point environment.

@@ -117,6 +117,14 @@ class Walk {
         default: values_.apply(instruction, state); break;
       }
     }
+    if (reports) report_end();
+  }
+
+  // Without a return it goes on in whatever lies behind it; where a call is last that does not return.
+  void report_end() {
+    const Instruction& last = code_.back();
+    if (last.form != Form::call && last.next == function_.end && object_.place_of(function_.end) == Place::code)
+      add(Finding::What::call, last.at, function_.end);
   }
 
   void jump(const Instruction& instruction, const State& state) {
@@ -209,6 +217,10 @@ class Walk {
     const bool transfers =
         instruction.form == Form::call || instruction.form == Form::jump || instruction.form == Form::branch;
     if (transfers) return report_transfer(instruction, state);
+    if (instruction.form == Form::add && counts_from_code(instruction, state))
+      offend(instruction.at, {"the address of code", "",
+                              "counts addresses from that of its code, which can't be followed; build it without "
+                              "-mcmodel=large"});
     for (const Operand& operand : instruction.operands) {
       if (operand.kind != Operand::Kind::memory) continue;
       if (operand.thread_local_data) offend_thread_local(instruction.at, "");
@@ -226,6 +238,15 @@ class Walk {
         add(Finding::What::reference, instruction.at, *at);
       }
     }
+  }
+
+  bool counts_from_code(const Instruction& instruction, const State& state) const {
+    const Origin a = values_.value_of(instruction, instruction.operands[0], state);
+    const Origin b = values_.value_of(instruction, instruction.operands[1], state);
+    const auto is_code = [&](const Origin& of) {
+      return of.kind == Kind::address && object_.place_of(static_cast<Address>(of.at)) == Place::code;
+    };
+    return (is_code(a) && b.kind == Kind::number) || (a.kind == Kind::number && is_code(b));
   }
 
   void report_transfer(const Instruction& instruction, const State& state) {

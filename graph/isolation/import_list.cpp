@@ -28,11 +28,13 @@ constexpr Entry functions[] = {
      "ctan ctanh ",
      "mathematics of complex numbers: a function of its arguments"},
     {" abs labs llabs div ldiv lldiv __muldc3 __mulsc3 __divdc3 __divsc3 __mulxc3 __divxc3 __powidf2 __powisf2 "
+     "__powixf2 "
      "__multi3 "
      "__divti3 __modti3 __udivti3 __umodti3 __divmodti4 __udivmodti4 __floattidf __floatuntidf __floattisf "
-     "__floatuntisf __fixdfti __fixunsdfti __fixsfti __fixunssfti __popcountdi2 __clzdi2 __ctzdi2 ",
+     "__floatuntisf __floattixf __floatuntixf __fixxfti __fixunsxfti __extendhfsf2 __truncsfhf2 __truncdfhf2 __fixdfti "
+     "__fixunsdfti __fixsfti __fixunssfti __popcountdi2 __clzdi2 __ctzdi2 ",
      "arithmetic that the compiler has no instruction for"},
-    {" memcpy memmove memset memcmp bcmp memchr memrchr mempcpy strlen strnlen strcmp strncmp strchr strrchr "
+    {" memcpy memmove memset memcmp bcmp memchr memrchr mempcpy strlen strnlen strcmp strncmp strncpy strchr strrchr "
      "__memcpy_chk __memmove_chk __memset_chk __mempcpy_chk ",
      "memory and text: works on what it is given"},
     {" __cxa_allocate_exception __cxa_free_exception __cxa_throw __cxa_rethrow __cxa_begin_catch __cxa_end_catch "

@@ -32,7 +32,7 @@ struct Instruction {
   enum class Form : std::uint8_t { move, address, add, push, pop, call, jump, branch, leave, end, other };
   Address at = 0, next = 0;
   Form form = Form::other;
-  std::array<Operand, 3> operands{};
+  std::array<Operand, 5> operands{};
   std::uint16_t writes = 0;    // general registers, a bit each
   bool subtracts = false;      // `add` has a sign
   bool clears = false;         // its first operand, by xor

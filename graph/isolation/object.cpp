@@ -10,18 +10,37 @@
 namespace jarol::isolation {
 namespace {
 
+// SHT_RELR, and what Android packs: of elf.h only since glibc 2.36
+constexpr Elf64_Word relative_relocations = 19, android_rel = 0x60000001, android_rela = 0x60000002;
+
+// It has that name, or one that begins with it and a point.
+bool is_of(std::string_view name, std::string_view kind) {
+  return name.starts_with(kind) && (name.size() == kind.size() || name[kind.size()] == '.');
+}
+
 Place place_of_section(std::string_view name, const Elf64_Shdr& section) {
   if ((section.sh_flags & SHF_ALLOC) == 0) return Place::nowhere;
-  if ((section.sh_flags & SHF_EXECINSTR) != 0) return Place::code;
+  if ((section.sh_flags & SHF_EXECINSTR) != 0)
+    return (section.sh_flags & SHF_WRITE) != 0 ? Place::writable : Place::code;
   if ((section.sh_flags & SHF_TLS) != 0) return Place::thread_local_data;
   if (name.starts_with(".got")) return Place::offset_table;
   // written by the loader, and by nobody after that
-  const bool constant = name.starts_with(".data.rel.ro") || name == ".dynamic" || name.starts_with(".init_array") ||
-                        name.starts_with(".fini_array");
+  const bool constant =
+      is_of(name, ".data.rel.ro") || name == ".dynamic" || is_of(name, ".init_array") || is_of(name, ".fini_array");
   return (section.sh_flags & SHF_WRITE) != 0 && !constant ? Place::writable : Place::constant;
 }
 
-std::string without_version(std::string_view name) { return std::string(name.substr(0, name.find('@'))); }
+// As in the source: without a version, and what the linker adds to tell parts of the program apart.
+std::string without_suffixes(std::string_view name) {
+  std::string bare(name.substr(0, name.find('@')));
+  constexpr std::string_view of_part = ".lto_priv.";
+  if (const std::size_t at = bare.find(of_part); at != std::string::npos) {
+    std::size_t end = at + of_part.size();
+    while (end < bare.size() && bare[end] >= '0' && bare[end] <= '9') ++end;
+    bare.erase(at, end - at);
+  }
+  return bare;
+}
 
 // The last that begins at or before an address.
 const Symbol* last_before(const std::vector<Symbol>& symbols, Address address) {
@@ -69,15 +88,20 @@ Object::Object(const std::string& path) : file_(path) {
     throw std::runtime_error(
         "has no table of symbols, so that its code has no names; link it without -s and don't strip it");
   read_symbols(*symbols);
-  for (const Elf64_Shdr& section : file_.sections())
-    if (section.sh_type == SHT_RELA && (section.sh_flags & SHF_ALLOC) != 0) read_pointers(section);
+  for (const Elf64_Shdr& section : file_.sections()) {
+    if ((section.sh_flags & SHF_ALLOC) == 0) continue;
+    if (section.sh_type == SHT_RELA) read_pointers(section);
+    if (section.sh_type == relative_relocations) read_relative_pointers(section);
+    if (section.sh_type == SHT_REL || section.sh_type == android_rel || section.sh_type == android_rela)
+      throw std::runtime_error("has relocations of a form that is not known here; link it without packing them");
+  }
 }
 
 void Object::read_symbols(const Elf64_Shdr& table) {
   for (const auto& symbol : file_.entries<Elf64_Sym>(table)) {
     if (symbol.st_shndx == SHN_UNDEF || symbol.st_shndx >= file_.sections().size()) continue;
     const unsigned type = ELF64_ST_TYPE(symbol.st_info);
-    const std::string name = without_version(file_.text(table, symbol.st_name));
+    const std::string name = without_suffixes(file_.text(table, symbol.st_name));
     if (type == STT_TLS) {
       thread_locals_.emplace(symbol.st_value, name);
       continue;
@@ -105,7 +129,7 @@ Pointer Object::pointer_of(const Elf64_Rela& relocation, const std::vector<Elf64
   const std::size_t index = ELF64_R_SYM(relocation.r_info);
   const auto addend = static_cast<Address>(relocation.r_addend);
   const Elf64_Sym* const symbol = index != 0 && index < symbols.size() ? &symbols[index] : nullptr;
-  const std::string name = symbol != nullptr ? without_version(file_.text(names, symbol->st_name)) : "";
+  const std::string name = symbol != nullptr ? without_suffixes(file_.text(names, symbol->st_name)) : "";
   switch (ELF64_R_TYPE(relocation.r_info)) {
     case R_X86_64_DTPMOD64: {
       // the offset within the module stands beside it
@@ -135,6 +159,29 @@ void Object::read_pointers(const Elf64_Shdr& table) {
     if (place_of(relocation.r_offset) == Place::code)
       throw std::runtime_error("has code that the loader changes; build it with -fPIC, as graph/plugins/plugin.h says");
     pointers_.emplace(relocation.r_offset, pointer_of(relocation, symbols, names));
+  }
+}
+
+// An even entry is a place that holds an address; an odd one has a bit for each of the 63 words behind the last.
+void Object::read_relative_pointers(const Elf64_Shdr& table) {
+  constexpr Address word = 8, words = 63;
+  const auto add = [&](Address at) {
+    const Bytes bytes_there = bytes(at, at + word);
+    Address value = 0;
+    if (bytes_there.size() == word) std::memcpy(&value, bytes_there.data(), word);
+    if (place_of(at) == Place::code || place_of(at) == Place::nowhere) throw std::runtime_error("is damaged");
+    pointers_.emplace(at, Pointer{Pointer::To::address, value, ""});
+  };
+  Address next = 0;
+  for (const auto& entry : file_.entries<Elf64_Xword>(table)) {
+    if ((entry & 1) == 0) {
+      add(entry);
+      next = entry + word;
+      continue;
+    }
+    for (Address i = 0; i < words; ++i)
+      if ((entry >> (i + 1) & 1) != 0) add(next + word * i);
+    next += word * words;
   }
 }
 

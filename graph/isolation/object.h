@@ -64,6 +64,7 @@ class Object {
   const Section* section_at(Address address) const;
   void read_symbols(const Elf64_Shdr& table);
   void read_pointers(const Elf64_Shdr& table);
+  void read_relative_pointers(const Elf64_Shdr& table);
   Pointer pointer_of(const Elf64_Rela& relocation, const std::vector<Elf64_Sym>& symbols,
                      const Elf64_Shdr& names) const;
   std::string thread_local_at(Address offset) const;

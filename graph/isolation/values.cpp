@@ -138,15 +138,22 @@ void Values::store(const Instruction& instruction, const Operand& to, const Orig
   if (size == 8 && !(value.kind == Kind::any && value.loaded < 0)) state.stack[at.at] = value;
 }
 
+// Of a constant table that begins there, by an index that is not known.
+bool Values::is_element(const Origin& table, const Origin& index) const {
+  return table.kind == Kind::address && (index.kind == Kind::task || index.kind == Kind::any) &&
+         object_.place_of(static_cast<Address>(table.at)) == Place::constant;
+}
+
 void Values::apply(const Instruction& instruction, State& state) const {
   const Operand &to = instruction.operands[0], &from = instruction.operands[1];
   switch (instruction.form) {
     case Form::move: return store(instruction, to, value_of(instruction, from, state), state);
     case Form::address: return store(instruction, to, address_of(instruction, from, state), state);
     case Form::add: {
-      const Origin both =
-          sum(value_of(instruction, to, state), value_of(instruction, from, state), instruction.subtracts);
-      return store(instruction, to, both, state);
+      const Origin a = value_of(instruction, to, state), b = value_of(instruction, from, state);
+      const bool element = !instruction.subtracts && (is_element(a, b) || is_element(b, a));
+      const std::int64_t table = a.kind == Kind::address ? a.at : b.at;
+      return store(instruction, to, element ? Origin{Kind::table, table, -1} : sum(a, b, instruction.subtracts), state);
     }
     case Form::push:
       state.registers[rsp].at -= 8;

@@ -68,6 +68,7 @@ class Values {
   Origin address_of(const Instruction& instruction, const Operand& operand, const State& state) const;
   void store(const Instruction& instruction, const Operand& to, const Origin& value, State& state) const;
   bool is_import(const Instruction& call, const State& state) const;
+  bool is_element(const Origin& table, const Origin& index) const;
 
   const Object& object_;
 };

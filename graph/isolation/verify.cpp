@@ -24,7 +24,7 @@ const char* wrong_with(const Origin& target, bool has_candidates) {
   const bool deep_enough = target.kind != Kind::task || target.depth >= 4;
   if (is_of_interface(target.loaded) && target.kind != Kind::number && deep_enough) return "";
   switch (target.kind) {
-    case Kind::number: return "calls a number, which is no address of code here";
+    case Kind::number: return target.at == 0 ? "" : "calls a number, which is no address of code here";
     case Kind::task: return "calls an address that it computes from its values";
     case Kind::library: return "";
     default: return has_candidates ? "" : "calls through a pointer that leads to nothing that it refers to";
@@ -77,7 +77,7 @@ class Search {
     std::vector<Step> path;
     for (Address here = node; here != 0;) {
       const Symbol& symbol = closure_.node(here).symbol;
-      path.push_back({symbol.name.empty() ? "code without a name" : demangled(symbol.name), at, symbol.is_cold()});
+      path.push_back({symbol.name.empty() ? std::string(without_name) : demangled(symbol.name), at, symbol.is_cold()});
       const From& from = from_.at(here);
       at = from.at;
       here = from.node;
@@ -101,9 +101,11 @@ std::string unqualified(const std::string& type) {
 
 // "Clock" of "jarol::Outcome jarol::detail::thunk<(anonymous namespace)::Clock, true>(...)"; empty: it is no such.
 std::string task_of(const std::string& mangled) {
-  const bool may_be = mangled.find("5jarol6detail5thunkI") != std::string::npos ||
-                      mangled.find("5jarol6detail4callI") != std::string::npos;
-  if (!may_be || !mangled.starts_with("_ZN5jarol6detail") || mangled.find('.') != std::string::npos) return "";
+  constexpr std::string_view templates[] = {"_ZN5jarol6detail5thunkI", "_ZN5jarol6detail4callI",
+                                            "_ZN5jarol6detail13handle_valuesI"};
+  const bool may_be = std::any_of(std::begin(templates), std::end(templates),
+                                  [&](std::string_view beginning) { return mangled.starts_with(beginning); });
+  if (!may_be || mangled.find('.') != std::string::npos) return "";
   const std::string name = demangled(mangled);
   const std::size_t begin = name.find('<');
   int depth = 0;
@@ -131,6 +133,11 @@ std::vector<Root> find_tasks(const Object& object) {
 }
 
 std::vector<Verdict> verify(const Object& object, const std::vector<Root>& roots, bool own) {
+  for (const char* const of_runtime : {"__cxa_throw", "_Unwind_Resume"})
+    if (!own && !object.functions_named(of_runtime).empty())
+      throw std::runtime_error(
+          "has the runtime of C++ within it, which can't be looked at; link it without -static-libstdc++ and "
+          "-static-libgcc");
   std::vector<Address> entries;
   for (const Root& root : roots) entries.insert(entries.end(), root.entries.begin(), root.entries.end());
   const Closure closure(object, entries, own);

@@ -3,11 +3,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "graph/isolation/object.h"
 
 namespace jarol::isolation {
+
+/// Of code and constant data that no symbol names.
+inline constexpr std::string_view without_name = "what has no name";
 
 /// One on the way from a task to what offends: a function, or constant data that points to the next.
 struct Step {

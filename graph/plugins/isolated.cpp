@@ -34,6 +34,7 @@ isolation::Root root_of(const TaskClass& task, const std::string& file) {
     root.entries.push_back(place_of(reinterpret_cast<const void*>(thunk), file, task.name));
   for (const Body body : {task.body, task.unchecked.body})
     root.entries.push_back(place_of(reinterpret_cast<const void*>(body), file, task.name));
+  root.entries.push_back(place_of(reinterpret_cast<const void*>(task.handling), file, task.name));
   return root;
 }
 

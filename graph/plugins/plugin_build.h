@@ -18,7 +18,7 @@ namespace jarol {
 /// Members of four bytes and bytes alone: no option of a compiler changes where they lie.
 struct PluginBuild {
   char magic[16] = {'j', 'a', 'r', 'o', 'l', ' ', 'p', 'l', 'u', 'g', 'i', 'n', ' ', 'o', 'f', ':'};
-  std::int32_t form = 9;  // grows with every change of this interface
+  std::int32_t form = 10;  // grows with every change of this interface
   std::int32_t cxx11_strings = 0, debug_containers = 0, packed_structs = 0, short_enums = 0;
   std::int32_t fast_math = 0, x87_math = 0, address_sanitizer = 0, thread_sanitizer = 0;
   std::int32_t long_double = 0, wide_char = 0, eigen_alignment = 0;               // bytes

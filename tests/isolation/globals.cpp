@@ -7,6 +7,30 @@
 
 #include "tests/isolation/task.h"
 
+extern "C" {
+// of a name that begins as one that is constant does
+[[gnu::section(".init_array_of_mine")]] double in_odd_section = 1;
+// goes on in what lies behind it
+void without_end();
+}
+asm(R"(
+  .text
+  .type without_end, @function
+without_end:
+  nop
+  .size without_end, .-without_end
+  .type add_in_assembly, @function
+add_in_assembly:
+  incq kept_in_assembly(%rip)
+  ret
+  .size add_in_assembly, .-add_in_assembly
+  .bss
+  .type kept_in_assembly, @object
+  .size kept_in_assembly, 8
+kept_in_assembly: .zero 8
+  .text
+)");
+
 namespace {
 
 double counter = 0;
@@ -176,10 +200,14 @@ TASK(MemberPointer, {
 })
 // offends: a writable global: counter: Resolver::run > picked > pick_a
 TASK(Resolver, { out.out = picked(in.in); })
+// offends: a writable global: in_odd_section: InOddSection::run
+TASK(InOddSection, { out.out = in_odd_section += in.in; })
+// offends: a writable global: kept_in_assembly: FallsOut::run > without_end > add_in_assembly
+TASK(FallsOut, { without_end(); })
 
 }  // namespace
 
 JAROL_PLUGIN(Plain, Calls, PerThread, FunctionStatic, GuardedStatic, InTemplate, InlineVariable, DynamicInitialiser,
              ThroughConstantPointer, ThroughTable, ConstCast, InLambda, InStdFunction, VirtualCall, FunctionTable,
              FunctionPointer, WeakSymbol, Sorts, TailCall, InCatch, InDestructor, InAssembly, ComputedGoto, Switch,
-             MemberPointer, Resolver)
+             MemberPointer, Resolver, InOddSection, FallsOut)

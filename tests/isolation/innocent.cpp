@@ -1,6 +1,7 @@
 // Tasks that reach nothing but their own, in all the ways that look as if they did.
 // In one file: a list, compiled as one library.
 #include <algorithm>
+#include <any>
 #include <array>
 #include <atomic>
 #include <bit>
@@ -315,6 +316,20 @@ TASK(Assembly, {
 })
 TASK(WeakFunction, { out.out = weak(in.in); })
 TASK(Resolver, { out.out = picked_innocent(in.in); })
+struct Law {
+  Function function;
+  double gain;
+};
+constexpr Law laws[] = {{half, 1}, {recursive, 2}};
+TASK(LawTable, {
+  const Law& law = laws[tick.activation % 2];
+  out.out = law.gain * law.function(in.in);
+})
+TASK(SmallAny, {
+  std::any any = 3;
+  if (in.in > 1) any = 5;
+  out.out = std::any_cast<int>(any);
+})
 TASK(Asserts, {
   assert(in.in < 1e9);
   out.out = in.in;
@@ -343,5 +358,5 @@ JAROL_PLUGIN(Nothing, Adds, Integrates, Mathematics, SinglePrecision, LongDouble
              MultipleInheritance, DynamicCast, MemberPointer, Switch, ComputedGoto, Throws, Catches, Destructors, Sort,
              SortByPointer, Heap, PmrVector, PmrScratch, PmrText, PmrMap, PmrList, PmrHashed, Scratch, SequenceElement,
              Text, ToChars, FromChars, Optional, Variant, VariantGet, Bits, RandomBySeed, Distribution, LocalAtomic,
-             Volatile, ConstCast, Copies, Assembly, WeakFunction, Resolver, Asserts, Span, WideIntegers, TailCall,
-             Vectors)
+             LawTable, SmallAny, Volatile, ConstCast, Copies, Assembly, WeakFunction, Resolver, Asserts, Span,
+             WideIntegers, TailCall, Vectors)

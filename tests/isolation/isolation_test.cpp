@@ -31,6 +31,17 @@ TEST_SUITE("isolation") {
     }
   }
 
+  TEST_CASE("however it is linked: with packed relocations and optimised as a whole each is rejected by the same") {
+    CHECK(verdicts::differences(library("packed"), source("globals")) == "");
+    CHECK(verdicts::wrong_verdicts(library("at_link_time"), source("globals"), "-O2") == "");
+    const auto done = run_jarol("isolation " + library("whole_runtime"));
+    CHECK(done.exit_code == 2);
+    CHECK(done.output ==
+          "error: '" + library("whole_runtime") +
+              "' has the runtime of C++ within it, which can't be looked at; link it without -static-libstdc++ and "
+              "-static-libgcc\n");
+  }
+
   TEST_CASE("there are enough of both sorts to mean something") {
     std::size_t offending = 0, innocent = 0;
     for (const std::string& name : verdicts::isolation_sources())
@@ -117,6 +128,11 @@ TEST_SUITE("isolation") {
                                 " shows the way there)\n") != std::string::npos);
       CHECK(refused.output.find("task 'b'") == std::string::npos);
     }
+    // what its structs begin with, too
+    const std::string begins = folder.write("begins.yaml", graph_of(library("values"), "  a: {type: Starts}\n"));
+    CHECK(run_jarol("graph " + begins, "2>&1 >/dev/null")
+              .output.find("task 'a' (Starts) is not isolated: calls or uses 'std::chrono::_V2::steady_clock::now', a "
+                           "clock, in now at tests/isolation/values.cpp:") != std::string::npos);
     const std::string alone = folder.write("weak.yaml", graph_of(plugin, "  a: {type: ReadsTime, isolation: weak}\n"));
     const auto weak = run_jarol("run --for 20ms " + alone + " --json", "2>/dev/null");
     CHECK(weak.exit_code == 0);
