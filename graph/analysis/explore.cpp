@@ -14,7 +14,9 @@ struct Free {
   std::int64_t repetitions = 0;  // that were taken off
 };
 
-using Started = std::vector<std::int64_t>;  // per task, how many of its activations; at the end, whether it was held up
+// What holds up, once: it has not begun; it goes on, and those that it can't hold up interrupt it; it is over.
+enum HoldUp : std::int64_t { before, under_way, over };
+using Started = std::vector<std::int64_t>;  // per task, how many of its activations; at the end the HoldUp
 using States = std::map<Started, std::vector<Free>>;
 
 // Unites what meets; false if that was known already.
@@ -56,14 +58,19 @@ class Explorer {
     std::vector<std::int64_t> lengths{0};
     for (const TaskModel& m : loads_)
       if (std::find(lengths.begin(), lengths.end(), m.blocking) == lengths.end()) lengths.push_back(m.blocking);
-    for (const std::int64_t length : lengths)
-      if (!run_with(length)) return std::move(result_);
+    // first who is late for sure by what may hold up itself, then whoever may be late by what holds up others
+    for (const bool all_count : {false, true})
+      for (const std::int64_t length : lengths) {
+        if (all_count && length == 0) continue;
+        all_count_ = all_count;
+        if (!run_with(length)) return std::move(result_);
+      }
     result_.whole = true;
     return std::move(result_);
   }
 
  private:
-  // Held up once, for `blocking`.
+  // Held up once, for `blocking`: that is what is left of it at most when one starts that waited for it.
   bool run_with(std::int64_t blocking) {
     blocking_ = blocking;
     known_.clear();
@@ -108,26 +115,43 @@ class Explorer {
     find_candidates(started);
     std::int64_t any = max_time;  // by then one is released for sure
     for (const Next& c : candidates_) any = std::min(any, c.latest);
-    const std::int64_t busy = std::max(free.latest, any);
-    const bool was_held = started.back() != 0;
-    if (blocking_ > 0 && !was_held && any > free.earliest) {
+    const std::int64_t hold_up = started.back();
+    if (blocking_ > 0 && hold_up == before && any > free.earliest) {
       Started held = started;
-      held.back() = 1;
-      put(std::move(held), {free.earliest + 1, any + blocking_, free.repetitions});
+      held.back() = under_way;
+      put(std::move(held), {free.earliest + 1, all_count_ ? any : any + blocking_, free.repetitions});
     }
+    const auto is_held_up = [&](const Next& c) {
+      return hold_up == under_way && blocking_ <= inherited_[c.task].blocking;
+    };
+    // who is less urgent than one that waits does not interrupt
+    std::int64_t one_interrupts = max_time, one_waits = max_time;
+    for (const Next& c : candidates_) {
+      if (is_held_up(c))
+        one_waits = std::min(one_waits, c.latest);
+      else if (c.latest < one_waits)
+        one_interrupts = std::min(one_interrupts, c.latest);
+    }
+    // by then one starts that waited for it, or one that interrupts it
+    const std::int64_t waited = std::max(free.latest, any) + blocking_;
+    const std::int64_t interrupted = std::max(free.latest, std::min(one_interrupts, waited));
     std::int64_t more_urgent = max_time;  // by then one that goes before is
     for (const Next& c : candidates_) {
+      const bool waits = all_count_ && is_held_up(c);
+      const std::int64_t busy = !all_count_ || hold_up != under_way ? std::max(free.latest, any)
+                                : waits                             ? waited
+                                                                    : interrupted;
       const std::int64_t from = std::max(free.earliest, c.arrival), to = std::min(busy, more_urgent - 1);
       more_urgent = std::min(more_urgent, c.latest);
       if (from > to) continue;
       const TaskModel& m = loads_[c.task];
       const std::int64_t finish = to + m.wcet;
-      const bool counts = !was_held || blocking_ <= inherited_[c.task].blocking;
+      const bool counts = all_count_ || hold_up == before || is_held_up(c);
       if (counts) result_.responses[c.task] = std::max(result_.responses[c.task], finish - c.arrival);
       if (counts && finish > c.arrival + m.deadline) {
         // for sure only by what holds up those of its instant
         const std::int64_t sure = jitters_ ? m.blocking : ready_at_(c.task, c.arrival).blocking;
-        if (was_held && blocking_ > sure) return !(doubtful_ = true);
+        if (hold_up != before && (all_count_ || blocking_ > sure)) return !(doubtful_ = true);
         const std::int64_t shift = free.repetitions * repetition_;
         result_.late = DeadlineMiss{c.task, started[c.task] + shift / m.period, c.arrival + shift, finish + shift,
                                     c.arrival + m.deadline + shift};
@@ -136,15 +160,16 @@ class Explorer {
       }
       Started next = started;
       ++next[c.task];
+      if (waits) next.back() = over;
       put(std::move(next), {from, finish, free.repetitions});
     }
     return true;
   }
 
   void put(Started started, Free free) {
-    const auto over = [&](std::size_t i) { return started[i] >= repetition_ / loads_[i].period; };
+    const auto done = [&](std::size_t i) { return started[i] >= repetition_ / loads_[i].period; };
     bool all = true;
-    for (std::size_t i = 0; i < loads_.size() && all; ++i) all = over(i);
+    for (std::size_t i = 0; i < loads_.size() && all; ++i) all = done(i);
     if (all) {
       for (std::size_t i = 0; i < loads_.size(); ++i) started[i] -= repetition_ / loads_[i].period;
       free = {free.earliest - repetition_, free.latest - repetition_, free.repetitions + 1};
@@ -160,7 +185,7 @@ class Explorer {
   std::int64_t repetition_ = 0, blocking_ = 0;
   TaskModels inherited_;
   ReadinessAt ready_at_;
-  bool jitters_ = false, doubtful_ = false;
+  bool jitters_ = false, doubtful_ = false, all_count_ = false;
   States known_, next_;
   Exploration result_;
 };

@@ -15,8 +15,8 @@ struct Exploration {
 /// started, and the interval of instants at which the core may be free after them; states of the same activations whose
 /// intervals meet are one. Executions take from nothing to their WCET, releases jitter. States are the same a
 /// hyperperiod later, so that it ends where no new one is left. What holds up an activation with a `blocking` begins
-/// once while the core is idle: for each length there is such a state more, behind which only those count that can be
-/// held up so long.
+/// once while the core is idle: for each length there are two states more, while it goes on and when it is over. Those
+/// that it can't hold up for so long interrupt it; whoever starts behind one that waited for it may be late by it, too.
 Exploration explore(const CoreTasks& tasks, Order order, Budget& budget);
 
 }  // namespace jarol::analysis

@@ -101,6 +101,16 @@ bool has_blocking(std::span<const TaskModel> models) {
   return std::any_of(models.begin(), models.end(), [](const TaskModel& m) { return m.blocking > 0; });
 }
 
+// Where tasks are not interrupted no piece of one is what holds up another, so that what holds up one task holds up
+// those that are less urgent and wait behind it; under EDF the tests know that.
+TaskModels loads_of(const CoreTasks& tasks, const Policy& policy) {
+  TaskModels models = inheriting_loads(tasks);
+  if (policy.interrupts || by_deadline(policy)) return models;
+  for (std::size_t i = 1; i < models.size(); ++i)
+    models[i].blocking = std::max(models[i].blocking, models[i - 1].blocking);
+  return models;
+}
+
 TaskModels without_blocking(TaskModels models) {
   for (TaskModel& m : models) m.blocking = 0;
   return models;
@@ -116,9 +126,14 @@ TaskModels without_readers(const CoreTasks& tasks) {
   return models;
 }
 
-// Is a "no" under EDF one that does not rest on what holds up others that go before?
+// Is a "no" one that does not rest on what holds up others that go before?
 bool is_sure(std::span<const TaskModel> models, const Policy& policy, Budget& budget) {
-  if (!by_deadline(policy) || !has_blocking(models)) return true;
+  if (!by_deadline(policy)) {
+    const auto shorter = [](const TaskModel& x, const TaskModel& y) { return x.blocking < y.blocking; };
+    if (policy.interrupts || std::is_sorted(models.begin(), models.end(), shorter)) return true;
+    return check_any_phasing(models, policy, false, budget).verdict == Verdict::not_schedulable;
+  }
+  if (!has_blocking(models)) return true;
   const TaskModels freely = without_blocking({models.begin(), models.end()});
   return check_edf(freely, policy.interrupts, budget).over ||
          is_late_by_own_blocking(models, policy.interrupts, budget);
@@ -232,7 +247,7 @@ void take_responses_of_orders(const CoreTasks& tasks, const Policy& policy, Core
 
 CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Budget& budget) {
   const bool responses = detail != Detail::verdict, tight = detail == Detail::tight, whole = detail == Detail::whole;
-  const TaskModels models = inheriting_loads(tasks);
+  const TaskModels models = loads_of(tasks, policy);
   CoreResult any = check_any_phasing(models, policy, responses, budget);
   any.exact = responses && is_reached(tasks, policy, offsets_hold, any.verdict);
   const auto order = compare_utilisation(models, 1);
@@ -255,7 +270,8 @@ CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hol
   CoreResult given = policy.interrupts ? walk_preemptive(tasks, policy, whole && offsets_hold, budget)
                                        : walk_nonpreemptive(tasks, policy, budget);
   // what bounds every shift bounds this one
-  if (given.verdict == Verdict::not_schedulable && !given.exact) given.responses = any.responses;
+  const bool held_up = !policy.interrupts && has_blocking(models);
+  if ((given.verdict == Verdict::not_schedulable || held_up) && !given.exact) given.responses = any.responses;
   if (given.verdict == Verdict::not_schedulable || (offsets_hold && given.verdict == Verdict::schedulable))
     return given;
   if (any.verdict == Verdict::schedulable) return any;

@@ -37,11 +37,24 @@ std::optional<std::int64_t> max_wcet(const System& system, std::size_t task, Bud
   return largest(1 + overhead, system.models[task].deadline + overhead + 1, good) - overhead;
 }
 
+// Those that it reads at its instant have to end by then, too, and those that these read.
+void shorten_deadline(System& system, std::size_t task, std::int64_t deadline) {
+  system.models[task].deadline = deadline;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& [producer, reader] : system.follows) {
+      if (system.models[producer].deadline <= system.models[reader].deadline) continue;
+      system.models[producer].deadline = system.models[reader].deadline;
+      changed = true;
+    }
+  }
+}
+
 std::optional<std::int64_t> min_deadline(const System& system, std::size_t task, Budget& budget) {
-  System changed = system;
   // negated: the search looks for the largest
   const auto good = [&](std::int64_t negative) {
-    changed.models[task].deadline = -negative;
+    System changed = system;
+    shorten_deadline(changed, task, -negative);
     return holds(changed, budget);
   };
   const std::int64_t now = system.models[task].deadline;

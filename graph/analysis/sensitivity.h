@@ -10,7 +10,9 @@ struct Sensitivity {
   std::optional<double> alpha;
   /// Per task the largest WCET in ns that is schedulable with the others as they are; nothing if none is.
   std::vector<std::optional<std::int64_t>> max_wcet;
-  /// Per task the smallest deadline in ns (of a task with a LET: its LET) that is still met, the others as they are.
+  /// Per task a deadline in ns (of a task with a LET: its LET) that is still met while one ns less is not, the others
+  /// as they are but for those that it reads at its instant, which end by then, too. Where tasks go by deadline a much
+  /// shorter one may be met again.
   std::vector<std::optional<std::int64_t>> min_deadline;
   /// The task whose WCET may grow least, relative to it.
   std::optional<std::size_t> binding;

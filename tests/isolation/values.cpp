@@ -14,10 +14,10 @@ std::int64_t made = 0;
   return static_cast<double>(std::chrono::steady_clock::now().time_since_epoch().count());
 }
 
-#define KEPT(Name, ...)                                                                                   \
-  struct Name {                                                                                           \
-    double kept = __VA_ARGS__;                                                                            \
-    static constexpr auto fields() { return jarol::describe(jarol::field<&Name::kept>()); }               \
+#define KEPT(Name, ...)                                                                     \
+  struct Name {                                                                             \
+    double kept = __VA_ARGS__;                                                              \
+    static constexpr auto fields() { return jarol::describe(jarol::field<&Name::kept>()); } \
   };
 KEPT(SinceNow, now())
 KEPT(Numbered, static_cast<double>(++made))
@@ -46,14 +46,14 @@ struct Plain {
 };
 
 #undef TASK
-#define TASK(Name, Its)                                                                          \
-  struct Name {                                                                                  \
-    static constexpr std::string_view summary = "for tests";                                     \
-    using State = Its;                                                                           \
-    using Out = OneOut;                                                                          \
-    static void run(const jarol::Tick& tick, [[maybe_unused]] State& state, Out& out) {          \
-      out.out = static_cast<double>(tick.activation);                                            \
-    }                                                                                            \
+#define TASK(Name, Its)                                                                 \
+  struct Name {                                                                         \
+    static constexpr std::string_view summary = "for tests";                            \
+    using State = Its;                                                                  \
+    using Out = OneOut;                                                                 \
+    static void run(const jarol::Tick& tick, [[maybe_unused]] State& state, Out& out) { \
+      out.out = static_cast<double>(tick.activation);                                   \
+    }                                                                                   \
   };
 
 // offends: a clock: std::chrono::_V2::steady_clock::now: SinceNow::SinceNow > now

@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "graph/model/stages.h"
 #include "graph/text/escape.h"
 
 #include "tools/commands/commands.h"
@@ -56,7 +57,7 @@ void print_text(const Graph& graph) {
     std::cout << "\n";
   }
   std::cout << "\ntasks, in the order in which they run when released together\n";
-  for (const std::size_t i : graph.order) {
+  for (const std::size_t i : dispatch_order(graph)) {
     const Task& t = graph.tasks[i];
     std::cout << "  " << t.name << " (" << t.task_class->name << "): " << task_text(t) << "\n";
   }

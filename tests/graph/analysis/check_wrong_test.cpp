@@ -134,4 +134,26 @@ TEST_SUITE("graph/analysis/check_wrong") {
     CHECK(j.result.evidence == Evidence::safe);
     for (const std::string task : {"a", "b", "c"}) CHECK(j.response(task) <= 3'000);
   }
+
+  TEST_CASE("what holds up one task makes another late that it can't hold up: behind it, or by its rest") {
+    for (const std::string policy : {"fixed_priority_nonpreemptive", "edf_nonpreemptive"})
+      for (const std::string name : {"np_hold_up_over", "np_hold_up_interrupted"}) {
+        CAPTURE(name);
+        CAPTURE(policy);
+        const Judged j(name, "fixed_priority_nonpreemptive", policy);
+        CHECK(j.result.verdict == Verdict::unknown);
+      }
+  }
+
+  TEST_CASE("the least deadline of a reader is one with which what it reads ends in time, too") {
+    const Judged j("min_deadline");
+    Budget budget;
+    const auto margins = sensitivity_of(j.system, true, budget);
+    REQUIRE((margins && margins->min_deadline[1]));
+    const std::string ns = std::to_string(*margins->min_deadline[1]) + "ns, wcet: 1ms, priority: 3",
+                      less = std::to_string(*margins->min_deadline[1] - 1) + "ns, wcet: 1ms, priority: 3";
+    CHECK(Judged("min_deadline", "wcet: 1ms, priority: 3", "deadline: " + ns).result.verdict == Verdict::schedulable);
+    CHECK(Judged("min_deadline", "wcet: 1ms, priority: 3", "deadline: " + less).result.verdict ==
+          Verdict::not_schedulable);
+  }
 }

@@ -30,7 +30,8 @@ constexpr std::size_t max_cores = 2;
 
 struct State {
   std::array<Slot, max_tasks> slots;
-  std::size_t judged = nobody;  // the task whose activation is held up; then only its lateness counts
+  std::size_t judged = nobody;  // the task whose activation is held up; then its lateness counts,
+  bool others = false;          // and that of all on its core, as nobody waited who would have interrupted
   // non-preemptive: what holds up a core, once, for how long yet, and whose `blocking` it is; did the core run anything
   // just before?
   std::array<std::uint8_t, max_cores> piece{}, whose{nobody, nobody};
@@ -38,7 +39,7 @@ struct State {
 };
 
 Bits key_of(const State& s) {
-  Bits key = s.judged;
+  Bits key = s.judged << 1 | (s.others ? 1U : 0U);
   for (const Slot& slot : s.slots) key = key << slot_bits | slot.packed();
   for (std::size_t c = 0; c < max_cores; ++c)
     key = key << 8 | static_cast<Bits>(s.piece[c] | s.whose[c] << 4 | s.busy[c] << 7);
@@ -63,6 +64,7 @@ State state_of(Bits key) {
     for (std::uint8_t* field : {&slot.wait, &slot.budget}) *field = next(4);
     for (bool* field : {&slot.pending, &slot.released, &slot.started}) *field = next(1) != 0;
   }
+  s.others = next(1) != 0;
   s.judged = next(3);
   return s;
 }
@@ -163,6 +165,7 @@ class Search {
           if (core_[whose] != c || set_.tasks[whose].blocking == 0 || !follows(task, whose)) continue;
           State held = s;
           held.judged = task;
+          held.others = is_by_itself(c);
           held.piece[c] = static_cast<std::uint8_t>(set_.tasks[whose].blocking);
           held.whose[c] = static_cast<std::uint8_t>(whose);
           begin_piece(held, c + 1);
@@ -174,6 +177,16 @@ class Search {
   bool follows(std::size_t task, std::size_t producer) const {
     return task == producer || std::any_of(producers_[task].begin(), producers_[task].end(),
                                            [&](std::size_t p) { return follows(p, producer); });
+  }
+
+  bool is_judged(const State& s, std::size_t task) const {
+    return s.judged == task || (s.others && core_[task] == core_[s.judged]);
+  }
+  // Nobody there waits for other cores, or they for it.
+  bool is_by_itself(std::size_t core) const {
+    return set_.cores == 1 || std::none_of(set_.feeds.begin(), set_.feeds.end(), [&](const auto& feed) {
+             return !set_.tasks[feed.first].let && (core_[feed.first] == core || core_[feed.second] == core);
+           });
   }
 
   // 1. who arrives
@@ -288,7 +301,7 @@ class Search {
 
   // False where there is nothing more to see.
   bool end(State& s, std::size_t task, int response) {
-    if (s.judged == nobody || (s.judged == task && counts(s)))
+    if (s.judged == nobody || (is_judged(s, task) && counts(s)))
       truth_.longest[task] = std::max(truth_.longest[task], response);
     const std::uint8_t age = s.slots[task].age;
     s.slots[task] = {};
@@ -305,6 +318,7 @@ class Search {
         if ((runs >> i & 1) != 0) s.busy[core_[i]] = true;
       for (std::size_t c = 0; c < max_cores; ++c)
         if (s.piece[c] > 0) {
+          s.others = s.others && !would_interrupt(s, c);
           --s.piece[c];
           s.busy[c] = true;
         }
@@ -318,7 +332,7 @@ class Search {
     for (std::size_t i = 0; i < n_; ++i) {
       Slot& slot = s.slots[i];
       if (slot.age < set_.tasks[i].period + (nonpreemptive_ ? 1 : 0)) ++slot.age;
-      late = late || (slot.pending && slot.age >= set_.tasks[i].deadline && (s.judged == nobody || s.judged == i));
+      late = late || (slot.pending && slot.age >= set_.tasks[i].deadline && (s.judged == nobody || is_judged(s, i)));
     }
     if (s.judged != nobody && nonpreemptive_ && over(s)) return;
     if (late && counts(s)) {
@@ -327,6 +341,17 @@ class Search {
     } else {
       seen_.add(key_of(s), from_);
     }
+  }
+
+  // Somebody waits for what holds up a core who can't be held up for so long, and for nobody who can.
+  bool would_interrupt(const State& s, std::size_t c) const {
+    const Slot& held = s.slots[s.judged];
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (core_[i] != c || i == s.judged || !s.slots[i].pending || !s.slots[i].released) continue;
+      const bool waits_for_held = held.pending && held.released && urgency(s, s.judged) < urgency(s, i);
+      if (!waits_for_held && set_.tasks[i].blocking < set_.tasks[s.whose[c]].blocking) return true;
+    }
+    return false;
   }
 
   // Nothing of what held up a core is felt any more where the judged runs.

@@ -5,7 +5,8 @@
 // `blocking` is read as graph/analysis/README.md says. In a table and under global EDF an activation just takes so much
 // longer. Elsewhere one activation is judged with a hold-up of its own core that strikes once, up to its `blocking`:
 // under preemptive policies at any time between its release and its end, under the others begun while the core ran
-// nothing. The producers that it follows at its instant are held up too; on its core that is one hold-up for all.
+// nothing. There, on a core by itself, all count that start behind. The producers that it follows at its instant are
+// held up too; on its core that is one hold-up for all.
 #pragma once
 
 #include <cstdint>
