@@ -269,9 +269,14 @@ CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hol
   }
   CoreResult given = policy.interrupts ? walk_preemptive(tasks, policy, whole && offsets_hold, budget)
                                        : walk_nonpreemptive(tasks, policy, budget);
-  // what bounds every shift bounds this one
+  // what bounds every shift bounds this one, and so do the deadlines that hold
   const bool held_up = !policy.interrupts && has_blocking(models);
   if ((given.verdict == Verdict::not_schedulable || held_up) && !given.exact) given.responses = any.responses;
+  if (given.verdict == Verdict::schedulable && held_up) {
+    given.responses.resize(models.size());
+    for (std::size_t i = 0; i < models.size(); ++i)
+      given.responses[i] = std::min(given.responses[i].value_or(models[i].deadline), models[i].deadline);
+  }
   if (given.verdict == Verdict::not_schedulable || (offsets_hold && given.verdict == Verdict::schedulable))
     return given;
   if (any.verdict == Verdict::schedulable) return any;

@@ -1,3 +1,4 @@
+// In one file: one walk, whose steps share what they know of the function.
 #include "graph/isolation/flow.h"
 
 #include <algorithm>
