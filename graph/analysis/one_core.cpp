@@ -1,3 +1,4 @@
+// In one file: one decision, test by test in the order in which they are tried.
 #include "graph/analysis/one_core.h"
 
 #include <algorithm>
