@@ -20,7 +20,9 @@ using Answer = truth::Truth::Answer;
 // JAROL_SETS of each policy, else as many as there is time for.
 std::uint64_t count_of_judged() {
   if (const char* count = std::getenv("JAROL_SETS")) return std::strtoull(count, nullptr, 10);
-#ifdef __OPTIMIZE__
+#if defined(__SANITIZE_ADDRESS__)
+  return 4'000;
+#elif defined(__OPTIMIZE__)
   return std::getenv("JAROL_FULL") != nullptr ? 100'000 : 20'000;
 #else
   return 500;
