@@ -1,6 +1,7 @@
 #include "graph/isolation/values.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace jarol::isolation {
 namespace {
@@ -19,6 +20,8 @@ int depth_of(const Origin& a, const Origin& b) {
 
 Origin sum(const Origin& a, const Origin& b, bool subtracts) {
   if (a.kind == Kind::task || b.kind == Kind::task) return of_task(depth_of(a, b));
+  if (a.kind == Kind::element && b.kind == Kind::number) return a;
+  if (a.kind == Kind::number && b.kind == Kind::element && !subtracts) return b;
   const bool fixed = a.kind == Kind::number || a.kind == Kind::address || a.kind == Kind::frame;
   if (b.kind == Kind::number && fixed) return {a.kind, subtracts ? a.at - b.at : a.at + b.at, -1};
   if (a.kind == Kind::number && b.kind == Kind::address && !subtracts)
@@ -73,18 +76,22 @@ Origin Values::loaded_from(Address at) const {
   return object_.place_of(at) == Place::constant ? Origin{Kind::table, static_cast<std::int64_t>(at), -1} : unknown;
 }
 
+// What an index that is not known leads to, from there; unknown: that is not in a constant table.
+Origin Values::element_of(const Origin& table, std::int64_t displacement) const {
+  if (table.kind == Kind::element) return table;
+  const std::int64_t begin = table.at + displacement;
+  const bool constant = table.kind == Kind::address && object_.place_of(static_cast<Address>(begin)) == Place::constant;
+  return constant ? Origin{Kind::element, begin, -1} : unknown;
+}
+
 Origin Values::address_of(const Instruction& instruction, const Operand& operand, const State& state) const {
   if (operand.reg == instruction_pointer) return address(instruction.place(operand));
   const Origin base = operand.reg >= 0 ? state.registers[static_cast<std::size_t>(operand.reg)] : number(0);
   const Origin index = operand.index >= 0 ? state.registers[static_cast<std::size_t>(operand.index)] : number(0);
   if (operand.index < 0 && (base.kind == Kind::number || base.kind == Kind::address || base.kind == Kind::frame))
     return {base.kind, base.at + operand.number, -1};
-  // an element of a table: where that begins
-  for (const Origin& table : {base, index}) {
-    const std::int64_t begin = table.at + operand.number;
-    if (table.kind == Kind::address && object_.place_of(static_cast<Address>(begin)) == Place::constant)
-      return {Kind::table, begin, -1};
-  }
+  for (const Origin& table : {base, index})
+    if (const Origin element = element_of(table, operand.number); element.kind == Kind::element) return element;
   if (base.kind == Kind::task || index.kind == Kind::task) return of_task(depth_of(base, index));
   return unknown;
 }
@@ -112,7 +119,7 @@ Origin Values::value_of(const Instruction& instruction, const Operand& operand, 
   const Origin at = address_of(instruction, operand, state);
   switch (at.kind) {
     case Kind::address: return loaded_from(static_cast<Address>(at.at));
-    case Kind::table: return at;
+    case Kind::element: return {Kind::table, at.at, -1};
     case Kind::frame: {
       const auto slot = state.stack.find(at.at);
       return slot == state.stack.end() ? unknown : slot->second;
@@ -138,12 +145,6 @@ void Values::store(const Instruction& instruction, const Operand& to, const Orig
   if (size == 8 && !(value.kind == Kind::any && value.loaded < 0)) state.stack[at.at] = value;
 }
 
-// Of a constant table that begins there, by an index that is not known.
-bool Values::is_element(const Origin& table, const Origin& index) const {
-  return table.kind == Kind::address && (index.kind == Kind::task || index.kind == Kind::any) &&
-         object_.place_of(static_cast<Address>(table.at)) == Place::constant;
-}
-
 void Values::apply(const Instruction& instruction, State& state) const {
   const Operand &to = instruction.operands[0], &from = instruction.operands[1];
   switch (instruction.form) {
@@ -151,9 +152,11 @@ void Values::apply(const Instruction& instruction, State& state) const {
     case Form::address: return store(instruction, to, address_of(instruction, from, state), state);
     case Form::add: {
       const Origin a = value_of(instruction, to, state), b = value_of(instruction, from, state);
-      const bool element = !instruction.subtracts && (is_element(a, b) || is_element(b, a));
-      const std::int64_t table = a.kind == Kind::address ? a.at : b.at;
-      return store(instruction, to, element ? Origin{Kind::table, table, -1} : sum(a, b, instruction.subtracts), state);
+      if (!instruction.subtracts)
+        for (const auto& [table, index] : {std::pair(a, b), std::pair(b, a)})
+          if (const Origin element = element_of(table, 0); element.kind == Kind::element && index.kind == Kind::task)
+            return store(instruction, to, element, state);
+      return store(instruction, to, sum(a, b, instruction.subtracts), state);
     }
     case Form::push:
       state.registers[rsp].at -= 8;

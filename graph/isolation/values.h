@@ -19,7 +19,8 @@ struct Origin {
     any,      // unknown, or of several origins
     number,   // `at`
     address,  // of code or data in the object, `at`
-    table,    // loaded from constant data; `at`: where the table begins
+    element,  // an address within constant data, by an index that is not known; `at`: where the table begins
+    table,    // loaded from there; `at`: where the table begins
     task,     // read from the memory of the task, its values and what they hold, or computed with that
     library,  // returned by a function outside
     frame,    // an address on the stack, `at` bytes from where the function began
@@ -68,7 +69,7 @@ class Values {
   Origin address_of(const Instruction& instruction, const Operand& operand, const State& state) const;
   void store(const Instruction& instruction, const Operand& to, const Origin& value, State& state) const;
   bool is_import(const Instruction& call, const State& state) const;
-  bool is_element(const Origin& table, const Origin& index) const;
+  Origin element_of(const Origin& table, std::int64_t displacement) const;
 
   const Object& object_;
 };

@@ -25,7 +25,8 @@ const char* wrong_with(const Origin& target, bool has_candidates) {
   if (is_of_interface(target.loaded) && target.kind != Kind::number && deep_enough) return "";
   switch (target.kind) {
     case Kind::number: return target.at == 0 ? "" : "calls a number, which is no address of code here";
-    case Kind::task: return "calls an address that it computes from its values";
+    case Kind::task:
+    case Kind::element: return "calls an address that it computes from its values";
     case Kind::library: return "";
     default: return has_candidates ? "" : "calls through a pointer that leads to nothing that it refers to";
   }

@@ -125,7 +125,7 @@ std::string wrong_verdicts(const std::string& library, const std::string& source
 }
 
 std::vector<std::string> isolation_sources() {
-  return {"globals", "imports", "innocent", "innocent_eigen", "instructions", "library", "values"};
+  return {"far", "globals", "imports", "innocent", "innocent_eigen", "instructions", "library", "values"};
 }
 
 }  // namespace verdicts

@@ -10,6 +10,8 @@
 extern "C" {
 // of a name that begins as one that is constant does
 [[gnu::section(".init_array_of_mine")]] double in_odd_section = 1;
+// may be executed, too
+extern double in_code;
 // goes on in what lies behind it
 void without_end();
 }
@@ -24,6 +26,12 @@ add_in_assembly:
   incq kept_in_assembly(%rip)
   ret
   .size add_in_assembly, .-add_in_assembly
+  .pushsection .changes_itself,"awx",@progbits
+  .type in_code, @object
+  .size in_code, 8
+  .globl in_code
+in_code: .quad 0
+  .popsection
   .bss
   .type kept_in_assembly, @object
   .size kept_in_assembly, 8
@@ -202,6 +210,10 @@ TASK(MemberPointer, {
 TASK(Resolver, { out.out = picked(in.in); })
 // offends: a writable global: in_odd_section: InOddSection::run
 TASK(InOddSection, { out.out = in_odd_section += in.in; })
+// offends: a writable global: in_code: InCode::run
+TASK(InCode, { out.out = in_code += in.in; })
+// offends: a writable global: counter: MaskedRead::run
+TASK(MaskedRead, { asm volatile("vaddpd %0, %%zmm0, %%zmm1%{%%k1%}" : : "m"(counter) : "memory"); })
 // offends: a writable global: kept_in_assembly: FallsOut::run > without_end > add_in_assembly
 TASK(FallsOut, { without_end(); })
 
@@ -210,4 +222,4 @@ TASK(FallsOut, { without_end(); })
 JAROL_PLUGIN(Plain, Calls, PerThread, FunctionStatic, GuardedStatic, InTemplate, InlineVariable, DynamicInitialiser,
              ThroughConstantPointer, ThroughTable, ConstCast, InLambda, InStdFunction, VirtualCall, FunctionTable,
              FunctionPointer, WeakSymbol, Sorts, TailCall, InCatch, InDestructor, InAssembly, ComputedGoto, Switch,
-             MemberPointer, Resolver, InOddSection, FallsOut)
+             MemberPointer, Resolver, InOddSection, InCode, MaskedRead, FallsOut)

@@ -13,6 +13,7 @@ using Function = double (*)(double);
 }
 [[gnu::noinline]] double call_address(std::int64_t address, double x) { return reinterpret_cast<Function>(address)(x); }
 [[gnu::noinline]] double half(double x) { return x / 2; }
+constexpr Function halves[] = {half, half};
 
 // offends: forbidden instruction: syscall: SystemCall::run
 TASK(SystemCall, {
@@ -141,6 +142,17 @@ TASK(ForgedTailCall, {
 })
 // offends: a call that can't be resolved: : ForgedObject::run
 TASK(ForgedObject, { out.out = (*reinterpret_cast<Function**>(in.address))[7](in.in); })
+// offends: a call that can't be resolved: : ForgedFromTable::run
+TASK(ForgedFromTable, {
+  const auto table = reinterpret_cast<std::intptr_t>(&halves);
+  out.out = reinterpret_cast<Function>(table + in.address)(in.in) + halves[tick.activation % 2](in.in);
+})
+// offends: a call that can't be resolved: : ForgedByIndex::run
+TASK(ForgedByIndex, {
+  std::intptr_t made;
+  asm("lea (%1,%2,8), %0" : "=r"(made) : "r"(&halves), "r"(in.address));
+  out.out = reinterpret_cast<Function>(made)(in.in) + halves[tick.activation % 2](in.in);
+})
 // offends: a call that can't be resolved: : Numbers::run
 TASK(Numbers, {
   volatile std::int64_t number = 4096;
@@ -152,4 +164,5 @@ TASK(Numbers, {
 JAROL_PLUGIN(SystemCall, OldSystemCall, Cycles, CyclesAndCore, HardwareRandom, HardwareSeed, AsksProcessor, AsksState,
              SetsRounding, ReadsFlags, SetsOldRounding, TalksToDevice, ReadsSegment, ReadsGuard, WritesGuard,
              MiddleOfInstruction, ForgedFromInput, ForgedFromState, ForgedBesideGood, ForgedTailCall, ForgedObject,
-             Numbers, UsesMmx, FreesRegister, TurnsRegisters, LooksUpByte, ReachesByDistance, ReachesByIndex)
+             ForgedFromTable, ForgedByIndex, Numbers, UsesMmx, FreesRegister, TurnsRegisters, LooksUpByte,
+             ReachesByDistance, ReachesByIndex)

@@ -31,9 +31,11 @@ TEST_SUITE("isolation") {
     }
   }
 
-  TEST_CASE("however it is linked: with packed relocations and optimised as a whole each is rejected by the same") {
+  TEST_CASE(
+      "however it is linked, with packed relocations, optimised as a whole, for far addresses, each is rejected") {
     CHECK(verdicts::differences(library("packed"), source("globals")) == "");
     CHECK(verdicts::wrong_verdicts(library("at_link_time"), source("globals"), "-O2") == "");
+    CHECK(verdicts::wrong_verdicts(library("large"), source("far"), "-O2") == "");
     const auto done = run_jarol("isolation " + library("whole_runtime"));
     CHECK(done.exit_code == 2);
     CHECK(done.output ==

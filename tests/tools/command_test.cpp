@@ -250,6 +250,14 @@ connections: [i -> sum.in]
   TEST_CASE("graph prints the order of tasks and a drawing") {
     CHECK(run_jarol("graph specs/counting.yaml").output.find("count (Counter): every 10ms, deadline 10ms\n") !=
           std::string::npos);
+    // of one instant the shorter deadline goes first, whatever the names
+    const TemporaryFolder folder;
+    const std::string two = folder.write("two.yaml",
+                                         "graph: two\ntasks:\n  a: {type: Counter, period: 12ms}\n"
+                                         "  b: {type: Counter, period: 12ms, let: 9ms}\n");
+    const std::string listed = run_jarol("graph " + two).output;
+    CHECK(listed.find("  b (Counter)") < listed.find("  a (Counter)"));
+    CHECK(nlohmann::json::parse(run_jarol("graph --json " + two).output)["tasks"][0]["name"] == "b");
     CHECK(run_jarol("graph specs/counting.yaml --dot").output.starts_with("digraph \"counting\" {\n"));
     CHECK(run_jarol("graph specs/counting.yaml --dot --json").exit_code == 2);
   }

@@ -11,8 +11,8 @@ namespace command {
 inline const std::string until_taken =
     "until grep -Eq '^SigCgt:.*[4-7c-f]..[37bf]$|^State:.Z' /proc/$id/status; do sleep 0.01; done; ";
 
-/// They end the programs that are made while this lives, also where the tests run under nohup or in the background of a
-/// shell that ignores them.
+/// They end the programs that are started while this lives, also where the tests run under nohup or in the background
+/// of a shell that ignores them.
 class DefaultSignals {
  public:
   DefaultSignals() {

@@ -99,7 +99,7 @@ void print_json(const Graph& graph) {
   auto communicators = nlohmann::ordered_json::array(), tasks = nlohmann::ordered_json::array(),
        connections = nlohmann::ordered_json::array();
   for (const Communicator& c : graph.communicators) communicators.push_back(communicator_json(graph, c));
-  for (const std::size_t i : graph.order) tasks.push_back(task_json(graph.tasks[i]));
+  for (const std::size_t i : dispatch_order(graph)) tasks.push_back(task_json(graph.tasks[i]));
   for (const Connection& c : graph.connections)
     connections.push_back(
         {{"from", end_name(graph, c.from, true)}, {"to", end_name(graph, c.to, false)}, {"type", c.type->name}});
