@@ -17,7 +17,8 @@ class TableWriter {
   std::string write(const std::string& set) {
     to_ = "// Made from the definition of message set " + set + ".\n#include \"distributers/messages/" + set +
           ".h\"\n\nnamespace jarol::messages::" + set + " {\nnamespace {\n\n";
-    for (const Values& v : definition_.shared) write_values("shared_" + names_.shared.at(v.name), v.values);
+    for (const Values& v : definition_.shared)
+      if (is_used(v.name)) write_values("shared_" + names_.shared.at(v.name), v.values);
     write_fields(definition_.header, "Header", "header_fields");
     for (std::size_t i = 0; i < definition_.messages.size(); ++i)
       write_fields(definition_.messages[i], definition_.messages[i].name, "fields_" + std::to_string(i));
@@ -34,6 +35,13 @@ class TableWriter {
   }
 
  private:
+  bool is_used(const std::string& shared) const {
+    const auto refers = [&](const Message& m) {
+      return std::ranges::any_of(m.fields, [&](const Field& f) { return f.shared_values == shared; });
+    };
+    return refers(definition_.header) || std::ranges::any_of(definition_.messages, refers);
+  }
+
   void write_descriptor(const Message& message, std::size_t index, const std::string& key, const std::string& table) {
     const std::string& name = names_.structs.at(key);
     to_ += "constinit const MessageDescriptor " + name + "::descriptor = descriptor_of<" + name + ">(" +
