@@ -5,7 +5,7 @@ import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, test} from 'node:test';
-import {Signal} from '../../tools/pages/data.js';
+import {Signal} from '../../tools/drawing/pages/data.js';
 import {Browser} from './browser.mjs';
 
 const jarol = process.env.JAROL_COMMAND;

@@ -8,7 +8,7 @@
 
 #include "graph/language/problems.h"
 #include "graph/language/yaml.h"
-#include "tools/run/load_graph.h"
+#include "tools/commands/run/load_graph.h"
 
 namespace {
 namespace fs = std::filesystem;
@@ -36,7 +36,7 @@ const std::vector<std::string> brought_about_elsewhere{
     "' is not simulated in this process",
     // a communicator of such a type: tests/graph/expect/at_end_test.cpp
     "carries a value of changing size",
-    // an option: tests/tools/campaign/campaign_test.cpp
+    // an option: tests/tools/commands/campaign/campaign_test.cpp
     "the lists and seeds that it varies have more than 1000000000 combinations; say how many runs there are",
     "' names no metric; write name=metric, as in deepest=max(depth of dune)",
     "it is not said how many runs there are; only lists and seeds come to an end of themselves",

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/run/load_graph.h"
+#include "tools/commands/run/load_graph.h"
 
 namespace jarol::test {
 namespace {

@@ -14,7 +14,7 @@
 #include "distributers/messages/packet.h"
 #include "graph/values/value.h"
 #include "tasks/lauv/supervisor.h"
-#include "tools/run/load_graph.h"
+#include "tools/commands/run/load_graph.h"
 
 namespace {
 using namespace jarol;

@@ -11,7 +11,7 @@
 
 #include "runtime/execute/executor.h"
 #include "tasks/values/lauv.h"
-#include "tools/run/load_graph.h"
+#include "tools/commands/run/load_graph.h"
 
 namespace {
 using namespace jarol;

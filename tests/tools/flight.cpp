@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "distributers/distributers.h"
+#include "tools/commands/run/load_graph.h"
 #include "tools/library/built_in.h"
-#include "tools/run/load_graph.h"
 #include "vehicles/helicopter/helicopter.h"
 
 namespace jarol::tests {

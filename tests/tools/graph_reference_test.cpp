@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "graph/language/tables.h"
+#include "tools/commands/run/load_graph.h"
 #include "tools/library/built_in.h"
-#include "tools/run/load_graph.h"
 
 namespace {
 using namespace jarol;

@@ -12,7 +12,7 @@
 #include "runtime/execute/executor.h"
 #include "tests/distributers/messages/recorded.h"
 #include "tests/tools/csv_rows.h"
-#include "tools/run/load_graph.h"
+#include "tools/commands/run/load_graph.h"
 
 namespace {
 using namespace jarol;

@@ -20,7 +20,7 @@
 #include "runtime/execute/executor.h"
 #include "tests/tools/process.h"
 #include "tests/tools/terminal.h"
-#include "tools/run/load_graph.h"
+#include "tools/commands/run/load_graph.h"
 
 namespace {
 using namespace jarol;

@@ -11,8 +11,8 @@
 #include "runtime/execute/executor.h"
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
+#include "tools/commands/run/load_graph.h"
 #include "tools/library/built_in.h"
-#include "tools/run/load_graph.h"
 
 namespace {
 using namespace jarol;

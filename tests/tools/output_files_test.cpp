@@ -17,7 +17,7 @@
 #include "runtime/record/recording_writer.h"
 #include "tests/tools/default_signals.h"
 #include "tests/tools/run_command.h"
-#include "tools/run/load_graph.h"
+#include "tools/commands/run/load_graph.h"
 
 namespace {
 namespace fs = std::filesystem;

@@ -7,9 +7,9 @@
 #include "graph/plugins/plugins.h"
 #include "tests/tools/plugin_library.h"
 #include "tests/tools/run_command.h"
-#include "tools/edit/catalogue.h"
+#include "tools/commands/edit/catalogue.h"
+#include "tools/commands/run/known_with.h"
 #include "tools/library/built_in.h"
-#include "tools/run/known_with.h"
 
 namespace {
 using namespace jarol;

@@ -10,8 +10,8 @@
 #include "runtime/record/recording_writer.h"
 #include "tests/tools/plugin_library.h"
 #include "tests/tools/run_command.h"
+#include "tools/commands/run/load_graph.h"
 #include "tools/library/built_in.h"
-#include "tools/run/load_graph.h"
 
 namespace {
 using command::content;

@@ -14,7 +14,7 @@
 #include "runtime/record/recorded_run.h"
 #include "runtime/record/recording_writer.h"
 #include "tests/tools/run_command.h"
-#include "tools/run/load_graph.h"
+#include "tools/commands/run/load_graph.h"
 
 namespace {
 using namespace jarol;

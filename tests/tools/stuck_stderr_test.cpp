@@ -120,7 +120,7 @@ class StuckRun {
 };
 }  // namespace
 
-TEST_SUITE("tools/run/stuck_stderr") {
+TEST_SUITE("tools/commands/run/stuck_stderr") {
   TEST_CASE("a vehicle is brought to rest for no longer than it may take while nobody reads stderr") {
     for (const char* more : {"", "--concurrency threads"}) {
       CAPTURE(more);

@@ -1,7 +1,9 @@
-// The tour does what it says: each command of specs/tour.md prints what stands there.
+// The tour does what it says: each command of specs/tour.md prints what stands there; those of specs/try.md end as they
+// are to.
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -36,14 +38,19 @@ std::vector<Shown> commands_of(const std::string& page) {
   }
   return commands;
 }
+
+// Where commands of pages find the graphs and the program.
+void link_tree(const TemporaryFolder& folder) {
+  fs::create_directories(folder / "build/release");
+  fs::create_symlink(fs::absolute("specs"), folder / "specs");
+  fs::create_symlink(fs::absolute(JAROL_COMMAND), folder / "build/release/jarol");
+}
 }  // namespace
 
 TEST_SUITE("tools/tour") {
   TEST_CASE("each command of the tour prints what the tour shows, and the layout for PlotJuggler fits its recording") {
     const TemporaryFolder folder;
-    fs::create_directories(folder / "build/release");
-    fs::create_symlink(fs::absolute("specs"), folder / "specs");
-    fs::create_symlink(fs::absolute(JAROL_COMMAND), folder / "build/release/jarol");
+    link_tree(folder);
     const std::vector<Shown> commands = commands_of(content("specs/tour.md"));
     CHECK(commands.size() == 10);
     for (const Shown& shown : commands) {
@@ -83,5 +90,36 @@ TEST_SUITE("tools/tour") {
     const std::regex picture("<img src=\"([^\"]+)\"");
     for (std::sregex_iterator found(page.begin(), page.end(), picture), end; found != end; ++found)
       CHECK(fs::exists("specs/" + (*found)[1].str()));
+  }
+
+  TEST_CASE("each command that is shown to try ends with the verdict that it is to have") {
+    const TemporaryFolder folder;
+    link_tree(folder);
+    const std::map<std::string, int> not_good{{"run specs/exolauv.yaml --set tasks.depth.parameters.kp=0.2", 1},
+                                              {"replay dive.mcap --set tasks.depth.parameters.kp=0.2", 1},
+                                              {"run specs/exolauv.yaml --set tasks.dept.period=20ms", 2}};
+    // what is watched, answered by a peer or measures for long
+    const std::regex endless("^(edit|console|vehicle|bench)| --console|--clock real");
+    std::set<std::string> shown, run;
+    for (const std::string file : {"README.md", "specs/try.md"}) {
+      const std::string page = content(file);
+      const std::regex in_words("`build/release/jarol ([^`]+)`");
+      for (std::sregex_iterator found(page.begin(), page.end(), in_words), end; found != end; ++found) {
+        const std::string arguments = (*found)[1];
+        shown.insert(arguments);
+        if (std::regex_search(arguments, endless) || arguments.find("low_pass") != std::string::npos) continue;
+        if (!run.insert(arguments).second) continue;
+        int expected = 0;
+        for (const auto& [beginning, code] : not_good)
+          if (arguments.starts_with(beginning)) expected = code;
+        const command::Result result =
+            command::run_jarol("", "2>&1 </dev/null", "cd " + (folder / "") + " && build/release/jarol " + arguments);
+        CAPTURE(arguments);
+        CAPTURE(result.output);
+        CHECK(result.exit_code == expected);
+      }
+    }
+    CHECK(shown.size() > 20);
+    CHECK(run.size() > 15);
   }
 }

@@ -6,7 +6,7 @@
 #include "runtime/execute/executor.h"
 #include "tools/bench/graphs.h"
 #include "tools/bench/timing.h"
-#include "tools/run/crash_line.h"
+#include "tools/commands/run/crash_line.h"
 
 namespace jarol::bench {
 

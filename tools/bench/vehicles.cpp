@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "tools/bench/timing.h"
+#include "tools/commands/run/load_graph.h"
 #include "tools/library/session.h"
-#include "tools/run/load_graph.h"
 #ifdef JAROL_VEHICLES
 #include "tools/bench/plain_helicopter.h"
 #include "tools/bench/plain_submarine.h"

@@ -21,7 +21,7 @@
 #include "tools/bench/message.h"
 #include "tools/bench/timing.h"
 #include "tools/console/console.h"
-#include "tools/drawing/layout.h"
+#include "tools/drawing/graph/layout.h"
 
 namespace jarol::bench {
 namespace {

@@ -13,12 +13,12 @@
 #include "runtime/plan/output.h"
 #include "runtime/record/replayed_values.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/log/recorded_graph.h"
+#include "tools/commands/run/crash_line.h"
+#include "tools/commands/run/interrupt.h"
 #include "tools/console/console.h"
 #include "tools/console/options.h"
-#include "tools/log/recorded_graph.h"
 #include "tools/report/command_line.h"
-#include "tools/run/crash_line.h"
-#include "tools/run/interrupt.h"
 
 namespace jarol::tools {
 namespace {

@@ -6,11 +6,11 @@
 #include <thread>
 
 #include "tools/commands/commands.h"
+#include "tools/commands/edit/editor.h"
+#include "tools/commands/run/interrupt.h"
+#include "tools/commands/run/no_plugins.h"
 #include "tools/console/options.h"
-#include "tools/edit/editor.h"
 #include "tools/report/command_line.h"
-#include "tools/run/interrupt.h"
-#include "tools/run/no_plugins.h"
 
 namespace jarol::tools {
 namespace {

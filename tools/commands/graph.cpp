@@ -7,13 +7,13 @@
 #include "graph/text/escape.h"
 
 #include "tools/commands/commands.h"
-#include "tools/drawing/svg.h"
+#include "tools/commands/run/load_graph.h"
+#include "tools/commands/run/no_plugins.h"
+#include "tools/drawing/graph/svg.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
 #include "tools/report/rest_report.h"
 #include "tools/report/value_json.h"
-#include "tools/run/load_graph.h"
-#include "tools/run/no_plugins.h"
 
 namespace jarol::tools {
 namespace {

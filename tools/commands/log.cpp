@@ -3,10 +3,10 @@
 #include <stdexcept>
 
 #include "tools/commands/commands.h"
-#include "tools/log/log_commands.h"
+#include "tools/commands/log/log_commands.h"
+#include "tools/commands/run/apart.h"
 #include "tools/report/command_line.h"
 #include "tools/report/duration_option.h"
-#include "tools/run/apart.h"
 
 namespace jarol::tools {
 namespace {

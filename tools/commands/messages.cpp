@@ -7,10 +7,10 @@
 #include "distributers/messages/message_set.h"
 #include "graph/language/problems.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/run/known_with.h"
+#include "tools/commands/run/packet_lines.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
-#include "tools/run/known_with.h"
-#include "tools/run/packet_lines.h"
 
 namespace jarol::tools {
 namespace {

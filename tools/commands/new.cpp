@@ -4,7 +4,7 @@
 
 #include "graph/text/escape.h"
 #include "tools/commands/commands.h"
-#include "tools/project/make_project.h"
+#include "tools/commands/new/make_project.h"
 #include "tools/report/command_line.h"
 #include "tools/report/exit_code.h"
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "tools/commands/commands.h"
+#include "tools/commands/run/known_with.h"
 #include "tools/report/command_line.h"
 #include "tools/report/graph_schema.h"
-#include "tools/run/known_with.h"
 
 namespace jarol::tools {
 

@@ -6,10 +6,10 @@
 #include "graph/values/bind.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/other_parts.h"
+#include "tools/commands/run/known_with.h"
 #include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
-#include "tools/run/known_with.h"
 
 namespace jarol::tools {
 namespace {

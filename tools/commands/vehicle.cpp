@@ -8,16 +8,16 @@
 #include "graph/language/quantities.h"
 #include "graph/registry.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/run/apart.h"
+#include "tools/commands/run/known_with.h"
+#include "tools/commands/vehicle/made_vehicle.h"
+#include "tools/commands/vehicle/motion_file.h"
+#include "tools/commands/vehicle/open_loop.h"
+#include "tools/commands/vehicle/serve_vehicle.h"
 #include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/describe_vehicle.h"
 #include "tools/report/duration_option.h"
-#include "tools/run/apart.h"
-#include "tools/run/known_with.h"
-#include "tools/vehicle/made_vehicle.h"
-#include "tools/vehicle/motion_file.h"
-#include "tools/vehicle/open_loop.h"
-#include "tools/vehicle/serve_vehicle.h"
 
 namespace jarol::tools {
 namespace {

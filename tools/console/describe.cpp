@@ -8,7 +8,7 @@
 #include "tools/console/leaf_text.h"
 #include "tools/console/samples_json.h"
 #include "tools/console/seconds.h"
-#include "tools/drawing/drawing_json.h"
+#include "tools/drawing/graph/drawing_json.h"
 #include "tools/report/tracking.h"
 
 namespace jarol::tools::console {

@@ -9,7 +9,7 @@
 #include "tests/tools/console/client.h"
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
-#include "tools/run/load_graph.h"
+#include "tools/commands/run/load_graph.h"
 
 namespace {
 using namespace jarol;

@@ -5,8 +5,8 @@
 
 #include <thread>
 
+#include "tools/commands/run/load_graph.h"
 #include "tools/console/console.h"
-#include "tools/run/load_graph.h"
 
 namespace {
 using namespace jarol;

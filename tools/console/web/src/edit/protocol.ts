@@ -1,4 +1,4 @@
-// What comes from jarol on the socket of the editor: tools/edit/README.md.
+// What comes from jarol on the socket of the editor: tools/commands/edit/README.md.
 
 export interface Field {
   path: string;

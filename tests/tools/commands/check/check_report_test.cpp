@@ -1,0 +1,87 @@
+// What the report of a check says of responses, of what is late, and of cores that are too full.
+#include "tools/commands/check/check_report.h"
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/tools/reports.h"
+#include "tests/tools/run_command.h"
+
+namespace {
+using command::json_of;
+using command::run_jarol;
+using command::TemporaryFolder;
+}  // namespace
+
+TEST_SUITE("tools/check_report") {
+  TEST_CASE("where no time line is drawn, how long a late task takes stands alone") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {policy: fixed_priority_nonpreemptive}
+tasks:
+  a: {type: Counter, period: 10ms, wcet: 2ms, jitter: 25ms}
+  b: {type: Counter, period: 50ms, wcet: 30ms}
+)");
+    const auto no = run_jarol("check " + file);
+    CHECK(no.exit_code == 1);
+    CHECK(no.output.find("\n  from release to end 32ms\n") != std::string::npos);
+  }
+
+  TEST_CASE("a response is the longest there is, or said to be no more than a bound") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {policy: edf}
+tasks:
+  a: {type: Work, period: 10ms, wcet: 2ms, deadline: 3ms}
+  b: {type: Work, period: 10ms, offset: 5ms, wcet: 2ms, deadline: 3ms}
+  c: {type: Work, period: 10ms, offset: 5ms, wcet: 2ms, deadline: 3ms}
+)");
+    const std::string exact = run_jarol("check " + file).output;
+    CHECK(exact.find(R"(
+  task     period     offset   deadline       wcet     use   response      slack
+  a          10ms        0ns        3ms        2ms  20.00%        2ms        1ms
+  b          10ms        5ms        3ms        2ms  20.00%        2ms        1ms
+  c          10ms        5ms        3ms        2ms  20.00%        4ms       -1ms
+  utilisation 60.00%; a task's response is its longest time from arrival to end;
+)") != std::string::npos);
+    const std::string bounds = run_jarol("check " + file + " --set platform.phasing=any").output;
+    CHECK(bounds.find(R"(
+  a          10ms        0ns        3ms        2ms  20.00%      <=6ms     >=-3ms
+  b          10ms        5ms        3ms        2ms  20.00%      <=6ms     >=-3ms
+  c          10ms        5ms        3ms        2ms  20.00%      <=6ms     >=-3ms
+  utilisation 60.00%; a task's response is its longest time from arrival to end; after '<=' it is no longer than that, and may be shorter;
+)") != std::string::npos);
+    const auto task = [&](const std::string& set) { return json_of("check --json " + file + set)["tasks"][2]; };
+    CHECK(task("")["response_ns"] == 4'000'000);
+    CHECK(task("")["response_exact"] == true);
+    CHECK(task(" --set platform.phasing=any")["response_ns"] == 6'000'000);
+    CHECK(task(" --set platform.phasing=any")["response_exact"] == false);
+    CHECK(task(" --set platform.policy=edf_nonpreemptive")["response_exact"] == false);
+    CHECK(task(" --set tasks.a.wcet=11ms")["response_exact"].is_null());
+    // not interrupting, where an earlier end lets another go first
+    const std::string safe = " --set platform.policy=edf_nonpreemptive --set tasks.c.deadline=10ms";
+    CHECK(task(safe)["response_ns"] == 4'000'000);
+    CHECK(task(safe)["response_exact"] == true);
+  }
+
+  TEST_CASE("more work than time on the core that tasks state is the headline") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {cores: 2}
+tasks:
+  a: {type: Work, period: 10ms, wcet: 6ms, core: 1}
+  b: {type: Work, period: 10ms, wcet: 6ms, core: 1}
+  c: {type: Work, period: 10ms, wcet: 1ms}
+)");
+    const std::string headline =
+        file + ": NOT SCHEDULABLE utilisation 120.00% of core 1: there is more to do than time; core 1: task 'b' ";
+    for (const std::string policy : {"table", "fixed_priority", "edf", "edf_nonpreemptive"})
+      CHECK(run_jarol("check " + file + " --set platform.policy=" + policy).output.starts_with(headline));
+    CHECK(run_jarol("check " + file + " --set tasks.c.wcet=9ms")
+              .output.find("utilisation 210.00% of 2 cores: there is "
+                           "more to do than time;") != std::string::npos);
+    CHECK(run_jarol("check " + file + " --set platform.policy=global_edf").exit_code == 0);
+  }
+}

@@ -1,0 +1,153 @@
+#include "tools/commands/campaign/campaign_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "graph/text/escape.h"
+
+namespace jarol::tools {
+namespace {
+
+using campaign::Case;
+using campaign::MetricSummary;
+using campaign::Outcome;
+using campaign::Summary;
+using Json = nlohmann::ordered_json;
+
+std::string number_text(double number, const std::string& unit) {
+  if (unit == "rad") return fmt::format("{:.5g} deg", number * 180.0 / std::numbers::pi);
+  return fmt::format("{:.5g}{}{}", number, unit.empty() ? "" : " ", unit);
+}
+
+std::string outcomes_text(const Summary& summary) {
+  std::string text;
+  for (std::size_t i = 0; i < summary.outcomes.size(); ++i)
+    if (summary.outcomes[i] > 0 || i == 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", summary.outcomes[i],
+                          campaign::word_of(static_cast<Outcome>(i)));
+  return text;
+}
+
+std::string table_of(const Summary& summary) {
+  if (summary.metrics.empty()) return "";
+  std::size_t width = 6;
+  for (const MetricSummary& m : summary.metrics) width = std::max(width, m.name.size());
+  std::string text = fmt::format("  {:<{}}  {:>12}  {:>12}  {:>12}  {:>12}  {:>12}\n", "metric", width, "min", "5 %",
+                                 "median", "95 %", "max");
+  for (const MetricSummary& m : summary.metrics) {
+    if (m.count > 0)
+      text += fmt::format("  {:<{}}  {:>12}  {:>12}  {:>12}  {:>12}  {:>12}\n", m.name, width,
+                          number_text(m.min->value, m.unit), number_text(m.percentiles[0], m.unit),
+                          number_text(m.percentiles[2], m.unit), number_text(m.percentiles[4], m.unit),
+                          number_text(m.max->value, m.unit));
+    for (const auto& [word, count] : m.words)
+      text += fmt::format("  {:<{}}  {}: {} runs\n", m.name, width, word, count);
+    if (m.missing > 0) text += fmt::format("  {:<{}}  nothing: {} runs\n", m.name, width, m.missing);
+  }
+  return text;
+}
+
+// By its limit where it has one, else both ends.
+std::vector<std::pair<std::string, Case>> cases_of(const MetricSummary& m) {
+  if (m.worst) return {{"worst", *m.worst}};
+  std::vector<std::pair<std::string, Case>> cases;
+  if (m.min) cases.emplace_back("min", *m.min);
+  if (m.max) cases.emplace_back("max", *m.max);
+  return cases;
+}
+
+Json to_json(const Case& one, const CampaignOutcome& outcome) {
+  return {{"run", one.index}, {"value", one.value}, {"command", outcome.repeat(one.index)}};
+}
+
+Json to_json(const MetricSummary& m, const expect::Condition& condition, bool is_limit,
+             const CampaignOutcome& outcome) {
+  Json json{{"name", m.name}, {"text", condition.text}, {"limit", is_limit},
+            {"unit", m.unit}, {"runs", m.count},        {"missing", m.missing}};
+  if (!m.words.empty()) json["words"] = m.words;
+  if (m.count == 0) return json;
+  json["mean"] = m.mean;
+  json["deviation"] = m.deviation;
+  for (std::size_t i = 0; i < campaign::percents.size(); ++i)
+    json["percentiles"][std::to_string(campaign::percents[i])] = m.percentiles[i];
+  if (m.min) json["min"] = to_json(*m.min, outcome);
+  if (m.max) json["max"] = to_json(*m.max, outcome);
+  if (m.worst) json["worst"] = to_json(*m.worst, outcome);
+  return json;
+}
+
+std::string shrunk_text(const CampaignOutcome& outcome) {
+  const campaign::Shrunk& shrunk = *outcome.shrunk;
+  return fmt::format("  run {} {}: {}\n    {}\n", shrunk.start.index,
+                     shrunk.at_the_middle ? "is no worse than one in the middle of all ranges"
+                                          : fmt::format("in its mildest form, after {} runs more", shrunk.tried),
+                     printable(shrunk.result.why), printable(outcome.repeat_shrunk));
+}
+
+Json shrunk_json(const CampaignOutcome& outcome) {
+  const campaign::Shrunk& shrunk = *outcome.shrunk;
+  return {{"run", shrunk.start.index},
+          {"outcome", campaign::word_of(shrunk.result.outcome)},
+          {"why", shrunk.result.why},
+          {"set", shrunk.start.set},
+          {"seed", shrunk.start.seed},
+          {"tried", shrunk.tried},
+          {"at_the_middle", shrunk.at_the_middle},
+          {"command", outcome.repeat_shrunk}};
+}
+
+}  // namespace
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::ceil(std::min(seconds, 1e9)));
+  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+std::string to_text(const CampaignOutcome& outcome) {
+  const Summary& summary = outcome.summary;
+  std::string text = fmt::format("{}: {} of {} runs, {}", printable(outcome.graph), summary.runs, outcome.draws.runs(),
+                                 outcomes_text(summary));
+  if (outcome.ran > 0) text += fmt::format("; {} of them in {:.1f} s", outcome.ran, outcome.seconds);
+  text += "\n" + table_of(summary);
+  for (const MetricSummary& m : summary.metrics)
+    for (const auto& [word, one] : cases_of(m))
+      text += fmt::format("  {} {}: {} in run {}\n    {}\n", word, m.name, number_text(one.value, m.unit), one.index,
+                          printable(outcome.repeat(one.index)));
+  for (const campaign::Result& result : summary.not_good)
+    text += fmt::format("  run {} is {}: {}\n    {}\n", result.index, campaign::word_of(result.outcome),
+                        printable(result.why), printable(outcome.repeat(result.index)));
+  if (const std::uint64_t not_good = summary.runs - summary.good(); not_good > summary.not_good.size())
+    text += fmt::format("  and {} more runs that are not good, see {}\n", not_good - summary.not_good.size(),
+                        printable(outcome.results));
+  if (outcome.shrunk != nullptr) text += shrunk_text(outcome);
+  return text + "  results     " + printable(outcome.results) + "\n";
+}
+
+Json to_json(const CampaignOutcome& outcome) {
+  const Summary& summary = outcome.summary;
+  Json outcomes, metrics = Json::array(), not_good = Json::array();
+  for (std::size_t i = 0; i < summary.outcomes.size(); ++i)
+    outcomes[campaign::word_of(static_cast<Outcome>(i))] = summary.outcomes[i];
+  const campaign::Measures& measures = outcome.campaign.measures;
+  for (std::size_t i = 0; i < summary.metrics.size(); ++i)
+    metrics.push_back(to_json(summary.metrics[i], measures.conditions[i], measures.metrics[i].is_limit, outcome));
+  for (const campaign::Result& result : summary.not_good)
+    not_good.push_back({{"run", result.index},
+                        {"outcome", campaign::word_of(result.outcome)},
+                        {"why", result.why},
+                        {"command", outcome.repeat(result.index)}});
+  Json json{{"schema", "jarol.campaign/2"}, {"graph", outcome.graph},
+            {"runs", outcome.draws.runs()}, {"done", summary.runs},
+            {"ran", outcome.ran},           {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
+            {"outcomes", outcomes},         {"metrics", metrics},
+            {"not_good", not_good},         {"results", outcome.results}};
+  if (outcome.shrunk != nullptr) json["shrunk"] = shrunk_json(outcome);
+  return json;
+}
+
+}  // namespace jarol::tools

@@ -1,0 +1,287 @@
+#include "tools/commands/check/check_report.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "graph/analysis/policies.h"
+#include "graph/analysis/system.h"
+#include "graph/model/deadlines.h"
+#include "graph/text/escape.h"
+#include "tools/commands/check/check_words.h"
+#include "tools/commands/check/gantt.h"
+
+namespace jarol::tools {
+namespace {
+
+using analysis::Verdict;
+
+// To the microsecond, unless that would leave something out.
+std::string milliseconds(std::int64_t ns) {
+  const double ms = static_cast<double>(ns) * 1e-6;
+  if (ns % 1000 == 0) return fmt::format("{:.3f} ms", ms);
+  if (std::abs(ns) < 1000) return fmt::format("{} ns", ns);
+  return std::abs(ns) < 1'000'000 ? fmt::format("{:.3f} us", ms * 1e3) : fmt::format("{:.6f} ms", ms);
+}
+std::string duration(std::int64_t ns) { return duration_text(Duration(ns)); }
+
+std::string platform_text(const Platform& platform) {
+  const std::string cores = platform.cores == 1 ? "one core" : std::to_string(platform.cores) + " cores";
+  return cores + " (" + std::string(analysis::policy_of(platform).name) + ")";
+}
+
+// Where no run shows the miss, as offsets and jitter may be worse: the task that exceeds its deadline by most.
+std::string worst_response(const CheckReport& r) {
+  std::optional<std::size_t> worst;
+  std::int64_t over = 0;
+  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
+    if (!r.result.response[i]) continue;
+    const std::int64_t late = *r.result.response[i] - r.graph->tasks[i].deadline.count();
+    if (late <= over) continue;
+    over = late;
+    worst = i;
+  }
+  if (!worst) return "";
+  const Task& t = r.graph->tasks[*worst];
+  return fmt::format(" core {}: task '{}' responds within {} at {}, deadline {} (late {}{})",
+                     r.result.core[*worst].value_or(0), t.name, milliseconds(*r.result.response[*worst]),
+                     r.result.exact[*worst] ? "worst" : "max", milliseconds(t.deadline.count()),
+                     r.result.exact[*worst] ? "" : "by at most ", milliseconds(over));
+}
+
+// Schedulable or not, a chain may be too slow: that stands in the first line too.
+std::string broken_limits(const CheckReport& r) {
+  std::string names;
+  for (const ReportedChain& c : r.chains)
+    if (!holds(c)) names += (names.empty() ? "'" : ", '") + c.chain.name + "'";
+  return names.empty() ? "" : ", BUT A LIMIT IS BROKEN by chain " + names;
+}
+
+// The plainest reason of all: of all cores, or of one for the tasks that state it.
+std::string overload_text(const Graph& graph) {
+  const analysis::System system = analysis::system_of(graph);
+  analysis::TaskModels models = system.models;
+  std::string of = system.cores == 1 ? "one core" : fmt::format("{} cores", system.cores);
+  if (compare_utilisation(models, system.cores) != std::strong_ordering::greater) {
+    const auto core = analysis::overfull_core(system);
+    if (!core) return "";
+    of = fmt::format("core {}", *core);
+    models.clear();
+    for (std::size_t i = 0; i < system.models.size(); ++i)
+      if (system.core[i] == static_cast<std::int64_t>(*core)) models.push_back(system.models[i]);
+  }
+  return fmt::format(" utilisation {:.2f}% of {}: there is more to do than time", 100 * analysis::utilisation(models),
+                     of);
+}
+
+std::string headline(const CheckReport& r) {
+  switch (r.result.verdict) {
+    case Verdict::schedulable:
+      return fmt::format("{}: SCHEDULABLE on {}, {}{}: {}\n", printable(r.file), platform_text(r.graph->platform),
+                         word_of(r.result.evidence), broken_limits(r), r.result.reason);
+    case Verdict::unknown:
+      return fmt::format("{}: UNKNOWN on {}{}: {}\n", printable(r.file), platform_text(r.graph->platform),
+                         broken_limits(r), r.result.reason);
+    case Verdict::not_schedulable: break;
+  }
+  std::string text = printable(r.file) + ": NOT SCHEDULABLE";
+  if (const std::string overload = overload_text(*r.graph); !overload.empty())
+    text += overload + (r.result.late || !worst_response(r).empty() ? ";" : "");
+  if (r.result.late) {
+    const analysis::DeadlineMiss& m = *r.result.late;
+    // under a global policy it is no single core's
+    if (r.result.core_at_fault || analysis::policy_of(r.graph->platform).keeps_core)
+      text += fmt::format(" core {}:", r.result.core_at_fault.value_or(0));
+    text += fmt::format(" task '{}' activation {} (released {}) finishes {}, deadline {} (late {})",
+                        r.graph->tasks[m.task].name, m.activation, milliseconds(m.release), milliseconds(m.finish),
+                        milliseconds(m.deadline), milliseconds(m.finish - m.deadline));
+  }
+  if (!r.result.late) text += worst_response(r);
+  return text + "\n  " + word_of(r.result.evidence) + ": " + r.result.reason + " on " +
+         platform_text(r.graph->platform) + "\n";
+}
+
+// The verdict is of stated times; where a measurement breaks one of them, that comes first.
+std::string measured_headline(const CheckReport& r) {
+  const Task* const task = longer_than_stated(r);
+  if (task == nullptr) return "";
+  const Duration max = r.measured->tasks[static_cast<std::size_t>(task - r.graph->tasks.data())].max;
+  return fmt::format("{}: A WCET DOES NOT HOLD HERE: task '{}' took {}, its 'wcet' is {}; with the times as stated:\n",
+                     printable(r.file), task->name, duration_text(max), duration_text(*task->wcet));
+}
+
+// Who ran how long while the late activation waited and ran.
+std::string shares_text(const CheckReport& r) {
+  if (!r.result.late) return "";
+  const analysis::DeadlineMiss& late = *r.result.late;
+  std::vector<std::int64_t> ran(r.graph->tasks.size(), 0);
+  for (const analysis::Slice& s : r.result.slices)
+    if (s.end > late.release) ran[s.task] += s.end - std::max(s.begin, late.release);
+  std::string parts;
+  for (std::size_t i = 0; i < ran.size(); ++i)
+    if (ran[i] > 0)
+      parts += fmt::format("{}{} {}", parts.empty() ? "" : " + ", r.graph->tasks[i].name, duration(ran[i]));
+  // where the test that finds it late draws no time line
+  if (parts.empty()) return fmt::format("  from release to end {}\n", duration(late.finish - late.release));
+  return fmt::format("  from release to end {}: {}\n", duration(late.finish - late.release), parts);
+}
+
+// Who needs how much in the interval that is too short.
+std::string demand_text(const CheckReport& r) {
+  if (!r.result.demand) return shares_text(r);
+  const analysis::Demand& d = *r.result.demand;
+  std::string text = fmt::format("  in an interval of {} work of {} is due", duration(d.length), duration(d.demand));
+  if (d.blocking > 0) text += fmt::format(", and {} can hold it up", duration(d.blocking));
+  std::string parts;
+  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
+    const Task& t = r.graph->tasks[i];
+    if (!t.wcet || (r.result.core_at_fault && r.result.core[i] && *r.result.core[i] != *r.result.core_at_fault))
+      continue;
+    const std::int64_t reach = d.length + t.jitter.count() - t.deadline.count();
+    if (reach < 0) continue;
+    parts += fmt::format("{}{} {}x{}", parts.empty() ? "" : " + ", t.name, reach / t.period.count() + 1,
+                         duration_text(*t.wcet));
+  }
+  return text + ": " + parts + "\n";
+}
+
+std::string task_table(const CheckReport& r) {
+  std::size_t width = 4;
+  for (const Task& t : r.graph->tasks) width = std::max(width, t.name.size());
+  const bool cores = r.graph->platform.cores > 1;
+  std::string text =
+      fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>6}  {:>9}  {:>9}{}\n", "task", width, "period", "offset",
+                  "deadline", "wcet", "use", "response", "slack", cores ? "  core" : "");
+  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
+    const Task& t = r.graph->tasks[i];
+    const std::string use = t.wcet ? fmt::format("{:.2f}%", 100.0 * static_cast<double>(t.wcet->count()) /
+                                                                static_cast<double>(t.period.count()))
+                                   : "-";
+    const auto& response = r.result.response[i];
+    const bool exact = r.result.exact[i];
+    text +=
+        fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>6}  {:>9}  {:>9}", t.name, width, duration_text(t.period),
+                    duration_text(t.offset), duration_text(t.deadline), t.wcet ? duration_text(*t.wcet) : "-", use,
+                    response ? (exact ? "" : "<=") + duration(*response) : "-",
+                    response ? (exact ? "" : ">=") + duration(t.deadline.count() - *response) : "-");
+    if (cores) text += r.result.core[i] ? fmt::format("  {:>4}", *r.result.core[i]) : "     -";
+    text += "\n";
+  }
+  return text;
+}
+
+// What the column 'response' has.
+std::string response_line(const CheckReport& r) {
+  bool bounds = false;
+  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i)
+    bounds = bounds || (r.result.response[i] && !r.result.exact[i]);
+  return fmt::format("  utilisation {:.2f}%; a task's response is its longest time from arrival to end{};\n",
+                     100 * r.result.utilisation,
+                     bounds ? "; after '<=' it is no longer than that, and may be shorter" : "");
+}
+
+std::string core_lines(const CheckReport& r) {
+  std::string text;
+  // where no task belongs to a core they only have a sum
+  if (std::none_of(r.result.core.begin(), r.result.core.end(), [](const auto& core) { return core.has_value(); })) {
+    const auto all = static_cast<double>(r.graph->platform.cores);
+    return all > 1
+               ? fmt::format("  all {} cores: utilisation {:.2f}% of {}%\n", all, 100 * r.result.utilisation, 100 * all)
+               : "";
+  }
+  for (std::size_t c = 0; r.graph->platform.cores > 1 && c < static_cast<std::size_t>(r.graph->platform.cores); ++c) {
+    double use = 0;
+    for (std::size_t i = 0; i < r.graph->tasks.size(); ++i)
+      if (r.result.core[i] == c && r.graph->tasks[i].wcet)
+        use += static_cast<double>(r.graph->tasks[i].wcet->count()) /
+               static_cast<double>(r.graph->tasks[i].period.count());
+    text += fmt::format("  core {}: utilisation {:.2f}%, idle {:.2f}%\n", c, 100 * use, 100 * (1 - use));
+  }
+  return text;
+}
+
+// Where an `out` reads at the very instant at which its data-flow producer runs.
+std::string late_outs(const Graph& graph) {
+  std::string text;
+  for (const Connection& c : graph.connections) {
+    if (c.from.kind != End::Kind::task || c.to.kind != End::Kind::communicator) continue;
+    const Task& producer = graph.tasks[c.from.index];
+    const Communicator& out = graph.communicators[c.to.index];
+    if (producer.let || min_distance(producer.period, producer.offset, out.period, out.offset) !=
+                            min_distance(producer.period, Duration{}, out.period, Duration{}))
+      continue;
+    text += fmt::format(
+        "  note: '{}' reads at the very instant at which '{}' runs, and so one period late; give it an 'offset'\n",
+        out.name, producer.name);
+  }
+  return text;
+}
+
+// The phase that a loop through the chain loses at its crossover: the delay from read to output, and half a period that
+// the output is held (Franklin, Powell, Workman 1998).
+std::string control_view(const Graph& graph, const ReportedChain& c) {
+  const End& last = c.chain.path.back();
+  const std::int64_t period = last.kind == End::Kind::task ? graph.tasks[last.index].period.count()
+                                                           : graph.communicators[last.index].period.count();
+  const double delay = static_cast<double>(c.latency.max_reduced) * 1e-9, held = 0.5e-9 * static_cast<double>(period);
+  return fmt::format("    at {:.4g} rad/s: delay {}, jitter {}, held for {}: {:.1f} deg of phase lost\n",
+                     *c.chain.crossover, duration(c.latency.max_reduced), duration(c.latency.jitter), duration(period),
+                     *c.chain.crossover * (delay + held) * 180 / 3.14159265358979323846);
+}
+
+std::string chain_lines(const CheckReport& r) {
+  std::string text;
+  for (const ReportedChain& c : r.chains) {
+    const analysis::ChainLatency& m = c.latency;
+    text += fmt::format("  chain {}: reaction {} to {}, data age at most {}, jitter {}{}\n", c.chain.name,
+                        m.exact ? duration(m.min_reaction) : "-", duration(m.max_reaction), duration(m.max_age),
+                        duration(m.jitter), m.exact ? "" : " (upper bounds)");
+    if (m.exact) {
+      std::string hops;
+      for (std::size_t i = 0; i < c.chain.path.size(); ++i) {
+        const End& end = c.chain.path[i];
+        hops += fmt::format(
+            "{}{} {}", i == 0 ? "" : ", ",
+            end.kind == End::Kind::task ? r.graph->tasks[end.index].name : r.graph->communicators[end.index].name,
+            duration(m.at[i + 1] - m.at[i]));
+      }
+      text += fmt::format("    slowest way from {}: {}\n", duration(m.at.front()), hops);
+    }
+    if (c.chain.crossover) text += control_view(*r.graph, c);
+    for (const std::string& broken : analysis::broken_limits(c.chain, m)) text += "    LIMIT BROKEN: " + broken + "\n";
+  }
+  return text;
+}
+
+std::string sensitivity_lines(const CheckReport& r) {
+  std::string text;
+  if (r.sensitivity && r.sensitivity->alpha) {
+    text += fmt::format("  all WCETs together may be {:.6g} times as long", *r.sensitivity->alpha);
+    if (r.sensitivity->binding) {
+      const std::size_t i = *r.sensitivity->binding;
+      text += fmt::format("; alone, '{}' has least room: up to {}", r.graph->tasks[i].name,
+                          duration(*r.sensitivity->max_wcet[i]));
+    }
+    text += "\n";
+  }
+  for (std::size_t i = 0; i < r.remedies.size(); ++i)
+    text += fmt::format("  {} {}\n", i == 0 ? "it would hold with" : "                or", r.remedies[i].text);
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const CheckReport& r) {
+  std::string text = measured_headline(r) + headline(r) + demand_text(r) + gantt_text(*r.graph, r.result) +
+                     task_table(r) + core_lines(r) + response_line(r);
+  text += "  assumed: " + assumption(r.graph->platform) + "\n" + sensitivity_lines(r) + chain_lines(r) +
+          late_outs(*r.graph);
+  if (r.result.verdict == Verdict::unknown &&
+      std::any_of(r.graph->tasks.begin(), r.graph->tasks.end(), [](const Task& t) { return !t.wcet; }))
+    text +=
+        "  'check --measure' tells how long they take here, 'check --write' writes that into the file with a margin\n";
+  return text;
+}
+
+}  // namespace jarol::tools

@@ -1,0 +1,48 @@
+#include "tools/commands/check/check_words.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "graph/analysis/policies.h"
+
+namespace jarol::tools {
+
+bool holds(const ReportedChain& c) { return analysis::broken_limits(c.chain, c.latency).empty(); }
+
+const Task* longer_than_stated(const CheckReport& r) {
+  if (!r.measured) return nullptr;
+  const Task* worst = nullptr;
+  Duration max_over{};
+  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
+    const Task& task = r.graph->tasks[i];
+    const Duration over = task.wcet ? r.measured->tasks[i].max - *task.wcet : Duration{};
+    if (over <= max_over) continue;
+    max_over = over;
+    worst = &task;
+  }
+  return worst;
+}
+
+bool chains_hold(const CheckReport& report) { return std::all_of(report.chains.begin(), report.chains.end(), holds); }
+
+std::string assumption(const Platform& platform) {
+  const Policy& policy = analysis::policy_of(platform);
+  const std::string how = std::string(policy.how) + (policy.executed ? "" : "; 'run' does not execute this");
+  std::string overhead = ", without overhead";
+  if (platform.dispatch > Duration{} || platform.copy > Duration{})
+    overhead = ", with " + duration_text(platform.dispatch) + " for each activation and " +
+               duration_text(platform.copy) + " for each byte handed on";
+  return how + overhead + (platform.phasing == Phasing::any ? "; whatever the offsets" : "");
+}
+
+std::string word_of(analysis::Evidence evidence) {
+  switch (evidence) {
+    case analysis::Evidence::none: return "none";
+    case analysis::Evidence::proof: return "proof";
+    case analysis::Evidence::safe: return "safe";
+    case analysis::Evidence::by_run: return "by a run";
+  }
+  return "";
+}
+
+}  // namespace jarol::tools

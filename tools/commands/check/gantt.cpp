@@ -1,0 +1,175 @@
+#include "tools/commands/check/gantt.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "graph/analysis/time_line.h"
+#include "graph/language/quantities.h"
+#include "graph/text/escape.h"
+
+namespace jarol::tools {
+
+namespace {
+
+// The window that explains the late activation: from what held it up to its end.
+struct Window {
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+  std::vector<std::size_t> tasks;  // that ran in it
+};
+
+Window window_of(const analysis::Result& result) {
+  const analysis::DeadlineMiss& late = *result.late;
+  Window window{late.release, late.finish, {}};
+  for (const analysis::Slice& s : result.slices)
+    if (s.end > late.release && s.begin < late.finish) window.begin = std::min(window.begin, s.begin);
+  for (const analysis::Slice& s : result.slices)
+    if (s.end > window.begin && std::find(window.tasks.begin(), window.tasks.end(), s.task) == window.tasks.end())
+      window.tasks.push_back(s.task);
+  std::sort(window.tasks.begin(), window.tasks.end());
+  return window;
+}
+
+}  // namespace
+
+std::string gantt_text(const Graph& graph, const analysis::Result& result, std::size_t width) {
+  if (!result.late || result.slices.empty()) return "";
+  const analysis::DeadlineMiss& late = *result.late;
+  const auto [begin, end, tasks] = window_of(result);
+  const std::int64_t first = begin, span = std::max<std::int64_t>(1, end - begin);
+  const auto column = [&](std::int64_t t) {
+    const auto at = static_cast<double>(t - first) / static_cast<double>(span) * static_cast<double>(width);
+    return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(width) - 1));
+  };
+  std::size_t name_width = 0;
+  for (const std::size_t t : tasks) name_width = std::max(name_width, graph.tasks[t].name.size());
+  std::string text;
+  for (const std::size_t t : tasks) {
+    std::string line(width, '.');
+    for (const analysis::Slice& s : result.slices) {
+      if (s.task != t || s.end <= begin) continue;
+      for (std::size_t c = column(s.begin); c <= column(std::max(s.begin, s.end - 1)); ++c) line[c] = '#';
+    }
+    if (t == late.task) {
+      for (std::size_t c = column(late.deadline); c < width; ++c)
+        if (line[c] == '#') line[c] = '!';
+      line[column(late.deadline)] = '|';
+      if (line[column(late.release)] == '.') line[column(late.release)] = '^';
+    }
+    text += fmt::format("    {:<{}} {}\n", graph.tasks[t].name, name_width, line);
+  }
+  const std::string from = duration_text(Duration(begin)), to = duration_text(Duration(end));
+  text += fmt::format("    {:<{}} {}{:>{}}\n", "", name_width, from, to, width > from.size() ? width - from.size() : 0);
+  return text;
+}
+
+namespace {
+
+// A picture with a row for each task, over the time of a window.
+class Chart {
+ public:
+  Chart(const Graph& graph, const Window& window, const std::string& title)
+      : graph_(graph), window_(window), height_(top + row * static_cast<double>(window.tasks.size()) + below) {
+    text_ = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" "
+        "font-size=\"13\">\n<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"white\"/>\n"
+        "<text x=\"{2:.0f}\" y=\"24\">{3}</text>\n",
+        left + width + 20, height_, left, xml_text(title));
+    for (std::size_t i = 0; i < window.tasks.size(); ++i)
+      text_ += fmt::format("<text x=\"{:.0f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n", left - 8, y(i) + 18,
+                           xml_text(graph_.tasks[window.tasks[i]].name));
+  }
+
+  double bottom() const { return height_ - below; }
+
+  void box(std::size_t at, std::int64_t begin, std::int64_t end, const char* colour) {
+    if (end > begin)
+      text_ += fmt::format("<rect x=\"{:.2f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"{}\" fill=\"{}\"/>\n", x(begin),
+                           y(at) + 4, std::max(0.5, x(end) - x(begin)), bar, colour);
+  }
+
+  // across all rows, with a word below
+  void mark(std::int64_t at, const std::string& what, const char* colour) {
+    line(x(at), top, bottom(), colour);
+    text_ +=
+        fmt::format("<text x=\"{:.2f}\" y=\"{:.0f}\" text-anchor=\"middle\">{}</text>\n", x(at), bottom() + 16, what);
+  }
+
+  // within one row
+  void tick(std::size_t at, std::int64_t instant, const char* colour) {
+    line(x(instant), y(at) + 1, y(at) + bar + 7, colour);
+  }
+
+  std::string text() const { return text_ + "</svg>\n"; }
+
+ private:
+  double x(std::int64_t t) const {
+    const double span = static_cast<double>(std::max<std::int64_t>(1, window_.end - window_.begin));
+    return left + width * static_cast<double>(t - window_.begin) / span;
+  }
+  static double y(std::size_t at) { return top + row * static_cast<double>(at); }
+  void line(double at, double from, double to, const char* colour) {
+    text_ += fmt::format("<line x1=\"{0:.2f}\" y1=\"{1:.0f}\" x2=\"{0:.2f}\" y2=\"{2:.0f}\" stroke=\"{3}\"/>\n", at,
+                         from, to, colour);
+  }
+
+  static constexpr double left = 120, width = 760, row = 28, top = 50, below = 40, bar = 20;
+
+  const Graph& graph_;
+  const Window& window_;
+  double height_;
+  std::string text_;
+};
+
+constexpr const char *on_time = "#4477aa", *too_late = "#cc3311", *release = "#228833";
+
+std::string late_svg(const Graph& graph, const analysis::Result& result) {
+  const analysis::DeadlineMiss& late = *result.late;
+  const Window window = window_of(result);
+  Chart chart(graph, window,
+              fmt::format("{}: activation {} of {} is {} late", graph.name, late.activation,
+                          graph.tasks[late.task].name, duration_text(Duration(late.finish - late.deadline))));
+  for (std::size_t i = 0; i < window.tasks.size(); ++i) {
+    for (const analysis::Slice& s : result.slices) {
+      if (s.task != window.tasks[i] || s.end <= window.begin) continue;
+      const std::int64_t cut = s.task == late.task ? std::clamp(late.deadline, s.begin, s.end) : s.end;
+      chart.box(i, std::max(s.begin, window.begin), cut, on_time);
+      chart.box(i, cut, s.end, too_late);
+    }
+  }
+  chart.mark(late.release, "released " + duration_text(Duration(late.release)), release);
+  chart.mark(late.deadline, "deadline " + duration_text(Duration(late.deadline)), too_late);
+  return chart.text();
+}
+
+// Who runs when, with a green tick at each release and a red one at each deadline.
+std::string time_line_svg(const Graph& graph, const analysis::Result& result) {
+  const analysis::TimeLine line = analysis::time_line_of(analysis::system_of(graph), result);
+  Window window{0, line.until, {}};
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) window.tasks.push_back(i);
+  Chart chart(
+      graph, window,
+      fmt::format("{}: the first {}, each task as long as its wcet", graph.name, duration_text(Duration(line.until))));
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    const Task& task = graph.tasks[i];
+    for (const analysis::Slice& s : line.slices)
+      if (s.task == i) chart.box(i, s.begin, s.end, on_time);
+    for (std::int64_t at = task.offset.count(); at < line.until; at += task.period.count()) {
+      chart.tick(i, at, release);
+      if (at + task.deadline.count() <= line.until) chart.tick(i, at + task.deadline.count(), too_late);
+    }
+  }
+  chart.mark(0, "0s", "#9aa5b1");
+  chart.mark(line.until, duration_text(Duration(line.until)), "#9aa5b1");
+  return chart.text();
+}
+
+}  // namespace
+
+std::string gantt_svg(const Graph& graph, const analysis::Result& result) {
+  const bool stated = std::all_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return t.wcet; });
+  if (!stated || graph.tasks.empty()) return "";
+  return result.late ? late_svg(graph, result) : time_line_svg(graph, result);
+}
+
+}  // namespace jarol::tools

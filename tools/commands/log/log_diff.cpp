@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "graph/text/escape.h"
+#include "runtime/record/differences.h"
+#include "runtime/record/instants.h"
+#include "tools/commands/log/log_commands.h"
+#include "tools/report/differences_report.h"
+#include "tools/report/exit_code.h"
+#include "tools/report/json_line.h"
+
+namespace jarol::tools {
+namespace {
+
+// Topics of both with one schema; what only one has, or has otherwise, is a difference.
+struct Common {
+  std::vector<bool> a = std::vector<bool>(65536), b = std::vector<bool>(65536);
+  std::map<std::string, MessageLayout> layouts;
+  std::vector<std::string> apart;  // sentences
+};
+
+bool is_compared(const ReadTopic& topic) { return !topic.is_own() || topic.channel.topic.starts_with(topics::taken); }
+
+Common common_of(const Recording& a, const Recording& b) {
+  Common common;
+  for (const auto& [id, topic] : a.topics()) {
+    if (!is_compared(topic)) continue;
+    const ReadTopic* const other = b.find(topic.channel.topic);
+    if (other == nullptr) {
+      common.apart.push_back("'" + topic.channel.topic + "' is only in A");
+    } else if (other->schema != topic.schema) {
+      common.apart.push_back("'" + topic.channel.topic + "' has another type in B");
+    } else {
+      common.a[id] = common.b[other->channel.id] = true;
+      common.layouts.emplace(topic.channel.topic, MessageLayout(topic));
+    }
+  }
+  for (const auto& [id, topic] : b.topics())
+    if (is_compared(topic) && a.find(topic.channel.topic) == nullptr)
+      common.apart.push_back("'" + topic.channel.topic + "' is only in B");
+  return common;
+}
+
+// Which of them are not whole, and where they end.
+std::map<std::string, std::string> breaks_of(const Recording& a, const Recording& b) {
+  std::map<std::string, std::string> breaks;
+  if (!a.is_whole()) breaks.emplace("A", a.text_of_break());
+  if (!b.is_whole()) breaks.emplace("B", b.text_of_break());
+  return breaks;
+}
+
+// Goes through two instants that are one, by name.
+void compare_instant(Duration instant, const std::vector<RecordedInstants::Message>& was,
+                     const std::vector<RecordedInstants::Message>& is, const Common& common, Differences& differences) {
+  auto w = was.begin();
+  auto i = is.begin();
+  while (w != was.end() || i != is.end()) {
+    const int order = w == was.end()  ? 1
+                      : i == is.end() ? -1
+                                      : w->topic->channel.topic.compare(i->topic->channel.topic);
+    const std::string& name = (order <= 0 ? w : i)->topic->channel.topic;
+    std::string_view before, now;
+    if (order <= 0) before = w->data;
+    if (order >= 0) now = i->data;
+    differences.compare(instant, name, common.layouts.at(name), order <= 0 ? &before : nullptr,
+                        order >= 0 ? &now : nullptr);
+    if (order <= 0) ++w;
+    if (order >= 0) ++i;
+  }
+}
+
+}  // namespace
+
+int log_diff(const LogOptions& options) {
+  const Recording a(options.file), b(options.other);
+  const Common common = common_of(a, b);
+  Differences differences;
+  RecordedInstants was(a, common.a, options.from), is(b, common.b, options.from);
+  const std::vector<RecordedInstants::Message> none;
+  bool more_was = was.next(), more_is = is.next();
+  while (more_was || more_is) {
+    const Duration instant = !more_was  ? is.instant()
+                             : !more_is ? was.instant()
+                                        : std::min(was.instant(), is.instant());
+    if (instant >= options.until) break;
+    const bool in_was = more_was && was.instant() == instant, in_is = more_is && is.instant() == instant;
+    compare_instant(instant, in_was ? was.messages() : none, in_is ? is.messages() : none, common, differences);
+    if (in_was) more_was = was.next();
+    if (in_is) more_is = is.next();
+  }
+  const bool same = !differences.first() && common.apart.empty();
+  if (options.json) {
+    auto json = json_of(differences);
+    json["schema"] = "jarol.log_diff/1";
+    json["verdict"] = same ? "same" : "different";
+    json["apart"] = common.apart;
+    json["breaks_off"] = nlohmann::ordered_json::object();
+    for (const auto& [name, where] : breaks_of(a, b)) json["breaks_off"][name] = where;
+    std::cout << json_line(json);
+  } else {
+    if (same) std::cout << fmt::format("the same, {} values\n", differences.compared());
+    if (!same) std::cout << fmt::format("DIFFERENT, {} values compared\n", differences.compared());
+    std::cout << text_of(differences);
+    for (const std::string& text : common.apart) std::cout << "  apart       " << printable(text) << "\n";
+    for (const auto& [name, where] : breaks_of(a, b))
+      std::cout << fmt::format("  breaks off  {} {}; what it lacks after that counts as different\n", name,
+                               printable(where));
+  }
+  return same ? exit_good : exit_negative;
+}
+
+}  // namespace jarol::tools

@@ -1,0 +1,52 @@
+#include "tools/commands/log/recorded_graph.h"
+
+#include <span>
+
+#include "graph/language/source_set.h"
+#include "graph/values/type_of.h"
+#include "runtime/record/cdr.h"
+#include "runtime/record/instants.h"
+#include "tools/commands/run/load_graph.h"
+#include "tools/commands/run/replay_start.h"
+
+namespace jarol::tools {
+
+Loaded load_recorded_graph(const Recording& recording, const std::string& file, const std::string& command,
+                           bool with_truth) {
+  Overrides overrides = recording.header().overrides;
+  const RecordingHeader* const recorded = with_truth ? &recording.header() : nullptr;
+  if (!file.empty()) return load_without_channels(file, overrides, recorded);
+  overrides.no_plugins =
+      "the recording names this graph, and a recording names no code; name it yourself: " + command + " FILE GRAPH";
+  SourceSet sources;
+  give_recorded(recording, overrides, command + " FILE GRAPH", sources);
+  return load_without_channels(recording.header().file, overrides, recorded);
+}
+
+RecordedEvents read_events(const Recording& recording) {
+  RecordedEvents read;
+  const ReadTopic* const topic = recording.find(topics::events);
+  if (topic == nullptr) return read;
+  for (MessageCursor cursor(recording, *topic); cursor.message() != nullptr; cursor.next()) {
+    if (read.events.size() == RecordedEvents::max) {
+      ++read.more;
+      continue;
+    }
+    RecordedEvent event;
+    const std::string_view data = cursor.message()->data;
+    if (const std::string wrong = decode_cdr(type_of<RecordedEvent>(),
+                                             {reinterpret_cast<const std::byte*>(data.data()), data.size()}, &event);
+        !wrong.empty())
+      throw LogError("'" + recording.path() + "' has an event that " + wrong +
+                     "; it is no recording that jarol run has written");
+    read.events.push_back({Duration(cursor.message()->time), event.kind, event.activation,
+                           std::string(event.task.view()), std::string(event.cause.view())});
+  }
+  return read;
+}
+
+std::int64_t releases_before(const Task& task, Duration end) {
+  return end <= task.offset ? 0 : (end - task.offset - Duration(1)) / task.period + 1;
+}
+
+}  // namespace jarol::tools

@@ -1,0 +1,22 @@
+// What the replay of a recording adds to its report: whether it comes out the same, what the graph expects, and how
+// long its tasks take.
+#pragma once
+
+#include "distributers/session/load.h"
+#include "distributers/session/replay.h"
+#include "distributers/session/verdict.h"
+#include "tools/commands/check/measure.h"
+
+namespace jarol::tools {
+
+struct ReportReplay {
+  Evidence evidence = Evidence::unknown;
+  std::uint64_t compared = 0;  // values
+  RunVerdict verdict{};
+  std::vector<MeasuredTask> measured{};  // of a second replay; empty: it had no activation, or the clock is too coarse
+};
+
+/// Runs all that the recording covers, twice, without its vehicles. Throws LogError where it is of another graph.
+ReportReplay replay_for_report(RecordedRun& run, Loaded loaded);
+
+}  // namespace jarol::tools

@@ -1,0 +1,24 @@
+#include "tools/commands/run/at_console.h"
+
+#include <stdexcept>
+
+namespace jarol::tools {
+
+std::vector<console::DeskOperator> operators_at_console(const Loaded& loaded) {
+  std::vector<console::DeskOperator> operators;
+  for (std::size_t i = 0; i < loaded.channels.size(); ++i) {
+    const Distributer& distributer = loaded.graph->distributers[i];
+    if (auto* const channels = dynamic_cast<distributers::ConsoleSystem*>(loaded.channels[i].get()))
+      operators.push_back({distributer.name, distributer.distributer_class->name, channels->port()});
+  }
+  return operators;
+}
+
+void require_console(const RunOptions& options, const Loaded& loaded) {
+  const auto operators = operators_at_console(loaded);
+  if (!operators.empty() && !options.console.wanted())
+    throw std::invalid_argument("distributer '" + operators.front().name +
+                                "' has its operator at the console; run it with --console");
+}
+
+}  // namespace jarol::tools

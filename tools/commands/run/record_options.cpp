@@ -1,0 +1,107 @@
+#include "tools/commands/run/record_options.h"
+
+#include <gnu/libc-version.h>
+#include <sys/utsname.h>
+
+#include <iostream>
+#include <stdexcept>
+
+#include "distributers/session/recorded_truth.h"
+#include "graph/language/quantities.h"
+#include "graph/text/escape.h"
+#include "tools/report/command_line.h"
+#include "tools/report/version.h"
+
+namespace jarol::tools {
+namespace {
+
+std::string platform_text() {
+  utsname machine{};
+  if (::uname(&machine) != 0) return "";
+  return std::string(machine.sysname) + " " + machine.release + " " + machine.machine + ", glibc " +
+         gnu_get_libc_version();
+}
+
+mcap::Compression compression_of(const std::string& name) {
+  if (name == "none") return mcap::Compression::none;
+  return name == "zstd" ? mcap::Compression::zstd : mcap::Compression::lz4;
+}
+
+std::uint64_t split_of(const std::string& text) {
+  constexpr std::int64_t min = std::int64_t{1} << 20;
+  if (text.empty()) return 0;
+  std::int64_t bytes = 0;
+  if (const std::string wrong = parse_bytes(text, bytes); !wrong.empty())
+    throw std::invalid_argument("--record-split: '" + text + "' " + wrong);
+  if (bytes < min) throw std::invalid_argument("--record-split: '" + text + "' is below 1MiB");
+  return static_cast<std::uint64_t>(bytes);
+}
+
+}  // namespace
+
+void add_record_options(Command& command, RecordArguments& arguments) {
+  command
+      .add_option("--record", arguments.record,
+                  "Record the run in this MCAP file: every published value, what came from outside and what was late. "
+                  "jarol replay\n"
+                  "repeats it, jarol log looks into it; tools that read MCAP with ROS 2 messages can, too")
+      ->file({"mcap"});
+  command.add_option(
+      "--record-what", arguments.what,
+      "Which values --record takes: all (default), names with * for any part, as in depth.*,from_dune, or "
+      "inputs: none\n"
+      "but what came from outside, all that jarol replay needs");
+  command
+      .add_option("--record-compression", arguments.compression, "Of --record and --log: lz4 (default), zstd or none")
+      ->one_of({"lz4", "zstd", "none"});
+  command.add_option("--record-split", arguments.split,
+                     "Begin a new file at so many bytes, as in 1GiB: FILE.2.mcap after FILE.mcap, and so on; whoever "
+                     "reads the first\n"
+                     "finds the others beside it");
+  command.add_option("--record-checkpoints", arguments.checkpoints,
+                     "Save the run in its recording this often in logical time, as in 10s, so that jarol replay --from "
+                     "need not begin at the start");
+  command.add_option("--log", arguments.log, "The same as --record with --record-what inputs")->file({"mcap"});
+}
+
+void require_effect(const Command& command, const RecordArguments& arguments) {
+  for (const auto& [option, file] : {std::pair("--log", arguments.log), {"--record", arguments.record}})
+    if (file == "-")
+      throw std::invalid_argument(std::string(option) + ": '-' is no file; a recording is read by its name");
+  if (!arguments.log.empty() && !arguments.record.empty())
+    throw std::invalid_argument("--log writes what --record with --record-what inputs does; leave one of both out");
+  if (arguments.record.empty())
+    command.refuse({"--record-what"}, "is about --record; add --record FILE, or leave it out");
+  if (arguments.file().empty())
+    command.refuse({"--record-compression", "--record-split", "--record-checkpoints"},
+                   "is about --record and --log; add one of them, or leave it out");
+}
+
+std::unique_ptr<RecordingWriter> make_recording(const RecordArguments& arguments, RecordingHeader header,
+                                                const SourceSet& sources, const Loaded& loaded) {
+  if (arguments.file().empty()) return nullptr;
+  if (std::erase_if(header.overrides.set, names_plugins) > 0)
+    std::cerr << "note: the recording does not name the plugins of --set; give them again to jarol replay\n";
+  header.what = arguments.record.empty() ? "inputs" : arguments.what;
+  header.split = split_of(arguments.split);
+  header.version = version_text();
+  header.platform = platform_text();
+  std::vector<RecordedFile> files;
+  for (const auto& [path, source] : sources.read()) files.push_back({path, source->text});
+  return std::make_unique<RecordingWriter>(arguments.file(), std::move(header), std::move(files), *loaded.graph,
+                                           compression_of(arguments.compression), types_of_truth(loaded));
+}
+
+std::string to_text(const RecordArguments& arguments) {
+  if (arguments.file().empty()) return "";
+  return (arguments.record.empty() ? "  log         " : "  recording   ") + printable(arguments.file()) + "\n";
+}
+
+std::string text_of_dropped(const RecordArguments& arguments, const RecordingWriter& writer) {
+  if (writer.dropped() == 0) return "";
+  return "note: " + std::to_string(writer.dropped()) +
+         " published values came faster than the disk took them and are not in '" + printable(arguments.file()) +
+         "'; a replay computes them again\n";
+}
+
+}  // namespace jarol::tools
