@@ -46,15 +46,17 @@ Outcome contain(Run&& run, Text&& fault_text) {
     return Outcome::threw;
   };
   try {
-    run();
-    return Outcome::good;
-  } catch (const HeapExhausted& error) {
-    restore_floating_point();
-    keep_text(fault_text(), error.what());
-    return Outcome::heap_exhausted;
-  } catch (const std::exception& error) { return keep_threw(error.what()); } catch (...) {
-    return keep_threw("something that is not a std::exception");
-  }
+    try {
+      run();
+      return Outcome::good;
+    } catch (const HeapExhausted& error) {
+      restore_floating_point();
+      keep_text(fault_text(), error.what());
+      return Outcome::heap_exhausted;
+    } catch (const std::exception& error) { return keep_threw(error.what()); } catch (...) {
+      return keep_threw("something that is not a std::exception");
+    }
+  } catch (...) { return keep_threw("something whose destructor threw"); }
 }
 
 /// Where one task's values lie.

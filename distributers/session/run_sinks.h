@@ -34,6 +34,10 @@ class RunSinks {
     if (expectations_) archive(*expectations_);
     if (measured_) archive(*measured_);
   }
+  /// What is no publication, once the run is over.
+  void show(const RunEvent& event) {
+    if (recorder_) recorder_->append_event(event);
+  }
   /// They have got all. Throws what a sink threw.
   void close();
   /// After `close`, of a run that covered the instants before `end`. `cut_short`: why it ended before what it was meant

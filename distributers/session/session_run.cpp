@@ -194,7 +194,7 @@ RunVerdict Session::Run::finish() {
   finished_ = true;
   over_ = "it was finished";
   this->end();
-  graph_run_->sinks().close();
+  graph_run_->close_sinks();
   RunEnd end;
   end.ending = Ending::over();
   return graph_run_->judge(asked_, end);

@@ -31,6 +31,16 @@ std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const st
   return found;
 }
 
+void show_mishaps_and_close(RunSinks& sinks, const Graph& graph, const std::vector<ExternalSystem*>& channels,
+                            const Report& report) {
+  for (const RunVerdict::VehicleMishap& mishap : find_mishaps(graph, channels))
+    sinks.show({.kind = RunEvent::Kind::mishap,
+                .instant = report.simulated,
+                .cause = mishap.text,
+                .distributer = mishap.distributer});
+  sinks.close();
+}
+
 std::vector<std::string> find_unheard(const Graph& graph, const std::vector<ExternalSystem*>& channels) {
   std::vector<std::string> found;
   for (std::size_t i = 0; i < channels.size(); ++i) {

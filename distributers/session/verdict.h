@@ -30,6 +30,10 @@ struct RunVerdict {
 /// What became of the vehicles that are simulated on these channels, one per distributer of the graph.
 std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& channels);
 
+/// Shows that to those who look on at a run that is over, and closes them. Throws what a sink threw.
+void show_mishaps_and_close(RunSinks& sinks, const Graph& graph, const std::vector<ExternalSystem*>& channels,
+                            const Report& report);
+
 /// The distributers of vehicles from which nothing came over their links, though the graph takes something from them.
 std::vector<std::string> find_unheard(const Graph& graph, const std::vector<ExternalSystem*>& channels);
 

@@ -110,12 +110,20 @@ class Parser {
       metric_.target = in_.read_number(metric_.value.unit);
       if (metric_.reduction == Reduction::settling_time) {
         in_.require("within", "'settling_time'");
-        metric_.band = in_.read_number(metric_.value.unit);
+        metric_.band = read_width(metric_.value.unit);
       }
       if (metric_.reduction != Reduction::overshoot) metric_.unit = "s";
     }
     in_.require(")", "'" + std::string(begin.text) + "'");
     read_window();
+  }
+
+  // Behind `within`.
+  double read_width(const std::string& unit) {
+    const Token token = in_.now();
+    const double width = in_.read_number(unit);
+    if (width < 0) in_.fail(token, "nothing is within less than zero; write how far it may be off");
+    return width;
   }
 
   void read_window() {
@@ -155,7 +163,7 @@ class Parser {
       }
     if (in_.accept("within")) {
       comparison.kind = Comparison::Kind::within;
-      comparison.limit = in_.read_number(metric_.unit);
+      comparison.limit = read_width(metric_.unit);
       in_.require("of", "'within'");
       comparison.of = in_.read_number(metric_.unit);
       return;

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -43,7 +44,10 @@ pid_t trial = 0;
   end_trial("calls std::terminate when it is loaded");
 }
 
-[[noreturn]] void run_trial(const std::string& path) {
+[[noreturn]] void run_trial(const std::string& path, pid_t starter) {
+  // what does not end to load does not outlive a program that was ended meanwhile
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != starter) _exit(0);
   for (const int number : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTERM, SIGINT, SIGALRM}) signal(number, SIG_DFL);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
@@ -87,6 +91,7 @@ bool read_all(int from, std::string& text) {
 std::string try_plugin(const std::string& path) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return std::string("can't be tried: ") + std::strerror(errno);
+  const pid_t starter = getpid();
   const pid_t child = fork();
   if (child < 0) {
     const int why = errno;
@@ -98,7 +103,7 @@ std::string try_plugin(const std::string& path) {
     report_to = ends[1];
     trial = getpid();
     close(ends[0]);
-    run_trial(path);
+    run_trial(path, starter);
   }
   close(ends[1]);
   std::string report;

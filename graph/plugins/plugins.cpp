@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <atomic>
+
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -39,6 +41,8 @@ std::string find_wrong(const std::string& path) {
   return try_plugin(path);
 }
 
+std::atomic<bool> is_any_loaded{false};
+
 struct Judgement {
   std::string wrong;
   bool trusted = false;  // it leaves the floating-point environment as it is
@@ -55,7 +59,10 @@ Judgement judge(const std::string& path) {
 
 }  // namespace
 
+bool are_plugins_loaded() { return is_any_loaded.load(); }
+
 std::string open_plugin(const std::string& path, PluginLibrary& library) {
+  is_any_loaded.store(true);
   void* const loaded = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (loaded == nullptr) {
     const char* const why = dlerror();

@@ -18,6 +18,9 @@ std::string load_plugin(const std::string& path, PluginParts& known, const IsThe
 /// The same of what the registry holds alone.
 std::string load_plugin(const std::string& path, Registry& registry);
 
+/// Has any library been loaded, whatever came of it?
+bool are_plugins_loaded();
+
 /// Where a plugin stands that a graph names: paths are relative to its file.
 std::string plugin_path(const Location& graph, const std::string& plugin);
 

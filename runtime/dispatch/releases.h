@@ -12,17 +12,22 @@ namespace jarol {
 
 class Releases {
  public:
-  explicit Releases(Run& run) : run_(run), cursors_(run.plan.groups.size()), ticks_(run.plan.groups.size()) {
+  explicit Releases(Run& run)
+      : run_(run),
+        one_stage_(std::ranges::all_of(run.plan.segments, [](const Plan::Segment& s) { return s.stage == 0; })),
+        cursors_(run.plan.groups.size()),
+        ticks_(run.plan.groups.size()) {
     in_stage_.reserve(run.plan.groups.size());
   }
 
   /// Calls run_segment(segment, tick) for each segment of the groups that are due.
   template <class RunSegment>
   [[gnu::always_inline]] void each_segment(const Now& now, RunSegment run_segment) {
-    if (now.due.size() == 1) {
-      const Tick tick = begin(now.due[0], now.instant);
-      for (const Plan::Segment& segment : run_.plan.segments_of(run_.plan.groups[now.due[0]]))
-        run_segment(segment, tick);
+    if (one_stage_ || now.due.size() == 1) {
+      for (const std::uint32_t group : now.due) {
+        const Tick tick = begin(group, now.instant);
+        for (const Plan::Segment& segment : run_.plan.segments_of(run_.plan.groups[group])) run_segment(segment, tick);
+      }
       return;
     }
     begin_all(now);
@@ -93,6 +98,7 @@ class Releases {
   }
 
   Run& run_;
+  const bool one_stage_;            // nobody waits for another group
   std::vector<Cursor> cursors_;     // of the groups due now
   std::vector<Tick> ticks_;         // of the groups due now
   std::vector<Released> in_stage_;  // of the stage under way

@@ -86,11 +86,16 @@ Verdict ConditionWatch::judge(Duration end, const std::string& cut_short) const 
   Verdict verdict;
   verdict.condition = condition_.text;
   verdict.why = condition_.not_judged;
-  if (verdict.why.empty() && condition_.metric.window.from >= end)
+  verdict.outcome = Verdict::Outcome::not_judged;
+  if (!verdict.why.empty()) return verdict;
+  if (condition_.metric.window.from >= end) {
     verdict.why =
         "the run ended at " + seconds_text(end) + " s, before " + seconds_text(condition_.metric.window.from) + " s";
-  if (!verdict.why.empty()) {
-    verdict.outcome = Verdict::Outcome::not_judged;
+    // it is never looked at in a run that was as long as it was to be
+    if (cut_short.empty()) {
+      verdict.outcome = Verdict::Outcome::fails;
+      verdict.why = "was never looked at: " + verdict.why;
+    }
     return verdict;
   }
   ConditionWatch whole = *this;

@@ -46,6 +46,7 @@ void RecordedStream::take_event(const RunEvent& event) {
   RecordedEvent recorded{.kind = event.kind, .activation = event.activation};
   if (event.kind == RunEvent::Kind::fault && event.task < task_names_.size())
     recorded.task = String(task_names_[event.task]);
+  if (event.kind == RunEvent::Kind::mishap) recorded.task = String(event.distributer);
   recorded.cause = String(event.cause);
   append_beside(0, event.instant, &recorded);
 }

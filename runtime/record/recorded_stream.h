@@ -74,18 +74,19 @@ class RecordedStream : public RecordSink {
   std::uint64_t dropped_ = 0;
 };
 
-constexpr std::array<Enumerator<RunEvent::Kind>, 3> enumerators(RunEvent::Kind) {
+constexpr std::array<Enumerator<RunEvent::Kind>, 4> enumerators(RunEvent::Kind) {
   return {{{"fault", RunEvent::Kind::fault},
            {"rest_begun", RunEvent::Kind::rest_begun},
-           {"at_rest", RunEvent::Kind::at_rest}}};
+           {"at_rest", RunEvent::Kind::at_rest},
+           {"mishap", RunEvent::Kind::mishap}}};
 }
 
 /// What happens beside publications, as it is recorded.
 struct RecordedEvent {
   RunEvent::Kind kind = RunEvent::Kind::fault;
   std::int64_t activation = 0;  // of a fault
-  String task{};                // of a fault
-  String cause{};               // of a fault, in words
+  String task{};                // of a fault; of a mishap: the distributer whose vehicle it is
+  String cause{};               // of a fault or mishap, in words
 
   static constexpr auto fields() {
     return describe(field<&RecordedEvent::kind>(), field<&RecordedEvent::activation>(), field<&RecordedEvent::task>(),

@@ -19,6 +19,7 @@ struct EventHeader {
   std::int64_t activation = 0;
   std::uint32_t task = 0;
   RunEvent::Kind kind{};
+  std::uint64_t name = 0;  // so many bytes of the cause are the distributer's name
 };
 }  // namespace
 
@@ -82,10 +83,12 @@ void Recorder::catch_up() {
 
 void Recorder::append_event(const RunEvent& event) {
   std::array<std::byte, 512> room;
-  const EventHeader header{event.activation, event.task, event.kind};
-  const std::size_t length = std::min(event.cause.size(), room.size() - sizeof header);
+  std::string words(event.distributer);
+  words += event.cause;
+  const EventHeader header{event.activation, event.task, event.kind, event.distributer.size()};
+  const std::size_t length = std::min(words.size(), room.size() - sizeof header);
   std::memcpy(room.data(), &header, sizeof header);
-  std::memcpy(room.data() + sizeof header, event.cause.data(), length);
+  std::memcpy(room.data() + sizeof header, words.data(), length);
   append(event.instant, event_output, room.data(), static_cast<std::uint32_t>(sizeof header + length));
 }
 
@@ -196,8 +199,11 @@ void Recorder::hand_on_held(Duration until) {
 void Recorder::hand_on_event(const RecordHeader& header, const std::byte* packed) {
   EventHeader event;
   std::memcpy(&event, packed, sizeof event);
-  const std::string_view cause(reinterpret_cast<const char*>(packed) + sizeof event, header.size - sizeof event);
-  for (RecordSink* sink : sinks_) sink->take_event({event.kind, header.instant, event.task, event.activation, cause});
+  const std::string_view words(reinterpret_cast<const char*>(packed) + sizeof event, header.size - sizeof event);
+  const std::size_t name = std::min<std::size_t>(event.name, words.size());
+  for (RecordSink* sink : sinks_)
+    sink->take_event(
+        {event.kind, header.instant, event.task, event.activation, words.substr(name), words.substr(0, name)});
 }
 
 void Recorder::hand_on(const RecordHeader& header, const std::byte* packed) {

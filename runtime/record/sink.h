@@ -10,12 +10,14 @@ namespace jarol {
 
 /// What happens in a run and is no publication.
 struct RunEvent {
-  enum class Kind : std::uint32_t { fault, rest_begun, at_rest };
+  // mishap: what had become of a simulated vehicle by the end, as in "crashed: a rotor met the ground, at 10.32 s"
+  enum class Kind : std::uint32_t { fault, rest_begun, at_rest, mishap };
   Kind kind = Kind::fault;
-  Duration instant{};           // of a fault: at which it would have published
-  std::uint32_t task = 0;       // of a fault: index in the graph
-  std::int64_t activation = 0;  // of a fault
-  std::string_view cause{};     // of a fault, in words
+  Duration instant{};              // of a fault: at which it would have published
+  std::uint32_t task = 0;          // of a fault: index in the graph
+  std::int64_t activation = 0;     // of a fault
+  std::string_view cause{};        // of a fault or mishap, in words
+  std::string_view distributer{};  // of a mishap
 };
 
 /// All is called on the recorder's thread, in the order in which it took place.

@@ -9,7 +9,7 @@
 namespace jarol {
 
 /// An input that does not fit its reader's heap is lost until one that does comes.
-inline void copy_deep(const Copy& c) {
+[[gnu::noinline]] inline void copy_deep(const Copy& c) {
   const auto& deep = *static_cast<const DeepCopy*>(c.from);
   try {
     deep.type->assign(c.to, deep.from);
@@ -22,7 +22,7 @@ inline void copy_deep(const Copy& c) {
 }
 
 /// Copies of the common sizes are a few moves; the compiler can't know sizes that come from a graph.
-inline void transfer(const Copy& c) {
+[[gnu::always_inline]] inline void transfer(const Copy& c) {
   if (c.size == 64) {
     std::memcpy(c.to, c.from, 64);
     return;

@@ -145,6 +145,11 @@ TEST_SUITE("tools/checkpoint") {
     const std::string file = folder / "c";
     const json whole = report_of(counting + "--set tasks.loop.let=40ms --save 1s=" + file);
     CHECK(report_of(counting + "--resume " + file)["digest"] == whole["digest"]);
+    // what was set may be given again
+    CHECK(report_of(counting + "--resume " + file + " --set tasks.loop.let=40ms")["digest"] == whole["digest"]);
+    CHECK(error_of(counting + "--resume " + file + " --set tasks.loop.let=30ms") ==
+          "error: '" + file +
+              "' is of a run without 'tasks.loop.let=30ms'; parameters of tasks may change here, and nothing else\n");
     CHECK(error_of(counting + "--resume " + file + " --set tasks.slow.let=10ms") ==
           "error: '" + file +
               "' is of a run without 'tasks.slow.let=10ms'; parameters of tasks may change here, and nothing else\n");

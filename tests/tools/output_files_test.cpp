@@ -319,6 +319,23 @@ tasks: {a: {type: Counter, period: 10ms}}
               "error: can't write to stdout, what stands there is not whole; is the disk full, or stdout closed?\n");
       }
     CHECK(command::run_jarol("tasks", ">/dev/null 2>&1").exit_code == 0);
+    const auto closed = command::run_jarol("run specs/counting.yaml --for 1s --trace -", "2>&1 >&-");
+    CHECK(closed.exit_code == 2);
+    CHECK(closed.output == "error: '-' is stdout, which is closed; name a file, or open it\n");
+    // what can't be written is named, whatever else can't be
+    const auto both =
+        command::run_jarol("run specs/counting.yaml --for 1s --trace /dev/full --plot /dev/full", "2>&1 >/dev/null");
+    CHECK(both.exit_code == 3);
+    CHECK(both.output.find("can't write '/dev/full'") != std::string::npos);
+    // a disk that has no room left, as the limit of a file's size has none
+    const TemporaryFolder small;
+    const auto campaign = command::run_jarol(
+        "campaign specs/counting.yaml --for 100ms --runs 200 --vary seed=1..200 "
+        "--metric m=loop.out --results " +
+            (small / "c.sqlite"),
+        "2>&1 >/dev/null", std::string("ulimit -f 16; ") + JAROL_COMMAND);
+    CHECK(campaign.exit_code == 3);
+    CHECK(campaign.output.starts_with("error: can't use '" + (small / "c.sqlite") + "' for results: "));
     // and no other file takes the place of a stdout that is closed
     const TemporaryFolder folder;
     command::run_jarol("run specs/counting.yaml --for 1s --trace " + (folder / "t.csv"), ">&- 2>/dev/null");

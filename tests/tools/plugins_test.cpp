@@ -3,12 +3,15 @@
 
 #include <doctest/doctest.h>
 
+#include <csignal>
 #include <filesystem>
+#include <thread>
 
 #include "graph/floating_point.h"
 #include "graph/plugins/plugin.h"
 #include "runtime/record/recording_writer.h"
 #include "tests/tools/plugin_library.h"
+#include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
 #include "tools/commands/run/load_graph.h"
 #include "tools/library/built_in.h"
@@ -140,6 +143,39 @@ connections: [a.out -> b.in]
           "what is linked with -ffast-math does; link it without");
     CHECK(report_on("linked_fast_math") == report_on("at_load_5"));
 #endif
+  }
+
+  TEST_CASE("destructors of a plugin's static objects don't run: they change no exit code, hang or crash nothing") {
+    const command::TemporaryFolder folder;
+    for (const auto& [number, exit_code] : {std::pair{7, 3}, {8, 0}, {9, 0}}) {
+      const std::string so = std::filesystem::absolute(library("at_load_" + std::to_string(number))).string();
+      const std::string graph = folder.write(
+          "g.yaml", "graph: g\nplugins: [" + so + "]\ntasks: {a: {type: Nothing, period: 10ms, wcet: 1ms}}\n");
+      for (const std::string command : {"run --for 100ms ", "check "}) {
+        CAPTURE(command);
+        CAPTURE(number);
+        const auto ended =
+            command::run_jarol(command + graph, "2>/dev/null", std::string("timeout 20 ") + JAROL_COMMAND);
+        CHECK(ended.exit_code == (command == "check " ? 0 : exit_code));
+        CHECK(ended.output.find(command == "check " ? "SCHEDULABLE" : "activations") != std::string::npos);
+      }
+    }
+  }
+
+  TEST_CASE("a library that does not end to load does not outlive a program that is ended meanwhile") {
+    const command::TemporaryFolder folder;
+    const std::string so = std::filesystem::absolute(library("at_load_2")).string();
+    const std::string graph = folder.write(
+        "g.yaml", "graph: g\nplugins: [" + so + "]\ntasks: {a: {type: Nothing, period: 10ms, wcet: 1ms}}\n");
+    const auto alive = [&] { return command::run_jarol("", "", "pgrep -c -f '[j]arol run " + graph + "'").output; };
+    tests::Process run("run " + graph);
+    REQUIRE(run.says("note: loads plugin"));
+    for (int i = 0; i < 100 && alive() != "2\n"; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(alive() == "2\n");  // it tries the library in a process of its own
+    run.signal(SIGTERM);
+    CHECK(run.end() == -SIGTERM);
+    for (int i = 0; i < 100 && alive() != "0\n"; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(alive() == "0\n");
   }
 
   TEST_CASE("a plugin is named before it is loaded, once, and --no-plugins refuses it on every command") {

@@ -27,6 +27,7 @@
 #include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/duration_option.h"
+#include "tools/report/failure.h"
 #include "tools/report/json_line.h"
 #include "tools/report/progress.h"
 #include "tools/report/version.h"
@@ -166,6 +167,7 @@ int run(const CampaignOptions& options) {
   const campaign::Campaign& campaign = stated.campaign;
   const campaign::Draws& draws = *stated.draws;
   if (ranks) ranks->gather(text_of(stated.identity));
+  let_writing_fail();
   campaign::Results results(results_file, stated.identity, campaign);
   const std::vector<std::uint64_t> done = results.done();
   const std::vector<std::uint64_t> to_run = missing(done, shard, draws.runs());
@@ -292,7 +294,11 @@ void add_campaign(CommandLine& line, int& exit_code) {
                     "that is not good still ends "
                     "so, by more runs");
   command->add_flag("--json", options->json, "One JSON object instead of text");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] {
+    try {
+      exit_code = run(*options);
+    } catch (const campaign::ResultsError& refused) { throw Unfinished(refused.what()); }
+  });
 }
 
 }  // namespace jarol::tools

@@ -95,6 +95,7 @@ void require_effect(const Command& command, const CheckOptions& options) {
 struct Checked {
   std::vector<std::string> notes;
   std::string text;
+  std::string picture;  // that goes to stdout
   int exit_code = exit_good;
   std::exception_ptr failure;  // in place of a report
 };
@@ -125,9 +126,13 @@ void check_file(const std::string& file, const CheckOptions& options, Checked& c
   if (!options.measuring.write) report.measured = std::move(measured);
   note_what_lacks(report, options, checked.notes);
   if (const std::string drawn = gantt_svg(*loaded.graph, report.result); !options.svg.empty() && !drawn.empty()) {
-    AtomicFile picture(options.svg);
-    picture.write(drawn);
-    picture.commit();
+    if (options.svg == "-") {
+      checked.picture = drawn;
+    } else {
+      AtomicFile picture(options.svg);
+      picture.write(drawn);
+      picture.commit();
+    }
   }
   checked.text = options.json ? json_line(to_json(report)) : to_text(report);
   checked.exit_code = exit_code_of(report);
@@ -145,7 +150,8 @@ Checked check_or_fail(const std::string& file, const CheckOptions& options) {
 int print(const std::string& file, const Checked& checked, const CheckOptions& options) {
   for (const std::string& note : checked.notes) print_note(note);
   if (checked.failure) return report(failure_of(checked.failure, file), options.json, file);
-  std::cout << checked.text << std::flush;
+  (checked.picture.empty() ? std::cout : std::cerr) << checked.text << std::flush;
+  std::cout << checked.picture;
   return checked.exit_code;
 }
 
@@ -177,7 +183,7 @@ int check_at_once(const CheckOptions& options) {
 
 int check_files(const CheckOptions& options) {
   for (const std::string& file : options.files) require_apart({{"FILE", file}}, {{"--svg", options.svg}});
-  require_extension({"--svg", options.svg}, ".svg", "an SVG picture");
+  if (options.svg != "-") require_extension({"--svg", options.svg}, ".svg", "an SVG picture");
   // what is measured would be disturbed by others
   if (options.files.size() > 1 && !options.measuring.measure && !options.measuring.write) return check_at_once(options);
   int exit_code = exit_good;
@@ -245,7 +251,8 @@ void add_check(CommandLine& line, int& exit_code) {
       ->in_range(0.0, 10'000.0);
   command
       ->add_option("--svg", options->svg,
-                   "Draw who runs when into this SVG file: around the first late activation, else over a hyperperiod")
+                   "Draw who runs when into this SVG file: around the first late activation, else over a hyperperiod; "
+                   "-: to stdout")
       ->file({"svg"});
   command
       ->add_option("--generate", options->generate,

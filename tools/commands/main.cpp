@@ -11,7 +11,9 @@
 #include "distributers/guardian/guardian_process.h"
 #include "graph/language/inputs.h"
 #include "graph/language/problems.h"
+#include "graph/plugins/plugins.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/run/crash_line.h"
 #include "tools/report/command_line.h"
 #include "tools/report/failure.h"
 #include "tools/report/printable_stream.h"
@@ -66,8 +68,12 @@ int main(int argc, char** argv) {
   std::error_code none;
   note_input(std::filesystem::read_symlink("/proc/self/exe", none).string());
   const tools::PrintableStream out(std::cout), errors(std::cerr);
-  const int exit_code = run_command(argc, argv);
-  if (std::cout.flush()) return exit_code;
-  std::cerr << "error: can't write to stdout, what stands there is not whole; is the disk full, or stdout closed?\n";
-  return tools::exit_unfinished;
+  int exit_code = run_command(argc, argv);
+  if (!std::cout.flush()) {
+    std::cerr << "error: can't write to stdout, what stands there is not whole; is the disk full, or stdout closed?\n";
+    exit_code = tools::exit_unfinished;
+  }
+  // destructors of a plugin's static objects might do anything: hang, crash, or end the process with another code
+  if (are_plugins_loaded()) tools::end_at_once(exit_code);
+  return exit_code;
 }

@@ -17,6 +17,7 @@
 #include "graph/text/escape.h"
 #include "runtime/record/replayed_values.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/log/recorded_graph.h"
 #include "tools/commands/run/apart.h"
 #include "tools/commands/run/crash_line.h"
 #include "tools/commands/run/interrupt.h"
@@ -118,7 +119,8 @@ int replay(const ReplayOptions& options) {
   RecordedRun log(options.log);
   const Duration begin = replay_begin(options.from, log);
   const Overrides overrides = overrides_of(log.recording(), options.file, options.overrides);
-  Loaded whole = load_recorded(log.recording(), options.file, overrides, world_of(options, begin, log));
+  const RecordedWorld world = world_of(options, begin, log);
+  Loaded whole = load_recorded(log.recording(), options.file, overrides, world);
   require_apart({{"LOG", options.log}, {"FILE", options.file.empty() ? log.header().file : options.file}},
                 {{"--trace", options.files.trace}, {"--plot", options.files.plot}});
   if (begin > Duration{} && !options.only.empty())
@@ -186,6 +188,7 @@ int replay(const ReplayOptions& options) {
                                        why_cut_short(judged_until(log.rest_begun(), log.header().until, reached),
                                                      log.header().until, log.header().mission));
   verdict.left_out = find_left_out(graph, report);
+  if (world == RecordedWorld::truth && !comparison.interrupted) verdict.mishaps = read_mishaps(log.recording());
   const RunOutcome outcome{.state = executor.state(),
                            .report = report,
                            .rest = executor.rest(),

@@ -213,7 +213,7 @@ int run(RunOptions options) {
   const auto attempt = [](std::string& wrong, const std::function<void()>& to_do) {
     try {
       to_do();
-    } catch (const std::exception& error) { wrong = error.what(); }
+    } catch (const std::exception& error) { wrong += (wrong.empty() ? "" : "; ") + std::string(error.what()); }
   };
   if (run_end.hangs) {
     // a recording is good up to its last chunk
@@ -221,7 +221,7 @@ int run(RunOptions options) {
       unwritten = "trace and picture are not written, as the run has not ended";
   } else {
     attempt(not_run, [&] { what_ifs.run(graph_run.sinks(), files); });
-    attempt(unwritten, [&] { graph_run.sinks().close(); });
+    attempt(unwritten, [&] { graph_run.close_sinks(); });
     unseen = unwritten;
     if (log) attempt(unwritten, [&] { log->close(log_end_of(report)); });
     if (log) std::cerr << text_of_dropped(options.recording, *log);

@@ -41,6 +41,10 @@ Json event_json(const FeedEvent& event, const std::vector<std::string>& tasks) {
       json["kind"] = "rest";
       json["text"] = "the vehicle is at rest";
       break;
+    case RunEvent::Kind::mishap:
+      json["kind"] = "mishap";
+      json["text"] = "the vehicle of '" + event.distributer + "' has " + event.cause;
+      break;
   }
   return json;
 }

@@ -79,7 +79,8 @@ void Feed::take_event(const RunEvent& event) {
     ++lost_events_;
     return;
   }
-  events_.push_back({event.kind, event.instant, event.task, event.activation, std::string(event.cause)});
+  events_.push_back({event.kind, event.instant, event.task, event.activation, std::string(event.cause),
+                     std::string(event.distributer)});
 }
 
 std::vector<const Type*> types_of_run(const Graph& graph, const std::vector<const Type*>& true_types) {

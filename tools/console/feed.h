@@ -25,7 +25,7 @@ struct FeedEvent {
   Duration instant{};
   std::uint32_t task = 0;
   std::int64_t activation = 0;
-  std::string cause;
+  std::string cause, distributer;
 };
 
 /// What came since it was asked last.

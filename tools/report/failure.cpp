@@ -60,6 +60,8 @@ Failure failure_of(const std::exception_ptr& error, const std::string& file) {
     return {exit_input, {{{}, wrong.what(), {}}}, begin + printable(wrong.what()) + "\n" + wrong.more};
   } catch (const NegativeVerdict& negative) {
     failure = of_one(exit_negative, negative.what());
+  } catch (const Unfinished& refused) {
+    failure = of_one(exit_unfinished, refused.what());
   } catch (const EndedEarly& ended) {
     failure = of_one(exit_of_signal(ended.signal), ended.what());
   } catch (const distributers::FrameError& lost) {

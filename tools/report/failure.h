@@ -22,6 +22,11 @@ struct NegativeVerdict : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The machine does not let it come to its end, as where a disk is full: exit code 3.
+struct Unfinished : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// A signal ended the command before it had anything to report.
 struct EndedEarly : std::runtime_error {
   EndedEarly(int by, const std::string& text) : std::runtime_error(text), signal(by) {}

@@ -1,5 +1,7 @@
 #include "vehicles/submarine/submarine.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -21,6 +23,10 @@ VehicleState start_of(const SubmarineParameters& parameters) {
   start.x = parameters.start.north;
   start.y = parameters.start.east;
   start.z = floating_depth(parameters) + parameters.start.depth;
+  if (!parameters.vsim_compatible && start.z + 0.5 * parameters.hull.diameter > parameters.sea.floor)
+    throw std::runtime_error(
+        fmt::format("submarine: start.depth must lie above sea.floor, and is {} m where that is {} m",
+                    parameters.start.depth, parameters.sea.floor));
   start.psi = parameters.start.heading;
   start.u = parameters.start.surge;
   return start;

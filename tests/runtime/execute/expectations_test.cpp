@@ -122,7 +122,16 @@ TEST_SUITE("runtime/expectations") {
               100ms, "cut short")) ==
           "not judged cut short\nfails reached 9\nnot judged cut short\nfails was so at 0.03 s: 3\nholds at 0.03 s: 3\n"
           "not judged cut short\nfails reached 0\n");
-    CHECK(words(judge({"count.out < 5 after 1s"})) == "not judged the run ended at 0.1 s, before 1 s\n");
+    CHECK(words(judge({"count.out < 5 after 1s"}, 100ms, "cut short")) ==
+          "not judged the run ended at 0.1 s, before 1 s\n");
+  }
+
+  TEST_CASE("a window that has not begun when the run ends that was not cut short fails") {
+    for (const std::string condition :
+         {"count.out < 5", "always count.out < 5", "never count.out < 5", "once count.out < 5"})
+      CHECK(words(judge({condition + " after 100ms"})) ==
+            "fails was never looked at: the run ended at 0.1 s, before 0.1 s\n");
+    CHECK(words(judge({"count.out within 0 of 9 after 99ms"})) == "holds 9\n");
   }
 
   TEST_CASE("rise, overshoot and settling are those of the step from the first value") {

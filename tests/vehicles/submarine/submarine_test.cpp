@@ -48,6 +48,16 @@ imc::SimulatedState after_ten_seconds(const std::array<float, 4>& fins) {
 TEST_SUITE("vehicles/submarine") {
   TEST_CASE("its step is 10 ms") { CHECK(Submarine({}).grid() == std::chrono::milliseconds(10)); }
 
+  TEST_CASE("it does not start in the sea floor") {
+    SubmarineParameters parameters;
+    parameters.start.depth = parameters.sea.floor;
+    CHECK_THROWS_WITH_AS(Submarine(parameters, 0),
+                         "submarine: start.depth must lie above sea.floor, and is 50 m where that is 50 m",
+                         std::runtime_error);
+    parameters.start.depth = parameters.sea.floor - 0.3;
+    CHECK(Submarine(parameters, 0).mishap() == std::nullopt);
+  }
+
   TEST_CASE("positive angles on fins 0 and 3 turn to port, negative ones to starboard") {
     CHECK(after_ten_seconds({0.2F, 0, 0, 0.2F}).psi < -0.1F);
     CHECK(after_ten_seconds({-0.2F, 0, 0, -0.2F}).psi > 0.1F);

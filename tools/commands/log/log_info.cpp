@@ -9,6 +9,7 @@
 #include "runtime/mcap/verify.h"
 #include "runtime/record/recorded_run.h"
 #include "tools/commands/log/log_commands.h"
+#include "tools/commands/log/recorded_graph.h"
 #include "tools/report/exit_code.h"
 #include "tools/report/json_line.h"
 
@@ -50,6 +51,9 @@ nlohmann::ordered_json json_of(const Looked& run) {
   json["covered_ns"] = run.covered.count();
   json["digest"] =
       run.end ? nlohmann::ordered_json(fmt::format("0x{:016x}", run.end->digest)) : nlohmann::ordered_json();
+  json["mishaps"] = nlohmann::ordered_json::array();
+  for (const auto& mishap : read_mishaps(recording))
+    json["mishaps"].push_back({{"distributer", mishap.distributer}, {"text", mishap.text}});
   json["files"] = nlohmann::ordered_json::array();
   for (const RecordedFile& file : recording.files()) json["files"].push_back(file.path);
   json["topics"] = nlohmann::ordered_json::array();
@@ -85,6 +89,8 @@ int log_info(const LogOptions& options) {
     std::cout << fmt::format("  digest      0x{:016x}\n", run.end->digest);
   else
     std::cout << "  breaks off " << printable(recording.text_of_break()) << "; how the run ended is not known\n";
+  for (const auto& mishap : read_mishaps(recording))
+    std::cout << printable("  mishap      the vehicle of '" + mishap.distributer + "' has " + mishap.text) << "\n";
   std::size_t width = 0;
   for (const auto& [id, topic] : recording.topics()) width = std::max(width, topic.channel.topic.size());
   for (const auto& [id, topic] : recording.topics())

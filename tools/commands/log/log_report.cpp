@@ -103,8 +103,7 @@ Json happenings_json(const RecordedRun& run, const std::vector<Miss>& misses, co
       json.update({{"task", event.task}, {"activation", event.activation}, {"cause", printable(event.cause)}});
       if (task != tasks.end()) json["index"] = task->second;
     } else {
-      json["cause"] =
-          event.kind == RunEvent::Kind::rest_begun ? "begins to bring the vehicle to rest" : "the vehicle is at rest";
+      json["cause"] = printable(words_of(event));
     }
     events.push_back(std::move(json));
   }

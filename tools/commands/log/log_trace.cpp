@@ -126,11 +126,8 @@ void add_events(Events& events, const Graph& graph, const RecordedEvents& record
         break;
       }
       case RunEvent::Kind::rest_begun:
-        events.instant(logical, 0, "event", 'g', "begins to bring the vehicle to rest", event.instant);
-        break;
       case RunEvent::Kind::at_rest:
-        events.instant(logical, 0, "event", 'g', "the vehicle is at rest", event.instant);
-        break;
+      case RunEvent::Kind::mishap: events.instant(logical, 0, "event", 'g', words_of(event), event.instant); break;
     }
   }
 }

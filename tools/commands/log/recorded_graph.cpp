@@ -1,5 +1,6 @@
 #include "tools/commands/log/recorded_graph.h"
 
+#include <functional>
 #include <span>
 
 #include "graph/language/source_set.h"
@@ -10,6 +11,26 @@
 #include "tools/commands/run/replay_start.h"
 
 namespace jarol::tools {
+
+namespace {
+
+// In their order. Throws LogError.
+void each_event(const Recording& recording, const std::function<void(Duration, const RecordedEvent&)>& take) {
+  const ReadTopic* const topic = recording.find(topics::events);
+  if (topic == nullptr) return;
+  for (MessageCursor cursor(recording, *topic); cursor.message() != nullptr; cursor.next()) {
+    RecordedEvent event;
+    const std::string_view data = cursor.message()->data;
+    if (const std::string wrong = decode_cdr(type_of<RecordedEvent>(),
+                                             {reinterpret_cast<const std::byte*>(data.data()), data.size()}, &event);
+        !wrong.empty())
+      throw LogError("'" + recording.path() + "' has an event that " + wrong +
+                     "; it is no recording that this jarol has written");
+    take(Duration(cursor.message()->time), event);
+  }
+}
+
+}  // namespace
 
 Loaded load_recorded_graph(const Recording& recording, const std::string& file, const std::string& command,
                            bool with_truth) {
@@ -23,26 +44,35 @@ Loaded load_recorded_graph(const Recording& recording, const std::string& file, 
   return load_without_channels(recording.header().file, overrides, recorded);
 }
 
+std::string words_of(const TimedEvent& event) {
+  switch (event.kind) {
+    case RunEvent::Kind::fault: break;
+    case RunEvent::Kind::rest_begun: return "begins to bring the vehicle to rest";
+    case RunEvent::Kind::at_rest: return "the vehicle is at rest";
+    case RunEvent::Kind::mishap: return "the vehicle of '" + event.task + "' has " + event.cause;
+  }
+  return event.cause;
+}
+
 RecordedEvents read_events(const Recording& recording) {
   RecordedEvents read;
-  const ReadTopic* const topic = recording.find(topics::events);
-  if (topic == nullptr) return read;
-  for (MessageCursor cursor(recording, *topic); cursor.message() != nullptr; cursor.next()) {
-    if (read.events.size() == RecordedEvents::max) {
+  each_event(recording, [&](Duration instant, const RecordedEvent& event) {
+    if (read.events.size() == RecordedEvents::max)
       ++read.more;
-      continue;
-    }
-    RecordedEvent event;
-    const std::string_view data = cursor.message()->data;
-    if (const std::string wrong = decode_cdr(type_of<RecordedEvent>(),
-                                             {reinterpret_cast<const std::byte*>(data.data()), data.size()}, &event);
-        !wrong.empty())
-      throw LogError("'" + recording.path() + "' has an event that " + wrong +
-                     "; it is no recording that jarol run has written");
-    read.events.push_back({Duration(cursor.message()->time), event.kind, event.activation,
-                           std::string(event.task.view()), std::string(event.cause.view())});
-  }
+    else
+      read.events.push_back(
+          {instant, event.kind, event.activation, std::string(event.task.view()), std::string(event.cause.view())});
+  });
   return read;
+}
+
+std::vector<RunVerdict::VehicleMishap> read_mishaps(const Recording& recording) {
+  std::vector<RunVerdict::VehicleMishap> mishaps;
+  each_event(recording, [&](Duration, const RecordedEvent& event) {
+    if (event.kind == RunEvent::Kind::mishap)
+      mishaps.push_back({std::string(event.task.view()), std::string(event.cause.view())});
+  });
+  return mishaps;
 }
 
 std::int64_t releases_before(const Task& task, Duration end) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "distributers/session/load.h"
+#include "distributers/session/verdict.h"
 #include "runtime/record/recorded_stream.h"
 #include "runtime/record/recording.h"
 
@@ -21,8 +22,11 @@ struct TimedEvent {
   Duration instant{};
   RunEvent::Kind kind = RunEvent::Kind::fault;
   std::int64_t activation = 0;  // of a fault, as the others
-  std::string task{}, cause{};
+  std::string task{}, cause{};  // of a mishap: the distributer whose vehicle it is, and what it has
 };
+
+/// Of one that is no fault, in words.
+std::string words_of(const TimedEvent& event);
 
 /// At most so many; `more`: how many others there are.
 struct RecordedEvents {
@@ -33,6 +37,9 @@ struct RecordedEvents {
 
 /// In their order. Throws LogError.
 RecordedEvents read_events(const Recording& recording);
+
+/// What had become of vehicles by the end of the run. Throws LogError.
+std::vector<RunVerdict::VehicleMishap> read_mishaps(const Recording& recording);
 
 /// The instant of the k-th release of a task.
 inline Duration release_of(const Task& task, std::int64_t k) { return task.offset + k * task.period; }

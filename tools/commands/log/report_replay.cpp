@@ -50,6 +50,7 @@ ReportReplay replay_for_report(RecordedRun& run, Loaded loaded) {
   replayed.verdict.expectations = graph_run.sinks().judge(
       judged_until(run.rest_begun(), header.until, executor.report().covered),
       why_cut_short(judged_until(run.rest_begun(), header.until, reached), header.until, header.mission));
+  replayed.verdict.mishaps = read_mishaps(run.recording());
   replayed.verdict.left_out = find_left_out(graph_run.graph(), executor.report());
   return replayed;
 }

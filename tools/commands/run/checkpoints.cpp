@@ -50,6 +50,12 @@ Checkpoint read_checkpoint(const std::string& file, Overrides& overrides, std::u
   overrides.profile = origin.profile;
   std::vector<std::string> set = origin.set;
   std::erase_if(set, names_plugins);
+  // what is given again as it was is not given twice
+  std::erase_if(overrides.set, [&](const std::string& given) {
+    const std::string path = given.substr(0, given.find('=') + 1);
+    const auto last = std::find_if(set.rbegin(), set.rend(), [&](const std::string& s) { return s.starts_with(path); });
+    return last != set.rend() && *last == given;
+  });
   overrides.set.insert(overrides.set.begin(), set.begin(), set.end());
   seed = origin.seed;
   return read;

@@ -1,5 +1,8 @@
 #include "tools/commands/run/run_files.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <iostream>
 #include <stdexcept>
@@ -15,7 +18,13 @@ namespace {
 
 constexpr char of_stdout[] = "/dev/stdout";
 
-std::string path_of(const std::string& name) { return name == "-" ? of_stdout : name; }
+std::string path_of(const std::string& name) {
+  if (name != "-") return name;
+  // one that was closed is open for reading: nothing else takes its place
+  if ((::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY)
+    throw std::invalid_argument("'-' is stdout, which is closed; name a file, or open it");
+  return of_stdout;
+}
 
 }  // namespace
 

@@ -5,7 +5,7 @@ import type { Hello, Leaf, RunEvent, Sample } from "./protocol.ts";
 
 export interface Event {
   t: number;
-  kind: "fault" | "rest" | "event" | "operator" | "page";
+  kind: "fault" | "mishap" | "rest" | "event" | "operator" | "page";
   text: string;
   task?: string; // of a fault
 }

@@ -154,7 +154,7 @@ export interface Hello {
 
 export interface RunEvent {
   t: number;
-  kind: "fault" | "rest";
+  kind: "fault" | "rest" | "mishap";
   task?: string;
   activation?: number;
   text: string;
