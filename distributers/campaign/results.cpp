@@ -10,7 +10,7 @@ namespace jarol::campaign {
 namespace {
 
 // "jrl" and the version of the layout.
-constexpr int application_id = 0x6a726c01;
+constexpr int application_id = 0x6a726c02;
 
 std::string quoted(const std::string& name) {
   std::string text = "\"";
@@ -155,7 +155,7 @@ void Results::create(const Identity& identity, const Campaign& campaign) {
   run("PRAGMA application_id = " + std::to_string(application_id));
   run("CREATE TABLE campaign (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
   std::string columns =
-      "run INTEGER PRIMARY KEY, seed, outcome TEXT NOT NULL, why TEXT NOT NULL, simulated INTEGER NOT NULL, "
+      "run INTEGER PRIMARY KEY, seed, outcome TEXT NOT NULL, why TEXT NOT NULL, simulated_ns INTEGER NOT NULL, "
       "faults INTEGER NOT NULL, digest TEXT NOT NULL";
   for (const std::string& name : columns_of(campaign)) columns += ", " + quoted(name);
   run("CREATE TABLE runs (" + columns + ")");
@@ -231,7 +231,11 @@ void Results::for_each(const std::function<void(const Result&)>& take) const {
     result.why = text_of(row, 3);
     result.simulated = Duration(sqlite3_column_int64(row, 4));
     result.faults = static_cast<std::uint64_t>(sqlite3_column_int64(row, 5));
-    result.digest = std::stoull(text_of(row, 6), nullptr, 16);
+    const std::string digest = text_of(row, 6);
+    const char* const end = digest.data() + digest.size();
+    if (!digest.starts_with("0x") || std::from_chars(digest.data() + 2, end, result.digest, 16).ptr != end)
+      throw OtherCampaign("'" + path_ + "' has a digest of run " + std::to_string(result.index) +
+                          " that is no hexadecimal number; somebody has changed it");
     for (int i = columns - static_cast<int>(metrics_); i < columns; ++i) result.metrics.push_back(reached_of(row, i));
     take(result);
   }

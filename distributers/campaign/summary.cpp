@@ -113,7 +113,7 @@ void write_csv(const Results& results, const Campaign& campaign, const Draws& dr
   for (const Variation& v : campaign.vary)
     if (v.path != "seed") line += "," + csv_text(v.path);
   for (const Metric& metric : campaign.measures.metrics) line += "," + metric.name;
-  write(line + ",outcome,faults,simulated,digest,why\n");
+  write(line + ",outcome,faults,simulated_s,digest,why\n");
   results.for_each([&](const Result& result) {
     const Start start = draws.at(result.index);
     line = std::to_string(result.index) + "," + std::to_string(start.seed);

@@ -87,8 +87,7 @@ RunVerdict GraphRun::judge(Duration until, const RunEnd& end, const std::string&
 
 std::vector<Verdict> GraphRun::measure(Duration until) const {
   const Report& report = executor_.report();
-  return sinks_.measure(std::min(until, report.covered),
-                        why_cut_short(report.simulated, until, end_of_mission(channels_)));
+  return sinks_.measure(std::min(until, report.covered), why_cut_short(report.simulated, until, {}));
 }
 
 }  // namespace jarol

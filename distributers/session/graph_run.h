@@ -68,7 +68,7 @@ class GraphRun {
 
   /// Of a run that was to go on `until` and ended like that. `unseen`: why not all that was published has been seen.
   RunVerdict judge(Duration until, const RunEnd& end, const std::string& unseen = "") const;
-  /// What was measured of it, likewise.
+  /// What was measured of it, likewise; it was to go on until then, whenever its mission ends.
   std::vector<Verdict> measure(Duration until) const;
 
  private:

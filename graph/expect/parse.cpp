@@ -103,6 +103,9 @@ class Parser {
     in_.go_on();
     metric_.value = value_.read();
     metric_.unit = metric_.value.unit;
+    const bool whole = metric_.value.type != nullptr && (metric_.value.type->kind == Kind::signed_integer ||
+                                                         metric_.value.type->kind == Kind::unsigned_integer);
+    if (whole && metric_.reduction != Reduction::final) metric_.value.type = nullptr;
     if (metric_.value.type != nullptr && metric_.reduction != Reduction::final)
       in_.fail(begin, "'" + std::string(begin.text) + "' needs a number, not a " + kind_text());
     if (metric_.reduction >= Reduction::rise_time) {

@@ -100,8 +100,10 @@ Verdict ConditionWatch::judge(Duration end, const std::string& cut_short) const 
   }
   ConditionWatch whole = *this;
   whole.hold(end);
-  Verdict judged = condition_.kind == Condition::Kind::metric ? whole.judge_metric(end, cut_short)
-                                                              : whole.judge_claim(end, cut_short);
+  // nothing that would have come changes a window that is over
+  const std::string open = condition_.metric.window.to && *condition_.metric.window.to <= end ? "" : cut_short;
+  Verdict judged =
+      condition_.kind == Condition::Kind::metric ? whole.judge_metric(end, open) : whole.judge_claim(end, open);
   judged.condition = condition_.text;
   judged.unit = condition_.metric.unit;
   return judged;

@@ -10,8 +10,9 @@ namespace jarol {
 
 void Differences::compare(Duration instant, const std::string& output, const MessageLayout& layout,
                           const std::string_view* was, const std::string_view* is) {
-  ++compared_;
-  if (was != nullptr && is != nullptr && *was == *is) return;
+  const bool both = was != nullptr && is != nullptr;
+  if (both) ++compared_;
+  if (both && *was == *is) return;
   if (was == nullptr || is == nullptr) {
     if (!first_)
       first_ = {instant, output, "", was != nullptr ? "published" : "nothing", is != nullptr ? "published" : "nothing"};

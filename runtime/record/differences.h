@@ -35,6 +35,7 @@ class Differences {
   void compare(Duration instant, const std::string& output, const MessageLayout& layout, const std::string_view* was,
                const std::string_view* is);
 
+  /// Values that both have.
   std::uint64_t compared() const { return compared_; }
   const std::optional<FirstDifference>& first() const { return first_; }
   /// In order of the first instants, then of names.

@@ -64,6 +64,21 @@ std::optional<LogEnd> find_end(const Recording& recording) {
   return end;
 }
 
+std::vector<Gap> read_gaps(const Recording& recording) {
+  std::vector<Gap> gaps;
+  const ReadTopic* const topic = recording.find(topics::gaps);
+  if (topic == nullptr) return gaps;
+  for (MessageCursor cursor(recording, *topic); cursor.message() != nullptr; cursor.next()) {
+    Gap gap;
+    const ChunkSpot spot = cursor.spot();
+    std::string wrong = decode_cdr(type_of<Gap>(), bytes_of(*cursor.message()), &gap);
+    wrong = wrong.empty() ? wrong_with(gap) : "a gap that " + wrong;
+    if (!wrong.empty()) fail_in_chunk(spot, wrong);
+    gaps.push_back(gap);
+  }
+  return gaps;
+}
+
 RecordedRun::RecordedRun(std::string path) : path_(std::move(path)) {
   recording_ = std::make_unique<Recording>(path_, [this](const mcap::Message& message, const ReadTopic& topic,
                                                          const ChunkSpot& spot) { keep(message, topic, spot); });

@@ -15,6 +15,9 @@ namespace jarol {
 /// such index, and it has to be gone through. Throws LogError.
 std::optional<LogEnd> find_end(const Recording& recording);
 
+/// What is missing on its way, by its index. Throws LogError.
+std::vector<Gap> read_gaps(const Recording& recording);
+
 class RecordedRun : public TakenValues {
  public:
   /// Looks at the whole recording. Throws LogError, "'path' ...", if it is none.

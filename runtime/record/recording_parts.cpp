@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "runtime/files/atomic_file.h"
 #include "runtime/files/in_place.h"
 #include "runtime/files/sync.h"
+#include "runtime/mcap/crc32.h"
 
 namespace jarol {
 namespace {
@@ -41,12 +43,12 @@ std::string path_of_part(const std::string& path, std::size_t number) {
 std::string mark_of_part(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const auto size = static_cast<std::int64_t>(std::streamoff(file.tellg()));
-  std::uint32_t sum = 0;
-  const auto from_end = static_cast<std::int64_t>(sizeof sum + mcap::magic.size());
-  if (!file || size < from_end) return "";
-  file.seekg(size - from_end);
-  file.read(reinterpret_cast<char*>(&sum), sizeof sum);
-  return file ? fmt::format("{} {:08x}", size, sum) : "";
+  // its newest values and its index
+  std::string last(static_cast<std::size_t>(std::clamp<std::int64_t>(size, 0, 65536)), '\0');
+  if (!file || last.empty()) return "";
+  file.seekg(size - static_cast<std::int64_t>(last.size()));
+  file.read(last.data(), static_cast<std::streamsize>(last.size()));
+  return file ? fmt::format("{} {:08x}", size, mcap::crc32(last)) : "";
 }
 
 RecordingParts::~RecordingParts() {

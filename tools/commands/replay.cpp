@@ -127,6 +127,10 @@ int replay(const ReplayOptions& options) {
     throw std::invalid_argument("--only begins at the start of a run; leave out --from, or replay a recording of that");
   std::vector<Miss> misses = log.begin(*whole.graph, begin);
   std::optional<OnlyTasks> only;
+  if (!options.only.empty() && !log.gaps().empty())
+    throw std::invalid_argument("--only: the recording lacks published values that these tasks may have read, from " +
+                                seconds_text(Duration(log.gaps().front().from)) +
+                                " s on, as they came faster than the disk took them; leave --only out");
   if (!options.only.empty()) {
     only.emplace(*whole.graph, options.only, log.recording());
     misses = only->misses_of(misses);

@@ -109,7 +109,7 @@ TEST_SUITE("distributers/campaign/summary") {
       CHECK(all.metric.percentiles[2] == 2);
       CHECK(std::isnan(all.metric.mean));
       CHECK(all.csv ==
-            "run,seed,m,outcome,faults,simulated,digest,why\n"
+            "run,seed,m,outcome,faults,simulated_s,digest,why\n"
             "0,0,2,good,0,0,0x0000000000000000,\n"
             "1,0,nan,good,0,0,0x0000000000000000,\n"
             "2,0,1,good,0,0,0x0000000000000000,\n"

@@ -126,6 +126,14 @@ TEST_SUITE("runtime/expectations") {
           "not judged the run ended at 0.1 s, before 1 s\n");
   }
 
+  TEST_CASE("a window that is over is judged, however much is cut off behind it") {
+    CHECK(words(judge({"count.out within 0 of 4 before 50ms", "count.out within 0 of 5 before 50ms",
+                       "mean(count.out) within 0.01 of 2 before 50ms", "always count.out < 9 between 10ms and 100ms",
+                       "once count.out > 20 before 60ms", "count.out < 5 before 110ms"},
+                      100ms, "cut short")) ==
+          "holds 4\nfails reached 4\nholds 2\nfails was not so at 0.09 s: 9\nfails was not so\nnot judged cut short\n");
+  }
+
   TEST_CASE("a window that has not begun when the run ends that was not cut short fails") {
     for (const std::string condition :
          {"count.out < 5", "always count.out < 5", "never count.out < 5", "once count.out < 5"})

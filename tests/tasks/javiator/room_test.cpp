@@ -52,6 +52,15 @@ TEST_SUITE("tasks/javiator_room") {
     const double yaw = std::atan2(6, 8);
     CHECK(fix(yaw, 9.9, {0.1, 0}).axis == 0);
     CHECK(fix(yaw, 9.9, {0, 0.1}).axis == 1);
+    CHECK(fix(yaw, 9.9, {0, 0.1}).at_corner);
+    // whatever the range is: one that fits the other wall better may be wrong, and so may the place
+    CHECK(fix(yaw + 0.2, 8, {0, 0}).axis == 1);
+    CHECK(fix(yaw - 0.2, 8, {0, 0}).axis == 0);
+    CHECK_FALSE(fix(yaw + 0.2, 8, {0, 0}).at_corner);
+    CHECK_FALSE(fix(0, 7, {0, 0}).at_corner);
+    // from beyond a wall nothing is met there
+    CHECK(fix(yaw, 9.9, {8.5, 0}).axis == 1);
+    CHECK_FALSE(fix(yaw, 9.9, {8.5, 0}).at_corner);
   }
 
   TEST_CASE("a range of zero is that of nothing seen") {

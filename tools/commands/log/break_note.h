@@ -4,7 +4,9 @@
 #include <iostream>
 #include <string>
 
+#include "graph/language/quantities.h"
 #include "graph/text/escape.h"
+#include "runtime/record/recorded_run.h"
 #include "runtime/record/recording.h"
 
 namespace jarol::tools {
@@ -14,6 +16,14 @@ inline void note_break(const Recording& recording, const std::string& name) {
   if (recording.is_whole()) return;
   std::cerr << "note: '" << printable(name) << "' breaks off " << printable(recording.text_of_break())
             << ": this is what there is before\n";
+}
+
+/// To stderr, of what is missing on the way; of one that is shown as a table or compared. Throws LogError.
+inline void note_gaps(const Recording& recording, const std::string& name) {
+  for (const Gap& gap : read_gaps(recording))
+    std::cerr << "note: '" << printable(name) << "' lacks " << gap.values << " published values from "
+              << seconds_text(Duration(gap.from)) << " s to " << seconds_text(Duration(gap.to))
+              << " s, which came faster than the disk took them\n";
 }
 
 }  // namespace jarol::tools

@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -6,7 +8,9 @@
 #include "graph/text/escape.h"
 #include "runtime/record/differences.h"
 #include "runtime/record/instants.h"
+#include "tools/commands/log/break_note.h"
 #include "tools/commands/log/log_commands.h"
+#include "tools/commands/log/recorded_graph.h"
 #include "tools/report/differences_report.h"
 #include "tools/report/exit_code.h"
 #include "tools/report/json_line.h"
@@ -51,6 +55,25 @@ std::map<std::string, std::string> breaks_of(const Recording& a, const Recording
   return breaks;
 }
 
+// The first that the other has not; empty: there is none.
+std::string find_other_event(const RecordedEvents& a, const RecordedEvents& b, const LogOptions& options) {
+  const auto within = [&](const TimedEvent& e) { return e.instant >= options.from && e.instant < options.until; };
+  const auto text = [](const TimedEvent& e, const char* where) {
+    const std::string what =
+        e.kind == RunEvent::Kind::fault ? "a fault of '" + e.task + "', " + e.cause + "," : words_of(e);
+    return "at " + seconds_text(e.instant) + " s: " + what + " only in " + where;
+  };
+  auto in_a = a.events.begin(), in_b = b.events.begin();
+  for (;; ++in_a, ++in_b) {
+    in_a = std::find_if(in_a, a.events.end(), within);
+    in_b = std::find_if(in_b, b.events.end(), within);
+    const bool no_a = in_a == a.events.end(), no_b = in_b == b.events.end();
+    if (no_a && no_b) return "";
+    if (no_b || (!no_a && *in_a < *in_b)) return text(*in_a, "A");
+    if (no_a || *in_b < *in_a) return text(*in_b, "B");
+  }
+}
+
 // Goes through two instants that are one, by name.
 void compare_instant(Duration instant, const std::vector<RecordedInstants::Message>& was,
                      const std::vector<RecordedInstants::Message>& is, const Common& common, Differences& differences) {
@@ -75,7 +98,11 @@ void compare_instant(Duration instant, const std::vector<RecordedInstants::Messa
 
 int log_diff(const LogOptions& options) {
   const Recording a(options.file), b(options.other);
-  const Common common = common_of(a, b);
+  note_gaps(a, options.file);
+  note_gaps(b, options.other);
+  Common common = common_of(a, b);
+  if (std::string text = find_other_event(read_events(a), read_events(b), options); !text.empty())
+    common.apart.push_back(std::move(text));
   Differences differences;
   RecordedInstants was(a, common.a, options.from), is(b, common.b, options.from);
   const std::vector<RecordedInstants::Message> none;

@@ -23,6 +23,8 @@ struct TimedEvent {
   RunEvent::Kind kind = RunEvent::Kind::fault;
   std::int64_t activation = 0;  // of a fault, as the others
   std::string task{}, cause{};  // of a mishap: the distributer whose vehicle it is, and what it has
+
+  friend auto operator<=>(const TimedEvent&, const TimedEvent&) = default;
 };
 
 /// Of one that is no fault, in words.
