@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tools/console/page_message.h"
 #include "tools/console/seconds.h"
 #include "tools/console/shortened.h"
 
@@ -49,12 +50,7 @@ Json event_json(const FeedEvent& event, const std::vector<std::string>& tasks) {
   return json;
 }
 
-nlohmann::json parse(const std::string& message) {
-  auto json = nlohmann::json::parse(message, nullptr, false);
-  if (!json.is_object() || !json.contains("do") || !json["do"].is_string())
-    throw std::invalid_argument("expected an object as in {\"do\": \"pause\"}");
-  return json;
-}
+nlohmann::json parse(const std::string& message) { return parse_request(message, R"({"do": "pause"})"); }
 
 Json hello_of(const Watched& watched, const Desk& desk) {
   Json hello = describe_run(watched.run);
@@ -135,7 +131,7 @@ void obey(Pace& pace, const std::string& message) {
   if (what == "go_on") return pace.go_on();
   if (what == "step") {
     const auto instants = json.value("instants", nlohmann::json(1));
-    if (!instants.is_number_unsigned() || instants < 1 || instants > 10000)
+    if (!instants.is_number_unsigned() || instants < 1 || instants > Pace::max_steps)
       throw std::invalid_argument("'instants' of step is no whole number from 1 to 10000");
     return pace.step(instants);
   }
