@@ -144,6 +144,7 @@ export class Editor {
 
   /** Over the version that was opened, or another one that was looked at. */
   save(over = this.base.hash): void {
+    this.refusal = "";
     this.saving = true;
     this.saved = this.graph.text;
     this.ask({ do: "save", text: this.saved, over });
@@ -224,6 +225,7 @@ export class Editor {
   }
 
   run(length: string, watched: boolean): void {
+    this.refusal = "";
     this.ask({ do: "run", text: this.graph.text, profile: this.profile, for: length, watched });
   }
   stop(): void {
