@@ -116,11 +116,14 @@ std::string Console::answer(const Page& page, const std::string& message) {
   const nlohmann::json json = parse(message);
   if (json.contains("desk")) {
     desk_.obey(page.number, json, Desk::Clock::now(), page.behind);
-  } else if (watched_.pace != nullptr) {
-    obey(*watched_.pace, message);
-  } else {
-    throw std::invalid_argument("this run goes on by itself; only one on the virtual clock can be paced and paused");
+    return "";
   }
+  if (watched_.pace == nullptr)
+    throw std::invalid_argument("this run goes on by itself; only one on the virtual clock can be paced and paused");
+  // the time that a vehicle waits for its operator is that of the run: who changes it could end another one's flight
+  if (const std::string desk = desk_.commanded_by_others(page.number); !desk.empty())
+    throw std::invalid_argument("another page commands '" + desk + "'; it alone changes the pace, pauses and steps");
+  obey(*watched_.pace, message);
   return "";
 }
 

@@ -6,8 +6,8 @@
 
 namespace jarol::tools::console {
 
-/// What is no JSON is discarded. Throws std::invalid_argument for what is nested too deep: values are copied, written and
-/// destroyed level by level, each on the stack.
+/// What is no JSON is discarded. Throws std::invalid_argument for what is nested too deep: values are copied, written
+/// and destroyed level by level, each on the stack.
 nlohmann::json parse_json(const std::string& message);
 
 /// An object {"do": ...}; else throws std::invalid_argument, with the example of one, as in {"do": "pause"}.

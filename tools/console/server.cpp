@@ -12,6 +12,7 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <deque>
+#include <list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -160,6 +161,8 @@ class Server::Implementation {
   std::uint64_t pages_ = 0;  // so far
   History history_;
   std::size_t connections_ = 0;  // watchers among them
+  // that have not shown the token, the oldest first
+  std::list<Connection*> strangers_;
   asio::io_context context_{1};  // what waits in it knows what stands above
   tcp::acceptor acceptor_{context_};
   asio::steady_timer timer_{context_}, end_timer_{context_};
@@ -315,8 +318,9 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
  public:
   Connection(Implementation& server, tcp::socket socket) : server_(server), stream_(std::move(socket)) {
     ++server_.connections_;
+    server_.strangers_.push_back(this);
   }
-  ~Connection() { --server_.connections_; }
+  ~Connection() { free_place(); }
 
   void read() {
     parser_.emplace();
@@ -330,17 +334,33 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
     });
   }
 
-  void refuse() { send(plain({}, http::status::service_unavailable, "too many watch; try again later")); }
+  void refuse() {
+    free_place();
+    send(plain({}, http::status::service_unavailable, "too many watch; try again later"));
+  }
+
+  /// For one that is newer.
+  void give_way() {
+    free_place();
+    stream_.close();
+  }
 
  private:
+  void free_place() {
+    server_.strangers_.remove(this);
+    if (std::exchange(has_place_, false)) --server_.connections_;
+  }
+
   void serve(const Request& request) {
     if (server_.ending_) return;
-    const std::string_view target = text_of(request.target());
+    const std::string_view target = text_of(request.target()), token = token_of(target);
+    const bool knows_token =
+        token.size() == server_.token_.size() && sodium_memcmp(token.data(), server_.token_.data(), token.size()) == 0;
+    if (knows_token) server_.strangers_.remove(this);
     if (path_of(target) != "/socket") return send(answer_to(request));
     if (!websocket::is_upgrade(request))
       return send(plain(request, http::status::upgrade_required, "here is a WebSocket"));
-    const std::string_view token = token_of(target);
-    if (token.size() != server_.token_.size() || sodium_memcmp(token.data(), server_.token_.data(), token.size()) != 0)
+    if (!knows_token)
       return send(plain(request, http::status::forbidden,
                         "the token is missing or wrong; open the URL that jarol has printed"));
     if (!is_own_origin(request))
@@ -361,6 +381,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
   }
 
   Implementation& server_;
+  bool has_place_ = true;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_{16 << 10};
   std::optional<http::request_parser<http::empty_body>> parser_;
@@ -410,6 +431,8 @@ void Server::Implementation::accept() {
     if (ending_) return;
     if (!error) {
       const auto connection = std::make_shared<Connection>(*this, std::move(socket));
+      // who does not show the token keeps nobody out who may
+      if (connections_ > max_clients && strangers_.front() != connection.get()) strangers_.front()->give_way();
       connections_ > max_clients ? connection->refuse() : connection->read();
     } else if (error != asio::error::connection_aborted) {
       // as where there are no more descriptors: some may be free in a moment

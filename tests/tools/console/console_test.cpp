@@ -6,6 +6,7 @@
 #include <map>
 #include <thread>
 
+#include "distributers/messages/javiator.h"
 #include "tests/tools/console/client.h"
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
@@ -148,6 +149,39 @@ TEST_SUITE("console/console") {
     two.send(R"({"do": "pause"})");
     CHECK(one.read_with("paused")["paused"] == true);
     CHECK(pace.state().paused);
+  }
+
+  TEST_CASE("where a page commands, it alone changes the pace, pauses and steps") {
+    const Loaded loaded = load(counting);
+    const auto truth = no_truth(*loaded.graph);
+    tools::Pace pace(2.0);
+    const auto port = std::make_shared<distributers::ConsolePort>(messages::javiator::message_set());
+    Console console(Watched{.run = {*loaded.graph, "counting.yaml", "virtual", 1s, truth},
+                            .server = {},
+                            .pace = &pace,
+                            .operators = {{"terminal", "JaviatorOperator", port}}});
+    console.open();
+    PageSocket pilot(console.url()), other(console.url());
+    // nobody commands yet
+    other.send(R"({"do": "speed", "speed": 1})");
+    CHECK(other.read_with("speed")["speed"] == 2.0);
+    CHECK(other.read_with("speed")["speed"] == 1.0);
+    pilot.send(R"({"do": "take", "desk": "terminal", "as": "me", "sticks": {"roll": 0}})");
+    while (pilot.read_with("desk")["desk"]["terminal"]["commander"] != "me") {}
+    for (const std::string what : {R"("speed", "speed": "max")", R"("pause")", R"("go_on")", R"("step")"}) {
+      pilot.send(R"({"do": "alive", "desk": "terminal"})");
+      other.send(R"({"do": )" + what + "}");
+      CHECK(other.read_with("error")["error"] ==
+            "another page commands 'terminal'; it alone changes the pace, pauses and steps");
+    }
+    CHECK(pace.state() == tools::Pace::State{1.0, false});
+    pilot.send(R"({"do": "pause"})");
+    while (!pilot.read_with("paused")["paused"]) {}
+    pilot.send(R"({"do": "release", "desk": "terminal"})");
+    while (!other.read_with("desk")["desk"]["terminal"]["commander"].is_null()) {}
+    other.send(R"({"do": "go_on"})");
+    while (other.read_with("paused")["paused"]) {}
+    CHECK(pace.state() == tools::Pace::State{1.0, false});
   }
 
   TEST_CASE("run: watched or not, at any pace, a run is the same") {

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,7 @@ using tests::HttpAnswer;
 using tests::PageSocket;
 using tests::Place;
 using tests::Served;
+using tests::SilentConnection;
 using tools::console::Page;
 using tools::console::Server;
 
@@ -180,6 +182,34 @@ TEST_SUITE("console/server") {
     CHECK(refusal(served.server.url()) == "503: too many watch; try again later\n");
     served.said("on");
     CHECK(all.front().read_with("say")["say"] == "on");
+  }
+
+  TEST_CASE("connections that have not shown the token keep nobody out who has it") {
+    Served served;
+    const Place place = served.place();
+    PageSocket before(served.server.url());
+    std::vector<SilentConnection> silent;
+    for (std::size_t i = 0; i < Server::max_clients + 50; ++i) silent.emplace_back(place);
+    for (int i = 0; i < 3; ++i) CHECK(get(place, place.target).status == 200);
+    PageSocket late(served.server.url());
+    CHECK(late.read()->contains("hello"));
+    served.said("on");
+    CHECK(before.read_with("say")["say"] == "on");
+    // the oldest ones have made room, long before their time is over
+    const auto begun = std::chrono::steady_clock::now();
+    for (int i = 0; i < 50; ++i) silent[i].wait_for_end();
+    CHECK(std::chrono::steady_clock::now() - begun < std::chrono::seconds(5));
+  }
+
+  TEST_CASE("pages fill all places against connections that have not shown the token") {
+    Served served;
+    std::vector<SilentConnection> silent;
+    for (std::size_t i = 0; i < Server::max_clients; ++i) silent.emplace_back(served.place());
+    std::vector<PageSocket> all;
+    for (std::size_t i = 0; i < Server::max_clients; ++i) all.emplace_back(served.server.url());
+    CHECK(refusal(served.server.url()) == "503: too many watch; try again later\n");
+    served.said("on");
+    for (PageSocket& one : all) CHECK(one.read_with("say")["say"] == "on");
   }
 
   TEST_CASE("at the end pages get what there was, and are closed") {
