@@ -5,6 +5,7 @@
 #include <sodium.h>
 #include <boost/asio/bind_executor.hpp>
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/host_name.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
@@ -69,6 +70,16 @@ bool is_own_origin(const Request& request) {
   if (request.count(http::field::origin) == 0) return true;
   const std::string_view origin = text_of(request[http::field::origin]), host = text_of(request[http::field::host]);
   return origin == fmt::format("http://{}", host) || origin == fmt::format("https://{}", host);
+}
+
+// Nobody can open 0.0.0.0: of all addresses of the machine its name stands for those that others know.
+std::string host_text(const asio::ip::address& address) {
+  if (address.is_unspecified()) {
+    Error none;
+    const std::string name = asio::ip::host_name(none);
+    if (!none && !name.empty()) return name;
+  }
+  return address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
 }
 
 template <class Body>
@@ -413,9 +424,7 @@ Server::Implementation::Implementation(const ServerOptions& options, std::string
   require(acceptor_.bind(end, error));
   require(acceptor_.listen(asio::socket_base::max_listen_connections, error));
   const tcp::endpoint bound = acceptor_.local_endpoint();
-  url_ = fmt::format("http://{}:{}{}?token={}",
-                     bound.address().is_v6() ? "[" + bound.address().to_string() + "]" : bound.address().to_string(),
-                     bound.port(), options.page, token_);
+  url_ = fmt::format("http://{}:{}{}?token={}", host_text(bound.address()), bound.port(), options.page, token_);
   accept();
   show_next();
   thread_ = std::thread([this] { context_.run(); });

@@ -197,6 +197,16 @@ TEST_SUITE("console/console") {
     }
   }
 
+  TEST_CASE("run: where the page is served on all addresses, it is said what others open") {
+    const std::string said = command::run_jarol(
+                                 "run specs/counting.yaml --for 10ms --console --pace max "
+                                 "--console-listen 0.0.0.0")
+                                 .output;
+    CHECK(said.find("http://0.0.0.0") == std::string::npos);
+    CHECK(said.find("\n  where that name is not known, put an address of this machine in its place\n") !=
+          std::string::npos);
+  }
+
   TEST_CASE("run: what is recorded of a watched run is what is recorded of any") {
     const TemporaryFolder folder;
     const std::string run = "run specs/counting.yaml --for 1s --trace ";

@@ -2,6 +2,7 @@
 #include "tools/console/server.h"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <memory>
@@ -84,6 +85,17 @@ TEST_SUITE("console/server") {
     CHECK(refusal(url, own) == "none");
     for (const std::string foreign : {"http://evil.example", "null", "http://127.0.0.1:1", "file://"})
       CHECK(refusal(url, foreign) == "403: this page was not served from here\n");
+  }
+
+  TEST_CASE("a server on all addresses is called by the machine's name, which others can open") {
+    for (const std::string all : {"0.0.0.0", "::"}) {
+      const Server server(
+          {.listen = all}, "", [] { return std::vector<std::string>(); },
+          [](const Page&, const std::string&) { return ""; });
+      char name[256] = {};
+      REQUIRE(::gethostname(name, sizeof name - 1) == 0);
+      CHECK(server.url().starts_with("http://" + std::string(name) + ":"));
+    }
   }
 
   TEST_CASE("tokens are not the same twice") {

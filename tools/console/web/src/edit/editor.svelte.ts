@@ -117,7 +117,12 @@ export class Editor {
     } else if ("trial" in message) {
       this.trial = message.trial;
       if (message.trial.state === "running") this.trialPage = "";
-      if (message.trial.state === "watched") this.trialPage = message.trial.url;
+      if (message.trial.state === "watched") {
+        // the machine's name as this page has it
+        const url = new URL(message.trial.url);
+        url.hostname = location.hostname;
+        this.trialPage = url.href;
+      }
     } else if ("error" in message) {
       this.refusal = message.error;
       this.saving = false;
