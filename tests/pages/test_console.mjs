@@ -7,7 +7,8 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, test} from 'node:test';
 import {Browser} from './browser.mjs';
-import {Console, digestIn, endAll, leaveOutWithoutPage, start} from './watched_run.mjs';
+import {command, Console, digestIn, endAll, leaveOutWithoutPage, start} from './watched_run.mjs';
+import {Watcher} from './watcher.mjs';
 
 const jarol = process.env.JAROL_COMMAND;
 const vehicles = process.env.JAROL_VEHICLES === '1' ? {} : {skip: 'built without vehicles'};
@@ -103,9 +104,37 @@ test('on a small screen and on a tablet a desk is seen whole, with sliders that 
       assert.equal(seen.hidden, 0, where);
       assert.ok(seen.sliders.length >= 2 && Math.min(...seen.sliders) > 250, `${where}: ${seen.sliders}`);
       assert.ok(Math.max(...seen.bottoms) <= options.height, `${where}: ${seen.bottoms}`);
+      await shown.page.until(`document.querySelector('section[aria-label=Plots] canvas') !== null`);
+      assert.deepEqual(await shown.nameless(), [], where);
       await run.stop();
       await shown.close();
     }
+});
+
+test('while another page commands this one changes no pace, pauses and steps nothing, and shows why', vehicles, async () => {
+  const run = start('run', 'specs/javiator.yaml', '--profile', 'desk', '--console', '--for', '1h');
+  const shown = await Console.open(browser, await run.url);
+  await shown.state('live');
+  const pilot = await Watcher.open(await run.url);
+  pilot.ask({do: 'take', desk: 'terminal', as: 'a pilot', sticks: {roll: 0}});
+  const alive = setInterval(() => pilot.ask({do: 'alive', desk: 'terminal'}), 100);
+  await shown.page.until(command('Another page commands'));
+  const why = `document.querySelector('header [role=alert]')?.textContent === "another page commands 'terminal'; it alone changes the pace, pauses and steps"`;
+  await shown.choose('speed', 'max');
+  await shown.page.until(why);
+  assert.equal(await shown.page.evaluate(`document.querySelector('header .group select').value`), '1');
+  await shown.press('Pause');
+  await shown.page.until(why);
+  await pilot.until(({error, paused, speed}) => error === undefined && !paused && speed === 1);
+  clearInterval(alive);
+  pilot.ask({do: 'release', desk: 'terminal'});
+  await shown.page.until(command('Nobody commands'));
+  await shown.press('Pause');
+  await shown.state('paused');
+  assert.equal(await shown.text('header [role=alert]'), '');
+  pilot.cut();
+  await run.stop();
+  await shown.close();
 });
 
 test('a recording is looked at from its begin, at any instant, and played', vehicles, async () => {

@@ -2,7 +2,7 @@
 // without the page.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {appendFileSync, mkdirSync, writeFileSync} from 'node:fs';
+import {appendFileSync, chmodSync, mkdirSync, writeFileSync} from 'node:fs';
 import {after, test} from 'node:test';
 import {Browser} from './browser.mjs';
 import {EditorPage} from './edited_graph.mjs';
@@ -210,11 +210,47 @@ test('it is run in simulation as it stands, and its report is shown', vehicles, 
   const expected = execFileSync(jarol, ['run', 'specs/exolauv.yaml', '--for', '2s', '--set', 'tasks.depth.parameters.kp=0.5'], {encoding: 'utf8'});
   assert.equal(/digest +(\w+)/.exec(await shown.text('[aria-label=run]'))[1], /digest +(\w+)/.exec(expected)[1]);
   await picture(shown, 'run_dark');
+  await shown.fill('length of the run', '1h', 'section[aria-label=Verdict]');
   await shown.press('Watch');
   const url = await shown.page.until(`document.querySelector('[aria-label=run] a')?.href`);
   assert.match(await (await fetch(url)).text(), /Jarol console/);
   await shown.press('Stop');
   await shown.page.until(`/stopped/.test(document.querySelector('[aria-label=run]').textContent)`);
+  await shown.end();
+});
+
+test('a graph without a mission is watched for the length that is filled in; with one that is none it is not run, and can be again', async () => {
+  const shown = await EditorPage.edit(browser, 'counting.yaml');
+  const length = (text) => shown.fill('length of the run', text, 'section[aria-label=Verdict]');
+  for (const wrong of ['abc', '1e30s']) {
+    await length(wrong);
+    await shown.press('Run');
+    await shown.page.until(`document.querySelector('[role=alert]')?.innerText.includes("the length '${wrong}'")`);
+  }
+  assert.equal(await shown.text('[aria-label=run]'), '');
+  await length('1h');
+  await shown.press('Watch');
+  const url = await shown.page.until(`document.querySelector('[aria-label=run] a')?.href`);
+  assert.match(await (await fetch(url)).text(), /Jarol console/);
+  await shown.press('Stop');
+  await shown.page.until(`/stopped/.test(document.querySelector('[aria-label=run]').textContent)`);
+  await shown.end();
+});
+
+test('a read-only file is not overwritten, and the page says so', async () => {
+  const shown = await EditorPage.edit(browser, 'counting.yaml');
+  const before = shown.onDisk();
+  chmodSync(shown.file, 0o444);
+  await shown.choose_part('task slow');
+  await shown.fill('wcet', '1ms');
+  await shown.press('Save');
+  await shown.page.until(`/the file is read-only; allow that it is written/.test(document.querySelector('[role=alert]')?.innerText)`);
+  assert.equal(shown.onDisk(), before);
+  chmodSync(shown.file, 0o644);
+  await shown.press('Save');
+  await shown.page.until(`document.querySelector('[aria-label="state of the file"]').textContent.trim() === 'saved'`);
+  assert.equal(shown.onDisk(), before.replace('wcet: 2ms', 'wcet: 1ms'));
+  assert.equal(await shown.text('[role=alert]'), '');
   await shown.end();
 });
 

@@ -91,7 +91,7 @@ int show(const ConsoleOptions& options) {
   const Interruptible interruptible;
   // of a long one pages see the begin while the rest is run
   console.open();
-  print_url(console.url());
+  print_url(console.url(), options.console);
   ReplayRun replay(run.executor(), log);
   const RunEnd end = attend(
       replay, [] {}, Interruptible::wish);

@@ -29,7 +29,7 @@ int edit_graph(const EditOptions& options) {
                              .profile = options.overrides.profile,
                              .no_plugins = options.overrides.no_plugins,
                              .server = server_of(options.console)});
-  print_url(editor.url());
+  print_url(editor.url(), options.console);
   // until Ctrl-C
   while (Interruptible::signal() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return exit_of_signal(Interruptible::signal());

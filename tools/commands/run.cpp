@@ -168,7 +168,7 @@ int run(RunOptions options) {
   let_writing_fail();
   if (console) {
     console->open();
-    print_url(console->url());
+    print_url(console->url(), options.console);
   }
   const std::optional<Duration> rest = clock ? longest_rest(graph) : std::nullopt;
   const Interruptible interruptible([] {}, steers ? HaltKey::ends : HaltKey::halts,

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tools/console/page_message.h"
 #include "tools/console/seconds.h"
 #include "tools/console/shortened.h"
 
@@ -49,12 +50,7 @@ Json event_json(const FeedEvent& event, const std::vector<std::string>& tasks) {
   return json;
 }
 
-nlohmann::json parse(const std::string& message) {
-  auto json = nlohmann::json::parse(message, nullptr, false);
-  if (!json.is_object() || !json.contains("do") || !json["do"].is_string())
-    throw std::invalid_argument("expected an object as in {\"do\": \"pause\"}");
-  return json;
-}
+nlohmann::json parse(const std::string& message) { return parse_request(message, R"({"do": "pause"})"); }
 
 Json hello_of(const Watched& watched, const Desk& desk) {
   Json hello = describe_run(watched.run);
@@ -120,11 +116,14 @@ std::string Console::answer(const Page& page, const std::string& message) {
   const nlohmann::json json = parse(message);
   if (json.contains("desk")) {
     desk_.obey(page.number, json, Desk::Clock::now(), page.behind);
-  } else if (watched_.pace != nullptr) {
-    obey(*watched_.pace, message);
-  } else {
-    throw std::invalid_argument("this run goes on by itself; only one on the virtual clock can be paced and paused");
+    return "";
   }
+  if (watched_.pace == nullptr)
+    throw std::invalid_argument("this run goes on by itself; only one on the virtual clock can be paced and paused");
+  // the time that a vehicle waits for its operator is that of the run: who changes it could end another one's flight
+  if (const std::string desk = desk_.commanded_by_others(page.number); !desk.empty())
+    throw std::invalid_argument("another page commands '" + desk + "'; it alone changes the pace, pauses and steps");
+  obey(*watched_.pace, message);
   return "";
 }
 
@@ -135,7 +134,7 @@ void obey(Pace& pace, const std::string& message) {
   if (what == "go_on") return pace.go_on();
   if (what == "step") {
     const auto instants = json.value("instants", nlohmann::json(1));
-    if (!instants.is_number_unsigned() || instants < 1 || instants > 10000)
+    if (!instants.is_number_unsigned() || instants < 1 || instants > Pace::max_steps)
       throw std::invalid_argument("'instants' of step is no whole number from 1 to 10000");
     return pace.step(instants);
   }

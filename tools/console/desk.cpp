@@ -87,6 +87,15 @@ void Desk::obey(std::uint64_t page, const Received& message, Clock::time_point n
   seat.behind = {};
 }
 
+std::string Desk::commanded_by_others(std::uint64_t page) const {
+  std::string others;
+  for (const Seat& seat : seats_) {
+    if (seat.page == page) return "";
+    if (seat.page) others = seat.of.name;
+  }
+  return others;
+}
+
 void Desk::leave_out(Seat& seat, const Received& message, Duration behind) {
   const std::string what = text_of(message, "do");
   const std::string age = fmt::format("what this page shows is {} old", age_text(behind));

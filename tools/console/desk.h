@@ -35,6 +35,8 @@ class Desk {
   /// What page number so-and-so asks for: {"do": "take" | "alive" | "send" | "release", "desk": NAME, ...}. Throws
   /// std::invalid_argument, of which the page is shown the text. `behind`: so old is what the page shows.
   void obey(std::uint64_t page, const nlohmann::json& message, Clock::time_point now, Duration behind = {});
+  /// A desk that is commanded, where that page commands none; empty: there is none, or nobody commands.
+  std::string commanded_by_others(std::uint64_t page) const;
   /// The page is gone.
   void leave(std::uint64_t page);
   /// Who commands, if that has changed since the last call, and again after `repeat`, for pages that missed it; else

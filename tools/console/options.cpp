@@ -42,6 +42,10 @@ console::ServerOptions server_of(const ConsoleArguments& arguments) {
   return options;
 }
 
-void print_url(const std::string& url) { std::cerr << "console: " << url << std::endl; }
+void print_url(const std::string& url, const ConsoleArguments& arguments) {
+  std::cerr << "console: " << url << std::endl;
+  const bool all = arguments.listen.find_first_not_of("0.:") == std::string::npos;
+  if (all) std::cerr << "  where that name is not known, put an address of this machine in its place" << std::endl;
+}
 
 }  // namespace jarol::tools

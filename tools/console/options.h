@@ -27,7 +27,7 @@ void require_effect(const Command& command, const ConsoleArguments& arguments, b
 
 console::ServerOptions server_of(const ConsoleArguments& arguments);
 
-/// A line that says where the page is, on stderr, at once.
-void print_url(const std::string& url);
+/// A line that says where the page is, on stderr, at once; where it is served on all addresses another one.
+void print_url(const std::string& url, const ConsoleArguments& arguments);
 
 }  // namespace jarol::tools

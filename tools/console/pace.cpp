@@ -34,6 +34,7 @@ void Pace::set_speed(std::optional<double> speed) {
 void Pace::pause() {
   const std::lock_guard lock(mutex_);
   state_.paused = true;
+  steps_ = 0;
 }
 
 void Pace::go_on() {
@@ -50,7 +51,7 @@ void Pace::step(std::uint64_t instants) {
   {
     const std::lock_guard lock(mutex_);
     state_.paused = true;
-    steps_ += instants;
+    steps_ = std::min(steps_ + instants, max_steps);
   }
   changed_.notify_all();
 }

@@ -26,9 +26,10 @@ class Pace {
   };
   State state() const;
   void set_speed(std::optional<double> speed);
+  /// Steps that are not taken yet are dropped.
   void pause();
   void go_on();
-  /// So many instants more, then it is paused.
+  /// So many instants more, at most max_steps, then it is paused.
   void step(std::uint64_t instants);
   /// `cover` returns soon.
   void end();
@@ -37,6 +38,8 @@ class Pace {
   void cover(GraphRun& run, Duration end);
 
   static constexpr double min = 0.001, max = 1000;
+  /// That are asked for and not taken yet.
+  static constexpr std::uint64_t max_steps = 10000;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -5,6 +5,7 @@
 #include <sodium.h>
 #include <boost/asio/bind_executor.hpp>
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/host_name.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
@@ -12,6 +13,7 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <deque>
+#include <list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -68,6 +70,16 @@ bool is_own_origin(const Request& request) {
   if (request.count(http::field::origin) == 0) return true;
   const std::string_view origin = text_of(request[http::field::origin]), host = text_of(request[http::field::host]);
   return origin == fmt::format("http://{}", host) || origin == fmt::format("https://{}", host);
+}
+
+// Nobody can open 0.0.0.0: of all addresses of the machine its name stands for those that others know.
+std::string host_text(const asio::ip::address& address) {
+  if (address.is_unspecified()) {
+    Error none;
+    const std::string name = asio::ip::host_name(none);
+    if (!none && !name.empty()) return name;
+  }
+  return address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
 }
 
 template <class Body>
@@ -160,6 +172,8 @@ class Server::Implementation {
   std::uint64_t pages_ = 0;  // so far
   History history_;
   std::size_t connections_ = 0;  // watchers among them
+  // that have not shown the token, the oldest first
+  std::list<Connection*> strangers_;
   asio::io_context context_{1};  // what waits in it knows what stands above
   tcp::acceptor acceptor_{context_};
   asio::steady_timer timer_{context_}, end_timer_{context_};
@@ -315,8 +329,9 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
  public:
   Connection(Implementation& server, tcp::socket socket) : server_(server), stream_(std::move(socket)) {
     ++server_.connections_;
+    server_.strangers_.push_back(this);
   }
-  ~Connection() { --server_.connections_; }
+  ~Connection() { free_place(); }
 
   void read() {
     parser_.emplace();
@@ -330,17 +345,33 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
     });
   }
 
-  void refuse() { send(plain({}, http::status::service_unavailable, "too many watch; try again later")); }
+  void refuse() {
+    free_place();
+    send(plain({}, http::status::service_unavailable, "too many watch; try again later"));
+  }
+
+  /// For one that is newer.
+  void give_way() {
+    free_place();
+    stream_.close();
+  }
 
  private:
+  void free_place() {
+    server_.strangers_.remove(this);
+    if (std::exchange(has_place_, false)) --server_.connections_;
+  }
+
   void serve(const Request& request) {
     if (server_.ending_) return;
-    const std::string_view target = text_of(request.target());
+    const std::string_view target = text_of(request.target()), token = token_of(target);
+    const bool knows_token =
+        token.size() == server_.token_.size() && sodium_memcmp(token.data(), server_.token_.data(), token.size()) == 0;
+    if (knows_token) server_.strangers_.remove(this);
     if (path_of(target) != "/socket") return send(answer_to(request));
     if (!websocket::is_upgrade(request))
       return send(plain(request, http::status::upgrade_required, "here is a WebSocket"));
-    const std::string_view token = token_of(target);
-    if (token.size() != server_.token_.size() || sodium_memcmp(token.data(), server_.token_.data(), token.size()) != 0)
+    if (!knows_token)
       return send(plain(request, http::status::forbidden,
                         "the token is missing or wrong; open the URL that jarol has printed"));
     if (!is_own_origin(request))
@@ -361,6 +392,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
   }
 
   Implementation& server_;
+  bool has_place_ = true;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_{16 << 10};
   std::optional<http::request_parser<http::empty_body>> parser_;
@@ -392,9 +424,7 @@ Server::Implementation::Implementation(const ServerOptions& options, std::string
   require(acceptor_.bind(end, error));
   require(acceptor_.listen(asio::socket_base::max_listen_connections, error));
   const tcp::endpoint bound = acceptor_.local_endpoint();
-  url_ = fmt::format("http://{}:{}{}?token={}",
-                     bound.address().is_v6() ? "[" + bound.address().to_string() + "]" : bound.address().to_string(),
-                     bound.port(), options.page, token_);
+  url_ = fmt::format("http://{}:{}{}?token={}", host_text(bound.address()), bound.port(), options.page, token_);
   accept();
   show_next();
   thread_ = std::thread([this] { context_.run(); });
@@ -410,6 +440,8 @@ void Server::Implementation::accept() {
     if (ending_) return;
     if (!error) {
       const auto connection = std::make_shared<Connection>(*this, std::move(socket));
+      // who does not show the token keeps nobody out who may
+      if (connections_ > max_clients && strangers_.front() != connection.get()) strangers_.front()->give_way();
       connections_ > max_clients ? connection->refuse() : connection->read();
     } else if (error != asio::error::connection_aborted) {
       // as where there are no more descriptors: some may be free in a moment

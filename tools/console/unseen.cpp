@@ -5,12 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tools/console/page_message.h"
+
 namespace jarol::tools::console {
 
 std::optional<std::uint64_t> read_seen(const std::string& message) {
   constexpr std::size_t longest = 100;
   if (message.size() > longest) return std::nullopt;
-  const auto json = nlohmann::json::parse(message, nullptr, false);
+  const auto json = parse_json(message);
   if (!json.is_object() || json.value("do", nlohmann::json()) != "seen") return std::nullopt;
   const auto messages = json.value("messages", nlohmann::json());
   if (!messages.is_number_unsigned())

@@ -52,6 +52,23 @@ HttpAnswer get(const Place& place, const std::string& target, const std::string&
              "GET " + target + " HTTP/1.1\r\nHost: " + place.host + ":" + place.port + "\r\n" + headers + "\r\n");
 }
 
+struct SilentConnection::Socket {
+  asio::io_context context;
+  tcp::socket plain{context};
+};
+
+SilentConnection::SilentConnection(const Place& place) : socket_(std::make_unique<Socket>()) {
+  asio::connect(socket_->plain, tcp::resolver(socket_->context).resolve(place.host, place.port));
+}
+SilentConnection::~SilentConnection() = default;
+SilentConnection::SilentConnection(SilentConnection&&) noexcept = default;
+
+void SilentConnection::wait_for_end() {
+  char byte = 0;
+  beast::error_code error;
+  asio::read(socket_->plain, asio::buffer(&byte, 1), error);
+}
+
 struct PageSocket::Socket {
   asio::io_context context;
   websocket::stream<tcp::socket> stream{context};

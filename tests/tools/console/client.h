@@ -27,6 +27,21 @@ struct HttpAnswer {
 HttpAnswer ask(const Place& place, const std::string& bytes);
 HttpAnswer get(const Place& place, const std::string& target, const std::string& headers = "");
 
+/// A connection on which nothing is said.
+class SilentConnection {
+ public:
+  explicit SilentConnection(const Place& place);
+  ~SilentConnection();
+  SilentConnection(SilentConnection&&) noexcept;
+
+  /// Until the other side closes it.
+  void wait_for_end();
+
+ private:
+  struct Socket;
+  std::unique_ptr<Socket> socket_;
+};
+
 class PageSocket {
  public:
   /// Throws std::runtime_error where the server refuses.

@@ -6,6 +6,7 @@
 #include <map>
 #include <thread>
 
+#include "distributers/messages/javiator.h"
 #include "tests/tools/console/client.h"
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
@@ -150,6 +151,39 @@ TEST_SUITE("console/console") {
     CHECK(pace.state().paused);
   }
 
+  TEST_CASE("where a page commands, it alone changes the pace, pauses and steps") {
+    const Loaded loaded = load(counting);
+    const auto truth = no_truth(*loaded.graph);
+    tools::Pace pace(2.0);
+    const auto port = std::make_shared<distributers::ConsolePort>(messages::javiator::message_set());
+    Console console(Watched{.run = {*loaded.graph, "counting.yaml", "virtual", 1s, truth},
+                            .server = {},
+                            .pace = &pace,
+                            .operators = {{"terminal", "JaviatorOperator", port}}});
+    console.open();
+    PageSocket pilot(console.url()), other(console.url());
+    // nobody commands yet
+    other.send(R"({"do": "speed", "speed": 1})");
+    CHECK(other.read_with("speed")["speed"] == 2.0);
+    CHECK(other.read_with("speed")["speed"] == 1.0);
+    pilot.send(R"({"do": "take", "desk": "terminal", "as": "me", "sticks": {"roll": 0}})");
+    while (pilot.read_with("desk")["desk"]["terminal"]["commander"] != "me") {}
+    for (const std::string what : {R"("speed", "speed": "max")", R"("pause")", R"("go_on")", R"("step")"}) {
+      pilot.send(R"({"do": "alive", "desk": "terminal"})");
+      other.send(R"({"do": )" + what + "}");
+      CHECK(other.read_with("error")["error"] ==
+            "another page commands 'terminal'; it alone changes the pace, pauses and steps");
+    }
+    CHECK(pace.state() == tools::Pace::State{1.0, false});
+    pilot.send(R"({"do": "pause"})");
+    while (!pilot.read_with("paused")["paused"]) {}
+    pilot.send(R"({"do": "release", "desk": "terminal"})");
+    while (!other.read_with("desk")["desk"]["terminal"]["commander"].is_null()) {}
+    other.send(R"({"do": "go_on"})");
+    while (other.read_with("paused")["paused"]) {}
+    CHECK(pace.state() == tools::Pace::State{1.0, false});
+  }
+
   TEST_CASE("run: watched or not, at any pace, a run is the same") {
     const std::string run = "run specs/counting.yaml --for 2s";
     const std::string digest = digest_in(command::run_jarol(run).output);
@@ -161,6 +195,16 @@ TEST_SUITE("console/console") {
       CHECK((watched.output.find("console: http://127.0.0.1:") != std::string::npos) ==
             (options.find("--console") != std::string::npos));
     }
+  }
+
+  TEST_CASE("run: where the page is served on all addresses, it is said what others open") {
+    const std::string said = command::run_jarol(
+                                 "run specs/counting.yaml --for 10ms --console --pace max "
+                                 "--console-listen 0.0.0.0")
+                                 .output;
+    CHECK(said.find("http://0.0.0.0") == std::string::npos);
+    CHECK(said.find("\n  where that name is not known, put an address of this machine in its place\n") !=
+          std::string::npos);
   }
 
   TEST_CASE("run: what is recorded of a watched run is what is recorded of any") {

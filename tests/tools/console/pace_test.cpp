@@ -82,6 +82,31 @@ TEST_SUITE("console/pace") {
     CHECK(run.executor().report().covered == 1s);
   }
 
+  TEST_CASE("who pauses drops the steps that are not taken yet") {
+    GraphRun run = make_run();
+    Pace pace(std::nullopt);
+    pace.step(10000);
+    pace.pause();
+    std::thread thread([&] { pace.cover(run, 100s); });
+    std::this_thread::sleep_for(20ms);
+    pace.end();
+    thread.join();
+    CHECK(run.executor().report().activations == 0);
+  }
+
+  TEST_CASE("steps add up to as many as one may ask for at once") {
+    GraphRun run = make_run();
+    Pace pace(std::nullopt);
+    for (int i = 0; i < 80; ++i) pace.step(Pace::max_steps);
+    std::thread thread([&] { pace.cover(run, 200s); });
+    const Duration last = (Pace::max_steps - 1) * 10ms + 1ns;
+    while (run.executor().now() < last) std::this_thread::yield();
+    std::this_thread::sleep_for(20ms);
+    pace.end();
+    thread.join();
+    CHECK(run.executor().now() == last);
+  }
+
   TEST_CASE("pages ask in JSON") {
     Pace pace(1.0);
     obey(pace, R"({"do": "pause"})");
@@ -101,6 +126,8 @@ TEST_SUITE("console/pace") {
     const std::string object = R"(expected an object as in {"do": "pause"})";
     for (const std::string garbage : {"", "\xff", "[]", "1", "{", R"({"do": 1})", R"({"go": "on"})"})
       CHECK(refused(pace, garbage) == object);
+    CHECK(refused(pace, R"({"do": "step", "instants": )" + std::string(100'000, '[') + std::string(100'000, ']') +
+                            "}") == "the message is nested deeper than 64 levels");
     CHECK(refused(pace, R"({"do": "fly"})") == "there is no 'fly' to do; there are: pause, go_on, step, speed");
     for (const std::string speed : {"0", "-1", "1e9", "\"fast\"", "null", "true"})
       CHECK(refused(pace, R"({"do": "speed", "speed": )" + speed + "}") ==

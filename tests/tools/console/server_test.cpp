@@ -2,7 +2,9 @@
 #include "tools/console/server.h"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -16,6 +18,7 @@ using tests::HttpAnswer;
 using tests::PageSocket;
 using tests::Place;
 using tests::Served;
+using tests::SilentConnection;
 using tools::console::Page;
 using tools::console::Server;
 
@@ -82,6 +85,17 @@ TEST_SUITE("console/server") {
     CHECK(refusal(url, own) == "none");
     for (const std::string foreign : {"http://evil.example", "null", "http://127.0.0.1:1", "file://"})
       CHECK(refusal(url, foreign) == "403: this page was not served from here\n");
+  }
+
+  TEST_CASE("a server on all addresses is called by the machine's name, which others can open") {
+    for (const std::string all : {"0.0.0.0", "::"}) {
+      const Server server(
+          {.listen = all}, "", [] { return std::vector<std::string>(); },
+          [](const Page&, const std::string&) { return ""; });
+      char name[256] = {};
+      REQUIRE(::gethostname(name, sizeof name - 1) == 0);
+      CHECK(server.url().starts_with("http://" + std::string(name) + ":"));
+    }
   }
 
   TEST_CASE("tokens are not the same twice") {
@@ -180,6 +194,34 @@ TEST_SUITE("console/server") {
     CHECK(refusal(served.server.url()) == "503: too many watch; try again later\n");
     served.said("on");
     CHECK(all.front().read_with("say")["say"] == "on");
+  }
+
+  TEST_CASE("connections that have not shown the token keep nobody out who has it") {
+    Served served;
+    const Place place = served.place();
+    PageSocket before(served.server.url());
+    std::vector<SilentConnection> silent;
+    for (std::size_t i = 0; i < Server::max_clients + 50; ++i) silent.emplace_back(place);
+    for (int i = 0; i < 3; ++i) CHECK(get(place, place.target).status == 200);
+    PageSocket late(served.server.url());
+    CHECK(late.read()->contains("hello"));
+    served.said("on");
+    CHECK(before.read_with("say")["say"] == "on");
+    // the oldest ones have made room, long before their time is over
+    const auto begun = std::chrono::steady_clock::now();
+    for (int i = 0; i < 50; ++i) silent[i].wait_for_end();
+    CHECK(std::chrono::steady_clock::now() - begun < std::chrono::seconds(5));
+  }
+
+  TEST_CASE("pages fill all places against connections that have not shown the token") {
+    Served served;
+    std::vector<SilentConnection> silent;
+    for (std::size_t i = 0; i < Server::max_clients; ++i) silent.emplace_back(served.place());
+    std::vector<PageSocket> all;
+    for (std::size_t i = 0; i < Server::max_clients; ++i) all.emplace_back(served.server.url());
+    CHECK(refusal(served.server.url()) == "503: too many watch; try again later\n");
+    served.said("on");
+    for (PageSocket& one : all) CHECK(one.read_with("say")["say"] == "on");
   }
 
   TEST_CASE("at the end pages get what there was, and are closed") {

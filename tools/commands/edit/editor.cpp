@@ -10,6 +10,7 @@
 #include "tools/commands/edit/catalogue.h"
 #include "tools/commands/edit/verdict.h"
 #include "tools/commands/run/known_with.h"
+#include "tools/console/page_message.h"
 #include "tools/console/shortened.h"
 #include "tools/library/built_in.h"
 
@@ -22,13 +23,6 @@ using namespace std::chrono_literals;
 constexpr auto look_every = 500ms;
 
 std::string dump(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
-
-nlohmann::json parse(const std::string& message) {
-  auto json = nlohmann::json::parse(message, nullptr, false);
-  if (!json.is_object() || !json.contains("do") || !json["do"].is_string())
-    throw std::invalid_argument("expected an object as in {\"do\": \"open\"}");
-  return json;
-}
 
 std::string text_in(const nlohmann::json& json, const char* key) {
   const auto found = json.value(key, nlohmann::json(""));
@@ -90,7 +84,7 @@ void Editor::send(std::uint64_t page, std::string message) {
 }
 
 std::string Editor::answer(std::uint64_t page, const std::string& message) {
-  const nlohmann::json json = parse(message);
+  const nlohmann::json json = console::parse_request(message, R"({"do": "open"})");
   const std::string what = json["do"];
   if (what == "open") {
     try {
@@ -98,9 +92,9 @@ std::string Editor::answer(std::uint64_t page, const std::string& message) {
       return dump({{"opened", {{"text", version.text}, {"hash", version.hash}}}});
     } catch (const std::runtime_error& wrong) { throw std::invalid_argument(wrong.what()); }
   }
-  if (what == "judge") return judge(page, message), "";
+  if (what == "judge") return judge(page, json), "";
   if (what == "save") return save(text_in(json, "text"), text_in(json, "over"));
-  if (what == "run") return run(message), "";
+  if (what == "run") return run(json), "";
   if (what == "stop") {
     if (trial_) trial_->stop();
     return "";
@@ -111,8 +105,7 @@ std::string Editor::answer(std::uint64_t page, const std::string& message) {
 
 // Verdict, drawing and suggestions come when they are there, each by a thread of its own; those that help a graph that
 // does not hold take longest.
-void Editor::judge(std::uint64_t page, const std::string& message) {
-  const nlohmann::json json = parse(message);
+void Editor::judge(std::uint64_t page, const nlohmann::json& json) {
   const auto id = json.value("id", nlohmann::json(0));
   if (!id.is_number_unsigned()) throw std::invalid_argument("'id' is no whole number");
   EditedText text{std::make_shared<Source>(Source{options_.file, text_in(json, "text")}), {}};
@@ -146,8 +139,7 @@ std::string Editor::save(const std::string& text, const std::string& over) {
   return dump({{"saved", {{"hash", hash_of(text)}}}});
 }
 
-void Editor::run(const std::string& message) {
-  const nlohmann::json json = parse(message);
+void Editor::run(const nlohmann::json& json) {
   TrialOptions trial{.file = options_.file,
                      .text = text_in(json, "text"),
                      .profile = text_in(json, "profile"),
@@ -162,8 +154,11 @@ void Editor::run(const std::string& message) {
     const std::lock_guard lock(mutex_);
     messages_.push_back(dump({{"trial", std::move(state)}}));
   };
+  // one that can't begin does not end the one before
+  require_sound(trial);
   trial_.reset();
-  say({{"state", "running"}, {"watched", trial.watched}});
+  // it says nothing before it is announced, which it is once it has begun
+  const std::lock_guard lock(mutex_);
   trial_ = std::make_unique<Trial>(
       options_.program, trial,
       [say](const std::string& url) {
@@ -172,6 +167,7 @@ void Editor::run(const std::string& message) {
       [say](const TrialEnd& end) {
         say({{"state", "ended"}, {"exit_code", end.exit_code}, {"stopped", end.ended}, {"text", end.text}});
       });
+  messages_.push_back(dump({{"trial", {{"state", "running"}, {"watched", trial.watched}}}}));
 }
 
 // Besides what trials say, whether the file has changed.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,9 @@ class Editor {
   using Clock = std::chrono::steady_clock;
 
   std::string answer(std::uint64_t page, const std::string& message);
-  void judge(std::uint64_t page, const std::string& message);
+  void judge(std::uint64_t page, const nlohmann::json& json);
   std::string save(const std::string& text, const std::string& over);
-  void run(const std::string& message);
+  void run(const nlohmann::json& json);
   void send(std::uint64_t page, std::string message);
   std::vector<std::string> next_messages();
 

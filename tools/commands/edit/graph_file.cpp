@@ -1,9 +1,12 @@
 #include "tools/commands/edit/graph_file.h"
 
 #include <sodium.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "graph/language/read_source.h"
 #include "graph/language/yaml.h"
@@ -17,6 +20,16 @@ bool is_utf8(const std::string& text) {
     (void)nlohmann::json(text).dump();
     return true;
   } catch (const nlohmann::json::type_error&) { return false; }
+}
+
+// Another file takes its place, which needs the folder's permission alone. The bits count for root, too.
+void require_writable(const std::string& path) {
+  struct stat there {};
+  if (::stat(path.c_str(), &there) != 0) return;
+  constexpr mode_t to_write = S_IWUSR | S_IWGRP | S_IWOTH;
+  if ((there.st_mode & to_write) == 0 || ::access(path.c_str(), W_OK) != 0)
+    throw std::runtime_error("can't write '" + path +
+                             "': the file is read-only; allow that it is written, as by chmod u+w, and save again");
 }
 
 }  // namespace
@@ -39,6 +52,7 @@ Version GraphFile::read() const {
 }
 
 std::optional<Version> GraphFile::write(const std::string& text, const std::string& over) const {
+  require_writable(path_);
   // other commands that write the file wait at its lock; what is read behind that is what is replaced
   AtomicFile file(path_, Replaces::all);
   // a file that is gone has no text and no hash

@@ -35,14 +35,6 @@ std::vector<std::string> words_of(const TrialOptions& options) {
   return words;
 }
 
-void require_sound(const TrialOptions& options) {
-  Duration length{};
-  if (const std::string wrong = options.length.empty() ? "" : parse_duration(options.length, length); !wrong.empty())
-    throw std::invalid_argument("the length '" + options.length + "' " + wrong);
-  if (!options.profile.empty() && !is_name(options.profile))
-    throw std::invalid_argument("'" + options.profile + "' is no name of a profile");
-}
-
 // What stdin brings.
 Descriptor file_in_memory(const std::string& text) {
   Descriptor file(memfd_create("jarol", MFD_CLOEXEC));
@@ -111,6 +103,14 @@ class Child {
 };
 
 }  // namespace
+
+void require_sound(const TrialOptions& options) {
+  Duration length{};
+  if (const std::string wrong = options.length.empty() ? "" : parse_duration(options.length, length); !wrong.empty())
+    throw std::invalid_argument("the length '" + options.length + "' " + wrong);
+  if (!options.profile.empty() && !is_name(options.profile))
+    throw std::invalid_argument("'" + options.profile + "' is no name of a profile");
+}
 
 Trial::Trial(const std::string& program, const TrialOptions& options, std::function<void(const std::string& url)> page,
              std::function<void(const TrialEnd& end)> end)

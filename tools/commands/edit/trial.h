@@ -27,10 +27,13 @@ struct TrialEnd {
   std::string text;    // all that it printed, the last 256 kB
 };
 
+/// Throws std::invalid_argument for a length or profile that is none.
+void require_sound(const TrialOptions& options);
+
 class Trial {
  public:
   /// `page`: where it is watched; `end` once it has ended. Both are called by a thread of the trial's own. `program` is
-  /// jarol. Throws std::invalid_argument for a length or profile that is none.
+  /// jarol. Throws what require_sound throws.
   Trial(const std::string& program, const TrialOptions& options, std::function<void(const std::string& url)> page,
         std::function<void(const TrialEnd& end)> end);
   /// Ends it.

@@ -98,6 +98,40 @@ TEST_SUITE("editor/editor") {
     CHECK(end["text"].get<std::string>().find("digest") != std::string::npos);
   }
 
+  TEST_CASE("a run that can't begin is not announced, and ends none that is under way") {
+    Edited edited;
+    PageSocket page(edited.url());
+    const std::string text = content(edited.file());
+    page.send(json{{"do", "run"}, {"text", text}, {"for", "1000h"}}.dump());
+    CHECK(page.read_with("trial")["trial"]["state"] == "running");
+    page.send(json{{"do", "run"}, {"text", text}, {"for", "abc"}}.dump());
+    CHECK(page.read_with("error")["error"].get<std::string>().starts_with("the length 'abc' "));
+    page.send(json{{"do", "run"}, {"text", text}, {"profile", "--help"}}.dump());
+    CHECK(page.read_with("error")["error"] == "'--help' is no name of a profile");
+    page.send(R"({"do": "stop"})");
+    CHECK(page.read_with("trial")["trial"]["stopped"] == true);
+    page.send(json{{"do", "run"}, {"text", text}, {"for", "1e30s"}}.dump());
+    CHECK(page.read_with("error")["error"].get<std::string>().starts_with("the length '1e30s' "));
+    // what comes next is of this one alone
+    page.send(json{{"do", "run"}, {"text", text}, {"for", "100ms"}, {"watched", false}}.dump());
+    CHECK(page.read_with("trial")["trial"] == json::parse(R"({"state": "running", "watched": false})"));
+    CHECK(page.read_with("trial")["trial"]["state"] == "ended");
+  }
+
+  TEST_CASE("a message that is nested too deep is refused, and the editor goes on") {
+    Edited edited;
+    PageSocket page(edited.url());
+    const auto nested = [](std::size_t levels) {
+      return R"({"do": "judge", "text": "", "id": )" + std::string(levels, '[') + std::string(levels, ']') + "}";
+    };
+    page.send(nested(100'000));
+    CHECK(page.read_with("error")["error"] == "the message is nested deeper than 64 levels");
+    page.send(std::string(5'000'000, '['));
+    CHECK(page.read_with("error")["error"] == "the message is nested deeper than 64 levels");
+    page.send(nested(60));
+    CHECK(page.read_with("error")["error"] == "'id' is no whole number");
+  }
+
   TEST_CASE("what makes no sense is answered, and changes nothing") {
     Edited edited;
     PageSocket page(edited.url());

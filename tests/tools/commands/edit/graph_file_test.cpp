@@ -44,6 +44,26 @@ TEST_SUITE("editor/graph_file") {
     CHECK(content(file.path()) == "graph: mine\n");
   }
 
+  TEST_CASE("a file that is read-only is left as it is, also by who may write any") {
+    namespace fs = std::filesystem;
+    const TemporaryFolder folder;
+    const GraphFile file(folder.write("a.yaml", "graph: a\n"));
+    fs::create_symlink("a.yaml", folder / "link.yaml");
+    constexpr auto to_read = fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read;
+    fs::permissions(file.path(), to_read);
+    const std::string opened = file.read().hash;
+    for (const std::string& path : {file.path(), std::string(folder / "link.yaml")})
+      CHECK_THROWS_WITH_AS(GraphFile(path).write("graph: b\n", opened),
+                           ("can't write '" + path +
+                            "': the file is read-only; allow that it is written, as by chmod u+w, and save again")
+                               .c_str(),
+                           std::runtime_error);
+    CHECK(content(file.path()) == "graph: a\n");
+    fs::permissions(file.path(), to_read | fs::perms::owner_write);
+    CHECK_FALSE(file.write("graph: b\n", opened));
+    CHECK(content(file.path()) == "graph: b\n");
+  }
+
   TEST_CASE("a link stays a link") {
     const TemporaryFolder folder;
     const std::string to = folder.write("a.yaml", "graph: a\n");

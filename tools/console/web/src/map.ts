@@ -32,7 +32,8 @@ export function frameOf(spots: readonly Spot[], width: number, height: number, m
     e1 = Math.max(e1, east);
   }
   if (!Number.isFinite(n0)) [n0, n1, e0, e1] = [0, 0, 0, 0];
-  const scale = Math.min(width / Math.max(min, (e1 - e0) * 1.25), height / Math.max(min, (n1 - n0) * 1.25));
+  // a map that is not laid out yet has no room
+  const scale = Math.min(Math.max(1, width) / Math.max(min, (e1 - e0) * 1.25), Math.max(1, height) / Math.max(min, (n1 - n0) * 1.25));
   return { north: (n0 + n1) / 2, east: (e0 + e1) / 2, scale, width, height };
 }
 

@@ -19,6 +19,13 @@ test("a map has all spots in sight, north up, and no less than it needs", () => 
   assert.equal(frameOf([], 400, 200, 4).north, 0);
 });
 
+test("a map that has no room yet has a scale all the same", () => {
+  for (const [width, height] of [[0, 241], [300, 0], [0, 0]] as const) {
+    const frame = frameOf([[0, 0], [10, 40]], width, height, 20);
+    assert.ok(Number.isFinite(roundLength(110 / frame.scale) * frame.scale), `${width} by ${height}`);
+  }
+});
+
 test("a spot stays under the pointer that zooms", () => {
   const frame = frameOf([[0, 0], [10, 40]], 400, 200, 4);
   const before = toSpot(frame, 30, 170);

@@ -117,7 +117,12 @@ export class Editor {
     } else if ("trial" in message) {
       this.trial = message.trial;
       if (message.trial.state === "running") this.trialPage = "";
-      if (message.trial.state === "watched") this.trialPage = message.trial.url;
+      if (message.trial.state === "watched") {
+        // the machine's name as this page has it
+        const url = new URL(message.trial.url);
+        url.hostname = location.hostname;
+        this.trialPage = url.href;
+      }
     } else if ("error" in message) {
       this.refusal = message.error;
       this.saving = false;
@@ -144,6 +149,7 @@ export class Editor {
 
   /** Over the version that was opened, or another one that was looked at. */
   save(over = this.base.hash): void {
+    this.refusal = "";
     this.saving = true;
     this.saved = this.graph.text;
     this.ask({ do: "save", text: this.saved, over });
@@ -224,6 +230,7 @@ export class Editor {
   }
 
   run(length: string, watched: boolean): void {
+    this.refusal = "";
     this.ask({ do: "run", text: this.graph.text, profile: this.profile, for: length, watched });
   }
   stop(): void {
