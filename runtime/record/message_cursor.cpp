@@ -41,7 +41,8 @@ void MessageCursor::open_chunk() {
     place_ = 0;
     require_whole();
   } catch (const mcap::FormatError& error) {
-    throw LogError("'" + path + "' is damaged: at byte " + std::to_string(place.offset) + " there is " + error.what());
+    throw DamagedLog("'" + path + "' is damaged: at byte " + std::to_string(place.offset) + " there is " +
+                     error.what());
   }
 }
 

@@ -24,8 +24,8 @@ mcap::Attachment attachment_of(const mcap::Record& record, const std::string& pa
   try {
     return mcap::read_attachment(record.content);
   } catch (const mcap::FormatError&) {
-    throw LogError("'" + path + "' is damaged at byte " + std::to_string(record.offset) +
-                   ", before what was recorded, and can't be replayed");
+    throw DamagedLog("'" + path + "' is damaged at byte " + std::to_string(record.offset) +
+                     ", before what was recorded, and can't be replayed");
   }
 }
 

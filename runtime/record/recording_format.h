@@ -20,6 +20,11 @@ struct LogError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A recording that is not as it was written.
+struct DamagedLog : LogError {
+  using LogError::LogError;
+};
+
 /// The attachment that says of what run a recording is.
 struct RecordingHeader {
   static constexpr const char* schema = "jarol.recording/1";

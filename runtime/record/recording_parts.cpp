@@ -43,10 +43,11 @@ std::string path_of_part(const std::string& path, std::size_t number) {
 std::string mark_of_part(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const auto size = static_cast<std::int64_t>(std::streamoff(file.tellg()));
-  // its newest values and its index
-  std::string last(static_cast<std::size_t>(std::clamp<std::int64_t>(size, 0, 65536)), '\0');
-  if (!file || last.empty()) return "";
-  file.seekg(size - static_cast<std::int64_t>(last.size()));
+  // its newest values and its index, but for the end, whose sum of the index would take that out of the sum of all
+  const auto end = static_cast<std::int64_t>(sizeof(std::uint32_t) + mcap::magic.size());
+  if (!file || size < end) return "";
+  std::string last(static_cast<std::size_t>(std::min<std::int64_t>(size - end, 65536)), '\0');
+  file.seekg(size - end - static_cast<std::int64_t>(last.size()));
   file.read(last.data(), static_cast<std::streamsize>(last.size()));
   return file ? fmt::format("{} {:08x}", size, mcap::crc32(last)) : "";
 }

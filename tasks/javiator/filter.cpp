@@ -250,10 +250,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
       if (heard && fix.seen) settle(axis, zero, fix.place, state.has_flown);
       return;
     }
-    if (heard && fix.at_corner) {  // that says nothing, and nothing of the laser
-      laser.silent = 0;
-      return;
-    }
+    if (heard && fix.at_corner) return void(laser.silent = 0);  // that says nothing, and nothing of the laser
     const bool credible = heard && fix.seen && is_near(axis, fix.place - zero, p.range_jump);
     const bool repeats = p.laser_repeats > 0 && laser.repeats > 0;
     if (believe(laser, credible, p.patience) && axis.since > 0 && !repeats)

@@ -203,7 +203,7 @@ tasks: {count: {type: Counter, period: 100ms}}
       folder.write("damaged", bytes);
       bytes[i] = static_cast<char>(bytes[i] ^ 4);
       const int code = command::run_jarol("log verify " + (folder / "damaged")).exit_code;
-      CHECK((code == 1 || code == 2));
+      CHECK(code == (i < 8 ? 2 : 1));  // with another beginning it is no recording
     }
   }
 

@@ -29,7 +29,7 @@ BEYOND_A_SCHEMA = {
         init_not_finite_in_its_unit""",
     "the language of conditions": """
         at_end_until_comparison at_end_until_metric at_end_until_names at_end_until_once at_end_until_true
-        at_end_until_window expect_choices expect_names vehicle_expect_true_value""",
+        at_end_until_window expect_choices expect_names expect_within_negative vehicle_expect_true_value""",
     "other files": """
         link_file_missing link_key_missing plugins_no_file plugins_no_library script_cells script_empty
         script_first_column script_order script_time script_unknown_column script_value trim_file_is_none

@@ -100,12 +100,14 @@ int log_info(const LogOptions& options) {
 }
 
 int log_verify(const LogOptions& options) {
-  const Recording recording(options.file);  // says what is no recording
   std::vector<std::string> problems;
-  for (const std::string& part : recording.parts())
-    for (const std::string& problem : mcap::verify(part)) problems.push_back("'" + part + "' " + problem);
-  if (problems.empty() && !recording.is_whole())
-    problems.push_back("'" + options.file + "' breaks off " + recording.text_of_break());
+  try {
+    const Recording recording(options.file);
+    for (const std::string& part : recording.parts())
+      for (const std::string& problem : mcap::verify(part)) problems.push_back("'" + part + "' " + problem);
+    if (problems.empty() && !recording.is_whole())
+      problems.push_back("'" + options.file + "' breaks off " + recording.text_of_break());
+  } catch (const DamagedLog& damaged) { problems.emplace_back(damaged.what()); }
   if (options.json)
     std::cout << json_line(
         {{"schema", "jarol.log_verify/1"}, {"verdict", problems.empty() ? "good" : "damaged"}, {"problems", problems}});
