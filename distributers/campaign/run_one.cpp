@@ -30,7 +30,7 @@ std::string wrong_with(const Graph& graph, const std::vector<std::unique_ptr<Ext
 
 // The first of what is against the run; empty: nothing.
 std::string why_bad(const RunVerdict& verdict) {
-  for (const auto& mishap : verdict.mishaps) return "the vehicle of '" + mishap.distributer + "' has " + mishap.text;
+  for (const auto& mishap : verdict.mishaps) return jarol::to_text(mishap);
   for (const std::string& line : verdict.left_out) return line;
   for (const Verdict& v : verdict.expectations)
     if (v.outcome == Verdict::Outcome::fails) return "expected '" + v.condition + "', but it " + v.why;

@@ -23,6 +23,10 @@ bool RunVerdict::is_negative() const {
                      [](const Verdict& v) { return v.outcome == Verdict::Outcome::fails; });
 }
 
+std::string to_text(const RunVerdict::VehicleMishap& mishap) {
+  return "the vehicle of '" + mishap.distributer + "' has " + mishap.text;
+}
+
 std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& channels) {
   std::vector<RunVerdict::VehicleMishap> found;
   for (std::size_t i = 0; i < channels.size(); ++i)

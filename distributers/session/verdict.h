@@ -27,6 +27,9 @@ struct RunVerdict {
   bool is_negative() const;
 };
 
+/// "the vehicle of 'robostix' has crashed: a rotor met the ground, at 10.32 s".
+std::string to_text(const RunVerdict::VehicleMishap& mishap);
+
 /// What became of the vehicles that are simulated on these channels, one per distributer of the graph.
 std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& channels);
 

@@ -81,6 +81,10 @@ TEST_SUITE("tools/guard") {
                     " --save 7s=" + saved)["digest"] == whole["digest"]);
     CHECK(command::run_jarol("replay " + log).exit_code == 0);
     CHECK(report_of(run + " --guard --resume " + saved)["digest"] == whole["digest"]);
+    // what was saved under guard goes on without it, and the other way round
+    CHECK(report_of(run + " --resume " + saved)["digest"] == whole["digest"]);
+    CHECK(report_of(run + " --save 7s=" + saved)["digest"] == whole["digest"]);
+    CHECK(report_of(run + " --guard --resume " + saved)["digest"] == whole["digest"]);
     CHECK(report_of(run + " --guard --execution random")["digest"] == whole["digest"]);
   }
 

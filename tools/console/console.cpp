@@ -44,7 +44,7 @@ Json event_json(const FeedEvent& event, const std::vector<std::string>& tasks) {
       break;
     case RunEvent::Kind::mishap:
       json["kind"] = "mishap";
-      json["text"] = "the vehicle of '" + event.distributer + "' has " + event.cause;
+      json["text"] = to_text(RunVerdict::VehicleMishap{event.distributer, event.cause});
       break;
   }
   return json;

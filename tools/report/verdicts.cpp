@@ -68,8 +68,7 @@ nlohmann::ordered_json to_json(const RunVerdict& verdict) {
 
 std::string failures_text(const RunVerdict& verdict) {
   std::string text;
-  for (const auto& mishap : verdict.mishaps)
-    text += "error: the vehicle of '" + mishap.distributer + "' has " + mishap.text + "\n";
+  for (const auto& mishap : verdict.mishaps) text += "error: " + to_text(mishap) + "\n";
   for (const std::string& name : verdict.unheard)
     text += "error: nothing came from the vehicle of '" + name + "' in the whole run; is it there?\n";
   if (!verdict.not_at_rest.empty()) text += "error: " + verdict.not_at_rest + "\n";

@@ -90,7 +90,7 @@ int log_info(const LogOptions& options) {
   else
     std::cout << "  breaks off " << printable(recording.text_of_break()) << "; how the run ended is not known\n";
   for (const auto& mishap : read_mishaps(recording))
-    std::cout << printable("  mishap      the vehicle of '" + mishap.distributer + "' has " + mishap.text) << "\n";
+    std::cout << "  mishap      " << printable(to_text(mishap)) << "\n";
   std::size_t width = 0;
   for (const auto& [id, topic] : recording.topics()) width = std::max(width, topic.channel.topic.size());
   for (const auto& [id, topic] : recording.topics())

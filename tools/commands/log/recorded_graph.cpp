@@ -49,7 +49,7 @@ std::string words_of(const TimedEvent& event) {
     case RunEvent::Kind::fault: break;
     case RunEvent::Kind::rest_begun: return "begins to bring the vehicle to rest";
     case RunEvent::Kind::at_rest: return "the vehicle is at rest";
-    case RunEvent::Kind::mishap: return "the vehicle of '" + event.task + "' has " + event.cause;
+    case RunEvent::Kind::mishap: return to_text(RunVerdict::VehicleMishap{event.task, event.cause});
   }
   return event.cause;
 }
