@@ -130,6 +130,14 @@ TEST_SUITE("tools/log_split") {
       CHECK(has(command::run_jarol("log info " + first).output,
                 "breaks off after '" + first + "', and there is no '" + second + "' that follows it"));
     }
+    SUBCASE("of another run with the same sizes") {
+      const std::string other = folder / "other.mcap";
+      REQUIRE(command::run_jarol("run " + graph_in(folder) + " --set tasks.count.init.out=1 --for 30s --record " +
+                                 other + split)
+                  .exit_code == 0);
+      fs::rename(folder / "other.2.mcap", second);
+      CHECK(command::run_jarol("log verify " + first).exit_code == 1);
+    }
     SUBCASE("damaged") {
       flip(second, fs::file_size(second) / 2);
       const auto verified = command::run_jarol("log verify " + first);

@@ -97,6 +97,28 @@ connections: [count.out -> sum.in, sum.out -> flow.in]
           "jarol run --record\n");
   }
 
+  TEST_CASE("two recordings with the same values differ where a fault stands in one alone") {
+    const TemporaryFolder folder;
+    const std::string graph = folder.write("g.yaml", R"(graph: g
+timing: {period: 12ms}
+tasks:
+  c: {type: Counter, period: 2ms, wcet: 10us, on_fault: hold}
+  w: {type: Work, period: 4ms, wcet: 4ms, on_fault: hold}
+platform: {cores: 1, policy: fixed_priority}
+fault_limit: 100%
+)");
+    const std::string times = folder.write("times.yaml", "c: 10us\nw: 6ms\n"), a = folder / "a", b = folder / "b";
+    const std::string run = "run " + graph + " --for 60ms --record ";
+    REQUIRE(command::run_jarol(run + a).exit_code == 0);
+    REQUIRE(command::run_jarol(run + b + " --execution " + times).exit_code == 0);
+    const auto diff = command::run_jarol("log diff " + a + " " + b);
+    CHECK(diff.exit_code == 1);
+    CHECK(has(diff.output, "DIFFERENT, 30 values compared\n  apart       at "));
+    CHECK(has(diff.output, ": a fault of '"));
+    CHECK(has(diff.output, " only in B\n"));
+    CHECK(command::run_jarol("log diff " + b + " " + b).exit_code == 0);
+  }
+
   TEST_CASE("one bit of one input is found by instant and field") {
     const TemporaryFolder folder;
     const std::string a = folder / "a.mcap", b = folder / "b.mcap";
