@@ -323,10 +323,13 @@ tasks: {a: {type: Counter, period: 10ms}}
     CHECK(closed.exit_code == 2);
     CHECK(closed.output == "error: '-' is stdout, which is closed; name a file, or open it\n");
     // what can't be written is named, whatever else can't be
-    const auto both =
-        command::run_jarol("run specs/counting.yaml --for 1s --trace /dev/full --plot /dev/full", "2>&1 >/dev/null");
+    const TemporaryFolder full;
+    const auto both = command::run_jarol(
+        "run specs/counting.yaml --for 60s --trace " + (full / "t.csv") + " --log " + (full / "t.log"),
+        "2>&1 >/dev/null", std::string("ulimit -f 4; ") + JAROL_COMMAND);
     CHECK(both.exit_code == 3);
-    CHECK(both.output.find("can't write '/dev/full'") != std::string::npos);
+    for (const char* const name : {"t.csv", "t.log"})
+      CHECK(both.output.find("can't write '" + (full / name) + "'") != std::string::npos);
     // a disk that has no room left, as the limit of a file's size has none
     const TemporaryFolder small;
     const auto campaign = command::run_jarol(

@@ -59,6 +59,20 @@ TEST_SUITE("tools/verdicts") {
     CHECK(contains(alarm.output, "expected    never supervisor.condition.alarm is not none: FAILS: "));
   }
 
+  TEST_CASE(
+      "a campaign that ends before its mission measures its runs as long as they are; integers are measured, too") {
+    const TemporaryFolder folder;
+    const Result campaign = command::run_jarol(
+        "campaign specs/exolauv.yaml --for 12s --runs 2 --vary seed=1..2 --set expect=nothing --set "
+        "distributers.dune.link.parameters.dynamics=rigid --metric 'deep=depth of dune < 1' --metric "
+        "'mean=mean(depth of dune) before 8s' --metric 'count=max(from_dune.depth.count)' --csv - --results " +
+            (folder / "r"),
+        "2>/dev/null");
+    CHECK(campaign.exit_code == 1);
+    CHECK(contains(campaign.output, ",bad,0,12,"));
+    CHECK(!contains(campaign.output, ",,"));
+  }
+
   TEST_CASE("motors that are stopped at 1 m end with a crash, by the true state") {
     const TemporaryFolder folder;
     const Result result =
