@@ -147,7 +147,8 @@ connections: [a.out -> b.in]
 
   TEST_CASE("destructors of a plugin's static objects don't run: they change no exit code, hang or crash nothing") {
     const command::TemporaryFolder folder;
-    for (const auto& [number, exit_code] : {std::pair{7, 3}, {8, 0}, {9, 0}}) {
+    for (const int number : {7, 8, 9}) {
+      const int exit_code = number == 7 ? 3 : 0;
       const std::string so = std::filesystem::absolute(library("at_load_" + std::to_string(number))).string();
       const std::string graph = folder.write(
           "g.yaml", "graph: g\nplugins: [" + so + "]\ntasks: {a: {type: Nothing, period: 10ms, wcet: 1ms}}\n");

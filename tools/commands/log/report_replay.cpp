@@ -5,6 +5,7 @@
 #include "distributers/session/rest_verdict.h"
 #include "runtime/machine/thread_time.h"
 #include "runtime/record/replayed_values.h"
+#include "tools/commands/log/recorded_graph.h"
 #include "tools/commands/run/crash_line.h"
 
 namespace jarol::tools {
