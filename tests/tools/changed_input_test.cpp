@@ -5,9 +5,9 @@
 #include <bit>
 #include <cstring>
 
-#include "runtime/mcap/writer.h"
 #include "runtime/record/recording.h"
 #include "tests/tools/reports.h"
+#include "tests/tools/rewrite_recording.h"
 #include "tests/tools/run_command.h"
 
 namespace {
@@ -32,39 +32,17 @@ struct Changed {
 Changed change(const std::string& from, const std::string& to, const Place& place) {
   const Recording recording(from);
   const std::uint16_t channel = recording.find(place.topic)->channel.id;
-  std::FILE* const file = std::fopen(to.c_str(), "wb");
-  mcap::Writer writer(file, mcap::Compression::lz4, "jarol");
-  std::vector<mcap::Schema> schemas;
-  std::vector<mcap::Channel> channels;
   Changed changed;
   std::uint64_t seen = 0;
-  mcap::Reader reader(from);
-  for (mcap::Record record; reader.next(record) && record.opcode != mcap::Opcode::data_end;) {
-    if (record.opcode == mcap::Opcode::attachment) writer.write(mcap::read_attachment(record.content));
-    if (record.opcode != mcap::Opcode::chunk) continue;
-    const mcap::ReadChunk read = mcap::read_chunk(record.content);
-    mcap::Chunk chunk;
-    mcap::for_each_record(read.records, [&](mcap::Opcode opcode, std::string_view content, std::size_t at) {
-      if (opcode == mcap::Opcode::message) {
-        const mcap::Message message = mcap::read_message(content);
-        std::byte* const data = chunk.add_message(message.channel, message.sequence, message.time, message.data.size());
-        std::memcpy(data, message.data.data(), message.data.size());
-        if (message.channel != channel || seen++ != place.message) return;
-        std::byte* const number = data + 4 + (place.byte - 4) / 8 * 8;
-        std::memcpy(&changed.before, number, sizeof(double));
-        data[place.byte] ^= std::byte{1} << place.bit;
-        std::memcpy(&changed.after, number, sizeof(double));
-        changed.instant = message.time;
-        return;
-      }
-      chunk.add(std::string_view(read.records).substr(at, mcap::record_head + content.size()));
-      if (opcode == mcap::Opcode::schema) schemas.push_back(mcap::read_schema(content));
-      if (opcode == mcap::Opcode::channel) channels.push_back(mcap::read_channel(content));
-    });
-    writer.write(chunk);
-  }
-  writer.end(schemas, channels);
-  std::fclose(file);
+  command::rewrite_recording(from, to, [&](const mcap::Message& message, mcap::Chunk& chunk) {
+    std::byte* const data = command::copy_message(message, chunk);
+    if (message.channel != channel || seen++ != place.message) return;
+    std::byte* const number = data + 4 + (place.byte - 4) / 8 * 8;
+    std::memcpy(&changed.before, number, sizeof(double));
+    data[place.byte] ^= std::byte{1} << place.bit;
+    std::memcpy(&changed.after, number, sizeof(double));
+    changed.instant = message.time;
+  });
   return changed;
 }
 

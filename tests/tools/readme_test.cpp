@@ -82,8 +82,10 @@ TEST_SUITE("tools/readme") {
     CHECK(page("specs/flying.md").find(run.substr(begin)) != std::string::npos);
   }
 
-  TEST_CASE("the README shows a test of one's own as it is built against an installed tree") {
+  TEST_CASE("the README and the library's show tests of one's own as they are built against an installed tree") {
     CHECK(readme().find("```cpp\n" + page("tests/library/dive_test.cpp") + "```\n") != std::string::npos);
+    CHECK(page("tools/library/README.md").find("```cpp\n" + page("tests/library/fed_test.cpp") + "```\n") !=
+          std::string::npos);
   }
 
   TEST_CASE("the README shows what the dive reaches as it is, flying.md what the flight does") {
