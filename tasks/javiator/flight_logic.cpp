@@ -9,10 +9,14 @@ namespace {
 
 using Cause = LandingCause;
 
+Cause find_lean(const FlightLogic::Param& p, const FlightEstimate& e) {
+  if (std::abs(e.roll) > p.roll_limit) return Cause::roll;
+  return std::abs(e.pitch) > p.pitch_limit ? Cause::pitch : Cause::none;
+}
+
 // Why it can't go on flying as it is commanded, if so.
 Cause find_cause(const FlightLogic::Param& p, const FlightEstimate& e, bool wants_position, double unheard) {
-  if (std::abs(e.roll) > p.roll_limit) return Cause::roll;
-  if (std::abs(e.pitch) > p.pitch_limit) return Cause::pitch;
+  if (const Cause lean = find_lean(p, e); lean != Cause::none) return lean;
   if (std::abs(wrapped(e.yaw)) > p.yaw_limit) return Cause::yaw;
   if (e.altitude > p.altitude_limit) return Cause::altitude;
   if (unheard > p.patience) return Cause::operator_lost;
@@ -108,6 +112,8 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     state.still = still || in.lift.thrust < p.light ? state.still + dt : 0;
     if (state.since > 1 && state.still > p.touch_time) enter(FlightState::ground, d.cause, state, d);
   }
+  // one that lies on its side does not stand there well, however it came to that
+  if (d.state == FlightState::ground && d.cause == Cause::none && e.attitude_known) d.cause = find_lean(p, e);
 }
 
 }  // namespace jarol::tasks

@@ -143,8 +143,10 @@ class Page {
   }
 
   async key(key) {
-    await this.send('Input.dispatchKeyEvent', {type: 'keyDown', key});
-    await this.send('Input.dispatchKeyEvent', {type: 'keyUp', key});
+    // by their codes Tab goes on, Enter presses
+    const code = {Tab: {windowsVirtualKeyCode: 9}, Enter: {windowsVirtualKeyCode: 13, text: '\r'}}[key];
+    await this.send('Input.dispatchKeyEvent', {type: 'keyDown', key, ...code});
+    await this.send('Input.dispatchKeyEvent', {type: 'keyUp', key, ...code, text: undefined});
     await this.settle();
   }
 

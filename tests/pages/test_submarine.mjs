@@ -285,7 +285,9 @@ test('an abort is one act, of the pilot or of who finds nobody at the desk, and 
   await take(shown);
   await steer(shown, {depth: 1.5, heading: 0, speed: 1});
   await shown.page.until(`${row('depth')} > 1`);
-  await shown.press('Abort');
+  // wherever the focus is
+  await shown.page.evaluate(`document.querySelector('.desk [aria-label=depth], .desk input').focus()`);
+  await shown.page.key('Escape');
   await shown.page.until(state('aborted'));
   await shown.page.until(state('at rest'));
   await shown.page.until(`${row('depth')} < 0.3 && ${row('speed')} < 0.1`);

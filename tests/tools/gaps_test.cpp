@@ -6,15 +6,16 @@
 #include "runtime/record/cdr.h"
 #include "runtime/record/recording.h"
 #include "runtime/record/recording_format.h"
-#include "tests/tools/run_command.h"
 #include "tests/tools/rewrite_recording.h"
+#include "tests/tools/run_command.h"
 
 namespace {
 using namespace jarol;
 using command::has;
 using command::TemporaryFolder;
 
-// As a writer that is held up leaves it: without the values of an output from 0.3 s to 0.5 s, and with a gap that says so.
+// As a writer that is held up leaves it: without the values of an output from 0.3 s to 0.5 s, and with a gap that says
+// so.
 void drop(const std::string& from, const std::string& to, const std::string& output) {
   const Recording recording(from);
   const std::uint16_t channel = recording.find(output)->channel.id;
@@ -35,7 +36,8 @@ void drop(const std::string& from, const std::string& to, const std::string& out
 TEST_SUITE("tools/gaps") {
   TEST_CASE("what a recording lacks is said by all that look into it, and tasks by themselves are not run on it") {
     const TemporaryFolder folder;
-    const std::string whole = folder / "whole.mcap", file = folder / "r.mcap", graph = folder.write("g.yaml", R"(graph: g
+    const std::string whole = folder / "whole.mcap", file = folder / "r.mcap",
+                      graph = folder.write("g.yaml", R"(graph: g
 tasks:
   count: {type: Counter, period: 100ms}
   sum: {type: Accumulate, period: 100ms}
@@ -44,8 +46,9 @@ connections: [count.out -> sum.in]
     REQUIRE(command::run_jarol("run " + graph + " --for 1s --record " + whole).exit_code == 0);
     drop(whole, file, "count.out");
     CHECK(command::run_jarol("log verify " + file).exit_code == 0);
-    const std::string note = "note: '" + file +
-                             "' lacks 3 published values from 0.3 s to 0.5 s, which came faster than the disk took them\n";
+    const std::string note =
+        "note: '" + file +
+        "' lacks 3 published values from 0.3 s to 0.5 s, which came faster than the disk took them\n";
 
     // the values that are there are the same
     const auto replay = command::run_jarol("replay " + file);

@@ -1,4 +1,5 @@
-// Writes a recording again, message by message, with another one's content or without some; all its check sums are right.
+// Writes a recording again, message by message, with another one's content or without some; all its check sums are
+// right.
 #pragma once
 
 #include <cstdio>

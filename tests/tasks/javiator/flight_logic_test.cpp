@@ -168,6 +168,30 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(logic.press() == FlightState::starting);
   }
 
+  TEST_CASE("one that tips over as it lands, or while it stands, does not report a good landing, and does not start") {
+    Logic logic;
+    logic.fly();
+    logic.press();
+    logic.in.estimate.altitude = 0.1;
+    logic.in.estimate.roll = -1.5;
+    CHECK(logic.run(100) == FlightState::ground);
+    CHECK(logic.out.directive.cause == LandingCause::roll);
+    // it says so again, and the key never gets further
+    CHECK(logic.press() == FlightState::ground);
+    CHECK(logic.press() == FlightState::ground);
+    CHECK(logic.out.directive.cause == LandingCause::roll);
+    logic.in.estimate.roll = 0;
+    CHECK(logic.press() == FlightState::ground);
+    CHECK(logic.out.directive.cause == LandingCause::none);
+    logic.in.estimate.pitch = 0.61;
+    logic.run(1);
+    CHECK(logic.out.directive.cause == LandingCause::pitch);
+    // what it can't know it does not say
+    logic.in.estimate.attitude_known = false;
+    CHECK(logic.press() == FlightState::ground);
+    CHECK(logic.out.directive.cause == LandingCause::none);
+  }
+
   TEST_CASE("each limit makes it land when it is exceeded, to either side, and not before") {
     struct Case {
       double FlightEstimate::*value;

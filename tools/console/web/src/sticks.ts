@@ -76,3 +76,8 @@ export function takesKeys(target: EventTarget | null): boolean {
   if (!(target instanceof HTMLElement) || target.closest(".desk [type=range]")) return false;
   return target.matches("input, select, textarea, [role=separator], .map");
 }
+
+/** The key by which who commands ends it safely, wherever the focus is: not one that closes a list. */
+export function isEscape(event: KeyboardEvent): boolean {
+  return event.key === "Escape" && !event.repeat && !(event.target instanceof HTMLSelectElement);
+}
