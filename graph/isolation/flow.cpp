@@ -207,7 +207,7 @@ class Walk {
     for (std::size_t i = 0; i < with.size(); ++i)
       with[i] = state.registers[static_cast<std::size_t>(argument_registers[i])];
     for (Origin& origin : with)
-      if (origin.kind == Kind::frame) origin = unknown;
+      if (origin.kind == Kind::frame || origin.kind == Kind::own || origin.kind == Kind::spot) origin = unknown;
     return with;
   }
 

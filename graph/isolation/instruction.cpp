@@ -68,6 +68,35 @@ Register register_of(unsigned reg) {
   return reg < numbers.size() ? numbers[reg] : no_register;
 }
 
+// xmm, ymm, zmm
+Register vector_of(unsigned reg) {
+  for (const unsigned first : {X86_REG_XMM0, X86_REG_YMM0, X86_REG_ZMM0})
+    if (reg >= first && reg < first + 32) return static_cast<Register>(reg - first);
+  return no_register;
+}
+static_assert(X86_REG_XMM31 == X86_REG_XMM0 + 31 && X86_REG_YMM31 == X86_REG_YMM0 + 31 &&
+              X86_REG_ZMM31 == X86_REG_ZMM0 + 31);
+
+// Whole numbers of eight bytes, as they are.
+bool gathers(unsigned id) {
+  switch (id) {
+    case X86_INS_MOVQ:
+    case X86_INS_MOVAPS:
+    case X86_INS_MOVAPD:
+    case X86_INS_MOVUPS:
+    case X86_INS_MOVUPD:
+    case X86_INS_MOVDQA:
+    case X86_INS_MOVDQU:
+    case X86_INS_MOVHPS:
+    case X86_INS_MOVHPD:
+    case X86_INS_MOVLHPS:
+    case X86_INS_UNPCKLPD:
+    case X86_INS_PUNPCKLQDQ:
+    case X86_INS_PINSRQ: return true;
+    default: return false;
+  }
+}
+
 Instruction::Form form_of(const cs_insn& instruction) {
   switch (instruction.id) {
     case X86_INS_MOV:
@@ -98,10 +127,15 @@ Operand operand_of(const cs_x86_op& from) {
   Operand made;
   made.size = from.size;
   made.written = (from.access & CS_AC_WRITE) != 0;
+  made.read = (from.access & CS_AC_READ) != 0 || !made.written;
   switch (from.type) {
     case X86_OP_REG:
       made.reg = register_of(from.reg);
       made.kind = made.reg == no_register ? Operand::Kind::other : Operand::Kind::reg;
+      if (const Register vector = vector_of(from.reg); vector != no_register) {
+        made.kind = Operand::Kind::vector;
+        made.reg = vector;
+      }
       break;
     case X86_OP_IMM:
       made.kind = Operand::Kind::number;
@@ -131,6 +165,7 @@ Instruction made_of(const cs_insn& from) {
   made.form = form_of(from);
   made.forbidden = reason_against(from);
   made.subtracts = from.id == X86_INS_SUB;
+  made.gathers = gathers(from.id);
   made.x87 = from.mnemonic[0] == 'f' || uses_mmx(from);  // no other begins so
   if (*made.forbidden != '\0') made.text = from.mnemonic;
   const cs_x86& x86 = from.detail->x86;

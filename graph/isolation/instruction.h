@@ -16,14 +16,15 @@ inline constexpr Register no_register = -1, instruction_pointer = -2;
 inline constexpr Register rax = 0, rcx = 1, rdx = 2, rbx = 3, rsp = 4, rbp = 5, rsi = 6, rdi = 7, r8 = 8, r9 = 9;
 
 struct Operand {
-  enum class Kind : std::uint8_t { none, reg, number, memory, other };
+  enum class Kind : std::uint8_t { none, reg, number, memory, vector, other };
   Kind kind = Kind::none;
+  bool read = false;
   bool written = false;
   bool thread_local_data = false;  // relative to fs or gs, but for the next
   bool reads_guard = false;        // the stack protector's number
   std::uint8_t size = 0;           // bytes
   std::uint8_t scale = 1;          // of the index
-  Register reg = no_register;      // of memory: the base
+  Register reg = no_register;      // of memory: the base; of vectors: 0 to 31, whatever their width
   Register index = no_register;
   std::int64_t number = 0;  // of memory: the displacement
 };
@@ -36,6 +37,7 @@ struct Instruction {
   std::uint16_t writes = 0;    // general registers, a bit each
   bool subtracts = false;      // `add` has a sign
   bool clears = false;         // its first operand, by xor
+  bool gathers = false;        // puts its operands beside each other in a vector, or copies one
   bool x87 = false;            // computes with the registers of long double
   const char* forbidden = "";  // why no task may hold it
   std::string text{};          // of one that is forbidden: "rdtsc"

@@ -11,6 +11,11 @@ using Form = Instruction::Form;
 
 Origin address(Address at) { return {Kind::address, static_cast<std::int64_t>(at), -1}; }
 Origin number(std::int64_t value) { return {Kind::number, value, -1}; }
+Origin spot(std::int64_t begin) { return {Kind::spot, begin, -1}; }
+
+bool is_own(const Origin& origin) {
+  return origin.kind == Kind::address || origin.kind == Kind::frame || origin.kind == Kind::own;
+}
 
 // Of what is computed with the task's values.
 int depth_of(const Origin& a, const Origin& b) {
@@ -19,6 +24,10 @@ int depth_of(const Origin& a, const Origin& b) {
 }
 
 Origin sum(const Origin& a, const Origin& b, bool subtracts) {
+  for (const auto& [base, index] : {std::pair(a, b), std::pair(b, a)}) {
+    if (base.kind == Kind::frame && index.kind == Kind::task && !subtracts) return spot(base.at);
+    if (base.kind == Kind::spot && index.kind == Kind::number && !subtracts) return spot(base.at + index.at);
+  }
   if (a.kind == Kind::task || b.kind == Kind::task) return of_task(depth_of(a, b));
   if (a.kind == Kind::element && b.kind == Kind::number) return a;
   if (a.kind == Kind::number && b.kind == Kind::element && !subtracts) return b;
@@ -41,11 +50,12 @@ Origin join(const Origin& a, const Origin& b) {
   if (b.kind == Kind::nothing) return a;
   const std::int64_t loaded = a.loaded == b.loaded ? a.loaded : -1;
   if (a.kind == b.kind && a.at == b.at) return {a.kind, a.at, loaded, std::min(a.depth, b.depth)};
-  return {Kind::any, 0, loaded};
+  return {is_own(a) && is_own(b) ? Kind::own : Kind::any, 0, loaded};
 }
 
 bool join_into(State& a, const State& b) {
-  bool changed = false;
+  bool changed = (a.own_vectors & ~b.own_vectors) != 0;
+  a.own_vectors &= b.own_vectors;
   for (std::size_t i = 0; i < a.registers.size(); ++i) {
     const Origin both = join(a.registers[i], b.registers[i]);
     changed = changed || both != a.registers[i];
@@ -92,6 +102,10 @@ Origin Values::address_of(const Instruction& instruction, const Operand& operand
     return {base.kind, base.at + operand.number, -1};
   for (const Origin& table : {base, index})
     if (const Origin element = element_of(table, operand.number); element.kind == Kind::element) return element;
+  if (base.kind == Kind::frame && index.kind == Kind::task) return spot(base.at + operand.number);
+  if (index.kind == Kind::frame && base.kind == Kind::task && operand.scale == 1)
+    return spot(index.at + operand.number);
+  if (base.kind == Kind::spot && operand.index < 0) return spot(base.at + operand.number);
   if (base.kind == Kind::task || index.kind == Kind::task) return of_task(depth_of(base, index));
   return unknown;
 }
@@ -124,6 +138,15 @@ Origin Values::value_of(const Instruction& instruction, const Operand& operand, 
       const auto slot = state.stack.find(at.at);
       return slot == state.stack.end() ? unknown : slot->second;
     }
+    case Kind::spot: {
+      // one of a table of addresses of its own, or what may be anything
+      auto slot = state.stack.find(at.at);
+      const std::int64_t begin = at.at;
+      std::int64_t end = begin;
+      for (; slot != state.stack.end() && slot->first == end && is_own(slot->second); ++slot) end += 8;
+      const bool goes_on = slot != state.stack.end() && slot->first == end && slot->second.kind == Kind::task;
+      return end > begin && !goes_on ? Origin{Kind::own, 0, -1} : of_task(1);
+    }
     case Kind::task: return {Kind::task, 0, operand.index < 0 ? operand.number : -1, std::min(at.depth + 1, 8)};
     default: break;
   }
@@ -139,10 +162,25 @@ void Values::store(const Instruction& instruction, const Operand& to, const Orig
   }
   if (to.kind != Operand::Kind::memory) return;
   const Origin at = address_of(instruction, to, state);
-  if (at.kind != Kind::frame) return;
+  const bool may_stay = at.kind == Kind::spot && to.size == 8 && is_own(value);
+  if ((at.kind != Kind::frame && at.kind != Kind::spot) || may_stay) return;
   const std::int64_t size = std::max<std::int64_t>(to.size, 1);
   state.stack.erase(state.stack.upper_bound(at.at - 8), state.stack.lower_bound(at.at + size));
-  if (size == 8 && !(value.kind == Kind::any && value.loaded < 0)) state.stack[at.at] = value;
+  if (at.kind == Kind::spot || size % 8 != 0 || (value.kind == Kind::any && value.loaded < 0)) return;
+  for (std::int64_t i = 0; i < size; i += 8) state.stack[at.at + i] = value;
+}
+
+// Does it write nothing but addresses of the task's own, of which vectors hold several?
+bool Values::gathers_own(const Instruction& instruction, const State& state) const {
+  return instruction.gathers &&
+         std::all_of(instruction.operands.begin(), instruction.operands.end(), [&](const Operand& operand) {
+           switch (operand.kind) {
+             case Operand::Kind::none: return true;
+             case Operand::Kind::number: return true;  // the place within the vector
+             case Operand::Kind::vector: return !operand.read || (state.own_vectors >> operand.reg & 1U) != 0;
+             default: return !operand.read || is_own(value_of(instruction, operand, state));
+           }
+         });
 }
 
 void Values::apply(const Instruction& instruction, State& state) const {
@@ -187,7 +225,13 @@ void Values::apply(const Instruction& instruction, State& state) const {
   for (std::size_t r = 0; r < 16; ++r)
     if ((instruction.writes >> r & 1U) != 0 && r != rsp)
       state.registers[r] = with_task && !clears ? of_task(0) : unknown;
-  if (to.kind == Operand::Kind::memory && to.written) store(instruction, to, unknown, state);
+  const bool own = gathers_own(instruction, state);
+  if (to.kind == Operand::Kind::vector && to.written) {
+    const std::uint32_t bit = 1U << to.reg;
+    state.own_vectors = own ? state.own_vectors | bit : state.own_vectors & ~bit;
+  }
+  if (to.kind == Operand::Kind::memory && to.written)
+    store(instruction, to, own ? Origin{Kind::own, 0, -1} : unknown, state);
 }
 
 bool Values::is_import(const Instruction& call, const State& state) const {
@@ -201,6 +245,7 @@ void Values::call(const Instruction& instruction, State& state, State& thrown) c
   const Origin result = is_import(instruction, state) ? Origin{Kind::library, 0, -1} : unknown;
   for (const Register r : {rax, rcx, rdx, rsi, rdi, Register{8}, Register{9}, Register{10}, Register{11}})
     state.registers[static_cast<std::size_t>(r)] = unknown;
+  state.own_vectors = 0;
   state.registers[rax] = {Kind::library, 0, -1};  // as what is thrown is
   join_into(thrown, state);
   state.registers[rax] = result;

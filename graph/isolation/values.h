@@ -24,6 +24,8 @@ struct Origin {
     task,     // read from the memory of the task, its values and what they hold, or computed with that
     library,  // returned by a function outside
     frame,    // an address on the stack, `at` bytes from where the function began
+    own,      // one of several of the two kinds `address` and `frame`
+    spot,     // an address on the stack, by an index of the task; `at`: where it counts from
   };
   Kind kind = Kind::nothing;
   std::int64_t at = 0;
@@ -40,9 +42,11 @@ inline constexpr Origin unknown{Origin::Kind::any, 0, -1};
 /// Of a task; see Origin::depth.
 Origin of_task(int depth);
 
-/// What registers and the stack hold; slots of the stack that are missing are unknown.
+/// What registers and the stack hold, and which vectors nothing but `own` addresses; slots of the stack that are
+/// missing are unknown.
 struct State {
   std::array<Origin, 16> registers{};
+  std::uint32_t own_vectors = 0;  // a bit each
   std::map<std::int64_t, Origin> stack;
 };
 
@@ -70,6 +74,7 @@ class Values {
   void store(const Instruction& instruction, const Operand& to, const Origin& value, State& state) const;
   bool is_import(const Instruction& call, const State& state) const;
   Origin element_of(const Origin& table, std::int64_t displacement) const;
+  bool gathers_own(const Instruction& instruction, const State& state) const;
 
   const Object& object_;
 };

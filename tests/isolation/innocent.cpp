@@ -121,6 +121,24 @@ TASK(Virtual, {
   const Circle circle(in.in);
   out.out = area_of(tick.activation > 3 ? static_cast<const Shape&>(square) : circle);
 })
+TASK(PickedShape, {
+  const Square square(in.in);
+  const Circle circle(in.in);
+  const Square large(9);
+  const Shape* const shapes[] = {&square, &circle, &large};
+  out.out = shapes[tick.activation % 3]->area();
+})
+TASK(AllShapes, {
+  const Square square(in.in);
+  const Circle circle(in.in);
+  const std::array<const Shape*, 2> shapes{&square, &circle};
+  for (const Shape* const shape : shapes) out.out += shape->area();
+})
+TASK(PickedFunction, {
+  Function table[] = {half, twice};
+  if (in.in > 3) std::swap(table[0], table[1]);
+  out.out = table[tick.activation & 1](in.in);
+})
 TASK(MultipleInheritance, {
   const Both both;
   out.out = area_of(both) + number_of(both);
@@ -355,8 +373,8 @@ TASK(Vectors, {
 
 JAROL_PLUGIN(Nothing, Adds, Integrates, Mathematics, SinglePrecision, LongDouble, LongDoubleToInteger, Complex,
              ConstantTable, TextTable, LocalConstants, FunctionTable, FunctionPointer, StdFunction, Lambdas, Virtual,
-             MultipleInheritance, DynamicCast, MemberPointer, Switch, ComputedGoto, Throws, Catches, Destructors, Sort,
-             SortByPointer, Heap, PmrVector, PmrScratch, PmrText, PmrMap, PmrList, PmrHashed, Scratch, SequenceElement,
-             Text, ToChars, FromChars, Optional, Variant, VariantGet, Bits, RandomBySeed, Distribution, LocalAtomic,
-             LawTable, SmallAny, Volatile, ConstCast, Copies, Assembly, WeakFunction, Resolver, Asserts, Span,
-             WideIntegers, TailCall, Vectors)
+             PickedShape, AllShapes, PickedFunction, MultipleInheritance, DynamicCast, MemberPointer, Switch,
+             ComputedGoto, Throws, Catches, Destructors, Sort, SortByPointer, Heap, PmrVector, PmrScratch, PmrText,
+             PmrMap, PmrList, PmrHashed, Scratch, SequenceElement, Text, ToChars, FromChars, Optional, Variant,
+             VariantGet, Bits, RandomBySeed, Distribution, LocalAtomic, LawTable, SmallAny, Volatile, ConstCast, Copies,
+             Assembly, WeakFunction, Resolver, Asserts, Span, WideIntegers, TailCall, Vectors)

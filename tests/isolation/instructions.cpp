@@ -153,6 +153,22 @@ TASK(ForgedByIndex, {
   asm("lea (%1,%2,8), %0" : "=r"(made) : "r"(&halves), "r"(in.address));
   out.out = reinterpret_cast<Function>(made)(in.in) + halves[tick.activation % 2](in.in);
 })
+// offends: a call that can't be resolved: : ForgedInArray::run
+TASK(ForgedInArray, {
+  const std::int64_t made[] = {in.address, state.address};
+  out.out = half(in.in) + reinterpret_cast<Function>(made[tick.activation & 1])(in.in);
+})
+// offends: a call that can't be resolved: : ForgedAmongGood::run
+TASK(ForgedAmongGood, {
+  const Function functions[] = {half, halves[1], reinterpret_cast<Function>(in.address), half};
+  out.out = functions[tick.activation & 3](in.in);
+})
+// offends: a call that can't be resolved: : ForgedInLoop::run
+TASK(ForgedInLoop, {
+  std::int64_t made[4] = {};
+  for (std::int64_t i = 0; i < 4; ++i) made[i * tick.activation & 3] = in.address + i;
+  out.out = half(in.in) + reinterpret_cast<Function>(made[tick.activation & 3])(in.in);
+})
 // offends: a call that can't be resolved: : Numbers::run
 TASK(Numbers, {
   volatile std::int64_t number = 4096;
@@ -164,5 +180,5 @@ TASK(Numbers, {
 JAROL_PLUGIN(SystemCall, OldSystemCall, Cycles, CyclesAndCore, HardwareRandom, HardwareSeed, AsksProcessor, AsksState,
              SetsRounding, ReadsFlags, SetsOldRounding, TalksToDevice, ReadsSegment, ReadsGuard, WritesGuard,
              MiddleOfInstruction, ForgedFromInput, ForgedFromState, ForgedBesideGood, ForgedTailCall, ForgedObject,
-             ForgedFromTable, ForgedByIndex, Numbers, UsesMmx, FreesRegister, TurnsRegisters, LooksUpByte,
-             ReachesByDistance, ReachesByIndex)
+             ForgedFromTable, ForgedByIndex, ForgedInArray, ForgedAmongGood, ForgedInLoop, Numbers, UsesMmx,
+             FreesRegister, TurnsRegisters, LooksUpByte, ReachesByDistance, ReachesByIndex)
