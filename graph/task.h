@@ -35,28 +35,33 @@ inline void keep_text(FaultText& fault, std::string_view text, std::size_t from 
   fault.text[from + size] = '\0';
 }
 
+/// Of what was thrown: the floating-point environment is as it was, `fault` has the text.
+[[gnu::noinline]] inline Outcome keep_threw(FaultText& fault, const char* what) {
+  restore_floating_point();
+  constexpr std::string_view threw = "threw: ";
+  keep_text(fault, threw);
+  keep_text(fault, what, threw.size());
+  return Outcome::threw;
+}
+[[gnu::noinline]] inline Outcome keep_exhausted(FaultText& fault, const char* what) {
+  restore_floating_point();
+  keep_text(fault, what);
+  return Outcome::heap_exhausted;
+}
+
 /// Calls what runs tasks, and keeps what it throws in the text that `fault_text` names then.
 template <class Run, class Text>
 Outcome contain(Run&& run, Text&& fault_text) {
-  const auto keep_threw = [&](const char* what) {
-    restore_floating_point();
-    constexpr std::string_view threw = "threw: ";
-    keep_text(fault_text(), threw);
-    keep_text(fault_text(), what, threw.size());
-    return Outcome::threw;
-  };
   try {
     try {
       run();
       return Outcome::good;
     } catch (const HeapExhausted& error) {
-      restore_floating_point();
-      keep_text(fault_text(), error.what());
-      return Outcome::heap_exhausted;
-    } catch (const std::exception& error) { return keep_threw(error.what()); } catch (...) {
-      return keep_threw("something that is not a std::exception");
+      return keep_exhausted(fault_text(), error.what());
+    } catch (const std::exception& error) { return keep_threw(fault_text(), error.what()); } catch (...) {
+      return keep_threw(fault_text(), "something that is not a std::exception");
     }
-  } catch (...) { return keep_threw("something whose destructor threw"); }
+  } catch (...) { return keep_threw(fault_text(), "something whose destructor threw"); }
 }
 
 /// Where one task's values lie.

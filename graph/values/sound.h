@@ -1,6 +1,10 @@
 // Is a value sound: are its numbers finite, and in the ranges that their fields declare?
 #pragma once
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include <bit>
 #include <cstdint>
 #include <utility>
@@ -20,8 +24,48 @@ inline std::uint64_t non_finite(float x) {
   return std::uint64_t{(std::bit_cast<std::uint32_t>(x) & 0x7f800000U) + 0x00800000U} << 32;
 }
 
+// How many doubles it is made of, and of nothing else; 0: it is not.
+template <class T>
+constexpr std::size_t doubles_in() {
+  std::size_t count = 0;
+  if constexpr (std::same_as<T, double>) {
+    count = 1;
+  } else if constexpr (Array<T>) {
+    count = ArrayTraits<T>::count * doubles_in<typename ArrayTraits<T>::Element>();
+  } else if constexpr (!SequenceOf<T> && Described<T>) {
+    count = with_fields(T::fields(),
+                        [](auto... f) { return (std::size_t{0} + ... + doubles_in<typename decltype(f)::Value>()); });
+  }
+  return sizeof(T) == count * sizeof(double) ? count : 0;
+}
+
+#ifdef __SSE2__
+// The same of many, by twos: each number is loaded by itself, as above.
+template <std::size_t Count>
+[[gnu::always_inline]] inline std::uint64_t any_non_finite(const double* numbers) {
+  const __m128i exponent = _mm_set1_epi64x(0x7ff0000000000000LL), one_more = _mm_set1_epi64x(0x0010000000000000LL);
+  const auto sign_of = [&](__m128d two) {
+    return _mm_add_epi64(_mm_and_si128(_mm_castpd_si128(two), exponent), one_more);
+  };
+  __m128i any = _mm_setzero_si128();
+  for (std::size_t i = 0; i + 1 < Count; i += 2) {
+    __m128d two = _mm_load_sd(numbers + i);
+    asm("" : "+x"(two));
+    any = _mm_or_si128(any, sign_of(_mm_loadh_pd(two, numbers + i + 1)));
+  }
+  if constexpr (Count % 2 != 0) any = _mm_or_si128(any, sign_of(_mm_load_sd(numbers + Count - 1)));
+  any = _mm_or_si128(any, _mm_unpackhi_epi64(any, any));
+  return static_cast<std::uint64_t>(_mm_cvtsi128_si64(any));
+}
+constexpr std::size_t many = 4;
+#endif
+
 template <class T>
 inline std::uint64_t any_non_finite(const T& value) {
+#ifdef __SSE2__
+  if constexpr (doubles_in<T>() >= many)
+    return any_non_finite<doubles_in<T>()>(reinterpret_cast<const double*>(&value));
+#endif
   if constexpr (std::floating_point<T>) {
     return non_finite(value);
   } else if constexpr (Array<T>) {
