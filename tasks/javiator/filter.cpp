@@ -45,17 +45,6 @@ void compare_climb(JaviatorFilter::State& state, const JaviatorFilter::Param& p,
   state.climb_was_off = std::max(state.climb_was_off * (1 - dt / p.drift.climb_memory), std::abs(state.climb_off));
 }
 
-void learn(GroundPressure& ground, double pressure, double last) {
-  ground.readings = std::min(ground.readings + 1, 200U);
-  if (ground.readings == 1) {
-    ground.mean = pressure;
-    return;
-  }
-  ground.mean += 0.1 * (pressure - ground.mean);
-  const double step = limited(pressure - last, 20);  // one gust is no noise
-  ground.step_squared += (step * step - ground.step_squared) / (ground.readings - 1);
-}
-
 // In flight it may be as noisy as on the ground.
 double credible_step(const JaviatorFilter::State& state, const JaviatorFilter::Param& p) {
   return std::clamp(p.pressure_noise * std::sqrt(state.ground.step_squared), p.pressure_jump, 4 * p.pressure_jump);
@@ -145,8 +134,12 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   }
   state.stood = settled;
 
-  // angles follow the rates, and what is measured unless it jumps
-  const Vector3d angle_rates = euler_rates(s.roll, s.pitch, rates);
+  // angles follow the rates, and what is measured unless it jumps: wrong angles would turn the rates wrongly, too
+  const auto near = [&](double roll, double pitch) {
+    return std::abs(s.roll - roll) < p.angle_jump && std::abs(s.pitch - pitch) < p.angle_jump;
+  };
+  const bool right = settled || (!state.angles.lost && near(state.roll, state.pitch));
+  const Vector3d angle_rates = euler_rates(right ? s.roll : state.roll, right ? s.pitch : state.pitch, rates);
   state.roll += dt * angle_rates.x();
   state.pitch += dt * angle_rates.y();
   predict(state.slow_roll, angle_rates.x(), dt);
@@ -166,7 +159,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   const LastTurn& last = state.last_turn;
   const double roll = gap > 0 ? last.roll + turned * (last.roll_rate + angle_rates.x()) : state.roll;
   const double pitch = gap > 0 ? last.pitch + turned * (last.pitch_rate + angle_rates.y()) : state.pitch;
-  const bool smooth = std::abs(s.roll - roll) < p.angle_jump && std::abs(s.pitch - pitch) < p.angle_jump;
+  const bool smooth = near(roll, pitch);
   state.angles.silent += heard_dt;
   if (turns && smooth) {
     // what it turned meanwhile was not felt

@@ -1,6 +1,9 @@
 #include "tasks/javiator/observers.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "graph/math/geometry.h"
 
 namespace jarol::tasks {
 
@@ -52,6 +55,17 @@ void take_off(AxisObserver& axis, double& zero) {
 
 void rest(SlowAngle& slow, double measured, double rate) {
   slow = {.angle = measured, .bias = slow.bias + 0.02 * (rate - slow.bias)};
+}
+
+void learn(GroundPressure& ground, double pressure, double last) {
+  ground.readings = std::min(ground.readings + 1, 200U);
+  if (ground.readings == 1) {
+    ground.mean = pressure;
+    return;
+  }
+  ground.mean += 0.1 * (pressure - ground.mean);
+  const double step = limited(pressure - last, 20);  // one gust is no noise
+  ground.step_squared += (step * step - ground.step_squared) / (ground.readings - 1);
 }
 
 }  // namespace jarol::tasks

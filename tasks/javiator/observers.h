@@ -76,4 +76,7 @@ void correct(SlowAngle& slow, double measured, double bandwidth, double dt);
 /// Standing still the angle is what is measured, and its rate is its bias.
 void rest(SlowAngle& slow, double measured, double rate);
 
+/// The pressure (Pa) is averaged, and how noisy it is, `last` being the reading before.
+void learn(GroundPressure& ground, double pressure, double last);
+
 }  // namespace jarol::tasks

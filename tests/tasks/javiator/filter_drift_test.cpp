@@ -140,6 +140,21 @@ TEST_SUITE("tasks/javiator_filter/drift") {
     CHECK_FALSE(heard_all.run(10).attitude_known);
   }
 
+  TEST_CASE("angles that are suddenly wrong don't turn a vehicle that yaws, neither before nor after they are lost") {
+    for (const bool rolls : {true, false}) {
+      HeardHelicopter heard = hovering();
+      heard.sensors.r = 1;
+      (rolls ? heard.sensors.roll : heard.sensors.pitch) = 0.3;
+      for (int i = 0; i < 60; ++i) {
+        heard.sensors.yaw += HeardHelicopter::dt;
+        heard.run(1);
+        CHECK(std::abs(heard.state.roll) < 1e-3);
+        CHECK(std::abs(heard.state.pitch) < 1e-3);
+      }
+      CHECK_FALSE(heard.out.estimate.attitude_known);
+    }
+  }
+
   TEST_CASE("the rates' biases are learnt while it stands") {
     HeardHelicopter heard;
     heard.run(100);
