@@ -89,9 +89,12 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
 void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const FlightEstimate& e = in.estimate;
   const double dt = seconds(tick.period);
-  // blind, it keeps what held it level: the rotors damp what is left
+  // blind, it turns level as it would by its model, and keeps what holds it so: the rotors damp what is left
   if (!e.rates_known) {
-    out.turn = {state.roll.trim, state.pitch.trim, state.yaw.trim};
+    const auto level = [&](const TurnGains& g, TurnModel& model, double goal) {
+      return turn(g, model, goal, model.angle, model.rate, dt);
+    };
+    out.turn = {level(p.lean, state.roll, 0), level(p.lean, state.pitch, 0), level(p.yaw, state.yaw, state.yaw.angle)};
     return;
   }
   out.turn.roll = turn(p.lean, state.roll, in.goal.roll, e.roll, e.p, dt);

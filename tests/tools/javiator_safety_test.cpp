@@ -116,6 +116,32 @@ TEST_SUITE("tools/javiator_safety") {
     MESSAGE("touches down with " << worst << " m/s at most");
   }
 
+  TEST_CASE("it lands softly, on its feet, when its IMU fails while it turns round") {
+    double worst = 0;
+    const auto pilot = [](double time) {
+      tasks::PilotCommand command = tests::hover_command(time);
+      if (time >= 10) command.yaw = M_PI;
+      return command;
+    };
+    for (const std::string kind : {"lost", "stuck", "biased"})
+      for (const std::string at : {"10.3s", "11.2s", "11.8s"})
+        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+          INFO(kind << " at " << at << ", seed " << seed);
+          const std::string imu = "distributers.robostix.link.parameters.failures.imu.";
+          const Flight flight = tests::fly({.set = {"distributers.robostix.link.parameters.dynamics=rigid",
+                                                    imu + "kind=" + kind, imu + "at=" + at, imu + "by=0.3"},
+                                            .pilot = pilot,
+                                            .seconds = 20,
+                                            .seed = seed});
+          worst = std::max(worst, flight.touch_down());
+          CHECK(flight.touch_down() < 0.5);
+          CHECK(flight.last().state == tasks::FlightState::ground);
+          CHECK(std::abs(flight.path.back().roll) < 0.1);
+          CHECK(std::abs(flight.path.back().pitch) < 0.1);
+        }
+    MESSAGE("touches down with " << worst << " m/s at most");
+  }
+
   TEST_CASE("it lands softly when its sonar sticks on the way down") {
     double worst = 0;
     const auto pilot = [](double time) {

@@ -113,11 +113,28 @@ TEST_SUITE("tasks/javiator_control/attitude") {
   TEST_CASE("blind, it keeps what held it level") {
     for (const Axis& axis : axes) {
       Attitude a{axis};
-      (a.state.*axis.model).trim = 0.03;
+      a.state.*axis.model = {.trim = 0.03, .given = 0.03};
       a.in.estimate = {.rates_known = false};
       a.in.estimate.*axis.angle = 1;
-      a.run();
-      CHECK(a.out.turn.*axis.demand == 0.03);
+      CHECK(a.run() == doctest::Approx(0.03));
+    }
+  }
+
+  TEST_CASE("blind, it turns level and no further round, as one that sees itself do what its model does") {
+    for (const Axis& axis : axes) {
+      const TurnModel model{.angle = 0.1, .rate = -0.2, .trim = 0.02, .given = 0.02};
+      const bool yaws = axis.spin_time > 0;
+      Attitude seeing{axis}, blind{axis};
+      seeing.state.*axis.model = blind.state.*axis.model = model;
+      seeing.in.estimate.*axis.angle = model.angle;
+      seeing.in.estimate.*axis.rate = model.rate;
+      seeing.in.goal.*axis.goal = yaws ? model.angle : 0;
+      blind.in.estimate.rates_known = false;
+      blind.in.goal.*axis.goal = 0.3;
+      CHECK(blind.run() == doctest::Approx(seeing.run()));
+      blind.run(200);
+      CHECK(std::abs((blind.state.*axis.model).rate) < 1e-3);
+      CHECK((yaws || std::abs((blind.state.*axis.model).angle) < 1e-3));
     }
   }
 
