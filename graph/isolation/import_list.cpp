@@ -70,7 +70,7 @@ constexpr Entry declarations[] = {
      "std::pmr::memory_resource::*|std::pmr::null_memory_resource()|vtable for std::pmr::monotonic_buffer_resource|"
      "vtable for std::pmr::unsynchronized_pool_resource|vtable for std::pmr::memory_resource|",
      "allocates from what the task gives it; the global allocator is reached by its name only"},
-    {"|std::nothrow|std::ignore|std::piecewise_construct|", "an empty constant"},
+    {"|std::nothrow|std::ignore|std::piecewise_construct|std::placeholders::_*|", "an empty constant"},
 };
 
 // Jarol's own: what a task's form and values of changing size call.

@@ -112,6 +112,11 @@ TASK(LocalConstants, {
 TASK(FunctionTable, { out.out = functions[tick.activation % 3](in.in); })
 TASK(FunctionPointer, { out.out = apply(tick.activation > 3 ? half : twice, in.in); })
 TASK(StdFunction, { out.out = apply_any([&](double x) { return x + in.in; }, in.in); })
+TASK(Bind, {
+  const auto add = std::bind(std::plus<>(), std::placeholders::_1, in.in);
+  asm volatile("" : : "r"(&std::placeholders::_1));  // by reference, as without optimisation
+  out.out = add(1.0);
+})
 TASK(Lambdas, {
   const auto add = [&, by = in.in](double x) { return x + by; };
   out.out = add(add(1));
@@ -372,8 +377,8 @@ TASK(Vectors, {
 }  // namespace
 
 JAROL_PLUGIN(Nothing, Adds, Integrates, Mathematics, SinglePrecision, LongDouble, LongDoubleToInteger, Complex,
-             ConstantTable, TextTable, LocalConstants, FunctionTable, FunctionPointer, StdFunction, Lambdas, Virtual,
-             PickedShape, AllShapes, PickedFunction, MultipleInheritance, DynamicCast, MemberPointer, Switch,
+             ConstantTable, TextTable, LocalConstants, FunctionTable, FunctionPointer, StdFunction, Bind, Lambdas,
+             Virtual, PickedShape, AllShapes, PickedFunction, MultipleInheritance, DynamicCast, MemberPointer, Switch,
              ComputedGoto, Throws, Catches, Destructors, Sort, SortByPointer, Heap, PmrVector, PmrScratch, PmrText,
              PmrMap, PmrList, PmrHashed, Scratch, SequenceElement, Text, ToChars, FromChars, Optional, Variant,
              VariantGet, Bits, RandomBySeed, Distribution, LocalAtomic, LawTable, SmallAny, Volatile, ConstCast, Copies,
