@@ -69,6 +69,7 @@ TEST_SUITE("tools/new") {
         {"a-b", "error: 'a-b" + needs},
         {std::string(41, 'a'), "error: '" + std::string(41, 'a') + needs},
         {"test", "error: 'test' can't name a project, as it names a target of every build; choose another\n"},
+        {"null", "error: 'null' can't name a project, as that is nothing in YAML; choose another\n"},
     };
     for (const auto& [name, says] : wrong) {
       const auto result = command::run_jarol("new " + (folder / name));

@@ -33,6 +33,8 @@ std::string name_of(const fs::path& place) {
   if (std::find(reserved.begin(), reserved.end(), name) != reserved.end())
     throw std::invalid_argument("'" + name +
                                 "' can't name a project, as it names a target of every build; choose another");
+  if (name == "null")  // the only one that its graph could not have as its name
+    throw std::invalid_argument("'null' can't name a project, as that is nothing in YAML; choose another");
   return name;
 }
 
