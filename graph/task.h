@@ -156,14 +156,35 @@ auto present(Pointer* pointer) {
   }
 }
 
+// What `run` takes: references to the tick and to those of the four structs that the task has.
+template <class T>
+auto arguments_of(const TaskMemory& memory, const Tick& tick) {
+  return std::tuple_cat(present<const decltype(parameters_of<T>())>(memory.parameters), std::tuple<const Tick&>(tick),
+                        present<const decltype(in_of<T>())>(memory.in), present<decltype(state_of<T>())>(memory.state),
+                        present<decltype(out_of<T>())>(memory.out));
+}
+
+template <class T, class... Arguments>
+constexpr bool runs_on(std::type_identity<std::tuple<Arguments...>>) {
+  return requires { requires std::is_convertible_v<decltype(&T::run), void (*)(Arguments...)>; };
+}
+
+// With a state or an output by value it could be called, too, and what it does to them would be lost.
+template <class T>
+constexpr bool has_run() {
+  return runs_on<T>(std::type_identity<decltype(arguments_of<T>({}, {}))>());
+}
+
+template <class T>
+constexpr bool has_summary() {
+  return requires { std::string_view(T::summary); };
+}
+
 // The task gets a tick of its own: one that it changes in spite of `const` reaches no other.
 template <class T, bool Checked>
 inline void call(const TaskMemory& memory, const Tick& tick) {
   const Tick own = tick;
-  std::apply(T::run, std::tuple_cat(present<const decltype(parameters_of<T>())>(memory.parameters),
-                                    std::tuple<const Tick&>(own), present<const decltype(in_of<T>())>(memory.in),
-                                    present<decltype(state_of<T>())>(memory.state),
-                                    present<decltype(out_of<T>())>(memory.out)));
+  std::apply(T::run, arguments_of<T>(memory, own));
   if constexpr (Checked) require_default_floating_point();
 }
 
@@ -204,16 +225,25 @@ void handle_values(void* const* places) {
 template <class T>
 TaskClass task_class() {
   static_assert(std::is_empty_v<T>, "a task is an empty struct; what it keeps belongs into its State");
-  return {std::string(type_name<T>()),
-          std::string(T::summary),
-          &type_of<decltype(detail::parameters_of<T>())>(),
-          &type_of<decltype(detail::in_of<T>())>(),
-          &type_of<decltype(detail::state_of<T>())>(),
-          &type_of<decltype(detail::out_of<T>())>(),
-          &detail::thunk<T, true>,
-          &detail::call<T, true>,
-          {&detail::thunk<T, false>, &detail::call<T, false>},
-          &detail::handle_values<T>};
+  static_assert(detail::has_summary<T>(),
+                "a task says what it does: static constexpr std::string_view summary = \"smooths its input\";");
+  static_assert(
+      detail::has_run<T>(),
+      "a task has a public static void run(const Param&, const Tick&, const In&, State&, Out&), without those "
+      "of the four structs that it does not have");
+  if constexpr (detail::has_summary<T>() && detail::has_run<T>())
+    return {std::string(type_name<T>()),
+            std::string(T::summary),
+            &type_of<decltype(detail::parameters_of<T>())>(),
+            &type_of<decltype(detail::in_of<T>())>(),
+            &type_of<decltype(detail::state_of<T>())>(),
+            &type_of<decltype(detail::out_of<T>())>(),
+            &detail::thunk<T, true>,
+            &detail::call<T, true>,
+            {&detail::thunk<T, false>, &detail::call<T, false>},
+            &detail::handle_values<T>};
+  else
+    return {};
 }
 
 /// The same for a task whose machine code can't change the floating-point environment.

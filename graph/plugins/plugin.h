@@ -17,8 +17,10 @@ struct JarolUnpacked {
 };
 static_assert(sizeof(JarolUnpacked) == 2 * sizeof(double), "a plugin can't be built with -fpack-struct");
 
-// first, so that the compiler's lines around an error in a description are few
+// first, so that the compiler's lines around an error in a description or in a task's form are few
 #include "graph/values/describe.h"
+
+#include "graph/task.h"
 
 #include "graph/plugins/parts.h"
 #include "graph/plugins/plugin_build.h"

@@ -1,5 +1,5 @@
 # Compiles not_a_value.cpp with one of its cases and looks what the compiler says: cmake -DNUMBER=1 -DCOMPILER=c++
-# -DROOT=tree -DEIGEN=folder -P not_a_value.cmake. Where it says what to use instead, that takes fewer than ten lines.
+# -DROOT=tree -DEIGEN=folder -P not_a_value.cmake. Where it says what to use instead, that takes ten lines at most.
 cmake_minimum_required(VERSION 3.25)
 set(says_1 "Value::number.*a value owns what it holds: copy what a pointer leads to into the struct, or keep an index")
 set(says_2 "reference")
@@ -24,7 +24,11 @@ set(says_20 "Value::numbers.*use std::array in place of T.N.")
 set(says_21 "Value::numbers.*use jarol::Sequence<T> or std::array in place of std::vector")
 set(says_22 "Value::letter.*use std::int8_t for char")
 set(says_23 "Value::numbers.*of Eigen a value holds columns of fixed size")
-set(brief 1 3 4 5 6 7 8 9 10 11 17 18 19 20 21 22 23)
+set(says_24 "a task says what it does: static constexpr std::string_view summary = ")
+foreach(number RANGE 25 30)
+  set(says_${number} "a task has a public static void run.const Param&, const Tick&, const In&, State&, Out&.")
+endforeach()
+set(brief 1 3 4 5 6 7 8 9 10 11 17 18 19 20 21 22 23 24 25 26 27 28 29 30)
 # g++ names the members, too
 set(names_3 "describes<.*Value::forgotten.*evaluates to false")
 set(names_6 "describes_in_order<.*Value::number.*Value::other.*evaluates to false")
@@ -53,6 +57,6 @@ foreach(word IN LISTS words)
 endforeach()
 string(REGEX MATCHALL "\n" lines "${said}")
 list(LENGTH lines count)
-if(NUMBER IN_LIST brief AND NOT COMPILER MATCHES "clang" AND count GREATER 9)
+if(NUMBER IN_LIST brief AND NOT COMPILER MATCHES "clang" AND count GREATER 10)
   message(FATAL_ERROR "the compiler needs ${count} lines to say it:\n${said}")
 endif()

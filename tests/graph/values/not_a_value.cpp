@@ -1,4 +1,4 @@
-// What does not compile as a value; NOT_A_VALUE says which, 0 is one that does.
+// What does not compile as a value, from 24 on as a task; NOT_A_VALUE says which, 0 is one that does.
 #include "graph/plugins/plugin.h"
 
 namespace {
@@ -148,9 +148,24 @@ constexpr auto enumerators(Value::Mode) {
 
 namespace {
 struct Task {
+#if NOT_A_VALUE != 24  // a task that does not say what it does
   static constexpr std::string_view summary = "has such an output";
+#endif
   using Out = Value;
+#if NOT_A_VALUE == 25    // without what it does
+#elif NOT_A_VALUE == 26  // what it writes would be lost
+  static void run(const jarol::Tick&, Out) {}
+#elif NOT_A_VALUE == 27  // so would what it returns
+  static double run(const jarol::Tick&, Out&) { return 1; }
+#elif NOT_A_VALUE == 28  // without the time
+  static void run(Out&) {}
+#elif NOT_A_VALUE == 29  // of an object
+  void run(const jarol::Tick&, Out&) {}
+#elif NOT_A_VALUE == 30  // a state where the task has none
+  static void run(const jarol::Tick&, Value&, Out&) {}
+#else
   static void run(const jarol::Tick&, Out&) {}
+#endif
 };
 }  // namespace
 
