@@ -121,6 +121,29 @@ connections: [a.out -> w.in]
         CHECK(event.at("ts").get<double>() == 10'000 * event.at("args").at("activation").get<double>() + 5'000);
   }
 
+  TEST_CASE("a release that a skip left out is marked as such, and no activation") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", graph = folder.write("g.yaml", R"(graph: g
+fault_limit: 100%
+tasks:
+  a: {type: Counter, period: 10ms}
+  w: {type: Window, period: 10ms, let: 5ms, heap: 96B, on_fault: skip, parameters: {length: 100}}
+connections: [a.out -> w.in]
+)");
+    REQUIRE(command::run_jarol("run " + graph + " --for 195ms --record " + file).exit_code == 0);
+    const json trace = trace_of(file);
+    auto counted = counts(trace);
+    const RecordedRun run(file);
+    CHECK(counted["skip w"] > 3);
+    CHECK(counted["skip w"] + counted["let w"] == 20);
+    CHECK(counted["let w"] + counted["release a"] == run.end()->activations);
+    for (const json& event : trace.at("traceEvents")) {
+      if (event.value("cat", "") != "fault") continue;
+      const int next = event.at("args").at("activation").get<int>() + 1;
+      CHECK(find(trace, "w " + std::to_string(next) + " is skipped").at("ts") == 10'000 * next);
+    }
+  }
+
   TEST_CASE("what was late stands on a track of physical time, as long as it took, also after years") {
     const TemporaryFolder folder;
     const std::string text = R"(graph: g

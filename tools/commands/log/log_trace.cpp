@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "runtime/files/atomic_file.h"
 #include "runtime/record/recorded_run.h"
@@ -84,14 +85,35 @@ void name_tracks(Events& events, const Graph& graph, int pid, const std::string&
   }
 }
 
-// Each release, with its LET where it has one.
-void add_releases(Events& events, const Graph& graph, Duration begin, Duration end) {
+using Activations = std::set<std::pair<std::size_t, std::int64_t>>;  // task and number
+
+// The releases that a task with 'skip' left out after a fault, where it was not left out as one before it still ran.
+Activations skipped_in(const Graph& graph, const std::vector<Miss>& misses, const std::vector<TimedEvent>& events) {
+  Activations left_out, skipped;
+  for (const Miss& miss : misses)
+    if (miss.left_out != 0) left_out.emplace(miss.task, miss.activation);
+  std::map<std::string_view, std::size_t> tasks;
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i)
+    if (graph.tasks[i].on_fault == OnFault::skip) tasks.emplace(graph.tasks[i].name, i);
+  for (const TimedEvent& event : events) {
+    const auto task = tasks.find(event.task);
+    if (event.kind != RunEvent::Kind::fault || task == tasks.end()) continue;
+    if (left_out.contains({task->second, event.activation})) continue;
+    if (const std::pair next(task->second, event.activation + 1); !left_out.contains(next)) skipped.insert(next);
+  }
+  return skipped;
+}
+
+// Each release, with its LET where it has one and was not skipped.
+void add_releases(Events& events, const Graph& graph, Duration begin, Duration end, const Activations& skipped) {
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Task& task = graph.tasks[i];
     const std::int64_t count = releases_before(task, end);
     for (std::int64_t k = releases_before(task, begin); k < count; ++k) {
       const std::string name = fmt::format("{} {}", task.name, k);
-      if (task.let)
+      if (skipped.contains({i, k}))
+        events.instant(logical, i + 1, "skip", 't', name + " is skipped", release_of(task, k));
+      else if (task.let)
         events.span(logical, i + 1, "let", name, release_of(task, k), *task.let);
       else
         events.instant(logical, i + 1, "release", 't', name, release_of(task, k));
@@ -148,7 +170,7 @@ int log_trace(const LogOptions& options) {
   Events events(options.out.empty() ? "-" : options.out);
   name_tracks(events, graph, logical, "logical time");
   if (real) name_tracks(events, graph, physical, "physical time, of activations that missed their deadline");
-  add_releases(events, graph, run.header().begin, run.covered());
+  add_releases(events, graph, run.header().begin, run.covered(), skipped_in(graph, misses, recorded.events));
   add_misses(events, graph, misses);
   add_events(events, graph, recorded);
   for (const Gap& gap : run.gaps())
