@@ -176,6 +176,23 @@ connections: [a.out -> b.in]
     CHECK(trace.at("otherData").at("clock") == "real");
   }
 
+  TEST_CASE("what was late by --execution has named tracks, too") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", times = folder.write("times.yaml", "a: 10us\nw: [10us, 25ms]\n"),
+                      graph = folder.write("g.yaml", R"(graph: g
+fault_limit: 100%
+tasks:
+  a: {type: Counter, period: 10ms, wcet: 10us, on_fault: hold}
+  w: {type: Relay, period: 10ms, let: 10ms, wcet: 30ms, on_fault: hold}
+connections: [a.out -> w.in]
+)");
+    REQUIRE(command::run_jarol("run " + graph + " --for 100ms --execution " + times + " --record " + file).exit_code ==
+            0);
+    const json trace = trace_of(file);
+    CHECK(counts(trace)["miss w"] > 0);
+    CHECK(find(trace, "w 1 has not ended").at("pid") == 2);
+  }
+
   TEST_CASE("options of other commands are refused, and plugins are loaded only where the user names the graph") {
     CHECK(command::run_jarol("log trace a --json", "2>&1 >/dev/null").output ==
           "error: --json belongs to info, verify and diff\n");

@@ -165,11 +165,11 @@ int log_trace(const LogOptions& options) {
   const Graph& graph = *loaded.graph;
   const std::vector<Miss> misses = run.begin(graph);
   const RecordedEvents recorded = read_events(recording);
-  const bool real = run.header().clock == "real";
+  const bool has_physical = run.header().clock == "real" || !misses.empty();  // misses: also with --execution
 
   Events events(options.out.empty() ? "-" : options.out);
   name_tracks(events, graph, logical, "logical time");
-  if (real) name_tracks(events, graph, physical, "physical time, of activations that missed their deadline");
+  if (has_physical) name_tracks(events, graph, physical, "physical time, of activations that missed their deadline");
   add_releases(events, graph, run.header().begin, run.covered(), skipped_in(graph, misses, recorded.events));
   add_misses(events, graph, misses);
   add_events(events, graph, recorded);
