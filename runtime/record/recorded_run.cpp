@@ -84,11 +84,7 @@ RecordedRun::RecordedRun(std::string path) : path_(std::move(path)) {
                                                          const ChunkSpot& spot) { keep(message, topic, spot); });
   if (!recording_->is_whole()) end_.reset();
   // what follows the end may be another recording, or what else somebody has added: it is not what the run was
-  const std::uint64_t more = recording_->size_of_last() - recording_->good_until();
-  if (recording_->is_whole() && more > 0)
-    fail("goes on for " + std::to_string(more) + (more == 1 ? " byte" : " bytes") +
-         " after its end; what was recorded is: head -c " + std::to_string(recording_->good_until()) + " " +
-         recording_->parts().back());
+  if (const std::string rest = recording_->text_of_rest(); !rest.empty()) fail(rest);
   if (recording_->is_whole() && !end_) fail("does not say how its run ended; it is none that jarol run has written");
 }
 

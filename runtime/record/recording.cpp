@@ -240,6 +240,14 @@ std::string Recording::text_of_break() const {
          "' that follows it";
 }
 
+std::string Recording::text_of_rest() const {
+  const std::uint64_t more = last_size_ - good_until_;
+  if (!whole_ || more == 0) return "";
+  return "goes on for " + std::to_string(more) + (more == 1 ? " byte" : " bytes") +
+         " after its end; what was recorded is: head -c " + std::to_string(good_until_) + " " +
+         parts_.back();
+}
+
 const ReadTopic* Recording::find(std::string_view topic) const {
   for (const auto& [id, t] : topics_)
     if (t.channel.topic == topic) return &t;

@@ -64,6 +64,9 @@ class Recording {
   std::uint64_t size_of_last() const { return last_size_; }
   /// Where it breaks off, as in "at byte 100".
   std::string text_of_break() const;
+  /// What follows the end of one that is whole, and is none of it, as in "goes on for 3 bytes after its end; ...";
+  /// empty: nothing does.
+  std::string text_of_rest() const;
   /// Of all parts, in bytes.
   std::uint64_t size() const { return sizes_before_ + last_size_; }
 

@@ -141,9 +141,14 @@ TEST_SUITE("tools/recorded_run") {
                                 (more.size() == 1 ? " byte" : " bytes") +
                                 " after its end; what was recorded is: head -c " + length + " " + path;
       CHECK(wrong_with(path) == wrong);
-      const auto replay = command::run_jarol("replay " + path);
+      const std::string file = "'" + path + "'";
+      const auto replay = command::run_jarol("replay " + file);
       CHECK(replay.exit_code == 2);
       CHECK(replay.output == "error: " + wrong + "\n");
+      // what only shows it shows it up to there, and says so
+      for (const std::string& shown :
+           {"cat " + file, "csv --topic jarol/digests " + file, "diff " + file + " " + folder / "log"})
+        CHECK(command::run_jarol("log " + shown, "2>&1 >/dev/null").output == "note: " + wrong + "\n");
     }
     CHECK(wrong_with(folder / "log") == "");
   }

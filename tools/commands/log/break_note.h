@@ -18,6 +18,12 @@ inline void note_break(const Recording& recording, const std::string& name) {
             << ": this is what there is before\n";
 }
 
+/// To stderr, where something follows its end, as another recording does that was joined to it.
+inline void note_rest(const Recording& recording, const std::string& name) {
+  if (const std::string rest = recording.text_of_rest(); !rest.empty())
+    std::cerr << "note: '" << printable(name) << "' " << printable(rest) << "\n";
+}
+
 /// To stderr, of what is missing on the way; of one that is shown as a table or compared. Throws LogError.
 inline void note_gaps(const Recording& recording, const std::string& name) {
   for (const Gap& gap : read_gaps(recording))

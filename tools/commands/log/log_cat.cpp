@@ -15,6 +15,7 @@ namespace jarol::tools {
 int log_cat(const LogOptions& options) {
   const Recording recording(options.file);
   note_break(recording, options.file);
+  note_rest(recording, options.file);
   std::vector<bool> wanted = channels_named(recording, "--topic", options.topics.empty() ? "*" : options.topics);
   // whole runs, which are not for people
   if (const ReadTopic* saved = recording.find(topics::checkpoints); saved != nullptr && options.topics.empty())

@@ -90,6 +90,7 @@ std::string rate_of(const ReadTopic& topic) {
 int log_csv(const LogOptions& options) {
   const Recording recording(options.file);
   note_break(recording, options.file);
+  note_rest(recording, options.file);
   note_gaps(recording, options.file);
   const std::vector<bool> wanted =
       options.topics.empty() ? published_channels(recording) : channels_named(recording, "--topic", options.topics);

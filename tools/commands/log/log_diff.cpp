@@ -98,6 +98,8 @@ void compare_instant(Duration instant, const std::vector<RecordedInstants::Messa
 
 int log_diff(const LogOptions& options) {
   const Recording a(options.file), b(options.other);
+  note_rest(a, options.file);
+  note_rest(b, options.other);
   note_gaps(a, options.file);
   note_gaps(b, options.other);
   Common common = common_of(a, b);
