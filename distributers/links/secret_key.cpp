@@ -12,6 +12,7 @@
 
 #include "distributers/links/descriptor.h"
 #include "graph/language/inputs.h"
+#include "graph/text/shell_word.h"
 
 namespace jarol::distributers {
 namespace {
@@ -24,7 +25,7 @@ SecretKey read_key(const std::string& path) {
   const auto refuse = [&](const std::string& why) {
     throw std::invalid_argument("the key file '" + path + "' " + why);
   };
-  const std::string by = "; make one by: (umask 077; head -c 32 /dev/urandom > " + path + ")";
+  const std::string by = "; make one by: (umask 077; head -c 32 /dev/urandom > " + shell_word(path) + ")";
   // a pipe without a writer would be waited for
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
   if (!file) refuse(std::string("can't be read: ") + std::strerror(errno) + (errno == ENOENT ? by : ""));

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "graph/language/inputs.h"
+#include "graph/text/shell_word.h"
 #include "runtime/mcap/crc32.h"
 
 namespace jarol {
@@ -245,7 +246,7 @@ std::string Recording::text_of_rest() const {
   if (!whole_ || more == 0) return "";
   return "goes on for " + std::to_string(more) + (more == 1 ? " byte" : " bytes") +
          " after its end; what was recorded is: head -c " + std::to_string(good_until_) + " " +
-         parts_.back();
+         shell_word(parts_.back());
 }
 
 const ReadTopic* Recording::find(std::string_view topic) const {

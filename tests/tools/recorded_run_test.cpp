@@ -136,10 +136,10 @@ TEST_SUITE("tools/recorded_run") {
     write_log(folder / "log", 1500ms);
     const std::string whole = content(folder / "log"), length = std::to_string(whole.size());
     for (const std::string& more : {std::string("x"), std::string(1, '\0'), whole}) {
-      const std::string path = folder.write("longer", whole + more);
+      const std::string path = folder.write("longer one", whole + more);
       const std::string wrong = "'" + path + "' goes on for " + std::to_string(more.size()) +
                                 (more.size() == 1 ? " byte" : " bytes") +
-                                " after its end; what was recorded is: head -c " + length + " " + path;
+                                " after its end; what was recorded is: head -c " + length + " '" + path + "'";
       CHECK(wrong_with(path) == wrong);
       const std::string file = "'" + path + "'";
       const auto replay = command::run_jarol("replay " + file);

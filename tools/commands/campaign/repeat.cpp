@@ -1,14 +1,8 @@
 #include "tools/commands/campaign/repeat.h"
 
-namespace jarol::tools {
+#include "graph/text/shell_word.h"
 
-std::string shell_word(const std::string& text) {
-  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=:+,@%-";
-  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string{c};
-  return word + "'";
-}
+namespace jarol::tools {
 
 std::string repeat_command(const std::string& file, const Overrides& overrides, std::optional<Duration> length,
                            const campaign::Start& start) {

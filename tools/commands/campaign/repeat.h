@@ -9,9 +9,6 @@
 
 namespace jarol::tools {
 
-/// What a shell takes as one word.
-std::string shell_word(const std::string& text);
-
 /// "jarol run FILE ...": of the campaign's own changes, then those of the run. `length` of a run; none: its mission's.
 std::string repeat_command(const std::string& file, const Overrides& overrides, std::optional<Duration> length,
                            const campaign::Start& start);

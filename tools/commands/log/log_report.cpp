@@ -9,6 +9,7 @@
 
 #include "graph/language/problems.h"
 #include "graph/text/escape.h"
+#include "graph/text/shell_word.h"
 #include "runtime/files/atomic_file.h"
 #include "tools/commands/campaign/repeat.h"
 #include "tools/commands/log/break_note.h"

@@ -18,6 +18,7 @@
 
 #include "distributers/guardian/guardian.h"
 #include "graph/text/escape.h"
+#include "graph/text/shell_word.h"
 #include "runtime/dispatch/task_guard.h"
 #include "runtime/files/temporary_files.h"
 #include "runtime/machine/running_task.h"
@@ -217,7 +218,7 @@ CrashLine::CrashLine(const Graph& of, const distributers::Guardian* awake, const
   about_log.clear();
   if (!log.empty())
     about_log = "note: the recording '" + printable(log) + "' is good up to its last chunk: jarol replay " +
-                printable(log) + "\n";
+                printable(shell_word(log)) + "\n";
   own_process = ::getpid();
   running_graph.store(&of);
   guardian.store(awake);

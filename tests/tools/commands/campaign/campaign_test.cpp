@@ -42,10 +42,6 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 TEST_SUITE("tools/commands/campaign") {
   TEST_CASE("a command that repeats a run has the words of a shell") {
-    CHECK(tools::shell_word("tasks.a.kp=-0.3e-05") == "tasks.a.kp=-0.3e-05");
-    CHECK(tools::shell_word("a b") == "'a b'");
-    CHECK(tools::shell_word("it's $HOME") == "'it'\\''s $HOME'");
-    CHECK(tools::shell_word("") == "''");
     const campaign::Start start{.index = 3, .values = {}, .set = {"a.b=1", "a.c=[1, 2]"}, .seed = 9};
     CHECK(tools::repeat_command("my graph.yaml", {.profile = "wind", .set = {"a.d=2"}}, std::chrono::milliseconds(1500),
                                 start) ==

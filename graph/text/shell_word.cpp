@@ -1,0 +1,15 @@
+#include "graph/text/shell_word.h"
+
+#include <string_view>
+
+namespace jarol {
+
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=:+,@%-";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string{c};
+  return word + "'";
+}
+
+}  // namespace jarol
