@@ -67,6 +67,18 @@ Reached reached_of(sqlite3_stmt* row, int column) {
   return {std::nullopt, word};
 }
 
+bool is_count(sqlite3_stmt* row, int column) {
+  return sqlite3_column_type(row, column) == SQLITE_INTEGER && sqlite3_column_int64(row, column) >= 0;
+}
+
+// Whether it is one.
+bool read_digest(const std::string& text, std::uint64_t& digest) {
+  if (!text.starts_with("0x")) return false;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data() + 2, end, digest, 16);
+  return read.ec == std::errc() && read.ptr == end;
+}
+
 // Those that are not the same in every campaign: the values that vary, then the metrics.
 std::vector<std::string> columns_of(const Campaign& campaign) {
   std::vector<std::string> names;
@@ -190,10 +202,16 @@ void Results::require_same(const Identity& identity) const {
     throw OtherCampaign(other + "it read other files" + remedy);
 }
 
-std::vector<std::uint64_t> Results::done() const {
+std::vector<std::uint64_t> Results::done(std::uint64_t runs) const {
   std::vector<std::uint64_t> all;
   const Statement rows = prepare("SELECT run FROM runs ORDER BY run");
-  while (step(rows)) all.push_back(static_cast<std::uint64_t>(sqlite3_column_int64(rows.get(), 0)));
+  while (step(rows)) {
+    const std::int64_t run = sqlite3_column_int64(rows.get(), 0);
+    all.push_back(static_cast<std::uint64_t>(run));
+    if (all.back() >= runs)  // or is below zero
+      throw OtherCampaign("'" + path_ + "' has a run " + std::to_string(run) +
+                          ", which is none of the campaign; somebody has changed it");
+  }
   return all;
 }
 
@@ -227,15 +245,19 @@ void Results::for_each(const std::function<void(const Result&)>& take) const {
   while (step(rows)) {
     Result result;
     result.index = static_cast<std::uint64_t>(sqlite3_column_int64(row, 0));
-    result.outcome = outcome_of(text_of(row, 2)).value_or(Outcome::lost);
+    const auto require = [&](bool good, const char* what) {
+      if (!good)
+        throw OtherCampaign("'" + path_ + "' has in run " + std::to_string(result.index) + " " + what +
+                            "; somebody has changed it");
+    };
+    const std::optional<Outcome> outcome = outcome_of(text_of(row, 2));
+    require(outcome.has_value(), "an outcome that there is not");
+    result.outcome = *outcome;
     result.why = text_of(row, 3);
     result.simulated = Duration(sqlite3_column_int64(row, 4));
+    require(is_count(row, 4) && is_count(row, 5), "a time or a number of faults that is no whole number from 0 on");
     result.faults = static_cast<std::uint64_t>(sqlite3_column_int64(row, 5));
-    const std::string digest = text_of(row, 6);
-    const char* const end = digest.data() + digest.size();
-    if (!digest.starts_with("0x") || std::from_chars(digest.data() + 2, end, result.digest, 16).ptr != end)
-      throw OtherCampaign("'" + path_ + "' has a digest of run " + std::to_string(result.index) +
-                          " that is no hexadecimal number; somebody has changed it");
+    require(read_digest(text_of(row, 6), result.digest), "a digest that is no hexadecimal number of 64 bits");
     for (int i = columns - static_cast<int>(metrics_); i < columns; ++i) result.metrics.push_back(reached_of(row, i));
     take(result);
   }

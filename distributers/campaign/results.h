@@ -35,10 +35,10 @@ class Results {
   Results(const Results&) = delete;
   Results& operator=(const Results&) = delete;
 
-  /// The indices of the runs in it, going up.
-  std::vector<std::uint64_t> done() const;
+  /// The indices of the runs in it, going up, of a campaign of so many. Throws OtherCampaign if one is none of these.
+  std::vector<std::uint64_t> done(std::uint64_t runs) const;
   void add(const Start& start, const Result& result);
-  /// All of them, by index.
+  /// All of them, by index. Throws OtherCampaign if one has what no run comes to.
   void for_each(const std::function<void(const Result&)>& take) const;
 
  private:

@@ -155,7 +155,7 @@ int run(const CampaignOptions& options) {
   if (ranks) ranks->gather(text_of(stated.identity));
   let_writing_fail();
   campaign::Results results(results_file, stated.identity, campaign);
-  const std::vector<std::uint64_t> done = results.done();
+  const std::vector<std::uint64_t> done = results.done(draws.runs());
   const std::vector<std::uint64_t> to_run = missing(done, shard, draws.runs());
   CampaignPace pace(done.size(), draws.runs(), to_run.size());
   {

@@ -97,7 +97,7 @@ struct Under {
 
   void run(std::size_t workers, const Shard& shard = {}) {
     run_all(
-        graphs, campaign, draws, missing(results->done(), shard, draws.runs()), workers, *results,
+        graphs, campaign, draws, missing(results->done(draws.runs()), shard, draws.runs()), workers, *results,
         [this](const Result&) {
           if (++seen == stop_after) stop = true;
         },

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -12,6 +13,7 @@
 #include "tools/commands/campaign/repeat.h"
 
 namespace {
+using command::change_database;
 using command::content;
 using command::database_content;
 using command::TemporaryFolder;
@@ -115,6 +117,37 @@ TEST_SUITE("tools/commands/campaign") {
       CHECK(database_content(results) == database_content(folder / "whole"));
       CHECK(!std::filesystem::exists(results + "-wal"));
     }
+  }
+
+  TEST_CASE("results that no campaign has written are refused, with the run") {
+    const TemporaryFolder folder;
+    const std::string results = folder / "results",
+                      of = "campaign specs/counting.yaml --for 1s --vary seed=1..3 --results " + results;
+    const auto changed = [&](const std::string& sql) {
+      std::filesystem::remove(results);
+      REQUIRE(command::run_jarol(of).exit_code == 0);
+      change_database(results, sql);
+      return command::run_jarol(of);
+    };
+    const auto refusal = [&](const std::string& what) {
+      return "error: '" + results + "' has " + what + "; somebody has changed it\n";
+    };
+    const std::map<std::string, std::string> wrong{
+        {"digest = 'zz'", "in run 1 a digest that is no hexadecimal number of 64 bits"},
+        {"digest = '0x'", "in run 1 a digest that is no hexadecimal number of 64 bits"},
+        {"digest = '0x12345678901234567'", "in run 1 a digest that is no hexadecimal number of 64 bits"},
+        {"outcome = 'great'", "in run 1 an outcome that there is not"},
+        {"faults = -3", "in run 1 a time or a number of faults that is no whole number from 0 on"},
+        {"simulated_ns = 'x'", "in run 1 a time or a number of faults that is no whole number from 0 on"},
+        {"run = 77", "a run 77, which is none of the campaign"},
+        {"run = -1", "a run -1, which is none of the campaign"}};
+    for (const auto& [what, why] : wrong) {
+      CAPTURE(what);
+      const auto refused = changed("UPDATE runs SET " + what + " WHERE run = 1");
+      CHECK(refused.exit_code == 2);
+      CHECK(refused.output == refusal(why));
+    }
+    CHECK(changed("DELETE FROM runs WHERE run = 1").exit_code == 0);
   }
 
   TEST_CASE("a search for the mildest values that is interrupted says so, and the results stay") {

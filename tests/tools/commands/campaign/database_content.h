@@ -1,4 +1,4 @@
-// All that a database of SQLite holds, whatever order it was written in.
+// All that a database of SQLite holds, whatever order it was written in, and changes to it.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -51,6 +51,13 @@ inline std::string database_content(const std::string& path) {
   }
   CHECK(sqlite3_close(database) == SQLITE_OK);
   return text;
+}
+
+inline void change_database(const std::string& path, const std::string& sql) {
+  sqlite3* database = nullptr;
+  REQUIRE(sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READWRITE, nullptr) == SQLITE_OK);
+  CHECK(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+  CHECK(sqlite3_close(database) == SQLITE_OK);
 }
 
 }  // namespace command
