@@ -1,5 +1,5 @@
-// One bit of one value that came from outside is changed in a recording: both who replays it and who compares it with
-// the one that it was find it, by instant and field.
+// One bit of one value that came from outside, or was published, is changed in a recording: both who replays it and who
+// compares it with the one that it was find it, by instant and field.
 #include <doctest/doctest.h>
 
 #include <bit>
@@ -83,5 +83,19 @@ TEST_SUITE("tools/changed_input") {
       CHECK(has(diff.output, "  first       jarol/taken/from_dune.pressure.value" + values));
       CHECK(has(diff.output, "(" + bits_of(changed.after) + ")\n"));
     }
+  }
+
+  TEST_CASE("a changed value that was published is where a replay diverges, though all digests are the run's") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", other = folder / "changed.mcap";
+    REQUIRE(command::run_jarol("run specs/counting.yaml --for 5s --record " + file).exit_code == 0);
+    const Changed changed = change(file, other, {.topic = "count.out", .message = 250, .byte = 10, .bit = 4});
+    CHECK(changed.instant == 2'500'000'000);
+    const auto replay = command::run_jarol("replay " + other);
+    CAPTURE(replay.output);
+    CHECK(replay.exit_code == 1);
+    CHECK(has(replay.output, "  DIVERGED    from the run on the virtual clock after 2.5 s\n"));
+    CHECK(has(replay.output, "  first       count.out at 2.5 s: was "));
+    CHECK(has(command::run_jarol("replay --json " + other, "").output, "\"same_until_ns\":2500000000"));
   }
 }

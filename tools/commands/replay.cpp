@@ -183,7 +183,11 @@ int replay(const ReplayOptions& options) {
     if (!run_end.hangs) sinks.close();
   } catch (const std::exception& error) { unwritten = error.what(); }
   const Differences& differences = values.differences();
-  if (differences.first() && !comparison.interrupted) comparison.evidence = Evidence::diverged;
+  if (differences.first() && !comparison.interrupted) {
+    comparison.evidence = Evidence::diverged;
+    // where somebody has changed a recorded value its digests are still those of the run
+    if (comparison.same_until) comparison.same_until = std::min(*comparison.same_until, differences.first()->instant);
+  }
   const Report& report = executor.report();
   RunVerdict verdict;
   const Duration reached = comparison.interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated);
