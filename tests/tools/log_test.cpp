@@ -242,6 +242,8 @@ tasks: {count: {type: Counter, period: 100ms}}
     CHECK(error("log diff a") == "error: jarol log diff compares two recordings; name both\n");
     CHECK(error("log cat a b") == "error: jarol log cat looks at one recording; leave 'b' out\n");
     CHECK(error("log info a --topic x") == "error: --topic belongs to cat, csv and diff\n");
+    CHECK(error("log cat a --from 5s --until 3s") == "error: --until: '3s' is not after --from, '5s'\n");
+    CHECK(error("log diff a b --until 0s") == "error: --until: '0s' is not after the begin\n");
     CHECK(error("log cat specs/counting.yaml") ==
           "error: 'specs/counting.yaml' is no recording; one comes from jarol run --record or --log\n");
   }

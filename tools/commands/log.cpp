@@ -27,6 +27,9 @@ int look(const Command& command, Words& words) {
   if (what == "info" || what == "verify" || has_graph)
     command.refuse({"--topic", "--from", "--until"}, "belongs to cat, csv and diff");
   if (what == "diff") command.refuse({"--topic"}, "belongs to cat and csv");
+  if (words.until <= words.from)
+    throw std::invalid_argument("--until: '" + words.until_text + "' is not after " +
+                                (words.from_text.empty() ? "the begin" : "--from, '" + words.from_text + "'"));
   if (what != "csv") command.refuse({"--by-rate"}, "belongs to csv");
   if (!has_graph) command.refuse({"--out"}, "belongs to trace and report");
   if (what == "cat" || what == "csv" || has_graph) command.refuse({"--json"}, "belongs to info, verify and diff");
