@@ -83,7 +83,7 @@ TEST_SUITE("tools/new") {
 
   TEST_CASE("where it can't be written, nothing is left") {
     const auto result = command::run_jarol("new /proc/a");
-    CHECK(result.output == "error: can't make a folder in '/proc'\n");
+    CHECK(result.output == "error: can't make a folder in '/proc': No such file or directory\n");
     CHECK(result.exit_code != 0);
     CHECK_FALSE(fs::exists("/proc/a"));
   }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -63,10 +65,15 @@ std::string replaced(std::string_view text, std::string_view word, const std::st
   return made;
 }
 
+// By errno.
+[[noreturn]] void fail(const std::string& what, const fs::path& path) {
+  throw std::runtime_error(what + " '" + printable(path.string()) + "': " + std::strerror(errno));
+}
+
 void write(const fs::path& path, const std::string& text) {
   fs::create_directories(path.parent_path());
   std::ofstream file(path, std::ios::binary);
-  if (!(file << text).flush()) throw std::runtime_error("can't write '" + printable(path.string()) + "'");
+  if (!(file << text).flush()) fail("can't write", path);
 }
 
 // A folder for what is not whole yet, gone at the end with what is left in it.
@@ -74,8 +81,7 @@ class Stage {
  public:
   explicit Stage(const fs::path& within) {
     std::string name = (within / ".jarol_new_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw std::runtime_error("can't make a folder in '" + printable(within.string()) + "'");
+    if (::mkdtemp(name.data()) == nullptr) fail("can't make a folder in", within);
     folder_ = name;
     fs::create_directory(path());  // with the permissions of a folder that anyone makes
   }
