@@ -1,5 +1,7 @@
 #include "vehicles/helicopter/dynamics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -8,6 +10,8 @@
 
 namespace jarol::vehicles {
 namespace {
+
+constexpr double speed_of_sound = 340;  // m/s
 
 bool is_finite(const HelicopterMotion& m) {
   double sum = 0.0;
@@ -63,7 +67,12 @@ void HelicopterDynamics::advance_to(long nanoseconds) {
   const double t = seconds_of(nanoseconds);
   try {
     motion_ = advance(input_, input_.begin, t);
-    if (!is_finite(motion_)) failure_ = "a number in it is not finite";
+    if (!is_finite(motion_)) {
+      failure_ = "a number in it is not finite";
+    } else if (const double speed = std::sqrt(fossen::dot(motion_.v_b, motion_.v_b)); speed > speed_of_sound) {
+      // one that has turned over may spin faster than steps of a fixed length can follow
+      failure_ = fmt::format("it moves at {:.0f} m/s, which this model of it is not made for", speed);
+    }
   } catch (const std::exception& e) { failure_ = e.what(); }
   if (!failure_.empty()) {
     failure_ = "helicopter: no state at t = " + std::to_string(t) + " s: " + failure_;

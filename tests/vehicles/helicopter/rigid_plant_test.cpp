@@ -121,4 +121,22 @@ TEST_SUITE("vehicles/helicopter_rigid_plant") {
       CHECK_THROWS_WITH_AS(helicopter.step(), "helicopter: no state at t = 0.005000 s: a number in it is not finite",
                            NoState);
   }
+
+  TEST_CASE("a motion that its model is not made for ends it, instead of being followed to the stars") {
+    HelicopterParameters parameters;
+    parameters.dynamics = Dynamics::rigid;
+    Helicopter helicopter(parameters);
+    VehicleState start;
+    start.z = -1000;
+    start.u = 339;
+    helicopter.place(start);
+    helicopter.step();
+    start.u = 5000;
+    helicopter.place(start);
+    for (int i = 0; i < 2; ++i)
+      CHECK_THROWS_WITH_AS(
+          helicopter.step(),
+          "helicopter: no state at t = 0.005000 s: it moves at 3821 m/s, which this model of it is not made for",
+          NoState);
+  }
 }
