@@ -192,4 +192,24 @@ TEST_SUITE("graph/values/type") {
     value.position[2] = std::numeric_limits<double>::max();
     CHECK(type.finite(&value));
   }
+
+  TEST_CASE("each of few and of many doubles is looked at, and only what is none is found") {
+    const auto look = [&]<std::size_t... Count>(std::index_sequence<Count...>) {
+      const auto at_each_place = [&]<std::size_t N>(std::array<double, N> value) {
+        const Type& type = type_of<std::array<double, N>>();
+        for (double& number : value)
+          for (const double bad : {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                                   std::numeric_limits<double>::quiet_NaN()}) {
+            CAPTURE(N);
+            CAPTURE(&number - value.data());
+            number = bad;
+            CHECK_FALSE(type.finite(&value));
+            number = -std::numeric_limits<double>::max();
+            CHECK(type.finite(&value));
+          }
+      };
+      (at_each_place(std::array<double, Count + 1>{}), ...);
+    };
+    look(std::make_index_sequence<9>());
+  }
 }
