@@ -6,6 +6,7 @@
 #include "runtime/record/cdr.h"
 #include "runtime/record/recording.h"
 #include "runtime/record/recording_format.h"
+#include "tests/tools/reports.h"
 #include "tests/tools/rewrite_recording.h"
 #include "tests/tools/run_command.h"
 
