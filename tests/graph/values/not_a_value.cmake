@@ -1,5 +1,6 @@
 # Compiles not_a_value.cpp with one of its cases and looks what the compiler says: cmake -DNUMBER=1 -DCOMPILER=c++
-# -DROOT=tree -DEIGEN=folder -P not_a_value.cmake. Where it says what to use instead, that takes ten lines at most.
+# -DROOT=tree -DEIGEN=folder -P not_a_value.cmake. Where it says what to use instead, that takes fewer than ten
+# lines, of a task ten at most.
 cmake_minimum_required(VERSION 3.25)
 set(says_1 "Value::number.*a value owns what it holds: copy what a pointer leads to into the struct, or keep an index")
 set(says_2 "reference")
@@ -57,6 +58,10 @@ foreach(word IN LISTS words)
 endforeach()
 string(REGEX MATCHALL "\n" lines "${said}")
 list(LENGTH lines count)
-if(NUMBER IN_LIST brief AND NOT COMPILER MATCHES "clang" AND count GREATER 10)
+set(most 9)
+if(NUMBER GREATER 23)
+  set(most 10)
+endif()
+if(NUMBER IN_LIST brief AND NOT COMPILER MATCHES "clang" AND count GREATER most)
   message(FATAL_ERROR "the compiler needs ${count} lines to say it:\n${said}")
 endif()
