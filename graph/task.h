@@ -6,6 +6,7 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <typeinfo>
 
 #include "graph/floating_point.h"
 #include "graph/values/type_of.h"
@@ -43,9 +44,10 @@ inline void keep_text(FaultText& fault, std::string_view text, std::size_t from 
   keep_text(fault, what, threw.size());
   return Outcome::threw;
 }
-[[gnu::noinline]] inline Outcome keep_exhausted(FaultText& fault, const char* what) {
+[[gnu::noinline]] inline Outcome keep_threw(FaultText& fault, const std::exception& error) {
+  if (typeid(error) != typeid(HeapExhausted)) return keep_threw(fault, error.what());  // faster than another handler
   restore_floating_point();
-  keep_text(fault, what);
+  keep_text(fault, error.what());
   return Outcome::heap_exhausted;
 }
 
@@ -56,9 +58,7 @@ Outcome contain(Run&& run, Text&& fault_text) {
     try {
       run();
       return Outcome::good;
-    } catch (const HeapExhausted& error) {
-      return keep_exhausted(fault_text(), error.what());
-    } catch (const std::exception& error) { return keep_threw(fault_text(), error.what()); } catch (...) {
+    } catch (const std::exception& error) { return keep_threw(fault_text(), error); } catch (...) {
       return keep_threw(fault_text(), "something that is not a std::exception");
     }
   } catch (...) { return keep_threw(fault_text(), "something whose destructor threw"); }

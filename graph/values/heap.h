@@ -19,7 +19,7 @@ inline constexpr std::size_t largest_heap = std::size_t{1} << 30;
 inline constexpr std::size_t smallest_heap = 16;
 
 /// The heap can't hold what is wanted; says how much, of how much, and which might.
-class HeapExhausted : public std::bad_alloc {
+class HeapExhausted final : public std::bad_alloc {
  public:
   HeapExhausted(std::size_t wanted, std::size_t used, std::size_t size) noexcept;
   const char* what() const noexcept override { return text_; }

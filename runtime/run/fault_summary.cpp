@@ -15,6 +15,7 @@ std::size_t end_of_number(std::string_view text, std::size_t at) {
 }  // namespace
 
 bool same_but_for_numbers(std::string_view a, std::string_view b) {
+  if (a == b) return true;
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
     if (is_digit(a[i]) && is_digit(b[j])) {
@@ -27,7 +28,7 @@ bool same_but_for_numbers(std::string_view a, std::string_view b) {
   return i == a.size() && j == b.size();
 }
 
-void FaultSummary::add(const Fault& fault) {
+void FaultSummary::add(const FaultWords& fault) {
   for (FaultGroup& group : groups_) {
     if (group.first.task != fault.task || !same_but_for_numbers(group.first.cause, fault.cause)) continue;
     ++group.count;
@@ -39,7 +40,7 @@ void FaultSummary::add(const Fault& fault) {
     ++others_;
     return;
   }
-  groups_.push_back({fault, fault.activation, fault.instant, 1});
+  groups_.push_back({fault.kept(), fault.activation, fault.instant, 1});
 }
 
 }  // namespace jarol

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "graph/language/quantities.h"
@@ -20,6 +21,16 @@ struct Fault {
   void serialize(Archive& archive) { archive(task, activation, instant, cause); }
 };
 
+/// The same in words that belong to somebody else: most faults repeat an earlier one, and need no memory.
+struct FaultWords {
+  std::string_view task;
+  std::int64_t activation = 0;
+  Duration instant{};
+  std::string_view cause;
+
+  Fault kept() const { return {std::string(task), activation, instant, std::string(cause)}; }
+};
+
 /// Faults of one task whose causes differ in their numbers alone.
 struct FaultGroup {
   Fault first;
@@ -34,7 +45,7 @@ class FaultSummary {
  public:
   static constexpr std::size_t max_groups = 100;
 
-  void add(const Fault& fault);
+  void add(const FaultWords& fault);
 
   /// In the order of their first faults.
   const std::vector<FaultGroup>& groups() const { return groups_; }

@@ -90,11 +90,12 @@ void Faults::add_noted(std::uint32_t task, Duration instant) {
   add(task, state_.status[task].activation, instant, state_.status[task].text);
 }
 
-void Faults::add(std::uint32_t task, std::int64_t activation, Duration instant, std::string cause) {
+void Faults::add(std::uint32_t task, std::int64_t activation, Duration instant, std::string_view cause) {
   const Task& of = graph_.tasks[task];
   ++report_.left_out[task];
   const bool by_limit = of.fault_limit && reaches_limit(task, activation);
-  if (by_limit) cause += limit_text(*of.fault_limit);
+  std::string longer;
+  if (by_limit) cause = longer = std::string(cause) + limit_text(*of.fault_limit);
   report_.add({of.name, activation, instant, cause});
   publisher_.show({RunEvent::Kind::fault, instant, task, activation, cause});
   if (of.on_fault == OnFault::stop || by_limit) report_.stopped = true;

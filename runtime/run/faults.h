@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "runtime/run/input_log.h"
 #include "runtime/run/publisher.h"
@@ -44,7 +45,7 @@ class Faults {
   bool has_late_fault(const LetEnd& let_end, Duration instant);
   std::string cause_of(std::uint32_t task, const BadActivation& bad, const void* out) const;
   void add_noted(std::uint32_t task, Duration instant);
-  void add(std::uint32_t task, std::int64_t activation, Duration instant, std::string cause);
+  void add(std::uint32_t task, std::int64_t activation, Duration instant, std::string_view cause);
   bool reaches_limit(std::uint32_t task, std::int64_t activation);
 
   const Graph& graph_;

@@ -24,9 +24,9 @@ struct Report {
   std::vector<std::uint64_t> left_out;  // per task: activations without outputs
 
   explicit Report(std::size_t tasks = 0) : left_out(tasks) { faults.reserve(faults_kept); }
-  void add(Fault fault) {
+  void add(const FaultWords& fault) {
     fault_summary.add(fault);
-    if (faults.size() < faults_kept) faults.push_back(std::move(fault));
+    if (faults.size() < faults_kept) faults.push_back(fault.kept());
     ++fault_count;
   }
 
