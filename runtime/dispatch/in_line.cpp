@@ -14,54 +14,63 @@ class InLine : public Dispatcher {
 
   void end_lets(const Now& now) override {
     std::uint64_t digest = 0;
-    jarol::end_lets(run_, now, [&](const Publish& what) { digest += publish(what, now); });
+    jarol::end_lets(run_, now, [&](const Publish& what) { digest += publish<false>(what, now); });
     if constexpr (Digest) run_.publisher.add_to_digest(digest);
   }
 
   void release(const Now& now) override {
-    releases_.each_segment(now,
-                           [&](const Plan::Segment& segment, const Tick& tick) { run_segment(segment, tick, now); });
+    RunningTask& running = running_task;
+    std::uint64_t digest = 0;
+    const auto run = [&](const Plan::Segment& segment, const Tick& tick) __attribute__((always_inline)) {
+      running.tick.store(&tick, std::memory_order_relaxed);
+      digest += run_segment(segment, tick, now, running);
+    };
+    releases_.each_segment(now, run);
+    running.end();
+    if constexpr (Digest) run_.publisher.add_to_digest(digest);
   }
 
  private:
   // Returns the digest's part.
+  template <bool AtOnce>
   [[gnu::always_inline]] std::uint64_t publish(const Publish& what, const Now& now) {
-    const std::uint64_t digest = make_visible<Digest>(what, now.digest_term);
+    const std::uint64_t digest = make_visible<Digest, AtOnce>(what, now.digest_term);
     if constexpr (Record) run_.publisher.record(what, now);
     return digest;
   }
 
-  void run_segment(const Plan::Segment& segment, const Tick& tick, const Now& now) {
-    running_task.tick.store(&tick, std::memory_order_relaxed);
+  // Returns the digest's part.
+  [[gnu::always_inline]] std::uint64_t run_segment(const Plan::Segment& segment, const Tick& tick, const Now& now,
+                                                   RunningTask& running) {
     const Activation* next = run_.state.activations.data() + segment.tasks.first;
     const Activation* const last = next + segment.tasks.count;
     std::uint64_t digest = 0;
     while (next != last) {
       if (next->body != nullptr) {
-        next = run_bodies(next, last, tick);
+        next = run_bodies(next, last, tick, running);
         continue;
       }
       const Activation& activation = *next++;
-      running_task.next(activation.memory);
+      running.next(activation.memory);
       const Outcome outcome = activation.run(activation.memory, tick);
       if (outcome == Outcome::good) [[likely]] {
-        if (!activation.has_let) digest += publish(activation.publish, now);
+        digest += publish<true>(activation.publish, now);  // nothing, of a task with a LET
       } else {
         run_.faults.on_bad(activation, {outcome, tick.activation, tick.now});
       }
     }
-    running_task.end();
-    if constexpr (Digest) run_.publisher.add_to_digest(digest);
+    return digest;
   }
 
   // Those in a row that are checked at the ends of their LETs; returns the first that is not one. What one throws ends
   // its own activation alone.
-  [[gnu::noinline]] const Activation* run_bodies(const Activation* next, const Activation* last, const Tick& tick) {
+  [[gnu::noinline]] const Activation* run_bodies(const Activation* next, const Activation* last, const Tick& tick,
+                                                 RunningTask& running) {
     while (next != last && next->body != nullptr) {
       const Outcome outcome = contain(
           [&] {
             for (; next != last && next->body != nullptr; ++next) {
-              running_task.next(next->memory);
+              running.next(next->memory);
               next->body(next->memory, tick);
             }
           },

@@ -83,8 +83,8 @@ void PreemptiveThreads::connect_followers() {
     }
     const TypeField& output = graph_.tasks[c.from.index].task_class->out->fields[c.from.field];
     const TypeField& input = graph_.tasks[c.to.index].task_class->in->fields[c.to.field];
-    follower->copies.push_back(
-        {static_cast<const std::byte*>(from.memory.out) + output.offset, to.latched + input.offset, c.type->size});
+    follower->copies.push_back({static_cast<const std::byte*>(from.memory.out) + output.offset,
+                                to.latched + input.offset, static_cast<std::uint32_t>(c.type->size)});
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/machine/prefetch.h"
 #include "runtime/mcap/crc32.h"
 #include "runtime/mcap/records.h"
 
@@ -25,6 +26,7 @@ class Chunk {
   std::byte* add_message(std::uint16_t channel, std::uint32_t sequence, std::int64_t time, std::size_t size) {
     const std::uint64_t offset = size_;
     std::byte* const at = room_for(message_head + size);
+    prefetch_for_write(memory_.get(), capacity_, size_);
     const auto opcode = Opcode::message;
     const std::uint64_t length = message_head - record_head + size;
     std::memcpy(at, &opcode, 1);

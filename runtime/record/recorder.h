@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "graph/values/value.h"
+#include "runtime/machine/copy_fresh.h"
+#include "runtime/machine/prefetch.h"
 #include "runtime/plan/output.h"
 #include "runtime/record/sink.h"
 
@@ -52,9 +54,13 @@ class Recorder {
   void append(Duration instant, std::uint32_t output, const void* value, std::uint32_t size) {
     const std::size_t padded = (size + 7U) & ~std::size_t{7};
     if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk();
+    prefetch_for_write(now_, chunk_bytes, used_);
     const RecordHeader header{instant, output, size};
     std::memcpy(now_ + used_, &header, sizeof header);
-    std::memcpy(now_ + used_ + sizeof header, value, size);
+    if (size == 64)
+      copy_fresh<64>(now_ + used_ + sizeof header, value);
+    else
+      std::memcpy(now_ + used_ + sizeof header, value, size);
     used_ += sizeof header + padded;
   }
 

@@ -12,7 +12,8 @@ namespace jarol {
 struct Copy {
   const void* from = nullptr;  // of size 0: a DeepCopy
   std::byte* to = nullptr;
-  std::size_t size = 0;
+  std::uint32_t size = 0;
+  bool read_next = false;  // by the task that runs right after the value was made
 };
 
 /// An input of a task that did not fit its heap when it was last transferred; says why.

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "graph/values/heap.h"
+#include "runtime/machine/copy_fresh.h"
 #include "runtime/state/actions.h"
 
 namespace jarol {
@@ -21,17 +22,27 @@ namespace jarol {
   }
 }
 
-/// Copies of the common sizes are a few moves; the compiler can't know sizes that come from a graph.
+template <bool AtOnce, std::size_t Bytes>
+[[gnu::always_inline]] inline void copy_bytes(const Copy& c) {
+  if (AtOnce && c.read_next)
+    copy_fresh<Bytes>(c.to, c.from);
+  else
+    std::memcpy(c.to, c.from, Bytes);
+}
+
+/// Copies of the common sizes are a few moves; the compiler can't know sizes that come from a graph. `AtOnce`: as soon
+/// as the value is made.
+template <bool AtOnce = false>
 [[gnu::always_inline]] inline void transfer(const Copy& c) {
   if (c.size == 64) {
-    std::memcpy(c.to, c.from, 64);
+    copy_bytes<AtOnce, 64>(c);
     return;
   }
   switch (c.size) {
     case 0: return copy_deep(c);
     case 8: std::memcpy(c.to, c.from, 8); return;
-    case 16: std::memcpy(c.to, c.from, 16); return;
-    case 32: std::memcpy(c.to, c.from, 32); return;
+    case 16: copy_bytes<AtOnce, 16>(c); return;
+    case 32: copy_bytes<AtOnce, 32>(c); return;
     default: std::memcpy(c.to, c.from, c.size);
   }
 }

@@ -95,6 +95,7 @@ class RunState {
   CommunicatorAction make_action(std::uint32_t communicator);
   void add_let_output(LetOutputs& outputs, std::uint32_t task);
   Publish publish_of(End::Kind kind, std::uint32_t index);
+  bool is_read_next(const Connection& c) const;
   void add_copy(std::uint32_t connection);
   void add_taps(End::Kind kind, std::size_t index);
   Copy tap_of(std::size_t i) const;

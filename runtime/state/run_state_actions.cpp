@@ -93,10 +93,18 @@ Publish RunState::publish_of(End::Kind kind, std::uint32_t index) {
   return {from(copies_, copy), from(publications_, publication)};
 }
 
+// Of the task whose activation is made.
+bool RunState::is_read_next(const Connection& c) const {
+  if (c.from.kind != End::Kind::task || c.to.kind != End::Kind::task || plan.graph.tasks[c.from.index].let)
+    return false;
+  const std::size_t next = activations.size() + 1;
+  return next < plan.order.size() && plan.order[next] == c.to.index;
+}
+
 void RunState::add_copy(std::uint32_t connection) {
   const Connection& c = plan.graph.connections[connection];
   if (!c.type->is_deep()) {
-    copies_.push_back({source_of(c.from), target_of(c.to), c.type->size});
+    copies_.push_back({source_of(c.from), target_of(c.to), static_cast<std::uint32_t>(c.type->size), is_read_next(c)});
     return;
   }
   deep_copies_.push_back({c.type, source_of(c.from), deep_input_of_.empty() ? nullptr : deep_input_of_[connection]});
@@ -113,7 +121,8 @@ void RunState::add_taps(End::Kind kind, std::size_t index) {
 
 Copy RunState::tap_of(std::size_t i) const {
   const expect::Signal& signal = tapped_[i];
-  return {source_of(*signal.published) + signal.leaf.offset, taps[i], signal.leaf.type->size};
+  return {source_of(*signal.published) + signal.leaf.offset, taps[i],
+          static_cast<std::uint32_t>(signal.leaf.type->size)};
 }
 
 }  // namespace jarol

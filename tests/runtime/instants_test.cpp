@@ -194,4 +194,22 @@ connections: [a.out -> b, a_ -> _.in]
     for (const Output& output : outputs_of(graph)) names.push_back(output.name);
     CHECK(names == std::vector<std::string>{"B.out", "_.out", "a.out", "a0.out", "a_", "b"});
   }
+
+  TEST_CASE("what is released at one instant runs in the order of connections, of however many periods it is") {
+    for (const std::vector<int>& periods :
+         {std::vector{12, 6, 4, 3, 2, 1}, std::vector{60, 30, 20, 15, 12, 10, 6, 5, 4, 3, 2, 1}}) {
+      std::string all = "graph: t\ntasks:\n", connections = "connections:\n";
+      for (const int period : periods) {
+        const std::string name = "t" + std::to_string(period);
+        const bool first = period == periods.front();
+        all +=
+            "  " + name + ": {type: " + (first ? "Counter" : "Relay") + ", period: " + std::to_string(period) + "ms}\n";
+        if (!first) connections += " -> " + name + ".in\n";
+        if (period > 1) connections += "  - " + name + ".out";
+      }
+      const int last = periods.front();
+      const auto r = tests::run_text(all + connections, std::chrono::milliseconds(last + 1));
+      CHECK(r.lines.back() == std::to_string(last) + "ms t1.out=1");
+    }
+  }
 }
