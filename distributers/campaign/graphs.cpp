@@ -17,8 +17,7 @@ Overrides with(Overrides overrides, const std::vector<std::string>& set) {
 MeasuredGraph::MeasuredGraph(const GraphSource& of, const std::vector<std::string>& set)
     : graph(of.source, of.known, with(of.overrides, set), of.note), measures(graph.campaign().measures) {
   Problems problems;
-  for (const std::string& metric : of.metrics)
-    add_metric(measures, metric, graph.graph(), graph.true_values(), problems);
+  add_metrics(measures, of.metrics, graph.graph(), graph.true_values(), problems);
   problems.throw_if_any();
 }
 

@@ -48,8 +48,7 @@ Campaign state_campaign(Graphs& graphs, const Wishes& wishes) {
   Campaign campaign = graphs.base().graph.campaign();
   campaign.measures = graphs.base().measures;
   Problems problems;
-  for (const std::string& argument : wishes.vary)
-    if (auto variation = read_variation(argument, problems)) add_variation(campaign.vary, std::move(*variation));
+  add_variations(campaign.vary, wishes.vary, problems);
   if (wishes.runs) campaign.runs = wishes.runs;
   if (wishes.sampling) campaign.sampling = *wishes.sampling;
   if (wishes.length) campaign.length = wishes.length;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
+#include <memory>
 
 #include "graph/campaign/variation.h"
 #include "graph/expect/parse.h"
@@ -19,6 +21,47 @@ constexpr std::array<std::string_view, 7> own_columns{"run", "seed", "outcome", 
 bool is_same_column(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](unsigned char left, unsigned char right) { return std::tolower(left) == std::tolower(right); });
+}
+
+// The names that options of a command line have given so far.
+class GivenOnce {
+ public:
+  // False after a report: an option before it has given that name.
+  bool add(const std::string& name, const std::string& subject, const Location& where, Problems& problems) {
+    const auto [first, is_new] = places_.emplace(name, where);
+    if (!is_new) problems.add(where, subject + " is given twice; keep one", {{first->second, "first here"}});
+    return is_new;
+  }
+
+ private:
+  std::map<std::string, Location> places_;
+};
+
+// "name=metric"; nothing after a report.
+std::optional<std::pair<std::string, Yaml>> read_metric(const std::string& argument, Problems& problems) {
+  const auto source = std::make_shared<Source>(Source{"--metric", argument});
+  const std::size_t equals = argument.find('=');
+  const std::string name = argument.substr(0, equals);
+  if (equals == std::string::npos || !is_name(name)) {
+    problems.add({source, 1, 1},
+                 "'" + argument + "' names no metric; write name=metric, as in deepest=max(depth of dune)");
+    return std::nullopt;
+  }
+  Yaml text;
+  text.kind = Yaml::Kind::scalar;
+  text.text = argument.substr(equals + 1);
+  text.where = {source, 1, static_cast<int>(equals) + 2};
+  return std::pair(name, text);
+}
+
+// In place of how the path varied.
+void add_variation(std::vector<Variation>& vary, Variation variation) {
+  const auto same =
+      std::find_if(vary.begin(), vary.end(), [&](const Variation& v) { return v.path == variation.path; });
+  if (same == vary.end())
+    vary.push_back(std::move(variation));
+  else
+    *same = std::move(variation);
 }
 
 }  // namespace
@@ -47,28 +90,26 @@ void add_metric(Measures& measures, const std::string& name, const Location& whe
   }
 }
 
-void add_metric(Measures& measures, const std::string& argument, const Graph& graph,
-                const std::vector<expect::TrueValues>& vehicles, Problems& problems) {
-  const auto source = std::make_shared<Source>(Source{"--metric", argument});
-  const std::size_t equals = argument.find('=');
-  const std::string name = argument.substr(0, equals);
-  if (equals == std::string::npos || !is_name(name))
-    return problems.add({source, 1, 1},
-                        "'" + argument + "' names no metric; write name=metric, as in deepest=max(depth of dune)");
-  Yaml text;
-  text.kind = Yaml::Kind::scalar;
-  text.text = argument.substr(equals + 1);
-  text.where = {source, 1, static_cast<int>(equals) + 2};
-  add_metric(measures, name, {source, 1, 1}, text, graph, vehicles, problems);
+void add_metrics(Measures& measures, const std::vector<std::string>& arguments, const Graph& graph,
+                 const std::vector<expect::TrueValues>& vehicles, Problems& problems) {
+  GivenOnce given;
+  for (const std::string& argument : arguments) {
+    const auto metric = read_metric(argument, problems);
+    if (!metric) continue;
+    const auto& [name, text] = *metric;
+    const Location where{text.where.source, 1, 1};
+    if (given.add(name, "metric '" + name + "'", where, problems))
+      add_metric(measures, name, where, text, graph, vehicles, problems);
+  }
 }
 
-void add_variation(std::vector<Variation>& vary, Variation variation) {
-  const auto same =
-      std::find_if(vary.begin(), vary.end(), [&](const Variation& v) { return v.path == variation.path; });
-  if (same == vary.end())
-    vary.push_back(std::move(variation));
-  else
-    *same = std::move(variation);
+void add_variations(std::vector<Variation>& vary, const std::vector<std::string>& arguments, Problems& problems) {
+  GivenOnce given;
+  for (const std::string& argument : arguments) {
+    std::optional<Variation> variation = read_variation(argument, problems);
+    if (variation && given.add(variation->path, "'" + variation->path + "'", variation->where, problems))
+      add_variation(vary, std::move(*variation));
+  }
 }
 
 Campaign read_campaign(const std::optional<CampaignSpec>& spec, const Graph& graph,

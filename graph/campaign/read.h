@@ -14,11 +14,11 @@ Campaign read_campaign(const std::optional<CampaignSpec>& spec, const Graph& gra
 void add_metric(Measures& measures, const std::string& name, const Location& where, const Yaml& text,
                 const Graph& graph, const std::vector<expect::TrueValues>& vehicles, Problems& problems);
 
-/// "name=max(depth of dune)" as it came from the command line.
-void add_metric(Measures& measures, const std::string& argument, const Graph& graph,
-                const std::vector<expect::TrueValues>& vehicles, Problems& problems);
+/// Those of a command line, "name=max(depth of dune)", each in place of what the file measures under its name.
+void add_metrics(Measures& measures, const std::vector<std::string>& arguments, const Graph& graph,
+                 const std::vector<expect::TrueValues>& vehicles, Problems& problems);
 
-/// Adds how a path varies, in place of how it did.
-void add_variation(std::vector<Variation>& vary, Variation variation);
+/// Those of a command line, "path=0.3..0.6", each in place of how the file varies its path.
+void add_variations(std::vector<Variation>& vary, const std::vector<std::string>& arguments, Problems& problems);
 
 }  // namespace jarol::campaign

@@ -89,6 +89,38 @@ TEST_SUITE("tools/commands/campaign") {
     const command::DefaultSignals taken;
     const TemporaryFolder folder;
     const std::string of =
+  TEST_CASE("a metric or a path that is given twice is bad input, on the command line as in a file") {
+    const TemporaryFolder folder;
+    const std::string of = "campaign specs/counting.yaml --for 1s --results " + (folder / "r") + " ";
+    const auto metrics =
+        command::run_jarol(of + "--runs 3 --metric 'last=final(sum.out)' --metric 'last=max(sum.out)'");
+    CHECK(metrics.exit_code == 2);
+    CHECK(metrics.output ==
+          "--metric:1:1: error: metric 'last' is given twice; keep one\n"
+          "  last=max(sum.out)\n  ^\n"
+          "--metric:1:1: note: first here\n"
+          "  last=final(sum.out)\n  ^\n1 error\n");
+    const auto paths = command::run_jarol(of + "--vary seed=1..3 --vary seed=7..9");
+    CHECK(paths.exit_code == 2);
+    CHECK(paths.output ==
+          "--vary:1:1: error: 'seed' is given twice; keep one\n"
+          "  seed=7..9\n  ^\n"
+          "--vary:1:1: note: first here\n"
+          "  seed=1..3\n  ^\n1 error\n");
+    const std::string file = folder.write("g.yaml",
+                                          "graph: g\ntiming: {period: 10ms}\ntasks: {a: {type: Counter}}\n"
+                                          "campaign: {vary: {seed: 1..3, seed: 7..9}}\n");
+    const auto in_file = command::run_jarol("campaign " + file + " --for 1s --results " + (folder / "r"));
+    CHECK(in_file.exit_code == 2);
+    CHECK(in_file.output == file +
+                                ":4:31: error: key 'seed' appears twice in one mapping; keep one\n"
+                                "  campaign: {vary: {seed: 1..3, seed: 7..9}}\n                                ^\n" +
+                                file +
+                                ":4:19: note: first here\n"
+                                "  campaign: {vary: {seed: 1..3, seed: 7..9}}\n                    ^\n1 error\n");
+    CHECK(!std::filesystem::exists(folder / "r"));
+  }
+
         "campaign specs/counting.yaml --for 1000s --vary tasks.slow.let='[5ms, 10ms, 15ms]' --vary "
         "seed=1..20 --metric 'last=final(sum.out)' --workers 2 ";
     const command::Result whole =
