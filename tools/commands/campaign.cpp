@@ -147,6 +147,7 @@ int run(const CampaignOptions& options) {
                 {{"--results", results_file}, {"--csv", options.csv}, {"--report", options.report}});
   if (options.report == "-")
     throw std::invalid_argument("--report: '-' is no file; a page is opened by its name, as in --report campaign.html");
+  require_extension({"--report", options.report}, ".html", "a page in HTML");
   const Shard shard = shard_of(options.shard);
   Stated stated(options);
   campaign::Graphs& graphs = stated.graphs;

@@ -81,6 +81,10 @@ TEST_SUITE("tools/commands/campaign") {
     CHECK(wrong("--for 1s --runs 3 --metric 'max(sum.out)'") ==
           "--metric:1:1: error: 'max(sum.out)' names no metric; write name=metric, as in deepest=max(depth of dune)\n"
           "  max(sum.out)\n  ^\n1 error\n");
+    CHECK(wrong("--for 1s --runs 3 --report x.txt") ==
+          "error: --report: 'x.txt' would hold a page in HTML; name it x.html\n");
+    CHECK(wrong("--for 1s --runs 3 --report -") ==
+          "error: --report: '-' is no file; a page is opened by its name, as in --report campaign.html\n");
     CHECK(wrong("--for 1s --runs 3 --vary tasks.nobody.period=1ms..2ms").find("has no 'nobody'") != std::string::npos);
     CHECK(!std::filesystem::exists(folder / "r"));
   }
