@@ -67,6 +67,13 @@ Reached reached_of(sqlite3_stmt* row, int column) {
   return {std::nullopt, word};
 }
 
+// What add() writes of a metric: a number with a point, a word, or nothing.
+bool is_reached(sqlite3_stmt* row, int column) {
+  const int type = sqlite3_column_type(row, column);
+  if (type == SQLITE_FLOAT) return std::isfinite(sqlite3_column_double(row, column));
+  return type == SQLITE_TEXT || type == SQLITE_NULL;
+}
+
 bool is_count(sqlite3_stmt* row, int column) {
   return sqlite3_column_type(row, column) == SQLITE_INTEGER && sqlite3_column_int64(row, column) >= 0;
 }
@@ -245,7 +252,7 @@ void Results::for_each(const std::function<void(const Result&)>& take) const {
   while (step(rows)) {
     Result result;
     result.index = static_cast<std::uint64_t>(sqlite3_column_int64(row, 0));
-    const auto require = [&](bool good, const char* what) {
+    const auto require = [&](bool good, const std::string& what) {
       if (!good)
         throw OtherCampaign("'" + path_ + "' has in run " + std::to_string(result.index) + " " + what +
                             "; somebody has changed it");
@@ -258,7 +265,10 @@ void Results::for_each(const std::function<void(const Result&)>& take) const {
     require(is_count(row, 4) && is_count(row, 5), "a time or a number of faults that is no whole number from 0 on");
     result.faults = static_cast<std::uint64_t>(sqlite3_column_int64(row, 5));
     require(read_digest(text_of(row, 6), result.digest), "a digest that is no hexadecimal number of 64 bits");
-    for (int i = columns - static_cast<int>(metrics_); i < columns; ++i) result.metrics.push_back(reached_of(row, i));
+    for (int i = columns - static_cast<int>(metrics_); i < columns; ++i) {
+      require(is_reached(row, i), "as '" + std::string(sqlite3_column_name(row, i)) + "' what no run comes to");
+      result.metrics.push_back(reached_of(row, i));
+    }
     take(result);
   }
 }

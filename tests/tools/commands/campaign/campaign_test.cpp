@@ -89,10 +89,6 @@ TEST_SUITE("tools/commands/campaign") {
     CHECK(!std::filesystem::exists(folder / "r"));
   }
 
-  TEST_CASE("the same command goes on where it was killed or interrupted, to the same table and results") {
-    const command::DefaultSignals taken;
-    const TemporaryFolder folder;
-    const std::string of =
   TEST_CASE("a metric or a path that is given twice is bad input, on the command line as in a file") {
     const TemporaryFolder folder;
     const std::string of = "campaign specs/counting.yaml --for 1s --results " + (folder / "r") + " ";
@@ -125,6 +121,10 @@ TEST_SUITE("tools/commands/campaign") {
     CHECK(!std::filesystem::exists(folder / "r"));
   }
 
+  TEST_CASE("the same command goes on where it was killed or interrupted, to the same table and results") {
+    const command::DefaultSignals taken;
+    const TemporaryFolder folder;
+    const std::string of =
         "campaign specs/counting.yaml --for 1000s --vary tasks.slow.let='[5ms, 10ms, 15ms]' --vary "
         "seed=1..20 --metric 'last=final(sum.out)' --workers 2 ";
     const command::Result whole =
@@ -158,7 +158,9 @@ TEST_SUITE("tools/commands/campaign") {
   TEST_CASE("results that no campaign has written are refused, with the run") {
     const TemporaryFolder folder;
     const std::string results = folder / "results",
-                      of = "campaign specs/counting.yaml --for 1s --vary seed=1..3 --results " + results;
+                      of = "campaign specs/counting.yaml --for 1s --vary seed=1..3 --metric 'last=final(sum.out)' "
+                           "--results " +
+                           results;
     const auto changed = [&](const std::string& sql) {
       std::filesystem::remove(results);
       REQUIRE(command::run_jarol(of).exit_code == 0);
@@ -175,6 +177,9 @@ TEST_SUITE("tools/commands/campaign") {
         {"outcome = 'great'", "in run 1 an outcome that there is not"},
         {"faults = -3", "in run 1 a time or a number of faults that is no whole number from 0 on"},
         {"simulated_ns = 'x'", "in run 1 a time or a number of faults that is no whole number from 0 on"},
+        {"last = 7", "in run 1 as 'last' what no run comes to"},
+        {"last = x'07'", "in run 1 as 'last' what no run comes to"},
+        {"last = 9e999", "in run 1 as 'last' what no run comes to"},
         {"run = 77", "a run 77, which is none of the campaign"},
         {"run = -1", "a run -1, which is none of the campaign"}};
     for (const auto& [what, why] : wrong) {
