@@ -83,8 +83,18 @@ TEST_SUITE("tools/new") {
 
   TEST_CASE("where it can't be written, nothing is left") {
     const auto result = command::run_jarol("new /proc/a");
-    CHECK(result.output == "error: can't make a folder in '/proc': No such file or directory\n");
-    CHECK(result.exit_code != 0);
+    CHECK(result.output == "error: can't make '/proc/a': No such file or directory\n");
+    CHECK(result.exit_code == 2);
     CHECK_FALSE(fs::exists("/proc/a"));
+  }
+
+  TEST_CASE("where there is no room for it, the folder that was to be made is named, and nothing is left") {
+    const TemporaryFolder folder;
+    const std::string place = folder / "pump";
+    const auto result =
+        command::run_jarol("new " + place, "2>&1", std::string("trap '' XFSZ; ulimit -f 1; ") + JAROL_COMMAND);
+    CHECK(result.output == "error: can't make '" + place + "': File too large\n");
+    CHECK(result.exit_code == 3);
+    CHECK(names_in(folder / "").empty());
   }
 }

@@ -4,10 +4,10 @@
 #include <array>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "graph/text/escape.h"
 #include "tools/commands/new/project_files.h"
@@ -65,15 +65,12 @@ std::string replaced(std::string_view text, std::string_view word, const std::st
   return made;
 }
 
-// By errno.
-[[noreturn]] void fail(const std::string& what, const fs::path& path) {
-  throw std::runtime_error(what + " '" + printable(path.string()) + "': " + std::strerror(errno));
-}
+[[noreturn]] void fail_by_errno() { throw std::system_error(errno, std::generic_category()); }
 
 void write(const fs::path& path, const std::string& text) {
   fs::create_directories(path.parent_path());
   std::ofstream file(path, std::ios::binary);
-  if (!(file << text).flush()) fail("can't write", path);
+  if (!(file << text).flush()) fail_by_errno();
 }
 
 // A folder for what is not whole yet, gone at the end with what is left in it.
@@ -81,7 +78,7 @@ class Stage {
  public:
   explicit Stage(const fs::path& within) {
     std::string name = (within / ".jarol_new_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) fail("can't make a folder in", within);
+    if (::mkdtemp(name.data()) == nullptr) fail_by_errno();
     folder_ = name;
     fs::create_directory(path());  // with the permissions of a folder that anyone makes
   }
@@ -113,13 +110,8 @@ void place_all(const fs::path& stage, const fs::path& place) {
   }
 }
 
-}  // namespace
-
-std::vector<std::string> make_project(const std::string& folder, const std::string& kind) {
-  fs::path place = fs::absolute(folder).lexically_normal();
-  if (!place.has_filename()) place = place.parent_path();  // as of "demo/"
-  const std::string name = name_of(place);
-  require_free(place, folder);
+// Its files. Throws std::system_error, and leaves nothing then.
+std::vector<std::string> make_at(const fs::path& place, const std::string& name, const std::string& kind) {
   // in it where it is there, so that both are on one file system
   const Stage stage(fs::exists(place) ? place : place.parent_path());
   std::vector<std::string> made;
@@ -132,6 +124,21 @@ std::vector<std::string> make_project(const std::string& folder, const std::stri
   place_all(stage.path(), place);
   std::sort(made.begin(), made.end());
   return made;
+}
+
+}  // namespace
+
+std::vector<std::string> make_project(const std::string& folder, const std::string& kind) {
+  fs::path place = fs::absolute(folder).lexically_normal();
+  if (!place.has_filename()) place = place.parent_path();  // as of "demo/"
+  const std::string name = name_of(place);
+  require_free(place, folder);
+  try {
+    return make_at(place, name, kind);
+  } catch (const std::system_error& error) {
+    // not by the path of what is not whole yet, which is gone
+    throw std::system_error(error.code(), "can't make '" + folder + "'");
+  }
 }
 
 }  // namespace jarol::tools
