@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "graph/language/inputs.h"
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& path, int reason) {
-  throw std::runtime_error("can't write '" + path + "': " + std::strerror(reason));
+  throw std::system_error(reason, std::generic_category(), "can't write '" + path + "'");
 }
 
 // stdout or stderr, if the path leads to where they go, as /dev/stdout does.

@@ -17,7 +17,7 @@ enum class Replaces { nothing, outputs, all };
 class AtomicFile {
  public:
   /// Links are followed, and what they lead to is replaced; it keeps its permissions.
-  /// Throws std::runtime_error, "can't write 'path': reason", if the file can't be made; so do the others.
+  /// Throws std::system_error, "can't write 'path': reason", if the file can't be made; so do the others.
   explicit AtomicFile(std::string path, Replaces replaces = Replaces::outputs);
   /// What was not committed is gone, also if a signal ends the program.
   ~AtomicFile();

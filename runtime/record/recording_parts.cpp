@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -64,23 +63,25 @@ void RecordingParts::open(RecordingHeader header, const std::vector<RecordedFile
   open_part();
   try {
     for (const RecordedFile& file : files) writer_->write({file.path, "text/plain", file.text});
-  } catch (const std::system_error& error) { fail(error.code().message()); }
+  } catch (const std::system_error& error) { fail(error.code().value()); }
 }
 
 void RecordingParts::open_part() {
   part_path_ = path_of_part(path_, header_.part);
   require_no_input(part_path_);
   lock_ = OutputLock(target_of(part_path_));
-  if (!may_be_replaced(part_path_)) fail("it is there and no recording; choose another file, or remove it");
+  if (!may_be_replaced(part_path_))
+    throw std::runtime_error("can't write '" + part_path_ +
+                             "': it is there and no recording; choose another file, or remove it");
   std::error_code none;
   const bool in_place =
       std::filesystem::exists(part_path_, none) && !std::filesystem::is_regular_file(part_path_, none);
   file_ = in_place ? open_in_place(part_path_) : std::fopen(part_path_.c_str(), "wb");
-  if (file_ == nullptr) fail(std::strerror(errno));
+  if (file_ == nullptr) fail(errno);
   try {
     writer_.emplace(file_, compression_, library);
     writer_->write({RecordingHeader::attachment, "application/json", to_json(header_)});
-  } catch (const std::system_error& error) { fail(error.code().message()); }
+  } catch (const std::system_error& error) { fail(error.code().value()); }
 }
 
 void RecordingParts::write(const mcap::Chunk& chunk) {
@@ -88,7 +89,7 @@ void RecordingParts::write(const mcap::Chunk& chunk) {
   if (is_full && writer_->has_chunks()) begin_next();
   try {
     writer_->write(chunk);
-  } catch (const std::system_error& error) { fail(error.code().message()); }
+  } catch (const std::system_error& error) { fail(error.code().value()); }
 }
 
 void RecordingParts::begin_next() {
@@ -99,24 +100,24 @@ void RecordingParts::begin_next() {
   open_part();
   try {
     writer_->write(schemas_, channels_);
-  } catch (const std::system_error& error) { fail(error.code().message()); }
+  } catch (const std::system_error& error) { fail(error.code().value()); }
 }
 
 void RecordingParts::finish() {
   try {
     writer_->end(schemas_, channels_);
-  } catch (const std::system_error& error) { fail(error.code().message()); }
+  } catch (const std::system_error& error) { fail(error.code().value()); }
 }
 
 void RecordingParts::close() {
   // what is in buffers goes out here at the latest, so that a full disk shows
-  if (!sync(file_)) fail(std::strerror(errno));
-  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(std::strerror(errno));
+  if (!sync(file_)) fail(errno);
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(errno);
   sync_folder_of(part_path_);
 }
 
-void RecordingParts::fail(const std::string& reason) const {
-  throw std::runtime_error("can't write '" + part_path_ + "': " + reason);
+void RecordingParts::fail(int reason) const {
+  throw std::system_error(reason, std::generic_category(), "can't write '" + part_path_ + "'");
 }
 
 }  // namespace jarol

@@ -36,7 +36,7 @@ class RecordingParts {
   RecordingParts& operator=(const RecordingParts&) = delete;
 
   /// Makes the first part, or replaces a recording. Throws std::runtime_error, "can't write 'path': reason"; so do the
-  /// others. What is given is complete.
+  /// others. What is given is complete. Of the system's reasons it is a std::system_error.
   void open(RecordingHeader header, const std::vector<RecordedFile>& files, std::vector<mcap::Schema> schemas,
             std::vector<mcap::Channel> channels);
   void write(const mcap::Chunk& chunk);
@@ -47,7 +47,7 @@ class RecordingParts {
  private:
   void open_part();
   void begin_next();
-  [[noreturn]] void fail(const std::string& reason) const;
+  [[noreturn]] void fail(int reason) const;  // by errno
 
   const std::string path_;
   const mcap::Compression compression_;

@@ -308,6 +308,34 @@ tasks: {a: {type: Counter, period: 10ms}}
     CHECK(content(graphs + "/late") == "mine");
   }
 
+  TEST_CASE("where the disk is full a command that reports into files exits with 3, as on stdout") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", tables = folder / "tables", no_room = "': No space left on device\n";
+    REQUIRE(command::run_jarol("run specs/counting.yaml --for 10s --record " + file).exit_code == 0);
+    const std::string campaign = "campaign specs/counting.yaml --for 1s --vary seed=1..3 --results " + (folder / "c");
+    for (const std::string& command :
+         {"log trace " + file + " -o /dev/full", "log report " + file + " -o /dev/full", campaign + " --csv /dev/full",
+          campaign + " --report /dev/full", std::string("run specs/counting.yaml --for 1s --log /dev/full")}) {
+      CAPTURE(command);
+      const auto failed = command::run_jarol(command, "2>&1 >/dev/null");
+      CHECK(failed.exit_code == 3);
+      CHECK(failed.output == "error: can't write '/dev/full" + no_room);
+    }
+    // a limit of sizes, for there is no folder that is full
+    const auto by_rate = command::run_jarol("log csv " + file + " --by-rate " + tables, "2>&1",
+                                            std::string("trap '' XFSZ; ulimit -f 1; ") + JAROL_COMMAND);
+    CHECK(by_rate.exit_code == 3);
+    CHECK(by_rate.output == "error: can't write '" + tables + "/10ms.csv': File too large\n");
+    CHECK(fs::is_empty(tables));
+    // a name that is no good is bad input, as ever
+    const auto in_file = command::run_jarol("log csv " + file + " --by-rate " + file + "/x");
+    CHECK(in_file.exit_code == 2);
+    CHECK(in_file.output == "error: can't make the folder '" + file + "/x': Not a directory\n");
+    CHECK(command::run_jarol("log trace " + file + " -o /no/x.json").exit_code == 2);
+    CHECK(command::run_jarol("log --help").output.find("2 bad input, 3 can't write, as on a full disk\n") !=
+          std::string::npos);
+  }
+
   TEST_CASE("output that can't be written is reported, and exits with 3") {
     for (const std::string to : {">/dev/full", ">&-"})
       for (const std::string command : {"run specs/counting.yaml --for 1s", "run specs/counting.yaml --for 1s --json",

@@ -1,5 +1,8 @@
 #include "tools/report/failure.h"
 
+#include <algorithm>
+#include <array>
+#include <cerrno>
 #include <iostream>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -43,6 +46,13 @@ Failure of_ours(const std::string& text) {
   return of_one(exit_unfinished, "jarol itself is wrong: " + text + "; please report what you did");
 }
 
+// Why a file can't be written that is not its name: another one would not help.
+bool is_of_machine(const std::error_code& code) {
+  constexpr std::array reasons{ENOSPC, EDQUOT, EFBIG, EIO, EPIPE, ENOMEM, EMFILE, ENFILE};
+  return code.category() == std::generic_category() &&
+         std::find(reasons.begin(), reasons.end(), code.value()) != reasons.end();
+}
+
 }  // namespace
 
 Failure failure_of(const std::exception_ptr& error, const std::string& file) {
@@ -72,7 +82,7 @@ Failure failure_of(const std::exception_ptr& error, const std::string& file) {
     // no room for another thread, as a rule
     const bool no_room = refused.code() == std::errc::resource_unavailable_try_again;
     failure = no_room ? of_one(exit_unfinished, "there is not enough memory for this, or there are too many threads")
-                      : of_one(exit_input, refused.what());
+                      : of_one(is_of_machine(refused.code()) ? exit_unfinished : exit_input, refused.what());
   } catch (const std::runtime_error& wrong) {
     failure = of_one(exit_input, wrong.what());
   } catch (const std::invalid_argument& wrong) {

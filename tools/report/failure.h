@@ -40,8 +40,8 @@ struct Failure {
 };
 
 /// Of an exception: bad input for the types that are thrown for it, SpecError, std::invalid_argument, std::length_error
-/// and std::runtime_error with all of a session's; a NegativeVerdict; the machine's where memory or threads ran out;
-/// and an error of ours for all others. `file` is the one of several in which it was, or empty.
+/// and std::runtime_error with all of a session's; a NegativeVerdict; the machine's where memory, threads or the disk
+/// ran out; and an error of ours for all others. `file` is the one of several in which it was, or empty.
 Failure failure_of(const std::exception_ptr& error, const std::string& file = "");
 
 /// Prints it; the exit code. `file` as above.

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cerrno>
 #include <new>
 #include <optional>
 #include <system_error>
@@ -34,6 +35,23 @@ TEST_SUITE("tools/failure") {
     CHECK(failure_by(std::bad_alloc()).exit_code == exit_unfinished);
     CHECK(failure_by(std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again))).exit_code ==
           exit_unfinished);
+    const std::string file = "can't write 'a.csv'";
+    for (const int reason : {ENOSPC, EDQUOT, EFBIG, EIO, EPIPE, ENOMEM, EMFILE, ENFILE}) {
+      CAPTURE(reason);
+      CHECK(failure_by(std::system_error(reason, std::generic_category(), file)).exit_code == exit_unfinished);
+    }
+    CHECK(failure_by(std::system_error(ENOSPC, std::generic_category(), file)).text ==
+          "error: can't write 'a.csv': No space left on device\n");
+  }
+
+  TEST_CASE("a file that can't be written by the name that it was given is bad input") {
+    const std::string file = "can't write 'no/a.csv'";
+    for (const int reason : {ENOENT, EACCES, EISDIR, ENOTDIR, EROFS}) {
+      CAPTURE(reason);
+      CHECK(failure_by(std::system_error(reason, std::generic_category(), file)).exit_code == exit_input);
+    }
+    CHECK(failure_by(std::system_error(ENOENT, std::generic_category(), file)).text ==
+          "error: can't write 'no/a.csv': No such file or directory\n");
   }
 
   TEST_CASE("an error of ours says so, and exits with 3") {

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <system_error>
 
 #include "graph/language/quantities.h"
 #include "graph/text/escape.h"
@@ -85,6 +86,12 @@ std::string rate_of(const ReadTopic& topic) {
   return duration_text(period) + (phase == Duration{} ? "" : "_at_" + duration_text(phase));
 }
 
+void make_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw std::system_error(error, "can't make the folder '" + path + "'");
+}
+
 }  // namespace
 
 int log_csv(const LogOptions& options) {
@@ -106,7 +113,7 @@ int log_csv(const LogOptions& options) {
     std::unique_ptr<AtomicFile> file{};
   };
   std::vector<Out> outs;
-  if (!options.by_rate.empty()) std::filesystem::create_directories(options.by_rate);
+  if (!options.by_rate.empty()) make_folder(options.by_rate);
   for (const auto& [rate, topics] : groups) {
     outs.push_back({Table(topics)});
     if (!options.by_rate.empty())
