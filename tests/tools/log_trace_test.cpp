@@ -164,8 +164,12 @@ connections: [a.out -> b.in]
     writer.close({.covered = 100'000'000, .simulated = 100'000'000, .activations = 19, .instants = 10, .faults = 3});
     const json trace = trace_of(file);
     auto counted = counts(trace);
-    CHECK(counted["let b"] + counted["release a"] == 20);
+    CHECK(counted["let b"] == 9);
+    CHECK(counted["release a"] == 10);
+    // in logical time, where it has no LET as it did not run, and in physical time
+    CHECK(counted["skip b"] == 1);
     CHECK(counted["miss b"] == 2);
+    for (const json& event : trace.at("traceEvents")) CHECK(event.at("name") != "b 3");
     CHECK(counted["miss a"] == 1);
     const json& late = find(trace, "b 2 is late");
     CHECK(late.at("pid") == 2);

@@ -87,11 +87,17 @@ void name_tracks(Events& events, const Graph& graph, int pid, const std::string&
 
 using Activations = std::set<std::pair<std::size_t, std::int64_t>>;  // task and number
 
-// The releases that a task with 'skip' left out after a fault, where it was not left out as one before it still ran.
-Activations skipped_in(const Graph& graph, const std::vector<Miss>& misses, const std::vector<TimedEvent>& events) {
-  Activations left_out, skipped;
+// The releases that were left out as an activation before them still ran.
+Activations left_out_in(const std::vector<Miss>& misses) {
+  Activations left_out;
   for (const Miss& miss : misses)
     if (miss.left_out != 0) left_out.emplace(miss.task, miss.activation);
+  return left_out;
+}
+
+// Those that a task with 'skip' left out after a fault, beside these.
+Activations skipped_in(const Graph& graph, const Activations& left_out, const std::vector<TimedEvent>& events) {
+  Activations skipped;
   std::map<std::string_view, std::size_t> tasks;
   for (std::size_t i = 0; i < graph.tasks.size(); ++i)
     if (graph.tasks[i].on_fault == OnFault::skip) tasks.emplace(graph.tasks[i].name, i);
@@ -104,8 +110,9 @@ Activations skipped_in(const Graph& graph, const std::vector<Miss>& misses, cons
   return skipped;
 }
 
-// Each release, with its LET where it has one and was not skipped.
-void add_releases(Events& events, const Graph& graph, Duration begin, Duration end, const Activations& skipped) {
+// Each release, with its LET where it has one and ran.
+void add_releases(Events& events, const Graph& graph, Duration begin, Duration end, const Activations& left_out,
+                  const Activations& skipped) {
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Task& task = graph.tasks[i];
     const std::int64_t count = releases_before(task, end);
@@ -113,6 +120,8 @@ void add_releases(Events& events, const Graph& graph, Duration begin, Duration e
       const std::string name = fmt::format("{} {}", task.name, k);
       if (skipped.contains({i, k}))
         events.instant(logical, i + 1, "skip", 't', name + " is skipped", release_of(task, k));
+      else if (left_out.contains({i, k}))
+        events.instant(logical, i + 1, "skip", 't', name + " is left out", release_of(task, k));
       else if (task.let)
         events.span(logical, i + 1, "let", name, release_of(task, k), *task.let);
       else
@@ -170,7 +179,9 @@ int log_trace(const LogOptions& options) {
   Events events(options.out.empty() ? "-" : options.out);
   name_tracks(events, graph, logical, "logical time");
   if (has_physical) name_tracks(events, graph, physical, "physical time, of activations that missed their deadline");
-  add_releases(events, graph, run.header().begin, run.covered(), skipped_in(graph, misses, recorded.events));
+  const Activations left_out = left_out_in(misses);
+  add_releases(events, graph, run.header().begin, run.covered(), left_out,
+               skipped_in(graph, left_out, recorded.events));
   add_misses(events, graph, misses);
   add_events(events, graph, recorded);
   for (const Gap& gap : run.gaps())
