@@ -51,8 +51,7 @@ std::string wrong_with(const Gap& gap) {
 
 std::optional<LogEnd> find_end(const Recording& recording) {
   const ReadTopic* const topic = recording.find(topics::end);
-  if (!recording.is_whole() || recording.good_until() != recording.size_of_last() || topic == nullptr)
-    return std::nullopt;
+  if (!recording.is_whole() || topic == nullptr) return std::nullopt;
   MessageCursor cursor(recording, *topic);
   if (cursor.message() == nullptr) return std::nullopt;
   LogEnd end;

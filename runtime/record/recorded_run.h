@@ -11,8 +11,8 @@
 
 namespace jarol {
 
-/// How the run ended, by the index of a recording that is whole: of a large one only little is read. None: there is no
-/// such index, and it has to be gone through. Throws LogError.
+/// How the run of a recording that is whole ended: of a large one only little is read. None: it is not whole, and has
+/// to be gone through. Throws LogError.
 std::optional<LogEnd> find_end(const Recording& recording);
 
 /// What is missing on its way, by its index. Throws LogError.

@@ -2,11 +2,13 @@
 #include <memory>
 #include <stdexcept>
 
+#include "runtime/record/recording_format.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/log/log_commands.h"
 #include "tools/commands/run/apart.h"
 #include "tools/report/command_line.h"
 #include "tools/report/duration_option.h"
+#include "tools/report/failure.h"
 
 namespace jarol::tools {
 namespace {
@@ -87,7 +89,11 @@ void add_log(CommandLine& line, int& exit_code) {
           "The file to write; default: of trace stdout, of report FILE with .html in place of .mcap; -: stdout")
       ->file();
   command->add_flag("--json", words->json, "One JSON object instead of text");
-  command->callback([words, command, &exit_code] { exit_code = look(*command, *words); });
+  command->callback([words, command, &exit_code] {
+    try {
+      exit_code = look(*command, *words);
+    } catch (const DamagedLog& damaged) { throw NegativeVerdict(damaged.what()); }
+  });
 }
 
 }  // namespace jarol::tools

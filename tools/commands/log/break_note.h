@@ -1,4 +1,4 @@
-// What breaks off is shown as far as it goes, and that is said beside it.
+// What breaks off or is damaged is shown as far as it goes, and that is said beside it.
 #pragma once
 
 #include <iostream>
@@ -8,14 +8,18 @@
 #include "graph/text/escape.h"
 #include "runtime/record/recorded_run.h"
 #include "runtime/record/recording.h"
+#include "tools/report/exit_code.h"
 
 namespace jarol::tools {
 
-/// To stderr, where the recording of that name is not whole.
-inline void note_break(const Recording& recording, const std::string& name) {
-  if (recording.is_whole()) return;
-  std::cerr << "note: '" << printable(name) << "' breaks off " << printable(recording.text_of_break())
-            << ": this is what there is before\n";
+/// To stderr, where the recording of that name is not whole. The exit code of who shows what there is: one that was
+/// brought to its end and is not whole is damaged; else its run could not write on.
+inline int note_break(const Recording& recording, const std::string& name) {
+  if (recording.is_whole()) return exit_good;
+  const bool has_end = Recording(name).is_whole();  // by its index
+  std::cerr << (has_end ? "error: '" : "note: '") << printable(name) << (has_end ? "' is damaged " : "' breaks off ")
+            << printable(recording.text_of_break()) << ": this is what there is before\n";
+  return has_end ? exit_negative : exit_good;
 }
 
 /// To stderr, where something follows its end, as another recording does that was joined to it.

@@ -8,6 +8,7 @@
 #include "graph/text/escape.h"
 #include "runtime/mcap/verify.h"
 #include "runtime/record/recorded_run.h"
+#include "tools/commands/log/break_note.h"
 #include "tools/commands/log/log_commands.h"
 #include "tools/commands/log/recorded_graph.h"
 #include "tools/report/exit_code.h"
@@ -68,6 +69,7 @@ nlohmann::ordered_json json_of(const Looked& run) {
 int log_info(const LogOptions& options) {
   const Looked run = look_into(options.file);
   const Recording& recording = run.recording();
+  note_rest(recording, options.file);
   if (options.json) {
     std::cout << json_line(json_of(run));
     return exit_good;

@@ -143,7 +143,7 @@ Json pairs_json(const Graph& graph) {
 
 int log_report(const LogOptions& options) {
   RecordedRun run(options.file);
-  note_break(run.recording(), options.file);
+  const int exit_code = note_break(run.recording(), options.file);
   if (run.header().begin > Duration{})
     throw std::invalid_argument("'" + options.file + "' is of a run that went on from " +
                                 seconds_text(run.header().begin) + " s; jarol log report shows whole runs");
@@ -182,13 +182,13 @@ int log_report(const LogOptions& options) {
                                    data);
   if (out == "-") {
     std::cout << page;
-    return exit_good;
+    return exit_code;
   }
   AtomicFile file(out);
   file.write(page);
   file.commit();
   std::cout << "  report      " << printable(out) << "\n";
-  return exit_good;
+  return exit_code;
 }
 
 }  // namespace jarol::tools

@@ -168,7 +168,7 @@ void add_events(Events& events, const Graph& graph, const RecordedEvents& record
 int log_trace(const LogOptions& options) {
   RecordedRun run(options.file);
   const Recording& recording = run.recording();
-  note_break(recording, options.file);
+  const int exit_code = note_break(recording, options.file);
   require_apart({{"FILE", options.file}, {"GRAPH", options.other}}, {{"--out", options.out}});
   const Loaded loaded = load_recorded_graph(recording, options.other, "jarol log trace", false);
   const Graph& graph = *loaded.graph;
@@ -193,7 +193,7 @@ int log_trace(const LogOptions& options) {
               {"covered_ns", run.covered().count()},
               {"digest", run.end() ? Json(fmt::format("0x{:016x}", run.end()->digest)) : Json()},
               {"events_left_out", recorded.more}});
-  return exit_good;
+  return exit_code;
 }
 
 }  // namespace jarol::tools
