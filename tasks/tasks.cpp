@@ -1,6 +1,8 @@
 #include "tasks/tasks.h"
 
 #include "tasks/generic.h"
+#include "tasks/javiator/altitude_control.h"
+#include "tasks/javiator/blind_observer.h"
 #include "tasks/javiator/control.h"
 #include "tasks/javiator/filter.h"
 #include "tasks/javiator/flight_logic.h"
@@ -25,8 +27,8 @@ void add(Registry& registry) {
 
 void add_tasks(Registry& registry) {
   add<Accumulate, Counter, Mean, Relay, Sum, Window, Work>(registry);
-  add<AltitudeControl, AttitudeControl, FlightLogic, HelicopterReporter, JaviatorFilter, MotorMixer, PositionControl>(
-      registry);
+  add<AltitudeControl, AttitudeControl, BlindObserver, FlightLogic, HelicopterReporter, JaviatorFilter, MotorMixer,
+      PositionControl>(registry);
   add<OriginalAltitude, OriginalAttitude, OriginalFilter, OriginalLogic, OriginalMixer, OriginalPosition>(registry);
   add<DepthControl, FaultTolerantAllocator, FinAllocator, FinWatch, HeadingControl, LauvForward, LauvGuidance,
       LauvNavigation, LauvReport, LauvSupervisor, SpeedControl>(registry);

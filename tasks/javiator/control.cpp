@@ -10,20 +10,15 @@ namespace {
 
 constexpr double gravity = 9.81;
 
-// critically damped, s^2 + 2 w s + w^2, but for its bounds
-void approach(Approach& a, double goal, const ApproachLimits& p, double dt) {
-  const double speed = limited(0.5 * p.bandwidth * (goal - a.place), p.speed);
-  const double wanted = limited(2 * p.bandwidth * (speed - a.speed), p.acceleration);
-  a.demand += limited(wanted - a.demand, p.jerk * dt);
-  a.felt += (a.demand - a.felt) * dt / (p.lag + dt);
-  a.place += a.speed * dt + 0.5 * a.felt * dt * dt;
-  a.speed += a.felt * dt;
-}
+struct Held {
+  double place, speed, drag, range;
+};
 
-double hold(const PositionControl::Param& p, const Approach& a, double place, double speed, double drag, double& trim,
-            double dt) {
-  trim = limited(trim + p.ki * (a.place - place) * dt, 1);
-  return a.demand + p.kp * (a.place - place) + p.kd * (a.speed - speed) - drag + trim;
+double hold(const PositionControl::Param& p, const Approach& a, const Held& is, bool blind, double& trim, double dt) {
+  trim = limited(trim + p.ki * (a.place - is.place) * dt, 1);
+  const double kp = blind ? p.blind_kp : p.kp, kd = blind ? p.blind_kd : p.kd;
+  const double away = blind ? std::copysign(p.blind_away, is.range) : 0;
+  return a.demand + kp * (a.place - is.place) + kd * (a.speed - is.speed) - is.drag + trim - away;
 }
 
 double turn(const TurnGains& g, TurnModel& model, double goal, double angle, double rate, double dt) {
@@ -81,8 +76,9 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
   state.holding = true;
   approach(state.x, d.x, p.approach, dt);
   approach(state.y, d.y, p.approach, dt);
-  const double a_x = hold(p, state.x, e.x, e.v_x, state.drag_x, state.trim_x, dt);
-  const double a_y = hold(p, state.y, e.y, e.v_y, state.drag_y, state.trim_y, dt);
+  const bool blind = e.lean_known;
+  const double a_x = hold(p, state.x, {e.x, e.v_x, state.drag_x, e.fix_x.range}, blind, state.trim_x, dt);
+  const double a_y = hold(p, state.y, {e.y, e.v_y, state.drag_y, e.fix_y.range}, blind, state.trim_y, dt);
   lean(a_x, a_y);
 }
 
@@ -90,7 +86,7 @@ void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   const FlightEstimate& e = in.estimate;
   const double dt = seconds(tick.period);
   // blind, it turns level as it would by its model, and keeps what holds it so: the rotors damp what is left
-  if (!e.rates_known) {
+  if (!e.rates_known && !(e.lean_known && e.altitude >= p.contact)) {
     const auto level = [&](const TurnGains& g, TurnModel& model, double goal) {
       return turn(g, model, goal, model.angle, model.rate, dt);
     };
@@ -102,80 +98,6 @@ void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   // the short way, however often it has turned round
   const double ahead = wrapped(in.goal.yaw - state.yaw.angle);
   out.turn.yaw = turn(p.yaw, state.yaw, state.yaw.angle + ahead, e.yaw, e.r, dt);
-}
-
-void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
-  const FlightEstimate& e = in.estimate;
-  const FlightDirective& d = in.directive;
-  const double dt = seconds(tick.period);
-  double& thrust = out.lift.thrust;
-  if (d.state == FlightState::halt || d.state == FlightState::ground) {
-    state = {};
-    // rotors that still turn run down
-    thrust = d.state == FlightState::halt ? 0 : std::max(thrust - dt / 1.0, 0.0);
-    return;
-  }
-  if (d.state == FlightState::starting) {
-    thrust = std::min(thrust + p.idle * dt / p.spin_up, p.idle);
-    state.trim = thrust;
-    return;
-  }
-
-  constexpr double ground = 0.02;  // m
-  if (!state.lifted) {
-    // thrust grows slowly until the ground is left, and is learnt on the way
-    const bool wants_up = d.state == FlightState::flying && d.altitude > ground;
-    state.trim = std::clamp(state.trim + (wants_up ? p.lift_rate : -p.lift_rate) * dt, p.idle, 1.5);
-    state.lifted = (wants_up || d.state == FlightState::landing) && e.altitude > ground;
-    state.z = {e.altitude, std::max(e.climb, 0.0)};
-    state.expected = state.sunk = 0;
-    // what lifts it is more than what carries it
-    state.mean_trim = std::min(state.trim, 1.0);
-    state.aloft = 0.4;
-    state.blind_trim = state.blind_cut = 0;
-    thrust = state.trim;
-    return;
-  }
-  // blind: what carried it, corrected by the sonar's climb; where it is lost in the climb that thrust is half learnt
-  if (!e.rates_known) {
-    const bool measured = e.altitude_known && e.answers_known;
-    const double excess = -p.blind_speed - e.climb;  // of its descent
-    state.blind_trim =
-        measured ? limited(state.blind_trim + p.blind_ki * excess * dt, 0.2) : std::min(state.blind_trim, 0.0);
-    // near the ground it would stay light; where nobody measures it comes down in the end
-    const double cut = !measured ? 0.005 : e.altitude < ground ? 2.0 : 0.0;  // per s
-    state.blind_cut = std::min(state.blind_cut + cut * dt, 2.0);
-    const double correction = std::clamp(p.blind_gain * excess, measured ? -0.2 : -0.06, 0.06);
-    thrust = std::max(state.mean_trim - 0.03 + state.blind_trim - state.blind_cut + correction, 0.0);
-    return;
-  }
-  state.blind_trim = state.blind_cut = 0;
-  if (d.state == FlightState::landing) {
-    state.landing += dt;
-    const double overdue = std::clamp(p.overdue * (state.landing - p.landing_time), 0.0, p.touch_speed);
-    // an altitude that nothing confirms may be wrong
-    const bool is_high = e.altitude > 0.5 && e.altitude_known && e.pressure_known;
-    const double speed = is_high ? p.descent : p.touch_speed + overdue;
-    state.z.demand = limited(3 * (-speed - state.z.speed), 2);
-    state.z.speed += state.z.demand * dt;
-    // never far below: on the ground it would wind down all at once
-    state.z.place = std::max(state.z.place + state.z.speed * dt, e.altitude - 0.15);
-  } else {
-    state.landing = 0;
-    approach(state.z, d.altitude, p.approach, dt);
-    if (d.altitude <= ground && e.altitude < ground && std::abs(e.climb) < 0.05) state.lifted = false;
-  }
-  // sag of the battery, flow through the rotors, the ground: whatever thrust is lost or gained is felt at once
-  const double felt = e.lift / gravity;
-  state.trim = std::clamp(state.trim + p.lift_bandwidth * dt * (1 + state.expected - felt), 0.4, 1.7);
-  state.aloft = std::min(state.aloft + dt, 1.0);
-  state.mean_trim += (state.trim - state.mean_trim) * dt / state.aloft;
-  const double error = state.z.place - e.altitude;
-  state.sunk = limited(state.sunk + p.ki * error * dt, 1);
-  const double a = state.z.demand + p.kp * error + p.kd * (state.z.speed - e.climb) + state.sunk;
-  const double upright = std::max(std::cos(e.roll) * std::cos(e.pitch), 0.5);
-  thrust = std::clamp(state.trim + (1 + a / gravity) / upright - 1, 0.1, 2.0);
-  state.expected += (thrust - state.trim - state.expected) * dt / (p.lift_lag + dt);
 }
 
 void MotorMixer::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {

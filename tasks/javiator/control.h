@@ -1,42 +1,16 @@
-// The helicopter's control laws: position over attitude, altitude over thrust, and the mixer that turns both into
-// signals for four motors. Demands are parts of the thrust of hover, so that gains hold for light and heavy vehicles.
+// The helicopter's control laws: position over attitude, and the mixer that turns attitude and lift into signals for
+// four motors. Demands are parts of the thrust of hover, so that gains hold for light and heavy vehicles.
 #pragma once
 
 #include <numbers>
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/javiator/approach.h"
 #include "tasks/values/gains.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
-
-/// A goal approached with bounded speed, acceleration and jerk, without overshoot. What is demanded is felt a little
-/// later, for rotors and attitude need their time: place and speed follow what is felt.
-struct Approach {
-  double place = 0, speed = 0, felt = 0, demand = 0;
-
-  static constexpr auto fields() {
-    using A = Approach;
-    return describe(field<&A::place>("m"), field<&A::speed>("m/s"), field<&A::felt>("m/s^2"),
-                    field<&A::demand>("m/s^2"));
-  }
-};
-
-struct ApproachLimits {
-  double bandwidth = 1;
-  double speed = 1;
-  double acceleration = 1;
-  double jerk = 10;
-  double lag = 0.1;
-
-  static constexpr auto fields() {
-    using L = ApproachLimits;
-    return describe(field<&L::bandwidth>("rad/s", "near the goal"), field<&L::speed>("m/s", "greatest"),
-                    field<&L::acceleration>("m/s^2", "greatest"), field<&L::jerk>("m/s^3", "greatest"),
-                    field<&L::lag>("s", "until an acceleration demanded is felt"));
-  }
-};
 
 struct PositionControl {
   static constexpr std::string_view summary = "holds a place by leaning towards it, or leans as the pilot says";
@@ -47,14 +21,21 @@ struct PositionControl {
     double drag_time = 0.1;
     ApproachLimits approach{.bandwidth = 1.6, .speed = 2.5, .acceleration = 2.5, .jerk = 12, .lag = 0.2};
     double lean_limit = 0.4;
+    double blind_kp = 0.6;
+    double blind_kd = 1.5;
+    double blind_away = 0.6;
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::kp>("1/s^2", "acceleration per error of place"),
-                      field<&P::kd>("1/s", "acceleration per error of speed"),
-                      field<&P::ki>("1/s^3", "acceleration per integral of the error of place"),
-                      field<&P::drag_time>("s", "over which the drag that is leant against is averaged"),
-                      field<&P::approach>("", "to a new place"),
-                      field<&P::lean_limit>("rad", "greatest roll and pitch demanded").in(0, std::numbers::pi / 2));
+      return describe(
+          field<&P::kp>("1/s^2", "acceleration per error of place"),
+          field<&P::kd>("1/s", "acceleration per error of speed"),
+          field<&P::ki>("1/s^3", "acceleration per integral of the error of place"),
+          field<&P::drag_time>("s", "over which the drag that is leant against is averaged"),
+          field<&P::approach>("", "to a new place"),
+          field<&P::lean_limit>("rad", "greatest roll and pitch demanded").in(0, std::numbers::pi / 2),
+          field<&P::blind_kp>("1/s^2", "kp when lasers tell how it leans, slower than an IMU"),
+          field<&P::blind_kd>("1/s", "kd then"),
+          field<&P::blind_away>("m/s^2", "away from the walls then: lasers that look up tell best how it leans"));
     }
   };
   struct In {
@@ -130,7 +111,13 @@ struct AttitudeControl {
                   .limit = 0.25,
                   .spin_time = 0.53,
                   .rate = 1.2};
-    static constexpr auto fields() { return describe(field<&Param::lean>("", "roll and pitch"), field<&Param::yaw>()); }
+    double contact = 0.04;
+    static constexpr auto fields() {
+      using P = Param;
+      return describe(
+          field<&P::lean>("", "roll and pitch"), field<&P::yaw>(),
+          field<&P::contact>("m", "altitude below which lasers do not tell how it leans: a foot may stand"));
+    }
   };
   struct In {
     FlightEstimate estimate{};
@@ -151,82 +138,6 @@ struct AttitudeControl {
   struct Out {
     TurnDemand turn{};
     static constexpr auto fields() { return describe(field<&Out::turn>()); }
-  };
-  static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
-};
-
-struct AltitudeControl {
-  static constexpr std::string_view summary = "takes off softly, holds a commanded altitude, and lands softly";
-  struct Param {
-    double kp = 12;
-    double kd = 7;
-    double ki = 1;
-    double lift_bandwidth = 10;
-    double lift_lag = 0.06;
-    ApproachLimits approach{.bandwidth = 2.2, .speed = 1, .acceleration = 2, .jerk = 15, .lag = 0.08};
-    double idle = 0.5;
-    double lift_rate = 1.5;
-    double descent = 0.5;
-    double touch_speed = 0.2;
-    double landing_time = 8;
-    double overdue = 0.05;
-    double spin_up = 1.5;
-    double blind_gain = 0.15;
-    double blind_ki = 0.1;
-    double blind_speed = 0.25;
-    static constexpr auto fields() {
-      using P = Param;
-      return describe(field<&P::kp>("1/s^2", "acceleration per error of altitude"),
-                      field<&P::kd>("1/s", "acceleration per error of climb"),
-                      field<&P::ki>("1/s^3", "acceleration per integral of the error of altitude"),
-                      field<&P::lift_bandwidth>("rad/s", "at which thrust is learnt from the lift that is felt"),
-                      field<&P::lift_lag>("s", "until thrust demanded is felt"),
-                      field<&P::approach>("", "to a new altitude"),
-                      field<&P::idle>("", "thrust while standing ready, in parts of that of hover"),
-                      field<&P::lift_rate>("1/s", "at which thrust grows until it lifts off"),
-                      field<&P::descent>("m/s", "of a landing"), field<&P::touch_speed>("m/s", "of its last part"),
-                      field<&P::landing_time>("s",
-                                              "after which a landing is overdue: it may descend more slowly than "
-                                              "it believes"),
-                      field<&P::overdue>("m/s^2", "by which its last part gets faster then, up to twice its speed"),
-                      field<&P::spin_up>("s", "from rest to idle"),
-                      field<&P::blind_gain>("s/m", "thrust per error of descent when the IMU is lost"),
-                      field<&P::blind_ki>("1/m", "thrust per integral of that error"),
-                      field<&P::blind_speed>("m/s", "of descent then"));
-    }
-  };
-  struct In {
-    FlightEstimate estimate{};
-    FlightDirective directive{};
-    OperatorGains gains{};
-    static constexpr auto fields() {
-      return describe(field<&In::estimate>(), field<&In::directive>(),
-                      field<&In::gains>("", "of other laws: not looked at"));
-    }
-  };
-  struct State {
-    Approach z{};
-    double trim = 0, mean_trim = 0;
-    double expected = 0;
-    double sunk = 0, blind_trim = 0, blind_cut = 0, aloft = 0;
-    double landing = 0;
-    bool lifted = false;
-    static constexpr auto fields() {
-      using S = State;
-      return describe(field<&S::z>(), field<&S::trim>("", "thrust at rest, learnt"),
-                      field<&S::mean_trim>("", "over the last second aloft, with what hover takes at first"),
-                      field<&S::expected>("", "thrust that should be felt now, less the trim"),
-                      field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
-                      field<&S::blind_trim>("", "correction of the mean, learnt blind"),
-                      field<&S::blind_cut>("", "thrust that is taken back, blind"),
-                      field<&S::aloft>("s", "over which that mean is, up to 1: 0.4 of hover's at first"),
-                      field<&S::landing>("s", "since it began to land"),
-                      field<&S::lifted>("", "it has left the ground"));
-    }
-  };
-  struct Out {
-    LiftDemand lift{};
-    static constexpr auto fields() { return describe(field<&Out::lift>()); }
   };
   static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };

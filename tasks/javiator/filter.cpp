@@ -15,28 +15,6 @@ using Eigen::Vector3d;
 constexpr double gravity = 9.81;
 constexpr double pascal_per_metre = 12.0;
 
-// Counts repeats, and silence in the answers that come; says whether there is a new reading.
-bool hear(SensorTrust& trust, bool is_new, double reading, std::uint32_t max_repeats, double dt) {
-  trust.silent += dt;
-  if (!is_new) return false;
-  trust.repeats = reading == trust.last ? trust.repeats + 1 : 0;
-  trust.last = reading;
-  return max_repeats == 0 || trust.repeats < max_repeats;
-}
-
-// Takes a credible reading as a sign of life; returns whether to use it.
-bool believe(SensorTrust& trust, bool credible, double patience) {
-  if (credible && !trust.lost) trust.silent = 0;
-  trust.lost = trust.lost || trust.silent > patience;
-  return credible && !trust.lost;
-}
-
-// on the ground it may come back
-void forgive(SensorTrust& trust, bool heard) {
-  trust.lost = false;
-  if (heard) trust.silent = 0;
-}
-
 bool is_near(const AxisObserver& axis, double measured, double jump) { return std::abs(measured - axis.place) < jump; }
 
 // A sonar that drifts reports a climb that is not felt.
@@ -119,7 +97,9 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   const double gap = state.last_turn.since;
   state.last_turn.since = turns ? 0 : state.last_turn.since + dt;
   const double felt = state.imu.lost ? 0 : std::exp(-state.last_turn.since / p.rate_fade);
-  const Vector3d rates = felt * Vector3d(s.p, s.q, s.r);
+  const BlindMotion& blind = in.blind;
+  const bool is_blind = state.imu.lost && blind.known;
+  const Vector3d rates = is_blind ? Vector3d(blind.p, blind.q, blind.r) : Vector3d(felt * Vector3d(s.p, s.q, s.r));
 
   if (state.stood && !settled) {
     take_off(state.x, state.zero_x);
@@ -180,12 +160,21 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     state.pitch = state.slow_pitch.angle;
   }
   if (turns) state.last_turn = {0, state.roll, state.pitch, angle_rates.x(), angle_rates.y()};
+  if (is_blind) {
+    state.roll = blind.roll;
+    state.pitch = blind.pitch;
+    state.yaw = blind.yaw;
+  }
 
   const Matrix3d R = rotation_of(state.roll, state.pitch, state.zero_yaw + state.yaw);
   // ranges are younger than the IMU's sample
   const Matrix3d R_now = rotation_of(state.roll + p.range_age * rates.x(), state.pitch + p.range_age * rates.y(),
                                      state.zero_yaw + state.yaw + p.range_age * rates.z());
-  const Vector3d last_b(s.a_x, s.a_y, s.a_z), hover_b = R.transpose() * Vector3d(0, 0, -gravity);
+  // what carries it while nobody feels it; what is known of drag and wind as well
+  const Vector3d last_b(s.a_x, s.a_y, s.a_z);
+  const Vector3d hover_b =
+      is_blind ? Vector3d(R.transpose() * Vector3d(blind.drag_x, blind.drag_y, 0) - Vector3d(0, 0, blind.lift))
+               : Vector3d(R.transpose() * Vector3d(0, 0, -gravity));
   const Vector3d force_b = turns ? last_b : Vector3d(hover_b + felt * (last_b - hover_b));
   const Vector3d a = R * force_b + Vector3d(0, 0, gravity);
   const double z = (R * Vector3d(p.sonar_x, p.sonar_y, p.sonar_z + s.sonar)).z();
@@ -230,7 +219,16 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     }
   }
 
+  if (is_blind) {
+    state.x.place = blind.x;
+    state.y.place = blind.y;
+    state.x.speed = blind.v_x;
+    state.y.speed = blind.v_y;
+    state.x.bias = state.y.bias = 0;
+  }
   AxisObserver* const axes[] = {&state.x, &state.y};
+  PlaceFix* const fixes[] = {&e.fix_x, &e.fix_y};
+  e.fix_x.is_new = e.fix_y.is_new = false;
   double* const zeros[] = {&state.zero_x, &state.zero_y};
   // a laser measures along the axis whose wall it meets
   const auto look = [&](SensorTrust& laser, bool heard, const Vector3d& lever, int along, double range) {
@@ -246,8 +244,14 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     if (heard && fix.at_corner) return void(laser.silent = 0);  // that says nothing, and nothing of the laser
     const bool credible = heard && fix.seen && is_near(axis, fix.place - zero, p.range_jump);
     const bool repeats = p.laser_repeats > 0 && laser.repeats > 0;
-    if (believe(laser, credible, p.patience) && axis.since > 0 && !repeats)
-      correct(axis, fix.place - zero, p.bandwidth);
+    if (!believe(laser, credible, p.patience) || axis.since == 0 || repeats) return;
+    *fixes[fix.axis] = {.place = fix.place - zero,
+                        .slope = lever.z() + range * R_now(2, along),
+                        .skew = range * R_now(1 - fix.axis, along),
+                        .range = std::copysign(range, R_now(fix.axis, along)),
+                        .is_new = true};
+    if (is_blind) return void(axis.since = 0);
+    correct(axis, fix.place - zero, p.bandwidth);
   };
   look(state.laser_x, new_x, {p.laser_x_x, p.laser_x_y, p.laser_x_z}, 0, s.laser_x);
   look(state.laser_y, new_y, {p.laser_y_x, p.laser_y_y, p.laser_y_z}, 1, s.laser_y);
@@ -281,8 +285,11 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
        .drag_x = drag.x(),
        .drag_y = drag.y(),
        .battery = e.battery == 0 ? s.battery : e.battery + dt * (s.battery - e.battery),
+       .fix_x = e.fix_x,
+       .fix_y = e.fix_y,
        .rates_known = !state.imu.lost && answers,
        .attitude_known = !state.imu.lost && !state.angles.lost,
+       .lean_known = is_blind,
        .altitude_known = !state.sonar.lost,
        .position_known = !state.laser_x.lost && !state.laser_y.lost && seen,
        .pressure_known = !state.pressure.lost,

@@ -6,23 +6,10 @@
 #include "graph/task.h"
 #include "tasks/javiator/observers.h"
 #include "tasks/javiator/room.h"
+#include "tasks/javiator/sensor_trust.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
-
-/// Whether a sensor can be believed. One that is lost in flight stays so until the vehicle stands again.
-struct SensorTrust {
-  double silent = 0;
-  double last = 0;
-  std::uint32_t repeats = 0;
-  bool lost = false;
-
-  static constexpr auto fields() {
-    using S = SensorTrust;
-    return describe(field<&S::silent>("s", "since it reported something credible"), field<&S::last>("", "reading"),
-                    field<&S::repeats>("", "of that reading"), field<&S::lost>());
-  }
-};
 
 /// What drifts is found by what is felt: beside the sonar's climb and the IMU's angles others are kept that hardly
 /// trust them, but the accelerometer and the rates.
@@ -118,8 +105,10 @@ struct JaviatorFilter {
   struct In {
     JaviatorSensors sensors{};
     FlightDirective directive{};
+    BlindMotion blind{};
     static constexpr auto fields() {
-      return describe(field<&In::sensors>(), field<&In::directive>("", "of the period before"));
+      return describe(field<&In::sensors>(), field<&In::directive>("", "of the period before"),
+                      field<&In::blind>("", "what it does when the IMU is lost"));
     }
   };
   struct State {

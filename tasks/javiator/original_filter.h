@@ -38,8 +38,10 @@ struct OriginalFilter {
   struct In {
     JaviatorSensors sensors{};
     FlightDirective directive{};
+    BlindMotion blind{};
     static constexpr auto fields() {
-      return describe(field<&In::sensors>(), field<&In::directive>("", "of the period before"));
+      return describe(field<&In::sensors>(), field<&In::directive>("", "of the period before"),
+                      field<&In::blind>("", "not looked at"));
     }
   };
   struct State {

@@ -147,6 +147,20 @@ struct HelicopterReport {
   }
 };
 
+/// A place along one axis, as a laser has last measured it.
+struct PlaceFix {
+  double place = 0, slope = 0, skew = 0, range = 0;
+  bool is_new = false;
+
+  static constexpr auto fields() {
+    using F = PlaceFix;
+    return describe(field<&F::place>("m"),
+                    field<&F::slope>("m/rad", "by which it grows with the lean along that axis that is taken for true"),
+                    field<&F::skew>("m/rad", "by which it does with the yaw"),
+                    field<&F::range>("m", "to the wall, along the axis"), field<&F::is_new>("", "of this period"));
+  }
+};
+
 /// How the vehicle moves, as far as its sensors report.
 struct FlightEstimate {
   double roll = 0, pitch = 0, yaw = 0, heading = 0;
@@ -156,7 +170,8 @@ struct FlightEstimate {
   double a_x = 0, a_y = 0, a_up = 0;
   double lift = 0, drag_x = 0, drag_y = 0;
   double battery = 0;
-  bool rates_known = false, attitude_known = false, altitude_known = false, position_known = false;
+  PlaceFix fix_x{}, fix_y{};
+  bool rates_known = false, attitude_known = false, lean_known = false, altitude_known = false, position_known = false;
   bool pressure_known = false, answers_known = false;
 
   static constexpr auto fields() {
@@ -171,8 +186,10 @@ struct FlightEstimate {
         field<&E::a_up>("m/s^2", "upwards"), field<&E::lift>("m/s^2", "specific force upwards along the rotors' axis"),
         field<&E::drag_x>("m/s^2", "to the north, of all else: drag and wind"),
         field<&E::drag_y>("m/s^2", "to the east"), field<&E::battery>("V", "voltage"),
+        field<&E::fix_x>("", "north of the start"), field<&E::fix_y>("", "east of the start"),
         field<&E::rates_known>("", "the IMU reports something new"),
         field<&E::attitude_known>("", "and its angles agree with its rates"),
+        field<&E::lean_known>("", "lasers tell roll and pitch in its place"),
         field<&E::altitude_known>("", "the sonar reports something credible"),
         field<&E::position_known>("", "both lasers do"), field<&E::pressure_known>("", "the BMU does"),
         field<&E::answers_known>("", "the Robostix answers in time"));
@@ -216,6 +233,29 @@ struct TurnDemand {
     using T = TurnDemand;
     return describe(field<&T::roll>("", "to the right"), field<&T::pitch>("", "nose up"),
                     field<&T::yaw>("", "clockwise"));
+  }
+};
+
+/// How it moves, as the lasers and what the rotors are told say, without the IMU.
+struct BlindMotion {
+  double roll = 0, pitch = 0, yaw = 0;
+  double p = 0, q = 0, r = 0;
+  double x = 0, y = 0, v_x = 0, v_y = 0;
+  double drag_x = 0, drag_y = 0, lift = 0;
+  bool known = false;
+
+  static constexpr auto fields() {
+    using M = BlindMotion;
+    return describe(field<&M::roll>("rad"), field<&M::pitch>("rad"),
+                    field<&M::yaw>("rad", "from the take-off heading, that of a model"),
+                    field<&M::p>("rad/s", "rate about the body's x"), field<&M::q>("rad/s", "about y"),
+                    field<&M::r>("rad/s", "about z"), field<&M::x>("m", "north of the start"),
+                    field<&M::y>("m", "east of the start"), field<&M::v_x>("m/s", "to the north"),
+                    field<&M::v_y>("m/s", "to the east"),
+                    field<&M::drag_x>("m/s^2", "to the north, as felt before: drag and wind"),
+                    field<&M::drag_y>("m/s^2", "to the east"),
+                    field<&M::lift>("m/s^2", "specific force upwards along the rotors' axis"),
+                    field<&M::known>("", "lasers have seen it of late"));
   }
 };
 

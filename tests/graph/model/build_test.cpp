@@ -44,7 +44,8 @@ tasks:
 connections:
   - count.out -> slow.inn
 )") == "t.yaml:3:17: error: task 'count' has unknown type 'Countre'; did you mean 'Counter'?; there are: Accumulate, "
-       "AltitudeControl, AttitudeControl, Counter, DepthControl, FaultTolerantAllocator, FinAllocator, FinWatch, "
+       "AltitudeControl, AttitudeControl, BlindObserver, "
+       "Counter, DepthControl, FaultTolerantAllocator, FinAllocator, FinWatch, "
        "FlightLogic, HeadingControl, "
        "HelicopterReporter, JaviatorFilter, LauvForward, LauvGuidance, LauvNavigation, LauvReport, LauvSupervisor, "
        "Mean, "

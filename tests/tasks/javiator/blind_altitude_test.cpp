@@ -1,7 +1,7 @@
 // The helicopter's law of altitude without its IMU: each gain, limit and time, at its edge.
 #include <doctest/doctest.h>
 
-#include "tasks/javiator/control.h"
+#include "tasks/javiator/altitude_control.h"
 #include "tests/tasks/javiator/hovering_law.h"
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tasks/javiator/altitude_control.h"
 #include "tests/tasks/javiator/every_15_ms.h"
 
 namespace {

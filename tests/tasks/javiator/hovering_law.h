@@ -1,7 +1,7 @@
 // The helicopter's law of altitude in hover, for tests.
 #pragma once
 
-#include "tasks/javiator/control.h"
+#include "tasks/javiator/altitude_control.h"
 #include "tests/tasks/javiator/every_15_ms.h"
 
 namespace jarol::tests {

@@ -1,0 +1,112 @@
+// The helicopter's law of altitude. Demands are parts of the thrust of hover.
+#pragma once
+
+#include <string_view>
+
+#include "graph/task.h"
+#include "tasks/javiator/approach.h"
+#include "tasks/values/gains.h"
+#include "tasks/values/javiator.h"
+
+namespace jarol::tasks {
+
+/// A landing that is over before gusts turn it: nobody feels them, and lasers tell a lean towards their walls late.
+struct QuickLanding {
+  double descent = 1.6;
+  double acceleration = 5;
+  double brake = 2.5;
+  double low = 0.1;
+  double touch_speed = 0.18;
+  double contact = 0.022;
+  double cut = 2;
+
+  static constexpr auto fields() {
+    using Q = QuickLanding;
+    return describe(field<&Q::descent>("m/s", "at most"), field<&Q::acceleration>("m/s^2", "into it, at most"),
+                    field<&Q::brake>("m/s^2", "out of it").in(0, 100),
+                    field<&Q::low>("m", "altitude at which it has slowed to touch_speed"),
+                    field<&Q::touch_speed>("m/s", "of its last part"),
+                    field<&Q::contact>("m", "altitude from which on thrust is taken back: a foot may stand"),
+                    field<&Q::cut>("1/s", "at which it is"));
+  }
+};
+
+struct AltitudeControl {
+  static constexpr std::string_view summary = "takes off softly, holds a commanded altitude, and lands softly";
+  struct Param {
+    double kp = 12;
+    double kd = 7;
+    double ki = 1;
+    double lift_bandwidth = 10;
+    double lift_lag = 0.06;
+    ApproachLimits approach{.bandwidth = 2.2, .speed = 1, .acceleration = 2, .jerk = 15, .lag = 0.08};
+    double idle = 0.5;
+    double lift_rate = 1.5;
+    double descent = 0.5;
+    double touch_speed = 0.2;
+    double landing_time = 8;
+    double overdue = 0.05;
+    double spin_up = 1.5;
+    double blind_gain = 0.15;
+    double blind_ki = 0.1;
+    double blind_speed = 0.25;
+    QuickLanding quick{};
+    static constexpr auto fields() {
+      using P = Param;
+      return describe(field<&P::kp>("1/s^2", "acceleration per error of altitude"),
+                      field<&P::kd>("1/s", "acceleration per error of climb"),
+                      field<&P::ki>("1/s^3", "acceleration per integral of the error of altitude"),
+                      field<&P::lift_bandwidth>("rad/s", "at which thrust is learnt from the lift that is felt"),
+                      field<&P::lift_lag>("s", "until thrust demanded is felt"),
+                      field<&P::approach>("", "to a new altitude"),
+                      field<&P::idle>("", "thrust while standing ready, in parts of that of hover"),
+                      field<&P::lift_rate>("1/s", "at which thrust grows until it lifts off"),
+                      field<&P::descent>("m/s", "of a landing"), field<&P::touch_speed>("m/s", "of its last part"),
+                      field<&P::landing_time>("s",
+                                              "after which a landing is overdue: it may descend more slowly than "
+                                              "it believes"),
+                      field<&P::overdue>("m/s^2", "by which its last part gets faster then, up to twice its speed"),
+                      field<&P::spin_up>("s", "from rest to idle"),
+                      field<&P::blind_gain>("s/m", "thrust per error of descent when the IMU is lost"),
+                      field<&P::blind_ki>("1/m", "thrust per integral of that error"),
+                      field<&P::blind_speed>("m/s", "of descent then"),
+                      field<&P::quick>("", "when the IMU is lost, but lasers tell how it leans"));
+    }
+  };
+  struct In {
+    FlightEstimate estimate{};
+    FlightDirective directive{};
+    OperatorGains gains{};
+    static constexpr auto fields() {
+      return describe(field<&In::estimate>(), field<&In::directive>(),
+                      field<&In::gains>("", "of other laws: not looked at"));
+    }
+  };
+  struct State {
+    Approach z{};
+    double trim = 0, mean_trim = 0;
+    double expected = 0;
+    double sunk = 0, blind_trim = 0, blind_cut = 0, aloft = 0;
+    double landing = 0;
+    bool lifted = false;
+    static constexpr auto fields() {
+      using S = State;
+      return describe(field<&S::z>(), field<&S::trim>("", "thrust at rest, learnt"),
+                      field<&S::mean_trim>("", "over the last second aloft, with what hover takes at first"),
+                      field<&S::expected>("", "thrust that should be felt now, less the trim"),
+                      field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
+                      field<&S::blind_trim>("", "correction of the mean, learnt blind"),
+                      field<&S::blind_cut>("", "thrust that is taken back, blind"),
+                      field<&S::aloft>("s", "over which that mean is, up to 1: 0.4 of hover's at first"),
+                      field<&S::landing>("s", "since it began to land"),
+                      field<&S::lifted>("", "it has left the ground"));
+    }
+  };
+  struct Out {
+    LiftDemand lift{};
+    static constexpr auto fields() { return describe(field<&Out::lift>()); }
+  };
+  static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
+};
+
+}  // namespace jarol::tasks

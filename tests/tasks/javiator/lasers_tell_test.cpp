@@ -1,0 +1,136 @@
+// What the helicopter's filter and laws do with a lean that lasers tell, as the IMU is lost.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tasks/javiator/altitude_control.h"
+#include "tasks/javiator/control.h"
+#include "tests/tasks/heard_helicopter.h"
+#include "tests/tasks/javiator/every_15_ms.h"
+#include "tests/tasks/javiator/hovering_law.h"
+
+namespace {
+using namespace jarol::tasks;
+using jarol::tests::Altitude;
+using jarol::tests::dt;
+using jarol::tests::gravity;
+using jarol::tests::HeardHelicopter;
+using jarol::tests::hovering;
+using jarol::tests::tick;
+
+Altitude landing_blind() {
+  Altitude a;
+  a.in.estimate.rates_known = false;
+  a.in.estimate.lean_known = true;
+  a.in.directive.state = FlightState::landing;
+  return a;
+}
+
+// A filter whose IMU is lost, and what the observer says meanwhile.
+FlightEstimate estimate_of(const BlindMotion& blind) {
+  HeardHelicopter heard = hovering();
+  heard.sensors.new_imu = false;
+  heard.run(10);
+  ++heard.sensors.answers;
+  JaviatorFilter::run(heard.param, tick, {heard.sensors, heard.directive, blind}, heard.state, heard.out);
+  return heard.out.estimate;
+}
+}  // namespace
+
+TEST_SUITE("tasks/lasers_tell") {
+  TEST_CASE("without an IMU the filter takes lean, rates, place and speed that the lasers tell, if they do") {
+    const BlindMotion blind{.roll = 0.05, .pitch = -0.1, .yaw = 0.2, .p = 0.3, .q = -0.2, .r = 0.1, .x = 0.01, .y = 0.02,
+                            .v_x = 0.3, .v_y = -0.4, .drag_x = 0.5, .drag_y = -0.6, .lift = 9.9, .known = true};
+    const FlightEstimate e = estimate_of(blind);
+    CHECK(e.lean_known);
+    CHECK_FALSE(e.rates_known);
+    CHECK_FALSE(e.attitude_known);
+    CHECK(e.roll == doctest::Approx(0.05 + 0.02 * 0.3));
+    CHECK(e.pitch == doctest::Approx(-0.1 - 0.02 * 0.2));
+    CHECK(e.yaw == doctest::Approx(0.2 + 0.02 * 0.1));
+    CHECK(e.p == 0.3);
+    CHECK(e.x == 0.01);
+    CHECK(e.y == 0.02);
+    CHECK(e.v_x == 0.3);
+    CHECK(e.v_y == -0.4);
+    CHECK(e.drag_x == doctest::Approx(0.5).epsilon(0.05));
+    CHECK(e.drag_y == doctest::Approx(-0.6).epsilon(0.05));
+    BlindMotion unknown = blind;
+    unknown.known = false;
+    const FlightEstimate without = estimate_of(unknown);
+    CHECK_FALSE(without.lean_known);
+    CHECK(without.p == 0);
+    CHECK(std::abs(without.x) < 0.001);
+  }
+
+  TEST_CASE("a fix grows with the lean to its wall by what the ray points down, and with the yaw by what it is askew") {
+    const FlightEstimate e = estimate_of({.roll = 0.05, .pitch = 0.1, .lift = gravity, .known = true});
+    CHECK(e.fix_x.is_new);
+    CHECK(e.fix_y.is_new);
+    CHECK(e.fix_x.slope == doctest::Approx(0.08 - 8.07 * std::sin(0.1)));
+    CHECK(e.fix_y.slope == doctest::Approx(0.08 + 8.077 * std::sin(0.05) * std::cos(0.1)));
+    CHECK(e.fix_x.range == 8.07);
+    CHECK(e.fix_y.range == 8.077);
+    CHECK(std::abs(e.fix_x.skew) < 1e-9);
+  }
+
+  TEST_CASE("the place is held softly, by 0.6/s^2 and 1.5/s, and away from the walls by 0.6 m/s^2") {
+    PositionControl::In in{.estimate = {.x = -0.1, .v_y = 0.2, .fix_x = {.range = 8}, .fix_y = {.range = -12},
+                                        .lean_known = true},
+                           .directive = {.state = FlightState::landing, .hold_position = true}};
+    PositionControl::State state{.holding = true};
+    PositionControl::Out out{};
+    PositionControl::run({}, tick, in, state, out);
+    CHECK(-gravity * std::tan(out.goal.pitch) == doctest::Approx(0.6 * 0.1 - 0.6).epsilon(0.01));
+    CHECK(gravity * std::tan(out.goal.roll) == doctest::Approx(-1.5 * 0.2 + 0.6).epsilon(0.01));
+  }
+
+  TEST_CASE("it turns to what is commanded as with an IMU, but below 4 cm, where a foot may stand") {
+    const auto demand = [](bool rates, bool lean, double altitude) {
+      AttitudeControl::In in{.estimate = {.roll = 0.1, .altitude = altitude, .rates_known = rates, .lean_known = lean}};
+      AttitudeControl::State state{};
+      AttitudeControl::Out out{};
+      AttitudeControl::run({}, tick, in, state, out);
+      return out.turn.roll;
+    };
+    CHECK(demand(false, true, 0.041) == demand(true, false, 0.041));
+    CHECK(demand(false, true, 0.041) < -0.03);
+    CHECK(demand(false, true, 0.039) == 0);
+    CHECK(demand(false, false, 1) == 0);
+  }
+
+  TEST_CASE("a landing begins with 5 m/s^2, and slows with 2.5 m/s^2 to 18 cm/s at 10 cm") {
+    Altitude high = landing_blind();
+    high.run();
+    CHECK(high.state.z.speed == doctest::Approx(-5 * dt));
+    high.run(100);
+    CHECK(high.state.z.speed == doctest::Approx(-1.6));
+    for (const auto& [altitude, speed] : {std::pair{0.4, std::sqrt(0.0324 + 5 * 0.3)}, {0.1, 0.18}, {0.05, 0.18}}) {
+      Altitude low = landing_blind();
+      low.in.estimate.altitude = altitude;
+      low.run(200);
+      CHECK(low.state.z.speed == doctest::Approx(-speed));
+    }
+  }
+
+  TEST_CASE("below 22 mm it takes back its thrust by 2/s, and has it again above") {
+    Altitude a = landing_blind();
+    a.in.estimate.altitude = 0.0219;
+    a.run(10);
+    CHECK(a.state.blind_cut == doctest::Approx(2 * 10 * dt));
+    CHECK(a.run(100) == 0);
+    a.in.estimate.altitude = 0.0221;
+    a.run();
+    CHECK(a.state.blind_cut == 0);
+  }
+
+  TEST_CASE("what thrust carries it is not learnt from a lift that nobody feels; without a sonar it sinks as ever") {
+    Altitude a = landing_blind();
+    a.in.estimate.lift = 5;
+    a.run(10);
+    CHECK(a.state.trim == 1);
+    a.in.estimate.altitude_known = false;
+    a.in.estimate.climb = -0.25;
+    CHECK(a.run() == doctest::Approx(a.state.mean_trim - 0.03 - 0.005 * dt));
+  }
+}
