@@ -142,7 +142,8 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
   const double turned = (state.yaw_rate + 0.5 * p.yaw_effect * (state.last.yaw - state.mean.yaw) * dt) * dt;
   state.yaw += turned;
   state.heading += turned;
-  state.yaw_rate += p.yaw_effect * ((state.last.yaw - state.mean.yaw) * dt + p.spin_time * (in.turn.yaw - state.last.yaw));
+  state.yaw_rate +=
+      p.yaw_effect * ((state.last.yaw - state.mean.yaw) * dt + p.spin_time * (in.turn.yaw - state.last.yaw));
   state.last = in.turn;
   state.last_thrust = in.lift.thrust;
 

@@ -24,11 +24,11 @@ struct LeanAxis {
   }
 };
 
-/// While the IMU reports, the observer begins anew each period with what is known then. Without it, it turns by what the
-/// rotors are told and is corrected by the lasers: it is pushed where it leans, so lean, rate and wind follow from places
-/// alone. A ray that looks down is longer for a lean towards its wall, as if it had moved away: such a lean shows late,
-/// one away from the wall at once. Yaw nobody sees: it is that of the model. Kalman filter as in Gelb, "Applied Optimal
-/// Estimation", 1974, section 4.2, with the second-order term of section 6.1 for the ray.
+/// While the IMU reports, the observer begins anew each period with what is known then. Without it, it turns by what
+/// the rotors are told and is corrected by the lasers: it is pushed where it leans, so lean, rate and wind follow from
+/// places alone. A ray that looks down is longer for a lean towards its wall, as if it had moved away: such a lean
+/// shows late, one away from the wall at once. Yaw nobody sees: it is that of the model. Kalman filter as in Gelb,
+/// "Applied Optimal Estimation", 1974, section 4.2, with the second-order term of section 6.1 for the ray.
 struct BlindObserver {
   static constexpr std::string_view summary = "knows roll and pitch by the lasers when the IMU is lost";
   struct Param {
@@ -52,32 +52,30 @@ struct BlindObserver {
     double patience = 0.3;
     static constexpr auto fields() {
       using P = Param;
-      return describe(
-          field<&P::effect>("rad/s^2", "angular acceleration of roll and pitch per demand"),
-          field<&P::damping>("1/s", "at which the rotors brake roll and pitch"),
-          field<&P::lag>("s", "until a demand is felt"),
-          field<&P::yaw_effect>("rad/s^2", "angular acceleration of yaw per demand"),
-          field<&P::spin_time>("s", "for which the hull turns more as rotors speed up than by their drag"),
-          field<&P::mean_time>("s", "over which demand and drag at rest are averaged"),
-          field<&P::range_noise>("m", "standard deviation of a place that a laser measures").in(1e-6, 1),
-          field<&P::drag>("1/s", "at which the air takes it along"),
-          field<&P::inflow>("1/s", "at which rotors brake a climb"),
-          field<&P::hub>("rad/(m s)", "at which air that flows past turns it"), field<&P::gusts>("m/s", "of the air"),
-          field<&P::gust_time>("s", "of gusts"), field<&P::force_noise>("m/s^2/sqrt(Hz)", "density of all else"),
-          field<&P::torque_noise>("rad/s^2/sqrt(Hz)", "density of all else"),
-          field<&P::yaw_noise>("rad", "standard deviation of the yaw, which nobody measures"),
-          field<&P::turn_limit>("rad/s", "of yaw when the IMU is lost, beyond which walls are lost, too"),
-          field<&P::least_wind>("m/s", "mean; in less, gusts are less than what it would get wrong"),
-          field<&P::patience>("s", "without a laser that sees along an axis before its lean is unknown"));
+      return describe(field<&P::effect>("rad/s^2", "angular acceleration of roll and pitch per demand"),
+                      field<&P::damping>("1/s", "at which the rotors brake roll and pitch"),
+                      field<&P::lag>("s", "until a demand is felt"),
+                      field<&P::yaw_effect>("rad/s^2", "angular acceleration of yaw per demand"),
+                      field<&P::spin_time>("s", "for which the hull turns more as rotors speed up than by their drag"),
+                      field<&P::mean_time>("s", "over which demand and drag at rest are averaged"),
+                      field<&P::range_noise>("m", "standard deviation of a place that a laser measures").in(1e-6, 1),
+                      field<&P::drag>("1/s", "at which the air takes it along"),
+                      field<&P::inflow>("1/s", "at which rotors brake a climb"),
+                      field<&P::hub>("rad/(m s)", "at which air that flows past turns it"),
+                      field<&P::gusts>("m/s", "of the air"), field<&P::gust_time>("s", "of gusts"),
+                      field<&P::force_noise>("m/s^2/sqrt(Hz)", "density of all else"),
+                      field<&P::torque_noise>("rad/s^2/sqrt(Hz)", "density of all else"),
+                      field<&P::yaw_noise>("rad", "standard deviation of the yaw, which nobody measures"),
+                      field<&P::turn_limit>("rad/s", "of yaw when the IMU is lost, beyond which walls are lost, too"),
+                      field<&P::least_wind>("m/s", "mean; in less, gusts are less than what it would get wrong"),
+                      field<&P::patience>("s", "without a laser that sees along an axis before its lean is unknown"));
     }
   };
   struct In {
     FlightEstimate estimate{};
     TurnDemand turn{};
     LiftDemand lift{};
-    static constexpr auto fields() {
-      return describe(field<&In::estimate>(), field<&In::turn>(), field<&In::lift>());
-    }
+    static constexpr auto fields() { return describe(field<&In::estimate>(), field<&In::turn>(), field<&In::lift>()); }
   };
   struct State {
     LeanAxis x{}, y{};
@@ -92,9 +90,9 @@ struct BlindObserver {
                       field<&S::felt>("", "demand, by now"), field<&S::last>("", "demand, of the period before"),
                       field<&S::heading>("rad", "from north"), field<&S::yaw>("rad"), field<&S::yaw_rate>("rad/s"),
                       field<&S::turns>("", "round, too fast to know where the lasers look"), field<&S::is_blind>(),
-                      field<&S::mean_wind>("m/s", "that drag and speed show"),
-                      field<&S::mean_thrust>("", "demand"), field<&S::last_thrust>("", "of the period before"),
-                      field<&S::felt_thrust>("", "by now"), field<&S::lift>("m/s^2", "felt, averaged"));
+                      field<&S::mean_wind>("m/s", "that drag and speed show"), field<&S::mean_thrust>("", "demand"),
+                      field<&S::last_thrust>("", "of the period before"), field<&S::felt_thrust>("", "by now"),
+                      field<&S::lift>("m/s^2", "felt, averaged"));
     }
   };
   struct Out {
