@@ -40,6 +40,7 @@ const std::vector<std::string> brought_about_elsewhere{
     "the lists and seeds that it varies have more than 1000000000 combinations; say how many runs there are",
     "' names no metric; write name=metric, as in deepest=max(depth of dune)",
     "it is not said how many runs there are; only lists and seeds come to an end of themselves",
+    " is given twice; keep one",
     // an argument: tests/graph/language/override_test.cpp
     "' is no override; write path=value, as in ", "' gives no value; write path=value, as in ",
     // a value of a program's own: tests/graph/values/type_test.cpp
