@@ -131,6 +131,19 @@ TEST_SUITE("tasks/blind_observer") {
     CHECK(off_after(0.03, 120) < 0.01);
   }
 
+  TEST_CASE("the less it knows its lean, the further ahead of what a ray says it takes its place to be") {
+    for (const double range : {8.0, -12.0}) {
+      Blind b;
+      b.lose_imu();
+      b.run();
+      b.state.x.covariance = {};
+      b.state.x.covariance[0] = 1;
+      b.state.x.covariance[12] = 0.01;  // of the lean
+      b.in.estimate.fix_x = {.range = range, .is_new = true};
+      CHECK(b.run().x == doctest::Approx(0.5 * std::abs(range) * 0.01).epsilon(0.02).scale(0));
+    }
+  }
+
   TEST_CASE("yaw is that of the model: by drag, and while rotors speed up") {
     Blind b;
     b.in.turn.yaw = 0.01;
