@@ -161,8 +161,9 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   }
   if (turns) state.last_turn = {0, state.roll, state.pitch, angle_rates.x(), angle_rates.y()};
   if (is_blind) {
-    state.roll = blind.roll;
-    state.pitch = blind.pitch;
+    // as the IMU would report them
+    state.roll = blind.roll + in.directive.trim_roll;
+    state.pitch = blind.pitch + in.directive.trim_pitch;
     state.yaw = blind.yaw;
   }
 

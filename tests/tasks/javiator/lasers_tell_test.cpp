@@ -27,8 +27,9 @@ Altitude landing_blind() {
 }
 
 // A filter whose IMU is lost, and what the observer says meanwhile.
-FlightEstimate estimate_of(const BlindMotion& blind) {
+FlightEstimate estimate_of(const BlindMotion& blind, double trim = 0) {
   HeardHelicopter heard = hovering();
+  heard.directive.trim_roll = heard.directive.trim_pitch = trim;
   heard.sensors.new_imu = false;
   heard.run(10);
   ++heard.sensors.answers;
@@ -67,6 +68,9 @@ TEST_SUITE("tasks/lasers_tell") {
     CHECK(e.v_y == -0.4);
     CHECK(e.drag_x == doctest::Approx(0.5).epsilon(0.05).scale(0));
     CHECK(e.drag_y == doctest::Approx(-0.6).epsilon(0.05).scale(0));
+    // they tell the lean itself, not what an IMU reports of it
+    CHECK(estimate_of(blind, 0.03).roll == doctest::Approx(e.roll));
+    CHECK(estimate_of(blind, 0.03).pitch == doctest::Approx(e.pitch));
     BlindMotion unknown = blind;
     unknown.known = false;
     const FlightEstimate without = estimate_of(unknown);
