@@ -59,7 +59,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     return;
   }
   state.blind_trim = 0;
-  // on its feet nothing tells how it leans
+  // on its feet nothing shows how it leans
   const bool touches = quick && e.altitude < p.quick.contact && d.state == FlightState::landing;
   state.blind_cut = touches ? state.blind_cut + p.quick.cut * dt : 0;
   if (d.state == FlightState::landing) {

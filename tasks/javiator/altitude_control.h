@@ -10,7 +10,7 @@
 
 namespace jarol::tasks {
 
-/// A landing that is over before gusts turn it: nobody feels them, and lasers tell a lean towards their walls late.
+/// A landing that is over before gusts turn it: nobody feels them, and lasers show a lean towards their walls late.
 struct QuickLanding {
   double descent = 1.6;
   double acceleration = 5;
@@ -70,7 +70,7 @@ struct AltitudeControl {
                       field<&P::blind_gain>("s/m", "thrust per error of descent when the IMU is lost"),
                       field<&P::blind_ki>("1/m", "thrust per integral of that error"),
                       field<&P::blind_speed>("m/s", "of descent then"),
-                      field<&P::quick>("", "when the IMU is lost, but lasers tell how it leans"));
+                      field<&P::quick>("", "when the IMU is lost, but lasers show how it leans"));
     }
   };
   struct In {

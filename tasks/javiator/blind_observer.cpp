@@ -1,6 +1,6 @@
 #include "tasks/javiator/blind_observer.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "graph/math/geometry.h"
@@ -8,6 +8,8 @@
 namespace jarol::tasks {
 namespace {
 
+using Eigen::Rotation2Dd;
+using Eigen::Vector2d;
 using Matrix = Eigen::Matrix<double, 5, 5>;
 using Vector = Eigen::Matrix<double, 5, 1>;
 
@@ -15,7 +17,7 @@ constexpr double gravity = 9.81;
 
 Eigen::Map<Matrix> covariance_of(LeanAxis& axis) { return Eigen::Map<Matrix>(axis.covariance.data()); }
 
-// How well these are known when an IMU falls silent, or has told the same for a while.
+// How well these are known when an IMU falls silent, or has reported the same for a while.
 void begin(LeanAxis& axis) {
   const Vector deviations(0.003, 0.03, 0.01, 0.05, 1.0);
   covariance_of(axis) = deviations.cwiseAbs2().asDiagonal();
@@ -77,18 +79,6 @@ void correct(LeanAxis& axis, const PlaceFix& fix, const BlindObserver::Param& p)
   axis.since = 0;
 }
 
-// of what points forward and to the right, to the north and to the east, and back
-struct Pair {
-  double first, second;
-};
-
-Pair to_earth(double heading, double forward, double right) {
-  const double c = std::cos(heading), s = std::sin(heading);
-  return {c * forward - s * right, s * forward + c * right};
-}
-
-Pair to_body(double heading, double north, double east) { return to_earth(-heading, north, east); }
-
 void follow(double& mean, double value, double part) { mean += part * (value - mean); }
 
 // Demands as they are felt, one period late and through the rotors' lag.
@@ -113,9 +103,10 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
     follow(state.lift, e.lift + p.inflow * e.climb, part);
     follow(state.x.drag, e.drag_x + p.drag * e.v_x, part);
     follow(state.y.drag, e.drag_y + p.drag * e.v_y, part);
-    const Pair lean = to_earth(e.heading, -e.pitch, e.roll), rate = to_earth(e.heading, -e.q, e.p);
-    state.x = {.place = e.x, .speed = e.v_x, .lean = lean.first, .rate = rate.first, .drag = state.x.drag};
-    state.y = {.place = e.y, .speed = e.v_y, .lean = lean.second, .rate = rate.second, .drag = state.y.drag};
+    const Rotation2Dd to_earth(e.heading);
+    const Vector2d lean = to_earth * Vector2d(-e.pitch, e.roll), rate = to_earth * Vector2d(-e.q, e.p);
+    state.x = {.place = e.x, .speed = e.v_x, .lean = lean.x(), .rate = rate.x(), .drag = state.x.drag};
+    state.y = {.place = e.y, .speed = e.v_y, .lean = lean.y(), .rate = rate.y(), .drag = state.y.drag};
     state.heading = e.heading;
     state.yaw = e.yaw;
     state.yaw_rate = e.r;
@@ -131,14 +122,16 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
   }
   state.is_blind = !e.rates_known;
   feel(state, p.lag, dt);
-  const Pair turning = to_earth(state.heading, -p.effect * (state.felt.pitch - state.mean.pitch),
-                                p.effect * (state.felt.roll - state.mean.roll));
+  const Vector2d turning = Rotation2Dd(state.heading) * Vector2d(-p.effect * (state.felt.pitch - state.mean.pitch),
+                                                                 p.effect * (state.felt.roll - state.mean.roll));
   const double lift = state.lift + gravity * (state.felt_thrust - state.mean_thrust) - p.inflow * e.climb;
   const Matrix F = transition(p, lift, dt);
-  predict(state.x, F, turning.first, dt);
-  predict(state.y, F, turning.second, dt);
-  for (LeanAxis* axis : {&state.x, &state.y})
-    if (!e.rates_known) spread(*axis, p, F, dt);
+  predict(state.x, F, turning.x(), dt);
+  predict(state.y, F, turning.y(), dt);
+  if (state.is_blind) {
+    spread(state.x, p, F, dt);
+    spread(state.y, p, F, dt);
+  }
   const double turned = (state.yaw_rate + 0.5 * p.yaw_effect * (state.last.yaw - state.mean.yaw) * dt) * dt;
   state.yaw += turned;
   state.heading += turned;
@@ -147,13 +140,14 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
   state.last = in.turn;
   state.last_thrust = in.lift.thrust;
 
-  const Pair lean = to_body(state.heading, state.x.lean, state.y.lean);
-  const Pair rate = to_body(state.heading, state.x.rate, state.y.rate);
-  out.motion = {.roll = lean.second,
-                .pitch = -lean.first,
+  const Rotation2Dd to_body(-state.heading);
+  const Vector2d lean = to_body * Vector2d(state.x.lean, state.y.lean);
+  const Vector2d rate = to_body * Vector2d(state.x.rate, state.y.rate);
+  out.motion = {.roll = lean.y(),
+                .pitch = -lean.x(),
                 .yaw = state.yaw,
-                .p = rate.second,
-                .q = -rate.first,
+                .p = rate.y(),
+                .q = -rate.x(),
                 .r = state.yaw_rate,
                 .x = state.x.place,
                 .y = state.y.place,

@@ -25,7 +25,7 @@ struct LeanAxis {
 };
 
 /// While the IMU reports, the observer begins anew each period with what is known then. Without it, it turns by what
-/// the rotors are told and is corrected by the lasers: it is pushed where it leans, so lean, rate and wind follow from
+/// the rotors are sent and is corrected by the lasers: it is pushed where it leans, so lean, rate and wind follow from
 /// places alone. A ray that looks down is longer for a lean towards its wall, as if it had moved away: such a lean
 /// shows late, one away from the wall at once. Yaw nobody sees: it is that of the model. Kalman filter as in Gelb,
 /// "Applied Optimal Estimation", 1974, section 4.2, with the second-order term of section 6.1 for the ray.

@@ -33,9 +33,9 @@ struct PositionControl {
           field<&P::drag_time>("s", "over which the drag that is leant against is averaged"),
           field<&P::approach>("", "to a new place"),
           field<&P::lean_limit>("rad", "greatest roll and pitch demanded").in(0, std::numbers::pi / 2),
-          field<&P::blind_kp>("1/s^2", "kp when lasers tell how it leans, slower than an IMU"),
+          field<&P::blind_kp>("1/s^2", "kp when lasers show how it leans, slower than an IMU"),
           field<&P::blind_kd>("1/s", "kd then"),
-          field<&P::blind_away>("m/s^2", "away from the walls then: lasers that look up tell best how it leans"));
+          field<&P::blind_away>("m/s^2", "away from the walls then: lasers that look up show best how it leans"));
     }
   };
   struct In {
@@ -116,7 +116,7 @@ struct AttitudeControl {
       using P = Param;
       return describe(
           field<&P::lean>("", "roll and pitch"), field<&P::yaw>(),
-          field<&P::contact>("m", "altitude below which lasers do not tell how it leans: a foot may stand"));
+          field<&P::contact>("m", "altitude below which lasers do not show how it leans: a foot may stand"));
     }
   };
   struct In {

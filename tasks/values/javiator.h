@@ -189,7 +189,7 @@ struct FlightEstimate {
         field<&E::fix_x>("", "north of the start"), field<&E::fix_y>("", "east of the start"),
         field<&E::rates_known>("", "the IMU reports something new"),
         field<&E::attitude_known>("", "and its angles agree with its rates"),
-        field<&E::lean_known>("", "lasers tell roll and pitch in its place"),
+        field<&E::lean_known>("", "lasers show roll and pitch in its place"),
         field<&E::altitude_known>("", "the sonar reports something credible"),
         field<&E::position_known>("", "both lasers do"), field<&E::pressure_known>("", "the BMU does"),
         field<&E::answers_known>("", "the Robostix answers in time"));
@@ -236,7 +236,7 @@ struct TurnDemand {
   }
 };
 
-/// How it moves, as the lasers and what the rotors are told say, without the IMU.
+/// How it moves, as the lasers and what the rotors are sent say, without the IMU.
 struct BlindMotion {
   double roll = 0, pitch = 0, yaw = 0;
   double p = 0, q = 0, r = 0;
@@ -255,7 +255,7 @@ struct BlindMotion {
                     field<&M::drag_x>("m/s^2", "to the north, as felt before: drag and wind"),
                     field<&M::drag_y>("m/s^2", "to the east"),
                     field<&M::lift>("m/s^2", "specific force upwards along the rotors' axis"),
-                    field<&M::known>("", "lasers have seen it of late"));
+                    field<&M::known>("", "by lasers of late, in wind, not turning round"));
   }
 };
 

@@ -88,7 +88,7 @@ TEST_SUITE("tasks/blind_observer") {
     }
   }
 
-  TEST_CASE("without the IMU it turns by what the rotors are told beyond their mean, and is braked by them") {
+  TEST_CASE("without the IMU it turns by what the rotors are sent beyond their mean, and is braked by them") {
     Blind b{.param = {.hub = 0}};
     b.in.turn = {.roll = 0.02, .pitch = -0.01};
     b.lose_imu();
@@ -112,7 +112,7 @@ TEST_SUITE("tasks/blind_observer") {
     CHECK(b.state.felt.roll == doctest::Approx(0.1 * (1 - std::pow(0.03 / 0.045, 2))));
   }
 
-  TEST_CASE("lasers tell a lean that nobody knew of, away from their walls sooner than towards them") {
+  TEST_CASE("lasers show a lean that nobody knew of, away from their walls sooner than towards them") {
     const auto off_after = [](double lean, int periods) {
       Blind b;
       b.lose_imu();

@@ -1,4 +1,4 @@
-// What the helicopter's filter and laws do with a lean that lasers tell, as the IMU is lost.
+// What the helicopter's filter and laws do with a lean that lasers show, as the IMU is lost.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -38,8 +38,8 @@ FlightEstimate estimate_of(const BlindMotion& blind, double trim = 0) {
 }
 }  // namespace
 
-TEST_SUITE("tasks/lasers_tell") {
-  TEST_CASE("without an IMU the filter takes lean, rates, place and speed that the lasers tell, if they do") {
+TEST_SUITE("tasks/lean_by_lasers") {
+  TEST_CASE("without an IMU the filter takes lean, rates, place and speed that the lasers show, if they do") {
     const BlindMotion blind{.roll = 0.05,
                             .pitch = -0.1,
                             .yaw = 0.2,
@@ -68,7 +68,7 @@ TEST_SUITE("tasks/lasers_tell") {
     CHECK(e.v_y == -0.4);
     CHECK(e.drag_x == doctest::Approx(0.5).epsilon(0.05).scale(0));
     CHECK(e.drag_y == doctest::Approx(-0.6).epsilon(0.05).scale(0));
-    // they tell the lean itself, not what an IMU reports of it
+    // they show the lean itself, not what an IMU reports of it
     CHECK(estimate_of(blind, 0.03).roll == doctest::Approx(e.roll));
     CHECK(estimate_of(blind, 0.03).pitch == doctest::Approx(e.pitch));
     BlindMotion unknown = blind;
