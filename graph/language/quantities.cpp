@@ -98,7 +98,7 @@ std::string scale_exactly(std::string_view number, std::int64_t factor, std::str
   std::string_view fraction = point == std::string_view::npos ? "" : number.substr(point + 1);
   while (!fraction.empty() && fraction.back() == '0') fraction.remove_suffix(1);
   if (integer.empty() || fraction.find('.') != std::string_view::npos) return "is not a number";
-  const std::string too_large = "is too large";
+  constexpr const char* too_large = "is too large";
   std::int64_t sum = 0;
   for (const char c : integer)
     if (__builtin_mul_overflow(sum, 10, &sum) || __builtin_add_overflow(sum, c - '0', &sum)) return too_large;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <streambuf>
 #include <string_view>
@@ -38,13 +39,19 @@ class TextPieces : public std::streambuf {
     const std::ptrdiff_t size = std::min(piece, end_ - gptr());
     bytes_ += static_cast<std::size_t>(size);
     for (const char c : std::string_view(gptr(), static_cast<std::size_t>(size)))
-      if (std::string_view("[]{},:'\"&*!?-|>%").find(c) != std::string_view::npos) ++marks_;
+      marks_ += is_mark[static_cast<unsigned char>(c)] ? 1 : 0;
     if (bytes_ > max_bytes_ahead || marks_ > max_marks_ahead) throw TooMuch{true};
     setg(eback(), gptr(), gptr() + size);
     return traits_type::to_int_type(*gptr());
   }
 
  private:
+  static constexpr auto is_mark = [] {
+    std::array<bool, 256> marks{};
+    for (const char c : std::string_view("[]{},:'\"&*!?-|>%")) marks[static_cast<unsigned char>(c)] = true;
+    return marks;
+  }();
+
   const char* text_;
   char* end_;
   std::size_t bytes_ = 0, marks_ = 0;  // since something was understood; the marks are what YAML is made of

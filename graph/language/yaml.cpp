@@ -54,7 +54,7 @@ class Builder : public YAML::EventHandler {
       aliased_ += count(found->second);
       if (aliased_ > max_aliased)
         too_much(mark, "aliases stand for more than " + std::to_string(max_aliased) + " values");
-      return finish(found->second, 0);
+      return finish(Yaml(found->second), 0);
     }
     problems_.add(at(mark), "an alias stands inside the very value it refers to; a value can't contain itself");
     Yaml value;
@@ -137,7 +137,7 @@ class Builder : public YAML::EventHandler {
     throw TooMuch();
   }
 
-  void finish(Yaml value, YAML::anchor_t anchor) {
+  void finish(Yaml&& value, YAML::anchor_t anchor) {
     if (++values_ > max_values)
       too_much(YAML::Mark::null_mark(), "the text holds more than " + std::to_string(max_values) + " values");
     if (value.children.empty() && value.text.empty() && ++empty_values_ > max_empty_values)
@@ -173,8 +173,8 @@ class Builder : public YAML::EventHandler {
     anchored_.emplace(anchor, value);
   }
 
-  void add_entry(Open& mapping, Yaml value) {
-    const Yaml& key = mapping.key;
+  void add_entry(Open& mapping, Yaml&& value) {
+    Yaml& key = mapping.key;
     if (key.kind != Yaml::Kind::scalar) {
       problems_.add(key.where, "a key is " + std::string(kind_name(key)) + "; keys are plain words");
       return;
@@ -189,8 +189,8 @@ class Builder : public YAML::EventHandler {
                     {{first->key_where, "first here"}});
       return;
     }
-    value.key = key.text;
-    value.key_where = key.where;
+    value.key = std::move(key.text);
+    value.key_where = std::move(key.where);
     mapping.value.children.push_back(std::move(value));
   }
 

@@ -1,6 +1,7 @@
 #include "graph/model/build.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "graph/language/key.h"
 #include "graph/model/chains.h"
@@ -15,10 +16,12 @@
 namespace jarol {
 namespace {
 
+// They stay where they are: a spec is large.
 template <class S>
-std::vector<S> by_name(std::vector<S> specs) {
-  std::stable_sort(specs.begin(), specs.end(), [](const S& a, const S& b) { return a.name < b.name; });
-  return specs;
+std::vector<std::reference_wrapper<const S>> by_name(const std::vector<S>& specs) {
+  std::vector<std::reference_wrapper<const S>> order(specs.begin(), specs.end());
+  std::stable_sort(order.begin(), order.end(), [](const S& a, const S& b) { return a.name < b.name; });
+  return order;
 }
 
 template <class T>
@@ -166,6 +169,7 @@ class Builder {
   }
 
   void add_tasks() {
+    graph_.tasks.reserve(spec_.tasks.size());
     for (const TaskSpec& spec : by_name(spec_.tasks)) {
       Task task;
       task.name = spec.name;

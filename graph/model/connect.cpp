@@ -59,16 +59,16 @@ class Connector {
   const Type* resolve_field(const EndSpec& spec, bool output, const Task& task, End& end) {
     if (task.task_class == nullptr) return nullptr;
     const Type& fields = output ? *task.task_class->out : *task.task_class->in;
-    const std::string subject = "task '" + spec.name + "' (" + task.task_class->name + ")";
-    const std::string noun = output ? "output" : "input";
+    const auto subject = [&] { return "task '" + spec.name + "' (" + task.task_class->name + ")"; };
+    const char* const noun = output ? "output" : "input";
     if (spec.field.empty()) {
       problems_.add(spec.where,
-                    subject + " is written without its " + noun + "; it has: " + list_of(field_names(fields)));
+                    subject() + " is written without its " + noun + "; it has: " + list_of(field_names(fields)));
       return nullptr;
     }
     const TypeField* found = find_field(fields, spec.field);
     if (found == nullptr) {
-      problems_.add(spec.where, subject + " has no " + noun + " '" + spec.field + "'" +
+      problems_.add(spec.where, subject() + " has no " + noun + " '" + spec.field + "'" +
                                     did_you_mean(spec.field, field_names(fields)) +
                                     "; it has: " + list_of(field_names(fields)));
       return nullptr;
