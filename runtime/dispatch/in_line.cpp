@@ -21,11 +21,11 @@ class InLine : public Dispatcher {
   void release(const Now& now) override {
     RunningTask& running = running_task;
     std::uint64_t digest = 0;
-    const auto run = [&](const Plan::Segment& segment, const Tick& tick) __attribute__((always_inline)) {
+    const auto run = [&](const Indices& tasks, const Tick& tick) __attribute__((always_inline)) {
       running.tick.store(&tick, std::memory_order_relaxed);
-      digest += run_segment(segment, tick, now, running);
+      digest += run_row(tasks, tick, now, running);
     };
-    releases_.each_segment(now, run);
+    releases_.each_row(now, run);
     running.end();
     if constexpr (Digest) run_.publisher.add_to_digest(digest);
   }
@@ -40,10 +40,10 @@ class InLine : public Dispatcher {
   }
 
   // Returns the digest's part.
-  [[gnu::always_inline]] std::uint64_t run_segment(const Plan::Segment& segment, const Tick& tick, const Now& now,
-                                                   RunningTask& running) {
-    const Activation* next = run_.state.activations.data() + segment.tasks.first;
-    const Activation* const last = next + segment.tasks.count;
+  [[gnu::always_inline]] std::uint64_t run_row(const Indices& tasks, const Tick& tick, const Now& now,
+                                               RunningTask& running) {
+    const Activation* next = run_.state.activations.data() + tasks.first;
+    const Activation* const last = next + tasks.count;
     std::uint64_t digest = 0;
     while (next != last) {
       if (next->body != nullptr) {

@@ -10,11 +10,11 @@
 
 namespace jarol {
 
-/// Runs the tasks of a segment; run_one(activation, tick) says how one went.
+/// Runs the tasks of a row; run_one(activation, tick) says how one went.
 template <class RunOne>
-void run_one_by_one(Run& run, const Plan::Segment& segment, const Tick& tick, const Now& now, RunOne&& run_one) {
+void run_one_by_one(Run& run, const Indices& tasks, const Tick& tick, const Now& now, RunOne&& run_one) {
   running_task.tick.store(&tick, std::memory_order_relaxed);
-  for (const Activation& activation : segment.tasks.of(run.state.activations)) {
+  for (const Activation& activation : tasks.of(run.state.activations)) {
     running_task.next(activation.memory);
     const BadActivation went = run_one(activation, tick);
     if (went.outcome != Outcome::good) {
@@ -37,9 +37,8 @@ class OneByOne : public Dispatcher {
     jarol::end_lets(run_, now, [&](const Publish& what) { run_.publisher.publish(what, now); });
   }
   void release(const Now& now) override {
-    releases_.each_segment(now, [&](const Plan::Segment& segment, const Tick& tick) {
-      run_one_by_one(run_, segment, tick, now, run_one_);
-    });
+    releases_.each_row(
+        now, [&](const Indices& tasks, const Tick& tick) { run_one_by_one(run_, tasks, tick, now, run_one_); });
   }
 
  private:

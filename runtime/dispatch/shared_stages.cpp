@@ -43,10 +43,11 @@ void SharedStages::release(const Now& now) {
 
 void SharedStages::run_in_order(const Stage& stage, const Now& now) {
   for (const Releases::Released& released : stage)
-    run_one_by_one(run_, *released.segment, *released.tick, now, [&](const Activation& activation, const Tick& tick) {
-      if (schedule_ != nullptr) return AsScheduled(*schedule_)(activation, tick);
-      return BadActivation{activation.run(activation.memory, tick), tick.activation, tick.now};
-    });
+    run_one_by_one(run_, released.segment->tasks, *released.tick, now,
+                   [&](const Activation& activation, const Tick& tick) {
+                     if (schedule_ != nullptr) return AsScheduled(*schedule_)(activation, tick);
+                     return BadActivation{activation.run(activation.memory, tick), tick.activation, tick.now};
+                   });
 }
 
 // The tasks of one level of all segments of the stage: none feeds another.

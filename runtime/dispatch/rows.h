@@ -1,0 +1,78 @@
+// The order of tasks that are released together: rows, each of tasks of one group. The same few sets of groups are due
+// again and again, so what was merged once is remembered: as many rows as there is room for, for as many sets as have a
+// place of their own.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "runtime/plan/plan.h"
+
+namespace jarol {
+
+/// Tasks of one group that run one after the other.
+struct Row {
+  Indices tasks;
+  std::uint32_t due = 0;  // whose they are, of the groups that are due
+};
+
+class Rows {
+ public:
+  explicit Rows(const Plan& plan) {
+    const std::size_t segments = plan.segments.size();
+    merged_.reserve(segments);
+    if (plan.groups.size() <= most_groups) remembered_.reserve(std::min(sets * segments, most_remembered));
+  }
+
+  /// The rows of the groups that are due, until the next call. `merge(add)` calls add(tasks, due) for each of their
+  /// segments in order; it is asked where nothing is remembered.
+  template <class Merge>
+  [[gnu::always_inline]] std::span<const Row> of(std::span<const std::uint32_t> due, Merge merge) {
+    std::uint64_t set = 0;
+    if (remembered_.capacity() > 0) [[likely]] {
+      for (const std::uint32_t group : due) set |= std::uint64_t{1} << group;
+      const Remembered& at = place_of(set);
+      if (at.set == set) [[likely]] return at.rows;
+    }
+    return make(set, merge);
+  }
+
+ private:
+  static constexpr std::size_t most_groups = 64, most_remembered = 16'384, sets = 64;
+
+  struct Remembered {
+    std::uint64_t set = 0;  // a bit for each group
+    std::span<const Row> rows;
+  };
+
+  Remembered& place_of(std::uint64_t set) {
+    return place_[(set * 0x9e3779b97f4a7c15u) >> (64 - std::countr_zero(sets))];
+  }
+
+  template <class Merge>
+  [[gnu::noinline]] std::span<const Row> make(std::uint64_t set, Merge merge) {
+    merged_.clear();
+    merge([&](const Indices& tasks, std::uint32_t due) {
+      if (!merged_.empty() && merged_.back().due == due && merged_.back().tasks.last() == tasks.first)
+        merged_.back().tasks.count += tasks.count;
+      else
+        merged_.push_back({tasks, due});
+    });
+    if (place_of(set).set != 0 || remembered_.size() + merged_.size() > remembered_.capacity())
+      return merged_;
+    const std::size_t first = remembered_.size();
+    remembered_.insert(remembered_.end(), merged_.begin(), merged_.end());
+    place_of(set) = {set, {remembered_.data() + first, merged_.size()}};
+    return place_of(set).rows;
+  }
+
+  std::vector<Row> merged_;      // room for all segments
+  std::vector<Row> remembered_;  // never moves
+  std::array<Remembered, sets> place_{};
+};
+
+}  // namespace jarol
