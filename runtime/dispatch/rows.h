@@ -36,7 +36,8 @@ class Rows {
     if (remembered_.capacity() > 0) [[likely]] {
       for (const std::uint32_t group : due) set |= std::uint64_t{1} << group;
       const Remembered& at = place_of(set);
-      if (at.set == set) [[likely]] return at.rows;
+      if (at.set == set) [[likely]]
+        return at.rows;
     }
     return make(set, merge);
   }
@@ -62,8 +63,7 @@ class Rows {
       else
         merged_.push_back({tasks, due});
     });
-    if (place_of(set).set != 0 || remembered_.size() + merged_.size() > remembered_.capacity())
-      return merged_;
+    if (place_of(set).set != 0 || remembered_.size() + merged_.size() > remembered_.capacity()) return merged_;
     const std::size_t first = remembered_.size();
     remembered_.insert(remembered_.end(), merged_.begin(), merged_.end());
     place_of(set) = {set, {remembered_.data() + first, merged_.size()}};

@@ -1,5 +1,6 @@
-// When each group of a plan is due next: the next instant and the groups due at it, without a table over the
-// hyperperiod.
+// When each group of a plan is due next: the next instant and the groups due at it. Few groups whose pattern soon
+// repeats get a timetable, few others are looked at one by one, and many have a calendar: cost and memory never hang on
+// the hyperperiod.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 
 #include "graph/language/duration.h"
 #include "runtime/state/calendar_queue.h"
+#include "runtime/state/timetable.h"
 
 namespace jarol {
 
@@ -19,13 +21,17 @@ class ReleaseQueue {
     times_.clear();
     due_.clear();
     many_ = CalendarQueue();
+    timetable_.clear();
+    tried_ = false;
     next_ = CalendarQueue::never;
   }
 
   void reserve(std::size_t groups) {
     due_.reserve(few);
     times_.reserve(few);
-    if (groups > few) many_.reserve(groups);
+    if (groups > few) return many_.reserve(groups);
+    begins_.reserve(few);
+    timetable_.reserve();
   }
 
   /// Adds a group, numbered in the order of adding: due at `first`, `first + period`, ...
@@ -36,7 +42,12 @@ class ReleaseQueue {
 
   /// The groups due at next(), least number first, until the next call; next() then is the instant after it.
   std::span<const std::uint32_t> take() {
-    if (many_.empty()) return take_by_scan();
+    if (!timetable_.empty()) [[likely]]
+      return take_by_timetable();
+    if (many_.empty()) {
+      if (!tried_) make_timetable();
+      return timetable_.empty() ? take_by_scan() : take_by_timetable();
+    }
     const std::span<const std::uint32_t> due = many_.take();
     next_ = many_.next();
     return due;
@@ -64,6 +75,35 @@ class ReleaseQueue {
     std::int64_t period;
   };
 
+  std::span<const std::uint32_t> take_by_timetable() {
+    std::int64_t to_next = 0;
+    const auto due = timetable_.take(to_next);
+    // an instant beyond what 64 bits hold, 292 years, is never reached
+    if (__builtin_add_overflow(next_, to_next, &next_)) next_ = CalendarQueue::never;
+    return due;
+  }
+
+  // Once each group has come so far that it is due within a period of its own: from there on all of it repeats.
+  [[gnu::noinline]] void make_timetable() {
+    for (const Time& time : times_)
+      if (time.next - next_ >= time.period) return;
+    tried_ = true;
+    const std::int64_t begin = next_;
+    begins_ = times_;
+    const auto repeats = [&] {
+      for (std::size_t i = 0; i < times_.size(); ++i)
+        if (times_[i].next - next_ != begins_[i].next - begin) return false;
+      return true;
+    };
+    do {
+      const std::int64_t now = next_;
+      const auto due = take_by_scan();
+      if (!timetable_.add(next_ - now, due)) break;
+    } while (!repeats());
+    times_ = begins_;
+    next_ = begin;
+  }
+
   // without branches on what is due, which no processor could predict
   std::span<const std::uint32_t> take_by_scan() {
     constexpr auto never = static_cast<std::uint64_t>(CalendarQueue::never);
@@ -86,7 +126,10 @@ class ReleaseQueue {
   }
 
   std::vector<Time> times_;         // of few groups
+  std::vector<Time> begins_;        // the same where their timetable begins
   std::vector<std::uint32_t> due_;  // room for them
+  Timetable timetable_;             // of few that soon repeat
+  bool tried_ = false;              // to make it
   CalendarQueue many_;              // of more: all
   std::int64_t next_ = CalendarQueue::never;
 };

@@ -82,6 +82,44 @@ TEST_SUITE("runtime/release_queue") {
     }
   }
 
+  TEST_CASE("few groups come the same whether all of their pattern stands in a timetable, or it takes too long") {
+    using Groups = std::vector<std::pair<std::int64_t, std::int64_t>>;  // first, period
+    const Groups soon{{0, 2}, {1, 4}, {3, 6}}, begins_late{{0, 2}, {25, 6}, {7, 3}}, many_instants{{0, 2}, {0, 127}},
+        just_fits{{0, 1}, {0, 128}}, one_too_many{{0, 1}, {0, 129}}, alone{{5, 7}};
+    Groups crowded;  // 32 groups at each of 40 instants
+    for (int g = 0; g < 31; ++g) crowded.emplace_back(0, 1);
+    crowded.emplace_back(0, 40);
+    for (const Groups& groups : {soon, begins_late, many_instants, just_fits, one_too_many, alone, crowded}) {
+      CAPTURE(groups.size());
+      ReleaseQueue queue;
+      queue.reserve(groups.size());
+      for (const auto& [first, period] : groups) queue.add(Duration(first), Duration(period));
+      for (std::int64_t instant = 0; instant < 1000; ++instant) {
+        std::vector<std::uint32_t> expected;
+        for (std::size_t g = 0; g < groups.size(); ++g)
+          if (instant >= groups[g].first && (instant - groups[g].first) % groups[g].second == 0)
+            expected.push_back(static_cast<std::uint32_t>(g));
+        if (expected.empty()) {
+          REQUIRE(queue.next().count() != instant);
+          continue;
+        }
+        REQUIRE(queue.next().count() == instant);
+        const auto due = queue.take();
+        REQUIRE(std::vector<std::uint32_t>(due.begin(), due.end()) == expected);
+      }
+    }
+  }
+
+  TEST_CASE("a queue that is cleared forgets its timetable") {
+    ReleaseQueue queue;
+    queue.add(Duration(0), Duration(4));
+    CHECK(first_calls(queue, 3) == "0: 0; 4: 0; 8: 0; ");
+    queue.clear();
+    queue.add(Duration(1), Duration(3));
+    queue.add(Duration(1), Duration(2));
+    CHECK(first_calls(queue, 4) == "1: 0 1; 3: 1; 4: 0; 5: 1; ");
+  }
+
   TEST_CASE("what lies beyond 292 years never comes") {
     const std::int64_t century = 3'153'600'000'000'000'000;
     ReleaseQueue queue;

@@ -15,8 +15,8 @@ std::string chain_of(const std::vector<int>& periods, int length) {
   std::string tasks = "  t1000: {type: Counter, period: 1ms}\n", connections;
   for (int i = 1; i < length; ++i) {
     const std::string name = "t" + std::to_string(1000 + i), before = "t" + std::to_string(999 + i);
-    tasks += "  " + name + ": {type: Sum, period: " +
-             std::to_string(periods[static_cast<std::size_t>(i) % periods.size()]) + "ms}\n";
+    tasks += "  " + name +
+             ": {type: Sum, period: " + std::to_string(periods[static_cast<std::size_t>(i) % periods.size()]) + "ms}\n";
     connections += "  - " + before + ".out -> " + name + ".a\n  - t1000.out -> " + name + ".b\n";
   }
   return "graph: t\ntasks:\n" + tasks + "connections:\n" + connections;
@@ -90,9 +90,9 @@ TEST_SUITE("runtime/rows") {
 
   TEST_CASE("the order is that of the stages, whatever of it is remembered") {
     for (const auto& [periods, length] :
-         {std::pair(std::vector<int>{1, 2, 5, 10}, 100),          // few sets: all of it
+         {std::pair(std::vector<int>{1, 2, 5, 10}, 100),                // few sets: all of it
           std::pair(std::vector<int>{1, 2, 3, 5, 7, 11, 13, 17}, 100),  // more sets than have a place
-          std::pair(up_to(70), 140),                              // too many groups
+          std::pair(up_to(70), 140),                                    // too many groups
           std::pair(std::vector<int>{1, 2, 3, 5, 7, 11}, 1200)}) {      // more rows than there is room for
       CAPTURE(periods.size());
       const Graph graph = tests::graph_of(chain_of(periods, length));

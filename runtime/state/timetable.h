@@ -1,0 +1,59 @@
+// When few groups are due whose pattern soon repeats: one hyperperiod, instant by instant, so that the next is looked up.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace jarol {
+
+class Timetable {
+ public:
+  void reserve() {
+    instants_.reserve(most_instants);
+    due_.reserve(most_due);
+  }
+
+  void clear() {
+    instants_.clear();
+    due_.clear();
+    at_ = 0;
+  }
+
+  bool empty() const { return instants_.empty(); }
+
+  /// Writes an instant down, the time to the next one in ns, and who is due at it; false: there is no room for it, and
+  /// the timetable is empty.
+  bool add(std::int64_t to_next, std::span<const std::uint32_t> due) {
+    if (instants_.size() == most_instants || due_.size() + due.size() > most_due) {
+      clear();
+      return false;
+    }
+    instants_.push_back({to_next, static_cast<std::uint32_t>(due_.size()), static_cast<std::uint32_t>(due.size())});
+    due_.insert(due_.end(), due.begin(), due.end());
+    return true;
+  }
+
+  /// Who is due at the next instant of it, after the last one the first again; `to_next` is the time from it to the one
+  /// after it.
+  std::span<const std::uint32_t> take(std::int64_t& to_next) {
+    const Instant& instant = instants_[at_];
+    if (++at_ == instants_.size()) at_ = 0;
+    to_next = instant.to_next;
+    return {due_.data() + instant.first, instant.count};
+  }
+
+ private:
+  static constexpr std::size_t most_instants = 128, most_due = 1024;
+
+  struct Instant {
+    std::int64_t to_next;
+    std::uint32_t first, count;  // in due_
+  };
+
+  std::vector<Instant> instants_;
+  std::vector<std::uint32_t> due_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace jarol
