@@ -1,4 +1,5 @@
-// When few groups are due whose pattern soon repeats: one hyperperiod, instant by instant, so that the next is looked up.
+// When few groups are due whose pattern soon repeats: one hyperperiod, instant by instant, so that the next is looked
+// up.
 #pragma once
 
 #include <cstdint>
