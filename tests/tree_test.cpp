@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -23,6 +25,8 @@ const std::map<std::string, std::vector<std::string>> allowed{
     {"vehicles", {"graph/", "distributers/messages/", "distributers/interfaces/"}},
 };
 
+constexpr std::array folders{"graph", "runtime", "tasks", "distributers", "vehicles", "specs", "tests", "tools"};
+
 std::vector<std::string> project_includes(const fs::path& file) {
   std::vector<std::string> includes;
   std::ifstream in(file);
@@ -41,6 +45,34 @@ bool is_allowed(const std::string& folder, const std::string& include) {
   for (const std::string& prefix : allowed.at(folder))
     if (include.starts_with(prefix)) return true;
   return false;
+}
+
+// The pages about the tree; what npm has fetched is none.
+std::vector<fs::path> pages() {
+  std::vector<fs::path> found{"README.md"};
+  for (const char* top : folders)
+    for (fs::recursive_directory_iterator entry(top), end; entry != end; ++entry) {
+      if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
+      if (entry->path().extension() == ".md") found.push_back(entry->path());
+    }
+  return found;
+}
+
+// By what a link names the sections of a page.
+std::set<std::string> sections_of(const fs::path& page) {
+  std::set<std::string> sections;
+  std::ifstream in(page);
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] != '#') continue;
+    std::string name;
+    for (const unsigned char c : line.substr(std::min(line.find_first_not_of('#') + 1, line.size())))
+      if (std::isalnum(c) || c == '-' || c == '_')
+        name += static_cast<char>(std::tolower(c));
+      else if (c == ' ')
+        name += '-';
+    sections.insert(name);
+  }
+  return sections;
 }
 }  // namespace
 
@@ -107,7 +139,7 @@ TEST_SUITE("tree") {
     CHECK(wrong == "");
   }
 
-  TEST_CASE("the page of each folder names its rooms, and what it links to is there") {
+  TEST_CASE("the page of each folder names its rooms, and the main page the folders") {
     std::string wrong;
     for (const std::string folder : {"graph", "runtime", "tasks", "distributers", "vehicles", "tools"}) {
       const std::string page = text_of(folder + "/README.md");
@@ -117,12 +149,29 @@ TEST_SUITE("tree") {
             page.find("`" + room + "/`") == std::string::npos)
           wrong += folder + "/README.md doesn't name " + room + "/\n";
       }
-      const std::regex link(R"(\]\(([^)#:]+)\))");
-      for (std::sregex_iterator found(page.begin(), page.end(), link), end; found != end; ++found)
-        if (!fs::exists(fs::path(folder) / (*found)[1].str()))
-          wrong += folder + "/README.md links to " + (*found)[1].str() + ", which is not there\n";
+    }
+    const std::string main = text_of("README.md");
+    for (const std::string folder : folders)
+      if (main.find("| [" + folder + "/](" + folder + "/README.md) |") == std::string::npos)
+        wrong += "README.md doesn't name " + folder + "/\n";
+    CHECK(wrong == "");
+  }
+
+  TEST_CASE("what a page links to is there, and so are its pictures and sections") {
+    const std::regex link(R"--((?:\]\(|<img src=")([^)"#: ]*)(?:#([^)" ]+))?[)"])--");
+    std::string wrong;
+    std::size_t seen = 0;
+    for (const fs::path& file : pages()) {
+      const std::string page = text_of(file);
+      for (std::sregex_iterator found(page.begin(), page.end(), link), end; found != end; ++found, ++seen) {
+        const std::string to = (*found)[1], section = (*found)[2];
+        const fs::path target = to.empty() ? file : file.parent_path() / to;
+        if (!fs::exists(target) || (!section.empty() && !sections_of(target).contains(section)))
+          wrong += file.string() + " links to " + (*found)[0].str() + ", which is not there\n";
+      }
     }
     CHECK(wrong == "");
+    CHECK(seen > 200);
   }
 
   // doctest adds 1 to the value of which epsilon is a share, so that 0.01 within 5 % would hold of 0, too.

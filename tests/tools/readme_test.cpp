@@ -1,4 +1,4 @@
-// The README shows what the command really prints.
+// The README and the pages of the folders show what the command really prints.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -29,6 +29,20 @@ std::string between(const std::string& text, const std::string& begin, const std
   return text.substr(first, text.find(end, first) - first);
 }
 
+// What is shown is the output from its first line to its last; lines "  ..." stand for what is left out.
+bool is_shown(const std::string& shown, const std::string& output) {
+  const std::string gap = "  ...\n";
+  std::size_t begin = 0, at = 0, end = 0;
+  for (; end != std::string::npos; begin = end + gap.size()) {
+    end = shown.find(gap, begin);
+    const std::string piece = shown.substr(begin, end - begin);
+    const std::size_t found = output.find(piece, at);
+    if (found == std::string::npos || (begin == 0 && found != 0)) return false;
+    at = found + piece.size();
+  }
+  return at == output.size() || shown.ends_with(gap);
+}
+
 // The plugin that it shows compiles, and check says of its graph what the page says.
 void check_plugin_page(const std::string& file, const std::string& plugin, const std::string& graph) {
   const std::string text = page(file), folder = JAROL_PLUGIN_FOLDER;
@@ -43,22 +57,25 @@ void check_plugin_page(const std::string& file, const std::string& plugin, const
 }  // namespace
 
 TEST_SUITE("tools/readme") {
-  TEST_CASE("the README shows the verdict on the demo as it is") {
+  TEST_CASE("what check says of the demo stands on the page of the analysis, and in the README its parts") {
     const std::string verdict = output_of("check specs/exolauv.yaml");
     CHECK(verdict.size() > 300);
-    CHECK(readme().find(verdict) != std::string::npos);
+    const std::string command = "```\nbuild/release/jarol check specs/exolauv.yaml\n```\n\n```\n";
+    CHECK(page("graph/analysis/README.md").find(command + verdict + "```\n") != std::string::npos);
+    const std::string begin = "specs/exolauv.yaml: SCHEDULABLE";
+    const std::string shown = begin + between(readme(), "```\n" + begin, "\nexolauv: 100 s");
+    CHECK(shown.size() > 300);
+    CHECK(is_shown(shown, verdict));
   }
 
-  TEST_CASE(
-      "what check says of the change that makes the demo unschedulable stands there, and in the README its parts") {
+  TEST_CASE("what check says of the demo with a longer WCET stands in both places, too") {
     const std::string verdict = output_of("check specs/exolauv.yaml --set tasks.speed.wcet=60ms");
     CHECK(verdict.size() > 300);
-    CHECK(page("graph/analysis/README.md").find(verdict) != std::string::npos);
-    const std::string shown = between(readme(), "tasks.speed.wcet=60ms\n```\n\n```\n", "```");
-    const std::size_t gap = shown.find("  ...\n");
-    REQUIRE(gap != std::string::npos);
-    CHECK(verdict.starts_with(shown.substr(0, gap)));
-    CHECK(verdict.find(shown.substr(gap + 6)) != std::string::npos);
+    const std::string command = "check specs/exolauv.yaml --set tasks.speed.wcet=60ms\n";
+    CHECK(page("graph/analysis/README.md").find(command + "```\n\n```\n" + verdict + "```\n") != std::string::npos);
+    const std::string shown = between(readme(), "$ build/release/jarol " + command, "```");
+    CHECK(shown.size() > 300);
+    CHECK(is_shown(shown, verdict));
   }
 
   TEST_CASE("the picture of the README is what run --plot draws") {
@@ -89,12 +106,16 @@ TEST_SUITE("tools/readme") {
   }
 
   TEST_CASE("the README shows what the dive reaches as it is, flying.md what the flight does") {
-    for (const auto& [graph, file] : {std::pair{"exolauv", "README.md"}, std::pair{"javiator", "specs/flying.md"}}) {
-      const std::string run = output_of("run specs/" + std::string(graph) + ".yaml");
-      const std::size_t begin = run.find("               commanded"), end = run.find("  digest");
-      REQUIRE(begin < end);
-      CHECK(page(file).find(run.substr(begin, end - begin)) != std::string::npos);
-    }
+    const std::string title = "               commanded";
+    const std::string dive = output_of("run specs/exolauv.yaml");
+    const std::string shown = title + between(readme(), title, "  trace ");
+    CHECK(shown.size() > 300);
+    CHECK(is_shown(shown, dive.substr(dive.find(title))));
+
+    const std::string flight = output_of("run specs/javiator.yaml");
+    const std::string reached = title + between(flight, title, "  digest");
+    CHECK(reached.size() > 300);
+    CHECK(page("specs/flying.md").find(reached) != std::string::npos);
   }
 
   TEST_CASE("flying.md shows where the helicopter lands whose sonar is lost") {
