@@ -1,4 +1,4 @@
-// When few groups are due whose pattern soon repeats: one hyperperiod, instant by instant, so that the next is looked
+// When few groups are due whose pattern soon repeats: one hyperperiod, instant by instant, in which the next is looked
 // up.
 #pragma once
 
