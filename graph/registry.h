@@ -46,7 +46,7 @@ struct DistributerClass {
 
 class Registry {
  public:
-  /// Throws std::invalid_argument if there is one of that name.
+  /// Throws std::invalid_argument if there is one of that name, or it has values of more than 1 GiB.
   void add(TaskClass task);
   void add(DistributerClass distributer);
   void add(const Policy& policy) { policies_.add(policy); }
