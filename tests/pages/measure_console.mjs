@@ -28,7 +28,7 @@ function meshed(layers, width) {
   const [tasks, connections] = [[], []];
   for (let layer = 0; layer < layers; ++layer)
     for (let i = 0; i < width; ++i) {
-      tasks.push(`  ${name(layer, i)}: {type: ${layer === 0 ? 'Counter' : 'Sum'}, period: 1ms}`);
+      tasks.push(`  ${name(layer, i)}: {type: ${layer === 0 ? 'Counter' : 'Sum'}, period: 1ms, on_fault: hold}`);
       if (layer === 0) continue;
       connections.push(`  - ${name(layer - 1, i)}.out -> ${name(layer, i)}.a`);
       connections.push(`  - ${name(Math.max(0, layer - 1 - random(2)), random(width))}.out -> ${name(layer, i)}.b`);

@@ -59,13 +59,6 @@ Json hello_of(const Watched& watched, const Desk& desk) {
   return hello;
 }
 
-// Who only looks on never delays tasks in real time; a pilot's commands are not to wait for other programs.
-ServerOptions server_of(const Watched& watched) {
-  ServerOptions options = watched.server;
-  options.gives_way = watched.run.clock == "real" && watched.operators.empty();
-  return options;
-}
-
 }  // namespace
 
 Console::Console(Watched watched, std::size_t max_at_once, std::vector<std::uint64_t> strides)
@@ -77,7 +70,7 @@ Console::Console(Watched watched, std::size_t max_at_once, std::vector<std::uint
 
 void Console::open() {
   server_ = std::make_unique<Server>(
-      server_of(watched_), dump({{"hello", hello_of(watched_, desk_)}}), [this] { return next_messages(); },
+      watched_.server, dump({{"hello", hello_of(watched_, desk_)}}), [this] { return next_messages(); },
       [this](const Page& page, const std::string& message) { return answer(page, message); },
       [this](std::uint64_t page) { desk_.leave(page); });
 }

@@ -2,7 +2,6 @@
 #include "tools/console/server.h"
 
 #include <fmt/format.h>
-#include <sched.h>
 #include <sodium.h>
 #include <boost/asio/bind_executor.hpp>
 #include <boost/asio/io_context.hpp>
@@ -428,11 +427,7 @@ Server::Implementation::Implementation(const ServerOptions& options, std::string
   url_ = fmt::format("http://{}:{}{}?token={}", host_text(bound.address()), bound.port(), options.page, token_);
   accept();
   show_next();
-  thread_ = std::thread([this, gives_way = options.gives_way] {
-    const sched_param none{};
-    if (gives_way) ::sched_setscheduler(0, SCHED_IDLE, &none);  // of this thread; always permitted
-    context_.run();
-  });
+  thread_ = std::thread([this] { context_.run(); });
 }
 
 Server::Implementation::~Implementation() {

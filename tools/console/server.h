@@ -18,7 +18,6 @@ struct ServerOptions {
   std::size_t max_message = std::size_t{16} << 10;  // bytes, of what a page sends
   std::size_t max_answers = std::size_t{4} << 20;   // bytes that a page was answered and has not taken
   bool skips = true;                                // a page that is slow goes on with the newest
-  bool gives_way = false;  // its thread runs when no other wants to, and is pushed aside at once
 };
 
 /// Who asks.

@@ -2,9 +2,7 @@
 #include "tools/console/console.h"
 
 #include <doctest/doctest.h>
-#include <sched.h>
 
-#include <filesystem>
 #include <map>
 #include <thread>
 
@@ -37,14 +35,6 @@ Loaded load(const std::string& text) {
 
 std::vector<const Type*> no_truth(const Graph& graph) {
   return std::vector<const Type*>(graph.distributers.size(), nullptr);
-}
-
-// Of this process, those that run when no other wants to.
-int idle_threads() {
-  int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task"))
-    count += ::sched_getscheduler(std::stoi(entry.path().filename())) == SCHED_IDLE ? 1 : 0;
-  return count;
 }
 
 std::string digest_in(const std::string& output) {
@@ -133,24 +123,6 @@ TEST_SUITE("console/console") {
     CHECK(shown[1] ==
           std::vector<std::pair<double, double>>{{0.005, 0}, {0.015, 1}, {0.025, 2}, {0.035, 3}, {0.045, 4}});
     CHECK(PageSocket(console.url()).read_with("ended")["ended"] == "good");
-  }
-
-  TEST_CASE("the server of a run in real time gives way to all other threads, but where a pilot commands by it") {
-    const Loaded loaded = load(counting);
-    const auto truth = no_truth(*loaded.graph);
-    const auto port = std::make_shared<distributers::ConsolePort>(messages::javiator::message_set());
-    const auto gives_way = [&](const char* clock, std::vector<tools::console::DeskOperator> operators) {
-      Console console(Watched{.run = {*loaded.graph, "counting.yaml", clock, 1s, truth},
-                              .server = {},
-                              .pace = nullptr,
-                              .operators = std::move(operators)});
-      console.open();
-      static_cast<void>(PageSocket(console.url()).read());  // the thread has begun
-      return idle_threads();
-    };
-    CHECK(gives_way("real", {}) == 1);
-    CHECK(gives_way("virtual", {}) == 0);
-    CHECK(gives_way("real", {{"pilot", "JaviatorTerminal", port}}) == 0);
   }
 
   TEST_CASE("a run that has no pace says so to who would pause it") {
