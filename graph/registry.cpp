@@ -16,11 +16,11 @@ void insert_by_name(std::vector<C>& classes, C added) {
   classes.insert(at, std::move(added));
 }
 
-// A value is copied at every instant, its size kept in 32 bits.
-void require_reasonable(const Type& type) {
+// Copies keep sizes in 32 bits.
+void require_copyable(const std::string& whose, const std::string& name, const Type& type) {
   constexpr std::size_t largest = std::size_t{1} << 30;
   if (type.size > largest)
-    throw std::invalid_argument("a '" + type.name + "' has " + std::to_string(type.size) +
+    throw std::invalid_argument(whose + " '" + name + "' (" + type.name + ") has " + std::to_string(type.size) +
                                 " bytes; values have at most 1GiB");
 }
 
@@ -35,8 +35,8 @@ const C* find_by_name(const std::vector<C>& classes, std::string_view name) {
 
 void Registry::add(TaskClass task) {
   const Type &in = *task.in, &out = *task.out;
-  for (const Type* fields : {&in, &out})
-    for (const TypeField& f : fields->fields) require_reasonable(*f.type);
+  for (const TypeField& f : in.fields) require_copyable("task '" + task.name + "' input", f.name, *f.type);
+  for (const TypeField& f : out.fields) require_copyable("task '" + task.name + "' output", f.name, *f.type);
   insert_by_name(tasks_, std::move(task));
   for (const TypeField& f : in.fields) add_type(*f.type);
   for (const TypeField& f : out.fields) add_type(*f.type);
@@ -44,7 +44,8 @@ void Registry::add(TaskClass task) {
 
 void Registry::add(DistributerClass distributer) {
   const std::vector<ChannelClass> channels = distributer.channels;
-  for (const ChannelClass& c : channels) require_reasonable(*c.type);
+  for (const ChannelClass& c : channels)
+    require_copyable("distributer '" + distributer.name + "' channel", c.name, *c.type);
   insert_by_name(distributers_, std::move(distributer));
   for (const ChannelClass& c : channels) add_type(*c.type);
 }

@@ -16,7 +16,7 @@
 namespace jarol {
 namespace {
 
-// They stay where they are: a spec is large.
+// References: a spec is large.
 template <class S>
 std::vector<std::reference_wrapper<const S>> by_name(const std::vector<S>& specs) {
   std::vector<std::reference_wrapper<const S>> order(specs.begin(), specs.end());

@@ -18,7 +18,7 @@ class Releases {
         one_stage_(std::ranges::all_of(run.plan.segments, [](const Plan::Segment& s) { return s.stage == 0; })),
         cursors_(run.plan.groups.size()),
         ticks_(run.plan.groups.size()),
-        rows_(run.plan) {
+        rows_(run.plan, !one_stage_) {
     in_stage_.reserve(run.plan.groups.size());
   }
 

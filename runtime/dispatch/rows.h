@@ -1,6 +1,6 @@
 // The order of tasks that are released together: rows, each of tasks of one group. The same few sets of groups are due
-// again and again, so what was merged once is remembered: as many rows as there is room for, for as many sets as have a
-// place of their own.
+// again and again, so what was merged once is remembered. What finds no room, or its place taken by another set, is
+// merged each time.
 #pragma once
 
 #include <algorithm>
@@ -22,14 +22,18 @@ struct Row {
 
 class Rows {
  public:
-  explicit Rows(const Plan& plan) {
+  /// `remembers`: there is something to merge.
+  Rows(const Plan& plan, bool remembers) {
+    if (!remembers) return;
     const std::size_t segments = plan.segments.size();
     merged_.reserve(segments);
-    if (plan.groups.size() <= most_groups) remembered_.reserve(std::min(sets * segments, most_remembered));
+    if (plan.groups.size() <= max_groups) remembered_.reserve(std::min(places * segments, max_remembered));
   }
+  Rows(const Rows&) = delete;  // spans lead into it
+  Rows& operator=(const Rows&) = delete;
 
   /// The rows of the groups that are due, until the next call. `merge(add)` calls add(tasks, due) for each of their
-  /// segments in order; it is asked where nothing is remembered.
+  /// segments in order; it is called where the set is not remembered.
   template <class Merge>
   [[gnu::always_inline]] std::span<const Row> of(std::span<const std::uint32_t> due, Merge merge) {
     std::uint64_t set = 0;
@@ -43,7 +47,7 @@ class Rows {
   }
 
  private:
-  static constexpr std::size_t most_groups = 64, most_remembered = 16'384, sets = 64;
+  static constexpr std::size_t max_groups = 64, max_remembered = 16'384, places = 64;
 
   struct Remembered {
     std::uint64_t set = 0;  // a bit for each group
@@ -51,7 +55,7 @@ class Rows {
   };
 
   Remembered& place_of(std::uint64_t set) {
-    return place_[(set * 0x9e3779b97f4a7c15u) >> (64 - std::countr_zero(sets))];
+    return place_[(set * 0x9e3779b97f4a7c15u) >> (64 - std::countr_zero(places))];
   }
 
   template <class Merge>
@@ -72,7 +76,7 @@ class Rows {
 
   std::vector<Row> merged_;      // room for all segments
   std::vector<Row> remembered_;  // never moves
-  std::array<Remembered, sets> place_{};
+  std::array<Remembered, places> place_{};
 };
 
 }  // namespace jarol

@@ -1,7 +1,7 @@
 // The plan of a graph: who acts when and in which order, and where each value lies. It is made once and never changes,
 // so that any number of runs share it; what changes while one runs is its RunState.
 //
-// There is no table over the hyperperiod. All that acts with one period from one first instant forms a group; at an
+// It holds no table over the hyperperiod. All that acts with one period from one first instant forms a group; at an
 // instant the groups that are due run step by step, and within the last step stage by stage: a task that is fed by
 // another group without a LET stands in a later stage than its producer. Cost and memory hang on the number of tasks
 // and connections, never on how their periods relate.

@@ -1,9 +1,10 @@
 // When each group of a plan is due next: the next instant and the groups due at it. Few groups whose pattern soon
-// repeats get a timetable, few others are looked at one by one, and many have a calendar: cost and memory never hang on
-// the hyperperiod.
+// repeats get a timetable of bounded size, other few are scanned, and many have a calendar: cost and memory do not
+// depend on the hyperperiod.
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,7 +35,7 @@ class ReleaseQueue {
     timetable_.reserve();
   }
 
-  /// Adds a group, numbered in the order of adding: due at `first`, `first + period`, ...
+  /// Before the first take. Adds a group, numbered in the order of adding: due at `first`, `first + period`, ...
   void add(Duration first, Duration period) { add(first.count(), period.count()); }
 
   /// The next instant at which any group is due; the greatest there is if there is no group.
@@ -59,6 +60,7 @@ class ReleaseQueue {
 
   // in ns from here on
   void add(std::int64_t first, std::int64_t period) {
+    assert(!tried_);
     next_ = std::min(next_, first);
     if (many_.empty() && times_.size() < few) {
       due_.push_back(0);
@@ -83,7 +85,7 @@ class ReleaseQueue {
     return due;
   }
 
-  // Once each group has come so far that it is due within a period of its own: from there on all of it repeats.
+  // Once each group is due within a period of its own: the pattern repeats from there on, so that a timetable ends.
   [[gnu::noinline]] void make_timetable() {
     for (const Time& time : times_)
       if (time.next - next_ >= time.period) return;
@@ -128,8 +130,8 @@ class ReleaseQueue {
   std::vector<Time> times_;         // of few groups
   std::vector<Time> begins_;        // the same where their timetable begins
   std::vector<std::uint32_t> due_;  // room for them
-  Timetable timetable_;             // of few that soon repeat
-  bool tried_ = false;              // to make it
+  Timetable timetable_;             // of few whose pattern soon repeats
+  bool tried_ = false;              // it was made, or there is no room for it
   CalendarQueue many_;              // of more: all
   std::int64_t next_ = CalendarQueue::never;
 };

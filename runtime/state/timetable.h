@@ -1,5 +1,4 @@
-// When few groups are due whose pattern soon repeats: one hyperperiod, instant by instant, in which the next is looked
-// up.
+// When groups are due, instant by instant over one hyperperiod, where they are few and it is short.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +10,8 @@ namespace jarol {
 class Timetable {
  public:
   void reserve() {
-    instants_.reserve(most_instants);
-    due_.reserve(most_due);
+    instants_.reserve(max_instants);
+    due_.reserve(max_due);
   }
 
   void clear() {
@@ -26,7 +25,7 @@ class Timetable {
   /// Writes an instant down, the time to the next one in ns, and who is due at it; false: there is no room for it, and
   /// the timetable is empty.
   bool add(std::int64_t to_next, std::span<const std::uint32_t> due) {
-    if (instants_.size() == most_instants || due_.size() + due.size() > most_due) {
+    if (instants_.size() == max_instants || due_.size() + due.size() > max_due) {
       clear();
       return false;
     }
@@ -35,8 +34,8 @@ class Timetable {
     return true;
   }
 
-  /// Who is due at the next instant of it, after the last one the first again; `to_next` is the time from it to the one
-  /// after it.
+  /// Who is due at its next instant; after the last one the first comes again. `to_next`: from that instant to the one
+  /// after it, ns.
   std::span<const std::uint32_t> take(std::int64_t& to_next) {
     const Instant& instant = instants_[at_];
     if (++at_ == instants_.size()) at_ = 0;
@@ -45,7 +44,7 @@ class Timetable {
   }
 
  private:
-  static constexpr std::size_t most_instants = 128, most_due = 1024;
+  static constexpr std::size_t max_instants = 128, max_due = 1024;
 
   struct Instant {
     std::int64_t to_next;

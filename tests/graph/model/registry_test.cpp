@@ -30,17 +30,22 @@ TEST_SUITE("graph/registry") {
     const Type good = field_of(largest), large = field_of(largest + 1), nothing;
     const auto struct_of = [](const Type& type) {
       Type fields;
-      fields.fields.emplace_back().type = &type;
+      fields.fields.emplace_back();
+      fields.fields.back().name = "value";
+      fields.fields.back().type = &type;
       return fields;
     };
     const Type fits = struct_of(good), too_large = struct_of(large);
     Registry registry;
-    for (const auto& [in, out] : {std::pair(&too_large, &nothing), std::pair(&nothing, &too_large)})
-      CHECK_THROWS_WITH_AS(registry.add(copies(in, out)),
-                           "a 'Large' has 1073741825 bytes; values have at most 1GiB", std::invalid_argument);
-    CHECK_THROWS_WITH_AS(
-        registry.add(DistributerClass{"Hands", "over", {{"all", Direction::in, &large, ""}}}),
-        "a 'Large' has 1073741825 bytes; values have at most 1GiB", std::invalid_argument);
+    CHECK_THROWS_WITH_AS(registry.add(copies(&too_large, &nothing)),
+                         "task 'Copies' input 'value' (Large) has 1073741825 bytes; values have at most 1GiB",
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(registry.add(copies(&nothing, &too_large)),
+                         "task 'Copies' output 'value' (Large) has 1073741825 bytes; values have at most 1GiB",
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(registry.add(DistributerClass{"Hands", "over", {{"all", Direction::in, &large, ""}}}),
+                         "distributer 'Hands' channel 'all' (Large) has 1073741825 bytes; values have at most 1GiB",
+                         std::invalid_argument);
     CHECK(registry.find_task("Copies") == nullptr);
     CHECK(registry.find_distributer("Hands") == nullptr);
     CHECK(registry.type_names().empty());

@@ -84,9 +84,9 @@ TEST_SUITE("runtime/release_queue") {
 
   TEST_CASE("few groups come the same whether all of their pattern stands in a timetable, or it takes too long") {
     using Groups = std::vector<std::pair<std::int64_t, std::int64_t>>;  // first, period
-    const Groups soon{{0, 2}, {1, 4}, {3, 6}}, begins_late{{0, 2}, {25, 6}, {7, 3}}, many_instants{{0, 2}, {0, 127}},
+    const Groups soon{{0, 2}, {1, 4}, {3, 6}}, begins_late{{0, 2}, {25, 6}, {7, 3}}, many_instants{{0, 2}, {0, 125}},
         just_fits{{0, 1}, {0, 128}}, one_too_many{{0, 1}, {0, 129}}, alone{{5, 7}};
-    Groups crowded;  // 32 groups at each of 40 instants
+    Groups crowded;  // 31 groups at each of 40 instants, and one more
     for (int g = 0; g < 31; ++g) crowded.emplace_back(0, 1);
     crowded.emplace_back(0, 40);
     for (const Groups& groups : {soon, begins_late, many_instants, just_fits, one_too_many, alone, crowded}) {

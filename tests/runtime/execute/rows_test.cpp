@@ -10,7 +10,7 @@ namespace {
 using namespace jarol;
 using namespace std::chrono_literals;
 
-// EndOfRun in a chain, each of the next period, so that every one stands in a stage after the one before.
+// Sums in a chain, each of the next period, so that every one stands in a stage after the one before.
 std::string chain_of(const std::vector<int>& periods, int length) {
   std::string tasks = "  t1000: {type: Counter, period: 1ms}\n", connections;
   for (int i = 1; i < length; ++i) {
@@ -19,6 +19,8 @@ std::string chain_of(const std::vector<int>& periods, int length) {
              ": {type: Sum, period: " + std::to_string(periods[static_cast<std::size_t>(i) % periods.size()]) + "ms}\n";
     connections += "  - " + before + ".out -> " + name + ".a\n  - t1000.out -> " + name + ".b\n";
   }
+  for (std::size_t i = 0; i < periods.size(); ++i)  // whose outputs tell which release of its group it is
+    tasks += "  u" + std::to_string(100 + i) + ": {type: Counter, period: " + std::to_string(periods[i]) + "ms}\n";
   return "graph: t\ntasks:\n" + tasks + "connections:\n" + connections;
 }
 
@@ -44,7 +46,7 @@ EndOfRun end_by_stages(const Graph& graph) { return end_of(graph, {.workers = 2,
 
 // How often the groups of a plan are merged if each of these sets is due in turn, twice.
 int merges(const std::vector<std::vector<std::uint32_t>>& sets, const Plan& plan) {
-  Rows rows(plan);
+  Rows rows(plan, true);
   int merges = 0;
   for (int round = 0; round < 2; ++round)
     for (const auto& due : sets)
@@ -71,9 +73,9 @@ TEST_SUITE("runtime/rows") {
   TEST_CASE("tasks of one group that follow each other are one row") {
     const Graph graph = tests::graph_of(chain_of({1, 2}, 9));
     const Plan plan(graph);
-    Rows rows(plan);
+    Rows rows(plan, true);
     const std::vector<std::uint32_t> due{0, 1};
-    const Indices first{0, 2}, second{2, 1}, other{5, 3};
+    const Indices first{0, 2}, second{2, 1}, other{3, 3};
     const auto merged = rows.of(due, [&](auto add) {
       add(first, 0);
       add(second, 0);
@@ -83,7 +85,7 @@ TEST_SUITE("runtime/rows") {
     CHECK(merged[0].tasks.first == 0);
     CHECK(merged[0].tasks.count == 3);
     CHECK(merged[0].due == 0);
-    CHECK(merged[1].tasks.first == 5);
+    CHECK(merged[1].tasks.first == 3);
     CHECK(merged[1].tasks.count == 3);
     CHECK(merged[1].due == 1);
   }
