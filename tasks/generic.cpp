@@ -19,8 +19,8 @@ void Window::run(const Param& p, const Tick&, const In& in, State& state, Out& o
   Sequence<double>& values = state.values;
   values.push_back(in.in);
   if (values.size() > p.length) {
-    std::copy(values.begin() + 1, values.end(), values.begin());
-    values.pop_back();
+    std::copy(values.end() - p.length, values.end(), values.begin());
+    values.resize(p.length);
   }
   out.out = values;
 }

@@ -104,6 +104,18 @@ void Checkpoint::write(const std::string& path) const {
   file.commit();
 }
 
+void Checkpoint::require_writable(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::exists(path, none)) {
+    if (!std::filesystem::is_regular_file(path, none)) return;  // it is written in place
+    const Archive::Bytes first = first_bytes(path, magic.size());
+    if (!first.empty() && text_of(first.data(), first.size()) != magic)
+      throw std::runtime_error("can't write '" + path +
+                               "': it is there and no checkpoint; choose another file, or remove it");
+  }
+  const AtomicFile made_and_gone(path);
+}
+
 Checkpoint Checkpoint::read(const std::string& path) {
   const std::string name = "'" + path + "' ";
   std::error_code error;

@@ -53,6 +53,9 @@ class Checkpoint {
 
   /// The file is there as a whole or not at all. Throws std::runtime_error.
   void write(const std::string& path) const;
+  /// Before a run that is to be saved there. Throws std::runtime_error where another file stands, std::system_error
+  /// where none can be made.
+  static void require_writable(const std::string& path);
   /// Throws CheckpointError.
   static Checkpoint read(const std::string& path);
 

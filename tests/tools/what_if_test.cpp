@@ -1,10 +1,14 @@
 // Runs with a common past and other parameters from an instant on, side by side.
 #include <doctest/doctest.h>
 
+#include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 
+#include "tests/tools/process.h"
 #include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
@@ -14,6 +18,7 @@ using command::error_of;
 using command::report_of;
 using command::TemporaryFolder;
 using nlohmann::json;
+namespace tests = jarol::tests;
 
 std::string line_with(const std::string& text, const std::string& begin) {
   const std::size_t at = text.find("\n" + begin);
@@ -87,6 +92,43 @@ TEST_SUITE("tools/what_if") {
     CHECK(what_if["judgement"]["negative"] == false);
   }
 #endif
+
+  TEST_CASE("one that is interrupted has no outcome, and the exit code is that of the signal") {
+    const TemporaryFolder folder;
+    const std::string saved = folder / "saved";
+    tests::Process run(
+        "run specs/exolauv.yaml --for 600s --what-if 'at=1s set=tasks.depth.parameters.kp=0.45' --save "
+        "599.95s=" +
+        saved);
+    while (!std::filesystem::exists(saved) && run.runs()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the run is over, its what-if is not
+    run.interrupt();
+    CHECK(run.end() == 130);
+    CHECK(run.errors().find("error: what if at 1 s tasks.depth.parameters.kp=0.45 is not run") != std::string::npos);
+    CHECK(run.output().find("what if") == std::string::npos);
+    CHECK(run.output().find("digest") != std::string::npos);  // of the run
+  }
+
+  TEST_CASE("a vehicle that capsizes in a what-if stands in its report") {
+    const std::string output = command::run_jarol(
+                                   "run specs/javiator.yaml --for 15s --set expect=nothing --what-if 'at=8s "
+                                   "set=tasks.attitude.parameters.lean.kd=0 set=tasks.attitude.parameters.lean.kp=0'")
+                                   .output;
+    CHECK(line_with(output, "  failed").find("the vehicle of 'robostix' has capsized") != std::string::npos);
+  }
+
+  TEST_CASE("what faults leave out beyond the limit in a what-if stands in its report") {
+    const std::string output = command::run_jarol(
+                                   "run specs/window.yaml --for 1s --set tasks.window.on_fault=hold "
+                                   "--what-if 'at=500ms set=tasks.window.parameters.length=60'")
+                                   .output;
+    CHECK(line_with(output, "  failed").find("fault limit of 10 %") != std::string::npos);
+  }
+
+  TEST_CASE("a window that is made shorter drops what is too old") {
+    const json report = report_of(window + "--what-if 'at=2s set=tasks.window.parameters.length=5'")["what_if"][0];
+    CHECK(report["first_difference"]["instant_ns"] == 2'000'000'000);
+  }
 
   TEST_CASE("what is no what-if is refused with what would be one, before anything is run") {
     const std::string form = "; write it as in 'at=30s set=tasks.depth.parameters.kp=0.2'\n",

@@ -79,6 +79,13 @@ std::unique_ptr<console::Console> make_console(const RunOptions& options, const 
                        operators_at_console(loaded)});
 }
 
+// Of what was to be written, and of checkpoints and what-ifs that the run was to come to: a signal ends these with it.
+int exit_code_of_lost(bool all_written, bool none_lost) {
+  if (!all_written) return exit_unfinished;
+  if (none_lost) return exit_good;
+  return Interruptible::signal() == 0 ? int{exit_unfinished} : exit_of_signal(Interruptible::signal());
+}
+
 int run(RunOptions options) {
   if (options.guard) look_up_at_once();
   WhatIfs what_ifs(options.what_if);
@@ -145,6 +152,7 @@ int run(RunOptions options) {
   std::vector<Save> written_saves;
   for (const Save& save : saves) {
     require_no_input(save.file);
+    Checkpoint::require_writable(save.file);
     saved.add({"--save", save.at,
                [&written_saves, &save](const Checkpoint& checkpoint) {
                  checkpoint.write(save.file);
@@ -227,8 +235,9 @@ int run(RunOptions options) {
     if (log) std::cerr << text_of_dropped(options.recording, *log);
   }
   const bool written = unwritten.empty();
-  for (const std::string& lost : {saved.lost(), not_run})
-    if (!lost.empty()) unwritten += (unwritten.empty() ? "" : "; ") + lost;
+  std::string lost = saved.lost();
+  if (!not_run.empty()) lost += (lost.empty() ? "" : "; ") + not_run;
+  if (!lost.empty()) unwritten += (written ? "" : "; ") + lost;
   const RunVerdict verdict = graph_run.judge(end, run_end, unseen);
   const RunOutcome outcome{.state = executor.state(),
                            .report = report,
@@ -251,7 +260,7 @@ int run(RunOptions options) {
   std::cerr << errors_of(run_end, executor.now()) << failures_text(verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
   const int exit_code =
-      exit_of({exit_code_of(run_end), exit_code_of(verdict), unwritten.empty() ? exit_good : exit_unfinished});
+      exit_of({exit_code_of(run_end), exit_code_of(verdict), exit_code_of_lost(written, lost.empty())});
   if (run_end.hangs) end_at_once(exit_code);
   return exit_code;
 }

@@ -104,10 +104,12 @@ void WhatIfs::add_to(SavedRun& run) {
 
 void WhatIfs::run(RunSinks& sinks, RunFiles& files) {
   if (what_ifs_.empty()) return;
-  if (Interruptible::signal() != 0) throw std::runtime_error("no what-if is run, as the run was interrupted");
   sinks.catch_up();
   for (std::size_t i = 0; i < what_ifs_.size(); ++i) {
-    if (!what_ifs_[i].past) continue;
+    if (!what_ifs_[i].past) continue;  // which was said
+    if (Interruptible::signal() != 0)
+      throw std::runtime_error("what if " + to_text(what_ifs_[i]) + " is not run, as " +
+                               Ending::of_signal(Interruptible::signal()).reason);
     const auto beside = files.beside("what if " + std::to_string(i + 1));
     outcomes_.push_back(run(what_ifs_[i], beside.get()));
   }
@@ -138,6 +140,9 @@ WhatIfOutcome WhatIfs::run(const WhatIf& what_if, RecordSink* beside) const {
       attended, [] {}, Interruptible::wish);
   if (end.failure) std::rethrow_exception(end.failure);
   if (end.hangs) throw std::runtime_error("what if " + to_text(what_if) + ": a task does not end");
+  // what there is of it is no outcome
+  if (end.ending.cause == Ending::Cause::signal)
+    throw std::runtime_error("what if " + to_text(what_if) + " is not run to its end, as " + end.ending.reason);
   other.disconnect();
   other.sinks().close();
   const std::vector<TrueState> truth = find_true_states(other.graph(), other.channels());

@@ -1,6 +1,8 @@
 // Runs with a common past, side by side.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string_view>
 
 #include "graph/text/escape.h"
 #include "tools/commands/run/what_if.h"
@@ -47,6 +49,16 @@ std::string table(const Columns& columns) {
   return text + line_of(columns, "digest", [](const RunColumn& c) { return fmt::format("0x{:016x}", c.digest); });
 }
 
+// As of a run, a line each.
+std::string text_of_failures(const RunVerdict& verdict) {
+  std::string text;
+  std::istringstream lines(failures_text(verdict));
+  constexpr std::string_view error = "error: ";
+  for (std::string line; std::getline(lines, line);)
+    text += "  failed      " + (line.starts_with(error) ? line.substr(error.size()) : line) + "\n";
+  return text;
+}
+
 }  // namespace
 
 std::string to_text(const RunColumn& run, const std::vector<WhatIfOutcome>& what_ifs) {
@@ -66,6 +78,7 @@ std::string to_text(const RunColumn& run, const std::vector<WhatIfOutcome>& what
                                  : "is the run, " + std::to_string(differences.compared()) + " values are the same\n");
     text += text_of(differences, max_signals);
     if (!column.stopped.empty()) text += "  stopped     " + printable(column.stopped) + "\n";
+    text += text_of_failures(column.verdict);
   }
   return text;
 }

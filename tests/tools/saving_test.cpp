@@ -1,0 +1,46 @@
+// Where a run is saved, and what becomes of it if it does not come there.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include "tests/tools/process.h"
+#include "tests/tools/reports.h"
+#include "tests/tools/run_command.h"
+
+namespace {
+using command::error_of;
+using command::report_of;
+using command::TemporaryFolder;
+namespace tests = jarol::tests;
+}  // namespace
+
+TEST_SUITE("tools/saving") {
+  TEST_CASE("where a run can't be saved is said before it begins, and no other file is replaced") {
+    const TemporaryFolder folder;
+    const std::string notes = folder.write("notes.md", "# Notes\n"), nowhere = folder / "none/saved";
+    const std::string run = "specs/counting.yaml --for 3s --save 1s=";
+    CHECK(error_of(run + notes) == "error: can't write '" + notes +
+                                       "': it is there and no checkpoint; choose another file, or remove it\n");
+    CHECK(command::content(notes) == "# Notes\n");
+    CHECK(error_of(run + nowhere) == "error: can't write '" + nowhere + "': No such file or directory\n");
+    const std::string saved = folder / "saved";
+    report_of(run + saved);
+    report_of(run + saved);  // replaces a checkpoint
+    report_of(run + folder.write("empty", ""));
+  }
+
+  TEST_CASE("a run that is interrupted before it is saved ends with the code of the signal") {
+    const TemporaryFolder folder;
+    tests::Process run("run specs/exolauv.yaml --for 30h --record " + (folder / "r.mcap") + " --save 20h=" +
+                       (folder / "saved"));
+    while (!std::filesystem::exists(folder / "r.mcap") && run.runs())
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    run.interrupt();
+    CHECK(run.end() == 130);
+    CHECK(run.errors().find("error: '" + (folder / "saved") + "' is not written, as the run has ended at ") !=
+          std::string::npos);
+  }
+}
