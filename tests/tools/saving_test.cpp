@@ -22,8 +22,8 @@ TEST_SUITE("tools/saving") {
     const TemporaryFolder folder;
     const std::string notes = folder.write("notes.md", "# Notes\n"), nowhere = folder / "none/saved";
     const std::string run = "specs/counting.yaml --for 3s --save 1s=";
-    CHECK(error_of(run + notes) == "error: can't write '" + notes +
-                                       "': it is there and no checkpoint; choose another file, or remove it\n");
+    CHECK(error_of(run + notes) ==
+          "error: can't write '" + notes + "': it is there and no checkpoint; choose another file, or remove it\n");
     CHECK(command::content(notes) == "# Notes\n");
     CHECK(error_of(run + nowhere) == "error: can't write '" + nowhere + "': No such file or directory\n");
     const std::string saved = folder / "saved";
@@ -34,13 +34,24 @@ TEST_SUITE("tools/saving") {
 
   TEST_CASE("a run that is interrupted before it is saved ends with the code of the signal") {
     const TemporaryFolder folder;
-    tests::Process run("run specs/exolauv.yaml --for 30h --record " + (folder / "r.mcap") + " --save 20h=" +
-                       (folder / "saved"));
+    tests::Process run("run specs/exolauv.yaml --for 30h --record " + (folder / "r.mcap") +
+                       " --save 20h=" + (folder / "saved"));
     while (!std::filesystem::exists(folder / "r.mcap") && run.runs())
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     run.interrupt();
     CHECK(run.end() == 130);
     CHECK(run.errors().find("error: '" + (folder / "saved") + "' is not written, as the run has ended at ") !=
           std::string::npos);
+  }
+
+  TEST_CASE("log info says of a resumed run from where on it went on") {
+    const TemporaryFolder folder;
+    const std::string saved = folder / "saved", run = "specs/counting.yaml --for 3s ";
+    report_of(run + "--save 1s=" + saved + " --record " + (folder / "whole.mcap"));
+    report_of(run + "--resume " + saved + " --record " + (folder / "rest.mcap"));
+    const std::string line =
+        "\n  from        1 s on: the run went on there from what was saved; with these parameters only from there\n";
+    CHECK(command::run_jarol("log info " + (folder / "rest.mcap")).output.find(line) != std::string::npos);
+    CHECK(command::run_jarol("log info " + (folder / "whole.mcap")).output.find("\n  from ") == std::string::npos);
   }
 }

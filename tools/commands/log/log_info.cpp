@@ -80,6 +80,9 @@ int log_info(const LogOptions& options) {
                            seconds_text(run.covered), printable(header.clock), recording.size(),
                            recording.chunks().size(), parts > 1 ? fmt::format(" of {} files", parts) : "");
   std::cout << "  graph       " << printable(header.file) << "\n";
+  if (header.begin > Duration{})
+    std::cout << "  from        " << seconds_text(header.begin)
+              << " s on: the run went on there from what was saved; with these parameters only from there\n";
   if (!header.overrides.profile.empty()) std::cout << "  profile     " << printable(header.overrides.profile) << "\n";
   for (const std::string& set : header.overrides.set) std::cout << "  set         " << printable(set) << "\n";
   std::cout << "  seed        " << header.seed << "\n";
