@@ -199,10 +199,24 @@ Outcome thunk(const TaskMemory& memory, const Tick& tick) {
   return is_in_range(out) ? Outcome::good : Outcome::out_of_range;
 }
 
+// A sequence that gets longer makes its elements by their default values.
+template <class V>
+void lengthen(V& value) {
+  if constexpr (SequenceOf<V>) {
+    value.resize(value.size() + 1);
+    lengthen(value[0]);
+  } else if constexpr (Array<V>) {
+    lengthen(value[0]);
+  } else if constexpr (Described<V>) {
+    with_fields(V::fields(), [&](auto... f) { (lengthen(value.*(f.pointer)), ...); });
+  }
+}
+
 template <class V>
 void* const* handle_value(void* const* places) {
-  new (*places++) V{};
+  [[maybe_unused]] V* const made = new (*places++) V{};
   if constexpr (is_deep<V>()) {
+    lengthen(*made);
     *static_cast<V*>(places[0]) = *static_cast<const V*>(places[1]);
     std::destroy_at(static_cast<V*>(places[2]));
     places += 3;

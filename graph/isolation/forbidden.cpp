@@ -99,6 +99,12 @@ const char* reason_against(const cs_insn& instruction) {
     case X86_INS_IRET:
     case X86_INS_IRETD:
     case X86_INS_IRETQ: return "a jump to another segment";
+    // its place is in no operand
+    case X86_INS_MASKMOVDQU:
+    case X86_INS_VMASKMOVDQU:
+      if (instruction.detail->x86.prefix[1] == X86_PREFIX_FS || instruction.detail->x86.prefix[1] == X86_PREFIX_GS)
+        return "which writes thread-local storage";
+      break;
     default: break;
   }
   if (uses_mmx(instruction)) return "which leaves the registers of long double in use";

@@ -113,8 +113,11 @@ std::string task_of(const std::string& mangled) {
   for (std::size_t i = begin; i < name.size(); ++i) {
     if (name[i] == '<') ++depth;
     if (name[i] == '>') --depth;
-    if ((name[i] == ',' && depth == 1) || (name[i] == '>' && depth == 0))
-      return unqualified(name.substr(begin + 1, i - begin - 1));
+    if ((name[i] == ',' && depth == 1) || (name[i] == '>' && depth == 0)) {
+      // two brackets that close stand apart: "handle_values<Tapped<3> >"
+      const std::string task = name.substr(begin + 1, i - begin - 1);
+      return unqualified(task.substr(0, task.find_last_not_of(' ') + 1));
+    }
   }
   return "";
 }

@@ -27,6 +27,11 @@ TASK(OldSystemCall, {
   asm volatile("int $0x80" : "=a"(result) : "a"(20) : "memory");
   out.out = static_cast<double>(result);
 })
+// offends: forbidden instruction: maskmovdqu: WritesThreadLocal::run
+TASK(WritesThreadLocal, {
+  asm volatile(".byte 0x64\n maskmovdqu %%xmm1, %%xmm0" : : "D"(-8L) : "memory");
+  out.out = 1;
+})
 // offends: forbidden instruction: rdtsc: Cycles::run > cycles
 TASK(Cycles, { out.out = static_cast<double>(cycles()); })
 // offends: forbidden instruction: rdtscp: CyclesAndCore::run
@@ -177,8 +182,8 @@ TASK(Numbers, {
 
 }  // namespace
 
-JAROL_PLUGIN(SystemCall, OldSystemCall, Cycles, CyclesAndCore, HardwareRandom, HardwareSeed, AsksProcessor, AsksState,
-             SetsRounding, ReadsFlags, SetsOldRounding, TalksToDevice, ReadsSegment, ReadsGuard, WritesGuard,
-             MiddleOfInstruction, ForgedFromInput, ForgedFromState, ForgedBesideGood, ForgedTailCall, ForgedObject,
-             ForgedFromTable, ForgedByIndex, ForgedInArray, ForgedAmongGood, ForgedInLoop, Numbers, UsesMmx,
-             FreesRegister, TurnsRegisters, LooksUpByte, ReachesByDistance, ReachesByIndex)
+JAROL_PLUGIN(SystemCall, WritesThreadLocal, OldSystemCall, Cycles, CyclesAndCore, HardwareRandom, HardwareSeed,
+             AsksProcessor, AsksState, SetsRounding, ReadsFlags, SetsOldRounding, TalksToDevice, ReadsSegment,
+             ReadsGuard, WritesGuard, MiddleOfInstruction, ForgedFromInput, ForgedFromState, ForgedBesideGood,
+             ForgedTailCall, ForgedObject, ForgedFromTable, ForgedByIndex, ForgedInArray, ForgedAmongGood, ForgedInLoop,
+             Numbers, UsesMmx, FreesRegister, TurnsRegisters, LooksUpByte, ReachesByDistance, ReachesByIndex)

@@ -1,4 +1,5 @@
 // Tasks whose structs reach what is not theirs where they are made, copied or ended, outside `run`.
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -45,6 +46,24 @@ struct Plain {
   static constexpr auto fields() { return jarol::describe(jarol::field<&Plain::values>()); }
 };
 
+// its elements are made when it gets longer
+struct Growing {
+  jarol::Sequence<SinceNow> values;
+  static constexpr auto fields() { return jarol::describe(jarol::field<&Growing::values>()); }
+};
+struct GrowingDeep {
+  std::array<jarol::Sequence<jarol::Sequence<Numbered>>, 2> values;
+  static constexpr auto fields() { return jarol::describe(jarol::field<&GrowingDeep::values>()); }
+};
+
+// of a template, whose functions' names have blanks
+template <class Its>
+struct Templated {
+  static constexpr std::string_view summary = "for tests";
+  using State = Its;
+  static void run(const jarol::Tick&, State&) {}
+};
+
 #undef TASK
 #define TASK(Name, Its)                                                                 \
   struct Name {                                                                         \
@@ -66,9 +85,18 @@ TASK(ReadsDefault, OfGlobal)
 TASK(CountsCopies, Counting)
 // offends: a writable global: made: Ending::~Ending
 TASK(CountsEnds, Ending)
+// offends: a clock: std::chrono::_V2::steady_clock::now: ...
+TASK(Grows, Growing)
+// offends: a writable global: made: ...
+TASK(GrowsDeep, GrowingDeep)
+#if 0
+// offends: a writable global: made: Numbered::Numbered
+TASK(Templated<Numbered>,)
+#endif
 TASK(Computes, OfRoot)
 TASK(Sequences, Plain)
 
 }  // namespace
 
-JAROL_PLUGIN(Starts, Counts, ReadsDefault, CountsCopies, CountsEnds, Computes, Sequences)
+JAROL_PLUGIN(Starts, Counts, ReadsDefault, CountsCopies, CountsEnds, Grows, GrowsDeep, Templated<Numbered>, Computes,
+             Sequences)

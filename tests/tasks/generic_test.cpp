@@ -26,8 +26,12 @@ TEST_SUITE("tasks/generic") {
     Window::Out out;
     for (const double x : {1.0, 2.0, 3.0}) Window::run({.length = 2}, Tick{}, {x}, state, out);
     CHECK(out.out == Sequence<double>{2, 3});
-    Window::run({.length = 0}, Tick{}, {4}, state, out);
-    CHECK(out.out == Sequence<double>{3, 4});
+    Window::run({.length = 3}, Tick{}, {4}, state, out);
+    CHECK(out.out == Sequence<double>{2, 3, 4});
+    Window::run({.length = 1}, Tick{}, {5}, state, out);  // made shorter
+    CHECK(out.out == Sequence<double>{5});
+    Window::run({.length = 0}, Tick{}, {6}, state, out);
+    CHECK(out.out.empty());
     Mean::Out mean;
     Mean::run(Tick{}, {{2, 3}}, mean);
     CHECK(mean.out == 2.5);
