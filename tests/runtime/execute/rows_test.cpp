@@ -96,7 +96,8 @@ TEST_SUITE("runtime/rows") {
           std::pair(std::vector<int>{1, 2, 3, 5, 7, 11, 13, 17}, 100),  // more sets than have a place
           std::pair(up_to(70), 140),                                    // too many groups
           std::pair(std::vector<int>{1, 2, 3, 5, 7, 11}, 1200)}) {      // more rows than there is room for
-      CAPTURE(periods.size());
+      const std::size_t count = periods.size();
+      CAPTURE(count);
       const Graph graph = tests::graph_of(chain_of(periods, length));
       CHECK(end_of(graph, {}) == end_by_stages(graph));
     }
