@@ -28,30 +28,37 @@ TEST_SUITE("runtime/release_queue") {
     CHECK(first_calls(queue, 6) == "0: 0; 2: 1; 4: 0; 5: 1; 8: 0 1; 11: 1; ");
   }
 
-  TEST_CASE("many groups are found by another way, and come the same") {
-    for (const std::int64_t groups : {5, 33, 200}) {
-      ReleaseQueue queue;
-      const auto first = [](std::int64_t g) { return g * 37 % 11; };
-      const auto period = [](std::int64_t g) { return 1 + g * 53 % 17; };
-      for (std::int64_t g = 0; g < groups; ++g) queue.add(Duration(first(g)), Duration(period(g)));
-      for (std::int64_t instant = 0; instant < 500; ++instant) {
-        std::vector<std::uint32_t> expected;
-        for (std::int64_t g = 0; g < groups; ++g)
-          if (instant >= first(g) && (instant - first(g)) % period(g) == 0)
-            expected.push_back(static_cast<std::uint32_t>(g));
-        if (expected.empty()) {
-          REQUIRE(queue.next().count() != instant);
-          continue;
-        }
-        REQUIRE(queue.next().count() == instant);
-        const auto due = queue.take();
-        REQUIRE(std::vector<std::uint32_t>(due.begin(), due.end()) == expected);
+  using Groups = std::vector<std::pair<std::int64_t, std::int64_t>>;  // first, period
+
+  // At each instant before `end` the queue has just those groups that a look at all finds.
+  void require_each_instant(const Groups& groups, std::int64_t end, bool reserved) {
+    ReleaseQueue queue;
+    if (reserved) queue.reserve(groups.size());
+    for (const auto& [first, period] : groups) queue.add(Duration(first), Duration(period));
+    for (std::int64_t instant = 0; instant < end; ++instant) {
+      std::vector<std::uint32_t> expected;
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        if (instant >= groups[g].first && (instant - groups[g].first) % groups[g].second == 0)
+          expected.push_back(static_cast<std::uint32_t>(g));
+      if (expected.empty()) {
+        REQUIRE(queue.next().count() != instant);
+        continue;
       }
+      REQUIRE(queue.next().count() == instant);
+      const auto due = queue.take();
+      REQUIRE(std::vector<std::uint32_t>(due.begin(), due.end()) == expected);
+    }
+  }
+
+  TEST_CASE("many groups are found by another way, and come the same") {
+    for (const std::int64_t count : {5, 33, 200}) {
+      Groups groups;
+      for (std::int64_t g = 0; g < count; ++g) groups.emplace_back(g * 37 % 11, 1 + g * 53 % 17);
+      require_each_instant(groups, 500, false);
     }
   }
 
   TEST_CASE("groups of any periods come in the order of time: alike, coprime, of nanoseconds and of hours") {
-    using Groups = std::vector<std::pair<std::int64_t, std::int64_t>>;  // first, period
     Groups alike, coprime, far_apart, late;
     for (std::int64_t g = 0; g < 300; ++g) {
       alike.emplace_back(g % 7 * 1'000'000, (1 + g % 5) * 1'000'000);
@@ -83,7 +90,6 @@ TEST_SUITE("runtime/release_queue") {
   }
 
   TEST_CASE("few groups come the same whether all of their pattern stands in a timetable, or it takes too long") {
-    using Groups = std::vector<std::pair<std::int64_t, std::int64_t>>;  // first, period
     const Groups soon{{0, 2}, {1, 4}, {3, 6}}, begins_late{{0, 2}, {25, 6}, {7, 3}}, many_instants{{0, 2}, {0, 125}},
         just_fits{{0, 1}, {0, 128}}, one_too_many{{0, 1}, {0, 129}}, alone{{5, 7}};
     Groups crowded;  // 31 groups at each of 40 instants, and one more
@@ -91,22 +97,7 @@ TEST_SUITE("runtime/release_queue") {
     crowded.emplace_back(0, 40);
     for (const Groups& groups : {soon, begins_late, many_instants, just_fits, one_too_many, alone, crowded}) {
       CAPTURE(groups.size());
-      ReleaseQueue queue;
-      queue.reserve(groups.size());
-      for (const auto& [first, period] : groups) queue.add(Duration(first), Duration(period));
-      for (std::int64_t instant = 0; instant < 1000; ++instant) {
-        std::vector<std::uint32_t> expected;
-        for (std::size_t g = 0; g < groups.size(); ++g)
-          if (instant >= groups[g].first && (instant - groups[g].first) % groups[g].second == 0)
-            expected.push_back(static_cast<std::uint32_t>(g));
-        if (expected.empty()) {
-          REQUIRE(queue.next().count() != instant);
-          continue;
-        }
-        REQUIRE(queue.next().count() == instant);
-        const auto due = queue.take();
-        REQUIRE(std::vector<std::uint32_t>(due.begin(), due.end()) == expected);
-      }
+      require_each_instant(groups, 1000, true);
     }
   }
 

@@ -82,7 +82,7 @@ int log_info(const LogOptions& options) {
   std::cout << "  graph       " << printable(header.file) << "\n";
   if (header.begin > Duration{})
     std::cout << "  from        " << seconds_text(header.begin)
-              << " s on: the run went on there from what was saved; with these parameters only from there\n";
+              << " s on: the run went on there from what was saved, maybe with other parameters\n";
   if (!header.overrides.profile.empty()) std::cout << "  profile     " << printable(header.overrides.profile) << "\n";
   for (const std::string& set : header.overrides.set) std::cout << "  set         " << printable(set) << "\n";
   std::cout << "  seed        " << header.seed << "\n";
