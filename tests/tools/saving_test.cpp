@@ -34,8 +34,8 @@ TEST_SUITE("tools/saving") {
 
   TEST_CASE("a run that is interrupted before it is saved ends with the code of the signal") {
     const TemporaryFolder folder;
-    tests::Process run("run specs/exolauv.yaml --for 30h --record " + (folder / "r.mcap") +
-                       " --save 20h=" + (folder / "saved"));
+    tests::Process run("run specs/counting.yaml --for 100000h --record " + (folder / "r.mcap") +
+                       " --save 50000h=" + (folder / "saved"));
     while (!std::filesystem::exists(folder / "r.mcap") && run.runs())
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     run.interrupt();
