@@ -41,6 +41,24 @@ ElfFile::ElfFile(const std::string& path) : bytes_(read_elf(path)) {
     }
     sections_.push_back(*section);
   }
+  for (std::size_t i = 0; i < head->e_phnum; ++i)
+    if (const auto segment = read<Elf64_Phdr>(head->e_phoff + i * sizeof(Elf64_Phdr))) segments_.push_back(*segment);
+}
+
+bool ElfFile::stays_writable(Elf64_Addr begin, Elf64_Addr end) const {
+  constexpr Elf64_Addr page = 4096;
+  // what the loader closes: whole pages
+  const auto is_closed = [&](Elf64_Addr from, Elf64_Addr to) {
+    return std::any_of(segments_.begin(), segments_.end(), [&](const Elf64_Phdr& segment) {
+      return segment.p_type == PT_GNU_RELRO && from >= segment.p_vaddr / page * page &&
+             to <= (segment.p_vaddr + segment.p_memsz) / page * page;
+    });
+  };
+  return std::any_of(segments_.begin(), segments_.end(), [&](const Elf64_Phdr& segment) {
+    const Elf64_Addr from = std::max(begin, segment.p_vaddr / page * page),
+                     to = std::min(end, (segment.p_vaddr + segment.p_memsz + page - 1) / page * page);
+    return segment.p_type == PT_LOAD && (segment.p_flags & PF_W) != 0 && from < to && !is_closed(from, to);
+  });
 }
 
 Bytes ElfFile::content(const Elf64_Shdr& section) const {

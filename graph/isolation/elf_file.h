@@ -1,4 +1,4 @@
-// An ELF file for x86-64 as bytes: its sections and tables.
+// An ELF file for x86-64 as bytes: its sections, tables, and parts of memory.
 #pragma once
 
 #include <elf.h>
@@ -24,6 +24,9 @@ class ElfFile {
 
   /// Empty: it is no ELF file of this kind, or a damaged one.
   const std::vector<Elf64_Shdr>& sections() const { return sections_; }
+
+  /// Some byte of a range of addresses stays writable when the loader is done: no matter what its section says.
+  bool stays_writable(Elf64_Addr begin, Elf64_Addr end) const;
 
   /// ET_DYN for a shared library.
   unsigned type() const { return type_; }
@@ -54,6 +57,7 @@ class ElfFile {
 
   std::vector<unsigned char> bytes_;
   std::vector<Elf64_Shdr> sections_;
+  std::vector<Elf64_Phdr> segments_;
   unsigned type_ = ET_NONE;
   std::size_t names_ = 0;  // the section with the names of sections
 };

@@ -79,9 +79,14 @@ Object::Object(const std::string& path) : file_(path) {
     const Place place = place_of_section(name, section);
     if (place == Place::nowhere || section.sh_size == 0) continue;
     if (place == Place::thread_local_data && section.sh_type == SHT_NOBITS) continue;  // takes no addresses
-    if (section.sh_addr + section.sh_size < section.sh_addr) throw std::runtime_error("is damaged");
+    const Address end = section.sh_addr + section.sh_size;
+    if (end < section.sh_addr) throw std::runtime_error("is damaged");
+    const bool of_tasks = (section.sh_flags & SHF_WRITE) == 0 || is_of(name, ".data.rel.ro");
+    if (of_tasks && place != Place::thread_local_data && file_.stays_writable(section.sh_addr, end))
+      throw std::runtime_error("has its " + std::string(name) +
+                               " in memory that stays writable; link it without -z norelro, -N and --omagic");
     sections_.push_back(
-        {section.sh_addr, section.sh_addr + section.sh_size, place, file_.content(section), name.starts_with(".plt")});
+        {section.sh_addr, end, place, file_.content(section), name.starts_with(".plt") || name == ".iplt"});
   }
   std::sort(sections_.begin(), sections_.end(), [](const Section& a, const Section& b) { return a.begin < b.begin; });
   if (symbols == nullptr)
@@ -195,7 +200,9 @@ const Object::Section* Object::section_at(Address address) const {
 
 Place Object::place_of(Address address) const {
   const Section* const section = section_at(address);
-  return section == nullptr ? Place::nowhere : section->place;
+  if (section != nullptr) return section->place;
+  // between sections, too, memory can be written
+  return file_.stays_writable(address, address + 1) ? Place::writable : Place::nowhere;
 }
 
 Bytes Object::bytes(Address begin, Address end) const {

@@ -71,7 +71,8 @@ bool read_share(const Yaml& yaml, double& to, const std::string& subject, Proble
   if (!is_scalar(yaml, "a share, as in 10%", subject, problems)) return false;
   const bool percent = yaml.text.ends_with("%");
   const std::string number = percent ? yaml.text.substr(0, yaml.text.size() - 1) : yaml.text;
-  if (!passes(yaml, parse_number(number, "", to), subject, problems)) return false;
+  if (!passes(yaml, parse_number(number, "", to).empty() ? "" : "is no share; write it as in 10%", subject, problems))
+    return false;
   if (percent) to /= 100;
   return passes(yaml, to >= 0 && to <= 1 ? "" : "is not from 0% to 100%", subject, problems);
 }

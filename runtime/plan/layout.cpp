@@ -1,5 +1,6 @@
 #include "runtime/plan/layout.h"
 
+#include <algorithm>
 #include <map>
 
 #include "graph/values/heap.h"
@@ -38,13 +39,23 @@ Layout::Layout(const Graph& graph, const std::vector<std::uint32_t>& order, Spac
 
 void Layout::place_apart(const Graph& graph, std::uint32_t i) {
   const TaskClass& c = *graph.tasks[i].task_class;
+  const bool heap = has_heap(graph.tasks[i]);
+  const std::size_t alignment =
+      std::max({c.in->alignment, c.parameters->alignment, c.state->alignment, c.out->alignment, heap ? line : 1});
   tasks[i].begin = place(0, page);
-  tasks[i].in = place(*c.in);
-  tasks[i].parameters = place(*c.parameters);
-  tasks[i].state = place(*c.state);
-  tasks[i].out = place(*c.out);
-  place_heap(graph, i);
   place_kept(graph, i);
+  const auto place_from = [&](std::size_t begin) {
+    size = begin;
+    tasks[i].in = place(*c.in);
+    tasks[i].parameters = place(*c.parameters);
+    tasks[i].state = place(*c.state);
+    tasks[i].out = place(*c.out);
+    place_heap(graph, i);
+  };
+  // up to the end of a page: what is written behind it is seen
+  const std::size_t begin = place(0, alignment);
+  place_from(begin);
+  place_from(begin + (page - 1 - (size + page - 1) % page) / alignment * alignment);
   tasks[i].end = place(0, page);
 }
 

@@ -1,7 +1,9 @@
 // Is found what compiled tasks reach, and by which way?
 #include <doctest/doctest.h>
+#include <elf.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -20,6 +22,22 @@ std::string source(const std::string& name) { return "tests/isolation/" + name +
 
 std::string graph_of(const std::string& plugin, const std::string& tasks) {
   return "graph: g\nplugins: [" + plugin + "]\ntiming: {period: 10ms}\ntasks:\n" + tasks;
+}
+
+// An ELF file with a section that is said not to be writable.
+std::string with_constant_section(std::string file, const std::string& name) {
+  Elf64_Ehdr head;
+  std::memcpy(&head, file.data(), sizeof head);
+  const auto at = [&](std::size_t i) { return head.e_shoff + i * sizeof(Elf64_Shdr); };
+  Elf64_Shdr names, section;
+  std::memcpy(&names, file.data() + at(head.e_shstrndx), sizeof names);
+  for (std::size_t i = 0; i < head.e_shnum; ++i) {
+    std::memcpy(&section, file.data() + at(i), sizeof section);
+    if (file.c_str() + names.sh_offset + section.sh_name != name) continue;
+    section.sh_flags &= ~static_cast<Elf64_Xword>(SHF_WRITE);
+    std::memcpy(file.data() + at(i), &section, sizeof section);
+  }
+  return file;
 }
 }  // namespace
 
@@ -96,6 +114,13 @@ TEST_SUITE("isolation") {
     refused(stripped, "'" + stripped +
                           "' has no table of symbols, so that its code has no names; link it without -s and don't "
                           "strip it");
+    // constants and code in memory that stays writable, whatever the sections say
+    const auto stays = [&](const std::string& file, const std::string& section) {
+      refused(file, "'" + file + "' has its " + section +
+                        " in memory that stays writable; link it without -z norelro, -N and --omagic");
+    };
+    stays(library("not_closed"), ".data.rel.ro");
+    stays(folder.write("flags.so", with_constant_section(command::content(library("globals")), ".data")), ".data");
     // cut or bent anywhere it ends with a report
     std::ifstream in(library("innocent_eigen"), std::ios::binary);
     std::stringstream bytes;

@@ -97,6 +97,7 @@ TEST_SUITE("tools/guard") {
                                Write{"plan", "wrote to memory that is not its own"},
                                Write{"global", "wrote to memory that is not its own, of 'guarded.so', at address 0x"},
                                Write{"library", "wrote to memory that is not its own"},
+                               Write{"behind", "wrote to memory that is not its own at address 0x"},
                                Write{"zero", "segmentation fault at address 0x0; the process ends\n"},
                                Write{"overflow", "stack overflow at address 0x"}}) {
       CAPTURE(write.where);
@@ -107,7 +108,7 @@ TEST_SUITE("tools/guard") {
       CHECK(process.output() == "");
     }
     // without it nobody notices
-    for (const std::string where : {"global", "library"})
+    for (const std::string where : {"global", "library", "behind"})
       CHECK(report_of(graph_in(folder, where) + " --for 1s")["activations"] == 700);
   }
 

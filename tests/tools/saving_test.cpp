@@ -26,6 +26,8 @@ TEST_SUITE("tools/saving") {
           "error: can't write '" + notes + "': it is there and no checkpoint; choose another file, or remove it\n");
     CHECK(command::content(notes) == "# Notes\n");
     CHECK(error_of(run + nowhere) == "error: can't write '" + nowhere + "': No such file or directory\n");
+    CHECK(error_of("specs/counting.yaml --for 3s --save -5s=F") ==
+          "error: --save: the run begins at 0 s, after -5 s\n");
     const std::string saved = folder / "saved";
     report_of(run + saved);
     report_of(run + saved);  // replaces a checkpoint

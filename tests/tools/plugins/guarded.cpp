@@ -9,16 +9,17 @@ using namespace jarol;
 
 double shared_number = 0;
 
-enum class Where : std::uint8_t { nowhere, task, plan, global, library, zero, input, overflow };
+enum class Where : std::uint8_t { nowhere, task, plan, global, library, zero, input, behind, overflow };
 
 constexpr auto enumerators(Where) {
-  return std::array<Enumerator<Where>, 8>{{{"nowhere", Where::nowhere},
+  return std::array<Enumerator<Where>, 9>{{{"nowhere", Where::nowhere},
                                            {"task", Where::task},
                                            {"plan", Where::plan},
                                            {"global", Where::global},
                                            {"library", Where::library},
                                            {"zero", Where::zero},
                                            {"input", Where::input},
+                                           {"behind", Where::behind},
                                            {"overflow", Where::overflow}}};
 }
 
@@ -118,6 +119,7 @@ struct Wild {
       case Where::library: return std::srand(7);
       case Where::zero: return write_to(reinterpret_cast<const double*>(in.address & 0), 7.0);
       case Where::input: return write_to(&in.address, std::int64_t{7});  // its own all the same
+      case Where::behind: return write_to(&out.out + 1, 7.0);
       case Where::overflow: {
         volatile int top = 0;
         out.out = dive_deeper(&top);

@@ -83,8 +83,8 @@ void SavedRun::add(Stop stop) {
 void SavedRun::require_saveable(Duration begin, Duration end) {
   for (const Stop& stop : stops_) {
     if (stop.at < begin)
-      throw std::invalid_argument(stop.option + ": the run goes on from " + seconds_text(begin) + " s, after " +
-                                  seconds_text(stop.at) + " s");
+      throw std::invalid_argument(stop.option + ": the run " + (begin > Duration{} ? "goes on from " : "begins at ") +
+                                  seconds_text(begin) + " s, after " + seconds_text(stop.at) + " s");
     if (stop.at > end)
       throw std::invalid_argument(stop.option + ": the run ends at " + seconds_text(end) + " s, before " +
                                   seconds_text(stop.at) + " s");

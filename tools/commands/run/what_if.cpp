@@ -4,6 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "graph/language/problems.h"
 #include "graph/model/condition.h"
 #include "graph/text/escape.h"
 #include "runtime/execute/executor_run.h"
@@ -118,7 +119,15 @@ void WhatIfs::run(RunSinks& sinks, RunFiles& files) {
 Loaded WhatIfs::load(const WhatIf& what_if, Overrides& overrides) const {
   overrides = overrides_;
   overrides.set.insert(overrides.set.end(), what_if.set.begin(), what_if.set.end());
-  return load_graph(file_, overrides, seed_);
+  try {
+    return load_graph(file_, overrides, seed_);
+  } catch (const SpecError& error) {  // which the run itself does not have
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems)
+      if (const auto& source = problem.where.source; source != nullptr && source->name == "--set")
+        problem.where.source = std::make_shared<const Source>(Source{"--what-if", source->text});
+    throw SpecError(std::move(problems));
+  }
 }
 
 WhatIfOutcome WhatIfs::run(const WhatIf& what_if, RecordSink* beside) const {
