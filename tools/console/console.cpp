@@ -82,7 +82,7 @@ void Console::end(const std::string& text) {
 
 // Samples are messages of their own, so that none is long; what stands before them is there always.
 std::vector<std::string> Console::next_messages() {
-  Batch batch = feed_.take_batch();
+  const Batch& batch = feed_.take_batch();
   const Json desk = desk_.news(Desk::Clock::now()), answers = desk_.answers();
   const std::lock_guard lock(mutex_);
   now_ = std::max(now_, batch.newest());

@@ -18,69 +18,87 @@ Duration Batch::newest() const {
 }
 
 Feed::Feed(std::vector<const Type*> outputs, std::size_t max, std::vector<std::uint64_t> strides)
-    : types_(std::move(outputs)), most_(std::max<std::size_t>(max, 2)), strides_(std::move(strides)), kept_(begin()) {}
-
-std::vector<Feed::Kept> Feed::begin() const {
-  std::vector<Kept> kept(types_.size());
-  for (std::size_t i = 0; i < std::min(kept.size(), strides_.size()); ++i) kept[i].stride = strides_[i];
-  return kept;
+    : types_(std::move(outputs)),
+      most_(std::max<std::size_t>(max, 2)),
+      strides_(std::move(strides)),
+      kept_(types_.size()),
+      filling_(batches_.data()),
+      spare_(&batches_[1]) {
+  for (Batch& batch : batches_) batch.samples.resize(types_.size());
+  begin();
 }
 
-Batch Feed::take_batch() {
-  std::vector<Kept> kept = begin();
-  Batch batch;
-  {
-    const std::lock_guard lock(mutex_);
-    // where it stands in its strides goes on
-    for (std::size_t i = 0; i < std::min(kept.size(), strides_.size()); ++i) kept[i].seen = kept_[i].seen;
-    kept.swap(kept_);
-    batch.events.swap(events_);
-    batch.thinned = std::exchange(thinned_, 0);
-    batch.lost_events = std::exchange(lost_events_, 0);
+const Batch& Feed::take_batch() {
+  if (taken_ != nullptr) {
+    // the recorder has not begun another one since
+    if (spare_.load(std::memory_order_relaxed) != nullptr) return none_;
+    spare_.store(taken_, std::memory_order_release);
   }
-  for (Kept& each : kept) batch.samples.push_back(std::move(each.samples));
-  return batch;
+  // a spare one is there before what is ready goes
+  taken_ = ready_.exchange(nullptr, std::memory_order_acquire);
+  return taken_ != nullptr ? *taken_ : none_;
+}
+
+// With nothing in it, and all its memory. Where it stands in strides that were asked for goes on.
+void Feed::begin() {
+  for (Samples& samples : filling_->samples) samples.instants.clear();
+  filling_->events.clear();
+  filling_->thinned = filling_->lost_events = 0;
+  for (std::size_t i = 0; i < kept_.size(); ++i)
+    kept_[i] = i < strides_.size() ? Kept{strides_[i], kept_[i].seen} : Kept{};
+}
+
+Batch& Feed::filling() {
+  if (filling_ != nullptr) return *filling_;
+  filling_ = ready_.exchange(nullptr, std::memory_order_acquire);
+  if (filling_ != nullptr) return *filling_;  // nobody came for it
+  filling_ = spare_.exchange(nullptr, std::memory_order_acquire);
+  begin();
+  return *filling_;
+}
+
+void Feed::pause() {
+  if (filling_ != nullptr) ready_.store(std::exchange(filling_, nullptr), std::memory_order_release);
 }
 
 void Feed::take(Duration instant, std::uint32_t output, const void* value) {
   if (!wants(output) || types_[output] == nullptr) return;
-  const std::lock_guard lock(mutex_);
+  Batch& batch = filling();
+  Samples& samples = batch.samples[output];
   Kept& kept = kept_[output];
-  Samples& samples = kept.samples;
   if (kept.newest_only) {
     samples.instants.pop_back();
-    samples.values.pop_back();
-    ++thinned_;
+    ++batch.thinned;
   } else if (samples.instants.size() == most_) {
-    thin(kept);
+    thin(samples, kept);
   }
+  const std::size_t at = samples.instants.size();
+  if (at == samples.values.size()) samples.values.emplace_back(*types_[output]);
+  copy_value(*types_[output], samples.values[at].data(), value);
   samples.instants.push_back(instant);
-  copy_value(*types_[output], samples.values.emplace_back(*types_[output]).data(), value);
   kept.newest_only = !kept.counts();
   ++kept.seen;
 }
 
-void Feed::thin(Kept& kept) {
-  Samples& all = kept.samples;
+void Feed::thin(Samples& samples, Kept& kept) {
   std::size_t to = 0;
-  for (std::size_t from = 0; from < all.instants.size(); from += 2, ++to) {
-    all.instants[to] = all.instants[from];
-    if (to != from) all.values[to] = std::move(all.values[from]);
+  for (std::size_t from = 0; from < samples.instants.size(); from += 2, ++to) {
+    samples.instants[to] = samples.instants[from];
+    std::swap(samples.values[to], samples.values[from]);
   }
-  thinned_ += all.instants.size() - to;
-  all.instants.resize(to);
-  all.values.resize(to);
+  filling_->thinned += samples.instants.size() - to;
+  samples.instants.resize(to);
   kept.stride *= 2;
 }
 
 void Feed::take_event(const RunEvent& event) {
-  const std::lock_guard lock(mutex_);
-  if (events_.size() == max_events) {
-    ++lost_events_;
+  Batch& batch = filling();
+  if (batch.events.size() == max_events) {
+    ++batch.lost_events;
     return;
   }
-  events_.push_back({event.kind, event.instant, event.task, event.activation, std::string(event.cause),
-                     std::string(event.distributer)});
+  batch.events.push_back({event.kind, event.instant, event.task, event.activation, std::string(event.cause),
+                          std::string(event.distributer)});
 }
 
 std::vector<const Type*> types_of_run(const Graph& graph, const std::vector<const Type*>& true_types) {

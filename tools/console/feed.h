@@ -2,8 +2,9 @@
 // and what was left out is counted.
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cstdint>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace jarol::tools::console {
 /// Values of one output in the order of their instants.
 struct Samples {
   std::vector<Duration> instants;
-  std::vector<Value> values;
+  std::vector<Value> values;  // one for each instant; those beyond are memory for more
 };
 
 /// What happened in the run and is no publication.
@@ -47,13 +48,14 @@ class Feed : public RecordSink {
   /// of each output no more than every so manieth is kept.
   Feed(std::vector<const Type*> outputs, std::size_t max, std::vector<std::uint64_t> strides = {});
 
-  /// By whoever watches.
-  Batch take_batch();
+  /// What came since it was asked last, up to the last pause: by one thread that watches, until it asks again.
+  const Batch& take_batch();
 
   bool wants(std::uint32_t output) const override { return output < types_.size(); }
   void take(Duration instant, std::uint32_t output, const void* value) override;
   void take_event(const RunEvent& event) override;
-  void finish() override {}
+  void pause() override;
+  void finish() override { pause(); }
 
   static constexpr std::size_t max_events = 1000;
 
@@ -61,21 +63,27 @@ class Feed : public RecordSink {
   // Of the samples that come every `stride`th is kept, and the newest, which the next one replaces unless it is one of
   // these.
   struct Kept {
-    Samples samples;
     std::uint64_t stride = 1, seen = 0;
     bool newest_only = false;  // the last of them is there as the newest
     bool counts() const { return seen % stride == 0; }
   };
-  void thin(Kept& kept);
-  std::vector<Kept> begin() const;
+  void thin(Samples& samples, Kept& kept);
+  void begin();
+  Batch& filling();
 
   const std::vector<const Type*> types_;
   const std::size_t most_;
   const std::vector<std::uint64_t> strides_;
-  std::mutex mutex_;  // never taken by a thread that runs tasks: sinks have a thread of their own
-  std::vector<Kept> kept_;
-  std::vector<FeedEvent> events_;
-  std::uint64_t thinned_ = 0, lost_events_ = 0;
+  std::vector<Kept> kept_;  // per output, of what is being filled
+
+  // Two batches go to and fro, and neither side ever waits for the other: where the one that watches has not come for
+  // what is ready, it is filled on. Memory is had and given back on the recorder's thread alone, so that it shares no
+  // lock of the allocator's either.
+  std::array<Batch, 2> batches_;
+  Batch* filling_ = nullptr;  // the recorder's
+  Batch* taken_ = nullptr;    // of the thread that watches
+  std::atomic<Batch*> ready_{nullptr}, spare_{nullptr};
+  const Batch none_{};
 };
 
 /// The types of all that a run of the graph gives its sinks: its outputs by their index, then the true values of the

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -197,6 +198,30 @@ TEST_SUITE("runtime/real_clock") {
     int status = -1;
     REQUIRE(waitpid(child, &status, 0) == child);
     CHECK(status == 0);
+  }
+
+  TEST_CASE("without a priority a thread asks the ordinary scheduler for a short slice, and keeps its niceness") {
+    std::uint64_t slice = 0;
+    int niceness = 0;
+    std::thread([&] {
+      setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 3);
+      prepare_thread({});
+      struct {
+        std::uint32_t size, policy;
+        std::uint64_t flags;
+        std::int32_t nice;
+        std::uint32_t priority;
+        std::uint64_t runtime, deadline, period;
+      } attributes{};
+      syscall(SYS_sched_getattr, 0, &attributes, sizeof attributes, 0);
+      slice = attributes.runtime;
+      niceness = attributes.nice;
+    }).join();
+    CHECK(niceness == 3);
+    if (slice == 0)
+      MESSAGE("this kernel has no slices that can be asked for");
+    else
+      CHECK(slice == 100'000);
   }
 
   TEST_CASE("an interrupt ends the wait for an instant far away") {

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <thread>
+
 #include "graph/values/type_of.h"
 #include "tools/console/history.h"
 #include "tools/console/samples_json.h"
@@ -13,6 +15,7 @@ using namespace std::chrono_literals;
 using tools::console::Batch;
 using tools::console::Feed;
 using tools::console::History;
+using tools::console::Samples;
 using tools::console::SamplesJson;
 
 std::vector<std::int64_t> instants_of(const Batch& batch, std::size_t output = 0) {
@@ -26,6 +29,7 @@ void take(Feed& feed, std::int64_t from, std::int64_t to) {
     const double value = 10.0 * static_cast<double>(i);
     feed.take(Duration(i), 0, &value);
   }
+  feed.pause();
 }
 
 struct Mixed {
@@ -98,11 +102,63 @@ TEST_SUITE("console/feed") {
     CHECK(*static_cast<const double*>(batch.samples[0].values[2].data()) == 9990.0);
   }
 
+  TEST_CASE("what nobody has come for is filled on, and what was taken stays as it is") {
+    Feed feed({&type_of<double>()}, 8);
+    take(feed, 0, 2);
+    take(feed, 2, 3);
+    const Batch& first = feed.take_batch();
+    const double value = 7;
+    feed.take(3ns, 0, &value);  // and is under way
+    CHECK(instants_of(first) == std::vector<std::int64_t>{0, 1, 2});
+    CHECK(feed.take_batch().empty());
+    take(feed, 4, 5);
+    CHECK(instants_of(feed.take_batch()) == std::vector<std::int64_t>{3, 4});
+  }
+
+  TEST_CASE("who asks more often than anything comes gets nothing twice, and all that comes then") {
+    Feed feed({&type_of<double>()}, 8);
+    for (std::int64_t i = 0; i < 6; ++i) {
+      for (int again = 0; i % 2 == 1 && again < 2; ++again) CHECK(feed.take_batch().empty());
+      take(feed, i, i + 1);
+      CHECK(instants_of(feed.take_batch()) == std::vector<std::int64_t>{i});
+    }
+  }
+
+  TEST_CASE("between two threads nothing is lost, doubled or out of order") {
+    constexpr std::int64_t all = 200'000;
+    Feed feed({&type_of<double>()}, 16);
+    std::thread recorder([&] {
+      for (std::int64_t i = 0; i < all; i += 10) {
+        take(feed, i, i + 10);
+        if (i % 1000 == 0) std::this_thread::sleep_for(100us);  // the other one asks again and again
+      }
+    });
+    std::int64_t last = -1, kept = 0, disordered = 0;
+    std::uint64_t thinned = 0;
+    while (last < all - 1) {
+      const Batch& batch = feed.take_batch();
+      thinned += batch.thinned;
+      if (batch.samples.empty()) continue;
+      const Samples& samples = batch.samples[0];
+      for (std::size_t i = 0; i < samples.instants.size(); ++i, ++kept) {
+        const std::int64_t instant = samples.instants[i].count();
+        if (instant <= last ||
+            *static_cast<const double*>(samples.values[i].data()) != 10.0 * static_cast<double>(instant))
+          ++disordered;
+        last = instant;
+      }
+    }
+    recorder.join();
+    CHECK(disordered == 0);
+    CHECK(static_cast<std::uint64_t>(kept) + thinned == all);
+  }
+
   TEST_CASE("outputs that nothing is known of, and those beyond the last, are left alone") {
     Feed feed({nullptr, &type_of<double>()}, 4);
     const double value = 1;
     feed.take(1ns, 0, &value);
     feed.take(1ns, 7, &value);
+    feed.pause();
     CHECK(feed.wants(0));
     CHECK_FALSE(feed.wants(7));
     CHECK(feed.take_batch().empty());
@@ -112,6 +168,7 @@ TEST_SUITE("console/feed") {
     Feed feed({}, 4);
     for (std::size_t i = 0; i < Feed::max_events + 3; ++i)
       feed.take_event({RunEvent::Kind::fault, Duration(i), 2, 5, "was late"});
+    feed.finish();
     const Batch batch = feed.take_batch();
     REQUIRE(batch.events.size() == Feed::max_events);
     CHECK(batch.events[0].cause == "was late");
@@ -124,6 +181,7 @@ TEST_SUITE("console/feed") {
     Feed feed({&type}, 4);
     const Mixed value;
     feed.take(1500ms, 0, &value);
+    feed.pause();
     const SamplesJson json({&type});
     const auto parts = json.parts_of(feed.take_batch(), 1000);
     REQUIRE(parts.size() == 1);
