@@ -70,6 +70,7 @@ void Closure::enter_data(const Symbol& data) {
   Node& node = at->second;
   for (const auto& [place, pointer] : object_.pointers_in(data.begin, data.end)) {
     switch (pointer->to) {
+      case Pointer::To::copy:
       case Pointer::To::import: import(node, 0, pointer->name); break;
       case Pointer::To::thread_local_data:
         node.held.push_back({0, {"thread-local storage", pointer->name, "points to thread-local storage"}});
@@ -84,10 +85,7 @@ void Closure::import(Node& from, Address at, const std::string& name) {
 }
 
 void Closure::refer(Node& from, Address at, Address to, bool calls, const Arguments& arguments) {
-  // what the loader copies from a library into a program
-  if (const Pointer* const pointer = object_.pointer_at(to); pointer != nullptr && pointer->to == Pointer::To::import &&
-                                                             object_.place_of(to) != Place::offset_table &&
-                                                             object_.data_at(to).begin == to && from.is_code)
+  if (const Pointer* const pointer = object_.pointer_at(to); pointer != nullptr && pointer->to == Pointer::To::copy)
     return import(from, at, pointer->name);
   switch (object_.place_of(to)) {
     case Place::code: {

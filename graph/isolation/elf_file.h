@@ -25,7 +25,7 @@ class ElfFile {
   /// Empty: it is no ELF file of this kind, or a damaged one.
   const std::vector<Elf64_Shdr>& sections() const { return sections_; }
 
-  /// Some byte of a range of addresses stays writable when the loader is done: no matter what its section says.
+  /// Some byte of a range of addresses stays writable when the loader is done, whatever its section says.
   bool stays_writable(Elf64_Addr begin, Elf64_Addr end) const;
 
   /// ET_DYN for a shared library.

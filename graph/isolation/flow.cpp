@@ -188,6 +188,7 @@ class Walk {
 
   void follow_pointer(Address at, const Pointer& pointer, Finding::What what, const State& state) {
     switch (pointer.to) {
+      case Pointer::To::copy:
       case Pointer::To::import: return add(Finding::What::import, at, 0, pointer.name);
       case Pointer::To::thread_local_data: return offend_thread_local(at, pointer.name);
       case Pointer::To::address: break;
@@ -220,8 +221,8 @@ class Walk {
     if (transfers) return report_transfer(instruction, state);
     if (instruction.form == Form::add && counts_from_code(instruction, state))
       offend(instruction.at, {"the address of code", "",
-                              "counts addresses from that of its code, which can't be followed; build it without "
-                              "-mcmodel=large"});
+                              "counts addresses from that of its code, which can't be followed; build it with -O1 or "
+                              "more, and without -mcmodel=large"});
     for (const Operand& operand : instruction.operands) {
       if (operand.kind != Operand::Kind::memory) continue;
       if (operand.thread_local_data) offend_thread_local(instruction.at, "");

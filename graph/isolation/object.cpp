@@ -3,6 +3,7 @@
 #include <cxxabi.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <memory>
 #include <stdexcept>
@@ -24,10 +25,13 @@ Place place_of_section(std::string_view name, const Elf64_Shdr& section) {
     return (section.sh_flags & SHF_WRITE) != 0 ? Place::writable : Place::code;
   if ((section.sh_flags & SHF_TLS) != 0) return Place::thread_local_data;
   if (name.starts_with(".got")) return Place::offset_table;
-  // written by the loader, and by nobody after that
-  const bool constant =
-      is_of(name, ".data.rel.ro") || name == ".dynamic" || is_of(name, ".init_array") || is_of(name, ".fini_array");
-  return (section.sh_flags & SHF_WRITE) != 0 && !constant ? Place::writable : Place::constant;
+  return Place::constant;  // if the loader closes it
+}
+
+// What tasks run and read.
+bool has_to_be_constant(std::string_view name) {
+  constexpr std::array kinds{".text", ".plt", ".rodata", ".data.rel.ro", ".eh_frame", ".gcc_except_table"};
+  return std::any_of(kinds.begin(), kinds.end(), [&](std::string_view kind) { return is_of(name, kind); });
 }
 
 // As in the source: without a version, and what the linker adds to tell parts of the program apart.
@@ -76,15 +80,17 @@ Object::Object(const std::string& path) : file_(path) {
   for (const Elf64_Shdr& section : file_.sections()) {
     const std::string_view name = file_.name(section);
     if (section.sh_type == SHT_SYMTAB) symbols = &section;
-    const Place place = place_of_section(name, section);
+    Place place = place_of_section(name, section);
     if (place == Place::nowhere || section.sh_size == 0) continue;
     if (place == Place::thread_local_data && section.sh_type == SHT_NOBITS) continue;  // takes no addresses
     const Address end = section.sh_addr + section.sh_size;
     if (end < section.sh_addr) throw std::runtime_error("is damaged");
-    const bool of_tasks = (section.sh_flags & SHF_WRITE) == 0 || is_of(name, ".data.rel.ro");
-    if (of_tasks && place != Place::thread_local_data && file_.stays_writable(section.sh_addr, end))
-      throw std::runtime_error("has its " + std::string(name) +
-                               " in memory that stays writable; link it without -z norelro, -N and --omagic");
+    if ((place == Place::code || place == Place::constant) && file_.stays_writable(section.sh_addr, end)) {
+      if (has_to_be_constant(name))
+        throw std::runtime_error("has its " + std::string(name) +
+                                 " in memory that stays writable; link it without -z norelro, -N and --omagic");
+      place = Place::writable;
+    }
     sections_.push_back(
         {section.sh_addr, end, place, file_.content(section), name.starts_with(".plt") || name == ".iplt"});
   }
@@ -147,7 +153,7 @@ Pointer Object::pointer_of(const Elf64_Rela& relocation, const std::vector<Elf64
     case R_X86_64_TPOFF64:
     case R_X86_64_TLSDESC:
       return {Pointer::To::thread_local_data, 0, symbol != nullptr ? name : thread_local_at(addend)};
-    case R_X86_64_COPY: return {Pointer::To::import, 0, name};
+    case R_X86_64_COPY: return {Pointer::To::copy, 0, name};
     default: break;
   }
   if (symbol == nullptr) return {Pointer::To::address, addend, ""};

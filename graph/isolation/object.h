@@ -23,7 +23,8 @@ struct Symbol {
 
 /// What the loader writes into a place of eight bytes.
 struct Pointer {
-  enum class To : std::uint8_t { address, import, thread_local_data };
+  // copy: all of an import's bytes, into a program
+  enum class To : std::uint8_t { address, import, copy, thread_local_data };
   To to = To::address;
   Address address = 0;
   std::string name;  // of the import or the thread-local

@@ -46,8 +46,8 @@ int lock_memory() {
   return unlimited == 0 ? 0 : mlockall(MCL_CURRENT);
 }
 
-// Who runs but briefly goes before others when it wakes up, also under the ordinary scheduler: of Linux 6.12 and newer,
-// older ones don't look at it. It is no priority, and nobody has to permit it.
+// A thread with a short slice goes before others when it wakes up, also under the ordinary scheduler, from Linux 6.12
+// on; older kernels ignore it. Nobody has to permit it, and where it is refused all goes on as ever.
 void ask_for_short_slice() {
   struct {
     std::uint32_t size, policy;

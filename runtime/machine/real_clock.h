@@ -29,9 +29,9 @@ inline constexpr std::string_view permit_fifo =
 inline constexpr std::string_view permit_locked_memory =
     "allow it by the line '@realtime - memlock unlimited' in /etc/security/limits.conf, as for SCHED_FIFO";
 
-/// Gives the calling thread its priority, else a short slice of the ordinary scheduler's, CPUs, timer slack of 1 ns and
-/// locked memory; a plain sentence for each that this machine does not permit. Threads that it makes from then on take
-/// all of that after it. Under a limit to locked memory only what is allocated by now is locked.
+/// Gives the calling thread its priority (without one, a short slice of the ordinary scheduler), CPUs, timer slack of
+/// 1 ns and locked memory; a plain sentence for each that this machine does not permit. Threads that it makes from then
+/// on take all of that after it. Under a limit to locked memory only what is allocated by now is locked.
 std::vector<std::string> prepare_thread(const RealTimeOptions& options);
 
 /// How long the activations of one task took, and how many were not in time.

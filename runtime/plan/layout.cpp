@@ -43,7 +43,6 @@ void Layout::place_apart(const Graph& graph, std::uint32_t i) {
   const std::size_t alignment =
       std::max({c.in->alignment, c.parameters->alignment, c.state->alignment, c.out->alignment, heap ? line : 1});
   tasks[i].begin = place(0, page);
-  place_kept(graph, i);
   const auto place_from = [&](std::size_t begin) {
     size = begin;
     tasks[i].in = place(*c.in);
@@ -52,6 +51,9 @@ void Layout::place_apart(const Graph& graph, std::uint32_t i) {
     tasks[i].out = place(*c.out);
     place_heap(graph, i);
   };
+  place_from(tasks[i].begin);  // to see how much has to be kept
+  size = tasks[i].begin;
+  place_kept(graph, i);
   // up to the end of a page: what is written behind it is seen
   const std::size_t begin = place(0, alignment);
   place_from(begin);

@@ -166,12 +166,16 @@ void Recorder::run() {
     read_.store(++read, std::memory_order_release);
     read_.notify_one();
   }
-  try {
-    if (!failure_) hand_on_held(newest_);
-    for (RecordSink* sink : sinks_) sink->finish();
-  } catch (...) {
-    if (!failure_) failure_ = std::current_exception();
-  }
+  const auto attempt = [this](const auto& to_do) {
+    try {
+      to_do();
+    } catch (...) {
+      if (!failure_) failure_ = std::current_exception();
+    }
+  };
+  if (!failure_) attempt([this] { hand_on_held(newest_); });
+  // one that fails takes no other with it
+  for (RecordSink* sink : sinks_) attempt([sink] { sink->finish(); });
 }
 
 void Recorder::drain(const std::byte* chunk, std::size_t bytes) {

@@ -44,6 +44,8 @@ namespace {
 double counter = 0;
 thread_local double per_thread = 0;
 const double first_value = std::sqrt(static_cast<double>(reinterpret_cast<std::uintptr_t>(&counter) % 7));
+double (*hook)(double) = ::sin;
+double (*hooks[2])(double) = {::sin, ::cos};
 double* const address_of_counter = &counter;
 constexpr std::array<double*, 2> table_of_counters{&counter, &counter};
 
@@ -216,10 +218,27 @@ TASK(InCode, { out.out = in_code += in.in; })
 TASK(MaskedRead, { asm volatile("vaddpd %0, %%zmm0, %%zmm1%{%%k1%}" : : "m"(counter) : "memory"); })
 // offends: a writable global: kept_in_assembly: FallsOut::run > without_end > add_in_assembly
 TASK(FallsOut, { without_end(); })
+// what the loader fills with the address of an import is written to all the same
+// offends: a writable global: hook: SwapsHook::run
+TASK(SwapsHook, {
+  out.out = hook(in.in);
+  hook = ::cos;
+})
+// offends: a writable global: hooks: SwapsFirstHook::run
+TASK(SwapsFirstHook, {
+  out.out = hooks[1](in.in);
+  hooks[0] = ::tan;
+})
+// offends: a writable global: SwapsLaw::run::law: SwapsLaw::run
+TASK(SwapsLaw, {
+  static double (*law)(double) = ::sin;
+  out.out = law(in.in);
+  if (in.in > 1) law = ::cos;
+})
 
 }  // namespace
 
 JAROL_PLUGIN(Plain, Calls, PerThread, FunctionStatic, GuardedStatic, InTemplate, InlineVariable, DynamicInitialiser,
              ThroughConstantPointer, ThroughTable, ConstCast, InLambda, InStdFunction, VirtualCall, FunctionTable,
              FunctionPointer, WeakSymbol, Sorts, TailCall, InCatch, InDestructor, InAssembly, ComputedGoto, Switch,
-             MemberPointer, Resolver, InOddSection, InCode, MaskedRead, FallsOut)
+             MemberPointer, Resolver, InOddSection, InCode, MaskedRead, FallsOut, SwapsHook, SwapsFirstHook, SwapsLaw)

@@ -49,7 +49,7 @@ TASK(ReadsClock, { out.out = seconds(); })
 TASK(DeepClock, { out.out = deep<3>(in.in); })
 // offends: a clock: time: ReadsTime::run
 TASK(ReadsTime, { out.out = static_cast<double>(std::time(nullptr)); })
-// offends: a clock: time: ClockTable::run
+// offends: a clock: time: ClockTable::run > clocks
 TASK(ClockTable, { out.out = static_cast<double>(clocks[tick.activation & 1](nullptr)); })
 // offends: a clock: nanosleep: Sleeps::run
 TASK(Sleeps, {

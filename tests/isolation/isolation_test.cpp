@@ -24,8 +24,8 @@ std::string graph_of(const std::string& plugin, const std::string& tasks) {
   return "graph: g\nplugins: [" + plugin + "]\ntiming: {period: 10ms}\ntasks:\n" + tasks;
 }
 
-// An ELF file with a section that is said not to be writable.
-std::string with_constant_section(std::string file, const std::string& name) {
+// An ELF file whose section `name` is said to be another one, and not writable.
+std::string with_constant_section(std::string file, const std::string& name, const std::string& as) {
   Elf64_Ehdr head;
   std::memcpy(&head, file.data(), sizeof head);
   const auto at = [&](std::size_t i) { return head.e_shoff + i * sizeof(Elf64_Shdr); };
@@ -35,6 +35,8 @@ std::string with_constant_section(std::string file, const std::string& name) {
     std::memcpy(&section, file.data() + at(i), sizeof section);
     if (file.c_str() + names.sh_offset + section.sh_name != name) continue;
     section.sh_flags &= ~static_cast<Elf64_Xword>(SHF_WRITE);
+    const std::string_view all(file.data() + names.sh_offset, names.sh_size);
+    section.sh_name = static_cast<Elf64_Word>(all.find(std::string(1, '\0') + as + std::string(1, '\0')) + 1);
     std::memcpy(file.data() + at(i), &section, sizeof section);
   }
   return file;
@@ -120,7 +122,11 @@ TEST_SUITE("isolation") {
                         " in memory that stays writable; link it without -z norelro, -N and --omagic");
     };
     stays(library("not_closed"), ".data.rel.ro");
-    stays(folder.write("flags.so", with_constant_section(command::content(library("globals")), ".data")), ".data");
+    const std::string globals = command::content(library("globals"));
+    stays(folder.write("constants.so", with_constant_section(globals, ".data", ".rodata")), ".rodata");
+    // what no task has business with is as writable as it is
+    const std::string odd = folder.write("odd.so", with_constant_section(globals, ".data", ".init_array"));
+    CHECK(verdicts::differences(odd, source("globals")) == "");
     // cut or bent anywhere it ends with a report
     std::ifstream in(library("innocent_eigen"), std::ios::binary);
     std::stringstream bytes;

@@ -12,7 +12,8 @@ import {Console, endAll, start} from './watched_run.mjs';
 
 const [what, argument] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), 'jarol_measure_'));
-const browser = new Browser({flags: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader']});
+// a graph without a vehicle has nothing in three dimensions: painted by the browser itself, as where there is no graphics card
+const browser = new Browser({flags: what === 'frames' ? ['--disable-gpu'] : ['--use-angle=swiftshader', '--enable-unsafe-swiftshader']});
 let met = true;
 function goal(text, is) {
   met &&= is;

@@ -24,6 +24,17 @@ after(async () => {
   rmSync(folder, {recursive: true, force: true});
 });
 
+// Something, and nothing above it.
+const isPaintedBelow = (task) => `(() => {
+  const node = document.querySelector('[aria-label^="task ${task},"] rect').getBoundingClientRect();
+  const canvas = document.querySelector('#panel-graph canvas'), at = canvas.getBoundingClientRect();
+  const fine = canvas.width / at.width, tall = node.height / 5;
+  const read = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', {willReadFrequently: true});
+  read.drawImage(canvas, 0, 0);
+  const painted = (y) => read.getImageData((node.left - at.left) * fine, (y - at.top) * fine, node.width * fine, tall * fine).data.some((v) => v > 0);
+  return painted(node.bottom + 1) && !painted(node.top - tall - 1);
+})()`;
+
 test('a run of a graph without a vehicle is watched to its end, and the page has its digest', async () => {
   const run = start('run', 'specs/counting.yaml', '--console', '--for', '2s', '--pace', '0.001');
   const shown = await Console.open(browser, await run.url);
@@ -34,6 +45,11 @@ test('a run of a graph without a vehicle is watched to its end, and the page has
   assert.equal(code, 0);
   assert.equal(digestIn(await shown.text('[role=log]')), digestIn(output));
   assert.equal(await shown.page.evaluate(`document.querySelector('#panel-instruments, #panel-3d')`), null);
+  // below a node stands its value, also where the drawing is enlarged and scrolled
+  await shown.page.until(isPaintedBelow('count'));
+  for (let i = 0; i < 4; ++i) await shown.press('larger');
+  await shown.page.evaluate(`document.querySelector('[aria-label^="task count,"]').scrollIntoView({block: 'center', inline: 'center'})`);
+  await shown.page.until(isPaintedBelow('count'));
   await shown.close();
 });
 

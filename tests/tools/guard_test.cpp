@@ -26,6 +26,7 @@ tasks:
   let: {type: Relay, let: 5ms}
   owner: {type: Owner}
   held: {type: Owner, on_fault: hold, heap: 1KiB}
+  large: {type: Large, on_fault: hold}
   thrower: {type: Thrower, on_fault: hold}
   again: {type: Thrower, on_fault: restart, let: 10ms}
   wild: {type: Wild, isolation: weak, parameters: {where: )" +
@@ -70,7 +71,7 @@ TEST_SUITE("tools/guard") {
     CHECK(with["fault_count"] > 100);
     CHECK(comparable(with) == comparable(without));
     // its own inputs belong to a task
-    CHECK(report_of(graph_in(folder, "input") + " --for 1s --guard")["activations"] == 700);
+    CHECK(report_of(graph_in(folder, "input") + " --for 1s --guard")["activations"] == 800);
   }
 
   TEST_CASE("a guarded run is recorded, saved, resumed and late as any other") {
@@ -109,7 +110,7 @@ TEST_SUITE("tools/guard") {
     }
     // without it nobody notices
     for (const std::string where : {"global", "library", "behind"})
-      CHECK(report_of(graph_in(folder, where) + " --for 1s")["activations"] == 700);
+      CHECK(report_of(graph_in(folder, where) + " --for 1s")["activations"] == 800);
   }
 
   TEST_CASE("what does not go with it is refused with the reason") {

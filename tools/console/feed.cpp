@@ -35,7 +35,7 @@ const Batch& Feed::take_batch() {
     spare_.store(taken_, std::memory_order_release);
   }
   // a spare one is there before what is ready goes
-  taken_ = ready_.exchange(nullptr, std::memory_order_acquire);
+  taken_ = ready_.exchange(nullptr, std::memory_order_acq_rel);
   return taken_ != nullptr ? *taken_ : none_;
 }
 

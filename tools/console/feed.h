@@ -48,7 +48,8 @@ class Feed : public RecordSink {
   /// of each output no more than every so manieth is kept.
   Feed(std::vector<const Type*> outputs, std::size_t max, std::vector<std::uint64_t> strides = {});
 
-  /// What came since it was asked last, up to the last pause: by one thread that watches, until it asks again.
+  /// What came since it was asked last, up to the last pause. For one thread that watches; what is returned stays as it
+  /// is until that asks again.
   const Batch& take_batch();
 
   bool wants(std::uint32_t output) const override { return output < types_.size(); }
@@ -77,8 +78,8 @@ class Feed : public RecordSink {
   std::vector<Kept> kept_;  // per output, of what is being filled
 
   // Two batches go to and fro, and neither side ever waits for the other: where the one that watches has not come for
-  // what is ready, it is filled on. Memory is had and given back on the recorder's thread alone, so that it shares no
-  // lock of the allocator's either.
+  // what is ready, it is filled on. Memory is had on the recorder's thread alone, so that it shares no lock of the
+  // allocator's either, and is kept for what comes next.
   std::array<Batch, 2> batches_;
   Batch* filling_ = nullptr;  // the recorder's
   Batch* taken_ = nullptr;    // of the thread that watches

@@ -3,10 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <thread>
 
 #include "graph/values/type_of.h"
-#include "tools/console/history.h"
 #include "tools/console/samples_json.h"
 
 namespace {
@@ -14,7 +14,6 @@ using namespace jarol;
 using namespace std::chrono_literals;
 using tools::console::Batch;
 using tools::console::Feed;
-using tools::console::History;
 using tools::console::Samples;
 using tools::console::SamplesJson;
 
@@ -52,17 +51,6 @@ constexpr auto enumerators(Mixed::Word) {
 }  // namespace
 
 TEST_SUITE("console/feed") {
-  TEST_CASE("a page that is slow gets all of what ends") {
-    History history(1 << 20, false);
-    history.add("first");
-    History::Place place = history.begin();
-    CHECK(*history.next(place).text == "first");
-    CHECK(history.next(place).text == nullptr);
-    for (std::uint64_t i = 0; i < 2 * History::max_behind; ++i) history.add(std::to_string(i));
-    for (std::uint64_t i = 0; i < 2 * History::max_behind; ++i) CHECK(*history.next(place).text == std::to_string(i));
-    CHECK(place.missed == 0);
-  }
-
   TEST_CASE("with a stride every so manieth is kept, from the begin to the end, and the newest") {
     Feed feed({&type_of<double>()}, 8, {4});
     take(feed, 0, 10);
@@ -124,18 +112,49 @@ TEST_SUITE("console/feed") {
     }
   }
 
+  TEST_CASE("values of changing size are what they were, in memory that was used before, and thinned") {
+    struct Window {
+      Sequence<double> all{};
+      static constexpr auto fields() { return describe(field<&Window::all>()); }
+    };
+    const Type& type = type_of<Window>();
+    std::vector<std::byte> memory(1 << 16);
+    std::pmr::monotonic_buffer_resource resource(memory.data(), memory.size());
+    Feed feed({&type}, 4);
+    for (std::size_t round = 0; round < 4; ++round) {
+      for (std::size_t i = 0; i < 5; ++i) {
+        Value value(type);
+        auto& all = static_cast<Window*>(value.data())->all;
+        for (std::size_t j = 0; j < 7 * (i + round) % 5; ++j) all.push_back(static_cast<double>(10 * i + j));
+        feed.take(Duration(static_cast<std::int64_t>(i)), 0, value.data());
+      }
+      feed.pause();
+      const Batch& batch = feed.take_batch();
+      REQUIRE(instants_of(batch) == std::vector<std::int64_t>{0, 2, 4});
+      for (std::size_t at = 0; at < 3; ++at) {
+        const std::size_t i = 2 * at;
+        const auto& all = static_cast<const Window*>(batch.samples[0].values[at].data())->all;
+        REQUIRE(all.size() == 7 * (i + round) % 5);
+        for (std::size_t j = 0; j < all.size(); ++j) CHECK(all[j] == static_cast<double>(10 * i + j));
+      }
+    }
+  }
+
   TEST_CASE("between two threads nothing is lost, doubled or out of order") {
     constexpr std::int64_t all = 200'000;
     Feed feed({&type_of<double>()}, 16);
+    std::atomic<bool> over = false;
     std::thread recorder([&] {
       for (std::int64_t i = 0; i < all; i += 10) {
         take(feed, i, i + 10);
         if (i % 1000 == 0) std::this_thread::sleep_for(100us);  // the other one asks again and again
       }
+      over = true;
     });
     std::int64_t last = -1, kept = 0, disordered = 0;
     std::uint64_t thinned = 0;
-    while (last < all - 1) {
+    for (bool was_over = false; !was_over;) {
+      was_over = over;
       const Batch& batch = feed.take_batch();
       thinned += batch.thinned;
       if (batch.samples.empty()) continue;
@@ -150,6 +169,7 @@ TEST_SUITE("console/feed") {
     }
     recorder.join();
     CHECK(disordered == 0);
+    CHECK(last == all - 1);
     CHECK(static_cast<std::uint64_t>(kept) + thinned == all);
   }
 
@@ -206,69 +226,5 @@ TEST_SUITE("console/feed") {
     for (const std::string& part : parts)
       samples += static_cast<std::size_t>(std::count(part.begin(), part.end(), '['));
     CHECK(samples == 500);
-  }
-}
-
-TEST_SUITE("console/history") {
-  TEST_CASE("a page that comes late gets all that is there") {
-    History history(100);
-    history.add("one");
-    history.add("two");
-    History::Place place = history.begin();
-    CHECK(*history.next(place).text == "one");
-    CHECK(*history.next(place).text == "two");
-    CHECK(history.next(place).text == nullptr);
-    history.add("three");
-    CHECK(*history.next(place).text == "three");
-    CHECK(place.missed == 0);
-  }
-
-  TEST_CASE("the oldest go when there is no room, and who had not got them is informed") {
-    History history(10);
-    history.add("aaaa");
-    History::Place place = history.begin();
-    history.add("bbbb");
-    history.add("cccc");
-    CHECK(*history.next(place).text == "bbbb");
-    CHECK(place.missed == 1);
-    history.add(std::string(50, 'd'));
-    CHECK(history.next(place).text->size() == 50);
-    CHECK(place.missed == 2);
-    CHECK(history.next(place).text == nullptr);
-  }
-
-  TEST_CASE("a page that has had what was there before it, and falls behind, goes on with the newest") {
-    History history(1 << 20);
-    History::Place slow = history.begin();
-    for (std::uint64_t i = 0; i <= History::max_behind; ++i) history.add(std::to_string(i));
-    History::Place late = history.begin();
-    CHECK(*history.next(slow).text == std::to_string(History::max_behind));
-    CHECK(slow.missed == History::max_behind);
-    for (std::uint64_t i = 0; i <= History::max_behind; ++i) CHECK(*history.next(late).text == std::to_string(i));
-    CHECK(late.missed == 0);
-    for (std::uint64_t i = 0; i <= History::max_behind; ++i) history.add("more " + std::to_string(i));
-    CHECK(*history.next(late).text == "more " + std::to_string(History::max_behind));
-  }
-
-  TEST_CASE("a page that is behind when all ends gets the last few") {
-    History history(1 << 20);
-    History::Place place = history.begin();
-    for (int i = 0; i < 10; ++i) history.add(std::to_string(i));
-    CHECK(*history.next(place).text == "0");
-    for (const char* const last : {"7", "8", "9"}) CHECK(*history.next(place, true).text == last);
-    CHECK(history.next(place, true).text == nullptr);
-    CHECK(place.missed == 6);
-  }
-
-  TEST_CASE("of what time the next message is can be asked before it is taken") {
-    History history(1 << 20);
-    History::Place place = history.begin();
-    CHECK(history.next_time(place) == nullptr);
-    const History::Time first{1s}, second{2s};
-    history.add("one", first);
-    history.add("two", second);
-    CHECK(*history.next_time(place) == first);
-    CHECK(history.next(place).of == first);
-    CHECK(*history.next_time(place) == second);
   }
 }

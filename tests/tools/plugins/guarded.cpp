@@ -66,6 +66,27 @@ struct Owner {
   }
 };
 
+// Its state fills more than a page, and what is put back after a fault does so too.
+struct Large {
+  static constexpr std::string_view summary = "for tests";
+  struct State {
+    double n = 0;
+    std::array<double, 1000> seen{};
+    static constexpr auto fields() { return describe(field<&State::n>(), field<&State::seen>()); }
+  };
+  struct Out {
+    double out = 0;
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Tick&, State& state, Out& out) {
+    state.n += 1;
+    state.seen[static_cast<std::size_t>(state.n) % state.seen.size()] += state.n;
+    out.out = state.n;
+    for (const double each : state.seen) out.out += each;
+    if (static_cast<std::int64_t>(state.n) % 5 == 0) throw std::runtime_error("too hot");
+  }
+};
+
 // Throws in some of its activations, and catches that in others.
 struct Thrower {
   static constexpr std::string_view summary = "for tests";
@@ -130,4 +151,4 @@ struct Wild {
 };
 }  // namespace
 
-JAROL_PLUGIN(Owner, Thrower, Wild)
+JAROL_PLUGIN(Owner, Large, Thrower, Wild)

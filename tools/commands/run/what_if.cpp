@@ -122,10 +122,16 @@ Loaded WhatIfs::load(const WhatIf& what_if, Overrides& overrides) const {
   try {
     return load_graph(file_, overrides, seed_);
   } catch (const SpecError& error) {  // which the run itself does not have
+    const auto rename = [&](Location& where) {
+      if (where.source != nullptr && where.source->name == "--set" &&
+          std::find(what_if.set.begin(), what_if.set.end(), where.source->text) != what_if.set.end())
+        where.source = std::make_shared<const Source>(Source{"--what-if", where.source->text});
+    };
     std::vector<Problem> problems = error.problems();
-    for (Problem& problem : problems)
-      if (const auto& source = problem.where.source; source != nullptr && source->name == "--set")
-        problem.where.source = std::make_shared<const Source>(Source{"--what-if", source->text});
+    for (Problem& problem : problems) {
+      rename(problem.where);
+      for (Note& note : problem.notes) rename(note.where);
+    }
     throw SpecError(std::move(problems));
   }
 }
