@@ -232,8 +232,8 @@ class Walk {
       const Pointer* const pointer = object_.pointer_at(*at);
       const bool loads = instruction.form == Form::move || instruction.form == Form::push ||
                          instruction.form == Form::other || instruction.form == Form::add;
-      // what the offset table holds is meant, not the place in it
-      if (object_.place_of(*at) == Place::offset_table && pointer != nullptr &&
+      // what the offset table holds is meant, not the place in it, unless that is written to
+      if (object_.place_of(*at) == Place::offset_table && pointer != nullptr && !operand.written &&
           (loads || pointer->to == Pointer::To::thread_local_data)) {
         follow_pointer(instruction.at, *pointer, Finding::What::reference, state);
       } else {

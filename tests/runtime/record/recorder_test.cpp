@@ -97,6 +97,19 @@ TEST_SUITE("runtime/recorder") {
     CHECK(sink.finished);
   }
 
+  TEST_CASE("a sink that can't finish takes no other with it") {
+    struct Broken : Collect {
+      void finish() override { throw std::runtime_error("the disk is full"); }
+    };
+    Broken first;
+    Collect second;
+    Recorder recorder({&first, &second});
+    append(recorder, 10);
+    CHECK_THROWS_WITH_AS(recorder.close(), "the disk is full", std::runtime_error);
+    CHECK(second.count == 10);
+    CHECK(second.finished);
+  }
+
   TEST_CASE("what a sink throws comes out of close, and the run is not held up") {
     Full sink;
     Recorder recorder({&sink});
