@@ -1,6 +1,7 @@
 #include "graph/isolation/closure.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "graph/isolation/import_list.h"
 #include "graph/isolation/names.h"
@@ -65,9 +66,8 @@ void Closure::enter_code(Address at, const Arguments& arguments) {
 }
 
 void Closure::enter_data(const Symbol& data) {
-  const auto [at, first] = nodes_.try_emplace(data.begin, Node{data, false});
-  if (!first) return;
-  Node& node = at->second;
+  if (!entered_.insert({data.begin, false}).second) return;
+  Node& node = nodes_.try_emplace(data.begin, Node{data, false}).first->second;
   for (const auto& [place, pointer] : object_.pointers_in(data.begin, data.end)) {
     switch (pointer->to) {
       case Pointer::To::copy:
@@ -78,6 +78,12 @@ void Closure::enter_data(const Symbol& data) {
       case Pointer::To::address: refer(node, 0, pointer->address, false, unknown_arguments()); break;
     }
   }
+}
+
+void Closure::enter_table(const Symbol& table, const std::vector<Address>& targets) {
+  if (!entered_.insert({table.begin, true}).second) return;
+  Node& node = nodes_.try_emplace(table.begin, Node{table, false}).first->second;
+  for (const Address target : targets) refer(node, 0, target, false, unknown_arguments());
 }
 
 void Closure::import(Node& from, Address at, const std::string& name) {
@@ -114,12 +120,41 @@ void Closure::refer(Node& from, Address at, Address to, bool calls, const Argume
       return;
     case Place::constant: {
       const Symbol data = object_.data_at(to);
+      if (const std::vector<Address> targets = targets_of_distances(to); !targets.empty()) {
+        from.edges.push_back({at, to, false});
+        enter_table({to, data.end, data.begin <= to ? data.name : ""}, targets);
+      }
       if (object_.pointers_in(data.begin, data.end).empty()) return;
       from.edges.push_back({at, data.begin, false});
       return enter_data(data);
     }
     case Place::nowhere: return;  // the end of the last section, or an address that nobody reads
   }
+}
+
+// A table of distances from its own begin, as compilers make of a switch or of virtual functions: what begins where
+// they lead to. Numbers that are none end it.
+std::vector<Address> Closure::targets_of_distances(Address table) const {
+  std::vector<Address> targets;
+  for (Address at = table; targets.size() < 4096; at += 4) {
+    const Bytes entry = object_.bytes(at, at + 4);
+    if (entry.empty()) break;
+    std::int32_t distance = 0;
+    std::memcpy(&distance, entry.data(), sizeof distance);
+    const Address target = table + static_cast<Address>(static_cast<std::int64_t>(distance));
+    const Place place = object_.place_of(target);
+    if (place == Place::code) {
+      if (object_.function_at(target).begin != target || object_.function_at(target).name.empty()) {
+        if (object_.behind_stub(target) == nullptr) break;
+      }
+      targets.push_back(target);
+    } else if (place == Place::constant || place == Place::writable) {
+      if (target != table && object_.begins_at(target)) targets.push_back(target);
+    } else {
+      break;
+    }
+  }
+  return targets;
 }
 
 void Closure::look_at(Node& node, const Arguments& arguments) {
@@ -135,10 +170,15 @@ void Closure::look_at(Node& node, const Arguments& arguments) {
       case Finding::What::through_pointer: node.pointer_calls.push_back({finding.at, finding.target}); break;
     }
   }
-  // rarely executed parts are functions of their own to the linker
-  if (!node.symbol.name.empty() && !node.symbol.is_cold())
-    for (const Symbol& cold : object_.functions_named(node.symbol.name + ".cold"))
-      refer(node, node.symbol.begin, cold.begin, true, unknown_arguments());
+  // rarely executed parts, and those that only the unwinder enters, are functions of their own to the linker
+  if (node.symbol.name.empty() || node.symbol.is_cold()) return;
+  const auto add_parts = [&](const std::string& suffix) {
+    const std::vector<Symbol> parts = object_.functions_named(node.symbol.name + suffix);
+    for (const Symbol& part : parts) refer(node, node.symbol.begin, part.begin, true, unknown_arguments());
+    return !parts.empty();
+  };
+  for (const char* const suffix : {".cold", ".eh"}) add_parts(suffix);
+  for (int i = 0; add_parts(".__part." + std::to_string(i));) ++i;
 }
 
 }  // namespace jarol::isolation

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "graph/isolation/flow.h"
@@ -51,6 +53,8 @@ class Closure {
 
   void enter_code(Address at, const Arguments& arguments);
   void enter_data(const Symbol& data);
+  void enter_table(const Symbol& table, const std::vector<Address>& targets);
+  std::vector<Address> targets_of_distances(Address table) const;
   void look_at(Node& node, const Arguments& arguments);
   void refer(Node& from, Address at, Address to, bool calls, const Arguments& arguments);
   void import(Node& from, Address at, const std::string& name);
@@ -59,6 +63,7 @@ class Closure {
   const bool own_;
   std::map<Address, Node> nodes_;
   std::map<Address, Work> work_;
+  std::set<std::pair<Address, bool>> entered_;  // data by its begin; true: as a table of distances
 };
 
 }  // namespace jarol::isolation

@@ -8,6 +8,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "graph/isolation/import_list.h"
+
 namespace jarol::isolation {
 namespace {
 
@@ -34,16 +36,21 @@ bool has_to_be_constant(std::string_view name) {
   return std::any_of(kinds.begin(), kinds.end(), [&](std::string_view kind) { return is_of(name, kind); });
 }
 
-// As in the source: without a version, and what the linker adds to tell parts of the program apart.
+// As in the source: without a version, and what compilers and linkers add to tell parts of the program apart.
 std::string without_suffixes(std::string_view name) {
   std::string bare(name.substr(0, name.find('@')));
-  constexpr std::string_view of_part = ".lto_priv.";
-  if (const std::size_t at = bare.find(of_part); at != std::string::npos) {
+  for (const std::string_view of_part : {".lto_priv.", ".__uniq.", ".llvm."}) {
+    const std::size_t at = bare.find(of_part);
+    if (at == std::string::npos) continue;
     std::size_t end = at + of_part.size();
     while (end < bare.size() && bare[end] >= '0' && bare[end] <= '9') ++end;
     bare.erase(at, end - at);
   }
   return bare;
+}
+
+bool is_section_of_stubs(std::string_view name) {
+  return name == ".plt" || name == ".plt.got" || name == ".plt.sec" || name == ".iplt";
 }
 
 // The last that begins at or before an address.
@@ -91,8 +98,7 @@ Object::Object(const std::string& path) : file_(path) {
                                  " in memory that stays writable; link it without -z norelro, -N and --omagic");
       place = Place::writable;
     }
-    sections_.push_back(
-        {section.sh_addr, end, place, file_.content(section), name.starts_with(".plt") || name == ".iplt"});
+    sections_.push_back({section.sh_addr, end, place, file_.content(section), is_section_of_stubs(name)});
   }
   std::sort(sections_.begin(), sections_.end(), [](const Section& a, const Section& b) { return a.begin < b.begin; });
   if (symbols == nullptr)
@@ -157,7 +163,12 @@ Pointer Object::pointer_of(const Elf64_Rela& relocation, const std::vector<Elf64
     default: break;
   }
   if (symbol == nullptr) return {Pointer::To::address, addend, ""};
-  if (symbol->st_shndx == SHN_UNDEF) return {Pointer::To::import, 0, name};
+  // C's functions, new and delete are taken from the libraries that the program has loaded, though they are here, too;
+  // but where there is nothing to allocate, as a place is given
+  const bool is_operator = name.starts_with("_Zn") || name.starts_with("_Zd");
+  const bool is_placed = is_operator && (name.ends_with("mPv") || name.ends_with("PvS_"));
+  const bool is_theirs = (is_operator || !name.starts_with("_Z")) && !is_placed && !kind_of_refused(name).empty();
+  if (symbol->st_shndx == SHN_UNDEF || is_theirs) return {Pointer::To::import, 0, name};
   const bool exact = ELF64_R_TYPE(relocation.r_info) == R_X86_64_64;
   return {Pointer::To::address, symbol->st_value + (exact ? addend : 0), ""};
 }
@@ -237,6 +248,11 @@ Symbol Object::data_at(Address address) const {
   const Symbol* const found = last_before(data_, address);
   if (found != nullptr && address < found->end) return *found;
   return {address, next_begin(data_, address, limit), ""};
+}
+
+bool Object::begins_at(Address address) const {
+  const Symbol* const found = last_before(data_, address);
+  return (found != nullptr && found->begin == address) || pointer_at(address) != nullptr;
 }
 
 std::vector<Symbol> Object::functions_named(std::string_view name) const {

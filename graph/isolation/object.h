@@ -44,6 +44,8 @@ class Object {
   Symbol function_at(Address address) const;
   /// The same for data.
   Symbol data_at(Address address) const;
+  /// Data with a name, or a place that holds a pointer.
+  bool begins_at(Address address) const;
   std::vector<Symbol> functions_named(std::string_view name) const;
   const std::vector<Symbol>& functions() const { return functions_; }
 

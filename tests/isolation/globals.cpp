@@ -44,6 +44,26 @@ namespace {
 double counter = 0;
 thread_local double per_thread = 0;
 const double first_value = std::sqrt(static_cast<double>(reinterpret_cast<std::uintptr_t>(&counter) % 7));
+double bumped = 0;
+double bump(double) { return bumped += 1; }
+double add_one(double x) { return x + 1; }
+double twice(double x) { return x * 2; }
+struct Law {
+  double (*apply)(double);
+  double gain;
+};
+const Law first_law{add_one, 1}, second_law{twice, 2}, last_law{bump, 1};
+[[gnu::noinline]] const Law& law_of(int which) {
+  switch (which) {
+    case 1: return second_law;
+    case 2: return first_law;
+    case 3: return second_law;
+    case 4: return last_law;
+    case 5: return last_law;
+    default: return first_law;
+  }
+}
+
 double (*hook)(double) = ::sin;
 double (*hooks[2])(double) = {::sin, ::cos};
 double* const address_of_counter = &counter;
@@ -218,6 +238,12 @@ TASK(InCode, { out.out = in_code += in.in; })
 TASK(MaskedRead, { asm volatile("vaddpd %0, %%zmm0, %%zmm1%{%%k1%}" : : "m"(counter) : "memory"); })
 // offends: a writable global: kept_in_assembly: FallsOut::run > without_end > add_in_assembly
 TASK(FallsOut, { without_end(); })
+// by distances from a table's begin, as clang lays out what a switch returns
+// offends: a writable global: bumped: ...
+TASK(PicksLaw, {
+  const Law& law = law_of(static_cast<int>(in.in) % 6);
+  out.out = law.apply(in.in) * law.gain;
+})
 // what the loader fills with the address of an import is written to all the same
 // offends: a writable global: hook: SwapsHook::run
 TASK(SwapsHook, {
@@ -241,4 +267,5 @@ TASK(SwapsLaw, {
 JAROL_PLUGIN(Plain, Calls, PerThread, FunctionStatic, GuardedStatic, InTemplate, InlineVariable, DynamicInitialiser,
              ThroughConstantPointer, ThroughTable, ConstCast, InLambda, InStdFunction, VirtualCall, FunctionTable,
              FunctionPointer, WeakSymbol, Sorts, TailCall, InCatch, InDestructor, InAssembly, ComputedGoto, Switch,
-             MemberPointer, Resolver, InOddSection, InCode, MaskedRead, FallsOut, SwapsHook, SwapsFirstHook, SwapsLaw)
+             MemberPointer, Resolver, InOddSection, PicksLaw, InCode, MaskedRead, FallsOut, SwapsHook, SwapsFirstHook,
+             SwapsLaw)

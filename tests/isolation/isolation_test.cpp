@@ -56,6 +56,7 @@ TEST_SUITE("isolation") {
     CHECK(verdicts::differences(library("packed"), source("globals")) == "");
     CHECK(verdicts::wrong_verdicts(library("at_link_time"), source("globals"), "-O2") == "");
     CHECK(verdicts::wrong_verdicts(library("large"), source("far"), "-O2") == "");
+    CHECK(verdicts::differences(library("own_new"), source("own_new")) == "");
     const auto done = run_jarol("isolation " + library("whole_runtime"));
     CHECK(done.exit_code == 2);
     CHECK(done.output ==
