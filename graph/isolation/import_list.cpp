@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "graph/isolation/names.h"
 #include "graph/isolation/object.h"
 
 namespace jarol::isolation {

@@ -1,5 +1,10 @@
 #include "graph/isolation/names.h"
 
+#include <cxxabi.h>
+
+#include <cstdlib>
+#include <memory>
+
 namespace jarol::isolation {
 namespace {
 
@@ -57,6 +62,18 @@ std::string bare_name(std::string_view declaration) {
     }
   }
   return name;
+}
+
+std::string demangled(const std::string& name) {
+  int status = 0;
+  const std::unique_ptr<char, void (*)(void*)> text(abi::__cxa_demangle(name.c_str(), nullptr, nullptr, &status),
+                                                    std::free);
+  if (status != 0 || text == nullptr) return name;
+  std::string readable = text.get();
+  constexpr std::string_view anonymous = "(anonymous namespace)::";
+  for (std::size_t at = 0; (at = readable.find(anonymous, at)) != std::string::npos;)
+    readable.erase(at, anonymous.size());
+  return readable;
 }
 
 }  // namespace jarol::isolation

@@ -10,4 +10,7 @@ namespace jarol::isolation {
 /// [clone .isra.0]".
 std::string bare_name(std::string_view declaration);
 
+/// As it stands in the source, without anonymous namespaces; or the name itself.
+std::string demangled(const std::string& name);
+
 }  // namespace jarol::isolation

@@ -1,11 +1,7 @@
 #include "graph/isolation/object.h"
 
-#include <cxxabi.h>
-
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <memory>
 #include <stdexcept>
 
 #include "graph/isolation/import_list.h"
@@ -286,18 +282,6 @@ const Pointer* Object::behind_stub(Address address) const {
     return pointer_at(address + i + 6 + static_cast<Address>(static_cast<std::int64_t>(distance)));
   }
   return nullptr;
-}
-
-std::string demangled(const std::string& name) {
-  int status = 0;
-  const std::unique_ptr<char, void (*)(void*)> text(abi::__cxa_demangle(name.c_str(), nullptr, nullptr, &status),
-                                                    std::free);
-  if (status != 0 || text == nullptr) return name;
-  std::string readable = text.get();
-  constexpr std::string_view anonymous = "(anonymous namespace)::";
-  for (std::size_t at = 0; (at = readable.find(anonymous, at)) != std::string::npos;)
-    readable.erase(at, anonymous.size());
-  return readable;
 }
 
 }  // namespace jarol::isolation

@@ -80,7 +80,4 @@ class Object {
   std::map<Address, Pointer> pointers_;
 };
 
-/// As it stands in the source, without anonymous namespaces; or the name itself.
-std::string demangled(const std::string& name);
-
 }  // namespace jarol::isolation

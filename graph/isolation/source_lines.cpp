@@ -1,4 +1,5 @@
 #include "graph/isolation/source_lines.h"
+#include "graph/isolation/names.h"
 
 #include <dwarf.h>
 #include <elfutils/libdw.h>

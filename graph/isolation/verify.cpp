@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "graph/isolation/closure.h"
+#include "graph/isolation/names.h"
 
 namespace jarol::isolation {
 namespace {
