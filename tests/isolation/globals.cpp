@@ -14,6 +14,13 @@ extern "C" {
 extern double in_code;
 // goes on in what lies behind it
 void without_end();
+// from its own begin to what leads to a counter
+struct Behind {
+  double* count;
+};
+extern const int distances[2];
+double count_behind = 0;
+[[gnu::used, gnu::visibility("hidden")]] extern const Behind behind_distance{&count_behind};
 }
 asm(R"(
   .text
@@ -31,6 +38,12 @@ add_in_assembly:
   .size in_code, 8
   .globl in_code
 in_code: .quad 0
+  .popsection
+  .pushsection .rodata
+  .type distances, @object
+  .size distances, 8
+  .hidden distances
+distances: .long behind_distance - distances, behind_distance - distances
   .popsection
   .bss
   .type kept_in_assembly, @object
@@ -238,6 +251,11 @@ TASK(InCode, { out.out = in_code += in.in; })
 TASK(MaskedRead, { asm volatile("vaddpd %0, %%zmm0, %%zmm1%{%%k1%}" : : "m"(counter) : "memory"); })
 // offends: a writable global: kept_in_assembly: FallsOut::run > without_end > add_in_assembly
 TASK(FallsOut, { without_end(); })
+// offends: a writable global: count_behind: ...
+TASK(ByDistance, {
+  const char* const place = reinterpret_cast<const char*>(distances) + distances[tick.activation & 1];
+  out.out = *reinterpret_cast<const Behind*>(place)->count += in.in;
+})
 // by distances from a table's begin, as clang lays out what a switch returns
 // offends: a writable global: bumped: ...
 TASK(PicksLaw, {
@@ -267,5 +285,5 @@ TASK(SwapsLaw, {
 JAROL_PLUGIN(Plain, Calls, PerThread, FunctionStatic, GuardedStatic, InTemplate, InlineVariable, DynamicInitialiser,
              ThroughConstantPointer, ThroughTable, ConstCast, InLambda, InStdFunction, VirtualCall, FunctionTable,
              FunctionPointer, WeakSymbol, Sorts, TailCall, InCatch, InDestructor, InAssembly, ComputedGoto, Switch,
-             MemberPointer, Resolver, InOddSection, PicksLaw, InCode, MaskedRead, FallsOut, SwapsHook, SwapsFirstHook,
-             SwapsLaw)
+             MemberPointer, Resolver, InOddSection, ByDistance, PicksLaw, InCode, MaskedRead, FallsOut, SwapsHook,
+             SwapsFirstHook, SwapsLaw)
