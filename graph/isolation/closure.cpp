@@ -138,7 +138,7 @@ std::vector<Address> Closure::targets_of_distances(Address table) const {
   std::vector<Address> targets;
   for (Address at = table; targets.size() < 4096; at += 4) {
     const Bytes entry = object_.bytes(at, at + 4);
-    if (entry.empty()) break;
+    if (entry.empty() || object_.pointer_at(at / 8 * 8) != nullptr) break;
     std::int32_t distance = 0;
     std::memcpy(&distance, entry.data(), sizeof distance);
     const Address target = table + static_cast<Address>(static_cast<std::int64_t>(distance));

@@ -270,7 +270,7 @@ TASK(SwapsHook, {
 })
 // offends: a writable global: hooks: SwapsFirstHook::run
 TASK(SwapsFirstHook, {
-  out.out = hooks[1](in.in);
+  out.out = hooks[tick.activation & 1](in.in);
   hooks[0] = ::tan;
 })
 // offends: a writable global: SwapsLaw::run::law: SwapsLaw::run
