@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "distributers/session/graph_run.h"
@@ -77,28 +78,32 @@ int show(const ConsoleOptions& options) {
   console::ServerOptions server = server_of(options.console);
   // it ends, and is there as a whole
   server.skips = false;
-  RecordedRun log(options.log);
-  Loaded loaded = load_recorded_graph(log.recording(), options.file, "jarol console", true);
-  const std::vector<Miss> misses = log.begin(*loaded.graph);
-  loaded.channels = recorded_channels(loaded, log);
-  console::Console console(
-      {{*loaded.graph, options.log, "recorded", log.covered(), types_of_truth(loaded),
-        console::find_flow(*loaded.graph, loaded.known->vehicles, sources_of(log.recording().files())),
-        console::Given{log.header().file, log.header().overrides, log.header().seed}},
-       server},
-      max_samples, strides_of(*loaded.graph, log.covered()));
-  GraphRun run(std::move(loaded), {.sinks = {&console.feed()}, .misses = misses, .truth = true, .watched = true});
+  // pages are served before a long one has been gone through, by what its begin and its end say
+  const Recording ends(options.log);
+  Loaded loaded = load_recorded_graph(ends, options.file, "jarol console", true);
+  std::optional<RecordedRun> log;
+  const std::optional<LogEnd> end_of_log = find_end(ends);
+  if (!end_of_log) log.emplace(options.log);
+  const Duration covered = end_of_log ? Duration(end_of_log->covered) : log->covered();
+  console::Console console({{*loaded.graph, options.log, "recorded", covered, types_of_truth(loaded),
+                             console::find_flow(*loaded.graph, loaded.known->vehicles, sources_of(ends.files())),
+                             console::Given{ends.header().file, ends.header().overrides, ends.header().seed}},
+                            server},
+                           max_samples, strides_of(*loaded.graph, covered));
   const Interruptible interruptible;
-  // of a long one pages see the begin while the rest is run
   console.open();
   print_url(console.url(), options.console);
-  ReplayRun replay(run.executor(), log);
+  if (!log) log.emplace(options.log);
+  const std::vector<Miss> misses = log->begin(*loaded.graph);
+  loaded.channels = recorded_channels(loaded, *log);
+  GraphRun run(std::move(loaded), {.sinks = {&console.feed()}, .misses = misses, .truth = true, .watched = true});
+  ReplayRun replay(run.executor(), *log);
   const RunEnd end = attend(
       replay, [] {}, Interruptible::wish);
   if (end.failure) std::rethrow_exception(end.failure);
   if (end.hangs) end_at_once(exit_unfinished);
   run.sinks().close();
-  console.end(text_of(log, replay.comparison));
+  console.end(text_of(*log, replay.comparison));
   // until Ctrl-C
   while (Interruptible::signal() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return exit_of_signal(Interruptible::signal());

@@ -264,6 +264,26 @@ TEST_SUITE("console/console") {
     CHECK(shown.end() == 130);
   }
 
+  TEST_CASE(
+      "console: of a recording that is damaged after its begin what stands before that is shown, and it is said") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "counting.mcap";
+    command::run_jarol("run specs/counting.yaml --for 20s --record " + file);
+    std::string bytes = command::content(file);
+    // in its first chunk, behind the header, which names the library; its end, which is read first, is whole
+    bytes[bytes.find("lz4", bytes.find("lz4") + 1) + 100] ^= 1;
+    folder.write("counting.mcap", bytes);
+    tests::Process shown("console " + file);
+    PageSocket page(shown.rest_of_line("console: "));
+    CHECK(page.read()->at("hello")["until"] == 20.0);
+    auto message = page.read();
+    while (!message->contains("ended")) message = page.read();
+    CHECK(message->at("ended") ==
+          "recorded    specs/counting.yaml on the virtual clock\nit breaks off; how the run ended is not known\n");
+    shown.interrupt();
+    CHECK(shown.end() == 130);
+  }
+
   TEST_CASE("console: what is no recording is refused with its name") {
     const TemporaryFolder folder;
     const std::string file = folder.write("none.mcap", "garbage");
