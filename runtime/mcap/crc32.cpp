@@ -60,15 +60,33 @@ __attribute__((target("pclmul,sse4.1"))) inline __m128i fold(__m128i a, __m128i 
   return _mm_xor_si128(_mm_xor_si128(low, high), b);
 }
 
+// moved over so many bits
+template <int Bits>
+constexpr std::uint64_t low_power = power(Bits + 32);
+template <int Bits>
+constexpr std::uint64_t high_power = power(Bits - 32);
+
+template <int Bits>
+__attribute__((target("pclmul,sse4.1"))) inline __m128i powers_over() {
+  return _mm_set_epi64x(static_cast<long long>(high_power<Bits>), static_cast<long long>(low_power<Bits>));
+}
+
+__attribute__((target("pclmul,sse4.1"))) inline __m128i load(const char* from) {
+  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+}
+
+// Of 16 bytes that stand for all before them, and of what follows: the table does the rest.
+__attribute__((target("pclmul,sse4.1"))) std::uint32_t fold_rest(__m128i a, const char* at, std::size_t size) {
+  for (; size >= 16; at += 16, size -= 16) a = fold(a, powers_over<128>(), load(at));
+  char folded[16];
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(folded), a);
+  return by_table(by_table(0, folded, sizeof folded), at, size);
+}
+
 // Gopal et al., "Fast CRC Computation for Generic Polynomials Using PCLMULQDQ" (2009): four accumulators of 16 bytes
-// are folded over 64 bytes ahead, then into one; what is left has the same sum as all that was folded, and the table
-// does the rest.
+// are folded over 64 bytes ahead, then into one; what is left has the same sum as all that was folded.
 __attribute__((target("pclmul,sse4.1"))) std::uint32_t by_folding(std::uint32_t sum, const char* at, std::size_t size) {
-  const auto load = [](const char* from) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from)); };
-  constexpr std::uint64_t over_64_low = power(4 * 128 + 32), over_64_high = power(4 * 128 - 32),
-                          over_16_low = power(128 + 32), over_16_high = power(128 - 32);
-  const __m128i over_64 = _mm_set_epi64x(static_cast<long long>(over_64_high), static_cast<long long>(over_64_low));
-  const __m128i over_16 = _mm_set_epi64x(static_cast<long long>(over_16_high), static_cast<long long>(over_16_low));
+  const __m128i over_64 = powers_over<4 * 128>(), over_16 = powers_over<128>();
   __m128i a = _mm_xor_si128(load(at), _mm_cvtsi32_si128(static_cast<int>(sum)));
   __m128i b = load(at + 16), c = load(at + 32), d = load(at + 48);
   for (at += 64, size -= 64; size >= 64; at += 64, size -= 64) {
@@ -77,15 +95,43 @@ __attribute__((target("pclmul,sse4.1"))) std::uint32_t by_folding(std::uint32_t 
     c = fold(c, over_64, load(at + 32));
     d = fold(d, over_64, load(at + 48));
   }
-  a = fold(fold(fold(a, over_16, b), over_16, c), over_16, d);
-  for (; size >= 16; at += 16, size -= 16) a = fold(a, over_16, load(at));
-  char folded[16];
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(folded), a);
-  return by_table(by_table(0, folded, sizeof folded), at, size);
+  return fold_rest(fold(fold(fold(a, over_16, b), over_16, c), over_16, d), at, size);
+}
+
+__attribute__((target("avx2"))) inline __m256i load_wide(const char* from) {
+  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+}
+
+__attribute__((target("vpclmulqdq,avx2"))) inline __m256i fold(__m256i a, __m256i powers, const char* b) {
+  const __m256i low = _mm256_clmulepi64_epi128(a, powers, 0x00), high = _mm256_clmulepi64_epi128(a, powers, 0x11);
+  return _mm256_xor_si256(_mm256_xor_si256(low, high), load_wide(b));
+}
+
+// The same with accumulators of 32 bytes, over 128 bytes ahead.
+__attribute__((target("pclmul,vpclmulqdq,avx2"))) std::uint32_t by_wide_folding(std::uint32_t sum, const char* at,
+                                                                                std::size_t size) {
+  const __m256i over_128 = _mm256_broadcastsi128_si256(powers_over<8 * 128>());
+  __m256i all[4] = {load_wide(at), load_wide(at + 32), load_wide(at + 64), load_wide(at + 96)};
+  all[0] = _mm256_xor_si256(all[0], _mm256_zextsi128_si256(_mm_cvtsi32_si128(static_cast<int>(sum))));
+  for (at += 128, size -= 128; size >= 128; at += 128, size -= 128)
+    for (int i = 0; i < 4; ++i) all[i] = fold(all[i], over_128, at + 32 * i);
+  const __m128i over_16 = powers_over<128>();
+  __m128i one = _mm256_castsi256_si128(all[0]);
+  for (int i = 0; i < 4; ++i) {
+    if (i > 0) one = fold(one, over_16, _mm256_castsi256_si128(all[i]));
+    one = fold(one, over_16, _mm256_extracti128_si256(all[i], 1));
+  }
+  return fold_rest(one, at, size);
 }
 
 bool can_fold() {
   static const bool can = __builtin_cpu_supports("pclmul") != 0 && __builtin_cpu_supports("sse4.1") != 0;
+  return can;
+}
+
+bool can_fold_wide() {
+  static const bool can =
+      can_fold() && __builtin_cpu_supports("vpclmulqdq") != 0 && __builtin_cpu_supports("avx2") != 0;
   return can;
 }
 #endif
@@ -106,6 +152,7 @@ std::uint32_t joined_crc32(std::uint32_t first, std::uint32_t second, std::uint6
 
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
 #if defined(__x86_64__)
+  if (bytes.size() >= 256 && can_fold_wide()) return ~by_wide_folding(~before, bytes.data(), bytes.size());
   if (bytes.size() >= 64 && can_fold()) return ~by_folding(~before, bytes.data(), bytes.size());
 #endif
   return crc32_by_table(bytes, before);

@@ -9,9 +9,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-// before each message: plain CDR, little-endian, no options
-constexpr std::size_t head_size = 4;
-constexpr std::byte head[head_size]{std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};
+constexpr std::size_t head_size = CdrEncoder::head_size;
 
 bool is_number(const Type& type) {
   switch (type.kind) {
@@ -26,17 +24,6 @@ bool is_number(const Type& type) {
 }
 
 bool is_empty(const Type& type) { return type.kind == Kind::structure && type.fields.empty(); }
-
-// A call would take longer than so few bytes do.
-void copy_short(std::byte* to, const std::byte* from, std::size_t bytes) {
-  constexpr std::size_t step = 16, max = 256;
-  if (bytes < step || bytes > max) {
-    std::memcpy(to, from, bytes);
-    return;
-  }
-  for (std::size_t at = 0; at < bytes - step; at += step) std::memcpy(to + at, from + at, step);
-  std::memcpy(to + bytes - step, from + bytes - step, step);  // again some of those before it
-}
 
 std::size_t aligned(std::size_t at, std::size_t to) { return (at + to - 1) / to * to; }
 
@@ -124,6 +111,7 @@ CdrEncoder::CdrEncoder(const Type& type) : type_(&type) {
   Placing placing{example.data(), pieces_, has_gaps_};
   go_through(type, example.data(), placing);
   flat_size_ = placing.at;
+  is_one_piece_ = pieces_.size() == 1 && pieces_[0].from == 0 && !has_gaps_;
 }
 
 std::size_t CdrEncoder::deep_size(const void* value) const {
@@ -132,14 +120,12 @@ std::size_t CdrEncoder::deep_size(const void* value) const {
   return head_size + sizing.at;
 }
 
-void CdrEncoder::encode(const void* value, std::byte* to) const {
-  const auto* const from = static_cast<const std::byte*>(value);
-  if (has_gaps_) std::memset(to, 0, flat_size_);
-  std::memcpy(to, head, sizeof head);
-  for (const Piece& piece : pieces_) copy_short(to + piece.to, from + piece.from, piece.bytes);
+void CdrEncoder::encode_pieces(const std::byte* value, std::byte* to) const {
+  if (has_gaps_) std::memset(to + head_size, 0, flat_size_ - head_size);
+  for (const Piece& piece : pieces_) copy_short(to + piece.to, value + piece.from, piece.bytes);
   if (flat_size_ > 0) return;
   Writing writing{to + head_size};
-  go_through(*type_, from, writing);
+  go_through(*type_, value, writing);
 }
 
 namespace {
@@ -215,7 +201,7 @@ class Reading {
 }  // namespace
 
 std::string decode_cdr(const Type& type, std::span<const std::byte> bytes, void* value) {
-  if (bytes.size() < head_size || std::memcmp(bytes.data(), head, head_size) != 0)
+  if (bytes.size() < head_size || std::memcmp(bytes.data(), CdrEncoder::head, head_size) != 0)
     return "does not begin as little-endian CDR";
   Reading checking(bytes.subspan(head_size));
   if (std::string wrong = checking.read(type, nullptr); !wrong.empty()) return wrong;

@@ -20,7 +20,7 @@ struct RecordedTopic {
   const Type* type = nullptr;
 };
 
-class RecordedStream : public RecordSink {
+class RecordedStream final : public RecordSink {
  public:
   /// What becomes of chunks where the disk is behind. What keeps them all is needed to replay the others, and goes out
   /// with each chunk of theirs.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <new>
 
 #include "graph/values/type_of.h"
 #include "runtime/record/message_layout.h"
@@ -78,6 +79,22 @@ TEST_SUITE("runtime/cdr") {
     Flat back{false, 0, 0, {}, 0};
     CHECK(decode(type_of<Flat>(), bytes, &back) == "");
     CHECK(bytes_of(type_of<Flat>(), &back) == bytes);
+  }
+
+  TEST_CASE("a struct without members is a byte of zero, whatever stands there in memory") {
+    struct Nothing {
+      static constexpr auto fields() { return describe(); }
+    };
+    struct Reading {
+      double x = 1.0;
+      Nothing none{};
+      static constexpr auto fields() { return describe(field<&Reading::x>(), field<&Reading::none>()); }
+    };
+    alignas(Reading) std::array<std::byte, sizeof(Reading)> memory;
+    memory.fill(std::byte{0xff});
+    Reading* const reading = new (memory.data()) Reading;
+    memory[sizeof(double)] = std::byte{0xff};
+    CHECK(bytes_of(type_of<Reading>(), reading) == std::string("\0\1\0\0\0\0\0\0\0\0\xf0\x3f\0", 4 + 8 + 1));
   }
 
   TEST_CASE("values of every kind come back to the bit") {
