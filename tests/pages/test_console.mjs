@@ -108,7 +108,7 @@ test('a flight is watched, also on a tablet, and its interruption is said', vehi
 
 test('on a small screen and on a tablet a desk is seen whole, with sliders that a hand can set, the vehicle above it', vehicles, async () => {
   for (const spec of ['specs/javiator.yaml', 'specs/exolauv.yaml'])
-    for (const options of [{width: 1280, height: 720}, {width: 820, height: 1180, touch: true}]) {
+    for (const options of [{width: 1280, height: 720}, {width: 940, height: 700}, {width: 820, height: 1180, touch: true}]) {
       const run = start('run', spec, '--profile', 'desk', '--console', '--for', '1h');
       const shown = await Console.open(browser, await run.url, options);
       const where = `${spec} at ${options.width} by ${options.height}`;

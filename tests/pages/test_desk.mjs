@@ -88,6 +88,49 @@ test('a pilot takes off, leans it by the keyboard, holds a position, flies one m
   assert.equal(digestIn(execFileSync(jarol, ['replay', file], {encoding: 'utf8'})), digestIn(output));
 });
 
+test('a press that is doubled or held does what one does, Escape lands from a list of the header too, and who looks back is told so', vehicles, async () => {
+  const {run, shown} = await atDesk(join(folder, 'doubled.mcap'));
+  const button = (begin) => `[...document.querySelectorAll('.desk button')].find((b) => b.textContent.startsWith('${begin}'))`;
+  await shown.press('Take command');
+  await shown.page.until(command('You command'));
+  await shown.page.until(`${button('Arm')}.disabled === false`);
+  await shown.page.evaluate(`${button('Arm')}.click(), ${button('Arm')}.click()`);
+  await shown.page.settle();
+  assert.equal(await shown.page.evaluate(`${button('Arm')}.textContent`), 'Arm: confirm', 'a double click is one act');
+  await shown.press('Arm: confirm');
+  await shown.page.until(state('ground'));
+  await shown.page.evaluate(`${button('Shut down')}.focus()`);
+  const enter = {type: 'keyDown', key: 'Enter', windowsVirtualKeyCode: 13, text: '\r'};
+  await shown.page.send('Input.dispatchKeyEvent', enter);
+  for (let i = 0; i < 10; ++i) {
+    await new Promise((done) => setTimeout(done, 60));
+    await shown.page.send('Input.dispatchKeyEvent', {...enter, autoRepeat: true});
+  }
+  await shown.page.send('Input.dispatchKeyEvent', {...enter, type: 'keyUp', text: undefined});
+  await shown.page.settle();
+  assert.equal(await shown.page.evaluate(`${button('Shut down')}.textContent`), 'Shut down: confirm', 'a key that is held is one act');
+  assert.equal(await shown.text('[aria-label=state]'), 'ground');
+  await shown.press('Take off');
+  await shown.page.until(state('starting'));
+  await shown.page.key('Escape');
+  await shown.page.key('Escape');
+  await shown.page.until(state('ground'));
+  const stopped = await shown.seconds();
+  await shown.reach(stopped + 4);
+  assert.equal(await shown.text('[aria-label=state]'), 'ground', 'the second press has started nothing');
+  await shown.press('Take off');
+  await shown.page.until(state('flying'));
+  await shown.choose('instant', '1');
+  await shown.state('looking back');
+  await shown.press('Live');
+  await shown.state('live');
+  await shown.page.evaluate(`document.querySelector('header select').focus()`);
+  await shown.page.key('Escape');
+  await shown.page.until(state('landing'));
+  await shown.close();
+  await run.stop();
+});
+
 test('who looks elsewhere with a key held commands no more, and it lands by itself; the next pilot takes over', vehicles, async () => {
   const {run, shown} = await atDesk(join(folder, 'blurred.mcap'));
   const other = await Console.open(second, await run.url);

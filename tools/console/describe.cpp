@@ -35,7 +35,8 @@ std::string plot_kind_of(const Type& type) {
 Json leaf_json(const Type& type, const Leaf& leaf) {
   Json json{{"path", leaf.path}, {"unit", leaf.unit}, {"kind", plot_kind_of(*leaf.type)}};
   if (leaf.type->kind == Kind::duration) json["unit"] = "ns";
-  if (const std::string text = text_of_leaf(type, leaf.path); !text.empty()) json["text"] = text;
+  if (const TypeField* const field = field_of_leaf(type, leaf.path); field != nullptr && !field->text.empty())
+    json["text"] = field->text;
   for (std::size_t i = 0; i < leaf.type->enumerators.size(); ++i) {
     const auto& [name, number] = leaf.type->enumerators[i];
     json["words"].push_back({{"number", number}, {"name", name}});

@@ -1,6 +1,7 @@
 #include "tools/console/describe_tasks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "graph/analysis/time_line.h"
@@ -32,6 +33,10 @@ const char* kind_of(const Type& type) {
   return "";
 }
 
+bool is_number(const Type& type) {
+  return type.kind == Kind::floating || type.kind == Kind::signed_integer || type.kind == Kind::unsigned_integer;
+}
+
 }  // namespace
 
 Json describe_parameters(const Type& type, const Value& given) {
@@ -46,7 +51,11 @@ Json describe_parameters(const Type& type, const Value& given) {
               {"unit", leaf.unit},
               {"value", text_in(given)},
               {"default", text_in(defaults)}};
-    if (const std::string text = text_of_leaf(type, leaf.path); !text.empty()) json["text"] = text;
+    if (const TypeField* const field = field_of_leaf(type, leaf.path); field != nullptr) {
+      if (!field->text.empty()) json["text"] = field->text;
+      if (is_number(*leaf.type) && std::isfinite(field->range.min)) json["min"] = field->range.min;
+      if (is_number(*leaf.type) && std::isfinite(field->range.max)) json["max"] = field->range.max;
+    }
     for (const auto& [name, number] : leaf.type->enumerators) json["words"].push_back(name);
     parameters.push_back(std::move(json));
   }

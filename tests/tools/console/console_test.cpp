@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <map>
 #include <thread>
 
@@ -100,6 +101,10 @@ TEST_SUITE("console/console") {
     CHECK(neptus["type"] == "LauvOperator");
     CHECK(neptus["parameters"][1] == json::parse(R"({"path": "latitude", "kind": "number", "unit": "rad",
         "value": "0.7188138524338646", "default": "0.7188138524338646", "text": "of the origin, WGS-84"})"));
+    const json& depth = *std::find_if(described["tasks"].begin(), described["tasks"].end(),
+                                      [](const json& task) { return task["name"] == "depth"; });
+    CHECK(depth["parameters"][0] == json::parse(R"({"path": "kp", "kind": "number", "unit": "rad/m", "value": "0.45",
+        "default": "0.45", "text": "pitch per depth error", "min": 0.0, "max": 10.0})"));
     CHECK(described["pairs"][0] ==
           json::parse(R"({"title": "depth", "commanded": "from_neptus.depth", "reached": "to_neptus.depth"})"));
   }

@@ -8,6 +8,8 @@ export class Commander {
   private readonly run: () => Run;
   private readonly type: string;
   private sequence = 0;
+  /** It has let go, though the server's word is not here yet. */
+  private released = false;
 
   /** Of the operator whose distributer has that type. */
   constructor(run: () => Run, type: string) {
@@ -44,18 +46,21 @@ export class Commander {
 
   take(sticks: Record<string, number>): void {
     this.sequence = 0;
+    this.released = false;
     this.run().ask({ do: "take", desk: this.desk.name, as: this.own, sticks });
   }
   release(): void {
     if (this.commands) this.run().ask({ do: "release", desk: this.desk.name });
+    this.released = true;
   }
   send(message: string, fields?: object): void {
+    if (this.released) return;
     const { name } = this.desk;
     this.run().ask({ do: "send", desk: name, sequence: ++this.sequence, t: performance.now(), message, fields });
   }
   /** Commands nothing, and is heard. */
   stay(): void {
-    this.run().ask({ do: "alive", desk: this.desk.name });
+    if (!this.released) this.run().ask({ do: "alive", desk: this.desk.name });
   }
 
   /** Calls `turn` each so many milliseconds; whoever looks elsewhere does not command: then `letGo` is called. */

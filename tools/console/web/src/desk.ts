@@ -87,3 +87,34 @@ export function nextSwitch(state: string, cause: string): string | undefined {
   if (state === "starting") return "Stop";
   return state === "flying" ? "Land" : undefined;
 }
+
+/**
+ * One switch that does another thing each time: a second press must not undo the first, nor start motors, while the page
+ * does not know yet what came of it.
+ */
+export class StateSwitch {
+  private key: string | undefined;
+  private since = -Infinity;
+  private pressed: number | undefined;
+  /** Milliseconds that a key which starts something has to be seen before it counts. */
+  static readonly seen = 600;
+  /** Seconds of the run in which the vehicle follows: whoever looks at what is older commands nothing. */
+  static readonly patience = 4;
+
+  /** What it does next is that. */
+  show(key: string | undefined, milliseconds: number): void {
+    if (key === this.key) return;
+    this.key = key;
+    this.since = milliseconds;
+    this.pressed = undefined;
+  }
+
+  /** What the press does; undefined: it does not count. What ends a flight counts at once. */
+  press(milliseconds: number, newest: number): string | undefined {
+    const ends = this.key === "Land" || this.key === "Stop";
+    if (!ends && milliseconds - this.since < StateSwitch.seen) return undefined;
+    if (this.pressed !== undefined && newest - this.pressed < StateSwitch.patience) return undefined;
+    this.pressed = newest;
+    return this.key;
+  }
+}

@@ -8,7 +8,7 @@ export function wrongValue(parameter: Parameter, text: string): string {
   if (parameter.kind === "bool") return text === "true" || text === "false" ? "" : "true or false";
   if (parameter.kind === "text") return "";
   const value = Number(text);
-  if (text.trim() === "" || !Number.isFinite(value)) return "a number";
+  if (!/^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(text.trim()) || !Number.isFinite(value)) return "a number";
   if (parameter.kind === "integer" && !Number.isInteger(value)) return "a whole number";
   const { min, max } = parameter;
   if ((min !== undefined && value < min) || (max !== undefined && value > max))
@@ -27,6 +27,8 @@ export function commandOf(hello: Hello, changed: ReadonlyMap<string, string>): s
   const words = ["jarol", "run", file];
   if (profile) words.push("--profile", profile);
   if (seed) words.push("--seed", String(seed));
+  // an operator at the page needs one
+  if (hello.desks && hello.desks.length > 0) words.push("--console");
   // what is changed takes the place of what was set
   const anew = (each: string): boolean => changed.has(each.slice(0, each.indexOf("=")).replace(/^tasks\.(\w+)\.parameters\./, "$1."));
   for (const each of set) if (!anew(each)) words.push("--set", each);

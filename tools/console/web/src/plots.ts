@@ -11,7 +11,7 @@ export interface PlotSpec {
 }
 
 /** Commanded against reached, and where the vehicle truly is: what a run is judged by. Else the first few numbers. */
-export function defaultPlots(hello: Hello, store: Store, max = 5): PlotSpec[] {
+export function defaultPlots(hello: Hello, store: Store, max = 6): PlotSpec[] {
   const plots: PlotSpec[] = [];
   for (const pair of hello.pairs) {
     const commanded = store.find(pair.commanded);
@@ -43,7 +43,7 @@ function isJump(unit: string, from: number, to: number): boolean {
 }
 
 /**
- * Instants of all lines between `from` and `to`, and for each line its value there (null: none of its own), at most
+ * Instants of all lines between `from` and `to`, and for each line its value there (undefined: none of its own; null: a gap), at most
  * about `most` of each. A value holds until the next one, so lines begin with what held at `from`.
  */
 export function columnsOf(
@@ -52,7 +52,7 @@ export function columnsOf(
   from: number,
   to: number,
   max: number,
-): [number[], ...(number | null)[][]] {
+): [number[], ...(number | null | undefined)[][]] {
   const picked = lines.map(({ signal }) => {
     const series = store.series[signal.output]!;
     const first = Math.max(0, series.at(from));
@@ -66,7 +66,7 @@ export function columnsOf(
   const times = [...new Set(picked.flatMap(({ series, at }) => at.map((i) => series.times[i]!)))].sort((a, b) => a - b);
   const rows = new Map(times.map((t, row) => [t, row]));
   const columns = picked.map(({ series, at, column, factor }, line) => {
-    const values: (number | null)[] = new Array<number | null>(times.length).fill(null);
+    const values = new Array<number | null | undefined>(times.length).fill(undefined);
     let before = NaN;
     for (const i of at) {
       const value = column[i]!;

@@ -37,6 +37,8 @@ export class Run {
   said: Record<string, Record<string, Fields>> = $state.raw({});
   /** Called with all that one says. */
   readonly hearers = new Set<(desk: string, answer: Answer) => void>();
+  /** What was changed for the next run: texts of parameters by "task.path". */
+  changed: ReadonlyMap<string, string> = $state.raw(new Map());
   /** Changes whenever there is something to draw, once a frame. */
   tick = $state(0);
 
@@ -49,6 +51,7 @@ export class Run {
   private seen = 0;
   private seenAt = -Infinity;
   private seenTimer: ReturnType<typeof setTimeout> | undefined;
+  private errorTimer: ReturnType<typeof setTimeout> | undefined;
 
   get time(): number {
     return this.cursor ?? this.newest;
@@ -68,6 +71,13 @@ export class Run {
       if (this.ended === undefined && this.hello) this.note("the connection to jarol is lost");
     };
     requestAnimationFrame((t) => this.frame(t));
+  }
+
+  /** What this page asked for was refused: said for a while. */
+  private complain(text: string): void {
+    this.error = text;
+    clearTimeout(this.errorTimer);
+    this.errorTimer = setTimeout(() => (this.error = ""), 8000);
   }
 
   ask(what: object): void {
@@ -122,7 +132,7 @@ export class Run {
     if (!("desk" in message) || message.now > this.newest) this.heard = performance.now();
     if ("hello" in message) this.begin(message.hello);
     else if ("missed" in message) this.missed += message.missed;
-    else if ("error" in message) this.error = message.error;
+    else if ("error" in message) this.complain(message.error);
     else if ("ended" in message) this.ended = message.ended;
     else this.show(message);
     this.news = true;

@@ -73,10 +73,11 @@ function submarine(): Model {
     size: 1.1,
     move(parts, seconds) {
       propeller.rotation.x += (parts[0] || 0) * 40 * seconds;
+      // a positive angle lifts the tail to starboard, or up: the trailing edge goes to port, or down
       fins.forEach((fin, i) => {
         const angle = (parts[i + 1] || 0) * 0.5;
-        if (i === 0 || i === 3) fin.rotation.z = -angle;
-        else fin.rotation.y = -angle;
+        if (i === 0 || i === 3) fin.rotation.z = angle;
+        else fin.rotation.y = angle;
       });
     },
   };

@@ -77,7 +77,22 @@ export function takesKeys(target: EventTarget | null): boolean {
   return target.matches("input, select, textarea, [role=separator], .map");
 }
 
+/** A key that repeats itself presses no button again. */
+export function isHeld(event: KeyboardEvent): boolean {
+  return event.repeat && (event.key === "Enter" || event.key === " ");
+}
+
+// of browsers that can't tell, none: that key counts
+function isOpen(select: HTMLSelectElement): boolean {
+  try {
+    return select.matches(":open");
+  } catch {
+    return false;
+  }
+}
+
 /** The key by which who commands ends it safely, wherever the focus is: not one that closes a list. */
 export function isEscape(event: KeyboardEvent): boolean {
-  return event.key === "Escape" && !event.repeat && !(event.target instanceof HTMLSelectElement);
+  if (event.key !== "Escape" || event.repeat) return false;
+  return !(event.target instanceof HTMLSelectElement && isOpen(event.target));
 }

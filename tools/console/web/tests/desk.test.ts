@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Goals, limits, nextSwitch, stickPlan } from "../src/desk.ts";
+import { Goals, limits, nextSwitch, StateSwitch, stickPlan } from "../src/desk.ts";
 import { deadZone, StickReader, withDeadZone, wrapped } from "../src/sticks.ts";
 
 const centred = { roll: 0, pitch: 0, turn: 0, climb: 0 };
@@ -75,4 +75,28 @@ test("the one key arms, takes off, lands, and acknowledges what nobody wanted", 
   assert.equal(nextSwitch("starting", "none"), "Stop");
   assert.equal(nextSwitch("flying", "none"), "Land");
   assert.equal(nextSwitch("landing", "none"), undefined);
+});
+
+test("a second press of what ends a flight does not undo the first, nor start motors", () => {
+  const its = new StateSwitch();
+  its.show("Stop", 1000);
+  assert.equal(its.press(1000, 1), "Stop");
+  // the page does not know yet
+  assert.equal(its.press(1100, 1.1), undefined);
+  assert.equal(its.press(9000, 4.9), undefined);
+  its.show("Take off", 1200);
+  assert.equal(its.press(1210, 1.3), undefined);
+  assert.equal(its.press(1799, 1.9), undefined);
+  assert.equal(its.press(1800, 1.9), "Take off");
+});
+
+test("what ends a flight counts at once, and again where nothing came of it", () => {
+  const its = new StateSwitch();
+  its.show("Land", 0);
+  assert.equal(its.press(0, 10), "Land");
+  its.show("Land", 50);
+  assert.equal(its.press(60_000, 13.9), undefined);
+  assert.equal(its.press(60_000, 14), "Land");
+  its.show(undefined, 70_000);
+  assert.equal(its.press(80_000, 20), undefined);
 });

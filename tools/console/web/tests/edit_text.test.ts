@@ -144,6 +144,12 @@ test("ends of lines stay what they are, also where people type", () => {
 test("what can't be edited without harm is refused with a reason", () => {
   const anchored = graph("tasks:\n  a: &one {type: X}\n  b: *one\n");
   assert.throws(() => operations.removePart(anchored, { kind: "task", name: "a", at: { from: 0, to: 0 }, path: ["tasks", "a"] }), CannotEdit);
+  assert.throws(
+    () => operations.setValue(anchored, ["tasks", "a", "type"], "Y"),
+    new CannotEdit("what stands there is used elsewhere, too, as '*one'; change it in the text"),
+  );
+  const unused = graph("tasks:\n  a: &one {type: X}\n  b: {type: X}\n");
+  assert.equal(operations.setValue(unused, ["tasks", "a", "type"], "Y").text, "tasks:\n  a: &one {type: Y}\n  b: {type: X}\n");
   const broken = graph("tasks: [\n");
   assert.throws(
     () => operations.addPart(broken, "task", "a", [["type", "X"]]),
@@ -193,4 +199,11 @@ test("what the loader means is written where the wrong word stands", () => {
   assert.equal(operations.takeMeant(graph(text), end).text, text.replace("inn", "in"));
   assert.equal(operations.meantBy(graph(text), "task 'a' has no key 'other'; did you mean 'period'?", text.indexOf("perid")), undefined);
   assert.equal(operations.meantBy(graph(text), "task 'a' lacks the key 'type'", 0), undefined);
+});
+
+test("a text without anything, or of comments alone, is begun", () => {
+  for (const text of ["", "# mine\n", "# mine"]) {
+    const begun = operations.addPart(graph(text), "task", "a", [["type", "X"]]);
+    assert.equal(begun.text, `${text === "" ? "" : "# mine\n"}tasks:\n  a: {type: X}\n`);
+  }
 });

@@ -64,8 +64,8 @@ test("lines of different instants stand in one table", () => {
   ]);
   assert.deepEqual(columnsOf(store, lines(store, "from.depth", "to.depth"), 0, 2, 100), [
     [0, 0.5, 1],
-    [1, null, 2],
-    [null, 10, 20],
+    [1, undefined, 2],
+    [undefined, 10, 20],
   ]);
 });
 

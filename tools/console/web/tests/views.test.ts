@@ -63,6 +63,8 @@ test("what can't be a parameter is said", () => {
   assert.equal(wrongValue(parameter({}), "0.5"), "");
   assert.equal(wrongValue(parameter({}), "fast"), "a number");
   assert.equal(wrongValue(parameter({}), " "), "a number");
+  assert.equal(wrongValue(parameter({}), "0x10"), "a number");
+  assert.equal(wrongValue(parameter({}), "-1.5e-3"), "");
   assert.equal(wrongValue(parameter({ kind: "integer" }), "1.5"), "a whole number");
   assert.equal(wrongValue(parameter({ min: 0, max: 1 }), "2"), "a number from 0 to 1");
   assert.equal(wrongValue(parameter({ kind: "bool" }), "yes"), "true or false");
@@ -80,6 +82,9 @@ test("changes become the command of the next run, safe in a shell", () => {
     `jarol run 'my specs/dive.yaml' --set tasks.depth.parameters.kp=0.2 --set 'tasks.depth.parameters.name=it'\\''s; rm'`,
   );
   assert.equal(quoted("a=b,c"), "a=b,c");
+  // an operator at the page needs one in the next run, too
+  const desks = [{ name: "terminal", type: "JaviatorOperator" }];
+  assert.equal(commandOf({ ...hello, desks } as Hello, new Map()), "jarol run 'my specs/dive.yaml' --console");
 });
 
 test("the next run has what this one was begun with, too, but for what is changed", () => {

@@ -32,6 +32,10 @@ const orderOf = (keys: readonly string[] | undefined): readonly string[] => keys
 
 /** Puts an entry at the end of a section, which is made where there is none. */
 function addToSection(graph: GraphText, section: Section | "connections" | "chains", entry: string): GraphText {
+  if (graph.tree.isBlank) {
+    const begin = graph.text === "" || graph.text.endsWith("\n") ? graph.text : graph.text + newLineOf(graph.text);
+    return new GraphText(`${begin}${section}:${newLineOf(graph.text)}  ${section === "connections" ? "- " : ""}${entry}${newLineOf(graph.text)}`);
+  }
   requireGood(graph);
   const { tree, text } = graph;
   const root = tree.root!;
@@ -96,7 +100,7 @@ export function freeName(graph: GraphText, kind: Kind, word: string): string {
 
 /** A new entry with these keys, each with its value as it is to be written. */
 export function addPart(graph: GraphText, kind: Kind, name: string, keys: readonly (readonly [string, string])[]): GraphText {
-  requireGood(graph);
+  if (!graph.tree.isBlank) requireGood(graph);
   requireNewName(graph, kind, name);
   const section = sectionOf(kind);
   const body = keys.map(([key, value]) => `${key}: ${value}`).join(", ");
@@ -150,6 +154,9 @@ export function reconnect(graph: GraphText, connection: Connection, from: End, t
 export function setValue(graph: GraphText, path: Path, value: string | undefined, order?: readonly string[]): GraphText {
   requireGood(graph);
   if (graph.written(path) === value) return graph;
+  const anchor = graph.tree.anchorOf(path);
+  if (anchor !== undefined)
+    throw new CannotEdit(`what stands there is used elsewhere, too, as '*${anchor}'; change it in the text`);
   if (value === undefined) return edited(graph, removeAt(graph.tree, path));
   // a new section stands where others have it
   const keys = path.length === 1 || graph.tree.find(path.slice(0, 1)) === undefined ? sectionOrder : orderOf(order);

@@ -7,6 +7,7 @@ import {
   isScalar,
   isSeq,
   parseDocument,
+  visit,
   type Node,
   type Pair,
   type YAMLMap,
@@ -19,6 +20,10 @@ export type Collection = YAMLMap | YAMLSeq;
 
 export class Tree {
   readonly root: YAMLMap | undefined;
+  /** There is nothing in it, or comments alone. */
+  readonly isBlank: boolean;
+  /** Names of anchors that are used. */
+  private readonly used = new Set<string>();
   /** What is wrong with the text as YAML. */
   readonly errors: readonly { at: number; text: string }[];
 
@@ -29,6 +34,8 @@ export class Tree {
     const document = parseDocument(text, { schema: "failsafe", prettyErrors: false, logLevel: "silent" });
     this.errors = document.errors.map((error) => ({ at: error.pos[0], text: error.message }));
     this.root = isMap(document.contents) ? document.contents : undefined;
+    this.isBlank = this.errors.length === 0 && isEmpty(document.contents ?? undefined);
+    visit(document, { Alias: (_, alias) => void this.used.add(alias.source) });
   }
 
   /** The value at a path; undefined: there is none. */
@@ -40,6 +47,16 @@ export class Tree {
       node = valueOf(node as Collection, index);
     }
     return node;
+  }
+
+  /** The anchor of which what stands at a path is, where that is used elsewhere: a change there would be one in all places. */
+  anchorOf(path: Path): string | undefined {
+    for (let length = path.length; length > 0; --length) {
+      const node = this.find(path.slice(0, length));
+      const anchor = node && !isAlias(node) ? (node as { anchor?: string }).anchor : undefined;
+      if (anchor !== undefined && this.used.has(anchor)) return anchor;
+    }
+    return undefined;
   }
 
   /** What stands there, as it is written. */
