@@ -9,27 +9,28 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr double max_drawn = 300;
-
-std::int64_t length_of(const TaskModels& models) {
+void measure(const TaskModels& models, const TimeLineLength& length, TimeLine& line) {
   double per_ns = 0;
   std::int64_t offsets = 0;
   for (const TaskModel& m : models) {
     per_ns += 1 / static_cast<double>(m.period);
     offsets = std::max(offsets, m.offset);
   }
-  const std::int64_t whole = offsets + hyperperiod(models, max_time / 4).value_or(max_time / 4);
-  const double filled = max_drawn / per_ns;
-  return static_cast<double>(whole) <= filled ? whole : static_cast<std::int64_t>(filled);
+  const std::int64_t round = hyperperiod(models, max_time / 8).value_or(max_time / 8);
+  const std::int64_t whole = offsets + length.hyperperiods * round;
+  const double filled = length.max_activations / per_ns;
+  const bool fits = static_cast<double>(whole) <= filled;
+  line.until = fits ? whole : static_cast<std::int64_t>(filled);
+  if (fits && (offsets == 0 || length.hyperperiods > 1)) line.round = round;
 }
 
 }  // namespace
 
-TimeLine time_line_of(const System& system, const Result& result) {
+TimeLine time_line_of(const System& system, const Result& result, const TimeLineLength& length) {
   TimeLine line;
   if (system.models.empty()) return line;
   const Policy& policy = system.policy;
-  line.until = length_of(system.models);
+  measure(system.models, length, line);
   std::vector<std::size_t> all(system.models.size()), core(all.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   RunRules rules{.follows = system.follows, .order = std::vector<std::size_t>(all.size())};

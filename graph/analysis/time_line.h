@@ -1,17 +1,27 @@
 // What runs when, for people to look at: every activation takes its WCET and arrives as the offsets say.
 #pragma once
 
+#include <optional>
+
 #include "graph/analysis/check.h"
 
 namespace jarol::analysis {
 
 struct TimeLine {
-  std::int64_t until = 0;  // ns; from 0 on
+  std::int64_t until = 0;             // ns; from 0 on
+  std::optional<std::int64_t> round;  // ns; after which all repeats; none: not all of it is known
   std::vector<Slice> slices;
 };
 
-/// Under the system's policy, with tasks on the cores of `result`, over a hyperperiod, or as much of it as some 300
+/// What is left over from the first hyperperiod after the last offset may make the second another one (Leung and
+/// Merrill 1980); all that follow are as the second.
+struct TimeLineLength {
+  int hyperperiods = 1;  // after the last offset
+  double max_activations = 300;
+};
+
+/// Under the system's policy, with tasks on the cores of `result`, as long as that says, or as much of it as so many
 /// activations fill.
-TimeLine time_line_of(const System& system, const Result& result);
+TimeLine time_line_of(const System& system, const Result& result, const TimeLineLength& length = {});
 
 }  // namespace jarol::analysis

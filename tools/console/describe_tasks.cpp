@@ -77,13 +77,16 @@ Json task_json(const Task& task) {
 }
 
 Json schedule_json(const Graph& graph, const analysis::Result& result) {
-  const analysis::TimeLine line = analysis::time_line_of(analysis::system_of(graph), result);
-  const bool repeats = std::all_of(graph.tasks.begin(), graph.tasks.end(),
-                                   [&](const Task& t) { return line.until % t.period.count() == 0; });
+  const bool starts_at_once =
+      std::all_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return t.offset == Duration{}; });
+  const analysis::TimeLine line = analysis::time_line_of(
+      analysis::system_of(graph), result, {.hyperperiods = starts_at_once ? 1 : 2, .max_activations = 3000});
   auto slices = Json::array();
   for (const analysis::Slice& slice : line.slices)
     slices.push_back({slice.task, seconds_of(slice.begin), seconds_of(slice.end)});
-  return {{"until", seconds_of(line.until)}, {"repeats", repeats}, {"slices", std::move(slices)}};
+  Json json{{"until", seconds_of(line.until)}, {"slices", std::move(slices)}};
+  if (line.round) json["round"] = seconds_of(*line.round);
+  return json;
 }
 
 }  // namespace

@@ -46,6 +46,24 @@ TEST_SUITE("graph/analysis/time_line") {
     CHECK(line_text(two_tasks("policy: global_edf, cores: 2")) == "a 0-2, b 0-9, a 10-12, until 20");
   }
 
+  TEST_CASE("it repeats from the second hyperperiod on, or at once where all begin at zero, if all of it is drawn") {
+    const auto line = [](const std::string& keys, const analysis::TimeLineLength& length) {
+      const Graph graph = tests::graph_of(
+          "graph: t\ntasks:\n  a: {type: Counter, period: 10ms, wcet: 2ms}\n"
+          "  b: {type: Counter, period: 20ms, wcet: 1ms" +
+          keys + "}\n");
+      const analysis::System system = analysis::system_of(graph);
+      return analysis::time_line_of(system, analysis::check(system), length);
+    };
+    CHECK(line("", {}).round == 20'000'000);
+    CHECK(line(", offset: 5ms", {}).until == 25'000'000);
+    CHECK(!line(", offset: 5ms", {}).round);
+    CHECK(line(", offset: 5ms", {.hyperperiods = 2}).until == 45'000'000);
+    CHECK(line(", offset: 5ms", {.hyperperiods = 2}).round == 20'000'000);
+    CHECK(!line(", offset: 5ms", {.hyperperiods = 2, .max_activations = 5}).round);
+    CHECK(line("", {.max_activations = 1}).until < 20'000'000);
+  }
+
   TEST_CASE("tasks on cores of their own do not wait for each other, readers wait for what they follow") {
     const std::string tasks = R"(graph: t
 platform: {policy: table, cores: 2}

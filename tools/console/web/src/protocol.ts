@@ -109,10 +109,10 @@ export interface Pair {
   reached: string;
 }
 
-/** Who has a core when, if each task takes its WCET: [task, begin, end] in seconds. */
+/** Who has a core when, if each task takes its WCET: [task, begin, end] in seconds; all repeats after a round, the last one. */
 export interface Schedule {
   until: number;
-  repeats: boolean;
+  round?: number;
   slices: [number, number, number][];
 }
 

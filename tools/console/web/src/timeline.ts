@@ -29,23 +29,26 @@ export interface Execution {
   end: number;
 }
 
-/** The schedule over the window, as it repeats; nothing where only its begin is known. */
+/** The schedule over the window, whose last round repeats; nothing after its begin where no more of it is known. */
 export function executionsOf(schedule: Hello["schedule"], from: number, to: number): Execution[] {
   if (!schedule || schedule.until <= 0) return [];
   const found: Execution[] = [];
-  const rounds = schedule.repeats ? Math.floor(to / schedule.until) : 0;
-  const first = schedule.repeats ? Math.max(0, Math.floor(from / schedule.until)) : 0;
-  for (let round = first; round <= rounds; ++round)
-    for (const [task, begin, end] of schedule.slices) {
-      const at = round * schedule.until;
-      if (at + end > from && at + begin < to) found.push({ task, begin: at + begin, end: at + end });
-    }
+  const add = (task: number, begin: number, end: number): void => {
+    if (end > from && begin < to) found.push({ task, begin, end });
+  };
+  for (const [task, begin, end] of schedule.slices) add(task, begin, end);
+  const { round, until } = schedule;
+  if (round === undefined) return found;
+  const first = Math.max(1, Math.floor((from - until) / round) + 1);
+  for (let k = first; until + (k - 1) * round < to; ++k)
+    for (const [task, begin, end] of schedule.slices)
+      if (end > until - round) add(task, Math.max(begin, until - round) + k * round, end + k * round);
   return found;
 }
 
 /** What the window is as long as: two rounds of the schedule, but as long as the longest period twice where that is long. */
 export function windowOf(hello: Hello): number {
   const longest = Math.max(0.001, ...hello.tasks.map((task) => task.period));
-  const round = hello.schedule?.repeats ? hello.schedule.until : longest;
+  const round = hello.schedule?.round ?? longest;
   return Math.max(round, longest) * 2;
 }

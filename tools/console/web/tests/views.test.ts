@@ -46,10 +46,18 @@ test("activations are those whose LET or deadline touches the window", () => {
   assert.equal(activationsOf(task({ period: 1e-6 }), 0, 1).length, 500);
 });
 
+test("of a schedule whose begin is another one the last round repeats", () => {
+  const schedule = { until: 0.25, round: 0.1, slices: [[0, 0.05, 0.06], [0, 0.14, 0.16], [0, 0.24, 0.25]] as [number, number, number][] };
+  const begins = (from: number, to: number) => executionsOf(schedule, from, to).map(({ begin, end }) => `${begin.toFixed(2)}-${end.toFixed(2)}`);
+  assert.deepEqual(begins(0, 0.3), ["0.05-0.06", "0.14-0.16", "0.24-0.25", "0.25-0.26"]);
+  assert.deepEqual(begins(0.25, 0.45), ["0.25-0.26", "0.34-0.35", "0.35-0.36", "0.44-0.45"]);
+  assert.deepEqual(begins(10.255, 10.4), ["10.25-10.26", "10.34-10.35", "10.35-10.36"]);
+});
+
 test("a schedule repeats if a whole round of it is known", () => {
-  const schedule = { until: 0.1, repeats: true, slices: [[0, 0, 0.01]] as [number, number, number][] };
+  const schedule = { until: 0.1, round: 0.1, slices: [[0, 0, 0.01]] as [number, number, number][] };
   assert.deepEqual(executionsOf(schedule, 0.15, 0.35).map(({ begin }) => Number(begin.toFixed(6))), [0.2, 0.3]);
-  assert.deepEqual(executionsOf({ ...schedule, repeats: false }, 0.15, 0.35), []);
+  assert.deepEqual(executionsOf({ until: 0.1, slices: schedule.slices }, 0.15, 0.35), []);
   assert.deepEqual(executionsOf(undefined, 0, 1), []);
   const hello = { tasks: [task({}), task({ period: 0.1 })], schedule } as unknown as Hello;
   assert.equal(windowOf(hello), 0.2);
