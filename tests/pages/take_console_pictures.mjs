@@ -19,7 +19,7 @@ async function picture(shown, name) {
   if (!wanted(name)) return;
   await shown.page.mouse('mouseMoved', 1, 1);
   // the three dimensions are drawn some time after the rest
-  await shown.page.until(`[...document.querySelectorAll('.scene canvas')].every((canvas) => Math.abs(Number(canvas.dataset.instant) - document.querySelector('[aria-label="instant"]').valueAsNumber) < 0.2)`);
+  await shown.page.until(`[...document.querySelectorAll('.scene canvas')].every((canvas) => Math.abs(Number(canvas.dataset.instant) - document.querySelector('[aria-label="instant"]').valueAsNumber) < 0.2 && canvas.dataset.theme === document.documentElement.dataset.theme)`);
   await shown.page.settle();
   const [width, height] = await shown.page.evaluate('[innerWidth, innerHeight]');
   const clip = {x: 0, y: 0, width, height, scale: names.length > 0 ? 0.72 : 1};

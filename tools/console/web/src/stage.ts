@@ -57,6 +57,7 @@ export class Stage {
   private readonly sized: ResizeObserver;
   private readonly dome = new Dome();
   /** Of air and of water; undefined: it is not painted yet. */
+  private theme = "";
   private skies: Record<"above" | "below", { zenith: three.Color; haze: three.Color; nadir: three.Color }> | undefined;
   private under: "above" | "below" | "" = "";
   private pose: Pose = { x: 0, y: 0, down: 0, roll: 0, pitch: 0, heading: 0, speed: 0 };
@@ -159,7 +160,8 @@ export class Stage {
   }
 
   /** In the colours that the page has now. */
-  paint(): void {
+  paint(theme: string): void {
+    this.theme = theme;
     const style = getComputedStyle(document.documentElement);
     const css = (name: string) => style.getPropertyValue(name).trim();
     const colour = (name: string) => new three.Color(css(name));
@@ -271,7 +273,8 @@ export class Stage {
     }
     this.dome.mesh.position.copy(this.eye.position);
     this.renderer.render(this.scene, this.eye);
-    this.renderer.domElement.dataset.instant = String(this.instant);
+    // what is drawn by now, for who takes pictures
+    Object.assign(this.renderer.domElement.dataset, { instant: String(this.instant), theme: this.theme });
     if (this.software) {
       // waits until the picture is made, which finish() does not where another process makes it
       const gl = this.renderer.getContext();
