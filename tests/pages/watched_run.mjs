@@ -81,8 +81,8 @@ export class Console {
   async press(label) {
     const found = `[...document.querySelectorAll('button')].find((b) => (b.getAttribute('aria-label') ?? b.textContent.trim()) === ${JSON.stringify(label)})`;
     await this.page.until(`${found}?.disabled === false`);
-    // two deliberate acts take their time, and so does what starts motors
-    if (/: confirm$|^Take off$|^Acknowledge$/.test(label)) await new Promise((done) => setTimeout(done, 700));
+    // two deliberate acts take their time
+    if (label.endsWith(': confirm')) await new Promise((done) => setTimeout(done, 600));
     await this.page.evaluate(`${found}.id = 'pressed'`);
     await this.page.click('#pressed');
     await this.page.evaluate(`document.querySelector('#pressed')?.removeAttribute('id')`);

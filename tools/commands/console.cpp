@@ -83,7 +83,13 @@ int show(const ConsoleOptions& options) {
   Loaded loaded = load_recorded_graph(ends, options.file, "jarol console", true);
   std::optional<RecordedRun> log;
   const std::optional<LogEnd> end_of_log = find_end(ends);
-  if (!end_of_log) log.emplace(options.log);
+  std::vector<Miss> misses;
+  const auto read = [&] {
+    log.emplace(options.log);
+    misses = log->begin(*loaded.graph);
+  };
+  // what can't be shown is refused before anybody looks
+  if (!end_of_log || !ends.text_of_rest().empty() || !options.file.empty()) read();
   const Duration covered = end_of_log ? Duration(end_of_log->covered) : log->covered();
   console::Console console({{*loaded.graph, options.log, "recorded", covered, types_of_truth(loaded),
                              console::find_flow(*loaded.graph, loaded.known->vehicles, sources_of(ends.files())),
@@ -93,8 +99,13 @@ int show(const ConsoleOptions& options) {
   const Interruptible interruptible;
   console.open();
   print_url(console.url(), options.console);
-  if (!log) log.emplace(options.log);
-  const std::vector<Miss> misses = log->begin(*loaded.graph);
+  try {
+    if (!log) read();
+  } catch (const LogError& error) {
+    console.end(std::string(error.what()) + "\n");
+    throw;
+  }
+  if (Interruptible::signal() != 0) return exit_of_signal(Interruptible::signal());
   loaded.channels = recorded_channels(loaded, *log);
   GraphRun run(std::move(loaded), {.sinks = {&console.feed()}, .misses = misses, .truth = true, .watched = true});
   ReplayRun replay(run.executor(), *log);

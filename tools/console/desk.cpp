@@ -73,6 +73,8 @@ void Desk::obey(std::uint64_t page, const Received& message, Clock::time_point n
   }
   if (what == "take") {
     take(seat, page, message);
+  } else if (!seat.page && what == "release") {
+    return;  // it lost the seat before it let go of it
   } else if (seat.page != page) {
     throw std::invalid_argument(fmt::format("this page does not command '{}'; take it first", seat.of.name));
   } else if (what == "send") {

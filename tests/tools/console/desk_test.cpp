@@ -101,6 +101,10 @@ TEST_SUITE("console/desk") {
     CHECK_THROWS_WITH_AS(desks.take(8), "another page commands 'terminal'; it has to release it, or to fall silent",
                          std::invalid_argument);
     SUBCASE("it lets go") { desks.ask(7, R"({"do": "release", "desk": "terminal"})"); }
+    SUBCASE("it lets go of what it has lost, too") {
+      desks.ask(7, R"({"do": "release", "desk": "terminal"})");
+      CHECK_NOTHROW(desks.ask(7, R"({"do": "release", "desk": "terminal"})"));
+    }
     SUBCASE("it is gone") { desks.desk.leave(7); }
     SUBCASE("it is silent") {
       desks.now += Desk::patience + 1ms;

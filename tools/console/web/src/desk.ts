@@ -95,26 +95,43 @@ export function nextSwitch(state: string, cause: string): string | undefined {
 export class StateSwitch {
   private key: string | undefined;
   private since = -Infinity;
-  private pressed: number | undefined;
+  private pressed: { milliseconds: number; newest: number } | undefined;
   /** Milliseconds that a key which starts something has to be seen before it counts. */
   static readonly seen = 600;
-  /** Seconds of the run in which the vehicle follows: whoever looks at what is older commands nothing. */
+  /** Seconds, of the run and beside it, in which the vehicle follows: whoever looks at what is older commands nothing. */
   static readonly patience = 4;
+  static readonly ends = (key: string | undefined): boolean => key === "Land" || key === "Stop";
 
   /** What it does next is that. */
   show(key: string | undefined, milliseconds: number): void {
     if (key === this.key) return;
+    // it may have taken off before it heard of Stop, and lands
+    if (!StateSwitch.ends(this.key) || !StateSwitch.ends(key)) this.pressed = undefined;
     this.key = key;
     this.since = milliseconds;
-    this.pressed = undefined;
   }
 
   /** What the press does; undefined: it does not count. What ends a flight counts at once. */
   press(milliseconds: number, newest: number): string | undefined {
-    const ends = this.key === "Land" || this.key === "Stop";
-    if (!ends && milliseconds - this.since < StateSwitch.seen) return undefined;
-    if (this.pressed !== undefined && newest - this.pressed < StateSwitch.patience) return undefined;
-    this.pressed = newest;
+    if (!StateSwitch.ends(this.key) && milliseconds - this.since < StateSwitch.seen) return undefined;
+    const { pressed } = this;
+    const { patience } = StateSwitch;
+    if (pressed && (newest - pressed.newest < patience || milliseconds - pressed.milliseconds < 1000 * patience)) return undefined;
+    if (this.key !== undefined) this.wait(milliseconds, newest);
     return this.key;
+  }
+
+  /** Something was sent after which it does something else. */
+  wait(milliseconds: number, newest: number): void {
+    this.pressed = { milliseconds, newest };
+  }
+  /** What was sent was refused, or somebody else commands. */
+  forget(): void {
+    this.pressed = undefined;
+  }
+
+  /** It was told to take off, and has not said yet that it does. */
+  get isStarting(): boolean {
+    return this.key === "Take off" && this.pressed !== undefined;
   }
 }

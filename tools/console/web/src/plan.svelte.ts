@@ -1,6 +1,6 @@
 // The plan at the submarine's desk: as it is drawn, and as the vehicle has it.
 
-import type { Commander } from "./commander.ts";
+import type { Commander } from "./commander.svelte.ts";
 import type { LatLon } from "./geodesy.ts";
 import type { Spot } from "./map.ts";
 import { check, drawingOf, drawingOfDraft, specificationOf, type Drawn, type Finding, type Kind, type Maneuver } from "./plan.ts";

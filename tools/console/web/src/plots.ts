@@ -67,12 +67,17 @@ export function columnsOf(
   const rows = new Map(times.map((t, row) => [t, row]));
   const columns = picked.map(({ series, at, column, factor }, line) => {
     const values = new Array<number | null | undefined>(times.length).fill(undefined);
-    let before = NaN;
+    let before = NaN, last = 0;
     for (const i of at) {
       const value = column[i]!;
-      const jumps = isJump(lines[line]!.signal.description.unit, before, value);
-      values[rows.get(series.times[i]!)!] = Number.isFinite(value) && !jumps ? value * factor : null;
-      before = value;
+      const row = rows.get(series.times[i]!)!;
+      values[row] = Number.isFinite(value) ? value * factor : null;
+      if (isJump(lines[line]!.signal.description.unit, before, value)) {
+        // a gap between the two; where no other line has an instant between them, in place of the second
+        if (row > last + 1) values.fill(null, last + 1, row);
+        else values[row] = null;
+      }
+      [before, last] = [value, row];
     }
     return values;
   });

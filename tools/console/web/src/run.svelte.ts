@@ -21,6 +21,8 @@ export class Run {
   thinned = $state(0);
   missed = $state(0);
   error = $state("");
+  /** How often jarol has refused what this page asked for. */
+  refusals = $state(0);
   ended: string | undefined = $state();
   newest = $state(0);
   /** The instant that is looked at; undefined: the newest. */
@@ -76,6 +78,7 @@ export class Run {
   /** What this page asked for was refused: said for a while. */
   private complain(text: string): void {
     this.error = text;
+    ++this.refusals;
     clearTimeout(this.errorTimer);
     this.errorTimer = setTimeout(() => (this.error = ""), 8000);
   }

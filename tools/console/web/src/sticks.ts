@@ -77,9 +77,9 @@ export function takesKeys(target: EventTarget | null): boolean {
   return target.matches("input, select, textarea, [role=separator], .map");
 }
 
-/** A key that repeats itself presses no button again. */
-export function isHeld(event: KeyboardEvent): boolean {
-  return event.repeat && (event.key === "Enter" || event.key === " ");
+/** A key that is held presses no button again. */
+export function stopsHeld(event: KeyboardEvent): void {
+  if (event.repeat && event.key === "Enter" && event.target instanceof HTMLButtonElement) event.preventDefault();
 }
 
 // of browsers that can't tell, none: that key counts

@@ -81,13 +81,18 @@ test("a second press of what ends a flight does not undo the first, nor start mo
   const its = new StateSwitch();
   its.show("Stop", 1000);
   assert.equal(its.press(1000, 1), "Stop");
-  // the page does not know yet
+  // the page does not know yet, at any pace
   assert.equal(its.press(1100, 1.1), undefined);
   assert.equal(its.press(9000, 4.9), undefined);
-  its.show("Take off", 1200);
-  assert.equal(its.press(1210, 1.3), undefined);
-  assert.equal(its.press(1799, 1.9), undefined);
-  assert.equal(its.press(1800, 1.9), "Take off");
+  assert.equal(its.press(1500, 40), undefined);
+  // it was faster, and lands
+  its.show("Land", 1600);
+  assert.equal(its.press(1700, 1.7), undefined);
+  its.show(undefined, 1800);
+  assert.equal(its.press(9000, 9), undefined);
+  its.show("Take off", 10_000);
+  assert.equal(its.press(10_599, 10), undefined);
+  assert.equal(its.press(10_600, 10), "Take off");
 });
 
 test("what ends a flight counts at once, and again where nothing came of it", () => {
@@ -97,6 +102,23 @@ test("what ends a flight counts at once, and again where nothing came of it", ()
   its.show("Land", 50);
   assert.equal(its.press(60_000, 13.9), undefined);
   assert.equal(its.press(60_000, 14), "Land");
-  its.show(undefined, 70_000);
-  assert.equal(its.press(80_000, 20), undefined);
+  // at once if jarol has refused it
+  assert.equal(its.press(60_100, 14.1), undefined);
+  its.forget();
+  assert.equal(its.press(60_100, 14.1), "Land");
+});
+
+test("what was told to take off can be ended before it says that it does, what was shut down is not armed by that", () => {
+  const its = new StateSwitch();
+  its.show("Take off", 0);
+  assert.equal(its.isStarting, false);
+  assert.equal(its.press(600, 1), "Take off");
+  assert.equal(its.isStarting, true);
+  its.show("Stop", 700);
+  assert.equal(its.press(700, 1.1), "Stop");
+  its.show("Land", 800);
+  its.wait(5000, 9); // SHUT_DOWN
+  assert.equal(its.press(5100, 9.1), undefined);
+  its.show("Arm", 5200);
+  assert.equal(its.press(5300, 9.2), undefined);
 });

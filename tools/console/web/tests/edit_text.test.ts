@@ -148,6 +148,13 @@ test("what can't be edited without harm is refused with a reason", () => {
     () => operations.setValue(anchored, ["tasks", "a", "type"], "Y"),
     new CannotEdit("what stands there is used elsewhere, too, as '*one'; change it in the text"),
   );
+  const inner = graph("tasks:\n  a: {type: X, parameters: {k: &k 1}}\n  b: {type: X, parameters: {k: *k}}\n");
+  assert.throws(() => operations.setValue(inner, ["tasks", "a", "parameters"], undefined), CannotEdit);
+  assert.throws(
+    () => operations.addPart(graph("tasks: &t\n  a: {type: X}\nmore: *t\n"), "task", "b", [["type", "X"]]),
+    new CannotEdit("'tasks' is used elsewhere, too; change it in the text"),
+  );
+  assert.throws(() => operations.addPart(graph("---\n...\n"), "task", "a", [["type", "X"]]), CannotEdit);
   const unused = graph("tasks:\n  a: &one {type: X}\n  b: {type: X}\n");
   assert.equal(operations.setValue(unused, ["tasks", "a", "type"], "Y").text, "tasks:\n  a: &one {type: Y}\n  b: {type: X}\n");
   const broken = graph("tasks: [\n");

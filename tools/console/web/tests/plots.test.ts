@@ -95,6 +95,17 @@ test("angles are shown in degrees, with a gap where they jump by a turn", () => 
   assert.deepEqual(columnsOf(store, lines(store, "to.heading"), 0, 9, 100)[1], [90, 180, null, -90]);
 });
 
+test("among instants of faster lines the gap of a jump is as long as the jump", () => {
+  const store = new Store(outputs);
+  store.add([
+    [1, 0, 0, Math.PI],
+    [0, 1, 1, 0],
+    [0, 2, 2, 0],
+    [1, 3, 0, -Math.PI],
+  ]);
+  assert.deepEqual(columnsOf(store, lines(store, "to.heading", "from.depth"), 0, 9, 100)[1], [180, null, null, -180]);
+});
+
 test("a table of values has all of them in the units of the graph", () => {
   const store = new Store(outputs);
   store.add([

@@ -28,17 +28,28 @@ function edited(graph: GraphText, splices: readonly Splice[]): GraphText {
   return made;
 }
 
+/** What is changed there changes nothing elsewhere. */
+function requireOwn(graph: GraphText, path: Path): void {
+  const anchor = graph.tree.anchorOf(path);
+  if (anchor !== undefined)
+    throw new CannotEdit(`what stands there is used elsewhere, too, as '*${anchor}'; change it in the text`);
+}
+
 const orderOf = (keys: readonly string[] | undefined): readonly string[] => keys ?? [];
 
 /** Puts an entry at the end of a section, which is made where there is none. */
 function addToSection(graph: GraphText, section: Section | "connections" | "chains", entry: string): GraphText {
   if (graph.tree.isBlank) {
     const begin = graph.text === "" || graph.text.endsWith("\n") ? graph.text : graph.text + newLineOf(graph.text);
-    return new GraphText(`${begin}${section}:${newLineOf(graph.text)}  ${section === "connections" ? "- " : ""}${entry}${newLineOf(graph.text)}`);
+    const line = newLineOf(graph.text);
+    const made = new GraphText(`${begin}${section}:${line}  ${section === "connections" ? "- " : ""}${entry}${line}`);
+    if (!made.isGood) throw new CannotEdit("this can't be done as the text is written; change it in the text");
+    return made;
   }
   requireGood(graph);
   const { tree, text } = graph;
   const root = tree.root!;
+  if (tree.holdsUsed(section)) throw new CannotEdit(`'${section}' is used elsewhere, too; change it in the text`);
   const node = tree.find([section]);
   const line = newLineOf(text);
   const isList = section === "connections";
@@ -117,6 +128,7 @@ export function removePart(graph: GraphText, part: Part): GraphText {
       if (!connection) break;
       made = removeConnection(made, connection);
     }
+  requireOwn(made, part.path);
   return edited(made, removeAt(made.tree, part.path));
 }
 
@@ -138,6 +150,7 @@ export function removeConnection(graph: GraphText, connection: Connection): Grap
   requireGood(graph);
   const list = graph.tree.find(["connections"]);
   if (!list || !isSeq(list)) throw new CannotEdit("there are no connections");
+  requireOwn(graph, ["connections", connection.index]);
   return edited(graph, removeEntry(graph.tree, list, connection.index));
 }
 
@@ -147,6 +160,7 @@ export function reconnect(graph: GraphText, connection: Connection, from: End, t
   const text = arrowText(from, to);
   if (graph.connections.some((c) => c.index !== connection.index && arrowText(c.from, c.to) === text))
     throw new CannotEdit(`there is ${text}`);
+  requireOwn(graph, ["connections", connection.index]);
   return edited(graph, replaceValue(graph.tree, graph.tree.find(["connections", connection.index])!, text));
 }
 
@@ -154,9 +168,7 @@ export function reconnect(graph: GraphText, connection: Connection, from: End, t
 export function setValue(graph: GraphText, path: Path, value: string | undefined, order?: readonly string[]): GraphText {
   requireGood(graph);
   if (graph.written(path) === value) return graph;
-  const anchor = graph.tree.anchorOf(path);
-  if (anchor !== undefined)
-    throw new CannotEdit(`what stands there is used elsewhere, too, as '*${anchor}'; change it in the text`);
+  requireOwn(graph, path);
   if (value === undefined) return edited(graph, removeAt(graph.tree, path));
   // a new section stands where others have it
   const keys = path.length === 1 || graph.tree.find(path.slice(0, 1)) === undefined ? sectionOrder : orderOf(order);

@@ -49,14 +49,29 @@ export class Tree {
     return node;
   }
 
-  /** The anchor of which what stands at a path is, where that is used elsewhere: a change there would be one in all places. */
+  /** An anchor around or in what stands at a path that is used elsewhere: a change here would be one there. */
   anchorOf(path: Path): string | undefined {
     for (let length = path.length; length > 0; --length) {
       const node = this.find(path.slice(0, length));
       const anchor = node && !isAlias(node) ? (node as { anchor?: string }).anchor : undefined;
       if (anchor !== undefined && this.used.has(anchor)) return anchor;
     }
-    return undefined;
+    let within: string | undefined;
+    const node = this.find(path);
+    if (node)
+      visit(node, {
+        Node: (_, its) => {
+          const { anchor } = its as { anchor?: string };
+          if (!isAlias(its) && anchor !== undefined && this.used.has(anchor)) within = anchor;
+        },
+      });
+    return within;
+  }
+
+  /** A section has an anchor that is used elsewhere. */
+  holdsUsed(section: string): boolean {
+    const { anchor } = (this.find([section]) ?? {}) as { anchor?: string };
+    return anchor !== undefined && this.used.has(anchor);
   }
 
   /** What stands there, as it is written. */

@@ -8,8 +8,10 @@ export class Commander {
   private readonly run: () => Run;
   private readonly type: string;
   private sequence = 0;
-  /** It has let go, though the server's word is not here yet. */
-  private released = false;
+  /** It has let go, though the server's word may not be here yet. */
+  private released = $state(false);
+  /** It has asked for the command since it let go. */
+  private asked = false;
 
   /** Of the operator whose distributer has that type. */
   constructor(run: () => Run, type: string) {
@@ -28,7 +30,7 @@ export class Commander {
     return this.run().link === "open" && this.run().ended === undefined && !this.run().silent;
   }
   get commands(): boolean {
-    return this.seat?.commander === this.own && this.open;
+    return !this.released && this.seat?.commander === this.own && this.open;
   }
   get another(): boolean {
     const commander = this.seat?.commander;
@@ -47,20 +49,22 @@ export class Commander {
   take(sticks: Record<string, number>): void {
     this.sequence = 0;
     this.released = false;
+    this.asked = true;
     this.run().ask({ do: "take", desk: this.desk.name, as: this.own, sticks });
   }
   release(): void {
-    if (this.commands) this.run().ask({ do: "release", desk: this.desk.name });
+    // also of what is on its way
+    if (this.asked && !this.another) this.run().ask({ do: "release", desk: this.desk.name });
+    this.asked = false;
     this.released = true;
   }
   send(message: string, fields?: object): void {
-    if (this.released) return;
     const { name } = this.desk;
     this.run().ask({ do: "send", desk: name, sequence: ++this.sequence, t: performance.now(), message, fields });
   }
   /** Commands nothing, and is heard. */
   stay(): void {
-    if (!this.released) this.run().ask({ do: "alive", desk: this.desk.name });
+    this.run().ask({ do: "alive", desk: this.desk.name });
   }
 
   /** Calls `turn` each so many milliseconds; whoever looks elsewhere does not command: then `letGo` is called. */
