@@ -172,13 +172,9 @@ void Closure::look_at(Node& node, const Arguments& arguments) {
   }
   // rarely executed parts, and those that only the unwinder enters, are functions of their own to the linker
   if (node.symbol.name.empty() || node.symbol.is_cold()) return;
-  const auto add_parts = [&](const std::string& suffix) {
-    const std::vector<Symbol> parts = object_.functions_named(node.symbol.name + suffix);
-    for (const Symbol& part : parts) refer(node, node.symbol.begin, part.begin, true, unknown_arguments());
-    return !parts.empty();
-  };
-  for (const char* const suffix : {".cold", ".eh"}) add_parts(suffix);
-  for (int i = 0; add_parts(".__part." + std::to_string(i));) ++i;
+  for (const char* const suffix : {".cold", ".eh", ".__part."})
+    for (const Symbol& part : object_.parts_of(node.symbol.name + suffix))
+      refer(node, node.symbol.begin, part.begin, true, unknown_arguments());
 }
 
 }  // namespace jarol::isolation

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "graph/isolation/names.h"
-#include "graph/isolation/object.h"
 
 namespace jarol::isolation {
 namespace {

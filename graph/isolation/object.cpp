@@ -258,6 +258,16 @@ std::vector<Symbol> Object::functions_named(std::string_view name) const {
   return found;
 }
 
+std::vector<Symbol> Object::parts_of(std::string_view name) const {
+  std::vector<Symbol> found;
+  for (auto at = by_name_.lower_bound(name); at != by_name_.end() && at->first.starts_with(name); ++at) {
+    const std::string_view rest = std::string_view(at->first).substr(name.size());
+    if (rest.find_first_not_of("0123456789") != std::string_view::npos) continue;
+    for (const std::size_t i : at->second) found.push_back(function_at(functions_[i].begin));
+  }
+  return found;
+}
+
 const Pointer* Object::pointer_at(Address address) const {
   const auto found = pointers_.find(address);
   return found == pointers_.end() ? nullptr : &found->second;

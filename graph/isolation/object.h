@@ -47,6 +47,8 @@ class Object {
   /// Data with a name, or a place that holds a pointer.
   bool begins_at(Address address) const;
   std::vector<Symbol> functions_named(std::string_view name) const;
+  /// Those of that name and of it with a number: f.__part.7 of "f.__part.".
+  std::vector<Symbol> parts_of(std::string_view name) const;
   const std::vector<Symbol>& functions() const { return functions_; }
 
   /// Null: the place holds no pointer.

@@ -1,5 +1,4 @@
 #include "graph/isolation/source_lines.h"
-#include "graph/isolation/names.h"
 
 #include <dwarf.h>
 #include <elfutils/libdw.h>
@@ -8,6 +7,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+
+#include "graph/isolation/names.h"
 
 namespace jarol::isolation {
 namespace {

@@ -57,6 +57,13 @@ namespace {
 double counter = 0;
 thread_local double per_thread = 0;
 const double first_value = std::sqrt(static_cast<double>(reinterpret_cast<std::uintptr_t>(&counter) % 7));
+// parts of functions that only the unwinder enters, as compilers name them that lay out each block by itself
+double unwound(double) asm("unwound"), in_part() asm("unwound.__part.7");
+double caught(double) asm("caught"), in_landing_pad() asm("caught.eh");
+[[gnu::noinline]] double unwound(double x) { return x * 3; }
+[[gnu::noinline, gnu::used]] double in_part() { return counter += 2; }
+[[gnu::noinline]] double caught(double x) { return x * 4; }
+[[gnu::noinline, gnu::used]] double in_landing_pad() { return counter += 3; }
 double bumped = 0;
 double bump(double) { return bumped += 1; }
 double add_one(double x) { return x + 1; }
@@ -202,6 +209,10 @@ TASK(InCatch, {
     if (in.in > 3) throw 3;
   } catch (int) { counter = 1; }
 })
+// offends: a writable global: counter: ...
+TASK(InPart, { out.out = unwound(in.in); })
+// offends: a writable global: counter: ...
+TASK(InLandingPads, { out.out = caught(in.in); })
 // offends: a writable global: counter: InDestructor::run > InDestructor::run::Adds::~Adds
 TASK(InDestructor, {
   const struct Adds {
@@ -284,6 +295,6 @@ TASK(SwapsLaw, {
 
 JAROL_PLUGIN(Plain, Calls, PerThread, FunctionStatic, GuardedStatic, InTemplate, InlineVariable, DynamicInitialiser,
              ThroughConstantPointer, ThroughTable, ConstCast, InLambda, InStdFunction, VirtualCall, FunctionTable,
-             FunctionPointer, WeakSymbol, Sorts, TailCall, InCatch, InDestructor, InAssembly, ComputedGoto, Switch,
-             MemberPointer, Resolver, InOddSection, ByDistance, PicksLaw, InCode, MaskedRead, FallsOut, SwapsHook,
-             SwapsFirstHook, SwapsLaw)
+             FunctionPointer, WeakSymbol, Sorts, TailCall, InCatch, InPart, InLandingPads, InDestructor, InAssembly,
+             ComputedGoto, Switch, MemberPointer, Resolver, InOddSection, ByDistance, PicksLaw, InCode, MaskedRead,
+             FallsOut, SwapsHook, SwapsFirstHook, SwapsLaw)
