@@ -17,11 +17,12 @@ void measure(const TaskModels& models, const TimeLineLength& length, TimeLine& l
     offsets = std::max(offsets, m.offset);
   }
   const std::int64_t round = hyperperiod(models, max_time / 8).value_or(max_time / 8);
-  const std::int64_t whole = offsets + length.hyperperiods * round;
+  const bool twice = length.until_it_repeats && offsets > 0;
+  const std::int64_t whole = offsets + (twice ? 2 : 1) * round;
   const double filled = length.max_activations / per_ns;
   const bool fits = static_cast<double>(whole) <= filled;
   line.until = fits ? whole : static_cast<std::int64_t>(filled);
-  if (fits && (offsets == 0 || length.hyperperiods > 1)) line.round = round;
+  if (fits && (offsets == 0 || twice)) line.round = round;
 }
 
 }  // namespace

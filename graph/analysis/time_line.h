@@ -13,10 +13,10 @@ struct TimeLine {
   std::vector<Slice> slices;
 };
 
-/// What is left over from the first hyperperiod after the last offset may make the second another one (Leung and
-/// Merrill 1980); all that follow are as the second.
 struct TimeLineLength {
-  int hyperperiods = 1;  // after the last offset
+  // Two hyperperiods after the last offset, where there are offsets: what is left over from the first may make the
+  // second another one; all that follow are as the second (Leung and Merrill 1980).
+  bool until_it_repeats = false;
   double max_activations = 300;
 };
 

@@ -142,6 +142,13 @@ std::uint32_t crc32_by_table(std::string_view bytes, std::uint32_t before) {
   return ~by_table(~before, bytes.data(), bytes.size());
 }
 
+std::uint32_t crc32_by_narrow_folding(std::string_view bytes, std::uint32_t before) {
+#if defined(__x86_64__)
+  if (bytes.size() >= 64 && can_fold()) return ~by_folding(~before, bytes.data(), bytes.size());
+#endif
+  return crc32_by_table(bytes, before);
+}
+
 std::uint32_t joined_crc32(std::uint32_t first, std::uint32_t second, std::uint64_t bytes_of_second) {
   // the first one times x^(8 n)
   std::uint32_t square = 0x00800000U;  // x^8
@@ -153,9 +160,8 @@ std::uint32_t joined_crc32(std::uint32_t first, std::uint32_t second, std::uint6
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
 #if defined(__x86_64__)
   if (bytes.size() >= 256 && can_fold_wide()) return ~by_wide_folding(~before, bytes.data(), bytes.size());
-  if (bytes.size() >= 64 && can_fold()) return ~by_folding(~before, bytes.data(), bytes.size());
 #endif
-  return crc32_by_table(bytes, before);
+  return crc32_by_narrow_folding(bytes, before);
 }
 
 }  // namespace jarol::mcap

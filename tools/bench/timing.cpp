@@ -19,12 +19,6 @@ double microseconds_at(double part, std::vector<Duration>& samples) {
   return 1e-3 * static_cast<double>(at->count());
 }
 
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 void keep(double result) { asm volatile("" : : "g"(&result) : "memory"); }
 
 GraphRun::GraphRun(const std::string& text, bool digest, Duration slice, std::size_t workers)

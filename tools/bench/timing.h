@@ -15,8 +15,6 @@ double seconds_of(const std::function<void()>& work);
 
 /// The sample, in us, that a part of all samples does not exceed. Reorders them.
 double microseconds_at(double part, std::vector<Duration>& samples);
-/// Of what was measured in slices: the machine's own bursts are in few of them. Reorders the values.
-double median_of(std::vector<double>& values);
 
 /// Takes results, so that no floor is optimised away.
 void keep(double result);

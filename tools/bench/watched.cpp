@@ -5,7 +5,6 @@
 #include <netinet/in.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,10 +12,10 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
 #include "runtime/execute/executor.h"
+#include "tools/bench/clock.h"
 #include "tools/bench/graphs.h"
 #include "tools/bench/message.h"
 #include "tools/bench/timing.h"
@@ -25,8 +24,6 @@
 
 namespace jarol::bench {
 namespace {
-
-constexpr int watched_ticks = 500;  // of a slice
 
 // Sockets of pages in a process of their own, which ends with this.
 class Watchers {
@@ -96,61 +93,26 @@ std::string text_of_graph() {
   return text.insert(text.find("tasks:\n") + 7, "  a: {type: Stamp, period: 1ms, on_fault: hold}\n");
 }
 
-// Adds what 99 of 100 latenesses of a slice were at most.
-void run(const Graph& graph, RecordSink* sink, std::vector<double>& microseconds) {
-  RealClock clock(graph.tasks.size());
-  std::optional<Recorder> recorder;
-  if (sink != nullptr) recorder.emplace(std::vector{sink}, std::chrono::milliseconds(20));
-  Executor executor(graph, {}, {.recorder = recorder ? &*recorder : nullptr, .clock = &clock});
-  Stamp::clock = &clock;
-  Stamp::begun.clear();
-  clock.start();
-  executor.run_until(std::chrono::milliseconds(watched_ticks + 1));
-  if (recorder) recorder->close();
-  // before activation 0 nobody sleeps
-  std::vector<Duration> lateness(Stamp::begun.begin() + 1, Stamp::begun.end());
-  // what was left out, as the one before it was late by a period, was as late
-  lateness.resize(watched_ticks, std::chrono::milliseconds(1));
-  microseconds.push_back(microseconds_at(0.99, lateness));
-}
-
-void run_watched(const Graph& graph, int watchers, bool reads, std::vector<double>& microseconds) {
+double lateness_watched(const Graph& graph, int watchers, bool reads) {
   tools::console::Console console(
       tools::console::Watched{.run = {graph, "bench", "real", Duration::max()}, .server = {}, .pace = nullptr});
   console.open();
   std::optional<Watchers> all;
   if (watchers > 0) all.emplace(console.url(), watchers, reads);
-  run(graph, &console.feed(), microseconds);
+  return lateness_of_run(graph, 0.99, &console.feed());
 }
 
 }  // namespace
 
 Figure measure_watched(const std::string& name, int watchers, bool reads, int repeats) {
   const Graph graph = graph_of(text_of_graph());
-  std::vector<double> watched, alone;
-  Stamp::begun.reserve(watched_ticks + 1);
-  // a thread of its own: the figures after this one keep their timer slack
-  std::thread([&] {
-    static_cast<void>(RealClock(0).prepare_thread());
-    for (int i = 0; i < std::max(8, repeats / 2); ++i) {
-      if (i % 2 == 0) run(graph, nullptr, alone);
-      run_watched(graph, watchers, reads, watched);
-      if (i % 2 == 1) run(graph, nullptr, alone);
-    }
-  }).join();
-  ::munlockall();
-  const double value = median_of(watched), floor = median_of(alone);
   const std::string who = watchers == 0   ? "nobody at its console"
                           : !reads        ? "a page that reads nothing"
                           : watchers == 1 ? "a page that watches"
                                           : std::to_string(watchers) + " pages that watch";
-  return {name,
-          value,
-          "us",
-          floor,
-          value / floor,
-          1.2,
-          "lateness at 1 kHz, 99 %, median of slices of 0.5 s, with " + who + " / without a console"};
+  return compare_lateness(
+      name, "lateness at 1 kHz, 99 %, with " + who + " / without a console", 1.2, repeats,
+      [&] { return lateness_watched(graph, watchers, reads); }, [&] { return lateness_of_run(graph, 0.99); });
 }
 
 Figure measure_layout(const std::string& name, int repeats) {

@@ -8,7 +8,7 @@
 namespace jarol::bench {
 
 /// 99 of 100 latenesses at 1 kHz of a chain of tasks with a console, whose pages are `watchers` sockets in another
-/// process, to that without one: the median of slices of half a second, in turn. `reads`: they read what they are sent.
+/// process, to that without one. `reads`: they read what they are sent.
 Figure measure_watched(const std::string& name, int watchers, bool reads, int repeats);
 
 /// The layout of a graph of 200 tasks, whose floor is a second.

@@ -99,12 +99,7 @@ int show(const ConsoleOptions& options) {
   const Interruptible interruptible;
   console.open();
   print_url(console.url(), options.console);
-  try {
-    if (!log) read();
-  } catch (const LogError& error) {
-    console.end(std::string(error.what()) + "\n");
-    throw;
-  }
+  if (!log) read();
   if (Interruptible::signal() != 0) return exit_of_signal(Interruptible::signal());
   loaded.channels = recorded_channels(loaded, *log);
   GraphRun run(std::move(loaded), {.sinks = {&console.feed()}, .misses = misses, .truth = true, .watched = true});

@@ -33,10 +33,6 @@ const char* kind_of(const Type& type) {
   return "";
 }
 
-bool is_number(const Type& type) {
-  return type.kind == Kind::floating || type.kind == Kind::signed_integer || type.kind == Kind::unsigned_integer;
-}
-
 }  // namespace
 
 Json describe_parameters(const Type& type, const Value& given) {
@@ -53,8 +49,10 @@ Json describe_parameters(const Type& type, const Value& given) {
               {"default", text_in(defaults)}};
     if (const TypeField* const field = field_of_leaf(type, leaf.path); field != nullptr) {
       if (!field->text.empty()) json["text"] = field->text;
-      if (is_number(*leaf.type) && std::isfinite(field->range.min)) json["min"] = field->range.min;
-      if (is_number(*leaf.type) && std::isfinite(field->range.max)) json["max"] = field->range.max;
+      // of durations, which are texts here, ranges are in nanoseconds
+      const bool is_number = leaf.type->kind != Kind::duration;
+      if (is_number && std::isfinite(field->range.min)) json["min"] = field->range.min;
+      if (is_number && std::isfinite(field->range.max)) json["max"] = field->range.max;
     }
     for (const auto& [name, number] : leaf.type->enumerators) json["words"].push_back(name);
     parameters.push_back(std::move(json));
@@ -77,10 +75,8 @@ Json task_json(const Task& task) {
 }
 
 Json schedule_json(const Graph& graph, const analysis::Result& result) {
-  const bool starts_at_once =
-      std::all_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return t.offset == Duration{}; });
-  const analysis::TimeLine line = analysis::time_line_of(
-      analysis::system_of(graph), result, {.hyperperiods = starts_at_once ? 1 : 2, .max_activations = 3000});
+  const analysis::TimeLine line =
+      analysis::time_line_of(analysis::system_of(graph), result, {.until_it_repeats = true, .max_activations = 3000});
   auto slices = Json::array();
   for (const analysis::Slice& slice : line.slices)
     slices.push_back({slice.task, seconds_of(slice.begin), seconds_of(slice.end)});

@@ -56,11 +56,12 @@ TEST_SUITE("graph/analysis/time_line") {
       return analysis::time_line_of(system, analysis::check(system), length);
     };
     CHECK(line("", {}).round == 20'000'000);
+    CHECK(line("", {.until_it_repeats = true}).until == 20'000'000);
     CHECK(line(", offset: 5ms", {}).until == 25'000'000);
     CHECK(!line(", offset: 5ms", {}).round);
-    CHECK(line(", offset: 5ms", {.hyperperiods = 2}).until == 45'000'000);
-    CHECK(line(", offset: 5ms", {.hyperperiods = 2}).round == 20'000'000);
-    CHECK(!line(", offset: 5ms", {.hyperperiods = 2, .max_activations = 5}).round);
+    CHECK(line(", offset: 5ms", {.until_it_repeats = true}).until == 45'000'000);
+    CHECK(line(", offset: 5ms", {.until_it_repeats = true}).round == 20'000'000);
+    CHECK(!line(", offset: 5ms", {.until_it_repeats = true, .max_activations = 5}).round);
     CHECK(line("", {.max_activations = 1}).until < 20'000'000);
   }
 

@@ -88,6 +88,11 @@ export function nextSwitch(state: string, cause: string): string | undefined {
   return state === "flying" ? "Land" : undefined;
 }
 
+/** What that key does ends a flight. */
+export function endsFlight(key: string | undefined): boolean {
+  return key === "Land" || key === "Stop";
+}
+
 /**
  * One switch that does another thing each time: a second press must not undo the first, nor start motors, while the page
  * does not know yet what came of it.
@@ -100,20 +105,19 @@ export class StateSwitch {
   static readonly seen = 600;
   /** Seconds, of the run and beside it, in which the vehicle follows: whoever looks at what is older commands nothing. */
   static readonly patience = 4;
-  static readonly ends = (key: string | undefined): boolean => key === "Land" || key === "Stop";
 
   /** What it does next is that. */
   show(key: string | undefined, milliseconds: number): void {
     if (key === this.key) return;
     // it may have taken off before it heard of Stop, and lands
-    if (!StateSwitch.ends(this.key) || !StateSwitch.ends(key)) this.pressed = undefined;
+    if (!endsFlight(this.key) || !endsFlight(key)) this.pressed = undefined;
     this.key = key;
     this.since = milliseconds;
   }
 
   /** What the press does; undefined: it does not count. What ends a flight counts at once. */
   press(milliseconds: number, newest: number): string | undefined {
-    if (!StateSwitch.ends(this.key) && milliseconds - this.since < StateSwitch.seen) return undefined;
+    if (!endsFlight(this.key) && milliseconds - this.since < StateSwitch.seen) return undefined;
     const { pressed } = this;
     const { patience } = StateSwitch;
     if (pressed && (newest - pressed.newest < patience || milliseconds - pressed.milliseconds < 1000 * patience)) return undefined;

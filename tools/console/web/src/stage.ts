@@ -56,8 +56,8 @@ export class Stage {
   private readonly fog: three.Fog;
   private readonly sized: ResizeObserver;
   private readonly dome = new Dome();
-  /** Of air and of water; undefined: it is not painted yet. */
   private theme = "";
+  /** Of air and of water; undefined: it is not painted yet. */
   private skies: Record<"above" | "below", { zenith: three.Color; haze: three.Color; nadir: three.Color }> | undefined;
   private under: "above" | "below" | "" = "";
   private pose: Pose = { x: 0, y: 0, down: 0, roll: 0, pitch: 0, heading: 0, speed: 0 };

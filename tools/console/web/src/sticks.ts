@@ -78,7 +78,7 @@ export function takesKeys(target: EventTarget | null): boolean {
 }
 
 /** A key that is held presses no button again. */
-export function stopsHeld(event: KeyboardEvent): void {
+export function dropHeld(event: KeyboardEvent): void {
   if (event.repeat && event.key === "Enter" && event.target instanceof HTMLButtonElement) event.preventDefault();
 }
 

@@ -152,7 +152,7 @@ test("what can't be edited without harm is refused with a reason", () => {
   assert.throws(() => operations.setValue(inner, ["tasks", "a", "parameters"], undefined), CannotEdit);
   assert.throws(
     () => operations.addPart(graph("tasks: &t\n  a: {type: X}\nmore: *t\n"), "task", "b", [["type", "X"]]),
-    new CannotEdit("'tasks' is used elsewhere, too; change it in the text"),
+    new CannotEdit("what stands there is used elsewhere, too, as '*t'; change it in the text"),
   );
   assert.throws(() => operations.addPart(graph("---\n...\n"), "task", "a", [["type", "X"]]), CannotEdit);
   const unused = graph("tasks:\n  a: &one {type: X}\n  b: {type: X}\n");

@@ -29,8 +29,7 @@ function edited(graph: GraphText, splices: readonly Splice[]): GraphText {
 }
 
 /** What is changed there changes nothing elsewhere. */
-function requireOwn(graph: GraphText, path: Path): void {
-  const anchor = graph.tree.anchorOf(path);
+function requireUnused(anchor: string | undefined): void {
   if (anchor !== undefined)
     throw new CannotEdit(`what stands there is used elsewhere, too, as '*${anchor}'; change it in the text`);
 }
@@ -49,7 +48,7 @@ function addToSection(graph: GraphText, section: Section | "connections" | "chai
   requireGood(graph);
   const { tree, text } = graph;
   const root = tree.root!;
-  if (tree.holdsUsed(section)) throw new CannotEdit(`'${section}' is used elsewhere, too; change it in the text`);
+  requireUnused(tree.anchorAround([section]));
   const node = tree.find([section]);
   const line = newLineOf(text);
   const isList = section === "connections";
@@ -111,7 +110,6 @@ export function freeName(graph: GraphText, kind: Kind, word: string): string {
 
 /** A new entry with these keys, each with its value as it is to be written. */
 export function addPart(graph: GraphText, kind: Kind, name: string, keys: readonly (readonly [string, string])[]): GraphText {
-  if (!graph.tree.isBlank) requireGood(graph);
   requireNewName(graph, kind, name);
   const section = sectionOf(kind);
   const body = keys.map(([key, value]) => `${key}: ${value}`).join(", ");
@@ -128,7 +126,7 @@ export function removePart(graph: GraphText, part: Part): GraphText {
       if (!connection) break;
       made = removeConnection(made, connection);
     }
-  requireOwn(made, part.path);
+  requireUnused(made.tree.anchorOf(part.path));
   return edited(made, removeAt(made.tree, part.path));
 }
 
@@ -150,7 +148,7 @@ export function removeConnection(graph: GraphText, connection: Connection): Grap
   requireGood(graph);
   const list = graph.tree.find(["connections"]);
   if (!list || !isSeq(list)) throw new CannotEdit("there are no connections");
-  requireOwn(graph, ["connections", connection.index]);
+  requireUnused(graph.tree.anchorOf(["connections", connection.index]));
   return edited(graph, removeEntry(graph.tree, list, connection.index));
 }
 
@@ -160,7 +158,7 @@ export function reconnect(graph: GraphText, connection: Connection, from: End, t
   const text = arrowText(from, to);
   if (graph.connections.some((c) => c.index !== connection.index && arrowText(c.from, c.to) === text))
     throw new CannotEdit(`there is ${text}`);
-  requireOwn(graph, ["connections", connection.index]);
+  requireUnused(graph.tree.anchorOf(["connections", connection.index]));
   return edited(graph, replaceValue(graph.tree, graph.tree.find(["connections", connection.index])!, text));
 }
 
@@ -168,7 +166,7 @@ export function reconnect(graph: GraphText, connection: Connection, from: End, t
 export function setValue(graph: GraphText, path: Path, value: string | undefined, order?: readonly string[]): GraphText {
   requireGood(graph);
   if (graph.written(path) === value) return graph;
-  requireOwn(graph, path);
+  requireUnused(graph.tree.anchorOf(path));
   if (value === undefined) return edited(graph, removeAt(graph.tree, path));
   // a new section stands where others have it
   const keys = path.length === 1 || graph.tree.find(path.slice(0, 1)) === undefined ? sectionOrder : orderOf(order);

@@ -49,29 +49,27 @@ export class Tree {
     return node;
   }
 
-  /** An anchor around or in what stands at a path that is used elsewhere: a change here would be one there. */
-  anchorOf(path: Path): string | undefined {
-    for (let length = path.length; length > 0; --length) {
-      const node = this.find(path.slice(0, length));
-      const anchor = node && !isAlias(node) ? (node as { anchor?: string }).anchor : undefined;
-      if (anchor !== undefined && this.used.has(anchor)) return anchor;
-    }
-    let within: string | undefined;
-    const node = this.find(path);
-    if (node)
-      visit(node, {
-        Node: (_, its) => {
-          const { anchor } = its as { anchor?: string };
-          if (!isAlias(its) && anchor !== undefined && this.used.has(anchor)) within = anchor;
-        },
-      });
-    return within;
+  /** The anchor of a node, if it is used elsewhere. */
+  private usedAnchor(node: Node | undefined): string | undefined {
+    const anchor = node && !isAlias(node) ? (node as { anchor?: string }).anchor : undefined;
+    return anchor !== undefined && this.used.has(anchor) ? anchor : undefined;
   }
 
-  /** A section has an anchor that is used elsewhere. */
-  holdsUsed(section: string): boolean {
-    const { anchor } = (this.find([section]) ?? {}) as { anchor?: string };
-    return anchor !== undefined && this.used.has(anchor);
+  /** An anchor that is used elsewhere, of what stands at a path or around it: what is added here is added there. */
+  anchorAround(path: Path): string | undefined {
+    for (let length = path.length; length > 0; --length) {
+      const anchor = this.usedAnchor(this.find(path.slice(0, length)));
+      if (anchor !== undefined) return anchor;
+    }
+    return undefined;
+  }
+
+  /** The same, or within it: a change here would be one there. */
+  anchorOf(path: Path): string | undefined {
+    let anchor = this.anchorAround(path);
+    const node = this.find(path);
+    if (node) visit(node, { Node: (_, its) => void (anchor ??= this.usedAnchor(its)) });
+    return anchor;
   }
 
   /** What stands there, as it is written. */
