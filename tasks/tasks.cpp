@@ -6,6 +6,7 @@
 #include "tasks/javiator/control.h"
 #include "tasks/javiator/filter.h"
 #include "tasks/javiator/flight_logic.h"
+#include "tasks/javiator/motor_watch.h"
 #include "tasks/javiator/original_control.h"
 #include "tasks/javiator/original_filter.h"
 #include "tasks/lauv/control.h"
@@ -28,7 +29,7 @@ void add(Registry& registry) {
 void add_tasks(Registry& registry) {
   add<Accumulate, Counter, Mean, Relay, Sum, Window, Work>(registry);
   add<AltitudeControl, AttitudeControl, BlindObserver, FlightLogic, HelicopterReporter, JaviatorFilter, MotorMixer,
-      PositionControl>(registry);
+      MotorWatch, PositionControl>(registry);
   add<OriginalAltitude, OriginalAttitude, OriginalFilter, OriginalLogic, OriginalMixer, OriginalPosition>(registry);
   add<DepthControl, FaultTolerantAllocator, FinAllocator, FinWatch, HeadingControl, LauvForward, LauvGuidance,
       LauvNavigation, LauvReport, LauvSupervisor, SpeedControl>(registry);

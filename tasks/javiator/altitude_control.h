@@ -16,9 +16,10 @@ struct QuickLanding {
   double acceleration = 5;
   double brake = 2.5;
   double low = 0.1;
-  double touch_speed = 0.18;
-  double contact = 0.022;
-  double cut = 2;
+  double touch_speed = 0.2;
+  double drift = 0.7;
+  double contact = 0.025;
+  double cut = 5;
 
   static constexpr auto fields() {
     using Q = QuickLanding;
@@ -26,6 +27,8 @@ struct QuickLanding {
                     field<&Q::brake>("m/s^2", "out of it").in(0, 100),
                     field<&Q::low>("m", "altitude at which it has slowed to touch_speed"),
                     field<&Q::touch_speed>("m/s", "of its last part"),
+                    field<&Q::drift>("m/s", "to the side, beyond which it descends more slowly, and at twice of it not")
+                        .in(0.01, 100),
                     field<&Q::contact>("m", "altitude from which on thrust is taken back: a foot may stand"),
                     field<&Q::cut>("1/s", "at which it is"));
   }

@@ -15,44 +15,70 @@ using Vector = Eigen::Matrix<double, 5, 1>;
 
 constexpr double gravity = 9.81;
 
-Eigen::Map<Matrix> covariance_of(LeanAxis& axis) { return Eigen::Map<Matrix>(axis.covariance.data()); }
+Eigen::Map<Matrix> covariance_of(LeanGuess& guess) { return Eigen::Map<Matrix>(guess.covariance.data()); }
 
-// How well these are known when an IMU falls silent, or has reported the same for a while.
-void begin(LeanAxis& axis) {
-  const Vector deviations(0.003, 0.03, 0.01, 0.05, 1.0);
-  covariance_of(axis) = deviations.cwiseAbs2().asDiagonal();
+// What is known when an IMU falls silent, or has reported the same for a while. A ray is as long for a lean towards its
+// wall as for one away from it, and winds turn it to either side: each guess is of another wind.
+void begin(LeanAxis& axis, const BlindObserver::Param& p) {
+  constexpr double apart = 1.2, part = 0.8;  // of the wind's deviation
+  const Vector deviations(0.003, 0.03, 0.01, 0.05, part * p.gusts);
+  double sum = 0;
+  for (std::size_t i = 0; i < axis.guesses.size(); ++i) {
+    LeanGuess& guess = axis.guesses[i] = axis.mean;
+    const double off = apart * (static_cast<double>(i) - 2);
+    guess.wind = off * p.gusts;
+    guess.weight = std::exp(-0.5 * off * off);
+    sum += guess.weight;
+    covariance_of(guess) = deviations.cwiseAbs2().asDiagonal();
+  }
+  for (LeanGuess& guess : axis.guesses) guess.weight /= sum;
+}
+
+// Near the ground thrust grows by 1 / (1 - (R/4h)^2), and on the lower side more: Cheeseman and Bennett, "The Effect of
+// the Ground on a Helicopter Rotor in Forward Flight", 1955.
+struct GroundEffect {
+  double gain, slope;  // of thrust; and by how much it grows, 1/m downwards
+};
+
+GroundEffect find_ground_effect(const BlindObserver::Param& p, double altitude) {
+  const double height = std::max(altitude, 0.0) + p.rotor_height, ratio = p.rotor_radius / (4 * height);
+  const double gain = 1 / (1 - ratio * ratio);
+  return {gain, 2 * ratio * ratio * gain * gain / height};
 }
 
 // Of place, speed, lean, rate and wind one period on, beside what rotors and mean wind do.
-Matrix transition(const BlindObserver::Param& p, double lift, double dt) {
+// The slower the rotors turn (1 is as they did), the less the air that flows past holds and turns it.
+Matrix transition(const BlindObserver::Param& p, double lift, double spin, double stiffness, double dt) {
   Matrix F = Matrix::Identity();
-  const double half = 0.5 * dt * dt;
+  const double half = 0.5 * dt * dt, drag = spin * p.drag, damping = spin * p.damping, hub = spin * p.hub;
   F(0, 1) = dt;
   F(0, 2) = lift * half;
-  F(1, 1) = 1 - p.drag * dt;
+  F(1, 1) = 1 - drag * dt;
   F(1, 2) = lift * dt;
   F(1, 3) = lift * half;
-  F(1, 4) = p.drag * dt;
-  F(2, 3) = dt - p.damping * half;
-  F(2, 4) = p.hub * half;
-  F(3, 1) = -p.hub * dt;
-  F(3, 3) = 1 - p.damping * dt;
-  F(3, 4) = p.hub * dt;
+  F(1, 4) = drag * dt;
+  F(2, 2) = 1 - stiffness * half;
+  F(2, 3) = dt - damping * half;
+  F(2, 4) = hub * half;
+  F(3, 1) = -hub * dt;
+  F(3, 2) = -stiffness * dt;
+  F(3, 3) = 1 - damping * dt;
+  F(3, 4) = hub * dt;
   F(4, 4) = 1 - dt / p.gust_time;
   return F;
 }
 
-void predict(LeanAxis& axis, const Matrix& F, double turning, double dt) {
-  const Vector mean = F * Vector(axis.place, axis.speed, axis.lean, axis.rate, axis.wind);
-  axis.place = mean(0) + 0.5 * axis.drag * dt * dt;
-  axis.speed = mean(1) + axis.drag * dt;
-  axis.lean = mean(2) + 0.5 * turning * dt * dt;
-  axis.rate = mean(3) + turning * dt;
-  axis.since += dt;
+void predict(LeanGuess& guess, const Matrix& F, double drag, double turning, double dt) {
+  const Vector mean = F * Vector(guess.place, guess.speed, guess.lean, guess.rate, guess.wind);
+  guess.place = mean(0) + 0.5 * drag * dt * dt;
+  guess.speed = mean(1) + drag * dt;
+  guess.lean = mean(2) + 0.5 * turning * dt * dt;
+  guess.rate = mean(3) + turning * dt;
+  guess.wind = mean(4);
 }
 
-void spread(LeanAxis& axis, const BlindObserver::Param& p, const Matrix& F, double dt) {
-  Eigen::Map<Matrix> P = covariance_of(axis);
+void spread(LeanGuess& guess, const BlindObserver::Param& p, const Matrix& F, double dt) {
+  Eigen::Map<Matrix> P = covariance_of(guess);
   const Matrix FP = F.lazyProduct(P);
   P = FP.lazyProduct(F.transpose());
   P(1, 1) += p.force_noise * p.force_noise * dt;
@@ -60,22 +86,49 @@ void spread(LeanAxis& axis, const BlindObserver::Param& p, const Matrix& F, doub
   P(4, 4) += 2 * p.gusts * p.gusts / p.gust_time * dt;
 }
 
-// A place is measured by a ray that leans as the vehicle does.
-void correct(LeanAxis& axis, const PlaceFix& fix, const BlindObserver::Param& p) {
-  if (!fix.is_new) return;
-  Eigen::Map<Matrix> P = covariance_of(axis);
-  const Vector PH = P.col(0) - fix.slope * P.col(2);
+void average(LeanAxis& axis) {
+  LeanGuess mean{.weight = 1};
+  for (const LeanGuess& guess : axis.guesses) {
+    mean.place += guess.weight * guess.place;
+    mean.speed += guess.weight * guess.speed;
+    mean.lean += guess.weight * guess.lean;
+    mean.rate += guess.weight * guess.rate;
+    mean.wind += guess.weight * guess.wind;
+  }
+  axis.mean = mean;
+}
+
+// A place is measured by a ray that leans as the vehicle does; the one given is that of the mean's lean.
+void correct(LeanGuess& guess, const PlaceFix& fix, double taken, const BlindObserver::Param& p) {
+  Eigen::Map<Matrix> P = covariance_of(guess);
+  const double off = guess.lean - taken;
+  const double slope = fix.slope + fix.range * off;
+  const double place = fix.place + (fix.slope + 0.5 * fix.range * off) * off;
+  const Vector PH = P.col(0) - slope * P.col(2);
   // it grows with the lean's square as well
   const double bend = std::abs(fix.range) * P(2, 2);
   const double noise = std::hypot(p.range_noise, p.yaw_noise * fix.skew);
-  const Vector gain = PH / (PH(0) - fix.slope * PH(2) + noise * noise + 0.5 * bend * bend);
-  const double residual = fix.place + 0.5 * bend - axis.place;
-  axis.place += gain(0) * residual;
-  axis.speed += gain(1) * residual;
-  axis.lean += gain(2) * residual;
-  axis.rate += gain(3) * residual;
-  axis.wind += gain(4) * residual;
+  const double variance = PH(0) - slope * PH(2) + noise * noise + 0.5 * bend * bend;
+  const Vector gain = PH / variance;
+  const double residual = place + std::copysign(0.5 * bend, fix.range) - guess.place;
+  guess.place += gain(0) * residual;
+  guess.speed += gain(1) * residual;
+  guess.lean += gain(2) * residual;
+  guess.rate += gain(3) * residual;
+  guess.wind += gain(4) * residual;
   P -= gain.lazyProduct(PH.transpose());
+  guess.weight *= std::exp(-0.5 * residual * residual / variance) / std::sqrt(variance);
+}
+
+void correct(LeanAxis& axis, const PlaceFix& fix, const BlindObserver::Param& p) {
+  if (!fix.is_new) return;
+  double sum = 0;
+  for (LeanGuess& guess : axis.guesses) {
+    correct(guess, fix, axis.mean.lean, p);
+    guess.weight = std::max(guess.weight, 1e-12);
+    sum += guess.weight;
+  }
+  for (LeanGuess& guess : axis.guesses) guess.weight /= sum;
   axis.since = 0;
 }
 
@@ -94,70 +147,85 @@ void feel(BlindObserver::State& state, double lag, double dt) {
 void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const FlightEstimate& e = in.estimate;
   const double dt = seconds(tick.period);
-  if (e.rates_known) {
+  if (e.rates_known && e.rates_age == 0) {
     const double part = dt / (p.mean_time + dt);
-    follow(state.mean.roll, in.turn.roll, part);
-    follow(state.mean.pitch, in.turn.pitch, part);
-    follow(state.mean.yaw, in.turn.yaw, part);
+    follow(state.mean_yaw, in.turn.yaw, part);
     follow(state.mean_thrust, in.lift.thrust, part);
     follow(state.lift, e.lift + p.inflow * e.climb, part);
     follow(state.x.drag, e.drag_x + p.drag * e.v_x, part);
     follow(state.y.drag, e.drag_y + p.drag * e.v_y, part);
     const Rotation2Dd to_earth(e.heading);
+    // what turns it beside its rotors
+    const Vector2d torque = to_earth * Vector2d(-(e.q - state.q) / dt - p.damping * e.q + p.effect * state.felt.pitch,
+                                                (e.p - state.p) / dt + p.damping * e.p - p.effect * state.felt.roll);
+    state.p = e.p;
+    state.q = e.q;
+    follow(state.x.torque, torque.x() + p.hub * e.v_x, part);
+    follow(state.y.torque, torque.y() + p.hub * e.v_y, part);
     const Vector2d lean = to_earth * Vector2d(-e.pitch, e.roll), rate = to_earth * Vector2d(-e.q, e.p);
-    state.x = {.place = e.x, .speed = e.v_x, .lean = lean.x(), .rate = rate.x(), .drag = state.x.drag};
-    state.y = {.place = e.y, .speed = e.v_y, .lean = lean.y(), .rate = rate.y(), .drag = state.y.drag};
+    state.x = {.mean = {.weight = 1, .place = e.x, .speed = e.v_x, .lean = lean.x(), .rate = rate.x()},
+               .drag = state.x.drag,
+               .torque = state.x.torque};
+    state.y = {.mean = {.weight = 1, .place = e.y, .speed = e.v_y, .lean = lean.y(), .rate = rate.y()},
+               .drag = state.y.drag,
+               .torque = state.y.torque};
     state.heading = e.heading;
     state.yaw = e.yaw;
     state.yaw_rate = e.r;
     state.turns = std::abs(e.r) > p.turn_limit;
-    state.mean_wind = std::hypot(state.x.drag, state.y.drag) / p.drag;
-  } else {
+  } else if (!e.rates_known) {
     if (!state.is_blind) {
-      begin(state.x);
-      begin(state.y);
+      begin(state.x, p);
+      begin(state.y, p);
     }
     correct(state.x, e.fix_x, p);
     correct(state.y, e.fix_y, p);
   }
   state.is_blind = !e.rates_known;
   feel(state, p.lag, dt);
-  const Vector2d turning = Rotation2Dd(state.heading) * Vector2d(-p.effect * (state.felt.pitch - state.mean.pitch),
-                                                                 p.effect * (state.felt.roll - state.mean.roll));
-  const double lift = state.lift + gravity * (state.felt_thrust - state.mean_thrust) - p.inflow * e.climb;
-  const Matrix F = transition(p, lift, dt);
-  predict(state.x, F, turning.x(), dt);
-  predict(state.y, F, turning.y(), dt);
-  if (state.is_blind) {
-    spread(state.x, p, F, dt);
-    spread(state.y, p, F, dt);
-  }
-  const double turned = (state.yaw_rate + 0.5 * p.yaw_effect * (state.last.yaw - state.mean.yaw) * dt) * dt;
+  const double spin = std::sqrt(std::max(state.felt_thrust, 0.0) / state.mean_thrust);
+  const Vector2d turning = p.effect * (Rotation2Dd(state.heading) * Vector2d(-state.felt.pitch, state.felt.roll));
+  const GroundEffect ground = find_ground_effect(p, e.altitude);
+  const double lift =
+      state.lift + gravity * (ground.gain * state.felt_thrust - state.mean_thrust) - spin * p.inflow * e.climb;
+  const Matrix F = transition(p, lift, spin, p.effect * p.arm * ground.slope * state.felt_thrust, dt);
+  const auto advance = [&](LeanAxis& axis, double turned) {
+    const double torque = turned + spin * axis.torque;
+    axis.since += dt;
+    if (!state.is_blind) return predict(axis.mean, F, spin * axis.drag, torque, dt);
+    for (LeanGuess& guess : axis.guesses) {
+      predict(guess, F, spin * axis.drag, torque, dt);
+      spread(guess, p, F, dt);
+    }
+    average(axis);
+  };
+  advance(state.x, turning.x());
+  advance(state.y, turning.y());
+  const double turned = (state.yaw_rate + 0.5 * p.yaw_effect * (state.last.yaw - state.mean_yaw) * dt) * dt;
   state.yaw += turned;
   state.heading += turned;
   state.yaw_rate +=
-      p.yaw_effect * ((state.last.yaw - state.mean.yaw) * dt + p.spin_time * (in.turn.yaw - state.last.yaw));
+      p.yaw_effect * ((state.last.yaw - state.mean_yaw) * dt + p.spin_time * (in.turn.yaw - state.last.yaw));
   state.last = in.turn;
   state.last_thrust = in.lift.thrust;
 
   const Rotation2Dd to_body(-state.heading);
-  const Vector2d lean = to_body * Vector2d(state.x.lean, state.y.lean);
-  const Vector2d rate = to_body * Vector2d(state.x.rate, state.y.rate);
+  const Vector2d lean = to_body * Vector2d(state.x.mean.lean, state.y.mean.lean);
+  const Vector2d rate = to_body * Vector2d(state.x.mean.rate, state.y.mean.rate);
   out.motion = {.roll = lean.y(),
                 .pitch = -lean.x(),
                 .yaw = state.yaw,
                 .p = rate.y(),
                 .q = -rate.x(),
                 .r = state.yaw_rate,
-                .x = state.x.place,
-                .y = state.y.place,
-                .v_x = state.x.speed,
-                .v_y = state.y.speed,
-                .drag_x = state.x.drag,
-                .drag_y = state.y.drag,
+                .x = state.x.mean.place,
+                .y = state.y.mean.place,
+                .v_x = state.x.mean.speed,
+                .v_y = state.y.mean.speed,
+                .drag_x = spin * state.x.drag,
+                .drag_y = spin * state.y.drag,
                 .lift = lift,
-                .known = !state.turns && state.mean_wind > p.least_wind && state.x.since < p.patience &&
-                         state.y.since < p.patience};
+                .known = !state.turns && state.x.since < p.patience && state.y.since < p.patience};
 }
 
 }  // namespace jarol::tasks

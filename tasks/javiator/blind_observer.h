@@ -9,26 +9,41 @@
 
 namespace jarol::tasks {
 
-/// One horizontal axis, north or east, as a Kalman filter of fifth order.
-struct LeanAxis {
+/// How it may move along one horizontal axis, north or east: a Kalman filter of fifth order.
+struct LeanGuess {
+  double weight = 0;
   double place = 0, speed = 0, lean = 0, rate = 0, wind = 0;
   std::array<double, 25> covariance{};
-  double drag = 0, since = 0;
+
+  static constexpr auto fields() {
+    using G = LeanGuess;
+    return describe(field<&G::weight>("", "probability that it is the right one"), field<&G::place>("m"),
+                    field<&G::speed>("m/s"), field<&G::lean>("rad", "towards the axis"), field<&G::rate>("rad/s"),
+                    field<&G::wind>("m/s", "along the axis, more than its mean"),
+                    field<&G::covariance>("", "of these five in SI units, row by row"));
+  }
+};
+
+struct LeanAxis {
+  std::array<LeanGuess, 5> guesses{};
+  LeanGuess mean{};
+  double drag = 0, torque = 0, since = 0;
 
   static constexpr auto fields() {
     using A = LeanAxis;
-    return describe(field<&A::place>("m"), field<&A::speed>("m/s"), field<&A::lean>("rad", "towards the axis"),
-                    field<&A::rate>("rad/s"), field<&A::wind>("m/s", "along the axis, more than its mean"),
-                    field<&A::covariance>("", "of these five in SI units, row by row"),
-                    field<&A::drag>("m/s^2", "and wind, as last felt"), field<&A::since>("s", "a laser saw its place"));
+    return describe(field<&A::guesses>(), field<&A::mean>("", "of all guesses"),
+                    field<&A::drag>("m/s^2", "and wind, as last felt"),
+                    field<&A::torque>("rad/s^2", "of wind and all else, as last felt"),
+                    field<&A::since>("s", "a laser saw its place"));
   }
 };
 
 /// While the IMU reports, the observer begins anew each period with what is known then. Without it, it turns by what
 /// the rotors are sent and is corrected by the lasers: it is pushed where it leans, so lean, rate and wind follow from
 /// places alone. A ray that looks down is longer for a lean towards its wall, as if it had moved away: such a lean
-/// shows late, one away from the wall at once. Yaw nobody sees: it is that of the model. Kalman filter as in Gelb,
-/// "Applied Optimal Estimation", 1974, section 4.2, with the second-order term of section 6.1 for the ray.
+/// shows late, one away from the wall at once. As it is longer for either, several guesses are kept, each a Kalman
+/// filter (Gelb, "Applied Optimal Estimation", 1974, section 4.2, with the second-order term of section 6.1 for the
+/// ray), whose mean is taken: a Gaussian sum (Alspach and Sorenson 1972). Yaw nobody sees: it is that of the model.
 struct BlindObserver {
   static constexpr std::string_view summary = "knows roll and pitch by the lasers when the IMU is lost";
   struct Param {
@@ -42,13 +57,15 @@ struct BlindObserver {
     double drag = 0.208;
     double inflow = 0.83;
     double hub = 1.04;
+    double arm = 0.3;
+    double rotor_radius = 0.25;
+    double rotor_height = 0.25;
     double gusts = 1;
     double gust_time = 1;
-    double force_noise = 0.03;
+    double force_noise = 0.05;
     double torque_noise = 0.1;
     double yaw_noise = 0.02;
     double turn_limit = 0.1;
-    double least_wind = 1.5;
     double patience = 0.3;
     static constexpr auto fields() {
       using P = Param;
@@ -57,17 +74,18 @@ struct BlindObserver {
                       field<&P::lag>("s", "until a demand is felt"),
                       field<&P::yaw_effect>("rad/s^2", "angular acceleration of yaw per demand"),
                       field<&P::spin_time>("s", "for which the hull turns more as rotors speed up than by their drag"),
-                      field<&P::mean_time>("s", "over which demand and drag at rest are averaged"),
+                      field<&P::mean_time>("s", "over which drag and torque at rest are averaged"),
                       field<&P::range_noise>("m", "standard deviation of a place that a laser measures").in(1e-6, 1),
                       field<&P::drag>("1/s", "at which the air takes it along"),
                       field<&P::inflow>("1/s", "at which rotors brake a climb"),
                       field<&P::hub>("rad/(m s)", "at which air that flows past turns it"),
+                      field<&P::arm>("m", "of a rotor"), field<&P::rotor_radius>("m").in(0.01, 10),
+                      field<&P::rotor_height>("m", "above the ground, where it stands").in(0.01, 10),
                       field<&P::gusts>("m/s", "of the air"), field<&P::gust_time>("s", "of gusts"),
                       field<&P::force_noise>("m/s^2/sqrt(Hz)", "density of all else"),
                       field<&P::torque_noise>("rad/s^2/sqrt(Hz)", "density of all else"),
                       field<&P::yaw_noise>("rad", "standard deviation of the yaw, which nobody measures"),
                       field<&P::turn_limit>("rad/s", "of yaw when the IMU is lost, beyond which walls are lost, too"),
-                      field<&P::least_wind>("m/s", "mean; in less, gusts are less than what it would get wrong"),
                       field<&P::patience>("s", "without a laser that sees along an axis before its lean is unknown"));
     }
   };
@@ -79,20 +97,19 @@ struct BlindObserver {
   };
   struct State {
     LeanAxis x{}, y{};
-    TurnDemand mean{}, felt{}, last{};
-    double heading = 0, yaw = 0, yaw_rate = 0;
+    TurnDemand felt{}, last{};
+    double mean_yaw = 0, p = 0, q = 0, heading = 0, yaw = 0, yaw_rate = 0;
     bool turns = false, is_blind = false;
-    double mean_wind = 0;
     double mean_thrust = 1, last_thrust = 1, felt_thrust = 1, lift = 9.81;
     static constexpr auto fields() {
       using S = State;
-      return describe(field<&S::x>(), field<&S::y>(), field<&S::mean>("", "demand"),
-                      field<&S::felt>("", "demand, by now"), field<&S::last>("", "demand, of the period before"),
+      return describe(field<&S::x>(), field<&S::y>(), field<&S::felt>("", "demand, by now"),
+                      field<&S::last>("", "demand, of the period before"), field<&S::mean_yaw>("", "demand"),
+                      field<&S::p>("rad/s", "as last felt"), field<&S::q>("rad/s"),
                       field<&S::heading>("rad", "from north"), field<&S::yaw>("rad"), field<&S::yaw_rate>("rad/s"),
                       field<&S::turns>("", "round, too fast to know where the lasers look"), field<&S::is_blind>(),
-                      field<&S::mean_wind>("m/s", "that drag and speed show"), field<&S::mean_thrust>("", "demand"),
-                      field<&S::last_thrust>("", "of the period before"), field<&S::felt_thrust>("", "by now"),
-                      field<&S::lift>("m/s^2", "felt, averaged"));
+                      field<&S::mean_thrust>("", "demand"), field<&S::last_thrust>("", "of the period before"),
+                      field<&S::felt_thrust>("", "by now"), field<&S::lift>("m/s^2", "felt, averaged"));
     }
   };
   struct Out {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "graph/math/geometry.h"
+#include "tasks/javiator/rotor_law.h"
 
 namespace jarol::tasks {
 namespace {
@@ -11,14 +12,13 @@ namespace {
 constexpr double gravity = 9.81;
 
 struct Held {
-  double place, speed, drag, range;
+  double place, speed, drag;
 };
 
 double hold(const PositionControl::Param& p, const Approach& a, const Held& is, bool blind, double& trim, double dt) {
   trim = limited(trim + p.ki * (a.place - is.place) * dt, 1);
   const double kp = blind ? p.blind_kp : p.kp, kd = blind ? p.blind_kd : p.kd;
-  const double away = blind ? std::copysign(p.blind_away, is.range) : 0;
-  return a.demand + kp * (a.place - is.place) + kd * (a.speed - is.speed) - is.drag + trim - away;
+  return a.demand + kp * (a.place - is.place) + kd * (a.speed - is.speed) - is.drag + trim;
 }
 
 double turn(const TurnGains& g, TurnModel& model, double goal, double angle, double rate, double dt) {
@@ -35,6 +35,13 @@ double turn(const TurnGains& g, TurnModel& model, double goal, double angle, dou
   // a zero at 1/spin_time is cancelled
   model.given += (demand - model.given) * dt / (g.spin_time + dt);
   return model.given;
+}
+
+// What is more than a motor can give its pair gives less of, and the other pair more: that turns yaw alone.
+void spare(std::array<double, 4>& parts, const std::array<double, 4>& effectiveness, double full) {
+  const auto excess = [&](std::size_t i) { return std::max(parts[i] - effectiveness[i] * full, 0.0); };
+  const double less = std::max(excess(0), excess(2)) - std::max(excess(1), excess(3));
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] += i % 2 == 0 ? -less : less;
 }
 
 }  // namespace
@@ -77,8 +84,8 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
   approach(state.x, d.x, p.approach, dt);
   approach(state.y, d.y, p.approach, dt);
   const bool blind = e.lean_known;
-  const double a_x = hold(p, state.x, {e.x, e.v_x, state.drag_x, e.fix_x.range}, blind, state.trim_x, dt);
-  const double a_y = hold(p, state.y, {e.y, e.v_y, state.drag_y, e.fix_y.range}, blind, state.trim_y, dt);
+  const double a_x = hold(p, state.x, {e.x, e.v_x, state.drag_x}, blind, state.trim_x, dt);
+  const double a_y = hold(p, state.y, {e.y, e.v_y, state.drag_y}, blind, state.trim_y, dt);
   lean(a_x, a_y);
 }
 
@@ -101,24 +108,25 @@ void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
 }
 
 void MotorMixer::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const RotorLaw law{p.hover, p.exponent, p.voltage};
   const FlightState doing = in.directive.state;
   out.motors.unlocked = doing != FlightState::halt;
   const bool steers = doing == FlightState::flying || doing == FlightState::landing;
   const TurnDemand turn = steers ? in.turn : TurnDemand{};
   const double lift = in.lift.thrust;
   // front and rear turn clockwise: more of them turns the hull to the left
-  const std::array<double, 4> parts = {lift - turn.yaw + turn.pitch, lift + turn.yaw - turn.roll,
-                                       lift - turn.yaw - turn.pitch, lift + turn.yaw + turn.roll};
+  std::array<double, 4> parts = {lift - turn.yaw + turn.pitch, lift + turn.yaw - turn.roll,
+                                 lift - turn.yaw - turn.pitch, lift + turn.yaw + turn.roll};
   const double battery = in.estimate.battery;
-  const double made_up = battery > 0 ? std::clamp(p.voltage / battery, 0.8, 1.3) : 1.0;
+  if (in.condition.weak != Motor::none) spare(parts, in.condition.effectiveness, law.thrust(max_motor_signal, battery));
   const double dt = seconds(tick.period);
   const double part = -std::expm1(-dt / p.lag), quick_part = -std::expm1(-dt / p.quick_lag);
   for (std::size_t i = 0; i < 4; ++i) {
     double& reached = state.reached[i];
     double& signal = out.motors.signals[i];
-    const double due = made_up * p.hover * std::pow(std::max(parts[i], 0.0), 1 / p.exponent);
+    const double due = law.signal(parts[i] / in.condition.effectiveness[i], battery);
     const double quick = reached + (due - reached) * quick_part / part;
-    signal = doing == FlightState::halt ? 0 : std::clamp(quick, 0.0, 16000.0);
+    signal = doing == FlightState::halt ? 0 : std::clamp(quick, 0.0, max_motor_signal);
     reached += (signal - reached) * part;
   }
 }

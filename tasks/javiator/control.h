@@ -23,19 +23,16 @@ struct PositionControl {
     double lean_limit = 0.4;
     double blind_kp = 0.6;
     double blind_kd = 1.5;
-    double blind_away = 0.6;
     static constexpr auto fields() {
       using P = Param;
-      return describe(
-          field<&P::kp>("1/s^2", "acceleration per error of place"),
-          field<&P::kd>("1/s", "acceleration per error of speed"),
-          field<&P::ki>("1/s^3", "acceleration per integral of the error of place"),
-          field<&P::drag_time>("s", "over which the drag that is leant against is averaged"),
-          field<&P::approach>("", "to a new place"),
-          field<&P::lean_limit>("rad", "greatest roll and pitch demanded").in(0, std::numbers::pi / 2),
-          field<&P::blind_kp>("1/s^2", "kp when lasers show how it leans, slower than an IMU"),
-          field<&P::blind_kd>("1/s", "kd then"),
-          field<&P::blind_away>("m/s^2", "away from the walls then: lasers that look up show best how it leans"));
+      return describe(field<&P::kp>("1/s^2", "acceleration per error of place"),
+                      field<&P::kd>("1/s", "acceleration per error of speed"),
+                      field<&P::ki>("1/s^3", "acceleration per integral of the error of place"),
+                      field<&P::drag_time>("s", "over which the drag that is leant against is averaged"),
+                      field<&P::approach>("", "to a new place"),
+                      field<&P::lean_limit>("rad", "greatest roll and pitch demanded").in(0, std::numbers::pi / 2),
+                      field<&P::blind_kp>("1/s^2", "kp when lasers show how it leans, slower than an IMU"),
+                      field<&P::blind_kd>("1/s", "kd then"));
     }
   };
   struct In {
@@ -142,6 +139,8 @@ struct AttitudeControl {
   static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };
 
+/// A weak motor is sent more. One that can't give what its part of a demand is, at its full signal, keeps the others'
+/// balance of roll, pitch and lift at the cost of yaw.
 struct MotorMixer {
   static constexpr std::string_view summary = "gives the demands of thrust and turning to the four motors";
   struct Param {
@@ -164,8 +163,10 @@ struct MotorMixer {
     LiftDemand lift{};
     FlightDirective directive{};
     FlightEstimate estimate{};
+    MotorCondition condition{};
     static constexpr auto fields() {
-      return describe(field<&In::turn>(), field<&In::lift>(), field<&In::directive>(), field<&In::estimate>());
+      return describe(field<&In::turn>(), field<&In::lift>(), field<&In::directive>(), field<&In::estimate>(),
+                      field<&In::condition>("", "of the motors"));
     }
   };
   struct State {

@@ -200,7 +200,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     predict(state.y, a.y(), dt);
     predict(state.z, -a.z(), dt);
     predict(state.z_slow, -a.z(), dt);
-    const double jump = state.imu.lost ? p.range_jump : p.sonar_jump + p.sonar_jump_rate * state.z.since;
+    const double jump = state.imu.lost && !is_blind ? p.range_jump : p.sonar_jump + p.sonar_jump_rate * state.z.since;
     const bool credible = new_z && is_near(state.z, z - state.zero_z, std::min(jump, p.range_jump));
     const bool had_sonar = !state.sonar.lost;
     const bool repeats = p.sonar_repeats > 0 && state.sonar.repeats >= p.sonar_repeats;
@@ -263,7 +263,6 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   if (!settled && !seen) state.laser_x.lost = state.laser_y.lost = true;
 
   const bool answers = state.unanswered <= p.imu_patience;
-
   // an accelerometer in flight feels the rotors along their axis, and drag across it
   const Vector3d drag = R * Vector3d(force_b.x(), force_b.y(), 0);
   e = {.roll = state.roll + p.age * rates.x() - in.directive.trim_roll,
@@ -286,6 +285,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
        .drag_x = drag.x(),
        .drag_y = drag.y(),
        .battery = e.battery == 0 ? s.battery : e.battery + dt * (s.battery - e.battery),
+       .rates_age = state.last_turn.since,
        .fix_x = e.fix_x,
        .fix_y = e.fix_y,
        .rates_known = !state.imu.lost && answers,

@@ -15,7 +15,9 @@ Cause find_lean(const FlightLogic::Param& p, const FlightEstimate& e) {
 }
 
 // Why it can't go on flying as it is commanded, if so.
-Cause find_cause(const FlightLogic::Param& p, const FlightEstimate& e, bool wants_position, double unheard) {
+Cause find_cause(const FlightLogic::Param& p, const FlightLogic::In& in, bool wants_position, double unheard) {
+  const FlightEstimate& e = in.estimate;
+  if (in.motors.weak != Motor::none) return Cause::motor_weak;
   if (const Cause lean = find_lean(p, e); lean != Cause::none) return lean;
   if (std::abs(wrapped(e.yaw)) > p.yaw_limit) return Cause::yaw;
   if (e.altitude > p.altitude_limit) return Cause::altitude;
@@ -90,7 +92,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   trim(command, e, state.trim, d);
 
   if (d.state == FlightState::starting) {
-    const Cause cause = find_cause(p, e, wants_position, state.unheard);
+    const Cause cause = find_cause(p, in, wants_position, state.unheard);
     if (cause != Cause::none) {
       enter(FlightState::ground, cause, state, d);
     } else if (state.since >= p.spin_up) {
@@ -98,7 +100,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     }
   }
   if (d.state == FlightState::flying) {
-    const Cause cause = find_cause(p, e, wants_position, state.unheard);
+    const Cause cause = find_cause(p, in, wants_position, state.unheard);
     if (cause != Cause::none) {
       begin_landing(cause, e, state, d);
     } else {

@@ -42,10 +42,11 @@ struct FlightLogic {
     FlightEstimate estimate{};
     PilotCommand command{};
     LiftDemand lift{};
+    MotorCondition motors{};
     OperatorGains gains{};
     static constexpr auto fields() {
       return describe(field<&In::estimate>(), field<&In::command>(),
-                      field<&In::lift>("", "little of it while landing: the ground carries"),
+                      field<&In::lift>("", "little of it while landing: the ground carries"), field<&In::motors>(),
                       field<&In::gains>("", "of other laws: not looked at"));
     }
   };

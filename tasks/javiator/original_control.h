@@ -40,10 +40,12 @@ struct OriginalLogic {
     FlightEstimate estimate{};
     PilotCommand command{};
     LiftDemand lift{};
+    MotorCondition motors{};
     OperatorGains gains{};
     static constexpr auto fields() {
       return describe(field<&In::estimate>("", "for the trim alone: nothing makes it land"), field<&In::command>(),
-                      field<&In::lift>("", "not looked at"), field<&In::gains>("", "the idle signal of them"));
+                      field<&In::lift>("", "not looked at"), field<&In::motors>("", "not looked at"),
+                      field<&In::gains>("", "the idle signal of them"));
     }
   };
   struct State {
@@ -183,9 +185,10 @@ struct OriginalMixer {
     LiftDemand lift{};
     FlightDirective directive{};
     FlightEstimate estimate{};
+    MotorCondition condition{};
     static constexpr auto fields() {
       return describe(field<&In::turn>(), field<&In::lift>(), field<&In::directive>(),
-                      field<&In::estimate>("", "not looked at"));
+                      field<&In::estimate>("", "not looked at"), field<&In::condition>("", "not looked at"));
     }
   };
   struct Out {

@@ -75,6 +75,27 @@ struct MotorCommand {
   }
 };
 
+enum class Motor : std::uint8_t { none, front, right, rear, left };
+
+constexpr auto enumerators(Motor) {
+  return std::array<Enumerator<Motor>, 5>{{{"none", Motor::none},
+                                           {"front", Motor::front},
+                                           {"right", Motor::right},
+                                           {"rear", Motor::rear},
+                                           {"left", Motor::left}}};
+}
+
+/// Whether a motor gives less thrust than it is told to.
+struct MotorCondition {
+  Motor weak = Motor::none;
+  std::array<double, 4> effectiveness{1, 1, 1, 1};
+
+  static constexpr auto fields() {
+    return describe(field<&MotorCondition::weak>(),
+                    field<&MotorCondition::effectiveness>("", "part of its thrust that each motor gives").in(0, 1));
+  }
+};
+
 enum class FlightState : std::uint8_t { halt, ground, starting, flying, landing };
 
 constexpr auto enumerators(FlightState) {
@@ -98,11 +119,12 @@ enum class LandingCause : std::uint8_t {
   imu_lost,
   bmu_lost,
   battery_low,
-  answers_late
+  answers_late,
+  motor_weak
 };
 
 constexpr auto enumerators(LandingCause) {
-  return std::array<Enumerator<LandingCause>, 12>{
+  return std::array<Enumerator<LandingCause>, 13>{
       {{"none", LandingCause::none},
        {"roll", LandingCause::roll, "its roll is beyond the limit"},
        {"pitch", LandingCause::pitch, "its pitch is beyond the limit"},
@@ -114,7 +136,8 @@ constexpr auto enumerators(LandingCause) {
        {"imu_lost", LandingCause::imu_lost, "the IMU reports nothing credible"},
        {"bmu_lost", LandingCause::bmu_lost, "the BMU reports nothing credible"},
        {"battery_low", LandingCause::battery_low, "the battery's voltage is below the limit"},
-       {"answers_late", LandingCause::answers_late, "the Robostix does not answer in time"}}};
+       {"answers_late", LandingCause::answers_late, "the Robostix does not answer in time"},
+       {"motor_weak", LandingCause::motor_weak, "a motor gives less thrust than it is told to"}}};
 }
 
 /// What the operator is sent.
@@ -169,7 +192,7 @@ struct FlightEstimate {
   double v_x = 0, v_y = 0, climb = 0;
   double a_x = 0, a_y = 0, a_up = 0;
   double lift = 0, drag_x = 0, drag_y = 0;
-  double battery = 0;
+  double battery = 0, rates_age = 0;
   PlaceFix fix_x{}, fix_y{};
   bool rates_known = false, attitude_known = false, lean_known = false, altitude_known = false, position_known = false;
   bool pressure_known = false, answers_known = false;
@@ -186,6 +209,7 @@ struct FlightEstimate {
         field<&E::a_up>("m/s^2", "upwards"), field<&E::lift>("m/s^2", "specific force upwards along the rotors' axis"),
         field<&E::drag_x>("m/s^2", "to the north, of all else: drag and wind"),
         field<&E::drag_y>("m/s^2", "to the east"), field<&E::battery>("V", "voltage"),
+        field<&E::rates_age>("s", "since the IMU has reported something new"),
         field<&E::fix_x>("", "north of the start"), field<&E::fix_y>("", "east of the start"),
         field<&E::rates_known>("", "the IMU reports something new"),
         field<&E::attitude_known>("", "and its angles agree with its rates"),
@@ -255,7 +279,7 @@ struct BlindMotion {
                     field<&M::drag_x>("m/s^2", "to the north, as felt before: drag and wind"),
                     field<&M::drag_y>("m/s^2", "to the east"),
                     field<&M::lift>("m/s^2", "specific force upwards along the rotors' axis"),
-                    field<&M::known>("", "by lasers of late, in wind, not turning round"));
+                    field<&M::known>("", "by lasers of late, not turning round"));
   }
 };
 

@@ -28,15 +28,15 @@ Flight fly_failing(const Failing& f, const std::string& profile = "", double sec
                      .seconds = seconds});
 }
 
-void check_safe(const Flight& flight, LandingCause cause) {
+void check_safe(const Flight& flight, LandingCause cause, double lean = 0.3) {
   CHECK(flight.at(fails_at).altitude == doctest::Approx(1).scale(0).epsilon(0.03));
   CHECK(flight.report.fault_count == 0);
   CHECK(flight.last().state == tasks::FlightState::ground);
   CHECK(flight.last().cause == cause);
   CHECK(std::abs(flight.path.back().altitude) < 0.002);
   CHECK(flight.touch_down() < 0.5);
-  CHECK(flight.furthest(&Glimpse::roll, 0, fails_at, 18) < 0.3);
-  CHECK(flight.furthest(&Glimpse::pitch, 0, fails_at, 18) < 0.3);
+  CHECK(flight.furthest(&Glimpse::roll, 0, fails_at, 18) < lean);
+  CHECK(flight.furthest(&Glimpse::pitch, 0, fails_at, 18) < lean);
   CHECK(flight.max(&Glimpse::altitude, fails_at, 18) < 1.7);
   CHECK(flight.furthest(&Glimpse::x, 0, fails_at, 18) < 1);
   CHECK(flight.furthest(&Glimpse::y, 0, fails_at, 18) < 1);
@@ -70,6 +70,16 @@ TEST_SUITE("tools/javiator_safety") {
     check_safe(fly_failing({"laser_east", "stuck", "0", LandingCause::position_lost}), LandingCause::position_lost);
     check_safe(fly_failing({"bmu", "stuck", "0", LandingCause::bmu_lost}), LandingCause::bmu_lost);
     check_safe(fly_failing({"imu", "stuck", "0", LandingCause::imu_lost}), LandingCause::imu_lost);
+  }
+
+  TEST_CASE("it lands safely, where it was, whichever motor loses half of its thrust") {
+    for (const std::string motor : {"front", "right", "rear", "left"})
+      for (const std::string profile : {"", "wind"}) {
+        CAPTURE(motor);
+        CAPTURE(profile);
+        check_safe(fly_failing({motor, "weak", "0.5", LandingCause::motor_weak}, profile), LandingCause::motor_weak,
+                   0.45);
+      }
   }
 
   TEST_CASE("however far it is told to turn at once, it knows where it is, and lands there") {

@@ -49,7 +49,7 @@ connections:
        "FlightLogic, HeadingControl, "
        "HelicopterReporter, JaviatorFilter, LauvForward, LauvGuidance, LauvNavigation, LauvReport, LauvSupervisor, "
        "Mean, "
-       "MotorMixer, OriginalAltitude, "
+       "MotorMixer, MotorWatch, OriginalAltitude, "
        "OriginalAttitude, OriginalFilter, OriginalLogic, OriginalMixer, OriginalPosition, PositionControl, Relay, "
        "SpeedControl, Sum, Window, Work\n"
        "    count: {type: Countre, period: 10ms}\n"

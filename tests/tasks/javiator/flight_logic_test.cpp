@@ -147,6 +147,15 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(logic.run(1) == FlightState::landing);
   }
 
+  TEST_CASE("a weak motor is named, not the lean that it makes") {
+    Logic logic;
+    logic.fly();
+    logic.in.motors.weak = Motor::left;
+    logic.in.estimate.roll = 0.7;
+    CHECK(logic.run(1) == FlightState::landing);
+    CHECK(logic.out.directive.cause == LandingCause::motor_weak);
+  }
+
   TEST_CASE("answers that are late are named, not the IMU that was in them") {
     Logic logic;
     logic.fly();

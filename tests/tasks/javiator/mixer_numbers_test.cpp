@@ -72,6 +72,32 @@ TEST_SUITE("tasks/javiator_control/mixer") {
     is(thrusts({.yaw = 0.1}), -0.1, 0.1, -0.1, 0.1);
   }
 
+  TEST_CASE("a weak motor is sent as much more as it gives less") {
+    Mixer m;
+    m.in.condition = {.weak = Motor::right, .effectiveness = {1, 0.5, 1, 1}};
+    const std::array<double, 4>& signals = m.run();
+    CHECK(signals[0] == doctest::Approx(8000));
+    CHECK(signals[1] == doctest::Approx(8000 * std::pow(2, 1 / 1.415)));
+  }
+
+  TEST_CASE("what a weak motor can't give, its pair gives less of and the other pair more: only yaw is lost") {
+    Mixer m;
+    m.in.condition = {.weak = Motor::front, .effectiveness = {0.3, 1, 1, 1}};
+    m.in.turn = {.roll = 0.05, .pitch = 0.1};
+    std::array<double, 4> parts = m.run();
+    for (std::size_t i = 0; i < 4; ++i) parts[i] = m.in.condition.effectiveness[i] * std::pow(parts[i] / 8000, 1.415);
+    // at its full signal a sound motor gives 2.667 times the thrust of hover
+    CHECK(parts[0] == doctest::Approx(0.8).epsilon(0.001).scale(0));
+    CHECK(parts[0] - parts[2] == doctest::Approx(0.2));
+    CHECK(parts[3] - parts[1] == doctest::Approx(0.1));
+    CHECK(parts[0] + parts[1] + parts[2] + parts[3] == doctest::Approx(4));
+    // one that can is left as it is
+    m.in.turn = {.pitch = -0.21};
+    parts = m.run();
+    CHECK(parts[1] == doctest::Approx(8000));
+    CHECK(parts[3] == doctest::Approx(8000));
+  }
+
   TEST_CASE("rotors of 50 ms follow as if they had 20 ms") {
     Mixer m;
     m.param = {};

@@ -1,0 +1,178 @@
+// What finds a weak motor, against a body whose mass, arms and rotors are those of the JAviator's file.
+#include "tasks/javiator/motor_watch.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "tests/tasks/javiator/every_15_ms.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::tasks;
+
+using tests::dt;
+using tests::gravity;
+using tests::tick;
+
+// Thrust of hover each turns 1.5 kg with 0.0144 kg m^2 at arms of 0.3 m; signals act 10 ms after the period began in
+// which they were given, and what is measured then comes with the answer to the next, in the period after that.
+struct Body {
+  double p = 0, q = 0;
+  std::array<double, 4> signals{8000, 8000, 8000, 8000}, parts{1, 1, 1, 1};
+
+  void step(const std::array<double, 4>& sent, double roll_torque, double pitch_torque) {
+    constexpr int steps = 150;
+    constexpr double h = dt / steps, each = 0.3 * 1.5 * gravity / 4 / 0.0144;
+    for (int i = 0; i < steps; ++i) {
+      std::array<double, 4> thrusts{};
+      for (std::size_t m = 0; m < 4; ++m) {
+        signals[m] += (sent[m] - signals[m]) * h / 0.05;
+        thrusts[m] = parts[m] * std::pow(signals[m] / 8000, 1.415);
+      }
+      p += h * (each * (thrusts[3] - thrusts[1] + roll_torque) - 3.9 * p);
+      q += h * (each * (thrusts[0] - thrusts[2] + pitch_torque) - 3.9 * q);
+    }
+  }
+};
+
+struct Watched {
+  MotorWatch::Param param{};
+  MotorWatch::State state{};
+  MotorWatch::Out out{};
+  MotorWatch::In in{.sensors = {.new_imu = true},
+                    .estimate = {.altitude = 1, .battery = 15.887, .rates_known = true},
+                    .directive = {.state = FlightState::flying}};
+  Body body{};
+  JaviatorSensors newest{.new_imu = true}, older{.new_imu = true};
+  std::uint32_t answers = 0;
+  double roll_torque = 0, pitch_torque = 0;  // thrust of hover that it would take
+
+  Watched() { run(100); }
+
+  // signals that nobody hears leave no answer
+  void period(const std::array<double, 4>& sent, bool heard = true) {
+    in.sensors = older;
+    in.motors = {.signals = sent, .unlocked = true};
+    MotorWatch::run(param, tick, in, state, out);
+    older = newest;
+    if (heard) newest = {.p = body.p, .q = body.q, .new_imu = true, .answers = ++answers};
+    if (heard) last = sent;
+    body.step(last, roll_torque, pitch_torque);
+  }
+  void run(int periods) {
+    for (int i = 0; i < periods; ++i) period({8000, 8000, 8000, 8000});
+  }
+  // until one is weak; how long that took, 1 s at most
+  double seconds_until_weak() {
+    double time = 0;
+    for (; time < 1 && out.motors.weak == Motor::none; time += dt) run(1);
+    return time;
+  }
+
+  std::array<double, 4> last{8000, 8000, 8000, 8000};
+};
+}  // namespace
+
+TEST_SUITE("tasks/javiator_motor_watch") {
+  TEST_CASE(
+      "each motor that gives half of its thrust is found within a tenth of a second, and how much it gives soon") {
+    for (std::size_t i = 0; i < 4; ++i) {
+      Watched w;
+      w.body.parts[i] = 0.5;
+      CHECK(w.seconds_until_weak() < 0.1);
+      CHECK(w.out.motors.weak == static_cast<Motor>(i + 1));
+      w.run(20);
+      for (std::size_t m = 0; m < 4; ++m)
+        CHECK(w.out.motors.effectiveness[m] ==
+              (m == i ? doctest::Approx(0.5).epsilon(0.02).scale(0) : doctest::Approx(1)));
+    }
+  }
+
+  TEST_CASE(
+      "one that gives nothing counts as giving a tenth, one that recovers as giving all, and it stays the weak one") {
+    Watched w;
+    w.body.parts[2] = 0;
+    w.run(40);
+    CHECK(w.out.motors.effectiveness == std::array<double, 4>{1, 1, 0.1, 1});
+    w.body.parts[2] = 1;
+    w.run(60);
+    CHECK(w.out.motors.effectiveness[2] == doctest::Approx(1).epsilon(0.01).scale(0));
+    CHECK(w.out.motors.weak == Motor::rear);
+  }
+
+  TEST_CASE("whatever sound motors are sent, they turn it as they should") {
+    std::mt19937 engine(3);
+    Watched w;
+    for (int i = 0; i < 2000; ++i) {
+      std::array<double, 4> sent{};
+      for (double& signal : sent) signal = 4000 + 8000.0 * static_cast<double>(engine()) / 4294967296.0;
+      w.period(sent);
+      for (const double evidence : w.state.evidence) REQUIRE(evidence == 0);
+    }
+    CHECK(w.out.motors.weak == Motor::none);
+  }
+
+  TEST_CASE("wind that turns it slowly, or about two axes, is no motor; the same at once, about one, would be") {
+    Watched slow;
+    for (int i = 0; i < 200; ++i) {
+      slow.roll_torque = 0.28 * i / 200;
+      slow.run(1);
+    }
+    CHECK(slow.out.motors.weak == Motor::none);
+    Watched across;
+    across.roll_torque = 0.5;
+    across.pitch_torque = -0.4;
+    CHECK(across.seconds_until_weak() > 0.99);
+    Watched sudden;
+    sudden.roll_torque = 0.28;
+    CHECK(sudden.seconds_until_weak() < 0.2);
+    CHECK(sudden.out.motors.weak == Motor::right);
+  }
+
+  TEST_CASE("near the ground, on it, and without rates nothing is found") {
+    const std::function<void(MotorWatch::In&)> changes[] = {
+        [](MotorWatch::In& in) { in.estimate.altitude = 0.09; },
+        [](MotorWatch::In& in) { in.estimate.rates_known = false; },
+        [](MotorWatch::In& in) { in.directive.state = FlightState::ground; }};
+    for (const auto& change : changes) {
+      Watched w;
+      change(w.in);
+      w.body.parts[0] = 0.5;
+      w.run(60);
+      CHECK(w.out.motors.weak == Motor::none);
+    }
+    Watched lands;
+    lands.in.directive.state = FlightState::landing;
+    lands.body.parts[0] = 0.5;
+    CHECK(lands.seconds_until_weak() < 0.1);
+  }
+
+  TEST_CASE("signals that are not heard, and answers that are not, are no motor's fault") {
+    std::mt19937 engine(5);
+    for (int flight = 0; flight < 20; ++flight) {
+      Watched w;
+      for (int i = 0; i < 200; ++i) {
+        // as after a gust, with a quarter of the signals lost
+        const double turn = 4000 * std::sin(0.5 * i) * std::exp(-0.05 * (i % 40));
+        w.period({8000 + turn, 8000, 8000 - turn, 8000}, engine() % 4 != 0);
+      }
+      CHECK(w.out.motors.weak == Motor::none);
+    }
+  }
+
+  TEST_CASE("the next start tries each motor anew") {
+    Watched w;
+    w.body.parts[0] = 0.5;
+    w.run(40);
+    w.in.directive.state = FlightState::ground;
+    w.run(40);
+    CHECK(w.out.motors.weak == Motor::front);
+    w.in.directive.state = FlightState::starting;
+    w.run(1);
+    CHECK(w.out.motors.weak == Motor::none);
+    CHECK(w.out.motors.effectiveness == std::array<double, 4>{1, 1, 1, 1});
+  }
+}
