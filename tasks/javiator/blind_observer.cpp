@@ -183,7 +183,8 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
   }
   state.is_blind = !e.rates_known;
   feel(state, p.lag, dt);
-  const double spin = std::sqrt(std::max(state.felt_thrust, 0.0) / state.mean_thrust);
+  // one that stands has a mean thrust of nothing
+  const double spin = std::sqrt(std::max(state.felt_thrust, 0.0) / std::max(state.mean_thrust, 0.1));
   const Vector2d turning = p.effect * (Rotation2Dd(state.heading) * Vector2d(-state.felt.pitch, state.felt.roll));
   const GroundEffect ground = find_ground_effect(p, e.altitude);
   const double lift =

@@ -198,6 +198,14 @@ TEST_SUITE("tasks/blind_observer") {
     CHECK(b.out.motion.drag_x == doctest::Approx(0.7 * (0.5 + 0.208)).epsilon(0.01).scale(0));
   }
 
+  TEST_CASE("however long it has stood with its rotors at rest, it knows how it stands") {
+    Blind b;
+    b.in.lift.thrust = 0;
+    b.in.estimate.roll = 0.02;
+    CHECK(b.run(100'000).roll == doctest::Approx(0.02));
+    CHECK(b.out.motion.known);
+  }
+
   TEST_CASE("the ground lifts it, and its lower side more") {
     // Cheeseman and Bennett, of rotors of 0.25 m radius, 0.3 m from the middle, 0.25 m above its feet
     const auto gain = [](double height) { return 1 / (1 - std::pow(0.25 / (4 * height), 2)); };
