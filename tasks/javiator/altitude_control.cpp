@@ -72,7 +72,8 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
       const double way = std::max(e.altitude - q.low, 0.0);
       const double fast = std::min(q.descent, std::sqrt(q.touch_speed * q.touch_speed + 2 * q.brake * way));
       // who still flies to the side would trip over its feet
-      const double speed = fast * std::clamp(2 - std::hypot(e.v_x, e.v_y) / q.drift, 0.0, 1.0);
+      const double part = std::clamp(2 - std::hypot(e.v_x, e.v_y) / q.drift, 0.0, 1.0);
+      const double speed = std::max(part * fast, q.touch_speed);
       state.z.demand = limited(10 * (-speed - state.z.speed), q.acceleration);
     } else {
       const double speed = is_high ? p.descent : p.touch_speed + overdue;

@@ -23,14 +23,15 @@ struct QuickLanding {
 
   static constexpr auto fields() {
     using Q = QuickLanding;
-    return describe(field<&Q::descent>("m/s", "at most"), field<&Q::acceleration>("m/s^2", "into it, at most"),
-                    field<&Q::brake>("m/s^2", "out of it").in(0, 100),
-                    field<&Q::low>("m", "altitude at which it has slowed to touch_speed"),
-                    field<&Q::touch_speed>("m/s", "of its last part"),
-                    field<&Q::drift>("m/s", "to the side, beyond which it descends more slowly, and at twice of it not")
-                        .in(0.01, 100),
-                    field<&Q::contact>("m", "altitude from which on thrust is taken back: a foot may stand"),
-                    field<&Q::cut>("1/s", "at which it is"));
+    return describe(
+        field<&Q::descent>("m/s", "at most"), field<&Q::acceleration>("m/s^2", "into it, at most"),
+        field<&Q::brake>("m/s^2", "out of it").in(0, 100),
+        field<&Q::low>("m", "altitude at which it has slowed to touch_speed"),
+        field<&Q::touch_speed>("m/s", "of its last part"),
+        field<&Q::drift>("m/s", "to the side, beyond which it descends more slowly, at twice of it by touch_speed")
+            .in(0.01, 100),
+        field<&Q::contact>("m", "altitude from which on thrust is taken back: a foot may stand"),
+        field<&Q::cut>("1/s", "at which it is"));
   }
 };
 

@@ -151,8 +151,8 @@ struct MotorMixer {
     double quick_lag = 0.02;
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::hover>("", "signal that hovers").in(0, max_motor_signal),
-                      field<&P::exponent>("", "thrust grows with the signal to this power"),
+      return describe(field<&P::hover>("", "signal that hovers").in(1, max_motor_signal),
+                      field<&P::exponent>("", "thrust grows with the signal to this power").in(0.1, 10),
                       field<&P::voltage>("V", "of the battery at which it does; a lower one is made up for"),
                       field<&P::lag>("s", "of the rotors"),
                       field<&P::quick_lag>("s", "that they get instead, by more signal than is due while they change"));

@@ -249,7 +249,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     *fixes[fix.axis] = {.place = fix.place - zero,
                         .slope = lever.z() + range * R_now(2, along),
                         .skew = range * R_now(1 - fix.axis, along),
-                        .range = std::copysign(range, R_now(fix.axis, along)),
+                        .range = range * R_now(fix.axis, along),
                         .is_new = true};
     if (is_blind) return void(axis.since = 0);
     correct(axis, fix.place - zero, p.bandwidth);

@@ -13,15 +13,21 @@ enum : std::size_t { front, right, rear, left };
 
 RotorLaw law_of(const MotorWatch::Param& p) { return {p.hover, p.exponent, p.voltage}; }
 
-// Signals turn the rotors from the second period after they were given until the next ones do; what is measured then
-// comes with the answer to these.
+// Signals act 10 ms after the period began in which they were given, the IMU is sampled 5 ms later, and that comes with
+// the answer to the next signals: between the newest two samples the oldest signals kept turned the rotors, and then
+// those after them.
 void spin_up(const MotorWatch::Param& p, const MotorWatch::In& in, double dt, MotorWatch::State& state) {
   const RotorLaw law = law_of(p);
-  const MotorCommand& felt = state.sent.back();
+  const double late = std::min(p.sample_time, dt), early = dt - late;
+  const double early_part = -std::expm1(-early / p.lag), late_part = -std::expm1(-late / p.lag);
   for (std::size_t i = 0; i < state.reached.size(); ++i) {
-    const double before = law.thrust(state.reached[i], in.estimate.battery);
-    state.reached[i] += -std::expm1(-dt / p.lag) * ((felt.unlocked ? felt.signals[i] : 0) - state.reached[i]);
-    state.thrusts[i] = 0.5 * (before + law.thrust(state.reached[i], in.estimate.battery));
+    double& reached = state.reached[i];
+    reached += early_part * (state.sent[2].signals[i] - reached);
+    const double between = law.thrust(reached, in.estimate.battery);
+    reached += late_part * (state.sent[1].signals[i] - reached);
+    const double now = law.thrust(reached, in.estimate.battery);
+    state.thrusts[i] = 0.5 * (early * (state.now[i] + between) + late * (between + now)) / dt;
+    state.now[i] = now;
   }
 }
 
@@ -67,7 +73,9 @@ void MotorWatch::run(const Param& p, const Tick& tick, const In& in, State& stat
   const FlightState doing = in.directive.state;
   const bool fresh = s.answers == state.answers + 1 && s.new_imu;
   state.answers = s.answers;
-  if (doing == FlightState::starting) state.motors = {};
+  // landed, and the operator has acknowledged why
+  const bool stands = doing == FlightState::halt || doing == FlightState::ground;
+  if (stands && in.directive.cause == LandingCause::none) state.motors = {};
   spin_up(p, in, dt, state);
   state.doubt *= std::exp(-dt / p.doubt_time);
   if (!fresh) doubt_signals(p, in, state);
@@ -75,8 +83,10 @@ void MotorWatch::run(const Param& p, const Tick& tick, const In& in, State& stat
   state.sent.front() = in.motors;
 
   const bool aloft = (doing == FlightState::flying || doing == FlightState::landing) && e.altitude > p.contact;
-  if (!aloft || !e.rates_known || !fresh || !state.looks) {
-    state.looks = aloft && e.rates_known && fresh;
+  // what was sampled before a gap comes with the first answer after it, and turned for longer than a period
+  const bool follows = aloft && e.rates_known && fresh && state.heard >= 2;
+  state.heard = aloft && e.rates_known && fresh ? std::min(state.heard + 1, 2U) : 0;
+  if (!follows) {
     state.p = s.p;
     state.q = s.q;
     state.evidence = {};

@@ -12,7 +12,8 @@ namespace jarol::tasks {
 /// What a motor lacks turns the vehicle: towards it, and about one axis alone, as wind seldom does. How fast it should
 /// turn follows from what the rotors are sent, their lag and the delay of both ways; a first-order observer of the
 /// rates tells by how much it turns faster (a momentum observer, De Luca and Mattone 2003, of one body). One that
-/// lacks more than `allowance` for a while is weak, until the next start; how weak is followed from then on.
+/// lacks more than `allowance` for two or three periods is weak, until it stands and the operator has acknowledged
+/// that; how weak is followed from then on.
 struct MotorWatch {
   static constexpr std::string_view summary = "finds a motor that gives less thrust than it is told to";
   struct Param {
@@ -20,7 +21,7 @@ struct MotorWatch {
     double damping = 3.9;
     double bandwidth = 120;
     double allowance = 0.2;
-    double evidence = 0.002;
+    double evidence = 0.004;
     double wind = 0.1;
     double wind_time = 0.5;
     double doubt_time = 0.1;
@@ -30,22 +31,26 @@ struct MotorWatch {
     double exponent = 1.415;
     double voltage = 15.887;
     double lag = 0.05;
+    double sample_time = 0.005;
     static constexpr auto fields() {
       using P = Param;
       return describe(
-          field<&P::effect>("rad/s^2", "angular acceleration of roll and pitch per demand, as AttitudeControl has it"),
+          field<&P::effect>("rad/s^2", "angular acceleration of roll and pitch per demand, as AttitudeControl has it")
+              .in(1e-3, 1e6),
           field<&P::damping>("1/s", "at which the rotors brake roll and pitch"),
           field<&P::bandwidth>("rad/s", "of the observer of the rates"),
           field<&P::allowance>("", "thrust of hover that a sound motor may seem to lack, in gusts").in(0, 1),
-          field<&P::evidence>("s", "for which all of it may, beyond that"),
-          field<&P::wind>("", "thrust of hover, that wind makes it seem to lack for long").in(0, 1),
-          field<&P::wind_time>("s", "in which that is learnt"),
+          field<&P::evidence>("s", "thrust of hover times seconds that it may seem to lack beyond that, at once")
+              .in(0, 10),
+          field<&P::wind>("", "thrust of hover that it may seem to lack for long, in wind").in(0, 1),
+          field<&P::wind_time>("s", "in which that is learnt").in(1e-3, 1000),
           field<&P::doubt_time>("s", "in which the rotors forget signals that were perhaps not heard").in(0.001, 10),
           field<&P::follow>("1/s", "at which what a weak one gives is followed"),
           field<&P::contact>("m", "altitude below which the ground turns it as well"),
-          field<&P::hover>("", "signal that hovers, as MotorMixer has it").in(0, max_motor_signal),
-          field<&P::exponent>("", "thrust grows with the signal to this power"),
-          field<&P::voltage>("V", "of the battery at which it does"), field<&P::lag>("s", "of the rotors"));
+          field<&P::hover>("", "signal that hovers, as MotorMixer has it").in(1, max_motor_signal),
+          field<&P::exponent>("", "thrust grows with the signal to this power").in(0.1, 10),
+          field<&P::voltage>("V", "of the battery at which it does"), field<&P::lag>("s", "of the rotors").in(1e-3, 10),
+          field<&P::sample_time>("s", "from when signals act until the IMU is sampled").in(0, 1));
     }
   };
   struct In {
@@ -55,29 +60,28 @@ struct MotorWatch {
     MotorCommand motors{};
     static constexpr auto fields() {
       return describe(field<&In::sensors>(), field<&In::estimate>(), field<&In::directive>(),
-                      field<&In::motors>("", "of the period before, or of this one"));
+                      field<&In::motors>("", "of this period"));
     }
   };
   struct State {
     std::array<MotorCommand, 3> sent{};
-    std::array<double, 4> reached{}, thrusts{};
+    std::array<double, 4> reached{}, now{}, thrusts{};
     double p = 0, q = 0;
     double wind_roll = 0, wind_pitch = 0, doubt = 0;
     std::array<double, 4> evidence{};
-    bool looks = false;
-    std::uint32_t answers = 0;
+    std::uint32_t answers = 0, heard = 0;
     MotorCondition motors{};
     static constexpr auto fields() {
       using S = State;
-      return describe(field<&S::sent>("", "that have not turned what the IMU has measured, the newest first"),
-                      field<&S::reached>("", "signals that the rotors had followed then"),
-                      field<&S::thrusts>("", "of hover's, by these signals"), field<&S::p>("rad/s", "expected"),
-                      field<&S::q>("rad/s", "expected"),
-                      field<&S::wind_roll>("", "thrust that seems to be lacking for long"), field<&S::wind_pitch>(),
-                      field<&S::doubt>("", "thrust of hover that was perhaps not heard"),
-                      field<&S::evidence>("s", "that each motor is weak"),
-                      field<&S::looks>("", "rates were expected from the last reading on"),
-                      field<&S::answers>("", "of the Robostix, up to now"), field<&S::motors>());
+      return describe(
+          field<&S::sent>("", "that have not turned what the IMU has measured, the newest first"),
+          field<&S::reached>("", "signals that the rotors had followed then"),
+          field<&S::now>("", "thrusts of hover, by these signals"),
+          field<&S::thrusts>("", "averaged since the sample before"), field<&S::p>("rad/s", "expected"),
+          field<&S::q>("rad/s", "expected"), field<&S::wind_roll>("", "thrust that seems to be lacking for long"),
+          field<&S::wind_pitch>(), field<&S::doubt>("", "thrust of hover that was perhaps not heard"),
+          field<&S::evidence>("s", "that each motor is weak"), field<&S::answers>("", "of the Robostix, up to now"),
+          field<&S::heard>("", "of them in a row, one a period, up to 2"), field<&S::motors>());
     }
   };
   struct Out {

@@ -91,8 +91,9 @@ struct MotorCondition {
   std::array<double, 4> effectiveness{1, 1, 1, 1};
 
   static constexpr auto fields() {
-    return describe(field<&MotorCondition::weak>(),
-                    field<&MotorCondition::effectiveness>("", "part of its thrust that each motor gives").in(0, 1));
+    return describe(
+        field<&MotorCondition::weak>(),
+        field<&MotorCondition::effectiveness>("", "part of its thrust that each motor gives, 0.1 at least").in(0.1, 1));
   }
 };
 

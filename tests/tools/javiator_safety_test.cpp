@@ -1,6 +1,7 @@
 // The helicopter lands of its own accord, safely, whatever fails.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -80,6 +81,27 @@ TEST_SUITE("tools/javiator_safety") {
         check_safe(fly_failing({motor, "weak", "0.5", LandingCause::motor_weak}, profile), LandingCause::motor_weak,
                    0.45);
       }
+  }
+
+  TEST_CASE("after a landing for a weak motor it starts when it is told to, and lands again") {
+    const auto pilot = [](double time) {
+      tasks::PilotCommand command = tests::hover_command(time);
+      command.state_switches += (time >= 16 ? 1U : 0U) + (time >= 17 ? 1U : 0U);
+      return command;
+    };
+    const std::string front = "distributers.robostix.link.parameters.failures.front.";
+    const Flight flight =
+        tests::fly({.set = {front + "kind=weak", front + "at=9s", front + "by=0.5"}, .pilot = pilot, .seconds = 30});
+    const auto directive_at = [&](double time) {
+      return std::ranges::find_if(flight.directives, [&](const auto& each) { return each.first >= time; })->second;
+    };
+    CHECK(directive_at(15).state == tasks::FlightState::ground);
+    CHECK(directive_at(15).cause == LandingCause::motor_weak);
+    CHECK(directive_at(16.5).cause == LandingCause::none);
+    CHECK(flight.max(&Glimpse::altitude, 17, 30) > 0.08);
+    CHECK(flight.last().state == tasks::FlightState::ground);
+    CHECK(flight.last().cause == LandingCause::motor_weak);
+    CHECK(flight.touch_down() < 0.5);
   }
 
   TEST_CASE("however far it is told to turn at once, it knows where it is, and lands there") {

@@ -175,7 +175,6 @@ TEST_SUITE("tasks/blind_observer") {
         b.in.estimate.fix_x = body.fix(taken);
         b.run();
       }
-      CAPTURE(gust);
       double sum = 0;
       for (const LeanGuess& guess : b.state.x.guesses) {
         CHECK(guess.weight <= b.state.x.guesses[static_cast<std::size_t>(right)].weight);
@@ -220,7 +219,6 @@ TEST_SUITE("tasks/blind_observer") {
     level.in.estimate.altitude = 0.05;
     level.run(400);
     const double turned = 0.5 * 153 * (gain(0.3 - 0.03) - gain(0.3 + 0.03));
-    // a period is long beside what brakes it
     CHECK(level.out.motion.q == doctest::Approx(turned * dt).epsilon(0.04).scale(0));
   }
 

@@ -97,8 +97,8 @@ TEST_SUITE("tasks/lean_by_lasers") {
     CHECK(e.fix_y.is_new);
     CHECK(e.fix_x.slope == doctest::Approx(0.08 - 8.07 * std::sin(0.1)));
     CHECK(e.fix_y.slope == doctest::Approx(0.08 + 8.077 * std::sin(0.05) * std::cos(0.1)));
-    CHECK(e.fix_x.range == 8.07);
-    CHECK(e.fix_y.range == 8.077);
+    CHECK(e.fix_x.range == doctest::Approx(8.07 * std::cos(0.1)));
+    CHECK(e.fix_y.range == doctest::Approx(8.077 * std::cos(0.05)));
     CHECK(std::abs(e.fix_x.skew) < 1e-9);
   }
 

@@ -17,15 +17,13 @@ using tests::dt;
 using tests::gravity;
 using tests::tick;
 
-// Thrust of hover each turns 1.5 kg with 0.0144 kg m^2 at arms of 0.3 m; signals act 10 ms after the period began in
-// which they were given, and what is measured then comes with the answer to the next, in the period after that.
+// Thrust of hover each turns 1.5 kg with 0.0144 kg m^2 at arms of 0.3 m.
 struct Body {
   double p = 0, q = 0;
   std::array<double, 4> signals{8000, 8000, 8000, 8000}, parts{1, 1, 1, 1};
 
-  void step(const std::array<double, 4>& sent, double roll_torque, double pitch_torque) {
-    constexpr int steps = 150;
-    constexpr double h = dt / steps, each = 0.3 * 1.5 * gravity / 4 / 0.0144;
+  void run(int steps, const std::array<double, 4>& sent, double roll_torque, double pitch_torque) {
+    constexpr double h = 1e-4, each = 0.3 * 1.5 * gravity / 4 / 0.0144;
     for (int i = 0; i < steps; ++i) {
       std::array<double, 4> thrusts{};
       for (std::size_t m = 0; m < 4; ++m) {
@@ -46,21 +44,26 @@ struct Watched {
                     .estimate = {.altitude = 1, .battery = 15.887, .rates_known = true},
                     .directive = {.state = FlightState::flying}};
   Body body{};
-  JaviatorSensors newest{.new_imu = true}, older{.new_imu = true};
+  JaviatorSensors sampled{.new_imu = true}, answer{.new_imu = true};
   std::uint32_t answers = 0;
   double roll_torque = 0, pitch_torque = 0;  // thrust of hover that it would take
 
   Watched() { run(100); }
 
-  // signals that nobody hears leave no answer
+  // Signals act after 10 ms and are answered with what was sampled after the answer before; the IMU is sampled 5 ms
+  // later. What nobody hears is not answered.
   void period(const std::array<double, 4>& sent, bool heard = true) {
-    in.sensors = older;
+    in.sensors = answer;
     in.motors = {.signals = sent, .unlocked = true};
     MotorWatch::run(param, tick, in, state, out);
-    older = newest;
-    if (heard) newest = {.p = body.p, .q = body.q, .new_imu = true, .answers = ++answers};
-    if (heard) last = sent;
-    body.step(last, roll_torque, pitch_torque);
+    body.run(100, last, roll_torque, pitch_torque);
+    if (heard) {
+      answer = sampled;
+      answer.answers = ++answers;
+      last = sent;
+    }
+    body.run(50, last, roll_torque, pitch_torque);
+    if (heard) sampled = {.p = body.p, .q = body.q, .new_imu = true};
   }
   void run(int periods) {
     for (int i = 0; i < periods; ++i) period({8000, 8000, 8000, 8000});
@@ -163,14 +166,14 @@ TEST_SUITE("tasks/javiator_motor_watch") {
     }
   }
 
-  TEST_CASE("the next start tries each motor anew") {
+  TEST_CASE("when the operator has acknowledged the landing each motor is tried anew") {
     Watched w;
     w.body.parts[0] = 0.5;
     w.run(40);
-    w.in.directive.state = FlightState::ground;
+    w.in.directive = {.state = FlightState::ground, .cause = LandingCause::motor_weak};
     w.run(40);
     CHECK(w.out.motors.weak == Motor::front);
-    w.in.directive.state = FlightState::starting;
+    w.in.directive.cause = LandingCause::none;
     w.run(1);
     CHECK(w.out.motors.weak == Motor::none);
     CHECK(w.out.motors.effectiveness == std::array<double, 4>{1, 1, 1, 1});
