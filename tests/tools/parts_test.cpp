@@ -18,7 +18,7 @@ TEST_SUITE("tools/parts") {
           "Accumulate: gives the running sum of its input\n\ninputs\n  in  double\n\noutputs\n  out  double  sum of "
           "all inputs so far\n");
     CHECK(run_jarol("tasks Acumulate").exit_code == 2);
-    CHECK(json_of("tasks --json")["tasks"].size() == 32);
+    CHECK(json_of("tasks --json")["tasks"].size() == 33);
     CHECK(json_of("tasks --json")["distributers"].size() == 4);
     CHECK(json_of("tasks LauvVehicle --json")["distributers"][0]["channels"][0] ==
           nlohmann::json{{"name", "motion"},
