@@ -1,4 +1,4 @@
-// The helicopter's motors when one of them gives less thrust than it is told to: what finds it, by how it turns.
+// The helicopter's motors when one of them gives less thrust than is demanded: what finds it, by how it turns.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace jarol::tasks {
 /// lacks more than `allowance` for two or three periods is weak, until it stands and the operator has acknowledged
 /// that; how weak is followed from then on.
 struct MotorWatch {
-  static constexpr std::string_view summary = "finds a motor that gives less thrust than it is told to";
+  static constexpr std::string_view summary = "finds a motor that gives less thrust than is demanded";
   struct Param {
     double effect = 153;
     double damping = 3.9;

@@ -85,7 +85,7 @@ constexpr auto enumerators(Motor) {
                                            {"left", Motor::left}}};
 }
 
-/// Whether a motor gives less thrust than it is told to.
+/// Whether a motor gives less thrust than is demanded.
 struct MotorCondition {
   Motor weak = Motor::none;
   std::array<double, 4> effectiveness{1, 1, 1, 1};
@@ -138,7 +138,7 @@ constexpr auto enumerators(LandingCause) {
        {"bmu_lost", LandingCause::bmu_lost, "the BMU reports nothing credible"},
        {"battery_low", LandingCause::battery_low, "the battery's voltage is below the limit"},
        {"answers_late", LandingCause::answers_late, "the Robostix does not answer in time"},
-       {"motor_weak", LandingCause::motor_weak, "a motor gives less thrust than it is told to"}}};
+       {"motor_weak", LandingCause::motor_weak, "a motor gives less thrust than is demanded"}}};
 }
 
 /// What the operator is sent.
