@@ -142,7 +142,7 @@ struct Server {
     MESSAGE(said);
     return false;
   }
-  Descriptor socket = listen_at(Address::parse("0"), 16);
+  Descriptor socket = listen_at(Address::parse("0"), 64);  // all of a case may come before one is looked at
   Address address = Address::parse(std::to_string(port_of(socket)));
   Interrupter interrupter;
   std::mutex mutex;
