@@ -19,6 +19,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   double& thrust = out.lift.thrust;
   if (d.state == FlightState::halt || d.state == FlightState::ground) {
     state = {};
+    out.lift.stands = true;
     // rotors that still turn run down
     thrust = d.state == FlightState::halt ? 0 : std::max(thrust - dt / 1.0, 0.0);
     return;
@@ -26,6 +27,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   if (d.state == FlightState::starting) {
     thrust = std::min(thrust + p.idle * dt / p.spin_up, p.idle);
     state.trim = thrust;
+    out.lift.stands = true;
     return;
   }
 
@@ -35,6 +37,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     const bool wants_up = d.state == FlightState::flying && d.altitude > ground;
     state.trim = std::clamp(state.trim + (wants_up ? p.lift_rate : -p.lift_rate) * dt, p.idle, 1.5);
     state.lifted = (wants_up || d.state == FlightState::landing) && e.altitude > ground;
+    out.lift.stands = !wants_up && !state.lifted && state.trim <= p.idle;
     state.z = {e.altitude, std::max(e.climb, 0.0)};
     state.expected = state.sunk = 0;
     // what lifts it is more than what carries it
@@ -44,6 +47,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     thrust = state.trim;
     return;
   }
+  out.lift.stands = false;
   const bool quick = e.lean_known && e.altitude_known;
   // blind: what carried it, corrected by the sonar's climb; where it is lost in the climb that thrust is half learnt
   if (!e.rates_known && !quick) {
@@ -62,7 +66,10 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   // on its feet nothing shows how it leans
   const bool touches = quick && e.altitude < p.quick.contact && d.state == FlightState::landing;
   state.blind_cut = touches ? state.blind_cut + p.quick.cut * dt : 0;
-  if (d.state == FlightState::landing) {
+  // a pilot who flies it to the ground wants it to stand there, not to hover with one foot on it
+  constexpr double below = 0.15;  // m
+  const bool settles = d.state == FlightState::flying && d.altitude <= ground && e.altitude < below;
+  if (d.state == FlightState::landing || settles) {
     state.landing += dt;
     const double overdue = std::clamp(p.overdue * (state.landing - p.landing_time), 0.0, p.touch_speed);
     // an altitude that nothing confirms may be wrong
@@ -81,11 +88,10 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     }
     state.z.speed += state.z.demand * dt;
     // never far below: on the ground it would wind down all at once
-    state.z.place = std::max(state.z.place + state.z.speed * dt, e.altitude - 0.15);
+    state.z.place = std::max(state.z.place + state.z.speed * dt, e.altitude - below);
   } else {
     state.landing = 0;
     approach(state.z, d.altitude, p.approach, dt);
-    if (d.altitude <= ground && e.altitude < ground && std::abs(e.climb) < 0.05) state.lifted = false;
   }
   // sag of the battery, flow through the rotors, the ground: whatever thrust is lost or gained is felt at once
   const double felt = e.lift / gravity;
@@ -98,6 +104,11 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   const double upright = std::max(std::cos(e.roll) * std::cos(e.pitch), 0.5);
   thrust = std::clamp(state.trim + (1 + a / gravity) / upright - 1 - state.blind_cut, touches ? 0.0 : 0.1, 2.0);
   state.expected += (thrust - state.trim - state.expected) * dt / (p.lift_lag + dt);
+  // still or light: the ground carries
+  if (settles && (thrust < p.light || (e.altitude < ground && std::abs(e.climb) < 0.05))) {
+    state.lifted = false;
+    state.trim = std::max(std::min(thrust, state.trim), p.idle);
+  }
 }
 
 }  // namespace jarol::tasks

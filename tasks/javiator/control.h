@@ -21,6 +21,7 @@ struct PositionControl {
     double drag_time = 0.1;
     ApproachLimits approach{.bandwidth = 1.6, .speed = 2.5, .acceleration = 2.5, .jerk = 12, .lag = 0.2};
     double lean_limit = 0.4;
+    double stand_time = 0.3;
     double blind_kp = 0.6;
     double blind_kd = 1.5;
     static constexpr auto fields() {
@@ -31,6 +32,7 @@ struct PositionControl {
                       field<&P::drag_time>("s", "over which the drag that is leant against is averaged"),
                       field<&P::approach>("", "to a new place"),
                       field<&P::lean_limit>("rad", "greatest roll and pitch demanded").in(0, std::numbers::pi / 2),
+                      field<&P::stand_time>("s", "in which it levels where it stands").in(0.02, 100),
                       field<&P::blind_kp>("1/s^2", "kp when lasers show how it leans, slower than an IMU"),
                       field<&P::blind_kd>("1/s", "kd then"));
     }

@@ -257,10 +257,9 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   look(state.laser_x, new_x, {p.laser_x_x, p.laser_x_y, p.laser_x_z}, 0, s.laser_x);
   look(state.laser_y, new_y, {p.laser_y_x, p.laser_y_y, p.laser_y_z}, 1, s.laser_y);
   if (!settled) compare_pull(state, p, dt);
-  const bool seen = state.x.since < p.place_patience && state.y.since < p.place_patience;
-  // who does not know his place along one axis takes walls for others, and what they say of the other axis is wrong,
-  // too
-  if (!settled && !seen) state.laser_x.lost = state.laser_y.lost = true;
+  const double unseen = std::max(state.x.since, state.y.since);
+  // who does not know his place along one axis takes walls for others, and what they say of the other axis is wrong too
+  if (!settled && unseen >= p.unseen.longest) state.laser_x.lost = state.laser_y.lost = true;
 
   const bool answers = state.unanswered <= p.imu_patience;
   // an accelerometer in flight feels the rotors along their axis, and drag across it
@@ -292,7 +291,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
        .attitude_known = !state.imu.lost && !state.angles.lost,
        .lean_known = is_blind,
        .altitude_known = !state.sonar.lost,
-       .position_known = !state.laser_x.lost && !state.laser_y.lost && seen,
+       .position_known = !state.laser_x.lost && !state.laser_y.lost && unseen < p.unseen.patience,
        .pressure_known = !state.pressure.lost,
        .answers_known = answers};
 }

@@ -37,6 +37,18 @@ struct DriftLimits {
   }
 };
 
+/// What it knows of its place where its lasers tell nothing of one axis, as at headings about the diagonals of a room.
+struct UnseenPlace {
+  double patience = 1.5;
+  double longest = 3;
+
+  static constexpr auto fields() {
+    using U = UnseenPlace;
+    return describe(field<&U::patience>("s", "for which what it feels is as good"),
+                    field<&U::longest>("s", "after which it takes walls for others, and is lost"));
+  }
+};
+
 struct JaviatorFilter {
   static constexpr std::string_view summary = "estimates attitude, position and velocity from the helicopter's sensors";
   struct Param {
@@ -51,7 +63,7 @@ struct JaviatorFilter {
     double patience = 0.3;
     double imu_patience = 0.04;
     double rate_fade = 0.05;
-    double place_patience = 1.5;
+    UnseenPlace unseen{};
     double range_jump = 0.3;
     double sonar_jump = 0.08;
     double sonar_jump_rate = 0.1;
@@ -83,7 +95,7 @@ struct JaviatorFilter {
           field<&P::patience>("s", "without a credible measurement before a sensor counts as lost"),
           field<&P::imu_patience>("s", "the same, for the IMU"),
           field<&P::rate_fade>("s", "in which rates and forces of the last reading fade to a third until the next one"),
-          field<&P::place_patience>("s", "without a laser that sees along an axis"),
+          field<&P::unseen>("", "where no laser sees along an axis"),
           field<&P::range_jump>("m", "from the estimate at which a range is not credible"),
           field<&P::sonar_jump>("m", "the same, of the sonar right after a credible range"),
           field<&P::sonar_jump_rate>("m/s", "at which that grows until the next one, up to that of any range"),

@@ -1,6 +1,7 @@
 #include "tasks/javiator/flight_logic.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "graph/math/geometry.h"
 
@@ -37,13 +38,24 @@ void enter(FlightState next, Cause cause, FlightLogic::State& state, FlightDirec
   state.since = state.still = 0;
 }
 
+// Where it comes to rest; but in a turn, or where its lasers have not seen enough, along the walls that it can see.
+double find_yaw(Cause cause, const FlightEstimate& e, bool wants_position) {
+  constexpr double turns = 0.3;      // rad/s
+  constexpr double stop_time = 0.3;  // s
+  constexpr double quarter = 0.5 * std::numbers::pi;
+  if (!wants_position || cause == Cause::motor_weak) return e.yaw;
+  if (cause != Cause::position_lost && std::abs(e.r) < turns) return e.yaw;
+  const double heading = e.heading + stop_time * e.r;
+  return e.yaw + quarter * std::round(heading / quarter) - e.heading;
+}
+
 void begin_landing(Cause cause, const FlightEstimate& e, FlightLogic::State& state, FlightDirective& d) {
   enter(FlightState::landing, cause, state, d);
   // straight down from where it can stop
   d.roll = d.pitch = 0;
   d.x = e.x + 0.5 * e.v_x;
   d.y = e.y + 0.5 * e.v_y;
-  d.yaw = e.yaw;
+  d.yaw = find_yaw(cause, e, d.hold_position);
   d.altitude = 0;
 }
 
@@ -114,6 +126,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     state.still = still || in.lift.thrust < p.light ? state.still + dt : 0;
     if (state.since > 1 && state.still > p.touch_time) enter(FlightState::ground, d.cause, state, d);
   }
+  d.stands = in.lift.stands;
   // one that lies on its side does not stand there well, however it came to that
   if (d.state == FlightState::ground && d.cause == Cause::none && e.attitude_known) d.cause = find_lean(p, e);
 }

@@ -82,7 +82,9 @@ void MotorWatch::run(const Param& p, const Tick& tick, const In& in, State& stat
   std::shift_right(state.sent.begin(), state.sent.end(), 1);
   state.sent.front() = in.motors;
 
-  const bool aloft = (doing == FlightState::flying || doing == FlightState::landing) && e.altitude > p.contact;
+  const bool lands = doing == FlightState::landing && e.altitude_known;
+  const double lowest = lands && state.motors.weak == Motor::none ? p.low : p.contact;
+  const bool aloft = (doing == FlightState::flying || doing == FlightState::landing) && e.altitude > lowest;
   // what was sampled before a gap comes with the first answer after it, and turned for longer than a period
   const bool follows = aloft && e.rates_known && fresh && state.heard >= 2;
   state.heard = aloft && e.rates_known && fresh ? std::min(state.heard + 1, 2U) : 0;

@@ -27,6 +27,7 @@ struct MotorWatch {
     double doubt_time = 0.1;
     double follow = 20;
     double contact = 0.1;
+    double low = 0.06;
     double hover = 8000;
     double exponent = 1.415;
     double voltage = 15.887;
@@ -46,7 +47,8 @@ struct MotorWatch {
           field<&P::wind_time>("s", "in which that is learnt").in(1e-3, 1000),
           field<&P::doubt_time>("s", "in which the rotors forget signals that were perhaps not heard").in(0.001, 10),
           field<&P::follow>("1/s", "at which what a weak one gives is followed"),
-          field<&P::contact>("m", "altitude below which the ground turns it as well"),
+          field<&P::contact>("m", "altitude below which the ground may turn it as well"),
+          field<&P::low>("m", "of the sonar, down to which one that fails as it lands is found all the same"),
           field<&P::hover>("", "signal that hovers, as MotorMixer has it").in(1, max_motor_signal),
           field<&P::exponent>("", "thrust grows with the signal to this power").in(0.1, 10),
           field<&P::voltage>("V", "of the battery at which it does"), field<&P::lag>("s", "of the rotors").in(1e-3, 10),

@@ -7,8 +7,12 @@
 namespace jarol::tasks {
 namespace {
 
-// So much nearer than the other one a wall must be to be surely the one that is met.
-constexpr double corner = 1.0;  // m
+// So much nearer than the other one a wall must be to be surely the one that is met, and this much more for the place
+// that is expected, however a wall is grazed.
+constexpr double corner = 1.0;       // m
+constexpr double expected_to = 0.1;  // m
+// Along a wall that is grazed more than this it has no place.
+constexpr double grazing = 0.1;
 
 }  // namespace
 
@@ -17,20 +21,20 @@ WallFix find_place(const Room& room, const Eigen::Vector3d& lever_n, const Eigen
   WallFix fix;
   if (!(range > 0)) return fix;
   const double ahead[] = {room.north, room.east}, behind[] = {-room.south, -room.west};
-  double nearest = std::numeric_limits<double>::infinity(), next = nearest;
+  double nearest = std::numeric_limits<double>::infinity(), next = nearest, sure = 0;
   for (const int axis : {0, 1}) {
     const double along = along_n[axis];
-    // a wall that is grazed has no place
-    if (std::abs(along) < 0.1) continue;
+    if (along == 0) continue;
     const double wall = (along > 0 ? ahead[axis] : behind[axis]) - lever_n[axis];
     const double away = (wall - expected[axis]) / along;
     if (away < 0) continue;
+    sure += expected_to / std::abs(along);
     next = std::min(next, std::max(away, nearest));
     if (away >= nearest) continue;
     nearest = away;
-    fix = {true, false, axis, wall - range * along};
+    fix = {std::abs(along) >= grazing, false, axis, wall - range * along};
   }
-  fix.at_corner = next - nearest < corner;
+  fix.at_corner = next - nearest < corner + sure || (nearest < next && !fix.seen);
   return fix;
 }
 

@@ -133,7 +133,7 @@ constexpr auto enumerators(LandingCause) {
        {"altitude", LandingCause::altitude, "its altitude is beyond the limit"},
        {"operator_lost", LandingCause::operator_lost, "the operator is silent"},
        {"sonar_lost", LandingCause::sonar_lost, "the sonar reports nothing credible"},
-       {"position_lost", LandingCause::position_lost, "a laser reports nothing credible"},
+       {"position_lost", LandingCause::position_lost, "its lasers do not show where it is"},
        {"imu_lost", LandingCause::imu_lost, "the IMU reports nothing credible"},
        {"bmu_lost", LandingCause::bmu_lost, "the BMU reports nothing credible"},
        {"battery_low", LandingCause::battery_low, "the battery's voltage is below the limit"},
@@ -225,14 +225,15 @@ struct FlightEstimate {
 struct FlightDirective {
   FlightState state = FlightState::halt;
   LandingCause cause = LandingCause::none;
-  bool hold_position = false;
+  bool hold_position = false, stands = false;
   double roll = 0, pitch = 0, yaw = 0, altitude = 0, x = 0, y = 0;
   double trim_roll = 0, trim_pitch = 0;
 
   static constexpr auto fields() {
     using D = FlightDirective;
     return describe(field<&D::state>(), field<&D::cause>("", "of a landing that nobody wanted"),
-                    field<&D::hold_position>("", "else roll and pitch by hand"), field<&D::roll>("rad"),
+                    field<&D::hold_position>("", "else roll and pitch by hand"),
+                    field<&D::stands>("", "on the ground, where it is not steered"), field<&D::roll>("rad"),
                     field<&D::pitch>("rad"), field<&D::yaw>("rad", "from the take-off heading"),
                     field<&D::altitude>("m", "above the start"), field<&D::x>("m", "north of the start"),
                     field<&D::y>("m", "east of the start"), field<&D::trim_roll>("rad", "that counts as level"),
@@ -287,8 +288,12 @@ struct BlindMotion {
 /// Thrust of all rotors, 1 at hover.
 struct LiftDemand {
   double thrust = 0;
+  bool stands = false;
 
-  static constexpr auto fields() { return describe(field<&LiftDemand::thrust>("", "1 at hover")); }
+  static constexpr auto fields() {
+    return describe(field<&LiftDemand::thrust>("", "1 at hover"),
+                    field<&LiftDemand::stands>("", "on the ground, which it is not to leave now"));
+  }
 };
 
 }  // namespace jarol::tasks

@@ -55,8 +55,8 @@ TEST_SUITE("tools/recorded_truth") {
     const TemporaryFolder folder;
     const std::string file = folder / "crash.mcap";
     const auto run = command::run_jarol(
-        "run specs/javiator.yaml --set expect=nothing --set distributers.robostix.link.parameters.air.north=15 "
-        "--record " +
+        "run specs/javiator.yaml --set expect=nothing "
+        "--set 'distributers.robostix.link.parameters.failures.front={kind: lost, at: 9}' --record " +
             file,
         "2>&1 >/dev/null");
     CHECK(run.exit_code == 1);

@@ -178,6 +178,27 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     }
   }
 
+  TEST_CASE("towards corners the place is known for 1.5 s, and once more when it is seen again within 3 s") {
+    constexpr double eighth = 0.7853981633974483;
+    const auto turned_for = [](int periods) {
+      HeardHelicopter heard = hovering();
+      heard.param.room = {8, 8, 8, 8};
+      const double x = heard.sensors.laser_x, y = heard.sensors.laser_y, zero = heard.state.zero_yaw;
+      heard.state.zero_yaw = heard.sensors.yaw = eighth;
+      heard.sensors.laser_x = heard.sensors.laser_y = 11.3;
+      heard.run(99);
+      CHECK(heard.out.estimate.position_known);
+      CHECK_FALSE(heard.run(2).position_known);
+      heard.run(periods - 101);
+      heard.state.zero_yaw = heard.sensors.yaw = zero;
+      heard.sensors.laser_x = x;
+      heard.sensors.laser_y = y;
+      return heard.run(5);
+    };
+    CHECK(turned_for(198).position_known);
+    CHECK_FALSE(turned_for(202).position_known);
+  }
+
   TEST_CASE("an IMU that repeats all its readings a fourth time is stuck, another sensor that does so a fortieth") {
     HeardHelicopter heard = hovering();
     heard.param.imu_repeats = 3;

@@ -1,3 +1,4 @@
+// When the helicopter starts, flies and lands. In one file: all cases drive one logic through its states.
 #include "tasks/javiator/flight_logic.h"
 
 #include <doctest/doctest.h>
@@ -62,6 +63,43 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(logic.out.directive.x == 4);
     CHECK(logic.out.directive.yaw == 0.4);
     CHECK(logic.out.directive.altitude == 0);
+  }
+
+  TEST_CASE("landing from a turn, or without a place, it turns along the nearest walls that its lasers can see") {
+    Logic logic;
+    logic.in.command.mode_switches = 1;
+    logic.fly();
+    const auto yaw_after = [&](double yaw, double r, bool sees = true, Motor weak = Motor::none) {
+      Logic l = logic;
+      l.in.estimate.yaw = yaw;
+      l.in.estimate.heading = yaw + 0.2;
+      l.in.estimate.r = r;
+      l.in.estimate.position_known = sees;
+      l.in.motors.weak = weak;
+      if (sees && weak == Motor::none) ++l.in.command.state_switches;
+      CHECK(l.run(1) == FlightState::landing);
+      return l.out.directive.yaw;
+    };
+    constexpr double quarter = 1.5707963267948966;
+    CHECK(yaw_after(0.7, 0.29) == 0.7);
+    CHECK(yaw_after(0.4, 0.31) == doctest::Approx(-0.2));
+    CHECK(yaw_after(0.4, 1) == doctest::Approx(quarter - 0.2));  // it turns on for 0.3 s
+    CHECK(yaw_after(-0.4, -1.2) == doctest::Approx(-0.2));
+    CHECK(yaw_after(-0.8, -1.2) == doctest::Approx(-quarter - 0.2));
+    CHECK(yaw_after(0.7, 0, false) == doctest::Approx(quarter - 0.2));
+    CHECK(yaw_after(0.7, 0.5, true, Motor::front) == 0.7);
+    logic.in.command.mode_switches = 2;
+    logic.run(1);
+    CHECK(yaw_after(0.4, 1) == 0.4);
+  }
+
+  TEST_CASE("that it stands is handed on") {
+    Logic logic;
+    logic.fly();
+    CHECK_FALSE(logic.out.directive.stands);
+    logic.in.lift.stands = true;
+    logic.run(1);
+    CHECK(logic.out.directive.stands);
   }
 
   TEST_CASE("landing ends on the ground: low and still, or lighter than the rotors could carry") {

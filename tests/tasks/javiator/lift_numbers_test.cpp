@@ -191,6 +191,44 @@ TEST_SUITE("tasks/javiator_control/lift") {
     }
   }
 
+  TEST_CASE(
+      "told to be on the ground it goes down at 20 cm/s from 15 cm on, until the ground carries, and stands once "
+      "idle") {
+    Altitude a;
+    a.in.directive.altitude = 0;
+    a.in.estimate.altitude = 0.16;
+    a.state.z = {.place = 0.1};
+    a.run();
+    CHECK(a.state.z.demand > -0.5);  // its approach goes on
+    a.in.estimate.altitude = 0.14;
+    a.state.z = {.place = 0.1};
+    a.run();
+    CHECK(a.state.z.demand == doctest::Approx(-0.6));
+    a.run(200);  // a foot stands, and keeps it from sinking further
+    CHECK_FALSE(a.state.lifted);
+    CHECK(a.out.lift.stands);
+    CHECK(a.out.lift.thrust == 0.5);
+    a.in.directive.altitude = 1;
+    a.run();
+    CHECK_FALSE(a.out.lift.stands);
+    Altitude light;
+    light.in.directive.altitude = 0;
+    light.in.estimate.altitude = 0.1;
+    light.state.z.place = 0.1;
+    light.state.trim = 0.75;
+    light.run();
+    CHECK(light.state.lifted);
+    light.state.trim = 0.6;
+    CHECK(light.run() < 0.6);
+    CHECK_FALSE(light.state.lifted);
+    CHECK(light.state.trim == light.out.lift.thrust);  // no more than it had
+    light.run();
+    CHECK(light.out.lift.thrust > 0.5);
+    CHECK_FALSE(light.out.lift.stands);
+    light.run(10);
+    CHECK(light.out.lift.stands);
+  }
+
   TEST_CASE("it comes down at half a metre a second, and below half a metre, or what it takes for it, at 20 cm/s") {
     const auto demand_at = [](double altitude, bool known) {
       Altitude a;

@@ -153,6 +153,30 @@ TEST_SUITE("tasks/javiator_motor_watch") {
     CHECK(lands.seconds_until_weak() < 0.1);
   }
 
+  TEST_CASE("one that fails as it lands is found down to 6 cm by the sonar, and followed above 10 cm") {
+    Watched w;
+    w.in.directive.state = FlightState::landing;
+    w.in.estimate.altitude_known = true;
+    w.in.estimate.altitude = 0.061;
+    w.body.parts[0] = 0.5;
+    CHECK(w.seconds_until_weak() < 0.1);
+    const double found = w.out.motors.effectiveness[0];
+    w.run(20);
+    CHECK(w.out.motors.effectiveness[0] == found);
+    w.in.estimate.altitude = 0.101;
+    w.run(20);
+    CHECK(w.out.motors.effectiveness[0] == doctest::Approx(0.5).epsilon(0.02).scale(0));
+    Watched lower;
+    lower.in.directive.state = FlightState::landing;
+    lower.in.estimate.altitude_known = true;
+    lower.in.estimate.altitude = 0.059;
+    lower.body.parts[0] = 0.5;
+    CHECK(lower.seconds_until_weak() > 0.99);
+    lower.in.estimate.altitude = 0.09;
+    lower.in.directive.state = FlightState::flying;  // it takes off: what is found has to be followed
+    CHECK(lower.seconds_until_weak() > 0.99);
+  }
+
   TEST_CASE("signals that are not heard, and answers that are not, are no motor's fault") {
     std::mt19937 engine(5);
     for (int flight = 0; flight < 20; ++flight) {

@@ -63,6 +63,24 @@ TEST_SUITE("tasks/javiator_room") {
     CHECK_FALSE(fix(yaw, 9.9, {8.5, 0}).at_corner);
   }
 
+  TEST_CASE("a wall that is near is met before the one ahead, however little it is turned to it") {
+    // 60 cm from the wall in the south; a laser looks east and ever more to the south
+    const auto fix = [](double yaw, double range) {
+      return find_place({}, {0, 0, 0}, turned(0, 0, yaw).col(1), range, {-11.4, 0});
+    };
+    CHECK(fix(0, 8).axis == 1);
+    CHECK_FALSE(fix(0, 8).at_corner);
+    CHECK_FALSE(fix(0.05, 8).at_corner);  // 12 m away, or 10 if it stands 10 cm nearer
+    CHECK(fix(0.06, 8).at_corner);        // 10 m away, or 8.3
+    CHECK(fix(0.075, 8).at_corner);
+    CHECK(fix(0.09, 6.7).at_corner);  // that wall, which it grazes
+    CHECK_FALSE(fix(0.12, 5).at_corner);
+    // 10 cm from it it is far before the other one, but shows no place
+    CHECK(find_place({}, {0, 0, 0}, turned(0, 0, 0.08).col(1), 1.2, {-11.9, 0}).at_corner);
+    CHECK(fix(0.12, 0.6 / std::sin(0.12)).axis == 0);
+    CHECK(fix(0.12, 0.6 / std::sin(0.12)).place == doctest::Approx(-11.4));
+  }
+
   TEST_CASE("a range of zero is that of nothing seen") {
     CHECK_FALSE(find_place({}, {0, 0, 0}, {1, 0, 0}, 0, {0, 0}).seen);
     CHECK_FALSE(find_place({}, {0, 0, 0}, {0, 0, 1}, 1, {0, 0}).seen);  // straight down

@@ -79,7 +79,7 @@ TEST_SUITE("tools/verdicts") {
         run_without_expect("javiator", "--set distributers.terminal.link.file=" + mission_that_stops(folder));
     CHECK(result.exit_code == 1);
     CHECK(contains(result.output,
-                   "error: the vehicle of 'robostix' has crashed: a foot met the ground at 4.4 m/s, above "
+                   "error: the vehicle of 'robostix' has crashed: a foot met the ground at 4.3 m/s, above "
                    "2 m/s, at 10.52 s\n"));
   }
 
