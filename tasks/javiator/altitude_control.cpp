@@ -36,8 +36,12 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     // thrust grows slowly until the ground is left, and is learnt on the way
     const bool wants_up = d.state == FlightState::flying && d.altitude > ground;
     state.trim = std::clamp(state.trim + (wants_up ? p.lift_rate : -p.lift_rate) * dt, p.idle, 1.5);
-    state.lifted = (wants_up || d.state == FlightState::landing) && e.altitude > ground;
-    out.lift.stands = !wants_up && !state.lifted && state.trim <= p.idle;
+    // what stands does not take off to land, whatever its sonar reports
+    const bool lands = d.state == FlightState::landing && !out.lift.stands;
+    // told to stay when it has just left
+    const bool rises = !out.lift.stands && e.climb > 0.1;
+    state.lifted = (wants_up || lands || rises) && e.altitude > ground;
+    out.lift.stands = !state.lifted && state.trim <= (wants_up ? p.leaving : p.idle);
     state.z = {e.altitude, std::max(e.climb, 0.0)};
     state.expected = state.sunk = 0;
     // what lifts it is more than what carries it
@@ -104,8 +108,9 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   const double upright = std::max(std::cos(e.roll) * std::cos(e.pitch), 0.5);
   thrust = std::clamp(state.trim + (1 + a / gravity) / upright - 1 - state.blind_cut, touches ? 0.0 : 0.1, 2.0);
   state.expected += (thrust - state.trim - state.expected) * dt / (p.lift_lag + dt);
-  // still or light: the ground carries
-  if (settles && (thrust < p.light || (e.altitude < ground && std::abs(e.climb) < 0.05))) {
+  // it feels more than the rotors give, or is still: the ground carries
+  const bool carried = thrust < p.light && felt - (state.trim + state.expected) > 0.25;
+  if (settles && (carried || (e.altitude < ground && std::abs(e.climb) < 0.05))) {
     state.lifted = false;
     state.trim = std::max(std::min(thrust, state.trim), p.idle);
   }

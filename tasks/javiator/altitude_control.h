@@ -46,6 +46,7 @@ struct AltitudeControl {
     ApproachLimits approach{.bandwidth = 2.2, .speed = 1, .acceleration = 2, .jerk = 15, .lag = 0.08};
     double idle = 0.5;
     double light = 0.6;
+    double leaving = 0.8;
     double lift_rate = 1.5;
     double descent = 0.5;
     double touch_speed = 0.2;
@@ -66,6 +67,7 @@ struct AltitudeControl {
                       field<&P::approach>("", "to a new altitude"),
                       field<&P::idle>("", "thrust while standing ready, in parts of that of hover"),
                       field<&P::light>("", "thrust below which the ground must carry"),
+                      field<&P::leaving>("", "thrust up to which it stands while that grows"),
                       field<&P::lift_rate>("1/s", "at which thrust grows until it lifts off"),
                       field<&P::descent>("m/s", "of a landing"), field<&P::touch_speed>("m/s", "of its last part"),
                       field<&P::landing_time>("s",

@@ -70,7 +70,8 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
   if (!d.hold_position || d.stands || d.state == FlightState::starting || d.state == FlightState::ground) {
     state.holding = false;
     if (d.stands) {
-      // to where its feet are, not so fast that they slap
+      // not so fast that its feet slap
+      out.goal.yaw = e.yaw;
       out.goal.roll -= out.goal.roll * dt / p.stand_time;
       out.goal.pitch -= out.goal.pitch * dt / p.stand_time;
       return;

@@ -243,7 +243,8 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
       return;
     }
     if (heard && fix.at_corner) return void(laser.silent = 0);  // that says nothing, and nothing of the laser
-    const bool credible = heard && fix.seen && is_near(axis, fix.place - zero, p.range_jump);
+    const double jump = p.range_jump + p.unseen.speed * std::max(axis.since - p.patience, 0.0);
+    const bool credible = heard && fix.seen && is_near(axis, fix.place - zero, jump);
     const bool repeats = p.laser_repeats > 0 && laser.repeats > 0;
     if (!believe(laser, credible, p.patience) || axis.since == 0 || repeats) return;
     *fixes[fix.axis] = {.place = fix.place - zero,
@@ -259,7 +260,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   if (!settled) compare_pull(state, p, dt);
   const double unseen = std::max(state.x.since, state.y.since);
   // who does not know his place along one axis takes walls for others, and what they say of the other axis is wrong too
-  if (!settled && unseen >= p.unseen.longest) state.laser_x.lost = state.laser_y.lost = true;
+  if (!settled && unseen >= p.unseen.max_time) state.laser_x.lost = state.laser_y.lost = true;
 
   const bool answers = state.unanswered <= p.imu_patience;
   // an accelerometer in flight feels the rotors along their axis, and drag across it

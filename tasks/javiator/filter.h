@@ -40,12 +40,14 @@ struct DriftLimits {
 /// What it knows of its place where its lasers tell nothing of one axis, as at headings about the diagonals of a room.
 struct UnseenPlace {
   double patience = 1.5;
-  double longest = 3;
+  double max_time = 3;
+  double speed = 0.5;
 
   static constexpr auto fields() {
     using U = UnseenPlace;
     return describe(field<&U::patience>("s", "for which what it feels is as good"),
-                    field<&U::longest>("s", "after which it takes walls for others, and is lost"));
+                    field<&U::max_time>("s", "after which it takes walls for others, and is lost"),
+                    field<&U::speed>("m/s", "at which what it feels may go astray meanwhile"));
   }
 };
 

@@ -43,7 +43,8 @@ double find_yaw(Cause cause, const FlightEstimate& e, bool wants_position) {
   constexpr double turns = 0.3;      // rad/s
   constexpr double stop_time = 0.3;  // s
   constexpr double quarter = 0.5 * std::numbers::pi;
-  if (!wants_position || cause == Cause::motor_weak) return e.yaw;
+  constexpr double low = 0.3;  // m: no time to turn
+  if (!wants_position || cause == Cause::motor_weak || (e.altitude_known && e.altitude < low)) return e.yaw;
   if (cause != Cause::position_lost && std::abs(e.r) < turns) return e.yaw;
   const double heading = e.heading + stop_time * e.r;
   return e.yaw + quarter * std::round(heading / quarter) - e.heading;

@@ -216,8 +216,8 @@ struct FlightEstimate {
         field<&E::attitude_known>("", "and its angles agree with its rates"),
         field<&E::lean_known>("", "lasers show roll and pitch in its place"),
         field<&E::altitude_known>("", "the sonar reports something credible"),
-        field<&E::position_known>("", "both lasers do"), field<&E::pressure_known>("", "the BMU does"),
-        field<&E::answers_known>("", "the Robostix answers in time"));
+        field<&E::position_known>("", "the lasers show it, or did of late"),
+        field<&E::pressure_known>("", "the BMU does"), field<&E::answers_known>("", "the Robostix answers in time"));
   }
 };
 

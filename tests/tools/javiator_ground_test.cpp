@@ -62,20 +62,26 @@ TEST_SUITE("tools/javiator_ground") {
       }
   }
 
-  TEST_CASE("told to go elsewhere while it stands ready, it stays, and takes off straight up when it is to") {
-    for (const std::uint64_t seed : {1U, 2U, 3U}) {
-      CAPTURE(seed);
-      const Flight flight = fly_by(seed, {gusty_wind}, [](double time, auto& command) {
-        command.altitude = time < 12 ? 0 : 1;
-        command.x = time < 4 ? 0 : 4;
-        command.roll = 0.3;
-      });
-      CHECK(lean_of(flight, 0, 12) < 0.02);
-      CHECK(way_of(flight, 0, 12) < 0.05);
-      CHECK(flight.max(&Glimpse::altitude, 0, 12) < 0.002);
-      CHECK(flight.last().state == tasks::FlightState::flying);
-      CHECK(flight.path.back().x - flight.path.front().x == doctest::Approx(4).epsilon(0.3).scale(0));
-    }
+  TEST_CASE("told to go elsewhere, to turn or to lean while it stands ready, it stays until it is to take off") {
+    for (const bool by_hand : {false, true})
+      for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        CAPTURE(by_hand);
+        CAPTURE(seed);
+        const Flight flight = fly_by(seed, {gusty_wind}, [by_hand](double time, auto& command) {
+          command.altitude = time < 12 ? 0 : 1;
+          command.x = time < 4 ? 0 : 4;
+          command.yaw = time < 4 ? 0 : 1.5;
+          if (!by_hand) return;
+          command.mode_switches = 0;
+          command.roll = time < 12 ? 0.3 : 0;
+        });
+        CHECK(lean_of(flight, 0, 12) < 0.02);
+        CHECK(way_of(flight, 0, 12) < 0.05);
+        CHECK(flight.furthest(&Glimpse::yaw, 0, 0, 12) < 0.05);
+        CHECK(flight.max(&Glimpse::altitude, 0, 12) < 0.002);
+        CHECK(flight.last().state == tasks::FlightState::flying);
+        if (!by_hand) CHECK(flight.path.back().x - flight.path.front().x == doctest::Approx(4).epsilon(0.3).scale(0));
+      }
   }
 
   TEST_CASE("beside a wall it does not take that for the one ahead as it turns") {
@@ -92,15 +98,32 @@ TEST_SUITE("tools/javiator_ground") {
   }
 
   TEST_CASE("turned to a corner, where its lasers see one wall, it turns back along the walls and lands where it was") {
-    for (const double yaw : {0.9, -0.7, 2.4}) {
-      CAPTURE(yaw);
-      const Flight flight = fly_by(1, {}, [yaw](double time, auto& command) { command.yaw = time < 8 ? 0 : yaw; });
-      if (flight.last().state == tasks::FlightState::flying) continue;  // both walls are seen
-      CHECK(flight.last().cause == tasks::LandingCause::position_lost);
-      CHECK(std::abs(std::remainder(flight.path.back().yaw, 0.5 * std::numbers::pi)) < 0.1);
-      CHECK(way_of(flight, 0, 24) < 0.5);
-      CHECK(flight.touch_down() < 0.5);
-    }
+    for (const double yaw : {0.9, 2.4, 2.5})
+      for (const std::uint64_t seed : {1U, 4U, 6U}) {
+        CAPTURE(yaw);
+        CAPTURE(seed);
+        const Flight flight = fly_by(seed, {}, [yaw](double time, auto& command) { command.yaw = time < 8 ? 0 : yaw; });
+        CHECK(flight.last().state == tasks::FlightState::ground);
+        CHECK(flight.last().cause == tasks::LandingCause::position_lost);
+        CHECK(std::abs(std::remainder(flight.path.back().yaw, 0.5 * std::numbers::pi)) < 0.1);
+        CHECK(way_of(flight, 0, 24) < 0.5);
+        CHECK(flight.touch_down() < 0.5);
+      }
+  }
+
+  TEST_CASE("a climb that is taken back as it leaves the ground ends softly where it began") {
+    for (const double time_back : {4.4, 4.45, 4.5, 4.6})
+      for (const std::uint64_t seed : {1U, 2U}) {
+        CAPTURE(time_back);
+        CAPTURE(seed);
+        const Flight flight = fly_by(seed, {}, [time_back](double time, auto& command) {
+          command.altitude = time > 4 && time < time_back ? 1 : 0;
+        });
+        CHECK(flight.max(&Glimpse::altitude, 0, 24) > 0.01);
+        CHECK(flight.touch_down() < 0.3);
+        CHECK(flight.last().stands);
+        CHECK(way_of(flight, 0, 24) < 0.1);
+      }
   }
 
   TEST_CASE("a motor that loses part of its thrust in the last 12 cm does not turn it over") {

@@ -56,15 +56,18 @@ TEST_SUITE("tasks/javiator_control") {
     CHECK(out.goal.pitch == 0.4);
   }
 
-  TEST_CASE("where it stands it levels in 0.3 s, holds no place and leans nowhere") {
+  TEST_CASE("where it stands it levels in 0.3 s, holds no place, leans nowhere and turns nowhere") {
     PositionControl::State state{.holding = true};
     PositionControl::Out out{.goal = {.roll = 0.2, .pitch = -0.1}};
     PositionControl::In in{
         .estimate = level(),
-        .directive = {.state = FlightState::flying, .hold_position = true, .stands = true, .roll = 0.3, .x = 4}};
+        .directive = {
+            .state = FlightState::flying, .hold_position = true, .stands = true, .roll = 0.3, .yaw = 1, .x = 4}};
+    in.estimate.yaw = 0.2;
     for (int i = 0; i < 20; ++i) PositionControl::run({}, tick, in, state, out);
     CHECK(out.goal.roll == doctest::Approx(0.2 * std::pow(0.95, 20)));
     CHECK(out.goal.pitch == doctest::Approx(-0.1 * std::pow(0.95, 20)));
+    CHECK(out.goal.yaw == 0.2);
     CHECK_FALSE(state.holding);
     in.directive.hold_position = false;
     PositionControl::run({}, tick, in, state, out);

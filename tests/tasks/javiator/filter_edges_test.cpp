@@ -180,7 +180,7 @@ TEST_SUITE("tasks/javiator_filter/edges") {
 
   TEST_CASE("towards corners the place is known for 1.5 s, and once more when it is seen again within 3 s") {
     constexpr double eighth = 0.7853981633974483;
-    const auto turned_for = [](int periods) {
+    const auto turned_for = [](int periods, double off = 0) {
       HeardHelicopter heard = hovering();
       heard.param.room = {8, 8, 8, 8};
       const double x = heard.sensors.laser_x, y = heard.sensors.laser_y, zero = heard.state.zero_yaw;
@@ -191,12 +191,15 @@ TEST_SUITE("tasks/javiator_filter/edges") {
       CHECK_FALSE(heard.run(2).position_known);
       heard.run(periods - 101);
       heard.state.zero_yaw = heard.sensors.yaw = zero;
-      heard.sensors.laser_x = x;
+      heard.sensors.laser_x = x + off;
       heard.sensors.laser_y = y;
       return heard.run(5);
     };
     CHECK(turned_for(198).position_known);
     CHECK_FALSE(turned_for(202).position_known);
+    // meanwhile it may have gone astray by half a metre a second, and 30 cm
+    CHECK(turned_for(180, 1.4).position_known);
+    CHECK_FALSE(turned_for(180, 1.6).position_known);
   }
 
   TEST_CASE("an IMU that repeats all its readings a fourth time is stuck, another sensor that does so a fortieth") {

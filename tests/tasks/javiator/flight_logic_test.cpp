@@ -88,6 +88,9 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(yaw_after(-0.8, -1.2) == doctest::Approx(-quarter - 0.2));
     CHECK(yaw_after(0.7, 0, false) == doctest::Approx(quarter - 0.2));
     CHECK(yaw_after(0.7, 0.5, true, Motor::front) == 0.7);
+    logic.in.estimate.altitude = 0.29;  // no time to turn
+    CHECK(yaw_after(0.4, 1) == 0.4);
+    logic.in.estimate.altitude = 1;
     logic.in.command.mode_switches = 2;
     logic.run(1);
     CHECK(yaw_after(0.4, 1) == 0.4);

@@ -1,4 +1,5 @@
-// The numbers of the helicopter's law of altitude: each gain, limit and time, at its edge.
+// The numbers of the helicopter's law of altitude: each gain, limit and time, at its edge. In one file: all hover or
+// stand alike.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -227,6 +228,49 @@ TEST_SUITE("tasks/javiator_control/lift") {
     CHECK_FALSE(light.out.lift.stands);
     light.run(10);
     CHECK(light.out.lift.stands);
+  }
+
+  TEST_CASE("thrust that is light in the air does not count as carried by the ground") {
+    Altitude falls;
+    falls.in.directive.altitude = 0;
+    falls.in.estimate.altitude = 0.1;
+    falls.in.estimate.lift = 0.8 * gravity;
+    falls.state.z.place = 0.1;
+    falls.state.trim = 0.6;
+    CHECK(falls.run() < 0.6);
+    CHECK(falls.state.lifted);
+  }
+
+  TEST_CASE("it stands until its thrust is 0.8 of hover's; told to stay when it rises already, it comes down again") {
+    Grounded g;
+    g.in.directive.altitude = 1;
+    g.state.trim = 0.77;
+    g.run();
+    CHECK(g.out.lift.stands);  // 0.7925
+    g.run();
+    CHECK_FALSE(g.out.lift.stands);
+    g.in.directive.altitude = 0;
+    g.in.estimate.altitude = 0.03;
+    g.in.estimate.climb = 0.09;
+    g.run();
+    CHECK_FALSE(g.state.lifted);
+    g.in.estimate.climb = 0.11;
+    g.run();
+    CHECK(g.state.lifted);
+  }
+
+  TEST_CASE("what stands does not take off to land, whatever its sonar reports") {
+    Grounded g;
+    g.out.lift.stands = true;
+    g.in.directive.state = FlightState::landing;
+    g.in.estimate.altitude = 0.6;
+    g.in.estimate.climb = 0.2;
+    CHECK(g.run(100) == 0.5);
+    CHECK_FALSE(g.state.lifted);
+    CHECK(g.out.lift.stands);
+    g.out.lift.stands = false;
+    g.run();
+    CHECK(g.state.lifted);
   }
 
   TEST_CASE("it comes down at half a metre a second, and below half a metre, or what it takes for it, at 20 cm/s") {

@@ -77,6 +77,8 @@ TEST_SUITE("tasks/javiator_room") {
     CHECK_FALSE(fix(0.12, 5).at_corner);
     // 10 cm from it it is far before the other one, but shows no place
     CHECK(find_place({}, {0, 0, 0}, turned(0, 0, 0.08).col(1), 1.2, {-11.9, 0}).at_corner);
+    // and so if it is expected a little beyond it
+    CHECK(find_place({}, {0, 0, 0}, turned(0, 0, 0.12).col(1), 0.5, {-12.01, 0}).axis == 0);
     CHECK(fix(0.12, 0.6 / std::sin(0.12)).axis == 0);
     CHECK(fix(0.12, 0.6 / std::sin(0.12)).place == doctest::Approx(-11.4));
   }
