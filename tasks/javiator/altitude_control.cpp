@@ -38,7 +38,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     state.trim = std::clamp(state.trim + (wants_up ? p.lift_rate : -p.lift_rate) * dt, p.idle, 1.5);
     // what stands does not take off to land, whatever its sonar reports
     const bool lands = d.state == FlightState::landing && !out.lift.stands;
-    // told to stay when it has just left
+    // what has just left when it is to stay comes down in flight
     const bool rises = !out.lift.stands && e.climb > 0.1;
     state.lifted = (wants_up || lands || rises) && e.altitude > ground;
     out.lift.stands = !state.lifted && state.trim <= (wants_up ? p.leaving : p.idle);
@@ -71,8 +71,8 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   const bool touches = quick && e.altitude < p.quick.contact && d.state == FlightState::landing;
   state.blind_cut = touches ? state.blind_cut + p.quick.cut * dt : 0;
   // a pilot who flies it to the ground wants it to stand there, not to hover with one foot on it
-  constexpr double below = 0.15;  // m
-  const bool settles = d.state == FlightState::flying && d.altitude <= ground && e.altitude < below;
+  constexpr double low = 0.15;  // m
+  const bool settles = d.state == FlightState::flying && d.altitude <= ground && e.altitude < low;
   if (d.state == FlightState::landing || settles) {
     state.landing += dt;
     const double overdue = std::clamp(p.overdue * (state.landing - p.landing_time), 0.0, p.touch_speed);
@@ -92,7 +92,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     }
     state.z.speed += state.z.demand * dt;
     // never far below: on the ground it would wind down all at once
-    state.z.place = std::max(state.z.place + state.z.speed * dt, e.altitude - below);
+    state.z.place = std::max(state.z.place + state.z.speed * dt, e.altitude - 0.15);
   } else {
     state.landing = 0;
     approach(state.z, d.altitude, p.approach, dt);

@@ -60,22 +60,23 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
     out.goal.pitch = limited(-std::atan((c * a_x + s * a_y) / gravity), p.lean_limit);
   };
 
+  // level where it stands, not so fast that its feet slap
+  if (d.stands) {
+    state.holding = false;
+    out.goal.roll -= out.goal.roll * dt / p.stand_time;
+    out.goal.pitch -= out.goal.pitch * dt / p.stand_time;
+    out.goal.yaw = e.yaw;
+    return;
+  }
   // landing without a place it brakes by what it still knows of its speed
-  if (d.state == FlightState::landing && !d.hold_position && !d.stands) {
+  if (d.state == FlightState::landing && !d.hold_position) {
     state.holding = false;
     lean(-e.v_x - state.drag_x, -e.v_y - state.drag_y);
     return;
   }
   // by hand; commands are meant from the take-off heading, not from the nose
-  if (!d.hold_position || d.stands || d.state == FlightState::starting || d.state == FlightState::ground) {
+  if (!d.hold_position || d.state == FlightState::starting || d.state == FlightState::ground) {
     state.holding = false;
-    if (d.stands) {
-      // not so fast that its feet slap
-      out.goal.yaw = e.yaw;
-      out.goal.roll -= out.goal.roll * dt / p.stand_time;
-      out.goal.pitch -= out.goal.pitch * dt / p.stand_time;
-      return;
-    }
     const double cos_yaw = std::cos(e.yaw), sin_yaw = std::sin(e.yaw);
     out.goal.roll = limited(d.pitch * sin_yaw + d.roll * cos_yaw, p.lean_limit);
     out.goal.pitch = limited(d.pitch * cos_yaw - d.roll * sin_yaw, p.lean_limit);

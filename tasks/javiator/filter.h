@@ -37,7 +37,7 @@ struct DriftLimits {
   }
 };
 
-/// What it knows of its place where its lasers tell nothing of one axis, as at headings about the diagonals of a room.
+/// What it knows of its place where its lasers show nothing of one axis, as at headings about the diagonals of a room.
 struct UnseenPlace {
   double patience = 1.5;
   double max_time = 3;

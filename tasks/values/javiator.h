@@ -233,7 +233,7 @@ struct FlightDirective {
     using D = FlightDirective;
     return describe(field<&D::state>(), field<&D::cause>("", "of a landing that nobody wanted"),
                     field<&D::hold_position>("", "else roll and pitch by hand"),
-                    field<&D::stands>("", "on the ground, where it is not steered"), field<&D::roll>("rad"),
+                    field<&D::stands>("", "on the ground, where it only levels"), field<&D::roll>("rad"),
                     field<&D::pitch>("rad"), field<&D::yaw>("rad", "from the take-off heading"),
                     field<&D::altitude>("m", "above the start"), field<&D::x>("m", "north of the start"),
                     field<&D::y>("m", "east of the start"), field<&D::trim_roll>("rad", "that counts as level"),

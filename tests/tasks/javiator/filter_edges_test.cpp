@@ -178,7 +178,7 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     }
   }
 
-  TEST_CASE("towards corners the place is known for 1.5 s, and once more when it is seen again within 3 s") {
+  TEST_CASE("towards corners the place is known for 1.5 s, and again if it is seen within 3 s") {
     constexpr double eighth = 0.7853981633974483;
     const auto turned_for = [](int periods, double off = 0) {
       HeardHelicopter heard = hovering();

@@ -193,7 +193,7 @@ TEST_SUITE("tasks/javiator_control/lift") {
   }
 
   TEST_CASE(
-      "told to be on the ground it goes down at 20 cm/s from 15 cm on, until the ground carries, and stands once "
+      "commanded to the ground it goes down at 20 cm/s from 15 cm on, until the ground carries, and stands once "
       "idle") {
     Altitude a;
     a.in.directive.altitude = 0;
@@ -241,7 +241,7 @@ TEST_SUITE("tasks/javiator_control/lift") {
     CHECK(falls.state.lifted);
   }
 
-  TEST_CASE("it stands until its thrust is 0.8 of hover's; told to stay when it rises already, it comes down again") {
+  TEST_CASE("it stands until its thrust is 0.8 of hover's; what rises already when it is to stay comes down again") {
     Grounded g;
     g.in.directive.altitude = 1;
     g.state.trim = 0.77;
