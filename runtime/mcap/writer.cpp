@@ -1,9 +1,7 @@
 #include "runtime/mcap/writer.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <numeric>
-#include <system_error>
 
 #include "runtime/mcap/crc32.h"
 
@@ -45,7 +43,7 @@ Writer::Writer(std::FILE* file, Compression compression, std::string_view librar
 }
 
 void Writer::write(const Attachment& attachment) {
-  const std::uint64_t offset = offset_;
+  const std::uint64_t offset = this->offset();
   std::string content;
   for (int i = 0; i < 2; ++i) put(content, std::uint64_t{0});  // its times
   put_text(content, attachment.name);
@@ -86,7 +84,7 @@ void Writer::write(const Chunk& chunk) {
   const std::uint32_t crc = chunk.crc();
   ChunkPlace place{.start = chunk.start(),
                    .end = chunk.end(),
-                   .offset = offset_,
+                   .offset = offset(),
                    .compression = std::string(name_of(compression)),
                    .compressed = stored.size(),
                    .uncompressed = records.size()};
@@ -101,11 +99,7 @@ void Writer::write(const Chunk& chunk) {
   put_text(head_, place.compression);
   put(head_, place.compressed);
   put_out(head_);
-  if (compression == Compression::none)
-    put_out(stored, crc);
-  else
-    put_out(stored);
-  // all its indexes in one go
+  const std::uint64_t indexes_at = offset() + stored.size();
   index_.clear();
   const std::vector<std::vector<IndexEntry>>& entries = chunk.entries();
   counts_.resize(std::max(counts_.size(), entries.size()));
@@ -113,15 +107,18 @@ void Writer::write(const Chunk& chunk) {
     const std::vector<IndexEntry>& of_channel = entries[channel];
     if (of_channel.empty()) continue;
     counts_[channel] += of_channel.size();
-    place.indexes.emplace_back(static_cast<std::uint16_t>(channel), offset_ + index_.size());
+    place.indexes.emplace_back(static_cast<std::uint16_t>(channel), indexes_at + index_.size());
     const auto bytes = static_cast<std::uint32_t>(of_channel.size() * sizeof(IndexEntry));
     put_head(index_, Opcode::message_index, 2 + 4 + bytes);
     put(index_, static_cast<std::uint16_t>(channel));
     put_text(index_, {reinterpret_cast<const char*>(of_channel.data()), bytes});
   }
   place.index_length = index_.size();
-  put_out(index_);
-  flush();
+  // all of it in one go
+  count(stored, compression == Compression::none ? crc : crc32(stored));
+  count(index_, crc32(index_));
+  file_.append({waiting_, stored, index_});
+  waiting_.clear();
   chunks_.push_back(std::move(place));
 }
 
@@ -129,14 +126,14 @@ void Writer::end(const std::vector<Schema>& schemas, const std::vector<Channel>&
   std::string data_end;
   put(data_end, crc_);
   put_out(record_of(Opcode::data_end, data_end));
-  const std::uint64_t summary = offset_;
+  const std::uint64_t summary = offset();
   crc_ = 0;
   std::string offsets;
   const auto put_group = [&](Opcode opcode, const std::string& records) {
     if (records.empty()) return;
     std::string content;
     put(content, static_cast<std::uint8_t>(opcode));
-    put(content, offset_);
+    put(content, offset());
     put(content, static_cast<std::uint64_t>(records.size()));
     offsets += record_of(Opcode::summary_offset, content);
     put_out(records);
@@ -172,7 +169,7 @@ void Writer::end(const std::vector<Schema>& schemas, const std::vector<Channel>&
   for (const ChunkPlace& chunk : chunks_) records += index_record(chunk);
   put_group(Opcode::chunk_index, records);
   put_group(Opcode::attachment_index, attachment_indexes_);
-  const std::uint64_t offsets_at = offset_;
+  const std::uint64_t offsets_at = offset();
   put_out(offsets);
   std::string footer;
   put_head(footer, Opcode::footer, 8 + 8 + 4);
@@ -182,19 +179,19 @@ void Writer::end(const std::vector<Schema>& schemas, const std::vector<Channel>&
   put_out(footer);
   put_out(magic);
   flush();
+  file_.end();
 }
 
-void Writer::put_out(std::string_view bytes) { put_out(bytes, crc32(bytes)); }
-
-void Writer::put_out(std::string_view bytes, std::uint32_t crc) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
-    throw std::system_error(errno, std::generic_category());
-  offset_ += bytes.size();
-  crc_ = joined_crc32(crc_, crc, bytes.size());
+void Writer::put_out(std::string_view bytes) {
+  waiting_ += bytes;
+  count(bytes, crc32(bytes));
 }
+
+void Writer::count(std::string_view bytes, std::uint32_t crc) { crc_ = joined_crc32(crc_, crc, bytes.size()); }
 
 void Writer::flush() {
-  if (std::fflush(file_) != 0) throw std::system_error(errno, std::generic_category());
+  file_.append({waiting_});
+  waiting_.clear();
 }
 
 }  // namespace jarol::mcap

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/files/appender.h"
 #include "runtime/mcap/chunk.h"
 #include "runtime/mcap/compression.h"
 
@@ -25,18 +26,19 @@ class Writer {
   void end(const std::vector<Schema>& schemas, const std::vector<Channel>& channels);
 
   /// Written so far.
-  std::uint64_t bytes() const { return offset_; }
+  std::uint64_t bytes() const { return file_.bytes(); }
   bool has_chunks() const { return !chunks_.empty(); }
 
  private:
+  std::uint64_t offset() const { return file_.bytes() + waiting_.size(); }
   void put_out(std::string_view bytes);
-  void put_out(std::string_view bytes, std::uint32_t crc);
+  void count(std::string_view bytes, std::uint32_t crc);
   void flush();
 
-  std::FILE* file_;
+  Appender file_;
   Compression compression_;
-  std::uint64_t offset_ = 0;
-  std::uint32_t crc_ = 0;  // of all that was written
+  std::string waiting_;    // for the next flush
+  std::uint32_t crc_ = 0;  // of all up to here
   std::vector<ChunkPlace> chunks_;
   std::vector<std::uint64_t> counts_;  // messages, per channel
   std::string attachment_indexes_;     // records
