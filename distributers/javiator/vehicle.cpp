@@ -25,6 +25,12 @@ bool JaviatorVehicle::is_late(std::uint16_t id) {
   return false;
 }
 
+// Commands are numbered one by one, as signals are.
+std::uint32_t JaviatorVehicle::number_of(std::uint16_t id) const {
+  const std::uint16_t since = id_ - id;
+  return number_ > since && since <= longest_delay ? number_ - since : 0;
+}
+
 void JaviatorVehicle::data(const javiator::JaviatorData& d) {
   if (is_late(d.id)) return;
   const bool waits = in.sensors.is_new;
@@ -52,7 +58,8 @@ void JaviatorVehicle::data(const javiator::JaviatorData& d) {
        .new_sonar = is_new(s.new_sonar, javiator::JaviatorData::Flags::SONAR),
        .new_x = is_new(s.new_x, javiator::JaviatorData::Flags::X_POS),
        .new_y = is_new(s.new_y, javiator::JaviatorData::Flags::Y_POS),
-       .answers = s.answers + 1};
+       .answers = s.answers + 1,
+       .answered = number_of(d.id)};
 }
 
 void JaviatorVehicle::send_motors(const tasks::MotorCommand& motors, messages::Receiver& system) {
@@ -60,6 +67,7 @@ void JaviatorVehicle::send_motors(const tasks::MotorCommand& motors, messages::R
   if (!motors.unlocked && unlocked_) system.receive(messages::refer_to(javiator::ShutDown{}));
   unlocked_ = motors.unlocked;
   ++id_;
+  number_ = motors.number;
   if (static_cast<std::uint16_t>(id_ - answered_) > longest_delay) answered_ = id_ - longest_delay;
   const auto& s = motors.signals;
   system.receive(messages::refer_to(

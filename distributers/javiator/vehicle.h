@@ -32,17 +32,19 @@ class JaviatorVehicle {
 
   /// A ShutDown too many does no harm; a SwitchState might.
   void take_over() { unlocked_ = true; }
-  void serialize(Archive& archive) { archive(unlocked_, id_, answered_); }
+  void serialize(Archive& archive) { archive(unlocked_, id_, answered_, number_); }
 
   In in;
 
  private:
   void data(const javiator::JaviatorData& d);
   bool is_late(std::uint16_t id);
+  std::uint32_t number_of(std::uint16_t id) const;
   void send_motors(const tasks::MotorCommand& motors, messages::Receiver& system);
 
   bool unlocked_ = false;
   std::uint16_t id_ = 0, answered_ = 0;  // of the signals sent last, and of the newest ones that were answered
+  std::uint32_t number_ = 0;             // of the command sent last
 };
 
 }  // namespace jarol::distributers

@@ -27,7 +27,7 @@ class Appender {
   void allocate_ahead();
 
   std::FILE* file_;
-  int descriptor_ = -1;          // of a regular file
+  int descriptor_ = -1;  // of a regular file
   std::uint64_t bytes_ = 0;
   std::uint64_t allocated_ = 0;  // so many have a place on the disk
 };

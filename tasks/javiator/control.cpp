@@ -120,6 +120,7 @@ void MotorMixer::run(const Param& p, const Tick& tick, const In& in, State& stat
   const RotorLaw law{p.hover, p.exponent, p.voltage};
   const FlightState doing = in.directive.state;
   out.motors.unlocked = doing != FlightState::halt;
+  out.motors.number = static_cast<std::uint32_t>(tick.activation + 1);
   const bool steers = doing == FlightState::flying || doing == FlightState::landing;
   const TurnDemand turn = steers ? in.turn : TurnDemand{};
   const double lift = in.lift.thrust;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "graph/math/geometry.h"
 #include "tasks/javiator/rotor_law.h"
@@ -13,32 +14,51 @@ enum : std::size_t { front, right, rear, left };
 
 RotorLaw law_of(const MotorWatch::Param& p) { return {p.hover, p.exponent, p.voltage}; }
 
-// Signals act 10 ms after the period began in which they were given, the IMU is sampled 5 ms later, and that comes with
-// the answer to the next signals: between the newest two samples the oldest signals kept turned the rotors, and then
-// those after them.
-void spin_up(const MotorWatch::Param& p, const MotorWatch::In& in, double dt, MotorWatch::State& state) {
+// How the rotors turned it from one sample to another.
+struct Turned {
+  double time = 0;                  // s
+  std::array<double, 4> thrusts{};  // of hover, in the mean
+  std::array<double, 4> doubts{};   // by how much these may be off
+};
+
+// Follows signals for some time; the mean thrusts in it, times it.
+std::array<double, 4> follow(const MotorWatch::Param& p, double battery, double time, MotorWatch::Rotors& rotors) {
   const RotorLaw law = law_of(p);
-  const double late = std::min(p.sample_time, dt), early = dt - late;
-  const double early_part = -std::expm1(-early / p.lag), late_part = -std::expm1(-late / p.lag);
-  for (std::size_t i = 0; i < state.reached.size(); ++i) {
-    double& reached = state.reached[i];
-    reached += early_part * (state.sent[2].signals[i] - reached);
-    const double between = law.thrust(reached, in.estimate.battery);
-    reached += late_part * (state.sent[1].signals[i] - reached);
-    const double now = law.thrust(reached, in.estimate.battery);
-    state.thrusts[i] = 0.5 * (early * (state.now[i] + between) + late * (between + now)) / dt;
-    state.now[i] = now;
+  const double part = -std::expm1(-time / p.lag);
+  std::array<double, 4> impulses{};
+  for (std::size_t i = 0; i < impulses.size(); ++i) {
+    rotors.reached[i] += part * (rotors.signals[i] - rotors.reached[i]);
+    const double before = std::exchange(rotors.now[i], law.thrust(rotors.reached[i], battery));
+    impulses[i] = 0.5 * time * (before + rotors.now[i]);
   }
+  return impulses;
 }
 
-// Where an answer is missing, perhaps nothing that was sent of late has been heard.
-void doubt_signals(const MotorWatch::Param& p, const MotorWatch::In& in, MotorWatch::State& state) {
-  const RotorLaw law = law_of(p);
-  std::array<double, 4> unheard{};
-  for (std::size_t i = 0; i < unheard.size(); ++i)
-    for (const MotorCommand& sent : state.sent)
-      unheard[i] = std::max(unheard[i], std::abs(law.thrust(sent.signals[i], in.estimate.battery) - state.thrusts[i]));
-  state.doubt = std::max({state.doubt, unheard[front] + unheard[rear], unheard[right] + unheard[left]});
+// From the sample after the signals that acted last to the one after those of the number `until`: the IMU is sampled
+// `sample_time` after signals act.
+Turned spin_up(const MotorWatch::Param& p, double battery, double dt, std::uint32_t until, MotorWatch::State& state) {
+  const double late = std::min(p.sample_time, dt), early = dt - late;
+  std::array<std::array<double, 4>, 2> impulses{};
+  Turned turned;
+  while (state.acted != until) {
+    const MotorWatch::Sent& next = state.sent[++state.acted % MotorWatch::kept];
+    for (std::size_t guess = 0; guess < 2; ++guess) {
+      MotorWatch::Rotors& rotors = state.rotors[guess];
+      const auto add = [&](double time) {
+        const std::array<double, 4> more = follow(p, battery, time, rotors);
+        for (std::size_t i = 0; i < more.size(); ++i) impulses[guess][i] += more[i];
+      };
+      add(early);
+      if (guess == 0 || next.heard) rotors.signals = next.motors.signals;
+      add(late);
+    }
+    turned.time += dt;
+  }
+  for (std::size_t i = 0; i < turned.thrusts.size(); ++i) {
+    turned.thrusts[i] = 0.5 * (impulses[0][i] + impulses[1][i]) / turned.time;
+    turned.doubts[i] = 0.5 * std::abs(impulses[0][i] - impulses[1][i]) / turned.time;
+  }
+  return turned;
 }
 
 // What each motor seems to lack (of hover's thrust), as roll and pitch show that nobody demanded.
@@ -51,17 +71,84 @@ std::array<double, 4> lacking(double roll, double pitch) {
   return lacks;
 }
 
+constexpr double of_one_sample = 0.9;
+
 // A motor fails faster than wind rises, and turns it about one axis, as wind seldom does.
-void find_weak(const MotorWatch::Param& p, double roll, double pitch, double dt, MotorWatch::State& state) {
+void find_weak(const MotorWatch::Param& p, double roll, double pitch, double time, MotorWatch::State& state) {
   const std::array<double, 4> lacks = lacking(roll - state.wind_roll, pitch - state.wind_pitch);
   for (std::size_t i = 0; i < lacks.size(); ++i) {
     const double across = std::abs(lacks[(i + 1) % lacks.size()]);
-    state.evidence[i] = std::max(state.evidence[i] + (lacks[i] - across - state.doubt - p.allowance) * dt, 0.0);
+    // one sample is not enough: signals that were held up on their way act late, which nothing tells
+    const double more = (lacks[i] - across - state.doubt - p.allowance) * time;
+    state.evidence[i] = std::max(state.evidence[i] + std::min(more, of_one_sample * p.evidence), 0.0);
     if (state.evidence[i] > p.evidence) state.motors.weak = static_cast<Motor>(i + 1);
   }
-  const double part = dt / p.wind_time;
+  const double part = std::min(time / p.wind_time, 1.0);
   state.wind_roll = limited(state.wind_roll + part * (roll - state.wind_roll), p.wind);
   state.wind_pitch = limited(state.wind_pitch + part * (pitch - state.wind_pitch), p.wind);
+}
+
+// After which signals the IMU was sampled: one of these.
+struct Sampled {
+  std::uint32_t first = 0, last = 0;
+};
+
+// Takes in what has been answered since. The sample comes with the answer to the signals that were heard next: those
+// that follow, unless some in between were not heard, or heard twice.
+Sampled take_answer(const JaviatorSensors& s, MotorWatch::State& state) {
+  const std::uint32_t answers = s.answers - state.answers, before = state.answered;
+  if (answers == 0) return {};
+  state.answers = s.answers;
+  state.answered = s.answered;
+  if (s.answered <= before || s.answered - before >= MotorWatch::kept) return {};
+  const std::uint32_t numbers = s.answered - before;
+  const bool all = answers >= numbers;
+  for (std::uint32_t number = all ? before + 1 : s.answered; number <= s.answered; ++number)
+    state.sent[number % MotorWatch::kept].heard = true;
+  if (!s.new_imu || before == 0) return {};
+  return {all ? s.answered - 1 : before + answers - 1, answers <= numbers ? s.answered - 1 : s.answered};
+}
+
+// What the sample tells, if it was taken after the signals of that number.
+void observe(const MotorWatch::Param& p, const MotorWatch::In& in, double dt, std::uint32_t number,
+             MotorWatch::State& state) {
+  const JaviatorSensors& s = in.sensors;
+  const Turned turned = spin_up(p, in.estimate.battery, dt, number, state);
+  std::array<double, 4>& effectiveness = state.motors.effectiveness;
+  const auto gives = [&](std::size_t motor) { return effectiveness[motor] * turned.thrusts[motor]; };
+  const double time = turned.time;
+  const double each = 0.5 * p.effect, gain = -std::expm1(-p.bandwidth * time);
+  state.p += time * (each * (gives(left) - gives(right)) - p.damping * state.p);
+  state.q += time * (each * (gives(front) - gives(rear)) - p.damping * state.q);
+  const double off_p = s.p - state.p, off_q = s.q - state.q;
+  state.p += gain * off_p;
+  state.q += gain * off_q;
+  // of what was expected wrongly before, the observer has not forgotten all
+  const std::array<double, 4>& d = turned.doubts;
+  state.doubt = (1 - gain) * state.doubt + std::max(d[front] + d[rear], d[right] + d[left]);
+  const double part = gain / (time * each);
+  const double roll = part * off_p, pitch = part * off_q;
+  const bool sound = state.motors.weak == Motor::none;
+  if (sound) find_weak(p, roll, pitch, time, state);
+  if (state.motors.weak == Motor::none) return;
+  const std::size_t i = static_cast<std::size_t>(state.motors.weak) - 1;
+  const double less = lacking(roll, pitch)[i] / std::max(turned.thrusts[i], 0.1);
+  effectiveness[i] = std::clamp(effectiveness[i] - (sound ? 1 : std::min(p.follow * time, 1.0)) * less, 0.1, 1.0);
+  if (!sound) return;
+  // what it lacks is known now
+  state.p = s.p;
+  state.q = s.q;
+}
+
+// Where a sample may have been taken after several signals: had it been after the last of them, a motor would lack
+// least, as it would have turned for longer.
+void find_at_last(const MotorWatch::Param& p, const MotorWatch::In& in, double dt, std::uint32_t last,
+                  MotorWatch::State& state) {
+  MotorWatch::State late = state;
+  observe(p, in, dt, last, late);
+  if (late.motors.weak == Motor::none) return;
+  state.motors = late.motors;
+  state.follows = false;
 }
 
 }  // namespace
@@ -71,52 +158,37 @@ void MotorWatch::run(const Param& p, const Tick& tick, const In& in, State& stat
   const FlightEstimate& e = in.estimate;
   const JaviatorSensors& s = in.sensors;
   const FlightState doing = in.directive.state;
-  const bool fresh = s.answers == state.answers + 1 && s.new_imu;
-  state.answers = s.answers;
   // landed, and the operator has acknowledged why
   const bool stands = doing == FlightState::halt || doing == FlightState::ground;
   if (stands && in.directive.cause == LandingCause::none) state.motors = {};
-  spin_up(p, in, dt, state);
-  state.doubt *= std::exp(-dt / p.doubt_time);
-  if (!fresh) doubt_signals(p, in, state);
-  std::shift_right(state.sent.begin(), state.sent.end(), 1);
-  state.sent.front() = in.motors;
-
+  state.sent[in.motors.number % kept] = {in.motors, false};
+  const Sampled sampled = take_answer(s, state);
   const bool lands = doing == FlightState::landing && e.altitude_known;
   const double lowest = lands && state.motors.weak == Motor::none ? p.low : p.contact;
   const bool aloft = (doing == FlightState::flying || doing == FlightState::landing) && e.altitude > lowest;
-  // what was sampled before a gap comes with the first answer after it, and turned for longer than a period
-  const bool follows = aloft && e.rates_known && fresh && state.heard >= 2;
-  state.heard = aloft && e.rates_known && fresh ? std::min(state.heard + 1, 2U) : 0;
-  if (!follows) {
+  const bool watches = aloft && e.rates_known;
+  if (!aloft) state.wind_roll = state.wind_pitch = 0;
+  if (!watches) {
+    state.follows = false;
+    state.evidence = {};
+  }
+  // what was sent before is not kept any more
+  if (in.motors.number - state.acted >= kept) {
+    state.follows = false;
+    state.acted = std::max(in.motors.number, kept) - kept + 1;
+  }
+  const bool is_sure = sampled.first == sampled.last;
+  if (sampled.first <= state.acted) {
+    // nothing new
+  } else if (state.follows && is_sure) {
+    observe(p, in, dt, sampled.first, state);
+  } else if (state.follows && state.motors.weak == Motor::none) {
+    find_at_last(p, in, dt, sampled.last, state);
+  } else if (is_sure) {
+    spin_up(p, e.battery, dt, sampled.first, state);
+    state.follows = watches;
     state.p = s.p;
     state.q = s.q;
-    state.evidence = {};
-    if (!aloft) state.wind_roll = state.wind_pitch = 0;
-    out.motors = state.motors;
-    return;
-  }
-  std::array<double, 4>& effectiveness = state.motors.effectiveness;
-  const auto gives = [&](std::size_t motor) { return effectiveness[motor] * state.thrusts[motor]; };
-  const double each = 0.5 * p.effect, gain = -std::expm1(-p.bandwidth * dt);
-  state.p += dt * (each * (gives(left) - gives(right)) - p.damping * state.p);
-  state.q += dt * (each * (gives(front) - gives(rear)) - p.damping * state.q);
-  const double off_p = s.p - state.p, off_q = s.q - state.q;
-  state.p += gain * off_p;
-  state.q += gain * off_q;
-  const double part = gain / (dt * each);
-  const double roll = part * off_p, pitch = part * off_q;
-  const bool sound = state.motors.weak == Motor::none;
-  if (sound) find_weak(p, roll, pitch, dt, state);
-  if (state.motors.weak != Motor::none) {
-    const std::size_t i = static_cast<std::size_t>(state.motors.weak) - 1;
-    const double less = lacking(roll, pitch)[i] / std::max(state.thrusts[i], 0.1);
-    effectiveness[i] = std::clamp(effectiveness[i] - (sound ? 1 : p.follow * dt) * less, 0.1, 1.0);
-    // what it lacks is known now
-    if (sound) {
-      state.p = s.p;
-      state.q = s.q;
-    }
   }
   out.motors = state.motors;
 }

@@ -10,10 +10,11 @@
 namespace jarol::tasks {
 
 /// What a motor lacks turns the vehicle: towards it, and about one axis alone, as wind seldom does. How fast it should
-/// turn follows from what the rotors are sent, their lag and the delay of both ways; a first-order observer of the
-/// rates tells by how much it turns faster (a momentum observer, De Luca and Mattone 2003, of one body). One that
-/// lacks more than `allowance` for two or three periods is weak, until it stands and the operator has acknowledged
-/// that; how weak is followed from then on.
+/// turn follows from what the rotors are sent and their lag; a first-order observer of the rates tells by how much it
+/// turns faster (a momentum observer, De Luca and Mattone 2003, of one body). Which signals had acted when the IMU was
+/// sampled the answers tell, however long they took. Signals that nobody has answered were perhaps heard, perhaps not:
+/// both are followed, and what lies between is doubted. A motor that lacks more than `allowance` for two or three
+/// periods is weak, until it stands and the operator has acknowledged that; how weak is followed from then on.
 struct MotorWatch {
   static constexpr std::string_view summary = "finds a motor that gives less thrust than is demanded";
   struct Param {
@@ -24,7 +25,6 @@ struct MotorWatch {
     double evidence = 0.004;
     double wind = 0.1;
     double wind_time = 0.5;
-    double doubt_time = 0.1;
     double follow = 20;
     double contact = 0.1;
     double low = 0.06;
@@ -45,7 +45,6 @@ struct MotorWatch {
               .in(0, 10),
           field<&P::wind>("", "thrust of hover that it may seem to lack for long, in wind").in(0, 1),
           field<&P::wind_time>("s", "in which that is learnt").in(1e-3, 1000),
-          field<&P::doubt_time>("s", "in which the rotors forget signals that were perhaps not heard").in(0.001, 10),
           field<&P::follow>("1/s", "at which what a weak one gives is followed"),
           field<&P::contact>("m", "altitude below which the ground may turn it as well"),
           field<&P::low>("m", "of the sonar, down to which one that fails as it lands is found all the same"),
@@ -65,25 +64,46 @@ struct MotorWatch {
                       field<&In::motors>("", "of this period"));
     }
   };
+  /// A command that was sent.
+  struct Sent {
+    MotorCommand motors{};
+    bool heard = false;
+    static constexpr auto fields() {
+      return describe(field<&Sent::motors>(), field<&Sent::heard>("", "it was answered"));
+    }
+  };
+  /// The rotors, if signals that were not answered were heard, or were not.
+  struct Rotors {
+    std::array<double, 4> signals{}, reached{}, now{};
+    static constexpr auto fields() {
+      using R = Rotors;
+      return describe(field<&R::signals>("", "that they follow"), field<&R::reached>("", "signals followed so far"),
+                      field<&R::now>("", "thrusts of hover, by these"));
+    }
+  };
+  static constexpr std::uint32_t kept = 32;
   struct State {
-    std::array<MotorCommand, 3> sent{};
-    std::array<double, 4> reached{}, now{}, thrusts{};
+    std::array<Sent, kept> sent{};
+    std::array<Rotors, 2> rotors{};
+    std::uint32_t acted = 0;
     double p = 0, q = 0;
+    bool follows = false;
     double wind_roll = 0, wind_pitch = 0, doubt = 0;
     std::array<double, 4> evidence{};
-    std::uint32_t answers = 0, heard = 0;
+    std::uint32_t answers = 0, answered = 0;
     MotorCondition motors{};
     static constexpr auto fields() {
       using S = State;
-      return describe(
-          field<&S::sent>("", "that have not turned what the IMU has measured, the newest first"),
-          field<&S::reached>("", "signals that the rotors had followed then"),
-          field<&S::now>("", "thrusts of hover, by these signals"),
-          field<&S::thrusts>("", "averaged since the sample before"), field<&S::p>("rad/s", "expected"),
-          field<&S::q>("rad/s", "expected"), field<&S::wind_roll>("", "thrust that seems to be lacking for long"),
-          field<&S::wind_pitch>(), field<&S::doubt>("", "thrust of hover that was perhaps not heard"),
-          field<&S::evidence>("s", "that each motor is weak"), field<&S::answers>("", "of the Robostix, up to now"),
-          field<&S::heard>("", "of them in a row, one a period, up to 2"), field<&S::motors>());
+      return describe(field<&S::sent>("", "at its number modulo their count"),
+                      field<&S::rotors>("", "all heard; only those answered"),
+                      field<&S::acted>("", "number of the signals that the rotors got last, before the newest sample"),
+                      field<&S::p>("rad/s", "expected"), field<&S::q>("rad/s", "expected"),
+                      field<&S::follows>("", "these are those of the sample before"),
+                      field<&S::wind_roll>("", "thrust that seems to be lacking for long"), field<&S::wind_pitch>(),
+                      field<&S::doubt>("", "thrust that was expected perhaps wrongly"),
+                      field<&S::evidence>("s", "that each motor is weak"),
+                      field<&S::answers>("", "of the Robostix, up to now"),
+                      field<&S::answered>("", "number of the signals answered last"), field<&S::motors>());
     }
   };
   struct Out {

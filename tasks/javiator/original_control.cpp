@@ -129,8 +129,9 @@ void OriginalAltitude::run(const Param& p, const Tick& tick, const In& in, State
   out.lift.thrust = (idle + demand / (std::cos(e.roll) * std::cos(e.pitch))) / p.idle;
 }
 
-void OriginalMixer::run(const Param& p, const Tick&, const In& in, Out& out) {
+void OriginalMixer::run(const Param& p, const Tick& tick, const In& in, Out& out) {
   const FlightState doing = in.directive.state;
+  out.motors.number = static_cast<std::uint32_t>(tick.activation + 1);
   auto& signals = out.motors.signals;
   out.motors.unlocked = doing != FlightState::halt;
   if (doing == FlightState::halt) {

@@ -45,8 +45,8 @@ struct Vehicle {
     return std::string(sensors.new_imu ? "i" : "") + (sensors.new_bmu ? "b" : "") + (sensors.new_sonar ? "s" : "") +
            (sensors.new_x ? "x" : "") + (sensors.new_y ? "y" : "");
   }
-  void command(SentInOrder& sent, bool unlocked, std::array<double, 4> signals) {
-    const tasks::MotorCommand motors{.signals = signals, .unlocked = unlocked};
+  void command(SentInOrder& sent, bool unlocked, std::array<double, 4> signals, std::uint32_t number = 0) {
+    const tasks::MotorCommand motors{.signals = signals, .unlocked = unlocked, .number = number};
     distributer.hand_over<&JaviatorVehicle::Out::motors>(motors, sent);
   }
 };
@@ -111,6 +111,22 @@ TEST_SUITE("distributers/javiator_vehicle") {
     CHECK(v.take() == "i");
     v.hear(Flags::SONAR, 1);
     CHECK(v.take() == "s");
+  }
+
+  TEST_CASE("an answer has the number of the command that it answers, 0 where that is not known") {
+    Vehicle v;
+    SentInOrder sent;
+    const auto answered = [&](int id) {
+      v.hear(Flags::IMU, static_cast<std::uint16_t>(id));
+      REQUIRE(v.take() == "i");
+      return v.sensors.answered;
+    };
+    for (std::uint32_t number = 70000; number < 70010; ++number) v.command(sent, true, {}, number);
+    CHECK(answered(3) == 70002);
+    CHECK(answered(10) == 70009);
+    CHECK(answered(500) == 0);  // to a controller that flew it before
+    v.command(sent, true, {});
+    CHECK(answered(11) == 0);  // it had none
   }
 
   TEST_CASE("each flag stands for its own sensor") {
