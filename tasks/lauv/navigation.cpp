@@ -51,9 +51,10 @@ void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& 
   const Instruments& i = in.instruments;
   Motion& m = state.motion;
   const double dt = seconds(tick.period);
+  state.depth.take({p.depth_timeout, p.depth_error, p.fix_depth}, i, dt);
   if (!state.started) {
     state.started = i.attitude.count > 0 && i.heading.count > 0 && i.depth.count > 0;
-    m.z = i.depth.value;
+    m.z = state.depth.depth;
     m.phi = i.attitude.x;
     m.theta = i.attitude.y;
     m.psi = i.heading.value;
@@ -67,7 +68,7 @@ void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& 
     m.psi += dt * angle_rates.z();
 
     const double angles = share(dt, p.angle_time);
-    m.z += share(dt, p.depth_time) * (i.depth.value - m.z);
+    m.z += share(dt, p.depth_time) * (state.depth.depth - m.z);
     m.phi += angles * wrapped(i.attitude.x - m.phi);
     m.theta += angles * wrapped(i.attitude.y - m.theta);
     m.psi = wrapped(m.psi + angles * wrapped(i.heading.value - m.psi));

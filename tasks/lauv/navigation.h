@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/lauv/depth_source.h"
 #include "tasks/lauv/place_filter.h"
 #include "tasks/values/guidance.h"
 #include "tasks/values/instruments.h"
@@ -12,14 +13,17 @@
 namespace jarol::tasks {
 
 /// Complementary filters: rates and velocities carry on what slower instruments set right. With exact instruments the
-/// motion is exact but for what a period of the task hides. Place and current are those of the place filter, from the
-/// first fix on: before, nobody knows where it is. After `restart` fixes in a row that fit nothing the place begins
-/// anew with the next one.
+/// motion is exact but for what a period of the task hides. Depth is that of the best source. Place and current are
+/// those of the place filter, from the first fix on: before, nobody knows where it is. After `restart` fixes in a row
+/// that fit nothing the place begins anew with the next one.
 struct LauvNavigation {
   static constexpr std::string_view summary = "tells the submarine's motion from its instruments";
   struct Param {
     double angle_time = 0.5;
     double depth_time = 0.7;
+    double depth_timeout = 2.5;
+    double depth_error = 0.3;
+    double fix_depth = 0.15;
     double speed_time = 0.2;
     double drift = 0.05;
     double current_change = 0.003;
@@ -32,6 +36,9 @@ struct LauvNavigation {
       using P = Param;
       return describe(field<&P::angle_time>("s", "after which angles follow IMU and compass rather than rates"),
                       field<&P::depth_time>("s", "after which depth follows the gauge rather than the motion"),
+                      field<&P::depth_timeout>("s", "a gauge that reports nothing for so long is lost"),
+                      field<&P::depth_error>("m", "greatest difference of gauge, pressure and surface"),
+                      field<&P::fix_depth>("m", "greatest depth at which GPS works"),
                       field<&P::speed_time>("s", "over which the speed log is smoothed"),
                       field<&P::drift>("m/s^0.5", "deviation of the way reckoned, after 1 s"),
                       field<&P::current_change>("m/s^1.5", "deviation by which the current changes in 1 s"),
@@ -49,13 +56,15 @@ struct LauvNavigation {
   struct State {
     bool started = false;
     Motion motion{};
+    DepthSource depth{};
     PlaceFilter place{};
     std::int64_t fixes = 0, misfits = 0, left_out = 0;
     std::array<std::int64_t, 2> ranges{};
     static constexpr auto fields() {
       using S = State;
-      return describe(field<&S::started>(), field<&S::motion>("", "as reported last"), field<&S::place>(),
-                      field<&S::fixes>("", "of GPS, so far"), field<&S::misfits>("", "fixes left out in a row"),
+      return describe(field<&S::started>(), field<&S::motion>("", "as reported last"), field<&S::depth>(),
+                      field<&S::place>(), field<&S::fixes>("", "of GPS, so far"),
+                      field<&S::misfits>("", "fixes left out in a row"),
                       field<&S::left_out>("", "fixes and ranges so far"), field<&S::ranges>("", "so far, per beacon"));
     }
   };

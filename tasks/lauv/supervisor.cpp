@@ -6,6 +6,7 @@
 
 #include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
+#include "tasks/lauv/depth_source.h"
 
 namespace jarol::tasks {
 namespace {
@@ -13,10 +14,10 @@ namespace {
 using Param = LauvSupervisor::Param;
 using State = LauvSupervisor::State;
 
-constexpr double gravity = 9.81, water_density = 1000, air_pressure = 1013.25;  // hPa
-constexpr double watch_time = 2;                                                // s, over which rates add up
-constexpr double floor_time = 30;                                               // s, for the sea floor to rise or fall
-constexpr double surface_depth = 0.2;                                           // m, at which GPS has to work
+constexpr double gravity = 9.81;
+constexpr double watch_time = 2;       // s, over which rates add up
+constexpr double floor_time = 30;      // s, for the sea floor to rise or fall
+constexpr double surface_depth = 0.2;  // m, at which GPS has to work
 
 Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
   const std::int64_t counts[] = {i.depth.count,    i.pressure.count,     i.attitude.count,          i.rates.count,
@@ -81,7 +82,7 @@ Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
   const double floor_error = floor - state.floor;
   state.floor += std::min(dt / floor_time, 1.0) * floor_error;
 
-  const double depth = (i.pressure.value - air_pressure) * 100 / (water_density * gravity);
+  const double depth = calc_depth(i.pressure.value);
   const double force_error =
       std::hypot(i.forces.x - gravity * std::sin(theta), i.forces.y + gravity * std::cos(theta) * std::sin(phi),
                  i.forces.z + gravity * std::cos(theta) * std::cos(phi));

@@ -88,9 +88,10 @@ Outcome helicopter(const Files& files, const std::string& link, const std::strin
                  log.empty() ? "" : files.folder / log, act);
 }
 
-Outcome submarine(const Files& files, const std::string& more, const std::string& log, const Act& act) {
+Outcome submarine(const Files& files, const std::string& more, const std::string& log, const Act& act,
+                  const std::string& vehicle_more = "") {
   const std::string port = free_port(SOCK_DGRAM);
-  return outcome("submarine --initial z=3 --link udp --id 0x00D1 --listen " + port,
+  return outcome("submarine --initial z=3 --link udp --id 0x00D1 --listen " + port + " " + vehicle_more,
                  "specs/exolauv.yaml --set distributers.neptus.link.file=" + files.deep +
                      " --set 'distributers.dune.link={type: udp, peer: " + port + ", id: 16385, source: 0x00D1}' " +
                      more,
@@ -98,6 +99,9 @@ Outcome submarine(const Files& files, const std::string& more, const std::string
 }
 
 const std::string never = "--set 'at_end.until=logic.directive.state is starting' --set at_end.longest=4500ms ";
+
+constexpr const char* gauge_failures[] = {"{kind: lost, at: 5 s}", "{kind: stuck, at: 5 s}",
+                                          "{kind: biased, at: 5 s, by: -3}"};
 
 // All at once.
 class Runs {
@@ -112,6 +116,10 @@ class Runs {
     begin("submarine", [this] { return submarine(files_, "", "submarine.log", terminate); });
     begin("submarine on threads",
           [this] { return submarine(files_, "--concurrency threads --for 8s", "", wait_for_end); });
+    for (const std::string failure : gauge_failures)
+      begin(failure, [this, failure] {
+        return submarine(files_, "--for 8s", "", wait_for_end, "--set 'sensors.depth.failure=" + failure + "'");
+      });
   }
   Outcome operator[](const std::string& name) const { return runs_.at(name).get(); }
 
@@ -226,5 +234,15 @@ TEST_SUITE("tools/at_end") {
     const Outcome threads = runs()["submarine on threads"];
     CHECK(threads.exit_code == 0);
     check_surfaced(threads);
+  }
+
+  TEST_CASE("a submarine whose depth gauge is lost, stuck below or reads the surface in 3 m drives up") {
+    for (const char* failure : gauge_failures) {
+      const Outcome o = runs()[failure];
+      CAPTURE(std::string(failure));
+      INFO(o.errors);
+      CHECK(o.exit_code == 0);
+      check_surfaced(o);
+    }
   }
 }

@@ -46,12 +46,14 @@ TEST_SUITE("tasks/lauv_navigation") {
     LauvNavigation::Out out;
     Instruments i = turning(0);
     for (int k = 0; k < 100; ++k) {
-      i.depth.value = 5 + (k % 2 == 0 ? 0.1 : -0.1);
+      i.depth = {5 + (k % 2 == 0 ? 0.1 : -0.1), i.depth.count + 1};
       LauvNavigation::run({}, every_50_ms, {i}, state, out);
       if (k > 50) CHECK(std::abs(out.motion.z - 5) < 0.02);
     }
-    i.depth.value = 6;
-    for (int k = 0; k < 100; ++k) LauvNavigation::run({}, every_50_ms, {i}, state, out);
+    for (int k = 0; k < 100; ++k) {
+      i.depth = {6, i.depth.count + 1};
+      LauvNavigation::run({}, every_50_ms, {i}, state, out);
+    }
     CHECK(out.motion.z == doctest::Approx(6).scale(0).epsilon(1e-3));
   }
 
@@ -173,6 +175,7 @@ TEST_SUITE("tasks/lauv_navigation") {
     }
     void step() {
       ++k;
+      ++i.depth.count;
       LauvNavigation::run({}, every_50_ms, {i}, state, out);
     }
     double error() const { return std::hypot(out.motion.x - x(), out.motion.y - y()); }
@@ -194,7 +197,10 @@ TEST_SUITE("tasks/lauv_navigation") {
 
   TEST_CASE("two beacons report place and current under water, from below and aside") {
     Drifting boat(-0.2, 0.3);
+    boat.i.depth.value = 0;
     boat.fix();
+    boat.step();
+    boat.i.depth.value = 5;
     for (int step = 0; step < 100; ++step) {
       boat.range(0, -30, -60);
       boat.range(1, 130, -60);
