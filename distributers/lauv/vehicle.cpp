@@ -57,6 +57,7 @@ LauvVehicle::LauvVehicle(const Param& parameters)
 }
 
 bool LauvVehicle::is(const LauvInstrument& instrument, const messages::MessageRef& from) {
+  if (!instrument.fitted) return false;
   const std::uint8_t sender = Entities::sender_of(from);
   if (sender == Entities::nobody) return true;
   if (instrument.entity.view() != "*" && !entities_.has_label(sender)) label_lacks_ = true;

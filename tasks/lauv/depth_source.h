@@ -1,5 +1,5 @@
-// How deep the submarine is by the best of what reports it: the depth gauge, the pressure of the CTD, and GPS, which finds
-// the surface.
+// How deep the submarine is by the best of what reports it: the depth gauge, the pressure of the CTD, and GPS, which
+// finds the surface.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@ namespace jarol::tasks {
 /// Below the surface of fresh water, from a pressure in hPa.
 double calc_depth(double pressure);
 
-/// The gauge, while it reports; then the pressure. Where they differ, the deeper one. A fix of GPS comes from the surface
-/// alone: a reading that is deeper then is wrong, until a fix agrees with it. While neither is known it stays where it was
-/// last, or at the surface once there is a fix.
+/// The gauge, while it reports; then the pressure. Where they differ, the deeper one. A fix of GPS comes from the
+/// surface alone: a reading that is deeper then is wrong, until a fix agrees with it. While neither is known it stays
+/// where it was last, or at the surface once there is a fix.
 struct DepthSource {
   struct Model {
     double timeout, error, fix_depth;

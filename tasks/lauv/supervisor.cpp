@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "graph/math/geometry.h"
@@ -37,12 +38,15 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
     }
   }
   Alarm found = Alarm::none;
+  double silence = std::numeric_limits<double>::infinity();  // of all
   for (std::size_t k = state.counts.size(); k-- > 0;) {
     const bool fitted = counts[k] >= 0;
     state.silences[k] = counts[k] > state.counts[k] || !fitted ? 0 : state.silences[k] + dt;
     state.counts[k] = counts[k];
+    if (fitted) silence = std::min(silence, state.silences[k]);
     if (state.silences[k] > p.sensor_timeout) found = alarms[k];
   }
+  if (found != Alarm::none && silence > p.vehicle_timeout) found = Alarm::vehicle_lost;
   // GPS reports nothing under water
   state.since_fix =
       i.place.count > state.fixes || i.place.count < 0 || i.depth.value > surface_depth ? 0 : state.since_fix + dt;
@@ -137,7 +141,8 @@ bool steerable(Alarm alarm) {
     case Alarm::pitch_limit:
     case Alarm::voltage_limit:
     case Alarm::gps:
-    case Alarm::no_vehicle: return false;
+    case Alarm::no_vehicle:
+    case Alarm::vehicle_lost: return false;
     case Alarm::none:
     case Alarm::operator_lost:
     case Alarm::depth_limit:

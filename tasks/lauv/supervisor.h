@@ -25,6 +25,7 @@ struct LauvSupervisor {
   static constexpr std::string_view summary = "passes the operator's setpoint on, or brings the submarine up";
   struct Param {
     double sensor_timeout = 2.5;
+    double vehicle_timeout = 1;
     double gps_timeout = 4;
     double operator_timeout = 5;
     double max_depth = 12;
@@ -52,6 +53,7 @@ struct LauvSupervisor {
       using P = Param;
       return describe(
           field<&P::sensor_timeout>("s", "an instrument that reports nothing for so long is lost"),
+          field<&P::vehicle_timeout>("s", "where none has reported for so long then, it is the vehicle that is lost"),
           field<&P::gps_timeout>("s", "the same for GPS at the surface"),
           field<&P::operator_timeout>("s", "greatest silence of the operator"), field<&P::max_depth>("m", "limit"),
           field<&P::min_altitude>("m", "limit, over the sea floor"),

@@ -31,12 +31,13 @@ enum class Alarm : std::uint8_t {
   port_fin,
   starboard_fin,
   top_fin,
-  no_vehicle
+  no_vehicle,
+  vehicle_lost
 };
 
 constexpr auto enumerators(Alarm) {
   using enum Alarm;
-  return std::array<Enumerator<Alarm>, 21>{
+  return std::array<Enumerator<Alarm>, 22>{
       {{"none", none},
        {"operator_lost", operator_lost, "it comes up, as the operator is silent"},
        {"depth_limit", depth_limit, "it comes up, as it is deeper than the limit"},
@@ -57,7 +58,8 @@ constexpr auto enumerators(Alarm) {
        {"port_fin", port_fin, "it comes up, as the port elevator is stuck or its servo silent"},
        {"starboard_fin", starboard_fin, "it comes up, as the starboard elevator is stuck or its servo silent"},
        {"top_fin", top_fin, "it comes up, as the top rudder is stuck or its servo silent"},
-       {"no_vehicle", no_vehicle, "nothing was heard of the vehicle yet; it begins when that is"}}};
+       {"no_vehicle", no_vehicle, "nothing was heard of the vehicle yet; it begins when that is"},
+       {"vehicle_lost", vehicle_lost, "it is to come up, as nothing arrives from the vehicle"}}};
 }
 
 struct Condition {

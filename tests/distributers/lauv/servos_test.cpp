@@ -1,4 +1,4 @@
-// What the submarine's servos report, beside what they were sent.
+// What the submarine's servos report, beside what they were sent, and what is not fitted.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -48,5 +48,22 @@ TEST_SUITE("distributers/lauv_servos") {
     parameters.servos.fitted = false;
     const LauvVehicle vehicle(parameters);
     for (const tasks::ServoReading& servo : vehicle.in.servos->fins) CHECK(servo.count == -1);
+  }
+
+  TEST_CASE("a reading of what is not fitted is not taken") {
+    LauvVehicleParameters parameters;
+    parameters.voltage.fitted = false;
+    Typed<LauvVehicle> adapter(parameters);
+    imc::Voltage voltage;
+    voltage.value = 24;
+    imc::Current current;
+    current.value = 1;
+    adapter.receive(messages::refer_to(voltage));
+    adapter.receive(messages::refer_to(current));
+    tasks::Instruments i;
+    CHECK(adapter.take<&In::instruments>(i));
+    CHECK(i.voltage.count == -1);
+    CHECK(i.voltage.value == 0);
+    CHECK(i.current.count == 1);
   }
 }

@@ -167,7 +167,30 @@ TEST_SUITE("tasks/lauv_supervisor") {
     LauvSupervisor::Out out;
     LauvSupervisor::run({}, every_50_ms, calm_submarine(1), state, out);
     for (int k = 0; k < 60; ++k) LauvSupervisor::run({}, every_50_ms, calm_submarine(1), state, out);
-    CHECK(out.condition.alarm == Alarm::depth_gauge);
+    CHECK(out.condition.alarm == Alarm::vehicle_lost);
+    CHECK(out.setpoint.speed == 0);
+  }
+
+  TEST_CASE(
+      "a vehicle that falls silent is lost, not the instrument that had reported first, nor one that is not fitted") {
+    // each second a battery's voltage, ten times a second all else; voltage may not be fitted
+    const auto alarm_after = [](double silence, bool voltage_fitted, bool depth_goes_on) {
+      LauvSupervisor::State state;
+      LauvSupervisor::Out out;
+      for (int k = 0; k < static_cast<int>(20 * (5.9 + silence)); ++k) {
+        const int heard = std::min(k, 118);  // 5.9 s
+        LauvSupervisor::In in = calm_submarine(heard / 2 + 1);
+        in.instruments.voltage.count = voltage_fitted ? heard / 20 + 1 : -1;
+        if (depth_goes_on) in.instruments.depth.count = k / 2 + 1;
+        LauvSupervisor::run({}, every_50_ms, in, state, out);
+      }
+      return out.condition.alarm;
+    };
+    CHECK(alarm_after(1.5, true, false) == Alarm::none);
+    CHECK(alarm_after(1.8, true, false) == Alarm::vehicle_lost);
+    CHECK(alarm_after(1.8, true, true) == Alarm::battery);
+    CHECK(alarm_after(2.4, false, false) == Alarm::none);
+    CHECK(alarm_after(4, false, false) == Alarm::vehicle_lost);
   }
 
   TEST_CASE("a stop of the operator has an alarm forgotten whose cause is gone, and no other") {
