@@ -38,21 +38,26 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
     }
   }
   Alarm found = Alarm::none;
-  double silence = std::numeric_limits<double>::infinity();  // of all
   for (std::size_t k = state.counts.size(); k-- > 0;) {
     const bool fitted = counts[k] >= 0;
     state.silences[k] = counts[k] > state.counts[k] || !fitted ? 0 : state.silences[k] + dt;
     state.counts[k] = counts[k];
-    if (fitted) silence = std::min(silence, state.silences[k]);
     if (state.silences[k] > p.sensor_timeout) found = alarms[k];
   }
-  if (found != Alarm::none && silence > p.vehicle_timeout) found = Alarm::vehicle_lost;
   // GPS reports nothing under water
   state.since_fix =
       i.place.count > state.fixes || i.place.count < 0 || i.depth.value > surface_depth ? 0 : state.since_fix + dt;
   state.fixes = i.place.count;
   if (found == Alarm::none && state.since_fix > p.gps_timeout) found = Alarm::gps;
   return found == Alarm::none || state.heard ? found : Alarm::no_vehicle;
+}
+
+// Since any instrument was heard last.
+double calc_silence(const State& state) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < state.counts.size(); ++k)
+    if (state.counts[k] >= 0) least = std::min(least, state.silences[k]);
+  return least;
 }
 
 // Speed of the propeller through quadratic and linear drag, at once and for ever.
@@ -115,10 +120,18 @@ Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
   return found;
 }
 
-Alarm find_fin(const Param& p, const FinCondition& fins) {
+bool is_low(const Param& p, const Reading& voltage) { return voltage.count > 0 && voltage.value < p.min_voltage; }
+
+// A battery that is flat stops every servo, so the next reading of its voltage is waited for.
+Alarm find_fin(const Param& p, const LauvSupervisor::In& in, State& state) {
   constexpr Alarm alarms[] = {Alarm::bottom_fin, Alarm::port_fin, Alarm::starboard_fin, Alarm::top_fin};
-  for (std::size_t i = 0; p.fins_end_dive && i < fins.states.size(); ++i)
-    if (fins.states[i] == FinState::stuck || fins.states[i] == FinState::silent) return alarms[i];
+  const Reading& voltage = in.instruments.voltage;
+  for (std::size_t i = 0; p.fins_end_dive && i < in.fins.states.size(); ++i) {
+    if (in.fins.states[i] != FinState::stuck && in.fins.states[i] != FinState::silent) continue;
+    if (voltage.count > 0 && voltage.count == state.voltages_before_fin) return Alarm::none;
+    return is_low(p, voltage) ? Alarm::voltage_limit : alarms[i];
+  }
+  state.voltages_before_fin = voltage.count;
   return Alarm::none;
 }
 
@@ -128,7 +141,7 @@ Alarm find_exceeded(const Param& p, const LauvSupervisor::In& in) {
   if (i.depth.value > p.max_depth) return Alarm::depth_limit;
   if (i.altitude.count > 0 && i.altitude.value < p.min_altitude) return Alarm::altitude_limit;
   if (std::abs(i.attitude.y) > p.max_pitch) return Alarm::pitch_limit;
-  if (i.voltage.count > 0 && i.voltage.value < p.min_voltage) return Alarm::voltage_limit;
+  if (is_low(p, i.voltage)) return Alarm::voltage_limit;
   return Alarm::none;
 }
 
@@ -165,13 +178,17 @@ bool steerable(Alarm alarm) {
 
 void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const double dt = seconds(tick.period);
-  const Alarm lost = find_lost(p, in.instruments, dt, state), liar = find_liar(p, in.instruments, dt, state);
+  Alarm lost = find_lost(p, in.instruments, dt, state);
+  const Alarm liar = find_liar(p, in.instruments, dt, state);
+  // old readings do not fit each other either
+  const bool is_wrong = lost != Alarm::none || liar != Alarm::none;
+  if (state.heard && is_wrong && calc_silence(state) > p.vehicle_timeout) lost = Alarm::vehicle_lost;
   const bool stopped = in.contact.stops != state.stops;
   state.stops = in.contact.stops;
   const Alarm leak = in.instruments.leak.value > 0.5 ? Alarm::leak : Alarm::none;
   if (state.alarm == Alarm::none || stopped) {
     Alarm found = Alarm::none;
-    for (const Alarm next : {leak, lost, liar, find_fin(p, in.fins), find_exceeded(p, in)})
+    for (const Alarm next : {leak, lost, liar, find_fin(p, in, state), find_exceeded(p, in)})
       if (found == Alarm::none) found = next;
     if (state.alarm == Alarm::none || found == Alarm::none) {
       state.alarm = found;

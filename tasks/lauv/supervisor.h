@@ -53,7 +53,7 @@ struct LauvSupervisor {
       using P = Param;
       return describe(
           field<&P::sensor_timeout>("s", "an instrument that reports nothing for so long is lost"),
-          field<&P::vehicle_timeout>("s", "where none has reported for so long then, it is the vehicle that is lost"),
+          field<&P::vehicle_timeout>("s", "where none has reported for so long, it is the vehicle that is lost"),
           field<&P::gps_timeout>("s", "the same for GPS at the surface"),
           field<&P::operator_timeout>("s", "greatest silence of the operator"), field<&P::max_depth>("m", "limit"),
           field<&P::min_altitude>("m", "limit, over the sea floor"),
@@ -89,6 +89,7 @@ struct LauvSupervisor {
     bool heard = false;
     Alarm alarm = Alarm::none;
     double since_alarm = 0;
+    std::int64_t voltages_before_fin = 0;
     std::int64_t fixes_at_alarm = 0;
     double depth_at_alarm = 0;
     std::uint32_t stops = 0;
@@ -104,11 +105,11 @@ struct LauvSupervisor {
       using S = State;
       return describe(
           field<&S::heard>("", "any instrument, up to now"), field<&S::alarm>(), field<&S::since_alarm>("s"),
-          field<&S::fixes_at_alarm>(), field<&S::depth_at_alarm>("m", "by the gauge"),
-          field<&S::stops>("", "of the operator, up to now"), field<&S::surfaced>(),
-          field<&S::counts>("", "of each instrument"), field<&S::silences>("s", "of each instrument"),
-          field<&S::since_fix>("s", "at the surface"), field<&S::fixes>(),
-          field<&S::wrong_for>("s", "each difference, for so long"), field<&S::attitude_started>(),
+          field<&S::voltages_before_fin>("", "readings while all fins were sound"), field<&S::fixes_at_alarm>(),
+          field<&S::depth_at_alarm>("m", "by the gauge"), field<&S::stops>("", "of the operator, up to now"),
+          field<&S::surfaced>(), field<&S::counts>("", "of each instrument"),
+          field<&S::silences>("s", "of each instrument"), field<&S::since_fix>("s", "at the surface"),
+          field<&S::fixes>(), field<&S::wrong_for>("s", "each difference, for so long"), field<&S::attitude_started>(),
           field<&S::speed_started>(), field<&S::floor_started>(), field<&S::theta>("rad", "that the rates add up to"),
           field<&S::psi>("rad", "that the rates add up to"), field<&S::speed>("m/s", "that the propeller gives"),
           field<&S::floor>("m", "depth of the sea floor"));

@@ -13,6 +13,7 @@ double Battery::calc_current(const std::array<double, 4>& thrusts) const {
 
 double Battery::calc_voltage(double current) const {
   const double used = used_ / (3600.0 * parameters_.capacity);
+  if (used >= 1.0) return 0.0;
   return std::max(parameters_.full - (parameters_.full - parameters_.empty) * used - parameters_.resistance * current,
                   0.0);
 }

@@ -18,7 +18,7 @@ class Battery {
   /// A current flows for some seconds.
   void draw(double current, double seconds) { used_ += current * seconds; }
 
-  /// At the terminals, under a current; never below zero.
+  /// At the terminals, under a current; 0 when all charge is used.
   double calc_voltage(double current) const;
 
   void serialize(Archive& archive) { archive(used_); }

@@ -86,7 +86,8 @@ struct FeetParameters {
 };
 
 /// Current of the rotors: full_current at full thrust of all, less by a power of the thrust. The voltage falls with the
-/// charge used, from full to empty, and with the current.
+/// charge used, from full to empty, and with the current; when all charge is used the pack disconnects itself, and the
+/// motors get nothing. Electronics have a cell of their own then.
 struct BatteryParameters {
   double full = 16.0;
   double empty = 13.2;
@@ -98,12 +99,13 @@ struct BatteryParameters {
 
   static constexpr auto fields() {
     using S = BatteryParameters;
-    return describe(field<&S::full>("V", "voltage without load when full"),
-                    field<&S::empty>("V", "voltage without load when empty"), field<&S::capacity>("A h", "charge"),
-                    field<&S::resistance>("Ohm", "of cells and wires"),
-                    field<&S::electronics>("A", "current of everything but the motors"),
-                    field<&S::full_current>("A", "of the four motors at full thrust"),
-                    field<&S::current_exponent>("", "current grows with thrust to this power"));
+    return describe(
+        field<&S::full>("V", "voltage without load when full"),
+        field<&S::empty>("V", "the same when all charge is used; between them it falls with that, and then to 0"),
+        field<&S::capacity>("A h", "charge"), field<&S::resistance>("Ohm", "of cells and wires"),
+        field<&S::electronics>("A", "current of everything but the motors"),
+        field<&S::full_current>("A", "of the four motors at full thrust"),
+        field<&S::current_exponent>("", "current grows with thrust to this power"));
   }
 };
 

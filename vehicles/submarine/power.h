@@ -19,15 +19,15 @@ struct PowerParameters {
 
   static constexpr auto fields() {
     using S = PowerParameters;
-    return describe(field<&S::full>("V", "voltage of the full battery without load"),
-                    field<&S::empty>("V", "the same of the empty one; between them it falls with the charge used"),
-                    field<&S::resistance>("Ohm", "inside the battery"),
-                    field<&S::capacity>("A h", "charge of the full battery"),
-                    field<&S::charge>("", "part of it that is left at the start").in(0, 1),
-                    field<&S::hotel>("A", "what everything but the propeller draws"),
-                    field<&S::propulsion>("A", "what the propeller draws at full speed; grows with its cube"),
-                    field<&S::heating>("K/A", "in the end the hull is warmer than the water by this, per current"),
-                    field<&S::heating_time>("s", "after which it is so to two thirds"));
+    return describe(
+        field<&S::full>("V", "voltage of the full battery without load"),
+        field<&S::empty>("V", "the same when all charge is used; between them it falls with that, and then to 0"),
+        field<&S::resistance>("Ohm", "inside the battery"), field<&S::capacity>("A h", "charge of the full battery"),
+        field<&S::charge>("", "part of it that is left at the start").in(0, 1),
+        field<&S::hotel>("A", "what everything but the propeller draws"),
+        field<&S::propulsion>("A", "what the propeller draws at full speed; grows with its cube"),
+        field<&S::heating>("K/A", "in the end the hull is warmer than the water by this, per current"),
+        field<&S::heating_time>("s", "after which it is so to two thirds"));
   }
 };
 
@@ -39,7 +39,8 @@ class Power {
   /// A propeller at this part of its full speed, for some seconds.
   void draw(double part, double seconds);
 
-  /// All of the charge is used: propeller and servos get none any more, and instruments have a cell of their own.
+  /// All of the charge is used, and the pack disconnects itself: its terminals have no voltage, propeller and servos
+  /// get none any more; instruments have a cell of their own.
   bool is_flat() const { return used_ >= 3600.0 * parameters_.capacity; }
 
   double current() const { return current_; }

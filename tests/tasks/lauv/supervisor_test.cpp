@@ -58,6 +58,23 @@ TEST_SUITE("tasks/lauv_supervisor") {
     CHECK(after(30, [](LauvSupervisor::In& in) { in.instruments.depth.value = 5.2; }).condition.alarm == Alarm::none);
   }
 
+  TEST_CASE("a fin that is stuck alarms with the next reading of the voltage, and not where a flat battery stops it") {
+    // stuck for half a second after the voltage's 20th reading, then with this one
+    const auto alarm_at = [](const Reading& voltage) {
+      int k = 0;
+      const auto stuck = [&](LauvSupervisor::In& in) {
+        if (k > 0) in.fins.states[1] = FinState::stuck;
+        in.instruments.voltage = k++ < 10 ? Reading{25, 20} : voltage;
+      };
+      return after(1.55, stuck).condition.alarm;
+    };
+    CHECK(alarm_at({25, 20}) == Alarm::none);
+    CHECK(alarm_at({25, 21}) == Alarm::port_fin);
+    CHECK(alarm_at({0, 21}) == Alarm::voltage_limit);
+    // nobody waits for a voltage that is not fitted
+    CHECK(alarm_at({0, -1}) == Alarm::port_fin);
+  }
+
   TEST_CASE("limits alarm at once") {
     CHECK(after(1.1, [](LauvSupervisor::In& in) { in.contact.silence = 6; }).condition.alarm == Alarm::operator_lost);
     CHECK(after(1.1, [](LauvSupervisor::In& in) { in.instruments.leak.value = 1; }).condition.alarm == Alarm::leak);
@@ -174,13 +191,14 @@ TEST_SUITE("tasks/lauv_supervisor") {
   TEST_CASE(
       "a vehicle that falls silent is lost, not the instrument that had reported first, nor one that is not fitted") {
     // each second a battery's voltage, ten times a second all else; voltage may not be fitted
-    const auto alarm_after = [](double silence, bool voltage_fitted, bool depth_goes_on) {
+    const auto alarm_after = [](double silence, bool voltage_fitted, bool depth_goes_on, double last_rate = 0) {
       LauvSupervisor::State state;
       LauvSupervisor::Out out;
       for (int k = 0; k < static_cast<int>(20 * (5.9 + silence)); ++k) {
         const int heard = std::min(k, 118);  // 5.9 s
         LauvSupervisor::In in = calm_submarine(heard / 2 + 1);
         in.instruments.voltage.count = voltage_fitted ? heard / 20 + 1 : -1;
+        if (k >= 118) in.instruments.rates.z = last_rate;
         if (depth_goes_on) in.instruments.depth.count = k / 2 + 1;
         LauvSupervisor::run({}, every_50_ms, in, state, out);
       }
@@ -191,6 +209,9 @@ TEST_SUITE("tasks/lauv_supervisor") {
     CHECK(alarm_after(1.8, true, true) == Alarm::battery);
     CHECK(alarm_after(2.4, false, false) == Alarm::none);
     CHECK(alarm_after(4, false, false) == Alarm::vehicle_lost);
+    // what it reported last, while it turned, does not fit a heading that stays
+    CHECK(alarm_after(2, false, false, 0.2) == Alarm::vehicle_lost);
+    CHECK(alarm_after(2, false, true, 0.2) == Alarm::attitude);
   }
 
   TEST_CASE("a stop of the operator has an alarm forgotten whose cause is gone, and no other") {

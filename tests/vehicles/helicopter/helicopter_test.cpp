@@ -136,6 +136,34 @@ TEST_SUITE("vehicles/helicopter") {
     CHECK(battery.calc_voltage(1e6) == 0);
   }
 
+  TEST_CASE("a battery whose charge is used up disconnects itself, and the rotors stop") {
+    const BatteryParameters p;
+    Battery battery(p);
+    battery.draw(6.3, 3599);
+    CHECK(battery.calc_voltage(0) == doctest::Approx(13.2).scale(0).epsilon(0.002));
+    battery.draw(6.3, 1);
+    CHECK(battery.calc_voltage(0) == 0);
+
+    HelicopterParameters parameters;
+    parameters.battery.capacity = 6 * 2 / 3600.0;  // some two seconds of hover
+    parameters.start.altitude = 50;
+    parameters.start.signal = 8000;
+    Helicopter helicopter(parameters);
+    const auto* out = static_cast<const HelicopterOutputs*>(helicopter.outputs());
+    const HelicopterInputs hover{.front = 8000, .right = 8000, .rear = 8000, .left = 8000};
+    const auto run = [&](int steps) {
+      for (int i = 0; i < steps; ++i) {
+        helicopter.command(&hover);
+        helicopter.step();
+      }
+    };
+    run(200);
+    CHECK(out->rotors.front > 7000);
+    run(600);
+    CHECK(out->battery.voltage == 0);
+    CHECK(out->rotors.front < 1e-3);
+  }
+
   TEST_CASE("so the same signal lifts less after ten minutes") {
     HelicopterParameters p;
     CHECK(acceleration_at(p, 8000) > -0.02);
