@@ -68,6 +68,19 @@ TEST_SUITE("tools/surfacing") {
     check_failures("lost", chosen_of(cases));
   }
 
+  TEST_CASE("a depth gauge that is silent for two seconds does not end the dive, one that is so for three does") {
+    const auto silent_for = [](const std::string& time) {
+      return dive("specs/exolauv.yaml",
+                  {"distributers.dune.link.parameters.sensors.depth.failure={kind: lost, at: 30 s, "
+                   "lasts: " +
+                   time + "}"});
+    };
+    const Dive on = silent_for("2 s");
+    CHECK(on.alarm == Alarm::none);
+    CHECK(on.samples.back().motion.z == doctest::Approx(3).scale(0).epsilon(0.02));
+    check_surfaces(silent_for("3 s"), Alarm::depth_gauge, 33);
+  }
+
   TEST_CASE("a battery that runs low ends the dive while there is charge, and one that is flat stops the propeller") {
     // 20.06 V with the propeller off: below the limit as soon as it turns
     const Dive low = dive_with("power: {charge: 0.3}");

@@ -1,5 +1,7 @@
 #include "vehicles/helicopter/coefficients.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -43,6 +45,18 @@ HelicopterBody make_body(const HelicopterParameters& parameters) {
        "its ground's roughness has to lie between zero and the height of the wind, and a gust takes time");
   need(parameters.battery.capacity > 0.0 && parameters.air.gust_time > 0.0,
        "its battery's capacity and the time of gusts have to be above zero");
+
+  const BatteryParameters& battery = parameters.battery;
+  need(battery.resistance >= 0.0, "its battery's resistance can't be below zero");
+  need(battery.empty <= battery.full,
+       fmt::format("battery.empty must not be above battery.full, and is {} V where that is {} V", battery.empty,
+                   battery.full));
+  const SensorParameters& room = parameters.sensors;
+  need(
+      room.wall_north > -room.wall_south && room.wall_east > -room.wall_west,
+      fmt::format("the wall in the north must lie north of that in the south, and that in the east east of that in the "
+                  "west; they are {} m north, {} m south, {} m east and {} m west of the origin",
+                  room.wall_north, room.wall_south, room.wall_east, room.wall_west));
 
   HelicopterBody body;
   body.mass = frame.mass;

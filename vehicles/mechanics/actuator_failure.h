@@ -27,13 +27,15 @@ struct ActuatorFailure {
   double by = 0.5;
   double to = 1.0;
   double chance = 0.0;
+  double lasts = 0.0;
 
   static constexpr auto fields() {
     using A = ActuatorFailure;
     return describe(field<&A::kind>("", "how it fails"), field<&A::at>("s", "when it begins, or may begin"),
                     field<&A::by>("", "part of its force that a weak one gives").in(0, 1),
                     field<&A::to>("", "part of its full travel to which a hardover one goes").in(-1, 1),
-                    field<&A::chance>("1/s", "rate at which it begins from then on; 0: it begins then"));
+                    field<&A::chance>("1/s", "rate at which it begins from then on; 0: it begins then"),
+                    field<&A::lasts>("s", "after its begin it is sound again; 0: never").in(0, 1e9));
   }
 };
 
@@ -65,7 +67,7 @@ class FailingActuator {
 
  private:
   ActuatorFailureKind kind(double seconds) const {
-    return seconds >= begin_ ? failure_.kind : ActuatorFailureKind::none;
+    return lasts_at(seconds, begin_, failure_.lasts) ? failure_.kind : ActuatorFailureKind::none;
   }
 
   ActuatorFailure failure_{};

@@ -28,4 +28,9 @@ class Noise {
 /// When something begins: at a time, or from then on by chance at a rate (1/s).
 double draw_begin(double at, double rate, std::uint64_t seed);
 
+/// From a begin on for so many seconds; 0: for good.
+inline bool lasts_at(double seconds, double begin, double lasts) {
+  return seconds >= begin && (lasts == 0.0 || seconds < begin + lasts);
+}
+
 }  // namespace jarol::vehicles

@@ -14,8 +14,8 @@ enum class FailureKind : std::uint8_t { none, lost, stuck, biased, drifting, jum
 constexpr auto enumerators(FailureKind) {
   return std::array<Enumerator<FailureKind>, 7>{
       {{"none", FailureKind::none},
-       {"lost", FailureKind::lost, "reports nothing any more"},
-       {"stuck", FailureKind::stuck, "reports its last reading for ever"},
+       {"lost", FailureKind::lost, "reports nothing"},
+       {"stuck", FailureKind::stuck, "reports its last reading"},
        {"biased", FailureKind::biased, "is wrong by an amount"},
        {"drifting", FailureKind::drifting, "is wrong by an amount more each second"},
        {"jumping", FailureKind::jumping, "is wrong by an amount, to either side, in every second reading by chance"},
@@ -27,12 +27,14 @@ struct SensorFailure {
   double at = 0.0;
   double by = 0.0;
   double chance = 0.0;
+  double lasts = 0.0;
 
   static constexpr auto fields() {
     using S = SensorFailure;
     return describe(field<&S::kind>("", "how it fails"), field<&S::at>("s", "when it begins, or may begin"),
                     field<&S::by>("", "the amount, in the unit of what it measures; of noise: times as much"),
-                    field<&S::chance>("1/s", "rate at which it begins from then on; 0: it begins then"));
+                    field<&S::chance>("1/s", "rate at which it begins from then on; 0: it begins then"),
+                    field<&S::lasts>("s", "after its begin it is sound again; 0: never").in(0, 1e9));
   }
 };
 
@@ -49,7 +51,9 @@ class FailingSensor {
   FailingSensor(const SensorFailure& failure, std::uint64_t seed)
       : failure_(failure), begin_(draw_begin(failure.at, failure.chance, seed)), noise_(seed + 1) {}
 
-  FailureKind now(double seconds) const { return seconds >= begin_ ? failure_.kind : FailureKind::none; }
+  FailureKind now(double seconds) const {
+    return lasts_at(seconds, begin_, failure_.lasts) ? failure_.kind : FailureKind::none;
+  }
 
   /// Of the reading at that time.
   Error error(double seconds) {

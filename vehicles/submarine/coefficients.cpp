@@ -1,5 +1,7 @@
 #include "vehicles/submarine/coefficients.h"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -70,6 +72,10 @@ SubmarineBody make_body(const SubmarineParameters& parameters) {
   require_positive(hull.mass, "hull.mass");
   require_positive(hull.length, "hull.length");
   require_positive(hull.diameter, "hull.diameter");
+  if (hull.diameter > hull.length)
+    throw std::runtime_error(
+        fmt::format("submarine: hull.diameter must not be above hull.length, and is {} m where that is {} m",
+                    hull.diameter, hull.length));
   require_positive(hull.I_x, "hull.I_x");
   require_positive(hull.I_y, "hull.I_y");
   require_positive(hull.I_z, "hull.I_z");

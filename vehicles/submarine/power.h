@@ -33,8 +33,8 @@ struct PowerParameters {
 
 class Power {
  public:
-  explicit Power(const PowerParameters& parameters)
-      : parameters_(parameters), used_(3600.0 * (1.0 - parameters.charge) * parameters.capacity) {}
+  /// Throws std::runtime_error if no battery can have these parameters.
+  explicit Power(const PowerParameters& parameters);
 
   /// A propeller at this part of its full speed, for some seconds.
   void draw(double part, double seconds);

@@ -224,6 +224,25 @@ TEST_SUITE("vehicles/helicopter") {
     p = {};
     p.sensors.sonars = 3;
     CHECK_THROWS_WITH_AS(Helicopter{p}, "it has one sonar or four", std::runtime_error);
+    p = {};
+    p.battery.empty = 20;
+    CHECK_THROWS_WITH_AS(Helicopter{p}, "battery.empty must not be above battery.full, and is 20 V where that is 16 V",
+                         std::runtime_error);
+    p = {};
+    p.battery.resistance = -1;
+    CHECK_THROWS_WITH_AS(Helicopter{p}, "its battery's resistance can't be below zero", std::runtime_error);
+    for (const double direction : {0, 1}) {
+      p = {};
+      (direction == 0 ? p.sensors.wall_north : p.sensors.wall_east) = -12;
+      CHECK_THROWS_WITH_AS(
+          Helicopter{p},
+          direction == 0
+              ? "the wall in the north must lie north of that in the south, and that in the east east of that "
+                "in the west; they are -12 m north, 12 m south, 8 m east and 12 m west of the origin"
+              : "the wall in the north must lie north of that in the south, and that in the east east of that "
+                "in the west; they are 8 m north, 12 m south, -12 m east and 12 m west of the origin",
+          std::runtime_error);
+    }
   }
 
   TEST_CASE("it stands in the catalogue under its name") {

@@ -84,6 +84,15 @@ TEST_SUITE("vehicles/submarine_actuation") {
     CHECK(power.current() == 0);
   }
 
+  TEST_CASE("a battery that no submarine can have is an error") {
+    CHECK_THROWS_WITH_AS(Power({.empty = 30}),
+                         "submarine: power.empty must not be above power.full, and is 30 V where that is 25.2 V",
+                         std::runtime_error);
+    CHECK_THROWS_WITH_AS(Power({.capacity = 0}), "submarine: power.capacity must be above zero", std::runtime_error);
+    CHECK_THROWS_WITH_AS(Power({.resistance = -1}), "submarine: power.resistance is below zero", std::runtime_error);
+    CHECK(Power({.full = 24, .empty = 24}).voltage() == 24);  // one that does not sag
+  }
+
   TEST_CASE("without power the propeller runs down whatever is commanded, and fins stay where they are") {
     SubmarineActuation actuation({});
     actuation.command_thruster(0.5);
@@ -170,6 +179,19 @@ TEST_SUITE("vehicles/submarine_actuation") {
     CHECK(speed(ActuatorFailureKind::weak, true) == doctest::Approx(0.2));
     CHECK(speed(ActuatorFailureKind::hardover, true) == doctest::Approx(1));
     CHECK(speed(ActuatorFailureKind::hardover, false) < 1e-6);
+  }
+
+  TEST_CASE("a failure of an actuator that lasts a second ends after it, and it follows again") {
+    FailingActuator fin({.kind = ActuatorFailureKind::hardover, .at = 2, .to = -1, .lasts = 1}, 0);
+    CHECK(fin.command(1.99, 0.1, 0.5) == 0.1);
+    CHECK(fin.command(2, 0.1, 0.5) == -0.5);
+    CHECK(fin.command(2.99, 0.1, 0.5) == -0.5);
+    CHECK(fin.command(3, 0.1, 0.5) == 0.1);
+    FailingActuator motor({.kind = ActuatorFailureKind::lost, .at = 2, .lasts = 1}, 0);
+    CHECK(motor.part(2.99) == 0);
+    CHECK(motor.part(3) == 1);
+    FailingActuator stuck({.kind = ActuatorFailureKind::stuck, .at = 2}, 0);
+    CHECK(stuck.is_stuck(1e8));
   }
 
   TEST_CASE("an actuator fails by chance from its time on, another with each seed") {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -98,6 +99,27 @@ TEST_SUITE("vehicles/sensor") {
     CHECK(same(reported(parameters, 4), {0, 1, 7, 8}));
     parameters.failure = {FailureKind::stuck, 0, 0};
     CHECK(same(reported(parameters, 3), {none, none, none}));
+  }
+
+  TEST_CASE("a failure that lasts 20 ms ends after them, and the sensor reads right again") {
+    Parameters parameters = exact(10ms);
+    const auto failing = [&](FailureKind kind, double by) {
+      parameters.failure = {.kind = kind, .at = 0.02, .by = by, .lasts = 0.02};
+      return reported(parameters, 6);
+    };
+    CHECK(same(failing(FailureKind::lost, 0), {0, 1, none, none, 4, 5}));
+    CHECK(same(failing(FailureKind::stuck, 0), {0, 1, 1, 1, 4, 5}));
+    CHECK(same(failing(FailureKind::biased, 5), {0, 1, 7, 8, 4, 5}));
+    CHECK(same(failing(FailureKind::drifting, 100), {0, 1, 2, 4, 4, 5}));
+  }
+
+  TEST_CASE("one that begins by chance lasts as long from when it began") {
+    Parameters parameters = exact(10ms);
+    parameters.failure = {.kind = FailureKind::lost, .chance = 10, .lasts = 0.1};
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const auto readings = reported(parameters, 500, seed);
+      CHECK(std::count_if(readings.begin(), readings.end(), [](double x) { return std::isnan(x); }) == 10);
+    }
   }
 
   TEST_CASE("what there is not it does not report, and reads as no number before the first") {

@@ -58,6 +58,14 @@ TEST_SUITE("vehicles/submarine") {
     CHECK(Submarine(parameters, 0).mishap() == std::nullopt);
   }
 
+  TEST_CASE("it is no thicker than it is long") {
+    SubmarineParameters parameters;
+    parameters.hull.length = 0.1;
+    CHECK_THROWS_WITH_AS(Submarine(parameters, 0),
+                         "submarine: hull.diameter must not be above hull.length, and is 0.15 m where that is 0.1 m",
+                         std::runtime_error);
+  }
+
   TEST_CASE("positive angles on fins 0 and 3 turn to port, negative ones to starboard") {
     CHECK(after_ten_seconds({0.2F, 0, 0, 0.2F}).psi < -0.1F);
     CHECK(after_ten_seconds({-0.2F, 0, 0, -0.2F}).psi > 0.1F);
