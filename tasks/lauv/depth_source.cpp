@@ -17,7 +17,7 @@ void DepthSource::take(const Model& model, const Instruments& i, double dt) {
   const auto is_known = [&](Gauge& g, double reading, std::int64_t count) {
     g.silence = count > g.count ? 0 : g.silence + dt;
     g.count = count;
-    if (has_fix) g.wrong = reading > model.fix_depth + model.error;
+    if (has_fix) g.wrong = reading > model.fix_depth + model.fix_error;
     return count > 0 && g.silence <= model.timeout && !g.wrong;
   };
   const double by_pressure = calc_depth(i.pressure.value);

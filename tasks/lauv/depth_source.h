@@ -11,12 +11,12 @@ namespace jarol::tasks {
 /// Below the surface of fresh water, from a pressure in hPa.
 double calc_depth(double pressure);
 
-/// The gauge, while it reports; then the pressure. Where they differ, the deeper one. A fix of GPS comes from the
-/// surface alone: a reading that is deeper then is wrong, until a fix agrees with it. While neither is known it stays
-/// where it was last, or at the surface once there is a fix.
+/// The gauge, while it reports; then the pressure. Where they differ too much, the deeper one. A fix of GPS comes from
+/// the surface alone: a reading that is deeper then is wrong, until a fix agrees with it. While neither is known it
+/// stays where it was last, or at the surface once there is a fix.
 struct DepthSource {
   struct Model {
-    double timeout, error, fix_depth;
+    double timeout, error, fix_depth, fix_error;
   };
   struct Gauge {
     std::int64_t count = 0;

@@ -51,7 +51,7 @@ void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& 
   const Instruments& i = in.instruments;
   Motion& m = state.motion;
   const double dt = seconds(tick.period);
-  state.depth.take({p.depth_timeout, p.depth_error, p.fix_depth}, i, dt);
+  state.depth.take({p.depth_timeout, p.depth_error, p.fix_depth, p.fix_depth_error}, i, dt);
   if (!state.started) {
     state.started = i.attitude.count > 0 && i.heading.count > 0 && i.depth.count > 0;
     m.z = state.depth.depth;

@@ -22,8 +22,9 @@ struct LauvNavigation {
     double angle_time = 0.5;
     double depth_time = 0.7;
     double depth_timeout = 2.5;
-    double depth_error = 0.3;
+    double depth_error = 0.6;
     double fix_depth = 0.15;
+    double fix_depth_error = 0.3;
     double speed_time = 0.2;
     double drift = 0.05;
     double current_change = 0.003;
@@ -34,19 +35,22 @@ struct LauvNavigation {
     std::int64_t restart = 10;
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::angle_time>("s", "after which angles follow IMU and compass rather than rates"),
-                      field<&P::depth_time>("s", "after which depth follows the gauge rather than the motion"),
-                      field<&P::depth_timeout>("s", "a gauge that reports nothing for so long is lost"),
-                      field<&P::depth_error>("m", "greatest difference of gauge, pressure and surface"),
-                      field<&P::fix_depth>("m", "greatest depth at which GPS works"),
-                      field<&P::speed_time>("s", "over which the speed log is smoothed"),
-                      field<&P::drift>("m/s^0.5", "deviation of the way reckoned, after 1 s"),
-                      field<&P::current_change>("m/s^1.5", "deviation by which the current changes in 1 s"),
-                      field<&P::current>("m/s", "deviation of the current before anything is known of it"),
-                      field<&P::fix_error>("m", "deviation of GPS, per axis"),
-                      field<&P::range_error>("m", "deviation of the range to a beacon"),
-                      field<&P::gate>("", "a fix or range that is off by more deviations is left out"),
-                      field<&P::restart>("", "fixes left out in a row, after which the next one counts"));
+      return describe(
+          field<&P::angle_time>("s", "after which angles follow IMU and compass rather than rates"),
+          field<&P::depth_time>("s", "after which depth follows the gauge rather than the motion"),
+          field<&P::depth_timeout>("s", "a gauge that reports nothing for so long is lost"),
+          field<&P::depth_error>(
+              "m", "where the pressure is deeper than the gauge by more, it counts; more than the supervisor allows"),
+          field<&P::fix_depth>("m", "greatest depth at which GPS works"),
+          field<&P::fix_depth_error>("m", "a depth greater than that by more is wrong beside a fix"),
+          field<&P::speed_time>("s", "over which the speed log is smoothed"),
+          field<&P::drift>("m/s^0.5", "deviation of the way reckoned, after 1 s"),
+          field<&P::current_change>("m/s^1.5", "deviation by which the current changes in 1 s"),
+          field<&P::current>("m/s", "deviation of the current before anything is known of it"),
+          field<&P::fix_error>("m", "deviation of GPS, per axis"),
+          field<&P::range_error>("m", "deviation of the range to a beacon"),
+          field<&P::gate>("", "a fix or range that is off by more deviations is left out"),
+          field<&P::restart>("", "fixes left out in a row, after which the next one counts"));
     }
   };
   struct In {

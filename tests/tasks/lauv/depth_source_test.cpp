@@ -20,7 +20,7 @@ struct Gauges {
     for (int k = 0; k < static_cast<int>(20 * seconds + 0.5); ++k) {
       if (gauge_reports) ++i.depth.count;
       if (pressure_reports) ++i.pressure.count;
-      source.take({.timeout = 2.5, .error = 0.3, .fix_depth = 0.15}, i, 0.05);
+      source.take({.timeout = 2.5, .error = 0.6, .fix_depth = 0.15, .fix_error = 0.3}, i, 0.05);
     }
     return source.depth;
   }
@@ -61,9 +61,9 @@ TEST_SUITE("tasks/depth_source") {
     CHECK(g.after(0.05) == doctest::Approx(2));
   }
 
-  TEST_CASE("where they differ by more than 30 cm the deeper one counts") {
-    CHECK(at(3, 3.29).source.depth == 3);
-    CHECK(at(3, 3.31).source.depth == doctest::Approx(3.31));
+  TEST_CASE("where they differ by more than 60 cm the deeper one counts") {
+    CHECK(at(3, 3.59).source.depth == 3);
+    CHECK(at(3, 3.61).source.depth == doctest::Approx(3.61));
     CHECK(at(3, 2).source.depth == 3);
   }
 
