@@ -25,7 +25,7 @@ bool JaviatorVehicle::is_late(std::uint16_t id) {
   return false;
 }
 
-// Commands are numbered one by one, as signals are.
+// Commands are numbered one by one, as signals are, but for those that a fault has held.
 std::uint32_t JaviatorVehicle::number_of(std::uint16_t id) const {
   const std::uint16_t since = id_ - id;
   return number_ > since && since <= longest_delay ? number_ - since : 0;

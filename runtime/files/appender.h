@@ -3,21 +3,21 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <initializer_list>
 #include <string_view>
 
 namespace jarol {
 
 class Appender {
  public:
-  /// The file stays the caller's, who writes nothing to it but by this.
+  /// The file is empty and stays the caller's, who writes nothing to it but by this.
   explicit Appender(std::FILE* file);
 
-  /// The system has all of it when this returns. Throws std::system_error where it can't be written.
-  void append(std::initializer_list<std::string_view> pieces);
+  /// One after another; the system has all of it when this returns. Throws std::system_error where it can't be written.
+  void append(std::string_view first, std::string_view second = {}, std::string_view third = {});
 
   /// Gives back what was allocated ahead: a long regular file gets its place on the disk in large steps, beyond its
-  /// end, which saves the system a third of its work. What a killed program leaves there is no part of the file.
+  /// end, which saves the system a third of its work. What a program that is killed or fails leaves there is no part of
+  /// the file.
   void end();
 
   /// Appended so far.

@@ -117,7 +117,7 @@ void Writer::write(const Chunk& chunk) {
   // all of it in one go
   count(stored, compression == Compression::none ? crc : crc32(stored));
   count(index_, crc32(index_));
-  file_.append({waiting_, stored, index_});
+  file_.append(waiting_, stored, index_);
   waiting_.clear();
   chunks_.push_back(std::move(place));
 }
@@ -190,7 +190,7 @@ void Writer::put_out(std::string_view bytes) {
 void Writer::count(std::string_view bytes, std::uint32_t crc) { crc_ = joined_crc32(crc_, crc, bytes.size()); }
 
 void Writer::flush() {
-  file_.append({waiting_});
+  file_.append(waiting_);
   waiting_.clear();
 }
 

@@ -42,6 +42,8 @@ Turned spin_up(const MotorWatch::Param& p, double battery, double dt, std::uint3
   Turned turned;
   while (state.acted != until) {
     const MotorWatch::Sent& next = state.sent[++state.acted % MotorWatch::kept];
+    // another number stands there where one was held
+    const bool was_sent = next.motors.number == state.acted;
     for (std::size_t guess = 0; guess < 2; ++guess) {
       MotorWatch::Rotors& rotors = state.rotors[guess];
       const auto add = [&](double time) {
@@ -49,7 +51,7 @@ Turned spin_up(const MotorWatch::Param& p, double battery, double dt, std::uint3
         for (std::size_t i = 0; i < more.size(); ++i) impulses[guess][i] += more[i];
       };
       add(early);
-      if (guess == 0 || next.heard) rotors.signals = next.motors.signals;
+      if (was_sent && (guess == 0 || next.heard)) rotors.signals = next.motors.signals;
       add(late);
     }
     turned.time += dt;
@@ -94,17 +96,21 @@ struct Sampled {
 };
 
 // Takes in what has been answered since. The sample comes with the answer to the signals that were heard next: those
-// that follow, unless some in between were not heard, or heard twice.
-Sampled take_answer(const JaviatorSensors& s, MotorWatch::State& state) {
+// that follow, unless some in between were not heard, or heard twice. (One that is lost and another that comes twice at
+// once look like two; one sample is not enough to find a motor weak.)
+Sampled take_answer(const JaviatorSensors& s, std::uint32_t newest, MotorWatch::State& state) {
   const std::uint32_t answers = s.answers - state.answers, before = state.answered;
   if (answers == 0) return {};
   state.answers = s.answers;
   state.answered = s.answered;
-  if (s.answered <= before || s.answered - before >= MotorWatch::kept) return {};
+  if (s.answered <= before || s.answered - before >= MotorWatch::kept || newest - s.answered >= MotorWatch::kept)
+    return {};
   const std::uint32_t numbers = s.answered - before;
   const bool all = answers >= numbers;
-  for (std::uint32_t number = all ? before + 1 : s.answered; number <= s.answered; ++number)
-    state.sent[number % MotorWatch::kept].heard = true;
+  for (std::uint32_t number = all ? before + 1 : s.answered; number <= s.answered; ++number) {
+    MotorWatch::Sent& sent = state.sent[number % MotorWatch::kept];
+    sent.heard = sent.motors.number == number;
+  }
   if (!s.new_imu || before == 0) return {};
   return {all ? s.answered - 1 : before + answers - 1, answers <= numbers ? s.answered - 1 : s.answered};
 }
@@ -162,7 +168,7 @@ void MotorWatch::run(const Param& p, const Tick& tick, const In& in, State& stat
   const bool stands = doing == FlightState::halt || doing == FlightState::ground;
   if (stands && in.directive.cause == LandingCause::none) state.motors = {};
   state.sent[in.motors.number % kept] = {in.motors, false};
-  const Sampled sampled = take_answer(s, state);
+  const Sampled sampled = take_answer(s, in.motors.number, state);
   const bool lands = doing == FlightState::landing && e.altitude_known;
   const double lowest = lands && state.motors.weak == Motor::none ? p.low : p.contact;
   const bool aloft = (doing == FlightState::flying || doing == FlightState::landing) && e.altitude > lowest;
@@ -175,6 +181,7 @@ void MotorWatch::run(const Param& p, const Tick& tick, const In& in, State& stat
   // what was sent before is not kept any more
   if (in.motors.number - state.acted >= kept) {
     state.follows = false;
+    state.evidence = {};
     state.acted = std::max(in.motors.number, kept) - kept + 1;
   }
   const bool is_sure = sampled.first == sampled.last;
@@ -189,6 +196,7 @@ void MotorWatch::run(const Param& p, const Tick& tick, const In& in, State& stat
     state.follows = watches;
     state.p = s.p;
     state.q = s.q;
+    state.doubt = 0;
   }
   out.motors = state.motors;
 }

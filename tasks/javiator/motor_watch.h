@@ -81,7 +81,7 @@ struct MotorWatch {
                       field<&R::now>("", "thrusts of hover, by these"));
     }
   };
-  static constexpr std::uint32_t kept = 32;
+  static constexpr std::uint32_t kept = 32;  // periods, half a second: longer gaps begin anew
   struct State {
     std::array<Sent, kept> sent{};
     std::array<Rotors, 2> rotors{};

@@ -2,12 +2,14 @@
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -61,10 +63,11 @@ constexpr std::size_t mebibyte = std::size_t{1} << 20;
 TEST_CASE("What is appended in pieces stands one after another, and in the file at once") {
   const OwnFile file;
   Appender appender(file.stream());
-  appender.append({"", "first ", "", "second ", "third"});
+  appender.append("", "first ");
+  appender.append("second ", "", "third");
   CHECK(file.content() == "first second third");
-  appender.append({});
-  appender.append({" and last"});
+  appender.append("");
+  appender.append(" and last");
   CHECK(file.content() == "first second third and last");
   CHECK(appender.bytes() == 27);
   appender.end();
@@ -78,8 +81,8 @@ TEST_CASE("A long file gets its place ahead, as much as it has already, and keep
   std::string expected;
   std::uint64_t most = 0;
   for (unsigned i = 0; i < 20; ++i) {
-    appender.append({"head", piece(i)});
-    expected += "head" + piece(i);
+    appender.append("head", piece(i), "tail");
+    expected += "head" + piece(i) + "tail";
     if (i == 2) CHECK_MESSAGE(file.taken() < 4 * mebibyte, "a short file gets nothing ahead");
     most = std::max(most, file.taken() - expected.size());
   }
@@ -100,7 +103,7 @@ TEST_CASE("What is no regular file gets the pieces, too") {
   REQUIRE(::pipe(ends.data()) == 0);
   std::FILE* const stream = ::fdopen(ends[1], "wb");
   Appender appender(stream);
-  appender.append({"one", " two"});
+  appender.append("one", " two");
   std::array<char, 16> got{};
   CHECK(std::string(got.data(), static_cast<std::size_t>(::read(ends[0], got.data(), got.size()))) == "one two");
   appender.end();
@@ -113,9 +116,33 @@ TEST_CASE("A full device says so") {
   REQUIRE(stream != nullptr);
   Appender appender(stream);
   try {
-    appender.append({"more than nothing"});
+    appender.append("more than nothing");
     FAIL("it was taken");
   } catch (const std::system_error& error) { CHECK(error.code().value() == ENOSPC); }
   CHECK(appender.bytes() == 0);
   std::fclose(stream);
+}
+
+TEST_CASE("A file that may grow no further has all that fits") {
+  const OwnFile file;
+  Appender appender(file.stream());
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const std::size_t most = 2 * mebibyte + 1000;
+  const rlimit limit{most, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &limit) == 0);
+  std::string given;
+  int reason = 0;
+  try {
+    for (unsigned i = 0; i < 5; ++i) {
+      const std::string head = some(600, i), body = some(mebibyte, i + 7), tail = some(900, i + 9);
+      given += head + body + tail;
+      appender.append(head, body, tail);
+    }
+  } catch (const std::system_error& error) { reason = error.code().value(); }
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  CHECK(reason == EFBIG);
+  CHECK(file.content() == given.substr(0, most));
 }
