@@ -80,7 +80,7 @@ void find_weak(const MotorWatch::Param& p, double roll, double pitch, double tim
   const std::array<double, 4> lacks = lacking(roll - state.wind_roll, pitch - state.wind_pitch);
   for (std::size_t i = 0; i < lacks.size(); ++i) {
     const double across = std::abs(lacks[(i + 1) % lacks.size()]);
-    // one sample is not enough: signals that were held up on their way act late, which nothing tells
+    // one sample is not enough: signals that were held up on their way act late, which nothing shows
     const double more = (lacks[i] - across - state.doubt - p.allowance) * time;
     state.evidence[i] = std::max(state.evidence[i] + std::min(more, of_one_sample * p.evidence), 0.0);
     if (state.evidence[i] > p.evidence) state.motors.weak = static_cast<Motor>(i + 1);
@@ -115,7 +115,7 @@ Sampled take_answer(const JaviatorSensors& s, std::uint32_t newest, MotorWatch::
   return {all ? s.answered - 1 : before + answers - 1, answers <= numbers ? s.answered - 1 : s.answered};
 }
 
-// What the sample tells, if it was taken after the signals of that number.
+// What the sample shows, if it was taken after the signals of that number.
 void observe(const MotorWatch::Param& p, const MotorWatch::In& in, double dt, std::uint32_t number,
              MotorWatch::State& state) {
   const JaviatorSensors& s = in.sensors;

@@ -10,9 +10,9 @@
 namespace jarol::tasks {
 
 /// What a motor lacks turns the vehicle: towards it, and about one axis alone, as wind seldom does. How fast it should
-/// turn follows from what the rotors are sent and their lag; a first-order observer of the rates tells by how much it
+/// turn follows from what the rotors are sent and their lag; a first-order observer of the rates shows by how much it
 /// turns faster (a momentum observer, De Luca and Mattone 2003, of one body). Which signals had acted when the IMU was
-/// sampled the answers tell, however long they took. Signals that nobody has answered were perhaps heard, perhaps not:
+/// sampled the answers show, however long they took. Signals that nobody has answered were perhaps heard, perhaps not:
 /// both are followed, and what lies between is doubted. A motor that lacks more than `allowance` for two or three
 /// periods is weak, until it stands and the operator has acknowledged that; how weak is followed from then on.
 struct MotorWatch {

@@ -8,7 +8,7 @@
 
 namespace jarol::tasks {
 
-/// Below the surface of fresh water, from a pressure in hPa.
+/// In m below the surface of fresh water, from a pressure in hPa.
 double calc_depth(double pressure);
 
 /// The gauge, while it reports; then the pressure. Where they differ too much, the deeper one. A fix of GPS comes from
@@ -16,7 +16,8 @@ double calc_depth(double pressure);
 /// stays where it was last, or at the surface once there is a fix.
 struct DepthSource {
   struct Model {
-    double timeout, error, fix_depth, fix_error;
+    double timeout;                      // s
+    double error, fix_depth, fix_error;  // m
   };
   struct Gauge {
     std::int64_t count = 0;

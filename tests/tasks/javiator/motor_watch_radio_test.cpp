@@ -49,7 +49,7 @@ TEST_SUITE("tasks/javiator_motor_watch_radio") {
   }
 
   TEST_CASE(
-      "where a tenth is lost on either way, a weak motor is found within three tenths of a second, mostly in one") {
+      "where a tenth is lost on either way, a weak motor is found within three tenths of a second, in one on average") {
     std::mt19937 engine(5);
     double all = 0;
     const auto heard = [&] { return engine() % 10 != 0; };

@@ -5,7 +5,7 @@
 namespace {
 using namespace jarol::tasks;
 
-// A submarine whose gauges report at every step of 50 ms, exactly until told otherwise.
+// A submarine whose gauges report at every step of 50 ms, exactly until set otherwise.
 struct Gauges {
   Instruments i{};
   DepthSource source{};
