@@ -59,7 +59,7 @@ void Appender::append(std::string_view first, std::string_view second, std::stri
     write_all(descriptor_, vectors);
   } else {
     for (const std::string_view piece : pieces)
-      if (std::fwrite(piece.data(), 1, piece.size(), file_) != piece.size()) fail();
+      if (!piece.empty() && std::fwrite(piece.data(), 1, piece.size(), file_) != piece.size()) fail();
     if (std::fflush(file_) != 0) fail();
   }
   bytes_ += bytes;
