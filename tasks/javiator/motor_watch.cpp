@@ -40,11 +40,19 @@ Turned spin_up(const MotorWatch::Param& p, double battery, double dt, std::uint3
   const double late = std::min(p.sample_time, dt), early = dt - late;
   std::array<std::array<double, 4>, 2> impulses{};
   Turned turned;
+  // where all is answered both guesses are one
+  bool agree = state.rotors[0] == state.rotors[1];
   while (state.acted != until) {
     const MotorWatch::Sent& next = state.sent[++state.acted % MotorWatch::kept];
     // another number stands there where one was held
     const bool was_sent = next.motors.number == state.acted;
+    agree = agree && (next.heard || !was_sent);
     for (std::size_t guess = 0; guess < 2; ++guess) {
+      if (guess == 1 && agree) {
+        state.rotors[1] = state.rotors[0];
+        impulses[1] = impulses[0];
+        continue;
+      }
       MotorWatch::Rotors& rotors = state.rotors[guess];
       const auto add = [&](double time) {
         const std::array<double, 4> more = follow(p, battery, time, rotors);

@@ -75,6 +75,7 @@ struct MotorWatch {
   /// The rotors, if signals that were not answered were heard, or were not.
   struct Rotors {
     std::array<double, 4> signals{}, reached{}, now{};
+    bool operator==(const Rotors&) const = default;
     static constexpr auto fields() {
       using R = Rotors;
       return describe(field<&R::signals>("", "that they follow"), field<&R::reached>("", "signals followed so far"),

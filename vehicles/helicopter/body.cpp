@@ -1,6 +1,6 @@
 #include "vehicles/helicopter/body.h"
 
-#include <algorithm>
+#include <Eigen/Core>
 #include <cmath>
 
 namespace jarol::vehicles {
@@ -14,10 +14,24 @@ Vector3 scaled(const Vector3& a, double factor) { return {factor * a[0], factor 
 
 void add(Vector3& total, const Vector3& term) { total = sum(total, term); }
 
+// One number for each rotor: all four are computed at once, two to an instruction.
+using Rotors = Eigen::Array4d;
+using RotorVectors = std::array<Rotors, 3>;
+
+Rotors of_each(const std::array<double, 4>& numbers) { return Rotors(numbers.data()); }
+
+// a x b of one vector and four, and of four and four
+RotorVectors cross(const Vector3& a, const RotorVectors& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+RotorVectors cross(const RotorVectors& a, const RotorVectors& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 // Cheeseman and Bennett, "The Effect of the Ground on a Helicopter Rotor in Forward Flight", 1955: T/T_free =
 // 1 / (1 - (R/4h)^2), no nearer than half a radius
-double ground_gain(const HelicopterBody& body, double height) {
-  const double ratio = body.rotor_radius / (4.0 * std::max(height, 0.5 * body.rotor_radius));
+Rotors ground_gain(const HelicopterBody& body, const Rotors& height) {
+  const Rotors ratio = body.rotor_radius / (4.0 * height.max(0.5 * body.rotor_radius));
   return 1.0 + body.ground_effect * (1.0 / (1.0 - ratio * ratio) - 1.0);
 }
 
@@ -31,36 +45,48 @@ fossen::Vector6 calc_loads(const HelicopterBody& body, const HelicopterMotion& m
   Vector3 force{};
   Vector3 moment{};
 
-  double spin = 0.0;      // angular momentum of the rotors along z
-  double spin_dot = 0.0;  // and its rate
-  for (std::size_t i = 0; i < body.rotors.size(); ++i) {
-    const HelicopterBody::Rotor& rotor = body.rotors[i];
-    const double change = (input.from[i] - input.to[i]) * remaining;
-    const double setting = input.to[i] + change;
-    const double height = -(motion.p_n[2] + fossen::dot(down_b, rotor.hub_b));
-    const double free_thrust = calc_thrust(body, i, setting);
-    const double thrust = free_thrust * ground_gain(body, height);
+  RotorVectors hub_b;
+  Rotors sense, free_thrust, exponent;
+  const Rotors change = (of_each(input.from) - of_each(input.to)) * remaining;
+  const Rotors setting = of_each(input.to) + change;
+  for (Eigen::Index i = 0; i < sense.size(); ++i) {
+    const auto rotor = static_cast<std::size_t>(i);
+    for (std::size_t axis = 0; axis < 3; ++axis) hub_b[axis][i] = body.rotors[rotor].hub_b[axis];
+    sense[i] = body.rotors[rotor].spin;
+    exponent[i] = body.thrust_law[rotor].exponent();
+    free_thrust[i] = calc_thrust(body, rotor, setting[i]);
+  }
+  const Rotors height = -(motion.p_n[2] + (down_b[0] * hub_b[0] + down_b[1] * hub_b[1] + down_b[2] * hub_b[2]));
+  const Rotors thrust = free_thrust * ground_gain(body, height);
 
-    // thrust grows with speed squared; its power law has no slope at rest, where nothing turns anyway
-    const double speed = body.full_speed * std::sqrt(free_thrust / body.full_thrust);
-    spin += rotor.spin * body.rotor_inertia * speed;
-    spin_dot -= rotor.spin * body.rotor_inertia * speed * 0.5 * body.thrust_law[i].exponent() /
-                std::max(setting, 0.02) * change / body.lag;
+  // thrust grows with speed squared; its power law has no slope at rest, where nothing turns anyway
+  const Rotors speed = body.full_speed * (free_thrust / body.full_thrust).sqrt();
+  const Rotors spins = sense * body.rotor_inertia * speed;  // angular momenta along z, and their rates
+  const Rotors spin_dots = -(spins * 0.5 * exponent / setting.max(0.02) * change / body.lag);
 
-    // blades resist flow in their plane and along their axis in proportion to their speed
-    const Vector3 flow = sum(air_b, fossen::cross(motion.omega_b, rotor.hub_b));
-    const Vector3 hub = {-body.rotor_drag * speed * flow[0], -body.rotor_drag * speed * flow[1],
-                         -thrust - body.rotor_inflow * speed * flow[2]};
-    add(force, hub);
-    add(moment, fossen::cross(rotor.hub_b, hub));
-    moment[2] -= rotor.spin * body.torque_per_thrust * thrust;
+  // blades resist flow in their plane and along their axis in proportion to their speed
+  RotorVectors flow = cross(motion.omega_b, hub_b);
+  for (std::size_t axis = 0; axis < 3; ++axis) flow[axis] = air_b[axis] + flow[axis];
+  const RotorVectors hub = {-body.rotor_drag * speed * flow[0], -body.rotor_drag * speed * flow[1],
+                            -thrust - body.rotor_inflow * speed * flow[2]};
+  const RotorVectors turning = cross(hub_b, hub);
+  const Rotors drag = sense * body.torque_per_thrust * thrust;
+  double spin = 0.0, spin_dot = 0.0;
+  for (Eigen::Index i = 0; i < sense.size(); ++i) {
+    spin += spins[i];
+    spin_dot += spin_dots[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      force[axis] += hub[axis][i];
+      moment[axis] += turning[axis][i];
+    }
+    moment[2] -= drag[i];
   }
   add(moment, scaled(fossen::cross(motion.omega_b, {0.0, 0.0, spin}), -1.0));
   moment[2] -= spin_dot;
 
   add(force, scaled(air_b, -body.drag * std::sqrt(fossen::dot(air_b, air_b))));
 
-  for (std::size_t i = 0; i < body.feet.r_b.size(); ++i) {
+  for (std::size_t i = 0; i < body.feet.r_b.size() && may_touch(body, motion); ++i) {
     const Vector3& r_b = body.feet.r_b[i];
     if (foot_depth(motion, r_b) <= 0.0) continue;
     const FootMotion foot = foot_motion(motion, r_b);

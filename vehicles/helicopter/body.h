@@ -88,6 +88,11 @@ inline fossen::Vector3 from_ned(const std::array<fossen::Vector3, 3>& R_nb, cons
 }
 /// Of a foot that stands there in the body.
 FootMotion foot_motion(const HelicopterMotion& motion, const fossen::Vector3& r_b);
+/// False: it is so high that no contact is within `margin` of the ground, however it leans; most of a flight is.
+inline bool may_touch(const HelicopterBody& body, const HelicopterMotion& motion, double margin = 0.0) {
+  // a rotation matrix is one but for rounding; a place that is no number may be anywhere
+  return !(motion.p_n[2] < -1.001 * (body.feet.reach + margin));
+}
 /// Its z of NED.
 inline double foot_depth(const HelicopterMotion& motion, const fossen::Vector3& r_b) {
   return motion.p_n[2] + fossen::dot(motion.R_nb[2], r_b);

@@ -85,6 +85,9 @@ HelicopterBody make_body(const HelicopterParameters& parameters) {
   around(4, a, h);
   around(8, a + rotors.radius, h);
   body.feet.r_b[12] = {0.0, 0.0, -frame.top};
+  body.feet.reach = 0.0;
+  for (const fossen::Vector3& r_b : body.feet.r_b)
+    body.feet.reach = std::max(body.feet.reach, std::sqrt(fossen::dot(r_b, r_b)));
   body.feet.stiffness = feet.stiffness;
   body.feet.dissipation = feet.dissipation;
   body.feet.friction = feet.friction;

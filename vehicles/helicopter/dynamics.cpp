@@ -24,7 +24,6 @@ bool is_finite(const HelicopterMotion& m) {
 HelicopterDynamics::HelicopterDynamics(const HelicopterBody& body, const HelicopterMotion& start,
                                        const std::array<double, 4>& settings)
     : body_(body), motion_(start) {
-  for (const fossen::Vector3& r_b : body_.feet.r_b) reach_ = std::max(reach_, std::sqrt(fossen::dot(r_b, r_b)));
   input_.from = input_.to = settings;
   input_.payload = body.payload;
   for (std::size_t i = 0; i < contact_count; ++i) {
@@ -37,7 +36,8 @@ HelicopterDynamics::HelicopterDynamics(const HelicopterBody& body, const Helicop
 bool HelicopterDynamics::near_ground() const {
   const auto sum_of = [](const fossen::Vector3& x) { return std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]); };
   // m/s that no part of it moves faster than
-  const double fastest = sum_of(motion_.v_b) + sum_of(motion_.omega_b) * reach_;
+  const double fastest = sum_of(motion_.v_b) + sum_of(motion_.omega_b) * body_.feet.reach;
+  if (!may_touch(body_, motion_, 0.021 + 2e-9 * step_nanoseconds * fastest)) return false;
   for (const fossen::Vector3& r_b : body_.feet.r_b) {
     if (foot_depth(motion_, r_b) < -0.021 - 2e-9 * step_nanoseconds * fastest) continue;
     const FootMotion foot = foot_motion(motion_, r_b);

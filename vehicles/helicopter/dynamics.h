@@ -54,7 +54,6 @@ class HelicopterDynamics {
   HelicopterBody body_;
   HelicopterInput input_;
   HelicopterMotion motion_;
-  double reach_ = 0.0;       // m, of the outermost part that may touch the ground
   bool near_ground_ = true;  // in this step
   long now_ = 0;
   std::string failure_;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include "graph/values/archive.h"
 #include "vehicles/mechanics/fossen.h"
@@ -14,8 +15,9 @@ constexpr std::size_t foot_count = 4;
 constexpr std::size_t contact_count = 13;  // feet, rotors' hubs, their outermost tips, the top
 
 struct Feet {
-  std::array<fossen::Vector3, contact_count> r_b{};  // feet first
-  double stiffness = 1.0;                            // of one foot, N/m
+  std::array<fossen::Vector3, contact_count> r_b{};        // feet first
+  double reach = std::numeric_limits<double>::infinity();  // m, no contact is further from the centre of gravity
+  double stiffness = 1.0;                                  // of one foot, N/m
   double dissipation = 0.0;  // s/m, after Hunt and Crossley, "Coefficient of Restitution ...", 1975
   double friction = 0.0;
   double grip_stiffness = 1.0;  // along the ground, N/m

@@ -53,7 +53,7 @@ double HelicopterJudge::height() const {
 
 void HelicopterJudge::look(std::chrono::nanoseconds instant, const HelicopterMotion& motion,
                            const std::array<double, 4>& settings) {
-  for (std::size_t i = 0; i < contact_count; ++i) meet_ground(instant, motion, i);
+  for (std::size_t i = 0; i < contact_count && may_touch(body_, motion); ++i) meet_ground(instant, motion, i);
   last_ = motion;
   is_found_ = false;
   if (!mishap_) find_capsize(instant);

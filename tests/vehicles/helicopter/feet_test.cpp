@@ -3,8 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "vehicles/helicopter/coefficients.h"
 #include "vehicles/helicopter/plant.h"
@@ -89,5 +91,30 @@ TEST_SUITE("vehicles/feet") {
     }
     CAPTURE(worst);
     CHECK(worst < 2e-5);
+  }
+
+  TEST_CASE("no part touches the ground where none may, however it leans and spins") {
+    const HelicopterBody body = make_body({});
+    std::mt19937_64 draw(7);
+    std::uniform_real_distribution<double> any(-1, 1);
+    int apart = 0, nearest_apart = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      HelicopterMotion motion;
+      const Eigen::Matrix3d R_nb =
+          Eigen::Quaterniond(any(draw), any(draw), any(draw), any(draw)).normalized().toRotationMatrix();
+      for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 3; ++column)
+          motion.R_nb[row][column] = R_nb(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
+      const double margin = 0.5 * (1 + any(draw));
+      motion.p_n[2] = -0.75 + 0.75 * any(draw);
+      double lowest = -1e9;
+      for (const fossen::Vector3& r_b : body.feet.r_b) lowest = std::max(lowest, foot_depth(motion, r_b));
+      if (may_touch(body, motion, margin)) continue;
+      ++apart;
+      CHECK(lowest < -margin);
+      if (lowest > -margin - 0.01) ++nearest_apart;
+    }
+    CHECK(apart > 1000);
+    CHECK(nearest_apart > 0);  // and it does not give room away
   }
 }
