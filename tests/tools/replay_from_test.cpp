@@ -121,5 +121,16 @@ TEST_SUITE("tools/replay_from") {
     const auto judged = command::run_jarol("replay " + file + " --from 13s --set 'expect=[depth.moment.angle < 1]'");
     CHECK(has(judged.output, "is of a run without 'expect=[depth.moment.angle < 1]'"));
   }
+
+  TEST_CASE("a replay from a checkpoint shows what was reported before it as what it was, at its instants") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", link = " --set distributers.robostix.link.parameters.";
+    const auto run = json_report("run specs/javiator.yaml --set expect=nothing" + link + "dynamics=rigid --set '" +
+                                 link.substr(7) + "failures.laser_north={kind: lost, at: 8 s}' --for 20s --record " +
+                                 file + " --record-checkpoints 4s");
+    REQUIRE(run["events"].size() >= 2);
+    CHECK(run["events"][0]["instant_ns"] < 16'000'000'000);
+    CHECK(json_report("replay " + file + " --from 17s")["events"] == run["events"]);
+  }
 #endif
 }

@@ -156,7 +156,7 @@ int replay(const ReplayOptions& options) {
     throw std::invalid_argument("--only: the recording has no values of these tasks to compare with");
   if (values.has_any()) looking_on.push_back(&values);
   GraphRun graph_run(std::move(loaded), {.sinks = looking_on, .misses = misses, .truth = files.shows_truth()});
-  if (begin > Duration{}) restore_recorded(graph_run, log, begin, std::move(origin));
+  if (begin > Duration{}) restore_recorded(graph_run, noted, log, begin, std::move(origin));
   RunSinks& sinks = graph_run.sinks();
   Executor& executor = graph_run.executor();
   if (log.rest_begun()) sinks.judge_before(*log.rest_begun());

@@ -79,7 +79,7 @@ Duration replay_begin(const std::string& option, const RecordedRun& log) {
   return begin;
 }
 
-void restore_recorded(GraphRun& run, const RecordedRun& log, Duration at, RunOrigin origin) {
+void restore_recorded(GraphRun& run, Noted& noted, const RecordedRun& log, Duration at, RunOrigin origin) {
   run.set_origin(std::move(origin));
   const std::string text = log.saved_at(at);
   try {
@@ -88,6 +88,7 @@ void restore_recorded(GraphRun& run, const RecordedRun& log, Duration at, RunOri
     run.require_same_origin(saved);
     if (saved.instant() != at || !saved.restore("run", run.executor()))
       throw CheckpointError("is damaged: a part of it is missing");
+    saved.restore("notes", noted);
   } catch (const CheckpointError& wrong) {
     throw std::invalid_argument("the checkpoint at " + seconds_text(at) + " s of '" + log.recording().path() + "' " +
                                 wrong.what());

@@ -8,6 +8,7 @@
 #include "distributers/session/load.h"
 #include "graph/language/source_set.h"
 #include "runtime/record/recorded_run.h"
+#include "tools/report/noted.h"
 
 namespace jarol::tools {
 
@@ -39,7 +40,8 @@ bool is_text_of_run(const std::string& file, const Recording& recording);
 /// std::invalid_argument.
 Duration replay_begin(const std::string& option, const RecordedRun& log);
 
-/// The run goes on in this process from its checkpoint at that instant. Throws std::invalid_argument.
-void restore_recorded(GraphRun& run, const RecordedRun& log, Duration at, RunOrigin origin);
+/// The run goes on in this process from its checkpoint at that instant, with what it had noted by then. Throws
+/// std::invalid_argument.
+void restore_recorded(GraphRun& run, Noted& noted, const RecordedRun& log, Duration at, RunOrigin origin);
 
 }  // namespace jarol::tools
