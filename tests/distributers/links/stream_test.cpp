@@ -18,36 +18,20 @@
 #include "distributers/links/serial.h"
 #include "distributers/links/tcp.h"
 #include "distributers/messages/javiator.h"
+#include "tests/distributers/links/pairs.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::distributers;
 using namespace std::chrono_literals;
+using tests::count_of, tests::patience, tests::wait_for;
 using Clock = std::chrono::steady_clock;
 namespace javiator = messages::javiator;
-
-constexpr auto patience = 20s;  // a busy machine may take long
-
-bool wait_for(const std::function<bool()>& done) {
-  const auto end = Clock::now() + patience;
-  while (!done()) {
-    if (Clock::now() > end) return false;
-    std::this_thread::sleep_for(1ms);
-  }
-  return true;
-}
 
 std::unique_ptr<Link> make(std::unique_ptr<Transport> transport, const LinkOptions& options = {}) {
   auto link = std::make_unique<Link>(std::move(transport), javiator::message_set(), options);
   link->connect();
   return link;
-}
-
-std::uint64_t count_of(const Link& link, const std::string& name) {
-  for (const auto& [counted, count] : link.report().counts)
-    if (counted == name) return count;
-  FAIL("no count of " << name);
-  return 0;
 }
 
 void say(Link& link) {
