@@ -81,8 +81,8 @@ void GraphRun::restore(const Checkpoint& checkpoint) {
     throw CheckpointError("is damaged: a part of it is missing");
 }
 
-RunVerdict GraphRun::judge(Duration until, const RunEnd& end, const std::string& unseen) const {
-  return judge_run(graph(), executor_.report(), channels_, sinks_, executor_.rest(), until, end, unseen);
+RunVerdict GraphRun::judge(Duration until, const RunEnd& end) const {
+  return judge_run(graph(), executor_.report(), channels_, sinks_, executor_.rest(), until, end);
 }
 
 std::vector<Verdict> GraphRun::measure(Duration until) const {

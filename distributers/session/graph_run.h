@@ -63,11 +63,11 @@ class GraphRun {
   /// then.
   void restore(const Checkpoint& checkpoint);
 
-  /// After the last instant: who looks on has got all. Throws what a sink threw.
+  /// After the last instant: who looks on has got all. Throws the first that a sink threw.
   void close_sinks() { show_mishaps_and_close(sinks_, graph_, channels_, executor_.report()); }
 
-  /// Of a run that was to go on `until` and ended like that. `unseen`: why not all that was published has been seen.
-  RunVerdict judge(Duration until, const RunEnd& end, const std::string& unseen = "") const;
+  /// Of a run that was to go on `until` and ended like that.
+  RunVerdict judge(Duration until, const RunEnd& end) const;
   /// What was measured of it, likewise; it was to go on until then, whenever its mission ends.
   std::vector<Verdict> measure(Duration until) const;
 

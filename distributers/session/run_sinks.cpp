@@ -18,16 +18,29 @@ void RunSinks::catch_up() {
   if (recorder_) recorder_->catch_up();
 }
 
+void RunSinks::rethrow_failure() const {
+  if (recorder_) recorder_->rethrow_failure();
+}
+
+std::string RunSinks::why_not_all(const RecordSink& sink) const { return recorder_->why_not_all(sink); }
+
 void RunSinks::close() {
   if (recorder_) recorder_->close();
 }
 
+std::vector<Verdict> RunSinks::judge_by(const std::optional<Expectations>& conditions, Duration end,
+                                        const std::string& cut_short) const {
+  if (!conditions) return {};
+  const std::string unseen = why_not_all(*conditions);
+  return conditions->judge(end, unseen.empty() ? cut_short : unseen);
+}
+
 std::vector<Verdict> RunSinks::judge(Duration end, const std::string& cut_short) const {
-  return expectations_ ? expectations_->judge(end, cut_short) : std::vector<Verdict>();
+  return judge_by(expectations_, end, cut_short);
 }
 
 std::vector<Verdict> RunSinks::measure(Duration end, const std::string& cut_short) const {
-  return measured_ ? measured_->judge(end, cut_short) : std::vector<Verdict>();
+  return judge_by(measured_, end, cut_short);
 }
 
 }  // namespace jarol

@@ -38,8 +38,12 @@ class RunSinks {
   void show(const RunEvent& event) {
     if (recorder_) recorder_->append_event(event);
   }
-  /// They have got all. Throws what a sink threw.
+  /// Throws the first that a sink has thrown by then. After `catch_up`.
+  void rethrow_failure() const;
+  /// They have got all. Throws the first that a sink threw; the others have got all then, too.
   void close();
+  /// Why a sink has not got all; empty: it has. After `close`.
+  std::string why_not_all(const RecordSink& sink) const;
   /// After `close`, of a run that covered the instants before `end`. `cut_short`: why it ended before what it was meant
   /// to do; else empty.
   std::vector<Verdict> judge(Duration end, const std::string& cut_short) const;
@@ -47,6 +51,9 @@ class RunSinks {
   std::vector<Verdict> measure(Duration end, const std::string& cut_short) const;
 
  private:
+  std::vector<Verdict> judge_by(const std::optional<Expectations>& conditions, Duration end,
+                                const std::string& cut_short) const;
+
   std::optional<Expectations> expectations_, measured_;
   std::unique_ptr<Recorder> recorder_;
 };

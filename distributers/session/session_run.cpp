@@ -137,9 +137,11 @@ void Session::Run::run_until(Duration end) {
   } catch (const std::exception& error) {
     over_ = error.what();
     graph_run_->sinks().catch_up();
+    graph_run_->sinks().rethrow_failure();
     throw SystemLost(over_);
   }
   graph_run_->sinks().catch_up();
+  graph_run_->sinks().rethrow_failure();
   if (executor.report().stopped) over_ = to_text(executor.report().faults.back());
 }
 

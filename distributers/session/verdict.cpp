@@ -91,15 +91,13 @@ std::vector<std::string> find_left_out(const Graph& graph, const Report& report)
 }
 
 RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector<ExternalSystem*>& channels,
-                     const RunSinks& sinks, const std::optional<RestReport>& rest, Duration until, const RunEnd& end,
-                     const std::string& unseen) {
+                     const RunSinks& sinks, const std::optional<RestReport>& rest, Duration until, const RunEnd& end) {
   RunVerdict verdict;
   const std::optional<Duration> rest_begun = rest ? std::optional(rest->begun) : std::nullopt;
   if (!end.hangs) {
     const std::string cut_short =
         why_cut_short(judged_until(rest_begun, until, report.simulated), until, end_of_mission(channels));
-    verdict.expectations =
-        sinks.judge(judged_until(rest_begun, until, report.covered), unseen.empty() ? cut_short : unseen);
+    verdict.expectations = sinks.judge(judged_until(rest_begun, until, report.covered), cut_short);
     verdict.mishaps = find_mishaps(graph, channels);
   }
   verdict.not_at_rest = not_at_rest_text(graph, rest, end);

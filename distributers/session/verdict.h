@@ -51,9 +51,7 @@ std::string why_cut_short(Duration reached, Duration until, Duration mission);
 Duration end_of_mission(const std::vector<ExternalSystem*>& channels);
 
 /// All of that, of a run that was to go on `until`, came to rest or not, and ended like that; its sinks are closed.
-/// `unseen`: why they have not got all that was published.
 RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector<ExternalSystem*>& channels,
-                     const RunSinks& sinks, const std::optional<RestReport>& rest, Duration until, const RunEnd& end,
-                     const std::string& unseen = "");
+                     const RunSinks& sinks, const std::optional<RestReport>& rest, Duration until, const RunEnd& end);
 
 }  // namespace jarol

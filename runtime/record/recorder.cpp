@@ -28,6 +28,7 @@ struct EventHeader {
 
 Recorder::Recorder(std::vector<RecordSink*> sinks, Duration hand_on_period)
     : sinks_(std::move(sinks)),
+      taking_(sinks_),
       hand_on_period_(hand_on_period),
       memory_(std::make_unique<std::byte[]>(chunk_bytes * chunks)),
       now_(memory_.get()) {
@@ -81,7 +82,16 @@ void Recorder::catch_up() {
   for (std::uint64_t read = read_.load(std::memory_order_acquire); read < written;
        read = read_.load(std::memory_order_acquire))
     read_.wait(read, std::memory_order_acquire);
+}
+
+void Recorder::rethrow_failure() const {
   if (failure_) std::rethrow_exception(failure_);
+}
+
+std::string Recorder::why_not_all(const RecordSink& sink) const {
+  for (const Failed& failed : failed_)
+    if (failed.sink == &sink || failed.sink == nullptr) return failed.why;
+  return lost_;
 }
 
 void Recorder::append_event(const RunEvent& event) {
@@ -101,7 +111,7 @@ void Recorder::close() {
   written_.fetch_or(ended, std::memory_order_release);
   wake();
   thread_.join();
-  if (failure_) std::rethrow_exception(failure_);
+  rethrow_failure();
   if (!lost_.empty()) throw std::length_error(lost_);
 }
 
@@ -166,20 +176,42 @@ void Recorder::run() {
     read_.store(++read, std::memory_order_release);
     read_.notify_one();
   }
-  const auto attempt = [this](const auto& to_do) {
+  try {
+    if (!taking_.empty()) hand_on_held(newest_);
+  } catch (...) { note_failure(nullptr); }
+  for (RecordSink* sink : sinks_) {
     try {
-      to_do();
+      sink->finish();
+    } catch (...) { note_failure(sink); }
+  }
+}
+
+// While it is caught.
+void Recorder::note_failure(const RecordSink* sink) {
+  if (!failure_) failure_ = std::current_exception();
+  std::string why = "what was to take it has failed";
+  try {
+    throw;
+  } catch (const std::exception& error) { why = error.what(); } catch (...) {
+  }
+  failed_.push_back({sink, std::move(why)});
+}
+
+// One that fails takes no other with it.
+template <class Call>
+void Recorder::each_taking(const Call& call) {
+  for (std::size_t i = 0; i < taking_.size();) {
+    try {
+      for (; i < taking_.size(); ++i) call(*taking_[i]);
     } catch (...) {
-      if (!failure_) failure_ = std::current_exception();
+      note_failure(taking_[i]);
+      taking_.erase(taking_.begin() + static_cast<std::ptrdiff_t>(i));
     }
-  };
-  if (!failure_) attempt([this] { hand_on_held(newest_); });
-  // one that fails takes no other with it
-  for (RecordSink* sink : sinks_) attempt([sink] { sink->finish(); });
+  }
 }
 
 void Recorder::drain(const std::byte* chunk, std::size_t bytes) {
-  if (failure_) return;  // go on emptying the ring, so that the run itself is not held up
+  if (taking_.empty()) return;  // go on emptying the ring, so that the run itself is not held up
   try {
     for (std::size_t at = 0; at < bytes;) {
       // on its way from another core's cache, two lines for each value
@@ -190,8 +222,11 @@ void Recorder::drain(const std::byte* chunk, std::size_t bytes) {
       disorder_ ? hold(header, packed) : hand_on(header, packed);
       at += sizeof header + ((header.size + 7U) & ~std::size_t{7});
     }
-    for (RecordSink* sink : sinks_) sink->pause();
-  } catch (...) { failure_ = std::current_exception(); }
+    each_taking([](RecordSink& sink) { sink.pause(); });
+  } catch (...) {
+    note_failure(nullptr);
+    taking_.clear();
+  }
 }
 
 void Recorder::hold(const RecordHeader& header, const std::byte* packed) {
@@ -210,15 +245,16 @@ void Recorder::hand_on_event(const RecordHeader& header, const std::byte* packed
   std::memcpy(&event, packed, sizeof event);
   const std::string_view words(reinterpret_cast<const char*>(packed) + sizeof event, header.size - sizeof event);
   const std::size_t name = std::min<std::size_t>(event.name, words.size());
-  for (RecordSink* sink : sinks_)
-    sink->take_event(
+  each_taking([&](RecordSink& sink) {
+    sink.take_event(
         {event.kind, header.instant, event.task, event.activation, words.substr(name), words.substr(0, name)});
+  });
 }
 
 void Recorder::hand_on(const RecordHeader& header, const std::byte* packed) {
   if (header.output == event_output) return hand_on_event(header, packed);
   const void* value = value_of(header, packed);
-  for (RecordSink* sink : sinks_) sink->take(header.instant, header.output, value);
+  each_taking([&](RecordSink& sink) { sink.take(header.instant, header.output, value); });
 }
 
 const void* Recorder::value_of(const RecordHeader& header, const std::byte* packed) {

@@ -81,14 +81,18 @@ class Recorder {
   }
   /// How much time may go by until what little there is, is handed on.
   Duration hand_on_period() const { return hand_on_period_; }
-  /// Hands on what was appended so far and waits until the sinks have it, but for what is held for its order; throws
-  /// what a sink threw.
+  /// Hands on what was appended so far and waits until the sinks have it, but for what is held for its order.
   void catch_up();
+  /// Throws the first that a sink has thrown by then. After `catch_up`.
+  void rethrow_failure() const;
   /// Something was not recorded, which `close` tells.
   bool has_lost() const { return !lost_.empty(); }
 
-  /// Hands on all that was appended, ends the thread and lets the sinks finish; throws what a sink threw.
+  /// Hands on all that was appended, ends the thread and lets the sinks finish; throws the first that a sink threw. One
+  /// that has thrown gets nothing more; the others get all.
   void close();
+  /// Why that sink has not got all; empty: it has. After `close`.
+  std::string why_not_all(const RecordSink& sink) const;
 
  private:
   static constexpr std::size_t chunk_bytes = max_bytes + sizeof(RecordHeader);
@@ -106,9 +110,13 @@ class Recorder {
   void hand_on_held(Duration until);
   void hand_on(const RecordHeader& header, const std::byte* packed);
   void hand_on_event(const RecordHeader& header, const std::byte* packed);
+  template <class Call>
+  void each_taking(const Call& call);
+  [[gnu::cold]] void note_failure(const RecordSink* sink);
   const void* value_of(const RecordHeader& header, const std::byte* packed);
 
   std::vector<RecordSink*> sinks_;
+  std::vector<RecordSink*> taking_;  // those of them that have not failed
   const Duration hand_on_period_;
   std::vector<Output> outputs_;
   std::vector<std::uint8_t> wanted_;  // per output
@@ -131,7 +139,12 @@ class Recorder {
   std::atomic<std::uint64_t> read_{0};     // chunks drained
   std::atomic<std::uint32_t> bell_{0};     // changes where the thread that drains is to be woken
   std::atomic<bool> is_asleep_{false};     // that thread
-  std::exception_ptr failure_;             // of a sink; read when all is drained
+  struct Failed {
+    const RecordSink* sink;  // null: all of them
+    std::string why;
+  };
+  std::exception_ptr failure_;  // the first; read when all is drained
+  std::vector<Failed> failed_;
   std::thread thread_;
 };
 

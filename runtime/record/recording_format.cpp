@@ -47,6 +47,7 @@ std::string to_json(const RecordingHeader& header) {
     json["inputs"].push_back({{"name", input.name}, {"type", input.signature}});
   for (const RecordingHeader::Truth& truth : header.truths)
     json["truths"].push_back({{"distributer", truth.distributer}, {"type", truth.signature}});
+  if (!header.execution.empty()) json["execution"] = header.execution;
   if (header.split > 0) json["split_bytes"] = header.split;
   if (header.part > 1) {
     json["part"] = header.part;
@@ -72,6 +73,7 @@ RecordingHeader parse_header(const std::string& text) {
                            .until = Duration(json.at("until_ns").get<std::int64_t>()),
                            .mission = Duration(json.at("mission_ns").get<std::int64_t>()),
                            .seed = json.at("seed"),
+                           .execution = json.value("execution", ""),
                            .what = json.at("what"),
                            .version = json.at("version"),
                            .platform = json.at("platform"),

@@ -47,6 +47,7 @@ struct RecordingHeader {
   Duration until{};    // what the run was to reach; the greatest there is: until it was ended
   Duration mission{};  // the end of the mission; zero: there was none, or it is not known
   std::uint64_t seed = 0;
+  std::string execution{};      // what activations were given to take: wcet, random or a file; empty: nothing
   std::string what = "inputs";  // "all", "inputs", or names with * for any part
   std::string version{};        // of the program, a line each
   std::string platform{};       // on which it ran

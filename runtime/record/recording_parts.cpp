@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -28,6 +29,16 @@ bool may_be_replaced(const std::string& path) {
   std::string begin(mcap::magic.size() + mcap::record_head + 4 + 4 + library.size(), '\0');
   std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
   return begin.starts_with(mcap::magic) && begin.ends_with(library);
+}
+
+// No input of the run, no output of another, and nothing that somebody would miss. Throws std::runtime_error.
+OutputLock lock_replaceable(const std::string& path) {
+  require_no_input(path);
+  OutputLock lock(target_of(path));
+  if (!may_be_replaced(path))
+    throw std::runtime_error("can't write '" + path +
+                             "': it is there and no recording; choose another file, or remove it");
+  return lock;
 }
 
 }  // namespace
@@ -60,19 +71,32 @@ void RecordingParts::open(RecordingHeader header, const std::vector<RecordedFile
   header_ = std::move(header);
   schemas_ = std::move(schemas);
   channels_ = std::move(channels);
+  require_names();
   open_part();
   try {
     for (const RecordedFile& file : files) writer_->write({file.path, "text/plain", file.text});
   } catch (const std::system_error& error) { fail(error.code().value()); }
 }
 
+// Those that are taken at the start are found there, and not on the way.
+void RecordingParts::require_names() const {
+  if (header_.split == 0) return;
+  std::error_code none;
+  const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
+  for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, none)) {
+    const std::string number = entry.path().stem().extension().string();
+    std::size_t part = 0;
+    const bool is_number =
+        number.size() > 1 &&
+        std::from_chars(number.data() + 1, number.data() + number.size(), part).ptr == number.data() + number.size();
+    const std::string path = is_number && part > 1 ? path_of_part(path_, part) : "";
+    if (!path.empty() && std::filesystem::path(path).filename() == entry.path().filename()) lock_replaceable(path);
+  }
+}
+
 void RecordingParts::open_part() {
   part_path_ = path_of_part(path_, header_.part);
-  require_no_input(part_path_);
-  lock_ = OutputLock(target_of(part_path_));
-  if (!may_be_replaced(part_path_))
-    throw std::runtime_error("can't write '" + part_path_ +
-                             "': it is there and no recording; choose another file, or remove it");
+  lock_ = lock_replaceable(part_path_);
   std::error_code none;
   const bool in_place =
       std::filesystem::exists(part_path_, none) && !std::filesystem::is_regular_file(part_path_, none);
@@ -86,13 +110,20 @@ void RecordingParts::open_part() {
 
 void RecordingParts::write(const mcap::Chunk& chunk) {
   const bool is_full = header_.split > 0 && writer_->bytes() + chunk.records().size() > header_.split;
-  if (is_full && writer_->has_chunks()) begin_next();
+  if (is_full && writer_->has_chunks() && stayed_.empty()) begin_next();
   try {
     writer_->write(chunk);
   } catch (const std::system_error& error) { fail(error.code().value()); }
 }
 
+// A name that is taken on the way must not cost what comes after it.
 void RecordingParts::begin_next() {
+  try {
+    lock_replaceable(path_of_part(path_, header_.part + 1));
+  } catch (const std::runtime_error& taken) {
+    stayed_ = taken.what();
+    return;
+  }
   finish();
   close();
   ++header_.part;

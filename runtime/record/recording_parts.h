@@ -35,16 +35,21 @@ class RecordingParts {
   RecordingParts(const RecordingParts&) = delete;
   RecordingParts& operator=(const RecordingParts&) = delete;
 
-  /// Makes the first part, or replaces a recording. Throws std::runtime_error, "can't write 'path': reason"; so do the
+  /// Makes the first part, or replaces a recording; no part's name may be that of anything else. Throws
+  /// std::runtime_error, "can't write 'path': reason"; so do the
   /// others. What is given is complete. Of the system's reasons it is a std::system_error.
   void open(RecordingHeader header, const std::vector<RecordedFile>& files, std::vector<mcap::Schema> schemas,
             std::vector<mcap::Channel> channels);
   void write(const mcap::Chunk& chunk);
+  /// Why a further part was not begun when it was due: somebody else has its name. The last one goes on then; empty:
+  /// all were begun.
+  const std::string& stayed() const { return stayed_; }
   /// The summary of the last part; the system has all of it, the disk need not.
   void finish();
   void close();
 
  private:
+  void require_names() const;
   void open_part();
   void begin_next();
   [[noreturn]] void fail(int reason) const;  // by errno
@@ -54,7 +59,7 @@ class RecordingParts {
   RecordingHeader header_;
   std::vector<mcap::Schema> schemas_;
   std::vector<mcap::Channel> channels_;
-  std::string part_path_;
+  std::string part_path_, stayed_;
   OutputLock lock_;
   std::FILE* file_ = nullptr;
   std::optional<mcap::Writer> writer_;

@@ -45,6 +45,8 @@ class RecordingWriter {
   /// The same but for closing the file: the system has all of it, the disk need not.
   void finish(const LogEnd& end);
 
+  /// Why a further part was not begun, as its name was taken, and the last one went on; empty: all were. After `close`.
+  const std::string& stayed() const { return parts_.stayed(); }
   /// Published values that came faster than the disk took them, on the real clock.
   std::uint64_t dropped() const { return publications_ ? publications_->dropped() : 0; }
 

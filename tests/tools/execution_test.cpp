@@ -58,6 +58,11 @@ TEST_SUITE("tools/execution") {
     const json replayed = json::parse(replay.output);
     CHECK(replayed["digest"] == first["digest"]);
     CHECK(replayed["verdict"] == "same");
+    CHECK(command::json_report("log info " + folder / "run.mcap")["execution"] == times);
+    CHECK(command::has(command::run_jarol("log info " + folder / "run.mcap").output, "  execution   " + times + "\n"));
+    const std::string repeated = command::repeated_by(folder / "run.mcap");
+    CHECK(repeated.ends_with(" --seed 3 --for 3s --execution " + times));
+    CHECK(command::json_report(repeated)["digest"] == first["digest"]);
     CHECK(replayed["fault_count"] == first["fault_count"]);
   }
 

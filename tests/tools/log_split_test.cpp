@@ -159,16 +159,38 @@ TEST_SUITE("tools/log_split") {
     CHECK(!fs::exists(file));
   }
 
-  TEST_CASE("a file in the place of a later part is left alone, and the run ends with why") {
+  TEST_CASE("a file in the place of a later part is found before the run, and left alone") {
     const TemporaryFolder folder;
-    const std::string second = folder.write("r.2.mcap", "somebody's notes");
+    for (const char* name : {"r.2.mcap", "r.17.mcap"}) {
+      const std::string later = folder.write(name, "somebody's notes");
+      const auto run =
+          command::run_jarol("run " + graph_in(folder) + " --for 30s --record " + folder / "r.mcap" + split);
+      CHECK(run.exit_code == 2);
+      CHECK(run.output ==
+            "error: can't write '" + later + "': it is there and no recording; choose another file, or remove it\n");
+      CHECK(command::content(later) == "somebody's notes");
+      CHECK(!fs::exists(folder / "r.mcap"));
+      fs::remove(later);
+    }
+    // these are nobody's parts, nor is an old part anything to keep
+    for (const char* name : {"r.x.mcap", "r.1.mcap", "r.2.csv", "q.2.mcap", "r.02.mcap", "r.2.mcap"})
+      folder.write(name, std::string(name) == "r.2.mcap" ? "" : "somebody's notes");
+    record(folder, "r.mcap", split);
+    CHECK(command::content(folder / "r.02.mcap") == "somebody's notes");
+  }
+
+  TEST_CASE("where the name of a part is taken on the way, the one before it goes on, and nothing is lost") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", second = folder / "r.2.mcap";
     const auto run =
-        command::run_jarol("run " + graph_in(folder) + " --for 30s --record " + folder / "r.mcap" + split, "2>&1");
-    CHECK(run.exit_code == 3);
-    CHECK(has(run.output, "error: can't write '" + second +
-                              "': it is there and no recording; choose another file, or remove it\n"));
-    std::string kept;
-    std::getline(std::ifstream(second), kept);
-    CHECK(kept == "somebody's notes");
+        command::run_jarol("run " + graph_in(folder) + " --for 30s --record " + file + split + " --trace " + second);
+    CHECK(run.exit_code == 0);
+    CHECK(has(run.output, "note: can't write '" + second +
+                              "': another run writes it; choose another file, or wait until that ends; the recording "
+                              "went on in the file before it\n"));
+    CHECK(fs::file_size(file) > (std::uintmax_t{3} << 20));
+    CHECK(command::content(second).starts_with("time,"));
+    CHECK(json_report("log info " + file)["whole"] == true);
+    CHECK(command::run_jarol("replay " + file).exit_code == 0);
   }
 }

@@ -166,6 +166,15 @@ fault_limit: 100%
     }
     CHECK(files > 1);
     CHECK(rows > 0);
+    // whoever reads all of them is not to get those of another recording
+    const std::string other = rates + "/3h.csv";
+    std::ofstream(other) << "time\n";
+    const auto mixed = command::run_jarol("log csv " + file + " --by-rate " + rates);
+    CHECK(mixed.exit_code == 2);
+    CHECK(mixed.output == "error: --by-rate: the folder '" + rates +
+                              "' has tables of something else: 3h.csv; choose another folder, or remove them\n");
+    std::filesystem::remove(other);
+    CHECK(command::run_jarol("log csv " + file + " --by-rate " + rates).exit_code == 0);
     const auto cat = command::run_jarol("log cat " + file + " --topic count.out --from 500ms --until 520ms");
     CHECK(has(cat.output, "0.5 count.out="));
     CHECK(!has(cat.output, "0.52 "));

@@ -79,6 +79,25 @@ TEST_SUITE("tools/recorded_truth") {
           std::string::npos);
   }
 
+  TEST_CASE("recordings differ where vehicles truly moved otherwise, though nobody has measured it yet") {
+    const TemporaryFolder folder;
+    const auto record = [&](const std::string& name, const std::string& failure) {
+      const std::string file = folder / name;
+      REQUIRE(command::run_jarol("run specs/exolauv.yaml --for 6s --set expect=nothing --set "
+                                 "distributers.dune.link.parameters.dynamics=rigid --record " +
+                                 file + failure)
+                  .exit_code == 0);
+      return file;
+    };
+    const std::string sound = record("sound.mcap", "");
+    const std::string stuck =
+        record("stuck.mcap", " --set 'distributers.dune.link.parameters.failures.fin1={kind: hardover, at: 5951ms}'");
+    const auto diff = command::run_jarol("log diff " + sound + " " + stuck);
+    CHECK(diff.exit_code == 1);
+    CHECK(diff.output.find("  first       jarol/truth/dune.depth at 5.97 s: was ") != std::string::npos);
+    CHECK(command::run_jarol("log diff " + sound + " " + sound).exit_code == 0);
+  }
+
   TEST_CASE("what is changed might have taken the vehicle elsewhere, and nothing is said of it") {
     const TemporaryFolder folder;
     const std::string file = record_dive(folder);

@@ -83,6 +83,19 @@ TEST_SUITE("tools/replay_from") {
           "error: --only begins at the start of a run; leave out --from, or replay a recording of that\n");
   }
 
+  TEST_CASE("between two instants a run is saved once, however often that is asked for") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap";
+    REQUIRE(command::run_jarol("run " + graph_in(folder) + " --for 2s --record " + file + " --record-checkpoints 1ms")
+                .exit_code == 0);
+    const auto info = json_report("log info " + file);
+    std::size_t saved = 0;
+    for (const auto& topic : info["topics"])
+      if (topic["name"] == "jarol/checkpoints") saved = topic["messages"];
+    CHECK(saved == json_report("replay " + file)["instants"]);
+    CHECK(json_report("replay " + file + " --from 1s")["verdict"] == "same");
+  }
+
   TEST_CASE("what can't begin there says why") {
     const TemporaryFolder folder;
     const std::string file = folder / "r.mcap", graph = graph_in(folder), run = "run " + graph + " --for 5s ";
@@ -98,6 +111,8 @@ TEST_SUITE("tools/replay_from") {
           "error: --record-checkpoints is about --record and --log; add one of them, or leave it out\n");
     CHECK(error(run + "--record " + file + " --record-checkpoints 0s") ==
           "error: --record-checkpoints: '0s' is not above zero\n");
+    CHECK(error(run + "--record " + file + " --record-checkpoints 999us") ==
+          "error: --record-checkpoints: '999us' is below 1ms\n");
     CHECK(error(run + "--clock real --record " + file + " --record-checkpoints 1s") ==
           "error: --record-checkpoints belongs to the virtual clock\n");
     REQUIRE(command::run_jarol(run + "--record-checkpoints 1s --record " + file).exit_code == 0);

@@ -13,6 +13,7 @@
 #endif
 #include "runtime/record/recorded_run.h"
 #include "runtime/record/recording_writer.h"
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 #include "tools/commands/run/load_graph.h"
 
@@ -194,6 +195,36 @@ connections: [count.out -> sum.in]
           "error: --log belongs to --concurrency exotasks\n");
   }
 
+  TEST_CASE("a trace that can't be written takes neither recording, verdict nor replay with it") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", expect = " --set 'expect=[sum.out < 100000]'";
+    const auto run = command::run_jarol("run specs/counting.yaml --for 2s --trace /dev/full --record " + file + expect);
+    CHECK(run.exit_code == 3);
+    CHECK(command::has(run.output, "  expected    sum.out < 100000: holds, "));
+    CHECK(run.output.ends_with("error: can't write '/dev/full': No space left on device\n"));
+    const std::string all = folder / "all.mcap";
+    REQUIRE(command::run_jarol("run specs/counting.yaml --for 2s --record " + all + expect).exit_code == 0);
+    CHECK(command::run_jarol("log diff " + file + " " + all).output ==
+          command::run_jarol("log diff " + all + " " + all).output);
+    const auto replay = command::run_jarol("replay " + all + " --trace /dev/full");
+    CHECK(replay.exit_code == 3);
+    CHECK(command::has(replay.output, "  same        as the run on the virtual clock, "));
+    CHECK(command::has(replay.output, "  expected    sum.out < 100000: holds, "));
+    CHECK(command::has(replay.output, "error: can't write '/dev/full': No space left on device\n"));
+  }
+
+  TEST_CASE("the page of a run that was ended on the way repeats it to where it came") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap";
+    const auto run = command::run_jarol("run specs/counting.yaml --for 600s --pace 10 --json --record " + file,
+                                        "2>/dev/null", "timeout -s INT 1 " JAROL_COMMAND);
+    const auto ended = nlohmann::json::parse(run.output);
+    CHECK(ended["ending"]["signal"] == "SIGINT");
+    const std::string again = command::repeated_by(file);
+    CHECK(again.starts_with("run specs/counting.yaml --seed 0 --for "));
+    CHECK(command::json_report(again)["digest"] == ended["digest"]);
+  }
+
   TEST_CASE("a log is whole, or the run says that it is not: wherever the room for it ends") {
     const TemporaryFolder folder;
     const std::string limited = folder / "limited.log";
@@ -222,17 +253,16 @@ connections: [count.out -> sum.in]
     CHECK(failed < max);
   }
 
-  TEST_CASE("what a run was expected to do is judged where its log can't be written, too") {
+  TEST_CASE("what a run was expected to do is judged where its log or trace can't be written, too") {
     const TemporaryFolder folder;
     const std::string run = "schema > /dev/null; ulimit -f 4; " JAROL_COMMAND
                             " run specs/counting.yaml --for 60s --set 'expect=[count.out < 3]'";
     const auto logged = command::run_jarol(run + " --record-compression none --log " + (folder / "l.log"));
     CHECK(logged.exit_code == 3);
     CHECK(logged.output.find("count.out < 3") != std::string::npos);
-    // what was not seen to its end can't hold, and says why
     const auto traced = command::run_jarol(run + " --set 'expect=[count.out < 1e9]' --trace " + (folder / "t.csv"));
     CHECK(traced.exit_code == 3);
-    CHECK(traced.output.find("not judged: can't write '" + (folder / "t.csv") + "': File too large\n") !=
-          std::string::npos);
+    CHECK(command::has(traced.output, "  expected    count.out < 1e9: holds, "));
+    CHECK(command::has(traced.output, "error: can't write '" + (folder / "t.csv") + "': File too large\n"));
   }
 }

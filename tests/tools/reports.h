@@ -33,6 +33,14 @@ inline std::string error_of(const std::string& arguments, int exit_code = 2) {
   return result.output;
 }
 
+/// The arguments of `jarol` by which the page of a recording repeats the run. It is written beside that.
+inline std::string repeated_by(const std::string& recording) {
+  CHECK(run_jarol("log report " + recording + " -o " + recording + ".html").exit_code == 0);
+  const std::string page = content(recording + ".html"), before = "\"run_command\":\"jarol ";
+  const std::size_t begin = page.find(before) + before.size();
+  return page.substr(begin, page.find('"', begin) - begin);
+}
+
 inline bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
 
 }  // namespace command

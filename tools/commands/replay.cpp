@@ -191,7 +191,7 @@ int replay(const ReplayOptions& options) {
   const Report& report = executor.report();
   RunVerdict verdict;
   const Duration reached = comparison.interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated);
-  if (unwritten.empty())
+  if (!run_end.hangs)
     verdict.expectations = sinks.judge(judged_until(log.rest_begun(), log.header().until, report.covered),
                                        why_cut_short(judged_until(log.rest_begun(), log.header().until, reached),
                                                      log.header().until, log.header().mission));

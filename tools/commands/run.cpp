@@ -56,7 +56,8 @@ RecordingHeader header_of(const RunOptions& options, const Graph& graph, Duratio
           .begin = begin,
           .until = until,
           .mission = mission,
-          .seed = options.seed};
+          .seed = options.seed,
+          .execution = recorded_execution(options.execution)};
 }
 
 // How fast it goes on the virtual clock; null: as fast as possible.
@@ -166,8 +167,7 @@ int run(RunOptions options) {
     const Archive::Bytes state = checkpoint.to_bytes();
     log->add_checkpoint(checkpoint.instant(), {reinterpret_cast<const char*>(state.data()), state.size()});
   };
-  if (!options.recording.checkpoints.empty())
-    saved.take_each(length_of("--record-checkpoints", options.recording.checkpoints), save_in_recording);
+  if (!options.recording.checkpoints.empty()) saved.take_each(checkpoint_period(options.recording), save_in_recording);
   saved.require_saveable(begin, end);
   const std::vector<ExternalSystem*>& channels = graph_run.channels();
   const bool steers =
@@ -216,8 +216,8 @@ int run(RunOptions options) {
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   const Report& report = executor.report();
   // the report is there whatever can't be written
-  std::string unwritten, unseen;  // and why not all that was published has been seen
-  std::string not_run;            // of what-ifs
+  std::string unwritten;
+  std::string not_run;  // of what-ifs
   const auto attempt = [](std::string& wrong, const std::function<void()>& to_do) {
     try {
       to_do();
@@ -230,15 +230,14 @@ int run(RunOptions options) {
   } else {
     attempt(not_run, [&] { what_ifs.run(graph_run.sinks(), files); });
     attempt(unwritten, [&] { graph_run.close_sinks(); });
-    unseen = unwritten;
     if (log) attempt(unwritten, [&] { log->close(log_end_of(report)); });
-    if (log) std::cerr << text_of_dropped(options.recording, *log);
+    if (log) std::cerr << notes_of(options.recording, *log);
   }
   const bool written = unwritten.empty();
   std::string lost = saved.lost();
   if (!not_run.empty()) lost += (lost.empty() ? "" : "; ") + not_run;
   if (!lost.empty()) unwritten += (written ? "" : "; ") + lost;
-  const RunVerdict verdict = graph_run.judge(end, run_end, unseen);
+  const RunVerdict verdict = graph_run.judge(end, run_end);
   const RunOutcome outcome{.state = executor.state(),
                            .report = report,
                            .rest = executor.rest(),

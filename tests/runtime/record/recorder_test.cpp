@@ -15,8 +15,10 @@ struct Collect : RecordSink {
                 number == static_cast<double>(count) / 3;
     ++count;
   }
+  void take_event(const RunEvent&) override { ++events; }
   void finish() override { finished = true; }
   std::int64_t count = 0;
+  int events = 0;
   bool in_order = true;
   bool finished = false;
 };
@@ -108,6 +110,35 @@ TEST_SUITE("runtime/recorder") {
     CHECK_THROWS_WITH_AS(recorder.close(), "the disk is full", std::runtime_error);
     CHECK(second.count == 10);
     CHECK(second.finished);
+  }
+
+  TEST_CASE("a sink that fails on the way takes no other with it, and it is known which has not got all") {
+    struct FailsAt : Collect {
+      void take(Duration instant, std::uint32_t output, const void* value) override {
+        if (count == 3) throw std::runtime_error("the disk is full");
+        Collect::take(instant, output, value);
+      }
+      void pause() override { throw std::runtime_error("it should be asked no more"); }
+    };
+    Collect first, last;
+    FailsAt broken;
+    Recorder recorder({&first, &broken, &last});
+    append(recorder, 100'000);
+    recorder.catch_up();
+    CHECK(first.count == 100'000);
+    CHECK_THROWS_WITH_AS(recorder.rethrow_failure(), "the disk is full", std::runtime_error);
+    recorder.append_event({.kind = RunEvent::Kind::fault, .cause = "late"});
+    CHECK_THROWS_WITH_AS(recorder.close(), "the disk is full", std::runtime_error);
+    for (const Collect* sink : {&first, &last}) {
+      CHECK(sink->count == 100'000);
+      CHECK(sink->in_order);
+      CHECK(sink->events == 1);
+      CHECK(sink->finished);
+      CHECK(recorder.why_not_all(*sink) == "");
+    }
+    CHECK(broken.count == 3);
+    CHECK(broken.events == 0);
+    CHECK(recorder.why_not_all(broken) == "the disk is full");
   }
 
   TEST_CASE("what a sink throws comes out of close, and the run is not held up") {

@@ -3,8 +3,10 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <system_error>
 
+#include "graph/language/problems.h"
 #include "graph/language/quantities.h"
 #include "graph/text/escape.h"
 #include "runtime/files/atomic_file.h"
@@ -86,6 +88,19 @@ std::string rate_of(const ReadTopic& topic) {
   return duration_text(period) + (phase == Duration{} ? "" : "_at_" + duration_text(phase));
 }
 
+// Who reads all tables of a folder takes them for those of one recording.
+void require_no_others(const std::string& folder, const std::map<std::string, std::vector<const ReadTopic*>>& groups) {
+  std::vector<std::string> others;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().extension() == ".csv" && !groups.contains(entry.path().stem().string()))
+      others.push_back(entry.path().filename().string());
+  std::sort(others.begin(), others.end());
+  if (!others.empty())
+    throw std::invalid_argument("--by-rate: the folder '" + folder + "' has tables of something else: " +
+                                list_of(others) + "; choose another folder, or remove them");
+}
+
 void make_folder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
@@ -113,7 +128,10 @@ int log_csv(const LogOptions& options) {
     std::unique_ptr<AtomicFile> file{};
   };
   std::vector<Out> outs;
-  if (!options.by_rate.empty()) make_folder(options.by_rate);
+  if (!options.by_rate.empty()) {
+    require_no_others(options.by_rate, groups);
+    make_folder(options.by_rate);
+  }
   for (const auto& [rate, topics] : groups) {
     outs.push_back({Table(topics)});
     if (!options.by_rate.empty())

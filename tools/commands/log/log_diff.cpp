@@ -25,7 +25,11 @@ struct Common {
   std::vector<std::string> apart;  // sentences
 };
 
-bool is_compared(const ReadTopic& topic) { return !topic.is_own() || topic.channel.topic.starts_with(topics::taken); }
+// What was published, came from outside, and where vehicles truly were.
+bool is_compared(const ReadTopic& topic) {
+  const std::string& name = topic.channel.topic;
+  return !topic.is_own() || name.starts_with(topics::taken) || name.starts_with(topics::truth);
+}
 
 Common common_of(const Recording& a, const Recording& b) {
   Common common;

@@ -85,6 +85,7 @@ int log_info(const LogOptions& options) {
               << " s on: the run went on there from what was saved, maybe with other parameters\n";
   if (!header.overrides.profile.empty()) std::cout << "  profile     " << printable(header.overrides.profile) << "\n";
   for (const std::string& set : header.overrides.set) std::cout << "  set         " << printable(set) << "\n";
+  if (!header.execution.empty()) std::cout << "  execution   " << printable(header.execution) << "\n";
   std::cout << "  seed        " << header.seed << "\n";
   for (const RecordedFile& file : recording.files())
     if (file.path != header.file) std::cout << "  file        " << printable(file.path) << "\n";

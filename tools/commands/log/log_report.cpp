@@ -38,10 +38,19 @@ std::string near_path(const std::string& path) {
   return near.starts_with("..") ? path : near;
 }
 
-std::string run_command(const RecordingHeader& header) {
-  const bool whole = header.until == header.mission || header.until >= longest_duration;
-  return repeat_command(near_path(header.file), header.overrides, whole ? std::nullopt : std::optional(header.until),
-                        {.index = 0, .values = {}, .set = {}, .seed = header.seed});
+std::string run_command(const RecordedRun& run) {
+  const RecordingHeader& header = run.header();
+  const bool to_its_end = header.until == header.mission || header.until >= longest_duration;
+  std::optional<Duration> length = to_its_end ? std::nullopt : std::optional(header.until);
+  // somebody ended it before
+  if (run.rest_begun() || (run.end() && run.covered() < header.until))
+    length = run.rest_begun().value_or(run.covered());
+  std::string command = repeat_command(near_path(header.file), header.overrides, length,
+                                       {.index = 0, .values = {}, .set = {}, .seed = header.seed});
+  const bool is_file = header.execution.starts_with('/');
+  if (!header.execution.empty())
+    command += " --execution " + shell_word(is_file ? near_path(header.execution) : header.execution);
+  return command;
 }
 
 Json summary_json(const RecordedRun& run, const std::string& file) {
@@ -65,7 +74,7 @@ Json summary_json(const RecordedRun& run, const std::string& file) {
             {"whole", run.recording().is_whole()},
             {"good_until", run.good_until()},
             {"replay_command", "jarol replay " + shell_word(file)}};
-  if (header.clock != "real") json["run_command"] = run_command(header);
+  if (header.clock != "real") json["run_command"] = run_command(run);
   if (run.rest_begun()) json["rest_begun_ns"] = run.rest_begun()->count();
   if (const std::optional<LogEnd>& end = run.end())
     json["end"] = {{"digest", fmt::format("0x{:016x}", end->digest)},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "graph/language/quantities.h"
 #include "runtime/record/recording_format.h"
@@ -131,6 +132,7 @@ void SavedRun::cover_until(Duration end) {
   for (; take_each_ && next_ < end; next_ += every_) {
     cover_to(next_);
     if (report.covered < next_ || report.stopped) return;
+    if (std::exchange(taken_after_, report.instants) == report.instants) continue;  // nothing has changed
     try {
       take_each_(checkpoint_of(run_, noted_));
     } catch (const std::exception& error) {

@@ -4,6 +4,7 @@
 
 #include "graph/analysis/execution_times.h"
 #include "graph/analysis/policies.h"
+#include "graph/language/source_set.h"
 #include "graph/text/escape.h"
 #include "tools/report/command_line.h"
 
@@ -50,6 +51,11 @@ Execution::Execution(const std::string& execution, const Graph& graph, std::uint
   } catch (const std::invalid_argument& wrong) {
     throw std::invalid_argument(std::string("--execution: ") + wrong.what());
   }
+}
+
+std::string recorded_execution(const std::string& execution) {
+  const bool is_file = !execution.empty() && execution != "wcet" && execution != "random";
+  return is_file ? SourceSet::full_path(execution) : execution;
 }
 
 std::string execution_text(const std::string& execution, const Graph& graph) {

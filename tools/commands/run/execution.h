@@ -32,6 +32,9 @@ class Execution {
   std::string times_;
 };
 
+/// As a recording names it.
+std::string recorded_execution(const std::string& execution);
+
 /// A line of the report: "  execution   random, by table on one core"; empty: none was asked for.
 std::string execution_text(const std::string& execution, const Graph& graph);
 

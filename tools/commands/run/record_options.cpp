@@ -10,6 +10,7 @@
 #include "graph/language/quantities.h"
 #include "graph/text/escape.h"
 #include "tools/report/command_line.h"
+#include "tools/report/duration_option.h"
 #include "tools/report/version.h"
 
 namespace jarol::tools {
@@ -97,11 +98,22 @@ std::string to_text(const RecordArguments& arguments) {
   return (arguments.record.empty() ? "  log         " : "  recording   ") + printable(arguments.file()) + "\n";
 }
 
-std::string text_of_dropped(const RecordArguments& arguments, const RecordingWriter& writer) {
-  if (writer.dropped() == 0) return "";
-  return "note: " + std::to_string(writer.dropped()) +
-         " published values came faster than the disk took them and are not in '" + printable(arguments.file()) +
-         "'; a replay computes them again\n";
+std::string notes_of(const RecordArguments& arguments, const RecordingWriter& writer) {
+  std::string notes;
+  if (writer.dropped() > 0)
+    notes += "note: " + std::to_string(writer.dropped()) +
+             " published values came faster than the disk took them and are not in '" + printable(arguments.file()) +
+             "'; a replay computes them again\n";
+  if (!writer.stayed().empty())
+    notes += "note: " + printable(writer.stayed()) + "; the recording went on in the file before it\n";
+  return notes;
+}
+
+Duration checkpoint_period(const RecordArguments& arguments) {
+  const Duration period = length_of("--record-checkpoints", arguments.checkpoints);
+  if (period < std::chrono::milliseconds(1))
+    throw std::invalid_argument("--record-checkpoints: '" + arguments.checkpoints + "' is below 1ms");
+  return period;
 }
 
 }  // namespace jarol::tools

@@ -34,7 +34,9 @@ std::unique_ptr<RecordingWriter> make_recording(const RecordArguments& arguments
 
 /// A line of the report that names it.
 std::string to_text(const RecordArguments& arguments);
-/// A line of what is not in it, or nothing.
-std::string text_of_dropped(const RecordArguments& arguments, const RecordingWriter& writer);
+/// A line of what is not in it, and of a part that it did not begin; or nothing.
+std::string notes_of(const RecordArguments& arguments, const RecordingWriter& writer);
+/// How often the run is saved in it. Throws std::invalid_argument.
+Duration checkpoint_period(const RecordArguments& arguments);
 
 }  // namespace jarol::tools

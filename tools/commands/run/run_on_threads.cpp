@@ -100,8 +100,7 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
   try {
     if (!run_end.hangs) show_mishaps_and_close(sinks, *loaded.graph, channels, core.report());
   } catch (const std::exception& error) { unwatched = error.what(); }
-  const RunVerdict verdict =
-      judge_run(*loaded.graph, core.report(), channels, sinks, core.rest(), end, run_end, unwatched);
+  const RunVerdict verdict = judge_run(*loaded.graph, core.report(), channels, sinks, core.rest(), end, run_end);
   const RunOutcome outcome{
       .state = core.state(),
       .report = core.report(),

@@ -64,6 +64,6 @@ function verdictText({standing, compared, verdict}) {
     el('ul', {class: 'expected'}, expected.map((e) => el('li', {},
       badge({holds: 'good', fails: 'bad', not_judged: 'open'}[e.verdict], words[e.verdict]), el('code', {}, e.condition),
       e.reached !== undefined && !/ is /.test(e.condition) ? el('span', {}, `${number(e.reached)} ${e.unit}`) : null, e.why && !e.why.includes('is not simulated in this process') ? el('span', {class: 'range'}, e.why) : null))),
-    expected.some((e) => e.verdict === 'not_judged') ? el('p', {class: 'hint'}, 'A replay has no vehicle: what is expected of the true values of one is judged in the run itself.') : null,
+    expected.some((e) => e.why?.includes('is not simulated in this process')) ? el('p', {class: 'hint'}, 'A replay has no vehicle: what is expected of the true values of one is judged in the run itself.') : null,
     ...verdict.left_out.map((line) => el('p', {class: 'bad'}, line))];
 }
