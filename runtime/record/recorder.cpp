@@ -179,7 +179,7 @@ void Recorder::run() {
   try {
     if (!taking_.empty()) hand_on_held(newest_);
   } catch (...) { note_failure(nullptr); }
-  for (RecordSink* sink : sinks_) {
+  for (RecordSink* sink : taking_) {
     try {
       sink->finish();
     } catch (...) { note_failure(sink); }

@@ -89,7 +89,7 @@ class Recorder {
   bool has_lost() const { return !lost_.empty(); }
 
   /// Hands on all that was appended, ends the thread and lets the sinks finish; throws the first that a sink threw. One
-  /// that has thrown gets nothing more; the others get all.
+  /// that has thrown gets nothing more and does not finish; the others get all.
   void close();
   /// Why that sink has not got all; empty: it has. After `close`.
   std::string why_not_all(const RecordSink& sink) const;

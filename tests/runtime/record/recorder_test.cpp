@@ -138,6 +138,7 @@ TEST_SUITE("runtime/recorder") {
     }
     CHECK(broken.count == 3);
     CHECK(broken.events == 0);
+    CHECK(!broken.finished);  // what it has is not whole
     CHECK(recorder.why_not_all(broken) == "the disk is full");
   }
 
