@@ -170,11 +170,14 @@ class Reader {
     made_.kind = Variation::Kind::list;
     if (yaml_.children.empty()) return fail("has an empty list of values");
     for (const Yaml& child : yaml_.children) {
-      if (child.kind != Yaml::Kind::scalar)
-        return fail(child, "has " + std::string(kind_name(child)) + " among its values; they are numbers and words");
+      const bool is_null = child.kind == Yaml::Kind::null;
+      if (child.kind != Yaml::Kind::scalar && !is_null)
+        return fail(child,
+                    "has " + std::string(kind_name(child)) + " among its values; they are numbers, words and null");
+      const std::string value = is_null ? "null" : child.quoted ? quoted(child.text) : child.text;
       if (made_.path == "seed" && !read_whole(child.text))
-        return fail(child, "has '" + child.text + "' among its values; they are whole numbers from 0");
-      made_.values.push_back(child.quoted ? quoted(child.text) : child.text);
+        return fail(child, "has '" + value + "' among its values; they are whole numbers from 0");
+      made_.values.push_back(value);
       made_.text += (made_.text.empty() ? "[" : ", ") + made_.values.back();
     }
     made_.text += "]";

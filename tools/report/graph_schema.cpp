@@ -132,7 +132,7 @@ Json at_end_schema() {
 
 Json campaign_schema() {
   Json schema = mapping_schema(campaign_keys());
-  const Json list{{"type", "array"}, {"items", {{"type", {"string", "number", "boolean"}}}}, {"minItems", 1}};
+  const Json list{{"type", "array"}, {"items", {{"type", {"string", "number", "boolean", "null"}}}}, {"minItems", 1}};
   const Json text{{"type", "string"}, {"pattern", "^ *normal\\(|^ *grid\\(|\\.\\."}};
   const Json seeds{{"type", "array"}, {"items", {{"type", "integer"}, {"minimum", 0}}}, {"minItems", 1}};
   const Json from_to{{"type", "string"}, {"pattern", "^ *[0-9]+ *\\.\\. *[0-9]+ *$"}};

@@ -57,8 +57,11 @@ TEST_SUITE("graph/campaign/variation") {
       CHECK(wrong(text).find("needs a grid of 2 to 1000000 values, not as in") != std::string::npos);
     CHECK(read("a.b=[1, two, \"3\"]").values == std::vector<std::string>{"1", "two", "\"3\""});
     CHECK(read("a.b=[1, two]").text == "[1, two]");
+    CHECK(read("a.b=[20ms, null, ~, \"null\"]").values == std::vector<std::string>{"20ms", "null", "null", "\"null\""});
     CHECK(wrong("a.b=[]") == "--vary:1:5: error: 'a.b' has an empty list of values");
-    CHECK(wrong("a.b=[1, [2]]") == "--vary:1:9: error: 'a.b' has a list among its values; they are numbers and words");
+    CHECK(wrong("a.b=[1, [2]]") ==
+          "--vary:1:9: error: 'a.b' has a list among its values; they are numbers, words and "
+          "null");
   }
 
   TEST_CASE("seeds are whole numbers") {
@@ -70,6 +73,8 @@ TEST_SUITE("graph/campaign/variation") {
     CHECK(wrong("seed=1.5..3") ==
           "--vary:1:6: error: 'seed' can't vary as '1.5..3'; write 1..1000, or a list as in [3, 7]");
     CHECK(wrong("seed=[3, x]") == "--vary:1:10: error: 'seed' has 'x' among its values; they are whole numbers from 0");
+    CHECK(wrong("seed=[3, null]") ==
+          "--vary:1:10: error: 'seed' has 'null' among its values; they are whole numbers from 0");
     CHECK(wrong("seed=normal(1, 2)").find("can't vary as") != std::string::npos);
   }
 

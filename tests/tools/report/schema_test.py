@@ -64,6 +64,8 @@ WRITTEN = [
     ("tasks: {a: {type: Counter}}\nplatform: {policy: mine}", "platform/policy"),
     ("tasks: {a: {type: Counter}}\nplatform: {policy: mine}\nplugins: [mine.so]", ""),
     ("tasks: {a: {type: Counter}}\nplatform: {policy: [edf]}\nplugins: [mine.so]", "platform/policy"),
+    ("tasks: {a: {type: Counter}}\ncampaign: {vary: {tasks.a.let: [20ms, null]}}", ""),
+    ("tasks: {a: {type: Counter}}\ncampaign: {vary: {seed: [3, null]}}", "campaign/vary/seed"),
 ]
 
 
