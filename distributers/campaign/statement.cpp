@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "graph/campaign/columns.h"
 #include "graph/campaign/random.h"
 #include "graph/campaign/read.h"
 #include "graph/campaign/variation.h"
@@ -42,6 +43,22 @@ void try_values(Graphs& graphs, const Variation& variation, Problems& problems) 
   }
 }
 
+// Each path and each metric has a column.
+void require_own_columns(const Campaign& campaign, Problems& problems) {
+  for (const Variation& v : campaign.vary) {
+    for (const Variation& other : campaign.vary) {
+      if (&other == &v) break;
+      if (is_same_column(v.path, other.path))
+        problems.add(v.where, "'" + v.path + "' differs from '" + other.path +
+                                  "' in case alone, as no two columns of the results may; vary one of them");
+    }
+    for (const Metric& metric : campaign.measures.metrics)
+      if (is_same_column(v.path, metric.name))
+        problems.add(v.where, "'" + v.path + "' and metric '" + metric.name +
+                                  "' would have one column of the results; give the metric another name");
+  }
+}
+
 }  // namespace
 
 Campaign state_campaign(Graphs& graphs, const Wishes& wishes) {
@@ -52,6 +69,7 @@ Campaign state_campaign(Graphs& graphs, const Wishes& wishes) {
   if (wishes.runs) campaign.runs = wishes.runs;
   if (wishes.sampling) campaign.sampling = *wishes.sampling;
   if (wishes.length) campaign.length = wishes.length;
+  require_own_columns(campaign, problems);
   problems.throw_if_any();
   for (const Variation& variation : campaign.vary) try_values(graphs, variation, problems);
   problems.throw_if_any();

@@ -1,11 +1,10 @@
 #include "graph/campaign/read.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <map>
 #include <memory>
 
+#include "graph/campaign/columns.h"
 #include "graph/campaign/variation.h"
 #include "graph/expect/parse.h"
 #include "graph/language/load.h"
@@ -13,15 +12,6 @@
 
 namespace jarol::campaign {
 namespace {
-
-// Columns of the results that are there in every campaign.
-constexpr std::array<std::string_view, 7> own_columns{"run", "seed", "outcome", "why", "simulated", "faults", "digest"};
-
-// SQL takes names that differ in case alone for one.
-bool is_same_column(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char left, unsigned char right) { return std::tolower(left) == std::tolower(right); });
-}
 
 // The names that options of a command line have given so far.
 class GivenOnce {
@@ -71,7 +61,7 @@ void add_metric(Measures& measures, const std::string& name, const Location& whe
   const std::string subject = "metric '" + name + "'";
   if (!is_name(name))
     return problems.add(where, subject + " has no good name; use letters, digits and _, no digit first");
-  if (std::any_of(own_columns.begin(), own_columns.end(), [&](auto column) { return is_same_column(column, name); }))
+  if (is_common_column(name))
     return problems.add(where, subject + " has the name of a column that all results have; choose another");
   for (const Metric& metric : measures.metrics)
     if (metric.name != name && is_same_column(metric.name, name))
