@@ -28,8 +28,8 @@ struct Result {
   std::string why{};  // of all but good
   Duration simulated{};
   std::uint64_t faults = 0;
-  std::uint64_t digest = 0;
-  std::vector<Reached> metrics{};  // of those that the campaign measures
+  std::optional<std::uint64_t> digest{};  // none: it never began
+  std::vector<Reached> metrics{};         // of those that the campaign measures
 
   friend bool operator==(const Result&, const Result&) = default;
 };

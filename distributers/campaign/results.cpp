@@ -3,14 +3,21 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
+
+#include "graph/campaign/columns.h"
 
 namespace jarol::campaign {
 namespace {
 
 // "jrl" and the version of the layout.
 constexpr int application_id = 0x6a726c02;
+
+// What stands behind the names of `database_columns`. A run that is refused has no digest.
+constexpr std::array<const char*, database_columns.size()> column_types{
+    " INTEGER PRIMARY KEY", "", " TEXT NOT NULL", " TEXT NOT NULL", " INTEGER NOT NULL", " INTEGER NOT NULL", " TEXT"};
 
 std::string quoted(const std::string& name) {
   std::string text = "\"";
@@ -86,6 +93,9 @@ bool read_digest(const std::string& text, std::uint64_t& digest) {
   return read.ec == std::errc() && read.ptr == end;
 }
 
+// Of a run that is refused there is none, and none may be of one that is lost.
+bool has_digest(Outcome outcome) { return outcome != Outcome::refused && outcome != Outcome::lost; }
+
 // Those that are not the same in every campaign: the values that vary, then the metrics.
 std::vector<std::string> columns_of(const Campaign& campaign) {
   std::vector<std::string> names;
@@ -122,9 +132,11 @@ Results::Results(const std::string& path, const Identity& identity, const Campai
   // after that: a file that is refused stays as it is
   run("PRAGMA journal_mode = WAL");
   run("PRAGMA synchronous = NORMAL");
-  std::string places = "?, ?, ?, ?, ?, ?, ?";
-  for (std::size_t i = columns_of(campaign).size(); i > 0; --i) places += ", ?";
+  std::string places = "?";
+  for (std::size_t i = database_columns.size() + columns_of(campaign).size(); i > 1; --i) places += ", ?";
   insert_ = prepare("INSERT INTO runs VALUES (" + places + ")");
+  const Statement digest = prepare("SELECT \"notnull\" FROM pragma_table_info('runs') WHERE name = 'digest'");
+  needs_digest_ = step(digest) && sqlite3_column_int(digest.get(), 0) != 0;
 }
 
 Results::~Results() {
@@ -173,9 +185,9 @@ bool Results::is_new() const {
 void Results::create(const Identity& identity, const Campaign& campaign) {
   run("PRAGMA application_id = " + std::to_string(application_id));
   run("CREATE TABLE campaign (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
-  std::string columns =
-      "run INTEGER PRIMARY KEY, seed, outcome TEXT NOT NULL, why TEXT NOT NULL, simulated_ns INTEGER NOT NULL, "
-      "faults INTEGER NOT NULL, digest TEXT NOT NULL";
+  std::string columns;
+  for (std::size_t i = 0; i < database_columns.size(); ++i)
+    columns += (i > 0 ? ", " : "") + std::string(database_columns[i]) + column_types[i];
   for (const std::string& name : columns_of(campaign)) columns += ", " + quoted(name);
   run("CREATE TABLE runs (" + columns + ")");
   const Statement insert = prepare("INSERT INTO campaign VALUES (?, ?)");
@@ -230,7 +242,10 @@ void Results::add(const Start& start, const Result& result) {
   bind_text(row, 4, result.why);
   sqlite3_bind_int64(row, 5, result.simulated.count());
   sqlite3_bind_int64(row, 6, static_cast<std::int64_t>(result.faults));
-  bind_text(row, 7, fmt::format("0x{:016x}", result.digest));
+  if (result.digest || needs_digest_)
+    bind_text(row, 7, fmt::format("0x{:016x}", result.digest.value_or(0)));
+  else
+    sqlite3_bind_null(row, 7);
   int place = 8;
   for (const std::string& value : start.set) bind_value(row, place++, value.substr(value.find('=') + 1));
   for (const Reached& reached : result.metrics) {
@@ -245,8 +260,10 @@ void Results::add(const Start& start, const Result& result) {
   sqlite3_reset(row);
 }
 
-void Results::for_each(const std::function<void(const Result&)>& take) const {
-  const Statement rows = prepare("SELECT * FROM runs ORDER BY run");
+void Results::for_each(const std::function<void(const Result&)>& take, const RunRange& range) const {
+  const Statement rows = prepare("SELECT * FROM runs WHERE run >= ? AND run < ? ORDER BY run");
+  sqlite3_bind_int64(rows.get(), 1, static_cast<std::int64_t>(range.begin));
+  sqlite3_bind_int64(rows.get(), 2, static_cast<std::int64_t>(range.end));
   const int columns = sqlite3_column_count(rows.get());
   sqlite3_stmt* const row = rows.get();
   while (step(rows)) {
@@ -264,7 +281,11 @@ void Results::for_each(const std::function<void(const Result&)>& take) const {
     result.simulated = Duration(sqlite3_column_int64(row, 4));
     require(is_count(row, 4) && is_count(row, 5), "a time or a number of faults that is no whole number from 0 on");
     result.faults = static_cast<std::uint64_t>(sqlite3_column_int64(row, 5));
-    require(read_digest(text_of(row, 6), result.digest), "a digest that is no hexadecimal number of 64 bits");
+    if (sqlite3_column_type(row, 6) != SQLITE_NULL || has_digest(result.outcome)) {
+      require(read_digest(text_of(row, 6), result.digest.emplace()),
+              "a digest that is no hexadecimal number of 64 bits");
+      if (result.outcome == Outcome::refused) result.digest.reset();
+    }
     for (int i = columns - static_cast<int>(metrics_); i < columns; ++i) {
       require(is_reached(row, i), "as '" + std::string(sqlite3_column_name(row, i)) + "' what no run comes to");
       result.metrics.push_back(reached_of(row, i));

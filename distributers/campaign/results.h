@@ -25,6 +25,14 @@ struct OtherCampaign : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// Consecutive runs, by index: from `begin` to before `end`.
+struct RunRange {
+  std::uint64_t begin = 0;
+  std::uint64_t end = max_runs;
+
+  std::uint64_t size() const { return end - begin; }
+};
+
 /// Used by one thread at a time.
 class Results {
  public:
@@ -38,8 +46,8 @@ class Results {
   /// The indices of the runs in it, going up, of a campaign of so many. Throws OtherCampaign if one is none of these.
   std::vector<std::uint64_t> done(std::uint64_t runs) const;
   void add(const Start& start, const Result& result);
-  /// All of them, by index. Throws OtherCampaign if one has what no run comes to.
-  void for_each(const std::function<void(const Result&)>& take) const;
+  /// Those of the range, by index. Throws OtherCampaign if one has what no run comes to.
+  void for_each(const std::function<void(const Result&)>& take, const RunRange& range = {}) const;
 
  private:
   struct Close {
@@ -59,6 +67,7 @@ class Results {
   std::string path_;
   std::unique_ptr<sqlite3, Close> database_;
   std::size_t metrics_;
+  bool needs_digest_ = false;  // of each run, as files once did: of one that has none it is zero
   Statement insert_;
 };
 

@@ -26,10 +26,10 @@ void OwnWork::throw_if_failed() const {
   if (failure_) std::rethrow_exception(failure_);
 }
 
-std::vector<std::uint64_t> missing(const std::vector<std::uint64_t>& done, const Shard& shard, std::uint64_t runs) {
+std::vector<std::uint64_t> missing(const std::vector<std::uint64_t>& done, const RunRange& range) {
   std::vector<std::uint64_t> indices;
-  auto found = std::lower_bound(done.begin(), done.end(), shard.begin(runs));
-  for (std::uint64_t i = shard.begin(runs); i < shard.end(runs); ++i) {
+  auto found = std::lower_bound(done.begin(), done.end(), range.begin);
+  for (std::uint64_t i = range.begin; i < range.end; ++i) {
     if (found != done.end() && *found == i)
       ++found;
     else

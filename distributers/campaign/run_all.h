@@ -18,8 +18,8 @@ struct Shard {
   std::uint64_t index = 0;
   std::uint64_t count = 1;
 
-  std::uint64_t begin(std::uint64_t runs) const { return part(index, runs); }
-  std::uint64_t end(std::uint64_t runs) const { return part(index + 1, runs); }
+  /// Of a campaign of so many runs.
+  RunRange of(std::uint64_t runs) const { return {part(index, runs), part(index + 1, runs)}; }
 
  private:
   std::uint64_t part(std::uint64_t i, std::uint64_t runs) const {
@@ -27,8 +27,8 @@ struct Shard {
   }
 };
 
-/// The indices of a shard that are not among those that are done, which go up.
-std::vector<std::uint64_t> missing(const std::vector<std::uint64_t>& done, const Shard& shard, std::uint64_t runs);
+/// The indices of a range that are not among those that are done, which go up.
+std::vector<std::uint64_t> missing(const std::vector<std::uint64_t>& done, const RunRange& range);
 
 /// Runs that are to be done, as those see them who do them, on any thread.
 class Work {

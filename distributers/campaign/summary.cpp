@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "graph/campaign/columns.h"
 #include "graph/text/escape.h"
 
 namespace jarol::campaign {
@@ -36,6 +37,12 @@ bool is_beyond(const std::optional<Case>& end, double number, Order order) {
   return !end || order(number, end->value) || (std::isnan(end->value) && !std::isnan(number));
 }
 
+// Does a run break the limit by having no value? Of always and never none is good: it is the instant of a breach.
+bool needs_value(const Metric& metric, const expect::Condition& condition) {
+  using Kind = expect::Condition::Kind;
+  return metric.is_limit && (condition.kind == Kind::metric || condition.kind == Kind::once);
+}
+
 class MetricFolder {
  public:
   MetricFolder(const Metric& metric, const expect::Condition& condition) : metric_(metric), condition_(condition) {
@@ -43,12 +50,11 @@ class MetricFolder {
     made_.unit = condition.kind == expect::Condition::Kind::metric ? condition.metric.unit : "s";
   }
 
-  void add(std::uint64_t index, const Reached& reached) {
+  void add(const Result& result, const Reached& reached) {
+    const std::uint64_t index = result.index;
     if (!reached.word.empty()) ++made_.words[reached.word];
-    if (!reached.number) {
-      made_.missing += reached.word.empty() ? 1 : 0;
-      return;
-    }
+    if (!reached.number && reached.word.empty()) miss(result);
+    if (!reached.number) return;
     const double number = *reached.number;
     ++made_.count;
     numbers_.push_back(number);
@@ -60,6 +66,13 @@ class MetricFolder {
     if (!bad || (made_.worst && rank_of(*bad) <= worst_)) return;
     made_.worst = Case{index, number};
     worst_ = rank_of(*bad);
+  }
+
+  void miss(const Result& result) {
+    ++made_.missing;
+    if (result.outcome != Outcome::bad || !needs_value(metric_, condition_)) return;
+    ++made_.bad_without;
+    if (!made_.first_bad_without) made_.first_bad_without = result.index;
   }
 
   MetricSummary finish() {
@@ -92,37 +105,43 @@ std::string text_of(const Reached& reached) { return reached.number ? number_tex
 
 }  // namespace
 
-Summary summarise(const Results& results, const Measures& measures) {
+Summary summarise(const Results& results, const Measures& measures, const RunRange& range) {
   Summary summary;
   std::vector<MetricFolder> folders;
   for (std::size_t i = 0; i < measures.metrics.size(); ++i)
     folders.emplace_back(measures.metrics[i], measures.conditions[i]);
-  results.for_each([&](const Result& result) {
+  const auto add = [&](const Result& result) {
     ++summary.runs;
     ++summary.outcomes[static_cast<std::size_t>(result.outcome)];
     if (result.outcome != Outcome::good && summary.not_good.size() < max_not_good) summary.not_good.push_back(result);
-    for (std::size_t i = 0; i < folders.size(); ++i) folders[i].add(result.index, result.metrics[i]);
-  });
+    if (result.outcome != Outcome::good && result.outcome != Outcome::refused && !summary.first_failed)
+      summary.first_failed = result;
+    for (std::size_t i = 0; i < folders.size(); ++i) folders[i].add(result, result.metrics[i]);
+  };
+  results.for_each(add, range);
   for (MetricFolder& folder : folders) summary.metrics.push_back(folder.finish());
   return summary;
 }
 
 void write_csv(const Results& results, const Campaign& campaign, const Draws& draws,
-               const std::function<void(std::string_view)>& write) {
-  std::string line = "run,seed";
+               const std::function<void(std::string_view)>& write, const RunRange& range) {
+  std::string line;
+  for (const std::string_view name : first_table_columns) line += (line.empty() ? "" : ",") + std::string(name);
   for (const Variation& v : campaign.vary)
     if (v.path != "seed") line += "," + csv_text(v.path);
   for (const Metric& metric : campaign.measures.metrics) line += "," + metric.name;
-  write(line + ",outcome,faults,simulated_s,digest,why\n");
-  results.for_each([&](const Result& result) {
+  for (const std::string_view name : last_table_columns) line += "," + std::string(name);
+  write(line + "\n");
+  const auto add = [&](const Result& result) {
     const Start start = draws.at(result.index);
     line = std::to_string(result.index) + "," + std::to_string(start.seed);
     for (const std::string& change : start.set) line += "," + csv_text(change.substr(change.find('=') + 1));
     for (const Reached& reached : result.metrics) line += "," + csv_text(text_of(reached));
-    line += fmt::format(",{},{},{},0x{:016x},{}\n", word_of(result.outcome), result.faults,
-                        seconds_text(result.simulated), result.digest, csv_text(result.why));
+    line += fmt::format(",{},{},{},{},{}\n", word_of(result.outcome), result.faults, seconds_text(result.simulated),
+                        result.digest ? fmt::format("0x{:016x}", *result.digest) : "", csv_text(result.why));
     write(line);
-  });
+  };
+  results.for_each(add, range);
 }
 
 }  // namespace jarol::campaign

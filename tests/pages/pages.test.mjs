@@ -246,3 +246,18 @@ test('the page of a campaign has each run, its histograms count all, and its com
   silent(page, file);
   await page.close();
 });
+
+test('the page of a shard says whose runs it has, in how many a metric has a value, and which run is bad without', async () => {
+  runAnyway('campaign', 'specs/counting.yaml', '--for', '1s', '--vary', 'tasks.slow.let=[5ms, 15ms]', '--vary', 'seed=1..6', '--shard', '2/3',
+    '--metric', 'high=time of sum.out > 10000 before 1s', '--results', at('shard.sqlite'), '--report', at('shard.html'));
+  const file = at('shard.html'), page = await browser.open(file);
+  const text = (selector) => page.evaluate(`[...document.querySelectorAll('${selector}')].map((e) => e.textContent)`);
+  assert.equal((await text('.figure'))[0], '4runs of shard 2/3 of 12');
+  assert.ok((await text('#summary p')).includes('high has a value in 2 of 4 runs; its numbers are of those.'));
+  const cases = await text('#cases li p');
+  assert.deepEqual(cases.slice(0, 3).map((line) => line.split(' ')[0]), ['min', 'max', 'bad']);
+  assert.equal(cases[2], 'bad without a value of high run 6, the first of 2 such runs');
+  assert.ok((await text('#cases code'))[2].startsWith('jarol run specs/counting.yaml --set tasks.slow.let=15ms --seed 1 --for 1s'));
+  silent(page, file);
+  await page.close();
+});

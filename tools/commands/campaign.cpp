@@ -61,13 +61,15 @@ std::string results_of(const CampaignOptions& options) {
 }
 
 void write_table(const std::string& path, const campaign::Results& results, const campaign::Campaign& campaign,
-                 const campaign::Draws& draws) {
+                 const campaign::Draws& draws, const campaign::RunRange& range) {
   if (path == "-") {
-    write_csv(results, campaign, draws, [](std::string_view text) { std::cout << text; });
+    write_csv(
+        results, campaign, draws, [](std::string_view text) { std::cout << text; }, range);
     return;
   }
   AtomicFile file(path);
-  write_csv(results, campaign, draws, [&](std::string_view text) { file.write(text); });
+  write_csv(
+      results, campaign, draws, [&](std::string_view text) { file.write(text); }, range);
   file.commit();
 }
 
@@ -156,9 +158,9 @@ int run(const CampaignOptions& options) {
   if (ranks) ranks->gather(text_of(stated.identity));
   let_writing_fail();
   campaign::Results results(results_file, stated.identity, campaign);
-  const std::vector<std::uint64_t> done = results.done(draws.runs());
-  const std::vector<std::uint64_t> to_run = missing(done, shard, draws.runs());
-  CampaignPace pace(done.size(), draws.runs(), to_run.size());
+  const campaign::RunRange range = shard.of(draws.runs());
+  const std::vector<std::uint64_t> to_run = missing(results.done(draws.runs()), range);
+  CampaignPace pace(range.size(), to_run.size());
   {
     const Interruptible interruptible;
     const Progress progress(!options.json && isatty(STDERR_FILENO) != 0, [&] { return pace.line(); });
@@ -175,11 +177,11 @@ int run(const CampaignOptions& options) {
   messages.reset();  // the others go
   const double seconds = pace.seconds();
   const bool whole = pace.ran() == to_run.size();
-  const campaign::Summary summary = summarise(results, campaign.measures);
+  const campaign::Summary summary = summarise(results, campaign.measures, range);
   std::optional<campaign::Shrunk> shrunk;
   bool gave_up = false;
-  if (whole && options.shrink && !summary.not_good.empty()) {
-    const campaign::Result& first = summary.not_good.front();
+  if (whole && options.shrink && summary.first_failed) {
+    const campaign::Result& first = *summary.first_failed;
     const Interruptible interruptible;
     shrunk = shrink(graphs, campaign, draws, first.index, first.outcome, Interruptible::interrupted());
     gave_up = !shrunk;
@@ -188,6 +190,7 @@ int run(const CampaignOptions& options) {
                           .campaign = campaign,
                           .draws = draws,
                           .summary = summary,
+                          .shard = options.shard.empty() ? std::nullopt : std::optional(shard),
                           .repeat =
                               [&](std::uint64_t index) {
                                 return repeat_command(options.file, options.overrides, campaign.length,
@@ -197,11 +200,12 @@ int run(const CampaignOptions& options) {
                           .results = results_file,
                           .ran = pace.ran(),
                           .seconds = seconds,
-                          .shrunk = shrunk ? &*shrunk : nullptr};
+                          .shrunk = shrunk ? &*shrunk : nullptr,
+                          .all_refused = whole && options.shrink && !summary.not_good.empty() && !summary.first_failed};
   if (shrunk)
     outcome.repeat_shrunk = repeat_command(options.file, options.overrides, campaign.length, shrunk->start) +
                             fmt::format(" --record run_{}_mild.mcap", shrunk->start.index);
-  if (whole && !options.csv.empty()) write_table(options.csv, results, campaign, draws);
+  if (whole && !options.csv.empty()) write_table(options.csv, results, campaign, draws, range);
   if (whole && !options.report.empty()) {
     AtomicFile page(options.report);
     page.write(campaign_page(outcome, to_json(outcome), results));
@@ -232,6 +236,7 @@ void add_campaign(CommandLine& line, int& exit_code) {
       "it.\n"
       "Each run is the same to the bit as 'jarol run' with its values, whatever number of workers there are. What is\n"
       "done stays in the results: the same command goes on where it ended.\n"
+      "Percentiles are by nearest rank: each is the number of a run, the median the lower of two in the middle.\n"
       "Exit code: 0 all runs are good, 1 some are not, 2 bad input, or results of another campaign, 3 results can't\n"
       "be written, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
   command->add_option("FILE", options->file, "The graph, a YAML file; its key 'campaign' says what options add to")
@@ -262,7 +267,10 @@ void add_campaign(CommandLine& line, int& exit_code) {
   command->add_option("--seed", options->seed,
                       "Seed of what is drawn, and of all runs where the seed does not vary; default 0");
   command->add_option("--workers", options->workers, "Runs at once; default: one per CPU")->in_range(1, 1024);
-  command->add_option("--shard", options->shard, "Only this part of the runs, as in 2/8, the second of eight");
+  command->add_option(
+      "--shard", options->shard,
+      "Only this part of the runs, as in 2/8, the second of eight: report, table and page are of it alone, whatever "
+      "else is in --results; those of all runs come of the command without --shard");
   command
       ->add_option("--results", options->results,
                    "The SQLite database of the results; default: NAME.campaign.sqlite, here, of a graph NAME.yaml")
@@ -276,10 +284,10 @@ void add_campaign(CommandLine& line, int& exit_code) {
                    "Write a page for people when all runs, or those of --shard, are there: an HTML file with "
                    "histograms and scatter plots, and the worst cases")
       ->file({"html"});
-  command->add_flag("--shrink", options->shrink,
-                    "When all runs, or those of --shard, are there: find the mildest values at which the first run "
-                    "that is not good still ends "
-                    "so, by more runs");
+  command->add_flag(
+      "--shrink", options->shrink,
+      "When all runs, or those of --shard, are there: find the mildest values at which the first run that is "
+      "not good still ends so, by more runs; those that are refused are passed over");
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->callback([options, &exit_code] {
     try {

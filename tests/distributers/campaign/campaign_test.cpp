@@ -97,7 +97,7 @@ struct Under {
 
   void run(std::size_t workers, const Shard& shard = {}) {
     run_all(
-        graphs, campaign, draws, missing(results->done(draws.runs()), shard, draws.runs()), workers, *results,
+        graphs, campaign, draws, missing(results->done(draws.runs()), shard.of(draws.runs())), workers, *results,
         [this](const Result&) {
           if (++seen == stop_after) stop = true;
         },
@@ -182,13 +182,13 @@ TEST_SUITE("distributers/campaign") {
       for (const std::uint64_t count : {1, 3, 8}) {
         std::uint64_t next = 0;
         for (std::uint64_t i = 0; i < count; ++i) {
-          CHECK(Shard{i, count}.begin(runs) == next);
-          next = Shard{i, count}.end(runs);
+          CHECK(Shard{i, count}.of(runs).begin == next);
+          next = Shard{i, count}.of(runs).end;
         }
         CHECK(next == runs);
       }
-    CHECK(missing({0, 2, 3, 9}, {}, 5) == std::vector<std::uint64_t>{1, 4});
-    CHECK(missing({0, 2, 3, 5}, {1, 2}, 8) == std::vector<std::uint64_t>{4, 6, 7});
+    CHECK(missing({0, 2, 3, 9}, {0, 5}) == std::vector<std::uint64_t>{1, 4});
+    CHECK(missing({0, 2, 3, 5}, {4, 8}) == std::vector<std::uint64_t>{4, 6, 7});
   }
 
   TEST_CASE("a run that faults, is refused or breaks a limit is a result, and the others go on") {

@@ -2,6 +2,7 @@
 #include "distributers/campaign/summary.h"
 
 #include <doctest/doctest.h>
+#include <sqlite3.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -46,7 +47,8 @@ Summed summed(const std::vector<double>& numbers, const std::optional<expect::Co
   Campaign campaign = measuring(limit);
   campaign.runs = static_cast<std::int64_t>(numbers.size());
   Results results(file.path(), {{"key", "value"}}, campaign);
-  for (std::size_t i = 0; i < numbers.size(); ++i) results.add({}, {.index = i, .metrics = {Reached{numbers[i], ""}}});
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    results.add({}, {.index = i, .digest = i, .metrics = {Reached{numbers[i], ""}}});
   Summed made{summarise(results, campaign.measures).metrics.at(0), ""};
   write_csv(results, campaign, Draws(campaign, 0), [&](std::string_view text) { made.csv += text; });
   return made;
@@ -111,9 +113,9 @@ TEST_SUITE("distributers/campaign/summary") {
       CHECK(all.csv ==
             "run,seed,m,outcome,faults,simulated_s,digest,why\n"
             "0,0,2,good,0,0,0x0000000000000000,\n"
-            "1,0,nan,good,0,0,0x0000000000000000,\n"
-            "2,0,1,good,0,0,0x0000000000000000,\n"
-            "3,0,3,good,0,0,0x0000000000000000,\n");
+            "1,0,nan,good,0,0,0x0000000000000001,\n"
+            "2,0,1,good,0,0,0x0000000000000002,\n"
+            "3,0,3,good,0,0,0x0000000000000003,\n");
     }
     const MetricSummary none = summed({nan_number, -nan_number}).metric;
     CHECK(none.count == 2);
@@ -122,5 +124,101 @@ TEST_SUITE("distributers/campaign/summary") {
     CHECK(infinite.max->value == HUGE_VAL);
     CHECK(infinite.min->value == -HUGE_VAL);
     CHECK(infinite.worst->index == 0);
+  }
+
+  TEST_CASE("runs without a value that their limit needs are counted, if they came to their end") {
+    const auto summary_of = [](expect::Condition::Kind kind, bool is_limit) {
+      const File file;
+      Campaign campaign = measuring(limit(Is::less));
+      campaign.runs = 6;
+      campaign.measures.metrics[0].is_limit = is_limit;
+      campaign.measures.conditions[0].kind = kind;
+      Results results(file.path(), {{"key", "value"}}, campaign);
+      const std::vector<campaign::Outcome> outcomes{campaign::Outcome::good, campaign::Outcome::refused,
+                                                    campaign::Outcome::fault, campaign::Outcome::bad,
+                                                    campaign::Outcome::bad};
+      for (std::uint64_t i = 0; i < outcomes.size(); ++i)
+        results.add({}, {.index = i, .outcome = outcomes[i], .digest = 7, .metrics = {Reached{}}});
+      results.add({}, {.index = 5, .outcome = campaign::Outcome::bad, .digest = 7, .metrics = {Reached{2, ""}}});
+      return summarise(results, campaign.measures);
+    };
+    using Kind = expect::Condition::Kind;
+    for (const Kind kind : {Kind::metric, Kind::once}) {
+      const Summary summary = summary_of(kind, true);
+      CHECK(summary.metrics[0].count == 1);
+      CHECK(summary.metrics[0].missing == 5);
+      CHECK(summary.metrics[0].bad_without == 2);
+      CHECK(summary.metrics[0].first_bad_without == 3);
+      CHECK(summary.not_good[0].index == 1);
+      CHECK(summary.first_failed->index == 2);
+    }
+    // of these the value is the instant at which they are broken, and none is what is wanted
+    for (const Kind kind : {Kind::always, Kind::never}) CHECK(summary_of(kind, true).metrics[0].bad_without == 0);
+    CHECK(!summary_of(Kind::metric, false).metrics[0].first_bad_without);
+  }
+
+  TEST_CASE("a summary and a table of a range have the runs of that range alone") {
+    const File file;
+    Campaign campaign = measuring({});
+    campaign.runs = 5;
+    Results results(file.path(), {{"key", "value"}}, campaign);
+    for (const std::uint64_t i : {4, 1, 2, 0}) {
+      const campaign::Outcome outcome = i == 0 ? campaign::Outcome::bad : campaign::Outcome::good;
+      results.add({}, {.index = i, .outcome = outcome, .digest = 7, .metrics = {Reached{double(i), ""}}});
+    }
+    const Summary summary = summarise(results, campaign.measures, {1, 4});
+    CHECK(summary.runs == 2);
+    CHECK(summary.not_good.empty());
+    CHECK(summary.metrics[0].min->index == 1);
+    CHECK(summary.metrics[0].max->index == 2);
+    std::string csv;
+    write_csv(results, campaign, Draws(campaign, 0), [&](std::string_view text) { csv += text; }, {2, 5});
+    CHECK(csv ==
+          "run,seed,m,outcome,faults,simulated_s,digest,why\n"
+          "2,0,2,good,0,0,0x0000000000000007,\n"
+          "4,0,4,good,0,0,0x0000000000000007,\n");
+  }
+
+  TEST_CASE("a run that is refused has no digest: an empty cell, NULL in the database, zero in one that has no NULL") {
+    const File file;
+    Campaign campaign = measuring({});
+    campaign.runs = 2;
+    const Result refused{.outcome = campaign::Outcome::refused, .why = "so", .metrics = {Reached{}}};
+    const auto digest_of = [&](const std::string& run) {
+      std::string text;
+      sqlite3* database = nullptr;
+      REQUIRE(sqlite3_open(file.path().c_str(), &database) == SQLITE_OK);
+      CHECK(sqlite3_exec(
+                database, ("SELECT quote(digest) FROM runs WHERE run = " + run).c_str(),
+                [](void* to, int, char** cells, char**) { return *static_cast<std::string*>(to) = cells[0], 0; }, &text,
+                nullptr) == SQLITE_OK);
+      sqlite3_close(database);
+      return text;
+    };
+    const auto table = [&] {
+      std::string csv;
+      const Results results(file.path(), {{"key", "value"}}, campaign);
+      write_csv(results, campaign, Draws(campaign, 0), [&](std::string_view text) { csv += text; });
+      return csv;
+    };
+    const std::string title = "run,seed,m,outcome,faults,simulated_s,digest,why\n", row = ",0,,refused,0,0,,so\n";
+    Results(file.path(), {{"key", "value"}}, campaign).add({}, refused);
+    CHECK(digest_of("0") == "NULL");
+    CHECK(table() == title + "0" + row);
+
+    // as the program once made it
+    sqlite3* database = nullptr;
+    REQUIRE(sqlite3_open(file.path().c_str(), &database) == SQLITE_OK);
+    CHECK(sqlite3_exec(database,
+                       "DROP TABLE runs; CREATE TABLE runs (run INTEGER PRIMARY KEY, seed, outcome TEXT NOT NULL, why "
+                       "TEXT NOT NULL, simulated_ns INTEGER NOT NULL, faults INTEGER NOT NULL, digest TEXT NOT NULL, "
+                       "m); INSERT INTO runs VALUES (0, 0, 'refused', 'so', 0, 0, '0x0000000000000000', NULL)",
+                       nullptr, nullptr, nullptr) == SQLITE_OK);
+    sqlite3_close(database);
+    Result second = refused;
+    second.index = 1;
+    Results(file.path(), {{"key", "value"}}, campaign).add({}, second);
+    CHECK(digest_of("1") == "'0x0000000000000000'");
+    CHECK(table() == title + "0" + row + "1" + row);
   }
 }

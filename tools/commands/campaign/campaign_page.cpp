@@ -107,12 +107,14 @@ std::string campaign_page(const CampaignOutcome& outcome, const Json& report, co
   for (const campaign::MetricSummary& m : outcome.summary.metrics)
     for (const auto& one : {m.min, m.max, m.worst})
       if (one) named.insert(one->index);
+  for (const campaign::MetricSummary& m : outcome.summary.metrics)
+    if (m.first_bad_without) named.insert(*m.first_bad_without);
   for (const Result& result : outcome.summary.not_good) named.insert(result.index);
   const std::uint64_t every = (outcome.summary.runs + max_points - 1) / max_points;
   std::vector<double> index, outcomes;
   std::vector<std::vector<double>> varied(axes.size()), reached(histograms.size());
   std::uint64_t seen = 0;
-  results.for_each([&](const Result& result) {
+  const auto add = [&](const Result& result) {
     for (std::size_t i = 0; i < histograms.size() && i < result.metrics.size(); ++i)
       if (result.metrics[i].number)
         histograms[i].add(*result.metrics[i].number, result.outcome == campaign::Outcome::good);
@@ -123,7 +125,8 @@ std::string campaign_page(const CampaignOutcome& outcome, const Json& report, co
     for (std::size_t i = 0; i < axes.size(); ++i) varied[i].push_back(axes[i].at(outcome, i, start));
     for (std::size_t i = 0; i < reached.size(); ++i)
       reached[i].push_back(i < result.metrics.size() && result.metrics[i].number ? *result.metrics[i].number : nothing);
-  });
+  };
+  results.for_each(add, outcome.range());
   Json data{{"schema", "jarol.campaign_page/2"}, {"report", report}, {"every", every}, {"vary", std::move(vary)}};
   for (std::size_t i = 0; i < axes.size(); ++i) data["vary"][i]["values"] = base64_of(varied[i]);
   data["metrics"] = Json::array();

@@ -32,6 +32,13 @@ std::string outcomes_text(const Summary& summary) {
   return text;
 }
 
+// Of how many runs the numbers are.
+std::string valued_text(const MetricSummary& m, std::uint64_t runs) {
+  const std::uint64_t valued = runs - m.missing;
+  if (valued == 0) return fmt::format("has no value in any of {} runs", runs);
+  return fmt::format("has a value in {} of {} runs{}", valued, runs, m.count > 0 ? "; these numbers are of those" : "");
+}
+
 std::string table_of(const Summary& summary) {
   if (summary.metrics.empty()) return "";
   std::size_t width = 6;
@@ -46,14 +53,14 @@ std::string table_of(const Summary& summary) {
                           number_text(m.max->value, m.unit));
     for (const auto& [word, count] : m.words)
       text += fmt::format("  {:<{}}  {}: {} runs\n", m.name, width, word, count);
-    if (m.missing > 0) text += fmt::format("  {:<{}}  nothing: {} runs\n", m.name, width, m.missing);
+    if (m.missing > 0) text += fmt::format("  {:<{}}  {}\n", m.name, width, valued_text(m, summary.runs));
   }
   return text;
 }
 
 // By its limit where it has one, else both ends.
 std::vector<std::pair<std::string, Case>> cases_of(const MetricSummary& m) {
-  if (m.worst) return {{"worst", *m.worst}};
+  if (m.worst) return {{m.bad_without > 0 ? "worst value of" : "worst", *m.worst}};
   std::vector<std::pair<std::string, Case>> cases;
   if (m.min) cases.emplace_back("min", *m.min);
   if (m.max) cases.emplace_back("max", *m.max);
@@ -69,6 +76,9 @@ Json to_json(const MetricSummary& m, const expect::Condition& condition, bool is
   Json json{{"name", m.name}, {"text", condition.text}, {"limit", is_limit},
             {"unit", m.unit}, {"runs", m.count},        {"missing", m.missing}};
   if (!m.words.empty()) json["words"] = m.words;
+  if (m.first_bad_without)
+    json["bad_without"] = {
+        {"runs", m.bad_without}, {"run", *m.first_bad_without}, {"command", outcome.repeat(*m.first_bad_without)}};
   if (m.count == 0) return json;
   json["mean"] = m.mean;
   json["deviation"] = m.deviation;
@@ -80,7 +90,32 @@ Json to_json(const MetricSummary& m, const expect::Condition& condition, bool is
   return json;
 }
 
+std::string cases_text(const MetricSummary& m, const CampaignOutcome& outcome) {
+  std::string text;
+  for (const auto& [word, one] : cases_of(m))
+    text += fmt::format("  {} {}: {} in run {}\n    {}\n", word, m.name, number_text(one.value, m.unit), one.index,
+                        printable(outcome.repeat(one.index)));
+  if (m.first_bad_without)
+    text += fmt::format("  bad without a value of {}: run {}{}\n    {}\n", m.name, *m.first_bad_without,
+                        m.bad_without > 1 ? fmt::format(", the first of {} such runs", m.bad_without) : "",
+                        printable(outcome.repeat(*m.first_bad_without)));
+  return text;
+}
+
+// "exolauv", "exolauv, shard 2/3 (runs 4 to 7)"
+std::string title_of(const CampaignOutcome& outcome) {
+  std::string text = printable(outcome.graph);
+  if (!outcome.shard) return text;
+  const campaign::RunRange range = outcome.range();
+  text += fmt::format(", shard {}/{} ", outcome.shard->index + 1, outcome.shard->count);
+  if (range.size() == 0) return text + "(no runs)";
+  return text + (range.size() == 1 ? fmt::format("(run {})", range.begin)
+                                   : fmt::format("(runs {} to {})", range.begin, range.end - 1));
+}
+
 std::string shrunk_text(const CampaignOutcome& outcome) {
+  if (outcome.all_refused) return "  no run to make milder: all that are not good are refused\n";
+  if (outcome.shrunk == nullptr) return "";
   const campaign::Shrunk& shrunk = *outcome.shrunk;
   return fmt::format("  run {} {}: {}\n    {}\n", shrunk.start.index,
                      shrunk.at_the_middle ? "is no worse than one in the middle of all ranges"
@@ -89,6 +124,7 @@ std::string shrunk_text(const CampaignOutcome& outcome) {
 }
 
 Json shrunk_json(const CampaignOutcome& outcome) {
+  if (outcome.all_refused) return nullptr;
   const campaign::Shrunk& shrunk = *outcome.shrunk;
   return {{"run", shrunk.start.index},
           {"outcome", campaign::word_of(shrunk.result.outcome)},
@@ -110,22 +146,18 @@ std::string clock_text(double seconds) {
 
 std::string to_text(const CampaignOutcome& outcome) {
   const Summary& summary = outcome.summary;
-  std::string text = fmt::format("{}: {} of {} runs, {}", printable(outcome.graph), summary.runs, outcome.draws.runs(),
+  std::string text = fmt::format("{}: {} of {} runs, {}", title_of(outcome), summary.runs, outcome.range().size(),
                                  outcomes_text(summary));
   if (outcome.ran > 0) text += fmt::format("; {} of them in {:.1f} s", outcome.ran, outcome.seconds);
   text += "\n" + table_of(summary);
-  for (const MetricSummary& m : summary.metrics)
-    for (const auto& [word, one] : cases_of(m))
-      text += fmt::format("  {} {}: {} in run {}\n    {}\n", word, m.name, number_text(one.value, m.unit), one.index,
-                          printable(outcome.repeat(one.index)));
+  for (const MetricSummary& m : summary.metrics) text += cases_text(m, outcome);
   for (const campaign::Result& result : summary.not_good)
     text += fmt::format("  run {} is {}: {}\n    {}\n", result.index, campaign::word_of(result.outcome),
                         printable(result.why), printable(outcome.repeat(result.index)));
   if (const std::uint64_t not_good = summary.runs - summary.good(); not_good > summary.not_good.size())
     text += fmt::format("  and {} more runs that are not good, see {}\n", not_good - summary.not_good.size(),
                         printable(outcome.results));
-  if (outcome.shrunk != nullptr) text += shrunk_text(outcome);
-  return text + "  results     " + printable(outcome.results) + "\n";
+  return text + shrunk_text(outcome) + "  results     " + printable(outcome.results) + "\n";
 }
 
 Json to_json(const CampaignOutcome& outcome) {
@@ -146,7 +178,12 @@ Json to_json(const CampaignOutcome& outcome) {
             {"ran", outcome.ran},           {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
             {"outcomes", outcomes},         {"metrics", metrics},
             {"not_good", not_good},         {"results", outcome.results}};
-  if (outcome.shrunk != nullptr) json["shrunk"] = shrunk_json(outcome);
+  if (outcome.shard)
+    json["shard"] = {{"part", outcome.shard->index + 1},
+                     {"of", outcome.shard->count},
+                     {"first", outcome.range().begin},
+                     {"runs", outcome.range().size()}};
+  if (outcome.shrunk != nullptr || outcome.all_refused) json["shrunk"] = shrunk_json(outcome);
   return json;
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "distributers/campaign/run_all.h"
 #include "distributers/campaign/shrink.h"
 #include "distributers/campaign/summary.h"
 
@@ -14,12 +15,16 @@ struct CampaignOutcome {
   const campaign::Campaign& campaign;
   const campaign::Draws& draws;
   const campaign::Summary& summary;
+  std::optional<campaign::Shard> shard{};                // what the summary is of; none: all runs
   std::function<std::string(std::uint64_t run)> repeat;  // the command that does
   std::string results;                                   // the file
   std::uint64_t ran = 0;                                 // just now; others were there before
   double seconds = 0;                                    // that they took
-  const campaign::Shrunk* shrunk = nullptr;  // of the first run that is not good; null: not asked for, or none
-  std::string repeat_shrunk{};               // the command that repeats it
+  const campaign::Shrunk* shrunk = nullptr;              // of the first run that failed; null: not asked for, or none
+  bool all_refused = false;                              // what was to be shrunk: all runs that are not good
+  std::string repeat_shrunk{};                           // the command that repeats the mildest run
+
+  campaign::RunRange range() const { return shard.value_or(campaign::Shard()).of(draws.runs()); }
 };
 
 std::string to_text(const CampaignOutcome& outcome);

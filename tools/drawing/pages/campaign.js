@@ -13,13 +13,19 @@ const metrics = report.metrics.map((metric, i) => ({...metric, ...data.metrics[i
 const varied = data.vary.map((axis) => ({...axis, name: axis.path, values: doubles(axis.values)}));
 const reached = (value, unit) => { const s = shown(unit); return `${number(value * s.scale)}${s.unit ? ' ' + s.unit : ''}`; };
 
+function runsText() {
+  const all = plain(report.runs);
+  if (report.shard) return `runs of shard ${report.shard.part}/${report.shard.of} of ${all}`;
+  return report.done === report.runs ? 'runs' : `runs of ${all}`;
+}
+
 function head() {
   const bad = report.done - report.outcomes.good;
   const figure = (value, text) => el('div', {class: 'figure'}, el('dd', {}, value), el('dt', {}, text));
   const kinds = outcomeWords.filter((word) => word !== 'good' && report.outcomes[word] > 0);
   return el('header', {class: 'head'}, el('p', {class: 'kicker'}, 'Jarol · campaign'),
     el('div', {class: 'title'}, el('h1', {}, report.graph), bad === 0 ? badge('good', 'All runs are good') : badge('bad', `${count(bad, 'run')} not good`)),
-    el('dl', {class: 'figures'}, figure(plain(report.done), report.done === report.runs ? 'runs' : `runs of ${plain(report.runs)}`),
+    el('dl', {class: 'figures'}, figure(plain(report.done), runsText()),
       figure(`${number(report.outcomes.good / Math.max(1, report.done) * 100, 4)} %`, 'good'),
       ...kinds.map((word) => figure(plain(report.outcomes[word]), word))));
 }
@@ -34,8 +40,10 @@ function summary() {
     ? [m.name, String(m.runs), ...Array(9).fill('–')]
     : [m.name, String(m.runs), reached(m.min.value, m.unit), ...['5', '25', '50', '75', '95'].map((p) => reached(m.percentiles[p], m.unit)), reached(m.max.value, m.unit), reached(m.mean, m.unit), reached(m.deviation, m.unit)]);
   const words = metrics.flatMap((m) => Object.entries(m.words ?? {}).map(([word, runs]) => el('p', {}, el('code', {}, m.name), ` is ${word} in ${count(runs, 'run')}.`)));
-  return section('summary', 'Summary', null, facts, el('h3', {}, 'Metrics'),
-    rows.length > 0 ? table('percentiles of each metric', columns, rows) : el('p', {class: 'nothing'}, 'Nothing was measured. Name a metric: jarol campaign ... --metric \'deepest=max(depth of dune) < 3.2\''), words);
+  const valued = metrics.filter((m) => m.missing > 0).map((m) => el('p', {}, el('code', {}, m.name),
+    ` has a value in ${report.done - m.missing} of ${count(report.done, 'run')}${m.runs > 0 ? '; its numbers are of those' : ''}.`));
+  return section('summary', 'Summary', 'Percentiles are by nearest rank: each is the number of a run.', facts, el('h3', {}, 'Metrics'),
+    rows.length > 0 ? table('percentiles of each metric', columns, rows) : el('p', {class: 'nothing'}, 'Nothing was measured. Name a metric: jarol campaign ... --metric \'deepest=max(depth of dune) < 3.2\''), words, valued);
 }
 
 function histograms() {
@@ -67,11 +75,14 @@ function scatters() {
 }
 
 function cases() {
-  const worst = metrics.flatMap((m) => m.worst ? [['worst', m, m.worst]] : m.min ? [['min', m, m.min], ['max', m, m.max]] : []);
+  const worst = metrics.flatMap((m) => m.worst ? [[m.bad_without ? 'worst value of' : 'worst', m, m.worst]] : m.min ? [['min', m, m.min], ['max', m, m.max]] : []);
+  const without = metrics.filter((m) => m.bad_without);
   const item = (title, text, line) => el('li', {}, el('p', {}, el('strong', {}, title), ' ', text), command(line));
   return section('cases', 'Cases to repeat', 'Each command runs that case again, to the bit, and records it; jarol log report makes a page of the recording.',
     report.shrunk ? [el('h3', {}, 'The mildest that fails'), el('ul', {class: 'cases'}, item(`Run ${report.shrunk.run}`, report.shrunk.why, report.shrunk.command))] : [],
-    worst.length > 0 ? [el('h3', {}, 'Those that stand out'), el('ul', {class: 'cases'}, worst.map(([word, m, one]) => item(`${word} ${m.name}`, `${reached(one.value, m.unit)}, run ${one.run}`, one.command)))] : [],
+    worst.length + without.length > 0 ? [el('h3', {}, 'Those that stand out'), el('ul', {class: 'cases'},
+      worst.map(([word, m, one]) => item(`${word} ${m.name}`, `${reached(one.value, m.unit)}, run ${one.run}`, one.command)),
+      without.map(({name, bad_without: bad}) => item(`bad without a value of ${name}`, `run ${bad.run}${bad.runs > 1 ? `, the first of ${bad.runs} such runs` : ''}`, bad.command)))] : [],
     el('h3', {}, 'Those that are not good'),
     report.not_good.length > 0 ? el('ul', {class: 'cases'}, report.not_good.map((one) => item(`Run ${one.run}, ${one.outcome}`, one.why, one.command)))
       : el('p', {class: 'nothing'}, 'None.'),

@@ -172,6 +172,7 @@ TEST_SUITE("tools/commands/campaign") {
     };
     const std::map<std::string, std::string> wrong{
         {"digest = 'zz'", "in run 1 a digest that is no hexadecimal number of 64 bits"},
+        {"digest = NULL", "in run 1 a digest that is no hexadecimal number of 64 bits"},
         {"digest = '0x'", "in run 1 a digest that is no hexadecimal number of 64 bits"},
         {"digest = '0x12345678901234567'", "in run 1 a digest that is no hexadecimal number of 64 bits"},
         {"outcome = 'great'", "in run 1 an outcome that there is not"},
