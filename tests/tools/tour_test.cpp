@@ -1,5 +1,5 @@
-// The tour does what it says: each command of specs/tour.md prints what stands there; those of specs/try.md end as they
-// are to.
+// The pages do what they say: each command of specs/tour.md and specs/campaigns.md prints what stands there; those of
+// specs/try.md end as they are to.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -22,21 +22,51 @@ struct Shown {
   std::vector<std::string> pieces{""};  // of its output, one behind the other; "..." stands between them
 };
 
+// Those of the blocks that begin with one.
 std::vector<Shown> commands_of(const std::string& page) {
   std::vector<Shown> commands;
-  bool in_block = false;
+  bool in_block = false, any = false;  // in this block
   std::istringstream lines(page);
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("```"))
+    if (line.starts_with("```")) {
       in_block = !in_block;
-    else if (in_block && line.starts_with("$ "))
+      any = false;
+    } else if (in_block && line.starts_with("$ ")) {
       commands.push_back({line.substr(2)});
-    else if (in_block && line == "...")
+      any = true;
+    } else if (any && line == "...") {
       commands.back().pieces.emplace_back();
-    else if (in_block)
+    } else if (any) {
       commands.back().pieces.back() += line + "\n";
+    }
   }
   return commands;
+}
+
+// Texts without how long it took.
+std::string timeless(const std::string& text) {
+  return std::regex_replace(text, std::regex(" of them in [0-9]+\\.[0-9] s"), " of them");
+}
+
+// Runs the commands of a page, and compares what they print; they find the tree in `folder`.
+void check_commands(const std::vector<Shown>& commands, const TemporaryFolder& folder) {
+  for (const Shown& shown : commands) {
+    REQUIRE(shown.command.starts_with("build/release/jarol "));
+    const std::string output =
+        timeless(command::run_jarol("", "2>/dev/null", "cd " + (folder / "") + " && " + shown.command).output);
+    CAPTURE(shown.command);
+    CAPTURE(output);
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < shown.pieces.size(); ++i) {
+      const std::string piece = timeless(shown.pieces[i]);
+      const std::size_t found = output.find(piece, at);
+      REQUIRE(found != std::string::npos);
+      // what is not left out follows at once
+      if (i == 0) CHECK(found == 0);
+      at = found + piece.size();
+    }
+    if (!shown.pieces.back().empty()) CHECK(at == output.size());
+  }
 }
 
 // Where commands of pages find the graphs and the program.
@@ -53,23 +83,7 @@ TEST_SUITE("tools/tour") {
     link_tree(folder);
     const std::vector<Shown> commands = commands_of(content("specs/tour.md"));
     CHECK(commands.size() == 10);
-    for (const Shown& shown : commands) {
-      REQUIRE(shown.command.starts_with("build/release/jarol "));
-      const std::string output =
-          command::run_jarol("", "2>/dev/null", "cd " + (folder / "") + " && " + shown.command).output;
-      CAPTURE(shown.command);
-      CAPTURE(output);
-      std::size_t at = 0;
-      for (std::size_t i = 0; i < shown.pieces.size(); ++i) {
-        const std::string& piece = shown.pieces[i];
-        const std::size_t found = output.find(piece, at);
-        REQUIRE(found != std::string::npos);
-        // what is not left out follows at once
-        if (i == 0) CHECK(found == 0);
-        at = found + piece.size();
-      }
-      if (!shown.pieces.back().empty()) CHECK(at == output.size());
-    }
+    check_commands(commands, folder);
 
     const jarol::Recording recording(folder / "dive.mcap");
     std::set<std::string> names;
@@ -90,6 +104,14 @@ TEST_SUITE("tools/tour") {
     const std::regex picture("<img src=\"([^\"]+)\"");
     for (std::sregex_iterator found(page.begin(), page.end(), picture), end; found != end; ++found)
       CHECK(fs::exists("specs/" + (*found)[1].str()));
+  }
+
+  TEST_CASE("each command of the page of campaigns prints what that shows") {
+    const TemporaryFolder folder;
+    link_tree(folder);
+    const std::vector<Shown> commands = commands_of(content("specs/campaigns.md"));
+    CHECK(commands.size() == 2);
+    check_commands(commands, folder);
   }
 
   TEST_CASE("each command that is shown to try ends with the verdict that it is to have") {
