@@ -19,7 +19,7 @@ struct MetricSummary {
   std::string unit;
   std::uint64_t count = 0;    // runs that have a number
   std::uint64_t missing = 0;  // runs that have no value
-  /// Of those, the runs that came to their end and broke the limit so, and the first of them.
+  /// Of those, the runs that came to their end and broke the limit by having no value, and the first of them.
   std::uint64_t bad_without = 0;
   std::optional<std::uint64_t> first_bad_without{};
   double mean = 0, deviation = 0;

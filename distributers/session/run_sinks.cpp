@@ -22,6 +22,13 @@ void RunSinks::rethrow_failure() const {
   if (recorder_) recorder_->rethrow_failure();
 }
 
+std::string RunSinks::failure_of(const RecordSink& sink) const { return recorder_->failure_of(sink); }
+
+std::string RunSinks::failure_of_conditions() const {
+  const std::string failure = expectations_ ? failure_of(*expectations_) : "";
+  return failure.empty() && measured_ ? failure_of(*measured_) : failure;
+}
+
 std::string RunSinks::why_not_all(const RecordSink& sink) const { return recorder_->why_not_all(sink); }
 
 void RunSinks::close() {

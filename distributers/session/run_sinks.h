@@ -27,7 +27,7 @@ class RunSinks {
   void judge_before(Duration instant) {
     if (expectations_) expectations_->judge_before(instant);
   }
-  /// The sinks have got all that was published so far.
+  /// The sinks have got all that was published so far, but for those that have failed.
   void catch_up();
   /// What the conditions of the graph know, while nothing is handed on.
   void serialize(Archive& archive) {
@@ -40,8 +40,12 @@ class RunSinks {
   }
   /// Throws the first that a sink has thrown by then. After `catch_up`.
   void rethrow_failure() const;
-  /// They have got all. Throws the first that a sink threw; the others have got all then, too.
+  /// They have got all, but for those that have failed: throws what these threw.
   void close();
+  /// What a sink has thrown; empty: nothing. After `catch_up` or `close`.
+  std::string failure_of(const RecordSink& sink) const;
+  /// The same of the conditions that are looked at.
+  std::string failure_of_conditions() const;
   /// Why a sink has not got all; empty: it has. After `close`.
   std::string why_not_all(const RecordSink& sink) const;
   /// After `close`, of a run that covered the instants before `end`. `cut_short`: why it ended before what it was meant

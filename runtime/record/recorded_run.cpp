@@ -43,6 +43,8 @@ std::string wrong_with(const LogEnd& end, const std::vector<RunningDigest>& befo
   return !before.empty() && end.covered < before.back().settled ? "an end before its last digest" : "";
 }
 
+std::string wrong_with(const EndedBy&) { return ""; }
+
 std::string wrong_with(const Gap& gap) {
   return !is_time(gap.from) || !is_time(gap.to) || gap.from > gap.to ? "a gap at no time of a run" : "";
 }
@@ -109,6 +111,8 @@ void RecordedRun::keep(const mcap::Message& message, const ReadTopic& topic, con
     digests_.push_back(read(RunningDigest{}, digests_));
   } else if (name == topics::rest) {
     rest_begun_ = Duration(read(RestBegin{}, rest_begun_.has_value()).begun);
+  } else if (name == topics::ended) {
+    ended_by_ = read(EndedBy{}).reason.view();
   } else if (name == topics::end) {
     end_ = read(LogEnd{}, digests_, end_.has_value());
   } else if (name == topics::gaps) {

@@ -32,6 +32,8 @@ class RecordedRun : public TakenValues {
 
   /// None: the run was killed, or could not write on, and how it ended is not known.
   const std::optional<LogEnd>& end() const { return end_; }
+  /// The signal that ended the run on its way, as in "SIGINT ended the run"; empty: none did, or that is not known.
+  const std::string& ended_by() const { return ended_by_; }
   /// From then on the vehicle was brought to rest; none: it was not, or that is not known.
   std::optional<Duration> rest_begun() const { return rest_begun_; }
   /// Its last part is good up to that byte.
@@ -63,6 +65,7 @@ class RecordedRun : public TakenValues {
   std::string path_;
   std::unique_ptr<Recording> recording_;
   std::optional<LogEnd> end_;
+  std::string ended_by_;
   std::optional<Duration> rest_begun_;
   std::uint64_t values_ = 0;
   std::int64_t last_value_ = 0;  // ns; its instant

@@ -88,10 +88,15 @@ void Recorder::rethrow_failure() const {
   if (failure_) std::rethrow_exception(failure_);
 }
 
-std::string Recorder::why_not_all(const RecordSink& sink) const {
+std::string Recorder::failure_of(const RecordSink& sink) const {
   for (const Failed& failed : failed_)
     if (failed.sink == &sink || failed.sink == nullptr) return failed.why;
-  return lost_;
+  return "";
+}
+
+std::string Recorder::why_not_all(const RecordSink& sink) const {
+  const std::string failure = failure_of(sink);
+  return failure.empty() ? lost_ : failure;
 }
 
 void Recorder::append_event(const RunEvent& event) {
@@ -111,6 +116,11 @@ void Recorder::close() {
   written_.fetch_or(ended, std::memory_order_release);
   wake();
   thread_.join();
+  if (failed_.size() > 1) {
+    std::string all;
+    for (const Failed& failed : failed_) all += (all.empty() ? "" : "; ") + failed.why;
+    throw std::runtime_error(all);
+  }
   rethrow_failure();
   if (!lost_.empty()) throw std::length_error(lost_);
 }
@@ -178,7 +188,10 @@ void Recorder::run() {
   }
   try {
     if (!taking_.empty()) hand_on_held(newest_);
-  } catch (...) { note_failure(nullptr); }
+  } catch (...) {
+    note_failure(nullptr);
+    taking_.clear();
+  }
   for (RecordSink* sink : taking_) {
     try {
       sink->finish();

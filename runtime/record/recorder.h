@@ -88,9 +88,12 @@ class Recorder {
   /// Something was not recorded, which `close` tells.
   bool has_lost() const { return !lost_.empty(); }
 
-  /// Hands on all that was appended, ends the thread and lets the sinks finish; throws the first that a sink threw. One
-  /// that has thrown gets nothing more and does not finish; the others get all.
+  /// Hands on all that was appended, ends the thread and lets the sinks finish; throws what a sink threw, or, of
+  /// several, std::runtime_error with all of it. One that has thrown gets nothing more and does not finish; the others
+  /// get all.
   void close();
+  /// What that sink has thrown; empty: nothing. After `catch_up` or `close`.
+  std::string failure_of(const RecordSink& sink) const;
   /// Why that sink has not got all; empty: it has. After `close`.
   std::string why_not_all(const RecordSink& sink) const;
 

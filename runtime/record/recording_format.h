@@ -69,6 +69,7 @@ inline constexpr std::string_view digests = "jarol/digests";
 inline constexpr std::string_view rest = "jarol/rest";
 inline constexpr std::string_view checkpoints = "jarol/checkpoints";
 inline constexpr std::string_view end = "jarol/end";
+inline constexpr std::string_view ended = "jarol/ended";
 inline constexpr std::string_view events = "jarol/events";
 inline constexpr std::string_view gaps = "jarol/gaps";
 }  // namespace topics
@@ -86,6 +87,13 @@ struct LogEnd {
     return describe(field<&LogEnd::covered>("ns"), field<&LogEnd::simulated>("ns"), field<&LogEnd::digest>(),
                     field<&LogEnd::activations>(), field<&LogEnd::instants>(), field<&LogEnd::faults>());
   }
+};
+
+/// Somebody ended the run on its way: a signal, and which, as a sentence.
+struct EndedBy {
+  String reason{};
+
+  static constexpr auto fields() { return describe(field<&EndedBy::reason>()); }
 };
 
 /// The whole run between two instants, as a checkpoint has it.

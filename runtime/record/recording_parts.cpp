@@ -31,11 +31,18 @@ bool may_be_replaced(const std::string& path) {
   return begin.starts_with(mcap::magic) && begin.ends_with(library);
 }
 
-// No input of the run, no output of another, and nothing that somebody would miss. Throws std::runtime_error.
-OutputLock lock_replaceable(const std::string& path) {
+[[noreturn]] void fail_to_write(const std::string& path, int reason) {
+  throw std::system_error(reason, std::generic_category(), "can't write '" + path + "'");
+}
+
+// No input of the run, no output of another, and nothing that somebody would miss. Throws std::exception.
+OutputLock lock_replaceable(const std::string& path, std::size_t number) {
   require_no_input(path);
   OutputLock lock(target_of(path));
-  if (!may_be_replaced(path))
+  std::error_code none;
+  const bool is_special = std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none);
+  // nobody has named the later ones
+  if (!may_be_replaced(path) || (is_special && number > 1))
     throw std::runtime_error("can't write '" + path +
                              "': it is there and no recording; choose another file, or remove it");
   return lock;
@@ -63,7 +70,7 @@ std::string mark_of_part(const std::string& path) {
 }
 
 RecordingParts::~RecordingParts() {
-  if (file_ != nullptr) std::fclose(file_);
+  if (part_.file != nullptr) std::fclose(part_.file);
 }
 
 void RecordingParts::open(RecordingHeader header, const std::vector<RecordedFile>& files,
@@ -72,13 +79,13 @@ void RecordingParts::open(RecordingHeader header, const std::vector<RecordedFile
   schemas_ = std::move(schemas);
   channels_ = std::move(channels);
   require_names();
-  open_part();
+  begin_part(open_part(path_, header_.part));
   try {
     for (const RecordedFile& file : files) writer_->write({file.path, "text/plain", file.text});
   } catch (const std::system_error& error) { fail(error.code().value()); }
 }
 
-// Those that are taken at the start are found there, and not on the way.
+// A name that is already taken is reported before the run, not when its part is due.
 void RecordingParts::require_names() const {
   if (header_.split == 0) return;
   std::error_code none;
@@ -90,20 +97,25 @@ void RecordingParts::require_names() const {
         number.size() > 1 &&
         std::from_chars(number.data() + 1, number.data() + number.size(), part).ptr == number.data() + number.size();
     const std::string path = is_number && part > 1 ? path_of_part(path_, part) : "";
-    if (!path.empty() && std::filesystem::path(path).filename() == entry.path().filename()) lock_replaceable(path);
+    if (!path.empty() && std::filesystem::path(path).filename() == entry.path().filename())
+      lock_replaceable(path, part);
   }
 }
 
-void RecordingParts::open_part() {
-  part_path_ = path_of_part(path_, header_.part);
-  lock_ = lock_replaceable(part_path_);
+RecordingParts::Part RecordingParts::open_part(const std::string& path, std::size_t number) {
+  Part part{path_of_part(path, number)};
+  part.lock = lock_replaceable(part.path, number);
   std::error_code none;
-  const bool in_place =
-      std::filesystem::exists(part_path_, none) && !std::filesystem::is_regular_file(part_path_, none);
-  file_ = in_place ? open_in_place(part_path_) : std::fopen(part_path_.c_str(), "wb");
-  if (file_ == nullptr) fail(errno);
+  const bool in_place = std::filesystem::exists(part.path, none) && !std::filesystem::is_regular_file(part.path, none);
+  part.file = in_place ? open_in_place(part.path) : std::fopen(part.path.c_str(), "wb");
+  if (part.file == nullptr) fail_to_write(part.path, errno);
+  return part;
+}
+
+void RecordingParts::begin_part(Part part) {
+  part_ = std::move(part);
   try {
-    writer_.emplace(file_, compression_, library);
+    writer_.emplace(part_.file, compression_, library);
     writer_->write({RecordingHeader::attachment, "application/json", to_json(header_)});
   } catch (const std::system_error& error) { fail(error.code().value()); }
 }
@@ -116,19 +128,26 @@ void RecordingParts::write(const mcap::Chunk& chunk) {
   } catch (const std::system_error& error) { fail(error.code().value()); }
 }
 
-// A name that is taken on the way must not cost what comes after it.
+// A part that can't be made must not cost what comes after it.
 void RecordingParts::begin_next() {
+  Part next;
   try {
-    lock_replaceable(path_of_part(path_, header_.part + 1));
-  } catch (const std::runtime_error& taken) {
-    stayed_ = taken.what();
+    next = open_part(path_, header_.part + 1);
+  } catch (const std::exception& wrong) {
+    const std::string why = wrong.what();
+    stayed_ = "'" + part_.path + "' went on beyond the size of --record-split: " + why.substr(0, why.find("; "));
     return;
   }
-  finish();
-  close();
+  try {
+    finish();
+    close();
+  } catch (...) {
+    std::fclose(next.file);
+    throw;
+  }
   ++header_.part;
-  header_.follows = mark_of_part(part_path_);
-  open_part();
+  header_.follows = mark_of_part(part_.path);
+  begin_part(std::move(next));
   try {
     writer_->write(schemas_, channels_);
   } catch (const std::system_error& error) { fail(error.code().value()); }
@@ -142,13 +161,11 @@ void RecordingParts::finish() {
 
 void RecordingParts::close() {
   // what is in buffers goes out here at the latest, so that a full disk shows
-  if (!sync(file_)) fail(errno);
-  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(errno);
-  sync_folder_of(part_path_);
+  if (!sync(part_.file)) fail(errno);
+  if (std::fclose(std::exchange(part_.file, nullptr)) != 0) fail(errno);
+  sync_folder_of(part_.path);
 }
 
-void RecordingParts::fail(int reason) const {
-  throw std::system_error(reason, std::generic_category(), "can't write '" + part_path_ + "'");
-}
+void RecordingParts::fail(int reason) const { fail_to_write(part_.path, reason); }
 
 }  // namespace jarol

@@ -41,16 +41,21 @@ class RecordingParts {
   void open(RecordingHeader header, const std::vector<RecordedFile>& files, std::vector<mcap::Schema> schemas,
             std::vector<mcap::Channel> channels);
   void write(const mcap::Chunk& chunk);
-  /// Why a further part was not begun when it was due: somebody else has its name. The last one goes on then; empty:
-  /// all were begun.
+  /// Of a part that went on as the next one could not be made when it was due, and why; empty: all were made.
   const std::string& stayed() const { return stayed_; }
   /// The summary of the last part; the system has all of it, the disk need not.
   void finish();
   void close();
 
  private:
+  struct Part {
+    std::string path{};
+    OutputLock lock{};
+    std::FILE* file = nullptr;
+  };
+  static Part open_part(const std::string& path, std::size_t number);
   void require_names() const;
-  void open_part();
+  void begin_part(Part part);
   void begin_next();
   [[noreturn]] void fail(int reason) const;  // by errno
 
@@ -59,9 +64,8 @@ class RecordingParts {
   RecordingHeader header_;
   std::vector<mcap::Schema> schemas_;
   std::vector<mcap::Channel> channels_;
-  std::string part_path_, stayed_;
-  OutputLock lock_;
-  std::FILE* file_ = nullptr;
+  Part part_;
+  std::string stayed_;
   std::optional<mcap::Writer> writer_;
 };
 

@@ -59,7 +59,8 @@ void RecordingWriter::add_inputs(const Graph& graph) {
     topics.push_back(topic(own ? output.name : std::string(topics::taken) + output.name, *output.type));
   }
   const std::vector<RecordedTopic> beside{topic(std::string(topics::end), type_of<LogEnd>()),
-                                          topic(std::string(topics::checkpoints), type_of<SavedState>())};
+                                          topic(std::string(topics::checkpoints), type_of<SavedState>()),
+                                          topic(std::string(topics::ended), type_of<EndedBy>())};
   inputs_.emplace(queue_, RecordedStream::Pressure::keeps, schemas_, topics, beside);
 }
 
@@ -97,15 +98,28 @@ void RecordingWriter::add_checkpoint(Duration instant, std::string_view bytes) {
   inputs_->append_beside(checkpoint_topic, instant, &state);
 }
 
-void RecordingWriter::close(const LogEnd& end) {
-  finish(end);
+void RecordingWriter::close(const LogEnd& end, std::string_view ended_by) {
+  finish(end, ended_by);
   parts_.close();
 }
 
-void RecordingWriter::finish(const LogEnd& end) {
-  recorder_->close();
-  inputs_->append_beside(end_topic, Duration(end.covered), &end);
-  inputs_->finish();
+void RecordingWriter::finish(const LogEnd& end, std::string_view ended_by) {
+  try {
+    recorder_->close();
+    if (!ended_by.empty()) {
+      const EndedBy ended{String(ended_by)};
+      inputs_->append_beside(ended_topic, Duration(end.covered), &ended);
+    }
+    inputs_->append_beside(end_topic, Duration(end.covered), &end);
+    inputs_->finish();
+  } catch (...) {
+    try {
+      queue_.close();  // nobody writes after this
+    } catch (...) {
+      // what came first is thrown
+    }
+    throw;
+  }
   queue_.close();
   parts_.finish();
 }

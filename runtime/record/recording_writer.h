@@ -40,18 +40,19 @@ class RecordingWriter {
   /// can begin there.
   void add_checkpoint(Duration instant, std::string_view bytes);
 
-  /// After the run and after the recorder of publications. Throws std::runtime_error if anything could not be written.
-  void close(const LogEnd& end);
+  /// After the run and after the recorder of publications. `ended_by`: the signal that ended it on its way, or nothing.
+  /// Throws std::runtime_error if anything could not be written.
+  void close(const LogEnd& end, std::string_view ended_by = "");
   /// The same but for closing the file: the system has all of it, the disk need not.
-  void finish(const LogEnd& end);
+  void finish(const LogEnd& end, std::string_view ended_by = "");
 
-  /// Why a further part was not begun, as its name was taken, and the last one went on; empty: all were. After `close`.
+  /// Of a part that went on as the next one could not be made, and why; empty: all were made. After `close`.
   const std::string& stayed() const { return parts_.stayed(); }
   /// Published values that came faster than the disk took them, on the real clock.
   std::uint64_t dropped() const { return publications_ ? publications_->dropped() : 0; }
 
  private:
-  enum BesideInputs : std::size_t { end_topic, checkpoint_topic };
+  enum BesideInputs : std::size_t { end_topic, checkpoint_topic, ended_topic };
   void add_inputs(const Graph& graph);
   void add_publications(const Graph& graph, const std::vector<const Type*>& truths);
   RecordedTopic topic(std::string name, const Type& type, mcap::Texts metadata = {});

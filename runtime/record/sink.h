@@ -31,7 +31,8 @@ class RecordSink {
   virtual void take_event(const RunEvent&) {}
   /// There is nothing more to take for now.
   virtual void pause() {}
-  /// After the last value. Throws if anything was lost.
+  /// After the last value. Throws if anything was lost. A sink that has thrown, here or above, gets nothing more, nor
+  /// is it asked to finish: what it has is not whole.
   virtual void finish() = 0;
 };
 

@@ -225,6 +225,18 @@ connections: [count.out -> sum.in]
     CHECK(command::json_report(again)["digest"] == ended["digest"]);
   }
 
+#ifdef JAROL_VEHICLES
+  TEST_CASE("the page of a run that has lost its vehicle repeats that, too") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "r.mcap", air = "distributers.robostix.link.parameters.air.north=900 m/s";
+    CHECK(
+        command::run_jarol("run specs/javiator.yaml --set expect=nothing --set '" + air + "' --for 5s --record " + file)
+            .exit_code == 3);
+    const std::string again = command::repeated_by(file);
+    CHECK(again.ends_with(" --seed 0 --for 5s"));
+  }
+#endif
+
   TEST_CASE("a log is whole, or the run says that it is not: wherever the room for it ends") {
     const TemporaryFolder folder;
     const std::string limited = folder / "limited.log";

@@ -270,7 +270,7 @@ void add_campaign(CommandLine& line, int& exit_code) {
   command->add_option(
       "--shard", options->shard,
       "Only this part of the runs, as in 2/8, the second of eight: report, table and page are of it alone, whatever "
-      "else is in --results; those of all runs come of the command without --shard");
+      "else is in --results; those of all runs come from the command without --shard");
   command
       ->add_option("--results", options->results,
                    "The SQLite database of the results; default: NAME.campaign.sqlite, here, of a graph NAME.yaml")

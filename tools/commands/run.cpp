@@ -230,7 +230,9 @@ int run(RunOptions options) {
   } else {
     attempt(not_run, [&] { what_ifs.run(graph_run.sinks(), files); });
     attempt(unwritten, [&] { graph_run.close_sinks(); });
-    if (log) attempt(unwritten, [&] { log->close(log_end_of(report)); });
+    const Ending ended = run_end.before_rest.value_or(run_end.ending);
+    const bool by_signal = ended.cause == Ending::Cause::signal;
+    if (log) attempt(unwritten, [&] { log->close(log_end_of(report), by_signal ? ended.reason : ""); });
     if (log) std::cerr << notes_of(options.recording, *log);
   }
   const bool written = unwritten.empty();

@@ -142,6 +142,22 @@ TEST_SUITE("runtime/recorder") {
     CHECK(recorder.why_not_all(broken) == "the disk is full");
   }
 
+  TEST_CASE("of several sinks that fail each says why") {
+    struct Broken : Collect {
+      void finish() override { throw std::runtime_error("the name is taken"); }
+    };
+    Full full;
+    Broken broken;
+    Collect last;
+    Recorder recorder({&full, &broken, &last});
+    append(recorder, 10);
+    CHECK_THROWS_WITH_AS(recorder.close(), "the disk is full; the name is taken", std::runtime_error);
+    CHECK(last.finished);
+    CHECK(recorder.failure_of(full) == "the disk is full");
+    CHECK(recorder.failure_of(broken) == "the name is taken");
+    CHECK(recorder.failure_of(last) == "");
+  }
+
   TEST_CASE("what a sink throws comes out of close, and the run is not held up") {
     Full sink;
     Recorder recorder({&sink});

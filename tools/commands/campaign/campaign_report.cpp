@@ -40,7 +40,7 @@ std::string valued_text(const MetricSummary& m, std::uint64_t runs) {
 }
 
 std::string table_of(const Summary& summary) {
-  if (summary.metrics.empty()) return "";
+  if (summary.metrics.empty() || summary.runs == 0) return "";
   std::size_t width = 6;
   for (const MetricSummary& m : summary.metrics) width = std::max(width, m.name.size());
   std::string text = fmt::format("  {:<{}}  {:>12}  {:>12}  {:>12}  {:>12}  {:>12}\n", "metric", width, "min", "5 %",

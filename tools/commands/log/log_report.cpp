@@ -42,9 +42,7 @@ std::string run_command(const RecordedRun& run) {
   const RecordingHeader& header = run.header();
   const bool to_its_end = header.until == header.mission || header.until >= longest_duration;
   std::optional<Duration> length = to_its_end ? std::nullopt : std::optional(header.until);
-  // somebody ended it before
-  if (run.rest_begun() || (run.end() && run.covered() < header.until))
-    length = run.rest_begun().value_or(run.covered());
+  if (run.end() && !run.ended_by().empty()) length = run.rest_begun().value_or(run.covered());
   std::string command = repeat_command(near_path(header.file), header.overrides, length,
                                        {.index = 0, .values = {}, .set = {}, .seed = header.seed});
   const bool is_file = header.execution.starts_with('/');

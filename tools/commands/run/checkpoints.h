@@ -77,7 +77,7 @@ class SavedRun : public ExecutorRun {
   std::vector<Stop> stops_;                           // in order of time
   std::function<void(const Checkpoint&)> take_each_;  // empty: none
   Duration every_{}, next_{};                         // when
-  std::uint64_t taken_after_ = 0;                     // instants of the run
+  std::uint64_t taken_after_ = 0;                     // instants executed when the newest one was taken
   std::string lost_;
 };
 

@@ -104,8 +104,7 @@ std::string notes_of(const RecordArguments& arguments, const RecordingWriter& wr
     notes += "note: " + std::to_string(writer.dropped()) +
              " published values came faster than the disk took them and are not in '" + printable(arguments.file()) +
              "'; a replay computes them again\n";
-  if (!writer.stayed().empty())
-    notes += "note: " + printable(writer.stayed()) + "; the recording went on in the file before it\n";
+  if (!writer.stayed().empty()) notes += "note: " + printable(writer.stayed()) + "\n";
   return notes;
 }
 

@@ -24,7 +24,7 @@ function head() {
   const figure = (value, text) => el('div', {class: 'figure'}, el('dd', {}, value), el('dt', {}, text));
   const kinds = outcomeWords.filter((word) => word !== 'good' && report.outcomes[word] > 0);
   return el('header', {class: 'head'}, el('p', {class: 'kicker'}, 'Jarol · campaign'),
-    el('div', {class: 'title'}, el('h1', {}, report.graph), bad === 0 ? badge('good', 'All runs are good') : badge('bad', `${count(bad, 'run')} not good`)),
+    el('div', {class: 'title'}, el('h1', {}, report.graph), report.done === 0 ? badge('open', 'No runs') : bad === 0 ? badge('good', 'All runs are good') : badge('bad', `${count(bad, 'run')} not good`)),
     el('dl', {class: 'figures'}, figure(plain(report.done), runsText()),
       figure(`${number(report.outcomes.good / Math.max(1, report.done) * 100, 4)} %`, 'good'),
       ...kinds.map((word) => figure(plain(report.outcomes[word]), word))));
