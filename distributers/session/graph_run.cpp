@@ -59,7 +59,7 @@ RunOrigin origin_of(const Loaded& loaded, const Overrides& overrides, std::uint6
 Checkpoint GraphRun::checkpoint() {
   sinks_.catch_up();
   if (const std::string failure = sinks_.failure_of_conditions(); !failure.empty())
-    throw CheckpointError("is not made, as what is expected is no longer looked at: " + failure);
+    throw CheckpointError("the run can't be saved, as what is expected of it is no longer looked at: " + failure);
   Checkpoint made(origin_, executor_.now());
   made.save("run", executor_);
   made.save("conditions", sinks_);

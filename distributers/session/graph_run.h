@@ -63,7 +63,7 @@ class GraphRun {
   /// then.
   void restore(const Checkpoint& checkpoint);
 
-  /// After the last instant: who looks on has got all. Throws the first that a sink threw.
+  /// After the last instant: who looks on has got all, but for sinks that have failed: throws what these threw.
   void close_sinks() { show_mishaps_and_close(sinks_, graph_, channels_, executor_.report()); }
 
   /// Of a run that was to go on `until` and ended like that.

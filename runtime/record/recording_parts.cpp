@@ -31,6 +31,12 @@ bool may_be_replaced(const std::string& path) {
   return begin.starts_with(mcap::magic) && begin.ends_with(library);
 }
 
+// A device, a pipe, a folder.
+bool is_special(const std::string& path) {
+  std::error_code none;
+  return std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none);
+}
+
 [[noreturn]] void fail_to_write(const std::string& path, int reason) {
   throw std::system_error(reason, std::generic_category(), "can't write '" + path + "'");
 }
@@ -39,10 +45,8 @@ bool may_be_replaced(const std::string& path) {
 OutputLock lock_replaceable(const std::string& path, std::size_t number) {
   require_no_input(path);
   OutputLock lock(target_of(path));
-  std::error_code none;
-  const bool is_special = std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none);
   // nobody has named the later ones
-  if (!may_be_replaced(path) || (is_special && number > 1))
+  if (!may_be_replaced(path) || (is_special(path) && number > 1))
     throw std::runtime_error("can't write '" + path +
                              "': it is there and no recording; choose another file, or remove it");
   return lock;
@@ -105,9 +109,7 @@ void RecordingParts::require_names() const {
 RecordingParts::Part RecordingParts::open_part(const std::string& path, std::size_t number) {
   Part part{path_of_part(path, number)};
   part.lock = lock_replaceable(part.path, number);
-  std::error_code none;
-  const bool in_place = std::filesystem::exists(part.path, none) && !std::filesystem::is_regular_file(part.path, none);
-  part.file = in_place ? open_in_place(part.path) : std::fopen(part.path.c_str(), "wb");
+  part.file = is_special(part.path) ? open_in_place(part.path) : std::fopen(part.path.c_str(), "wb");
   if (part.file == nullptr) fail_to_write(part.path, errno);
   return part;
 }

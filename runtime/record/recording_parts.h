@@ -36,8 +36,8 @@ class RecordingParts {
   RecordingParts& operator=(const RecordingParts&) = delete;
 
   /// Makes the first part, or replaces a recording; no part's name may be that of anything else. Throws
-  /// std::runtime_error, "can't write 'path': reason"; so do the
-  /// others. What is given is complete. Of the system's reasons it is a std::system_error.
+  /// std::runtime_error, "can't write 'path': reason"; so do the others. What is given is complete. Of the system's
+  /// reasons it is a std::system_error.
   void open(RecordingHeader header, const std::vector<RecordedFile>& files, std::vector<mcap::Schema> schemas,
             std::vector<mcap::Channel> channels);
   void write(const mcap::Chunk& chunk);

@@ -163,7 +163,7 @@ TEST_SUITE("tools/log_split") {
     const TemporaryFolder folder;
     for (const char* name : {"r.2.mcap", "r.17.mcap", "r.3.mcap"}) {
       const std::string later = folder.write(name, "somebody's notes");
-      if (std::string(name) == "r.3.mcap") {  // nor may it be a folder, or a line to another program
+      if (std::string(name) == "r.3.mcap") {  // nor may it be a folder
         fs::remove(later);
         fs::create_directory(later);
       }
