@@ -22,6 +22,11 @@ std::string executed_policies() {
   return names;
 }
 
+bool has_deep_input(const Graph& graph) {
+  return std::any_of(graph.tasks.begin(), graph.tasks.end(),
+                     [](const Task& task) { return task.task_class->in->is_deep(); });
+}
+
 }  // namespace
 
 void require_executed(const std::string& name, const Graph& graph, const RealTimeWords& words) {
@@ -35,7 +40,9 @@ std::vector<analysis::TaskThread> threads_for(const std::string& name, const Gra
                                               const RealTimeWords& words) {
   require_executed(name, graph, words);
   const bool by_priority = analysis::policy_of(graph.platform).urgency == Urgency::priority;
-  if (!by_priority && graph.platform.cores == 1) return {};
+  // a value of changing size goes from task to task by one thread alone
+  if (!by_priority && graph.platform.cores == 1 && (has_deep_input(graph) || !analysis::is_due_meanwhile(graph)))
+    return {};
   std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
   std::size_t cores = 0, levels = 0;
   for (const analysis::TaskThread& thread : threads) {

@@ -20,7 +20,8 @@ struct RealTimeWords {
 /// Throws NotExecutable where nothing executes the graph's policy; `name` is what the user called the graph.
 void require_executed(const std::string& name, const Graph& graph, const RealTimeWords& words = {});
 
-/// The threads that run tasks, where it takes more than the one that keeps the time; completes the options for them.
+/// The threads that run tasks, where it takes more than the one that keeps the time: several cores, priorities, or a
+/// communicator that is due while a task runs; completes the options for them.
 /// Throws NotExecutable too where this machine has too few CPUs, or SCHED_FIFO too few priorities.
 std::vector<analysis::TaskThread> threads_for(const std::string& name, const Graph& graph, RealTimeOptions& options,
                                               const RealTimeWords& words = {});

@@ -79,6 +79,15 @@ TEST_SUITE("tools/priorities") {
       check_priorities(on_two, {19, 20, 20, 20, 21});
     }
     {
+      // or where a task may still run when an output is due: then nothing keeps the time from handing it over
+      const std::string slow =
+          " --set timing.period=100ms --set tasks.forward.wcet=60ms --set communicators.to_dune.offset=";
+      Process before(run + slow + "60ms");
+      check_priorities(before, {20, 20, 20, 21});
+      Process meanwhile(run + slow + "20ms --set tasks.other={type: Work, wcet: 30ms}");
+      check_priorities(meanwhile, {19, 20, 20, 20, 21});
+    }
+    {
       // and those for the core, actuators and terminal
       Process on_threads(run + " --concurrency threads");
       check_priorities(on_threads, {20, 20, 20, 20, 20, 20, 20, 21});
