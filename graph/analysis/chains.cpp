@@ -71,22 +71,26 @@ ChainLatency latency_of(const Graph& graph, const std::vector<End>& path) {
   std::vector<Hop> hops;
   for (const End& end : path) hops.push_back(hop_of(graph, end));
   ChainLatency result;
-  Wide lcm = 1;
-  std::int64_t start = 0;
+  constexpr Wide max_time = std::numeric_limits<std::int64_t>::max();
+  Wide lcm = 1, bound = 0, start = 0;
   for (const Hop& h : hops) {
-    result.bound += h.period + (h.let > 0 ? h.let : 0);
+    bound += h.period + h.let;
     start += h.offset + h.period + h.let;
     const Wide next = lcm / std::gcd(static_cast<std::int64_t>(lcm), h.period) * h.period;
     lcm = std::min<Wide>(next, static_cast<Wide>(1) << 62);
   }
+  result.bound = static_cast<std::int64_t>(std::min(bound, max_time));
   const Hop &first = hops.front(), &last = hops.back();
-  if (lcm / first.period > max_activations || lcm / last.period > max_activations) {
+  // the latest instant that is looked at is before that
+  const bool fits = 2 * (start + lcm) + bound <= max_time;
+  if (!fits || lcm / first.period > max_activations || lcm / last.period > max_activations) {
     result.exact = false;
     result.max_reaction = result.max_reduced = result.max_age = result.max_reduced_age = result.bound;
     return result;
   }
   // forward, for every read of one repetition once all offsets are behind
-  const std::int64_t from = start / first.period + 1, count = static_cast<std::int64_t>(lcm) / first.period;
+  const auto behind = static_cast<std::int64_t>(start);
+  const std::int64_t from = behind / first.period + 1, count = static_cast<std::int64_t>(lcm) / first.period;
   result.min_reaction = std::numeric_limits<std::int64_t>::max();
   std::int64_t slowest = from;
   for (std::int64_t k = from; k < from + count; ++k) {
@@ -98,7 +102,7 @@ ChainLatency latency_of(const Graph& graph, const std::vector<End>& path) {
     result.max_reaction = std::max(result.max_reaction, out - first.read(k - 1).instant);
   }
   // backward, for every output of one repetition: it is valid until the next one that rests on another read
-  const std::int64_t begin = (2 * start) / last.period + 1, outputs = static_cast<std::int64_t>(lcm) / last.period;
+  const std::int64_t begin = (2 * behind) / last.period + 1, outputs = static_cast<std::int64_t>(lcm) / last.period;
   for (std::int64_t k = begin; k < begin + outputs; ++k) {
     const std::int64_t read = backward(hops, k);
     if (read < 0) continue;

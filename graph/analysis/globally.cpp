@@ -48,7 +48,9 @@ void refuse(Result& result, const GlobalSimulation& run, Evidence evidence) {
 // Runs that are possible: a late activation in one is a "no"; without jitter and with offsets that hold there is one
 // only that is worst (Cucu, Goossens 2006; Ha, Liu 1994), so that it decides.
 void walk(const System& system, const TaskModels& models, Result& result, Budget& budget) {
-  constexpr std::uint64_t max_activations = 1'000'000, steps_of_activation = 40;
+  // where the verdict stands, one that is late soon shows why
+  const std::uint64_t max_activations = result.verdict == Verdict::not_schedulable ? 20'000 : 1'000'000;
+  const std::uint64_t steps_of_activation = 40 + static_cast<std::uint64_t>(system.cores);
   const auto run_of = [&](const TaskModels& with, std::uint64_t max) {
     GlobalSimulation run = simulate_global(with, system.cores, std::min(max, budget.left / steps_of_activation),
                                            {.follows = system.follows});

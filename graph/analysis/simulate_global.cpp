@@ -19,6 +19,7 @@ struct Job {
   std::int64_t deadline = 0;
   std::int64_t left = 0;
   bool started = false;
+  std::size_t slice = 0;  // the number of its newest one, from 1 on; 0: none
 };
 
 bool more_urgent(const Job& a, const Job& b) {
@@ -112,15 +113,16 @@ class Simulator {
   void advance(Job& job, std::int64_t until) {
     job.left -= until - now_;
     std::vector<Slice>& slices = result_.slices;
-    const auto same = std::find_if(slices.rbegin(), slices.rend(), [&](const Slice& s) {
-      return s.task == job.task && s.activation == job.activation && s.end == now_;
-    });
-    if (same != slices.rend() && same - slices.rbegin() < static_cast<std::ptrdiff_t>(2 * cores_)) {
-      same->end = until;
-    } else {
-      if (slices.size() >= 2 * max_slices_of_cores) slices.erase(slices.begin(), slices.begin() + max_slices_of_cores);
-      slices.push_back({job.task, job.activation, now_, until});
+    if (job.slice > dropped_ && slices[job.slice - dropped_ - 1].end == now_) {
+      slices[job.slice - dropped_ - 1].end = until;
+      return;
     }
+    if (slices.size() >= 2 * max_slices_of_cores) {
+      slices.erase(slices.begin(), slices.begin() + max_slices_of_cores);
+      dropped_ += max_slices_of_cores;
+    }
+    slices.push_back({job.task, job.activation, now_, until});
+    job.slice = dropped_ + slices.size();
   }
 
   bool close(std::size_t i) {
@@ -144,6 +146,7 @@ class Simulator {
   std::vector<std::size_t> running_;            // of ready_
   std::vector<bool> taken_;                     // per core
   std::vector<Job> ready_;                      // most urgent first
+  std::size_t dropped_ = 0;                     // slices that are kept no more
   GlobalSimulation result_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "tests/graph/analysis/milliseconds.h"
 #include "tests/graph/graph_of.h"
 
@@ -93,5 +95,29 @@ chains:
     const ChainLatency l = latency_of(graph, all_tasks(graph));
     CHECK_FALSE(l.exact);
     CHECK(l.max_reaction == 2 * (9973 + 9967 + 9949 + 9941 + 9931) * ms);
+  }
+
+  TEST_CASE("a chain whose repetition reaches beyond all time has the upper bound, too") {
+    std::string tasks, connections;
+    for (std::size_t i = 0; i < 16; ++i) {
+      tasks += "  " + task_name(i) + ": {type: " + (i == 0 ? "Counter" : "Relay") +
+               ", period: 315000000s, offset: 314000000s, let: 315000000s}\n";
+      if (i > 0) connections += "  - " + task_name(i - 1) + ".out -> " + task_name(i) + ".in\n";
+    }
+    const Graph graph = tests::graph_of("graph: t\ntasks:\n" + tasks + "connections:\n" + connections);
+    constexpr std::int64_t period = 315'000'000'000'000'000;  // ns
+    std::vector<End> path = all_tasks(graph);
+    const ChainLatency all = latency_of(graph, path);
+    CHECK_FALSE(all.exact);
+    CHECK(all.max_age == std::numeric_limits<std::int64_t>::max());
+    path.resize(5);
+    const ChainLatency five = latency_of(graph, path);
+    CHECK_FALSE(five.exact);
+    CHECK(five.max_reaction == 10 * period);
+    CHECK(five.max_age == 10 * period);
+    path.resize(3);
+    const ChainLatency three = latency_of(graph, path);
+    CHECK(three.exact);
+    CHECK(three.max_reaction == 4 * period);
   }
 }

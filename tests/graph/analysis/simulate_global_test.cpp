@@ -94,6 +94,31 @@ TEST_SUITE("graph/analysis/simulate_global") {
     CHECK(!run.late);
   }
 
+  TEST_CASE("on a thousand cores a task that takes far too long is found late after one activation of it") {
+    constexpr std::int64_t ms = 1'000'000;
+    System system;
+    system.policy = jarol::policies::global_edf;
+    system.cores = 1024;
+    system.models = {{100'000 * ms, ms, ms, 0, 0, 0, 0}, {ms, 10 * ms, 10 * ms, 0, 0, 0, 0}};
+    system.rank = system.turn = {0, 1};
+    system.priority.resize(2);
+    system.core.resize(2);
+    const Result result = check(system);
+    CHECK(result.verdict == Verdict::not_schedulable);
+    CHECK(result.evidence == Evidence::proof);
+    CHECK(result.reason == "the tasks need more than all cores");
+    system.models[0].wcet = 20 * ms;
+    const Result soon = check(system);
+    REQUIRE(soon.late);
+    CHECK(soon.late->finish == 20 * ms);
+    // a piece for each that runs, as long as it runs
+    const auto first = std::find_if(soon.slices.begin(), soon.slices.end(),
+                                    [](const Slice& s) { return s.task == 0 && s.activation == 0; });
+    REQUIRE(first != soon.slices.end());
+    CHECK(first->begin == 0);
+    CHECK(first->end == 20 * ms);
+  }
+
   TEST_CASE("what arrives while one activation runs for long is bounded, too") {
     constexpr std::int64_t hour = 3'600'000'000'000, max = 1'000;
     const std::vector<TaskModel> models{{999 * hour, 1000 * hour, 1000 * hour, 0, 0, 0, 0},
