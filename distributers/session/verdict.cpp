@@ -102,7 +102,7 @@ RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector
   }
   verdict.not_at_rest = not_at_rest_text(graph, rest, end);
   verdict.left_out = find_left_out(graph, report);
-  verdict.unheard = find_unheard(graph, channels);
+  if (report.instants > 0) verdict.unheard = find_unheard(graph, channels);
   return verdict;
 }
 

@@ -105,10 +105,10 @@ Duration RealClock::monotonic() {
   return std::chrono::seconds(now.tv_sec) + Duration(now.tv_nsec);
 }
 
-void RealClock::start() { start_ = monotonic(); }
+void RealClock::start() { start_.store(monotonic(), std::memory_order_relaxed); }
 
 void RealClock::wait_until(Duration instant, const std::atomic<bool>& interrupted) {
-  const Duration due = start_ + instant;
+  const Duration due = start_.load(std::memory_order_relaxed) + instant;
   const Duration awake = options_.spin ? due - spin_before : due;
   Duration at = monotonic();
   while (at < awake) {

@@ -56,8 +56,11 @@ class RealClock {
   /// Instant 0 is now.
   void start();
 
-  /// Since instant 0.
-  Duration now() const { return monotonic() - start_; }
+  /// Since instant 0, at which it stands until `start`; any thread.
+  Duration now() const {
+    const Duration start = start_.load(std::memory_order_relaxed);
+    return start == Duration{} ? start : monotonic() - start;
+  }
 
   /// Returns at the instant, or when `interrupted` is seen, at most a tenth of a second later; counts the lateness.
   void wait_until(Duration instant, const std::atomic<bool>& interrupted);
@@ -73,7 +76,7 @@ class RealClock {
 
  private:
   RealTimeOptions options_;
-  Duration start_{};
+  std::atomic<Duration> start_{};    // 0: not started
   std::vector<TaskTiming> timings_;  // per task
   Histogram lateness_;
 };

@@ -1,6 +1,9 @@
 #include "runtime/record/recording_parts.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -39,6 +42,23 @@ bool is_special(const std::string& path) {
 
 [[noreturn]] void fail_to_write(const std::string& path, int reason) {
   throw std::system_error(reason, std::generic_category(), "can't write '" + path + "'");
+}
+
+// Empty, and nobody else writes it by another name, as a hard link is one. Null, and errno, if it can't be opened.
+std::FILE* open_alone(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) return nullptr;
+  // file systems without locks have that of the name
+  const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  std::FILE* const file = !taken && ::ftruncate(descriptor, 0) == 0 ? ::fdopen(descriptor, "wb") : nullptr;
+  if (file != nullptr) return file;
+  const int reason = errno;
+  ::close(descriptor);
+  if (taken)
+    throw std::runtime_error("can't write '" + path +
+                             "': another run writes it by another name; choose another file, or wait until that ends");
+  errno = reason;
+  return nullptr;
 }
 
 // No input of the run, no output of another, and nothing that somebody would miss. Throws std::exception.
@@ -109,7 +129,7 @@ void RecordingParts::require_names() const {
 RecordingParts::Part RecordingParts::open_part(const std::string& path, std::size_t number) {
   Part part{path_of_part(path, number)};
   part.lock = lock_replaceable(part.path, number);
-  part.file = is_special(part.path) ? open_in_place(part.path) : std::fopen(part.path.c_str(), "wb");
+  part.file = is_special(part.path) ? open_in_place(part.path) : open_alone(part.path);
   if (part.file == nullptr) fail_to_write(part.path, errno);
   return part;
 }

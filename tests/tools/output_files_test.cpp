@@ -271,6 +271,25 @@ tasks: {a: {type: Counter, period: 10ms}}
     CHECK(jarol::RecordedRun(log).end());
   }
 
+  TEST_CASE("so it is where the second has another name of the same file") {
+    const TemporaryFolder folder;
+    const std::string log = folder / "run.log", other = folder / "other.log";
+    const jarol::RecordingHeader header{.graph = "counting", .file = "", .overrides = {}, .clock = "virtual"};
+    const auto loaded = jarol::tools::load_graph("specs/counting.yaml", {});
+    jarol::RecordingWriter first(log, header, {}, *loaded.graph);
+    first.open();
+    fs::create_hard_link(log, other);
+    const auto second = command::run_jarol("run specs/counting.yaml --for 1s --log " + other);
+    CHECK(second.exit_code == 2);
+    CHECK(second.output == "error: can't write '" + other +
+                               "': another run writes it by another name; choose another file, or wait until that "
+                               "ends\n");
+    first.close({});
+    CHECK(jarol::RecordedRun(log).end());
+    // once that has ended it can be written anew
+    CHECK(command::run_jarol("run specs/counting.yaml --for 1s --log " + other).exit_code == 0);
+  }
+
   TEST_CASE("what is written does not take the place of the program that writes") {
     const TemporaryFolder folder;
     const std::string own = folder / "own";

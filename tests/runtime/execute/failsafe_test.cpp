@@ -1,3 +1,4 @@
+// In one file: all cases have one sensor that falls silent.
 #include "runtime/execute/failsafe.h"
 
 #include <doctest/doctest.h>
@@ -129,6 +130,17 @@ connections: [i -> s.a, k -> s.b, s.out -> o]
     std::vector<double> handed;
     run_graph(graph, 40ms, sensor({{0ms, std::numeric_limits<double>::quiet_NaN()}, {20ms, 4}}, handed));
     CHECK(handed == std::vector<double>{-1, -1, 4, 4});
+  }
+
+  TEST_CASE("a run on the real clock that ends before its first instant hands over what is safe at zero") {
+    const Graph graph = graph_with_timeout();
+    std::vector<double> handed;
+    RealClock clock(graph.tasks.size());
+    Executor executor(graph, sensor({}, handed), {.clock = &clock});
+    executor.close();
+    CHECK(handed == std::vector<double>{-1});
+    REQUIRE(executor.failsafe().at(0).at_end);
+    CHECK(executor.failsafe().at(0).at_end->time == 0ms);
   }
 
   TEST_CASE("the report says how often, and from when to when") {

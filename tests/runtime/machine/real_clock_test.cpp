@@ -116,6 +116,13 @@ TEST_SUITE("runtime/real_clock") {
     CHECK(real.report.activations == 20);
   }
 
+  TEST_CASE("before its start the clock stands at zero") {
+    RealClock clock(1);
+    CHECK(clock.now() == 0ns);
+    clock.start();
+    CHECK(clock.now() < 1s);
+  }
+
   TEST_CASE("an instant is never begun before the clock has reached it") {
     const Graph graph = graph_from(text_with(", on_fault: hold, parameters: {slow: -1}"));
     RealClock clock(graph.tasks.size());
