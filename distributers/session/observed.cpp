@@ -24,11 +24,12 @@ std::vector<std::string> words_within(const Type& type) {
   return words;
 }
 
-// "fins.0" within an Actuation.
+// ".fins.0" within an Actuation.
 Place find_within(Place place, std::string_view path, std::string name) {
   while (!path.empty()) {
+    path.remove_prefix(1);
     const std::string_view word = path.substr(0, path.find('.'));
-    path.remove_prefix(std::min(path.size(), word.size() + 1));
+    path.remove_prefix(word.size());
     const std::vector<std::string> words = words_within(*place.type);
     const auto index = static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin());
     if (index == words.size())
@@ -76,7 +77,7 @@ Place Observed::find(std::string_view name, const Type& type) const {
     throw UnknownName("nothing that is published has the name '" + std::string(name) + "'" + did_you_mean(name, names) +
                       "; there are: " + list_of(names));
   }
-  const std::string_view path = name.substr(std::min(name.size(), of->name.size() + 1));
+  const std::string_view path = name.substr(of->name.size());
   const Place found = find_within({static_cast<std::size_t>(of - outputs_.data()), 0, of->type}, path, of->name);
   if (same_type(*found.type, type)) return found;
   throw WrongType("'" + std::string(name) + "' is a " + found.type->name + ", not a " + type.name);

@@ -27,7 +27,7 @@ struct SessionOptions {
   RealTimeOptions real_time{};     // on the real clock: priority and CPUs of the threads that run the graph
   bool force = false;              // on the real clock: also what check has a negative verdict on
   std::string no_plugins{};        // why plugins that the graph names are an error; empty: they are loaded
-  NoteSink note = no_notes;        // gets what is worth knowing and no error
+  NoteSink note = no_notes;        // gets what is worth knowing and no error; null: nobody does
 };
 
 /// A publication.

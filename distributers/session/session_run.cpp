@@ -39,13 +39,13 @@ void require_no_clock(const Loaded& loaded) {
 
 Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const Source> source,
                   const SessionOptions& options)
-    : note_(options.note) {
+    : note_(options.note ? options.note : no_notes) {
   if (options.workers < 1 || options.workers > max_workers)
     throw NotExecutable("a run has 1 to " + std::to_string(max_workers) + " workers, not " +
                         std::to_string(options.workers));
-  Loaded loaded = feed_in_place_of_links(load_graph(source, known, {options.profile, options.set, options.no_plugins},
-                                                    options.seed, options.note, options.fed),
-                                         options.fed);
+  Loaded loaded = feed_in_place_of_links(
+      load_graph(source, known, {options.profile, options.set, options.no_plugins}, options.seed, note_, options.fed),
+      options.fed);
   if (options.real_clock)
     make_clock(source->name, loaded, options);
   else

@@ -155,6 +155,12 @@ TEST_SUITE("distributers/session") {
                          "'goal' (Setpoint) has no field 'dept'; did you mean 'depth'?; it has: depth, heading, speed, "
                          "turn, rate, drive, thrust",
                          UnknownName);
+    CHECK_THROWS_WITH_AS(session.value<double>("goal.depth."), "'goal.depth' (double) has no field ''; it has: nothing",
+                         UnknownName);
+    CHECK_THROWS_WITH_AS(session.value<tasks::Setpoint>("goal."),
+                         "'goal' (Setpoint) has no field ''; it has: depth, heading, speed, turn, rate, drive, thrust",
+                         UnknownName);
+    CHECK_THROWS_AS(session.value<double>("goal..depth"), UnknownName);
     CHECK_THROWS_WITH_AS(
         session.watch("x*"),
         "nothing that is published has the name 'x*'; there are: a, b, depth.moment, goal, motion, sum.out",
