@@ -43,6 +43,9 @@ std::string find_wrong(const std::string& path) {
 
 std::atomic<bool> is_any_loaded{false};
 
+constexpr char how_to_export[] =
+    "; the program that loads it must export its symbols: link it with -rdynamic, or set ENABLE_EXPORTS in CMake";
+
 struct Judgement {
   std::string wrong;
   bool trusted = false;  // it leaves the floating-point environment as it is
@@ -66,7 +69,9 @@ std::string open_plugin(const std::string& path, PluginLibrary& library) {
   void* const loaded = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (loaded == nullptr) {
     const char* const why = dlerror();
-    return std::string("is no shared library that can be used here: ") + (why != nullptr ? why : "unknown reason");
+    const std::string text = why != nullptr ? why : "unknown reason";
+    const bool is_ours = text.find("undefined symbol") != std::string::npos && text.find("5jarol") != std::string::npos;
+    return "is no shared library that can be used here: " + text + (is_ours ? how_to_export : "");
   }
   library.add = reinterpret_cast<void (*)(PluginParts&)>(dlsym(loaded, "jarol_plugin_add"));
   const auto rounds_products = reinterpret_cast<bool (*)(const volatile double&, const volatile double&)>(

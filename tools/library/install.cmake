@@ -13,6 +13,8 @@ endforeach()
 # what changes results or layouts holds for those who include its headers, too
 target_compile_features(jarol_graph INTERFACE cxx_std_20)
 target_compile_options(jarol_graph INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
+# plugins find what they use in the program that loads them
+target_link_options(jarol_library INTERFACE $<INSTALL_INTERFACE:-rdynamic>)
 
 install(TARGETS ${libraries} jarol EXPORT jarol)
 # projects make message sets of their own by it
