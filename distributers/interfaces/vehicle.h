@@ -67,7 +67,7 @@ class SteppedVehicle {
   virtual const void* true_values() const { return nullptr; }
 
   /// All that changes while it moves, between two steps; restored into one of the same parameters, it goes on to the
-  /// bit. Throws NotSaveable.
+  /// bit. Throws NotSaveable; what else it throws while it is saved means the same.
   virtual void serialize(Archive&) { throw NotSaveable("its vehicle has no serialize(Archive&)"); }
 
   /// What has become of it that no mission wants; none: nothing, or it is not known here.
@@ -102,11 +102,11 @@ struct VehicleClass {
   std::string summary;
   const Type* parameters = nullptr;
   const Type* inputs = nullptr;  // a struct of doubles
-  std::vector<Range> ranges;     // of the inputs
+  std::vector<Range> ranges;     // of each input
   const messages::MessageSet* message_set = nullptr;
   const Type* outputs = nullptr;  // a struct of structs of numbers
   const Type* truth = nullptr;    // of its true values, as operators name them
-  // from a value of the type of parameters; throws std::runtime_error if there can be no such vehicle
+  // from a value of the type of parameters; throws a std::exception if there can be no such vehicle
   std::unique_ptr<Vehicle> (*make)(const void* parameters, std::uint64_t seed) = nullptr;
   // passes on what the vehicle reports and adds what a peer expects beside it; null: nothing
   std::unique_ptr<messages::Receiver> (*make_telemetry)(const Vehicle& vehicle, messages::Receiver& to) = nullptr;

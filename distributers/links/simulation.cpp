@@ -81,7 +81,15 @@ void SimulatedSystem::hand_over(std::size_t channel, const void* value) {
 void SimulatedSystem::serialize(Archive& archive) {
   archive(at_, sensed_);
   archive.require(at_ >= Duration{} && at_ <= longest_duration, "has a vehicle at no time of a run");
-  vehicle_->serialize(archive);
+  try {
+    vehicle_->serialize(archive);
+  } catch (const NotSaveable&) { throw; } catch (const ArchiveError&) {
+    throw;
+  } catch (const std::exception& error) {
+    const std::string what = std::string("its vehicle's serialize(Archive&) throws: ") + error.what();
+    if (archive.restores()) throw ArchiveError("can't be restored, as " + what);
+    throw NotSaveable(what);
+  }
   distributer_->serialize(archive);
 }
 

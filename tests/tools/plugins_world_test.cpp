@@ -90,6 +90,44 @@ expect: [light of lamp within 0.1 of 291]
     CHECK(command::run_jarol("vehicle lamp --describe").output.find("there is no vehicle 'lamp'") != std::string::npos);
   }
 
+  TEST_CASE("a vehicle of a plugin that can't be is refused before it moves") {
+    const command::TemporaryFolder folder;
+    folder.write("lamp.yaml", "vehicle: lamp\n");
+    const auto graph_with = [&](const std::string& plugin, const std::string& gain) {
+      return folder.write("g.yaml", "graph: g\ntiming: {period: 10ms}\nplugins: [" + plugin +
+                                        "]\ndistributers:\n  lamp: {type: LampSwitch, link: {type: simulation, "
+                                        "vehicle: lamp.yaml, parameters: {gain: " +
+                                        gain + "}}}\n");
+    };
+    const std::string world = std::filesystem::absolute(library("world"));
+    const std::string made = ":5:62: error: vehicle 'lamp' can't be made: ";
+    const auto empty = command::run_jarol("check " + graph_with(world, "0"));
+    CHECK(empty.output.find("g.yaml" + made + "its grid() is 0ns; a step has a length above zero, as in 10ms\n") !=
+          std::string::npos);
+    CHECK(empty.exit_code == 2);
+    const auto bright = command::run_jarol("run " + graph_with(world, "2000") + " --for 1s");
+    CHECK(bright.output.find("g.yaml" + made + "its constructor throws what is no std::exception\n") !=
+          std::string::npos);
+    CHECK(bright.exit_code == 2);
+    const auto alone =
+        command::run_jarol("vehicle lamp --plugin " + world + " --set gain=0 --script " +
+                           folder.write("s.csv", "time,level\n0,1\n1,2\n") + " --csv " + (folder / "m.csv"));
+    CHECK(alone.output ==
+          "error: vehicle 'lamp' can't be made: its grid() is 0ns; a step has a length above zero, as in 10ms\n");
+    CHECK(alone.exit_code == 2);
+    const std::string two = std::filesystem::absolute(library("two_ranges"));
+    const std::string wrong =
+        "'" + two +
+        "' throws when it is loaded: vehicle 'lamp' has another number of ranges (2) than of inputs (1); "
+        "Inputs::ranges() gives one for each, in their order\n";
+    const auto ranged = command::run_jarol("check " + graph_with(two, "1"));
+    CHECK(ranged.output.find("g.yaml:3:11: error: " + wrong) != std::string::npos);
+    CHECK(ranged.exit_code == 2);
+    const auto described = command::run_jarol("vehicle lamp --describe --plugin " + two);
+    CHECK(described.output.find("error: " + wrong) != std::string::npos);
+    CHECK(described.exit_code == 2);
+  }
+
   TEST_CASE("a plugin brings a link type, and a graph speaks over it with what is at the other end") {
     const command::TemporaryFolder folder;
     const auto path = [](const std::string& name) { return std::filesystem::absolute(library(name)).string(); };

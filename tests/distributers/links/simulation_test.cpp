@@ -36,6 +36,12 @@ class Steps : public vehicles::Vehicle {
   float held_ = 0;
 };
 
+// One that can be neither saved nor restored.
+class Unsaved : public Steps {
+ public:
+  void serialize(Archive&) override { throw std::logic_error("ser broke"); }
+};
+
 SimulatedSystem make() { return {std::make_unique<Steps>(), std::make_unique<Typed<LauvVehicle>>()}; }
 
 double depth_of(SimulatedSystem& channels) {
@@ -68,5 +74,18 @@ TEST_SUITE("distributers/links/simulation") {
     CHECK(depth_of(channels) == 1);
     channels.reach(30ms);
     CHECK(depth_of(channels) == 11);
+  }
+
+  TEST_CASE("what a vehicle throws when it is saved or restored is said to be of it") {
+    Archive::Bytes bytes;
+    Archive archive = Archive::to(bytes);
+    CHECK_THROWS_WITH_AS(make().serialize(archive), "its vehicle has no serialize(Archive&)", NotSaveable);
+    SimulatedSystem channels(std::make_unique<Unsaved>(), std::make_unique<Typed<LauvVehicle>>());
+    bytes.clear();
+    CHECK_THROWS_WITH_AS(channels.serialize(archive), "its vehicle's serialize(Archive&) throws: ser broke",
+                         NotSaveable);
+    Archive from = Archive::from(bytes);
+    CHECK_THROWS_WITH_AS(channels.serialize(from),
+                         "can't be restored, as its vehicle's serialize(Archive&) throws: ser broke", ArchiveError);
   }
 }

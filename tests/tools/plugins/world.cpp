@@ -24,7 +24,13 @@ class Lamp : public jarol::vehicles::Vehicle {
   struct Inputs {
     double level = 0;
     static constexpr auto fields() { return describe(field<&Inputs::level>()); }
+#ifdef TWO_RANGES
+    static std::vector<jarol::vehicles::Range> ranges() {
+      return {{0, 1000}, { 0, 1 }};
+    }
+#else
     static std::vector<jarol::vehicles::Range> ranges() { return {{0, 1000}}; }
+#endif
   };
   struct Light {
     double light = 0;
@@ -36,8 +42,11 @@ class Lamp : public jarol::vehicles::Vehicle {
   };
   using Truth = Light;
 
-  Lamp(const Parameters& parameters, std::uint64_t) : parameters_(parameters) {}
-  std::chrono::nanoseconds grid() const override { return std::chrono::milliseconds(10); }
+  Lamp(const Parameters& parameters, std::uint64_t) : parameters_(parameters) {
+    if (parameters.gain > 1000) throw 5;
+  }
+  // none where it has no light
+  std::chrono::nanoseconds grid() const override { return std::chrono::milliseconds(parameters_.gain == 0 ? 0 : 10); }
   void accept(jarol::messages::MessageRef command) override {
     if (const auto* limit = command.as<IdleLimit>()) inputs_.level = limit->idle;
   }

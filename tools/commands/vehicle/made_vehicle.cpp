@@ -87,7 +87,7 @@ std::unique_ptr<vehicles::Vehicle> make_vehicle(const VehicleOptions& options,
   std::unique_ptr<vehicles::Vehicle> vehicle;
   try {
     vehicle = vehicle_class.make(parameters.data(), seed);
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     problems.throw_if_any();
     throw std::invalid_argument("vehicle '" + vehicle_class.name + "' can't be made: " + error.what());
   }
