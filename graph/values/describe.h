@@ -136,7 +136,10 @@ constexpr void require_value() {
   static_assert(!std::is_array_v<T>, "a value is copied whole: use std::array in place of T[N]");
   static_assert(!is_matrix<T>, "of Eigen a value holds columns of fixed size: use std::array or jarol::Sequence<T>");
   static_assert(!is_odd_number<T>,
-                "a number is of one size everywhere: use std::int8_t for char, double for long double");
+                "a number is of one size everywhere: use std::int8_t to std::uint64_t for characters and __int128, "
+                "double for long double");
+  static_assert(!is_other_duration<T>,
+                "a duration is in nanoseconds: use std::chrono::nanoseconds, to which the others convert");
   static_assert(is_value<T> || has_substitute<T>, "a struct within a value needs a fields() of its own");
   if constexpr (asks_for_names_at_once)
     static_assert(!std::is_enum_v<T> || DescribedEnum<T>, "an enumeration within a value needs enumerators(E)");

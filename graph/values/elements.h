@@ -47,8 +47,19 @@ struct SequenceTraits<Sequence<E>> {
   using Element = E;
 };
 
+// Their sign or size is another one on another platform, or they are texts.
 template <class T>
-concept Integer = std::integral<T> && !std::same_as<T, bool> && !std::same_as<T, char>;
+concept Character = std::same_as<T, char> || std::same_as<T, wchar_t> || std::same_as<T, char8_t> ||
+    std::same_as<T, char16_t> || std::same_as<T, char32_t>;
+
+// With the compiler's own extensions they are integral, too.
+__extension__ using Signed128 = __int128;
+__extension__ using Unsigned128 = unsigned __int128;
+template <class T>
+concept Integer128 = std::same_as<T, Signed128> || std::same_as<T, Unsigned128>;
+
+template <class T>
+concept Integer = std::integral<T> && !std::same_as<T, bool> && !Character<T> && !Integer128<T>;
 
 template <class T>
 concept Array = ArrayTraits<T>::is_array;

@@ -1,6 +1,7 @@
 // What can't be a member of a value, and what takes its place.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,13 +33,14 @@ inline constexpr bool is_container = !is_text<T> && !is_matrix<T> && requires(T 
   t.begin();
 };
 template <class T>
-inline constexpr bool is_odd_number = std::is_arithmetic_v<T> &&
-                                      (std::same_as<T, char> || std::same_as<T, long double>);
+inline constexpr bool is_odd_number = Character<T> || Integer128<T> || std::same_as<T, long double>;
+template <class T>
+inline constexpr bool is_other_duration = IsA<T, std::chrono::duration>::value && !std::same_as<T, Duration>;
 template <class T>
 inline constexpr bool is_choice = IsA<T, std::optional>::value || IsA<T, std::variant>::value;
 
 template <class T>
 inline constexpr bool has_substitute = is_pointer<T> || is_text<T> || is_matrix<T> || is_container<T> || is_choice<T> ||
-                                       is_odd_number<T> || std::is_array_v<T>;
+                                       is_odd_number<T> || is_other_duration<T> || std::is_array_v<T>;
 
 }  // namespace jarol::detail

@@ -47,6 +47,19 @@ const Type& type_of() {
 
 namespace detail {
 
+// Has it enumerators, each with a name of its own? Those that are not known to the compiler are not asked.
+template <class E>
+constexpr bool has_distinct_names() {
+  if constexpr (requires { typename std::bool_constant<(static_cast<void>(enumerators(E{})), true)>; }) {
+    constexpr auto all = enumerators(E{});
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (all[i].name == all[j].name) return false;
+    return all.size() > 0;
+  }
+  return true;
+}
+
 template <class T>
 constexpr std::string_view scalar_name() {
   if constexpr (std::same_as<T, double>) return "double";
@@ -140,6 +153,7 @@ void fill_type(Type& type) {
                                             : Kind::unsigned_integer;
   } else if constexpr (std::is_enum_v<T>) {
     static_assert(DescribedEnum<T>, "an enumeration is a value once enumerators(E) lists its names");
+    static_assert(has_distinct_names<T>(), "enumerators(E) lists one at least, and each by a name of its own");
     type.name = type_name<T>();
     type.kind = Kind::enumeration;
     for (const auto& e : enumerators(T{})) {

@@ -1,4 +1,4 @@
-// What does not compile as a value, from 24 on as a task; NOT_A_VALUE says which, 0 is one that does.
+// What does not compile as a value, 24 to 30 as a task; NOT_A_VALUE says which, 0 is one that does.
 #include "graph/plugins/plugin.h"
 
 namespace {
@@ -132,6 +132,48 @@ struct Value {
 struct Value {
   Eigen::MatrixXd numbers;
   static constexpr auto fields() { return describe(field<&Value::numbers>()); }
+};
+#elif NOT_A_VALUE == 31  // a number whose size the platform decides
+struct Value {
+  wchar_t letter = 0;
+  static constexpr auto fields() { return describe(field<&Value::letter>()); }
+};
+#elif NOT_A_VALUE == 32  // a part of a text
+struct Value {
+  std::array<char8_t, 4> letters{};
+  static constexpr auto fields() { return describe(field<&Value::letters>()); }
+};
+#elif NOT_A_VALUE == 33  // a number of 128 bits
+struct Value {
+  __int128 number = 0;
+  static constexpr auto fields() { return describe(field<&Value::number>()); }
+};
+#elif NOT_A_VALUE == 34  // a duration in other ticks
+struct Value {
+  std::chrono::milliseconds time{};
+  static constexpr auto fields() { return describe(field<&Value::time>()); }
+};
+#elif NOT_A_VALUE == 35  // two enumerators by one name
+enum class Mode { on, off };
+constexpr auto enumerators(Mode) {
+  return std::array<jarol::Enumerator<Mode>, 2>{{{"on", Mode::on}, {"on", Mode::off}}};
+}
+struct Value {
+  Mode mode = Mode::on;
+  static constexpr auto fields() { return describe(field<&Value::mode>()); }
+};
+#elif NOT_A_VALUE == 36  // an enumeration of nothing
+enum class Mode {};
+constexpr auto enumerators(Mode) { return std::array<jarol::Enumerator<Mode>, 0>{}; }
+struct Value {
+  Mode mode{};
+  static constexpr auto fields() { return describe(field<&Value::mode>()); }
+};
+#elif NOT_A_VALUE == 37  // more members than there may be
+struct Value {
+  double a0{}, a1{}, a2{}, a3{}, a4{}, a5{}, a6{}, a7{}, a8{}, a9{}, b0{}, b1{}, b2{}, b3{}, b4{}, b5{}, b6{}, b7{},
+      b8{}, b9{}, c0{}, c1{}, c2{}, c3{}, c4{}, c5{}, c6{}, c7{}, c8{}, c9{}, d0{}, d1{}, d2{};
+  static constexpr auto fields() { return describe(field<&Value::a0>()); }
 };
 #else                    // a value; the names of an enumeration within it can only stand behind it
 struct Value {
