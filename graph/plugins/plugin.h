@@ -6,8 +6,9 @@
 //   struct Twice { static constexpr std::string_view summary = "doubles"; struct In { ... }; ... };
 //   JAROL_PLUGIN(Twice)
 //
-// Built with the compiler that built jarol: c++ -std=c++20 -O2 -ffp-contract=off -fPIC -shared -I <jarol's sources>
-// $(pkg-config --cflags eigen3) twice.cpp -o twice.so; named in a graph as `plugins: [twice.so]`.
+// Built with the compiler that built jarol: c++ -std=c++20 -O2 -ffp-contract=off -fno-gnu-unique -fPIC -shared
+// -I <jarol's sources> $(pkg-config --cflags eigen3) twice.cpp -o twice.so; named in a graph as `plugins: [twice.so]`.
+// g++ needs -fno-gnu-unique, else two plugins share what they call by one name; clang has and needs no such option.
 #pragma once
 
 // before the headers that such structs do not fit
@@ -27,10 +28,18 @@ static_assert(sizeof(JarolUnpacked) == 2 * sizeof(double), "a plugin can't be bu
 
 namespace jarol {
 
+/// Does a type's name belong to it? Of a template it is that of an argument.
+template <class T>
+constexpr bool has_own_name() {
+  return detail::is_name_character(detail::argument_of(detail::pretty_type<T>()).back());
+}
+
 /// How what a plugin names is added: a task. The headers of distributers, vehicles, link types, policies and grammars
 /// say how those are.
 template <class T>
 struct PluginPart {
+  static_assert(has_own_name<T>(),
+                "a task has a name of its own: struct Fast : Smooth<float> {}; and JAROL_PLUGIN(Fast)");
   static void add(PluginParts& parts) { parts.graph.add(task_class<T>()); }
 };
 

@@ -4,7 +4,7 @@
 //     static constexpr std::string_view name = "rate_monotonic", how = "the task with the shortest period runs";
 //     static constexpr jarol::Urgency urgency = jarol::Urgency::priority;
 //     static constexpr bool interrupts = true;
-//     static Result check(const System& system, bool whole, Effort& effort);
+//     static Result check(const System& system, bool whole, Budget& budget);
 //   };
 //
 // with the names of jarol::analysis. `jarol check` judges by it; what runs when, in pictures and under --execution,

@@ -36,7 +36,8 @@ set(says_34 "Value::time.*a duration is in nanoseconds: use std::chrono::nanosec
 set(says_35 "enumerators.E. lists one at least, and each by a name of its own")
 set(says_36 "${says_35}")
 set(says_37 "a struct has at most 32 members; put some into a struct of their own")
-set(brief 1 3 4 5 6 7 8 9 10 11 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32 33 34)
+set(says_38 "a task has a name of its own: struct Fast : Smooth<float>")
+set(brief 1 3 4 5 6 7 8 9 10 11 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32 33 34 38)
 # g++ names the members, too
 set(names_3 "describes<.*Value::forgotten.*evaluates to false")
 set(names_6 "describes_in_order<.*Value::number.*Value::other.*evaluates to false")

@@ -209,6 +209,15 @@ struct Task {
   static void run(const jarol::Tick&, Out&) {}
 #endif
 };
+template <class Number>
+struct OfTemplate : Task {};
 }  // namespace
 
+#if NOT_A_VALUE == 0
+struct OfDoubles : OfTemplate<double> {};
+JAROL_PLUGIN(Task, OfDoubles)
+#elif NOT_A_VALUE == 38  // a task whose name is that of its argument
+JAROL_PLUGIN(OfTemplate<double>)
+#else
 JAROL_PLUGIN(Task)
+#endif
