@@ -88,6 +88,7 @@ void Closure::enter_table(const Symbol& table, const std::vector<Address>& targe
 
 void Closure::import(Node& from, Address at, const std::string& name) {
   if (reason_for(name).empty()) from.held.push_back({at, offence_of_import(name)});
+  if (is_of_c_library(name)) from.of_c_library.insert(name);
 }
 
 void Closure::refer(Node& from, Address at, Address to, bool calls, const Arguments& arguments) {
@@ -161,6 +162,7 @@ void Closure::look_at(Node& node, const Arguments& arguments) {
   node.edges.clear();
   node.held.clear();
   node.pointer_calls.clear();
+  node.of_c_library.clear();
   for (Finding& finding : findings_in(object_, node.symbol, arguments)) {
     switch (finding.what) {
       case Finding::What::call: refer(node, finding.at, finding.to, true, finding.with); break;

@@ -35,6 +35,7 @@ struct Node {
   std::vector<Edge> edges{};
   std::vector<Held> held{};
   std::vector<PointerCall> pointer_calls{};
+  std::set<std::string> of_c_library{};  // mathematics whose last bits are the C library's
 };
 
 class Closure {

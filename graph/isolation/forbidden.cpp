@@ -4,12 +4,30 @@
 #include <cstdint>
 
 namespace jarol::isolation {
+namespace {
+
+// UMONITOR, UMWAIT and TPAUSE are MFENCE behind a prefix (Intel SDM volume 2): capstone 4 knows that alone.
+bool waits_by_clock(const cs_insn& instruction) {
+  const std::uint8_t first = instruction.bytes[0];
+  return instruction.id == X86_INS_MFENCE && (first == 0x66 || first == 0xf2 || first == 0xf3);
+}
+
+}  // namespace
 
 bool uses_mmx(const cs_insn& instruction) {
   const cs_x86& x86 = instruction.detail->x86;
   return std::any_of(x86.operands, x86.operands + x86.op_count, [](const cs_x86_op& operand) {
     return operand.type == X86_OP_REG && operand.reg >= X86_REG_MM0 && operand.reg <= X86_REG_MM7;
   });
+}
+
+const char* name_of(const cs_insn& instruction) {
+  if (!waits_by_clock(instruction)) return instruction.mnemonic;
+  switch (instruction.bytes[0]) {
+    case 0x66: return "tpause";
+    case 0xf2: return "umwait";
+    default: return "umonitor";
+  }
 }
 
 const char* reason_against(const cs_insn& instruction) {
@@ -22,6 +40,43 @@ const char* reason_against(const cs_insn& instruction) {
     case X86_INS_RDTSC:
     case X86_INS_RDTSCP:
     case X86_INS_RDPMC: return "which reads a counter of cycles";
+    case X86_INS_MFENCE:
+      if (waits_by_clock(instruction)) return "which waits by a counter of cycles";
+      break;
+    case X86_INS_RCPPS:
+    case X86_INS_RCPSS:
+    case X86_INS_RSQRTPS:
+    case X86_INS_RSQRTSS:
+    case X86_INS_VRCPPS:
+    case X86_INS_VRCPSS:
+    case X86_INS_VRSQRTPS:
+    case X86_INS_VRSQRTSS:
+    case X86_INS_VRCP14PD:
+    case X86_INS_VRCP14PS:
+    case X86_INS_VRCP14SD:
+    case X86_INS_VRCP14SS:
+    case X86_INS_VRSQRT14PD:
+    case X86_INS_VRSQRT14PS:
+    case X86_INS_VRSQRT14SD:
+    case X86_INS_VRSQRT14SS:
+    case X86_INS_VRCP28PD:
+    case X86_INS_VRCP28PS:
+    case X86_INS_VRCP28SD:
+    case X86_INS_VRCP28SS:
+    case X86_INS_VRSQRT28PD:
+    case X86_INS_VRSQRT28PS:
+    case X86_INS_VRSQRT28SD:
+    case X86_INS_VRSQRT28SS:
+    case X86_INS_VEXP2PD:
+    case X86_INS_VEXP2PS:
+    case X86_INS_FSIN:
+    case X86_INS_FCOS:
+    case X86_INS_FSINCOS:
+    case X86_INS_FPTAN:
+    case X86_INS_FPATAN:
+    case X86_INS_F2XM1:
+    case X86_INS_FYL2X:
+    case X86_INS_FYL2XP1: return "an approximation that differs from processor to processor";
     case X86_INS_RDRAND:
     case X86_INS_RDSEED: return "which makes random numbers";
     case X86_INS_CPUID:
@@ -61,7 +116,9 @@ const char* reason_against(const cs_insn& instruction) {
     case X86_INS_XSAVE:
     case X86_INS_XSAVE64:
     case X86_INS_XSAVEOPT:
+    case X86_INS_XSAVEOPT64:
     case X86_INS_XSAVEC:
+    case X86_INS_XSAVEC64:
     case X86_INS_XSAVES:
     case X86_INS_XSAVES64:
     case X86_INS_FNSTENV:

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "graph/isolation/names.h"
+#include "graph/math/names.h"
 
 namespace jarol::isolation {
 namespace {
@@ -47,6 +48,17 @@ constexpr Entry functions[] = {
 
 // The first of them: there is one of each for float, double and long double.
 constexpr std::span mathematics = std::span(functions).first<2>();
+
+// What C or IEEE 754 define to the bit, or what only picks a part.
+constexpr std::string_view exact =
+    " ceil cimag conj copysign cproj creal drem fabs fdim floor fma fmax fmin fmod frexp ilogb ldexp llrint llround "
+    "logb "
+    "lrint lround modf nan nearbyint nextafter nexttoward remainder remquo rint round roundeven scalbln scalbn sqrt "
+    "trunc ";
+
+// Tasks may not call these, or must be weak.
+constexpr std::string_view more_mathematics =
+    " gamma j0 j1 jn lgamma lgamma_r lgammaf_r lgammal_r pow10 scalb significand y0 y1 yn ";
 
 // C++ functions and objects as they stand in the source; with * whatever follows.
 constexpr Entry declarations[] = {
@@ -244,6 +256,15 @@ bool is_mathematics(const std::string& name) {
   return std::any_of(mathematics.begin(), mathematics.end(), [&](const Entry& entry) {
     return holds_word(entry.names, name) || holds_word(entry.names, for_double(name));
   });
+}
+
+bool is_of_c_library(const std::string& name) {
+  const std::string plain = for_double(name);
+  const bool is_more = holds_word(more_mathematics, name) || holds_word(more_mathematics, plain);
+  if (!is_more && !is_mathematics(name)) return false;
+  if (holds_word(exact, name) || holds_word(exact, plain)) return false;
+  const auto ours = math::names();
+  return std::none_of(ours.begin(), ours.end(), [&](const math::Named& one) { return one.name == name; });
 }
 
 std::string kind_of_refused(const std::string& name) {

@@ -14,6 +14,10 @@ bool is_own_library(const std::string& name);
 /// A function of the C library's mathematics, of real or complex numbers of any precision.
 bool is_mathematics(const std::string& name);
 
+/// A function of the C library's mathematics that graph/math does not have, and whose last bits C leaves open: they may
+/// differ with the processor.
+bool is_of_c_library(const std::string& name);
+
 /// What something that is refused is: "a clock"; empty: it is on no list.
 std::string kind_of_refused(const std::string& name);
 

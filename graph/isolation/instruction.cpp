@@ -167,7 +167,7 @@ Instruction made_of(const cs_insn& from) {
   made.subtracts = from.id == X86_INS_SUB;
   made.gathers = gathers(from.id);
   made.x87 = from.mnemonic[0] == 'f' || uses_mmx(from);  // no other begins so
-  if (*made.forbidden != '\0') made.text = from.mnemonic;
+  if (*made.forbidden != '\0') made.text = name_of(from);
   const cs_x86& x86 = from.detail->x86;
   for (std::size_t i = 0; i < made.operands.size() && i < x86.op_count; ++i) {
     made.operands[i] = operand_of(x86.operands[i]);

@@ -65,6 +65,8 @@ std::string bare_name(std::string_view declaration) {
 }
 
 std::string demangled(const std::string& name) {
+  // else it is taken for a type: "g" for a __float128
+  if (!name.starts_with("_Z")) return name;
   int status = 0;
   const std::unique_ptr<char, void (*)(void*)> text(abi::__cxa_demangle(name.c_str(), nullptr, nullptr, &status),
                                                     std::free);

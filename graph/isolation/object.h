@@ -1,6 +1,7 @@
 // A linked shared library or program, by addresses: its functions, its data, and what each pointer in it refers to.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -50,6 +51,13 @@ class Object {
   /// Those of that name and of it with a number: f.__part.7 of "f.__part.".
   std::vector<Symbol> parts_of(std::string_view name) const;
   const std::vector<Symbol>& functions() const { return functions_; }
+
+  /// Something of another library whose name begins so.
+  bool imports_any(std::string_view beginning) const {
+    return std::any_of(pointers_.begin(), pointers_.end(), [&](const auto& pointer) {
+      return pointer.second.to == Pointer::To::import && pointer.second.name.starts_with(beginning);
+    });
+  }
 
   /// Null: the place holds no pointer.
   const Pointer* pointer_at(Address address) const;

@@ -66,6 +66,15 @@ class Search {
     return all;
   }
 
+  std::vector<std::string> notes() const {
+    std::set<std::string> names;
+    for (const Address begin : order_) names.merge(std::set(closure_.node(begin).of_c_library));
+    std::vector<std::string> all;
+    for (const std::string& name : names)
+      all.push_back("calls '" + name + "' of the C library, which may give another digest on another processor");
+    return all;
+  }
+
  private:
   struct From {
     Address node, at;  // 0: a root
@@ -123,6 +132,15 @@ std::string task_of(const std::string& mangled) {
   return "";
 }
 
+// "undefined"; empty: it calls none.
+const char* sanitizer_of(const Object& object) {
+  constexpr std::pair<const char*, const char*> sanitizers[] = {
+      {"__asan_", "address"}, {"__tsan_", "thread"}, {"__ubsan_", "undefined"}};
+  for (const auto& [beginning, name] : sanitizers)
+    if (object.imports_any(beginning)) return name;
+  return "";
+}
+
 }  // namespace
 
 std::vector<Root> find_tasks(const Object& object) {
@@ -143,11 +161,17 @@ std::vector<Verdict> verify(const Object& object, const std::vector<Root>& roots
       throw std::runtime_error(
           "has the runtime of C++ within it, which can't be looked at; link it without -static-libstdc++ and "
           "-static-libgcc");
+  if (const char* const sanitizer = sanitizer_of(object); !own && *sanitizer != '\0')
+    throw std::runtime_error(std::string("is built with -fsanitize=") + sanitizer +
+                             ", whose checks reach what is not a task's own; build it without");
   std::vector<Address> entries;
   for (const Root& root : roots) entries.insert(entries.end(), root.entries.begin(), root.entries.end());
   const Closure closure(object, entries, own);
   std::vector<Verdict> verdicts;
-  for (const Root& root : roots) verdicts.push_back({root.task, Search(closure, root).violations()});
+  for (const Root& root : roots) {
+    const Search search(closure, root);
+    verdicts.push_back({root.task, search.violations(), search.notes()});
+  }
   return verdicts;
 }
 

@@ -35,6 +35,7 @@ struct Root {
 struct Verdict {
   std::string task;
   std::vector<Violation> violations;  // each thing once, by its shortest path; empty: isolated
+  std::vector<std::string> notes;     // what it is besides
 };
 
 /// The tasks of a library with JAROL_PLUGIN, in bytewise order: what the form of a task makes of them, by its symbols.

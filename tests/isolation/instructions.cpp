@@ -63,6 +63,38 @@ TASK(AsksState, {
   asm volatile("xgetbv" : "=a"(a), "=d"(d) : "c"(0));
   out.out = a;
 })
+// offends: forbidden instruction: xsavec64: SavesCompact::run
+TASK(SavesCompact, {
+  alignas(64) char saved[4096] = {};
+  asm volatile("xsavec64 %0" : "+m"(saved) : "a"(7), "d"(0));
+  out.out = saved[24];
+})
+// offends: forbidden instruction: xsaveopt64: SavesSome::run
+TASK(SavesSome, {
+  alignas(64) char saved[4096] = {};
+  asm volatile("xsaveopt64 %0" : "+m"(saved) : "a"(7), "d"(0));
+  out.out = saved[24];
+})
+// offends: forbidden instruction: tpause: Pauses::run
+TASK(Pauses, { asm volatile(".byte 0x66, 0x0f, 0xae, 0xf0" : : "a"(0), "d"(0) : "cc"); })
+// offends: forbidden instruction: umwait: WaitsForWrite::run
+TASK(WaitsForWrite, { asm volatile(".byte 0xf2, 0x0f, 0xae, 0xf0" : : "a"(0), "d"(0) : "cc"); })
+TASK(OrdersMemory, {
+  asm volatile("mfence" ::: "memory");
+  out.out = 1;
+})
+// offends: forbidden instruction: rsqrtps: ApproximatesRoots::run
+TASK(ApproximatesRoots, { asm("rsqrtps %1, %0" : "=x"(out.out) : "x"(in.in)); })
+// offends: forbidden instruction: rcpss: ApproximatesReciprocal::run
+TASK(ApproximatesReciprocal, { asm("rcpss %1, %0" : "=x"(out.out) : "x"(in.in)); })
+// offends: forbidden instruction: vrsqrt14pd: ApproximatesBetter::run
+TASK(ApproximatesBetter, { asm volatile("vrsqrt14pd %%zmm0, %%zmm1" ::: "xmm1"); })
+// offends: forbidden instruction: fsin: OldSine::run
+TASK(OldSine, {
+  long double x = in.in;
+  asm("fsin" : "+t"(x));
+  out.out = static_cast<double>(x);
+})
 // offends: forbidden instruction: ldmxcsr: SetsRounding::run
 TASK(SetsRounding, {
   const unsigned upward = 0x5f80;
@@ -189,4 +221,5 @@ JAROL_PLUGIN(SystemCall, WritesThreadLocal, OldSystemCall, Cycles, CyclesAndCore
              ReadsSegment, ReadsGuard, WritesGuard, MiddleOfInstruction, ForgedFromInput, ForgedFromState,
              ForgedBesideGood, ForgedTailCall, ForgedObject, ForgedFromTable, ForgedByIndex, ForgedInArray,
              ForgedAmongGood, ForgedInLoop, Numbers, UsesMmx, FreesRegister, TurnsRegisters, LooksUpByte,
-             ReachesByDistance, ReachesByIndex)
+             ReachesByDistance, ReachesByIndex, SavesCompact, SavesSome, Pauses, WaitsForWrite, OrdersMemory,
+             ApproximatesRoots, ApproximatesReciprocal, ApproximatesBetter, OldSine)

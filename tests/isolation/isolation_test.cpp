@@ -109,6 +109,9 @@ TEST_SUITE("isolation") {
       CHECK(done.exit_code == 2);
       CHECK(done.output == "error: " + why + "\n");
     };
+    refused(library("with_ubsan"), "'" + library("with_ubsan") +
+                                       "' is built with -fsanitize=undefined, whose checks reach what is not a task's "
+                                       "own; build it without");
     refused("nowhere.so", "there is no file 'nowhere.so'");
     const std::string text = folder.write("text.so", "hello");
     refused(text, "'" + text + "' is no object file for x86-64 that can be read");

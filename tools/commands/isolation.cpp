@@ -66,7 +66,10 @@ nlohmann::ordered_json json_of(const Judged& judged) {
       violations.push_back(
           {{"kind", violation.kind}, {"symbol", violation.symbol}, {"text", violation.text}, {"path", path}});
     }
-    tasks.push_back({{"name", verdict.task}, {"isolated", verdict.violations.empty()}, {"violations", violations}});
+    tasks.push_back({{"name", verdict.task},
+                     {"isolated", verdict.violations.empty()},
+                     {"violations", violations},
+                     {"notes", verdict.notes}});
   }
   return {{"file", judged.name}, {"tasks", tasks}};
 }
@@ -77,12 +80,13 @@ void print(const Judged& judged) {
   std::cout << judged.name << ": " << (good == all ? "ISOLATED" : "NOT ISOLATED") << ", " << good << " of " << all
             << (all == 1 ? " task is\n" : " tasks are\n");
   for (const isolation::Verdict& verdict : judged.verdicts) {
-    if (verdict.violations.empty()) continue;
+    if (verdict.violations.empty() && verdict.notes.empty()) continue;
     std::cout << "  task " << verdict.task << "\n";
     for (const Violation& violation : verdict.violations) {
       std::cout << "    " << violation.text << "\n";
       for (const Frame& frame : way_of(violation, lines)) std::cout << "      " << text_of(frame) << "\n";
     }
+    for (const std::string& note : verdict.notes) std::cout << "    note: " << note << "\n";
   }
 }
 
