@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 
 #include "graph/floating_point.h"
 #include "graph/isolation/elf_file.h"
 #include "graph/language/inputs.h"
 #include "graph/plugins/judged_files.h"
+#include "graph/plugins/loaded_libraries.h"
 #include "graph/plugins/machine_code.h"
 #include "graph/plugins/plugin_build.h"
 #include "graph/plugins/plugin_trial.h"
@@ -113,12 +115,17 @@ std::string add_plugin(const std::string& path, PluginParts& known, const IsTher
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return "there is no file '" + path + "'";
   note_input(path);
-  // without a slash dlopen would search elsewhere
-  const std::string place = path.find('/') == std::string::npos ? "./" + path : path;
+  // one after the other, as each is looked at beside all that are loaded
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  LoadedLibraries& libraries = LoadedLibraries::of_process();
+  if (const std::string conflict = libraries.find_conflict(path); !conflict.empty()) return name + conflict;
+  const std::string place = libraries.place_of(path);
   const Judgement judgement = judge(place);
   if (!judgement.wrong.empty()) return name + judgement.wrong;
   const DefaultFloatingPoint scope;
   PluginLibrary library;
+  libraries.add(path, place);
   const std::string wrong = open_plugin(place, library);
   if (!wrong.empty()) return name + wrong;
   PluginParts added;

@@ -11,7 +11,9 @@
 #include <map>
 #include <string_view>
 
+#include "graph/isolation/import_list.h"
 #include "graph/math/names.h"
+#include "graph/plugins/loaded_libraries.h"
 
 namespace jarol {
 namespace {
@@ -20,6 +22,7 @@ using Functions = std::map<std::string_view, const void*>;
 
 struct Search {
   Functions functions;
+  std::vector<std::string> plugins;  // as the loader names them
   std::vector<std::string> foreign;
 };
 
@@ -69,6 +72,8 @@ int look_at(dl_phdr_info* object, std::size_t, void* data) {
   // the kernel's object has nothing to relocate, and addresses of another kind
   if (dynamic == nullptr || std::strstr(object->dlpi_name, "vdso") != nullptr) return 0;
   const Imports imports = imports_of(dynamic, object->dlpi_addr);
+  const bool is_plugin =
+      std::find(search.plugins.begin(), search.plugins.end(), object->dlpi_name) != search.plugins.end();
   for (int table = 0; table < 2; ++table)
     for (std::size_t i = 0; i < imports.sizes[table]; ++i) {
       const ElfW(Rela)& relocation = imports.tables[table][i];
@@ -76,11 +81,12 @@ int look_at(dl_phdr_info* object, std::size_t, void* data) {
       if (symbol == 0 || imports.symbols[symbol].st_shndx != SHN_UNDEF) continue;
       const char* name = imports.strings + imports.symbols[symbol].st_name;
       const auto function = search.functions.find(name);
-      if (function == search.functions.end()) continue;
+      const bool is_ours = function != search.functions.end();
+      if (!is_ours && !(is_plugin && isolation::is_of_c_library(name))) continue;
       // where the call leads; before its first, that is back into the object, which then asks in the order of look-up
       auto target = *reinterpret_cast<const std::uintptr_t*>(object->dlpi_addr + relocation.r_offset);
       if (lies_in(*object, target)) target = reinterpret_cast<std::uintptr_t>(dlsym(RTLD_DEFAULT, name));
-      if (target == reinterpret_cast<std::uintptr_t>(function->second)) continue;
+      if (is_ours && target == reinterpret_cast<std::uintptr_t>(function->second)) continue;
       Dl_info there{};
       const bool known = dladdr(reinterpret_cast<const void*>(target), &there) != 0 && there.dli_fname != nullptr;
       const std::string who = *object->dlpi_name ? file_name(object->dlpi_name) : "this program";
@@ -92,7 +98,7 @@ int look_at(dl_phdr_info* object, std::size_t, void* data) {
 }  // namespace
 
 Arithmetic find_arithmetic() {
-  Search search;
+  Search search{.functions = {}, .plugins = LoadedLibraries::of_process().places(), .foreign = {}};
   for (const math::Named& function : math::names()) search.functions[function.name] = function.address;
   dl_iterate_phdr(look_at, &search);
   std::sort(search.foreign.begin(), search.foreign.end());

@@ -8,7 +8,7 @@ namespace jarol {
 
 struct Arithmetic {
   /// Calls that end elsewhere, as "libSimTKmath.so.3.7 calls sin of libm.so.6": none, unless something stands before
-  /// the program in the order of look-up.
+  /// the program in the order of look-up, or a plugin calls what graph/math does not have, "tgamma".
   std::vector<std::string> foreign_calls;
   /// The file of the BLAS that is loaded, if any, and whether it is one that picks its code by processor.
   std::string blas;

@@ -13,6 +13,8 @@ endfunction()
 function(_jarol_compile target)
   target_compile_features(${target} PRIVATE cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  # by g++ alone constants of two plugins would be one
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
   target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra $<$<CONFIG:>:-O2> $<$<CONFIG:>:-g>)
   target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 endfunction()
