@@ -55,18 +55,19 @@ TEST_SUITE("tools/priorities") {
     }
     const command::TemporaryFolder folder;
     const auto peer = make_actuator_peer("udp");
-    const std::string graph = folder.write("g.yaml",
-                                           "graph: g\ntiming: {period: 20ms}\ndistributers:\n"
-                                           "  dune: {type: LauvVehicle, link: " +
-                                               peer->link() +
-                                               "}\n"
-                                               "communicators:\n"
-                                               "  from_dune: {channel: dune.motion}\n"
-                                               "  idle: {type: Actuation, direction: in}\n"
-                                               "  to_dune: {channel: dune.actuation}\n"
-                                               "tasks: {forward: {type: LauvForward, on_fault: hold}}\n"
-                                               "connections: [from_dune -> forward.motion, "
-                                               "idle -> forward.actuation, forward.actuation -> to_dune]\n");
+    const std::string graph =
+        folder.write("g.yaml",
+                     "graph: g\ntiming: {period: 20ms}\ndistributers:\n"
+                     "  dune: {type: LauvVehicle, link: " +
+                         peer->link() +
+                         "}\n"
+                         "communicators:\n"
+                         "  from_dune: {channel: dune.motion}\n"
+                         "  idle: {type: Actuation, direction: in}\n"
+                         "  to_dune: {channel: dune.actuation}\n"
+                         "tasks: {forward: {type: LauvForward, on_fault: hold}, other: {type: Work}}\n"
+                         "connections: [from_dune -> forward.motion, "
+                         "idle -> forward.actuation, forward.actuation -> to_dune]\n");
     const std::string run = "run " + graph + " --clock real --for 1h --rt-priority 20";
     {
       // it, one that receives, one that sends, and the one that looks after it
@@ -81,10 +82,13 @@ TEST_SUITE("tools/priorities") {
     {
       // or where a task may still run when an output is due: then nothing keeps the time from handing it over
       const std::string slow =
-          " --set timing.period=100ms --set tasks.forward.wcet=60ms --set communicators.to_dune.offset=";
-      Process before(run + slow + "60ms");
-      check_priorities(before, {20, 20, 20, 21});
-      Process meanwhile(run + slow + "20ms --set tasks.other={type: Work, wcet: 30ms}");
+          " --set timing.period=100ms --set tasks.forward.wcet=1ms --set tasks.other.wcet=30ms "
+          "--set communicators.to_dune.offset=";
+      {
+        Process before(run + slow + "60ms");
+        check_priorities(before, {20, 20, 20, 21});
+      }
+      Process meanwhile(run + slow + "20ms");
       check_priorities(meanwhile, {19, 20, 20, 20, 21});
     }
     {
