@@ -21,7 +21,7 @@ using Answer = truth::Truth::Answer;
 std::uint64_t count_of_judged() {
   if (const char* count = std::getenv("JAROL_SETS")) return std::strtoull(count, nullptr, 10);
 #if defined(__SANITIZE_ADDRESS__)
-  return 4'000;
+  return 1'500;
 #elif defined(__OPTIMIZE__)
   return std::getenv("JAROL_FULL") != nullptr ? 100'000 : 20'000;
 #else
