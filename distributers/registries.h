@@ -4,7 +4,7 @@
 #include "distributers/interfaces/vehicle.h"
 #include "distributers/links/link_type.h"
 #include "graph/named_list.h"
-#include "graph/plugins/parts.h"
+#include "graph/plugins/plugins.h"
 
 namespace jarol::distributers {
 
@@ -14,6 +14,7 @@ struct Registries {
   Registry graph;  // task types, distributers, policies and grammars
   NamedList<LinkType> links;
   NamedList<vehicles::VehicleClass> vehicles;
+  std::vector<LoadedPlugin> plugins{};  // of a graph: what they bring is among all that
 };
 
 /// Is one of that kind and name among what is known beside the graph's registry?

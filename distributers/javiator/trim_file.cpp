@@ -13,6 +13,7 @@
 
 #include "graph/language/quantities.h"
 #include "graph/language/read_source.h"
+#include "graph/language/source_set.h"
 
 namespace jarol::distributers {
 namespace {
@@ -32,9 +33,12 @@ double read_line(std::istream& file, const std::string& name, const std::string&
 }  // namespace
 
 Trim read_trim(const std::string& path) {
-  if (!std::filesystem::exists(path)) return {};
+  // where the files of a run are given, what stands on the disk is of another one
+  const bool is_given = SourceSet::given_at(path) != nullptr;
+  if (!is_given && (!SourceSet::closed().empty() || !std::filesystem::exists(path))) return {};
   constexpr std::size_t max_bytes = 4096;
-  const bool may_be_one = std::filesystem::is_regular_file(path) && std::filesystem::file_size(path) <= max_bytes;
+  const bool may_be_one =
+      is_given || (std::filesystem::is_regular_file(path) && std::filesystem::file_size(path) <= max_bytes);
   std::istringstream file(may_be_one ? read_source(path, max_bytes)->text : "");
   Trim trim;
   trim.roll = read_line(file, "roll", path);

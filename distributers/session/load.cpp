@@ -11,6 +11,7 @@
 #include "graph/campaign/read.h"
 #include "graph/expect/at_end.h"
 #include "graph/expect/parse.h"
+#include "graph/language/source_set.h"
 #include "graph/model/build.h"
 #include "graph/plugins/isolated.h"
 #include "graph/plugins/plugins.h"
@@ -81,17 +82,28 @@ void add_conditions(Loaded& loaded, Problems& problems, const std::vector<std::u
 }
 
 // What is loaded runs as the user: who it is stands there first.
-Loaded load(const GraphText& text, const distributers::Registries& known, const NoteSink& note, Problems& problems) {
-  Loaded loaded;
+std::unique_ptr<distributers::Registries> with_plugins_of(const GraphText& text, const distributers::Registries& known,
+                                                          const NoteSink& note, Problems& problems) {
+  if (!known.plugins.empty()) return std::make_unique<distributers::Registries>(known);
   for (const Located<std::string>& plugin : text.plugins)
     note("loads plugin '" + printable(plugin_path(text.where, plugin.value)) + "'");
   PluginParts parts{known.graph, {}};
-  const std::vector<LoadedPlugin> plugins = load_plugins(
+  std::vector<LoadedPlugin> plugins = load_plugins(
       text, parts, [&](const Extension& extension) { return distributers::has(known, extension); }, problems);
-  loaded.known = std::make_unique<distributers::Registries>(distributers::with_plugins(known, std::move(parts)));
+  auto made = std::make_unique<distributers::Registries>(distributers::with_plugins(known, std::move(parts)));
+  made->plugins = std::move(plugins);
+  return made;
+}
+
+Loaded load(const GraphText& text, const distributers::Registries& known, const NoteSink& note, Problems& problems) {
+  Loaded loaded;
+  loaded.known = with_plugins_of(text, known, note, problems);
   const Registry& registry = loaded.known->graph;
   const GraphSpec& spec = loaded.spec = read_spec(text, registry.grammars(), registry.is_complete(), problems);
-  for (const LoadedPlugin& plugin : plugins) check_isolation(spec, registry, plugin.types, plugin.path, problems);
+  // where no file is read any more, what now stands at its place may be another plugin
+  if (SourceSet::closed().empty())
+    for (const LoadedPlugin& plugin : loaded.known->plugins)
+      check_isolation(spec, registry, plugin.types, plugin.path, problems);
   loaded.graph = std::make_unique<Graph>(build_graph(spec, registry, problems));
   expect::add_at_end(spec, *loaded.graph, problems);
   return loaded;

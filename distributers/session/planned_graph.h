@@ -29,6 +29,8 @@ class PlannedGraph {
                const Overrides& overrides, const NoteSink& note = no_notes);
 
   const Graph& graph() const { return *loaded_.graph; }
+  /// With what its plugins bring.
+  const distributers::Registries& known() const { return *loaded_.known; }
   const Plan& plan() const { return plan_; }
   const campaign::Campaign& campaign() const { return loaded_.campaign; }
   const std::vector<expect::TrueValues>& true_values() const { return loaded_.true_values; }

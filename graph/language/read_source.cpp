@@ -70,7 +70,10 @@ std::shared_ptr<const Source> read_source(const std::string& path) { return read
 std::shared_ptr<const Source> read_source(const std::string& path, std::size_t max) {
   std::shared_ptr<const Source> source = SourceSet::given_at(path);
   if (!source) {
-    if (const std::string why = SourceSet::closed(); !why.empty()) fail(path, why);
+    if (const std::string why = SourceSet::closed(); !why.empty()) {
+      SourceSet::note_missed(path);
+      fail(path, why);
+    }
     source = read_from_disk(path, max);
   }
   SourceSet::note(source);
