@@ -4,11 +4,13 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "distributers/session/planned_graph.h"
 #include "graph/campaign/draws.h"
+#include "graph/language/source_set.h"
 
 namespace jarol::campaign {
 
@@ -23,7 +25,9 @@ struct GraphSource {
 
 /// A graph that is planned, and what is measured of its runs.
 struct MeasuredGraph {
-  explicit MeasuredGraph(const GraphSource& of, const std::vector<std::string>& set = {});
+  explicit MeasuredGraph(const GraphSource& of);
+  /// With these changes; `known` outlives it.
+  MeasuredGraph(const GraphSource& of, const std::vector<std::string>& set, const distributers::Registries& known);
 
   PlannedGraph graph;
   Measures measures;
@@ -35,6 +39,11 @@ class Graphs {
   /// Throws SpecError with all that is wrong with the graph as the file has it.
   explicit Graphs(const GraphSource& of);
 
+  /// From now on all runs get these files, however they change on the disk, and no others.
+  void close(SourceSet::Sources files);
+  /// None: runs read files as they are by then.
+  const std::optional<SourceSet::Sources>& files() const { return files_; }
+
   const MeasuredGraph& base() const { return *base_; }
   /// The one that a run shares with others. Throws SpecError.
   std::shared_ptr<const MeasuredGraph> of(const Start& start);
@@ -43,7 +52,8 @@ class Graphs {
   static constexpr std::size_t max_kept = 64;
 
   const GraphSource& source_;
-  std::shared_ptr<const MeasuredGraph> base_;
+  std::optional<SourceSet::Sources> files_;
+  std::shared_ptr<const MeasuredGraph> base_;  // those of `others_` use the plugins that it has loaded
   std::mutex mutex_;
   std::map<std::vector<std::string>, std::shared_ptr<const MeasuredGraph>> others_;  // by what differs of the plan
 };

@@ -20,7 +20,7 @@ constexpr std::uint64_t largest_batch = 1000;
 
 struct Reported : Result {
   void serialize(Archive& archive) {
-    archive(index, outcome, why, simulated, faults, digest);
+    archive(index, outcome, why, simulated, faults, digest, not_judged);
     auto count = static_cast<std::uint64_t>(metrics.size());
     archive(count);
     archive.require(count <= 1'000'000, "has more metrics than there can be");

@@ -22,14 +22,25 @@ struct Reached {
   friend bool operator==(const Reached&, const Reached&) = default;
 };
 
+/// Something that is against a run.
+struct Failure {
+  std::string what;     // a metric, a condition, a task, a vehicle
+  std::string cause{};  // of a fault or mishap
+  std::string why;      // all of that in words
+
+  friend bool operator==(const Failure&, const Failure&) = default;
+};
+
 struct Result {
   std::uint64_t index = 0;
   Outcome outcome = Outcome::good;
-  std::string why{};  // of all but good
+  std::string why{};  // of all but good; of a good one, why not all that is expected was judged
   Duration simulated{};
   std::uint64_t faults = 0;
   std::optional<std::uint64_t> digest{};  // none: it never began
   std::vector<Reached> metrics{};         // of those that the campaign measures
+  std::uint64_t not_judged = 0;           // conditions of what is expected
+  std::vector<Failure> failures{};        // all, the first is `why`; the results keep none
 
   friend bool operator==(const Result&, const Result&) = default;
 };

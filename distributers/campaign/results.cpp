@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <charconv>
-#include <cmath>
 
+#include "distributers/campaign/database_cells.h"
 #include "graph/campaign/columns.h"
 
 namespace jarol::campaign {
@@ -17,72 +18,13 @@ constexpr int application_id = 0x6a726c02;
 
 // What stands behind the names of `database_columns`. A run that is refused has no digest.
 constexpr std::array<const char*, database_columns.size()> column_types{
-    " INTEGER PRIMARY KEY", "", " TEXT NOT NULL", " TEXT NOT NULL", " INTEGER NOT NULL", " INTEGER NOT NULL", " TEXT"};
+    " INTEGER PRIMARY KEY", "",      " TEXT NOT NULL",   " TEXT NOT NULL", " INTEGER NOT NULL",
+    " INTEGER NOT NULL",    " TEXT", " INTEGER NOT NULL"};
 
 std::string quoted(const std::string& name) {
   std::string text = "\"";
   for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string{c};
   return text + "\"";
-}
-
-std::string text_of(sqlite3_stmt* row, int column) {
-  const auto* const text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
-  return text == nullptr ? "" : std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(row, column)));
-}
-
-void bind_text(sqlite3_stmt* to, int place, const std::string& text) {
-  sqlite3_bind_text(to, place, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
-}
-
-// Numbers as numbers, so that queries can compare them; what SQL has no number for as a word.
-void bind_number(sqlite3_stmt* to, int place, double number) {
-  if (std::isfinite(number))
-    sqlite3_bind_double(to, place, number);
-  else
-    bind_text(to, place, std::isnan(number) ? "nan" : number_text(number));  // of either sign
-}
-
-// The largest as a text: SQL's whole numbers end at 2^63 - 1, and its others round.
-void bind_seed(sqlite3_stmt* to, int place, std::uint64_t seed) {
-  const auto whole = static_cast<std::int64_t>(seed);
-  if (whole >= 0)
-    sqlite3_bind_int64(to, place, whole);
-  else
-    bind_text(to, place, std::to_string(seed));
-}
-
-void bind_value(sqlite3_stmt* to, int place, const std::string& value) {
-  const char* const end = value.data() + value.size();
-  std::int64_t whole = 0;
-  if (const auto read = std::from_chars(value.data(), end, whole); read.ec == std::errc() && read.ptr == end) {
-    sqlite3_bind_int64(to, place, whole);
-    return;
-  }
-  double number = 0;
-  const auto read = std::from_chars(value.data(), end, number);
-  if (read.ec == std::errc() && read.ptr == end && std::isfinite(number))
-    sqlite3_bind_double(to, place, number);
-  else
-    bind_text(to, place, value);
-}
-
-Reached reached_of(sqlite3_stmt* row, int column) {
-  if (sqlite3_column_type(row, column) == SQLITE_FLOAT) return {sqlite3_column_double(row, column), ""};
-  const std::string word = text_of(row, column);
-  for (const double number : {std::nan(""), HUGE_VAL, -HUGE_VAL})
-    if (word == number_text(number)) return {number, ""};
-  return {std::nullopt, word};
-}
-
-// What add() writes of a metric: a number with a point, a word, or nothing.
-bool is_reached(sqlite3_stmt* row, int column) {
-  const int type = sqlite3_column_type(row, column);
-  if (type == SQLITE_FLOAT) return std::isfinite(sqlite3_column_double(row, column));
-  return type == SQLITE_TEXT || type == SQLITE_NULL;
-}
-
-bool is_count(sqlite3_stmt* row, int column) {
-  return sqlite3_column_type(row, column) == SQLITE_INTEGER && sqlite3_column_int64(row, column) >= 0;
 }
 
 // Whether it is one.
@@ -105,6 +47,13 @@ std::vector<std::string> columns_of(const Campaign& campaign) {
   return names;
 }
 
+// None: zeros.
+std::pair<dev_t, ino_t> file_at(const std::string& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) return {};
+  return {found.st_dev, found.st_ino};
+}
+
 // Ends of lines in front of a change that is shown.
 std::string shown(const std::string& text) {
   std::string line = text.empty() ? "nothing" : "'";
@@ -124,6 +73,7 @@ Results::Results(const std::string& path, const Identity& identity, const Campai
   const int opened = sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
   database_.reset(database);
   if (opened != SQLITE_OK) fail();
+  file_ = file_at(path);
   // two campaigns never write one file
   run("PRAGMA locking_mode = EXCLUSIVE");
   run("BEGIN EXCLUSIVE");
@@ -135,8 +85,6 @@ Results::Results(const std::string& path, const Identity& identity, const Campai
   std::string places = "?";
   for (std::size_t i = database_columns.size() + columns_of(campaign).size(); i > 1; --i) places += ", ?";
   insert_ = prepare("INSERT INTO runs VALUES (" + places + ")");
-  const Statement digest = prepare("SELECT \"notnull\" FROM pragma_table_info('runs') WHERE name = 'digest'");
-  needs_digest_ = step(digest) && sqlite3_column_int(digest.get(), 0) != 0;
 }
 
 Results::~Results() {
@@ -221,6 +169,12 @@ void Results::require_same(const Identity& identity) const {
     throw OtherCampaign(other + "it read other files" + remedy);
 }
 
+void Results::require_in_place() const {
+  if (file_at(path_) != file_)
+    throw ResultsError("the results are lost: '" + path_ +
+                       "' was removed or replaced while the campaign was running; the same command runs it anew");
+}
+
 std::vector<std::uint64_t> Results::done(std::uint64_t runs) const {
   std::vector<std::uint64_t> all;
   const Statement rows = prepare("SELECT run FROM runs ORDER BY run");
@@ -242,11 +196,12 @@ void Results::add(const Start& start, const Result& result) {
   bind_text(row, 4, result.why);
   sqlite3_bind_int64(row, 5, result.simulated.count());
   sqlite3_bind_int64(row, 6, static_cast<std::int64_t>(result.faults));
-  if (result.digest || needs_digest_)
-    bind_text(row, 7, fmt::format("0x{:016x}", result.digest.value_or(0)));
+  if (result.digest)
+    bind_text(row, 7, fmt::format("0x{:016x}", *result.digest));
   else
     sqlite3_bind_null(row, 7);
-  int place = 8;
+  sqlite3_bind_int64(row, 8, static_cast<std::int64_t>(result.not_judged));
+  int place = 9;
   for (const std::string& value : start.set) bind_value(row, place++, value.substr(value.find('=') + 1));
   for (const Reached& reached : result.metrics) {
     if (reached.number)
@@ -280,7 +235,9 @@ void Results::for_each(const std::function<void(const Result&)>& take, const Run
     result.why = text_of(row, 3);
     result.simulated = Duration(sqlite3_column_int64(row, 4));
     require(is_count(row, 4) && is_count(row, 5), "a time or a number of faults that is no whole number from 0 on");
+    require(is_count(row, 7), "a number of conditions not judged that is no whole number from 0 on");
     result.faults = static_cast<std::uint64_t>(sqlite3_column_int64(row, 5));
+    result.not_judged = static_cast<std::uint64_t>(sqlite3_column_int64(row, 7));
     if (sqlite3_column_type(row, 6) != SQLITE_NULL || has_digest(result.outcome)) {
       require(read_digest(text_of(row, 6), result.digest.emplace()),
               "a digest that is no hexadecimal number of 64 bits");

@@ -2,9 +2,12 @@
 // added stays, whatever ends the process.
 #pragma once
 
+#include <sys/types.h>
+
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "distributers/campaign/result.h"
@@ -43,6 +46,8 @@ class Results {
   Results(const Results&) = delete;
   Results& operator=(const Results&) = delete;
 
+  /// Throws ResultsError where the file is no longer that which was opened: what was added is lost.
+  void require_in_place() const;
   /// The indices of the runs in it, going up, of a campaign of so many. Throws OtherCampaign if one is none of these.
   std::vector<std::uint64_t> done(std::uint64_t runs) const;
   void add(const Start& start, const Result& result);
@@ -65,9 +70,9 @@ class Results {
   void require_same(const Identity& identity) const;
 
   std::string path_;
+  std::pair<dev_t, ino_t> file_{};
   std::unique_ptr<sqlite3, Close> database_;
   std::size_t metrics_;
-  bool needs_digest_ = false;  // of each run, as files once did: of one that has none it is zero
   Statement insert_;
 };
 

@@ -28,13 +28,29 @@ std::string wrong_with(const Graph& graph, const std::vector<std::unique_ptr<Ext
   return "";
 }
 
-// The first of what is against the run; empty: nothing.
-std::string why_bad(const RunVerdict& verdict) {
-  for (const auto& mishap : verdict.mishaps) return jarol::to_text(mishap);
-  for (const std::string& line : verdict.left_out) return line;
+// All that is against the run.
+void add_failures(std::vector<Failure>& failures, const RunVerdict& verdict) {
+  for (const auto& mishap : verdict.mishaps)
+    failures.push_back({"the vehicle of '" + mishap.distributer + "'", mishap.text, jarol::to_text(mishap)});
+  for (const std::string& line : verdict.left_out)
+    failures.push_back({line.substr(0, line.find(" gave nothing")), "gave nothing", line});
+  if (!verdict.not_at_rest.empty()) failures.push_back({"not at rest", "", verdict.not_at_rest});
   for (const Verdict& v : verdict.expectations)
-    if (v.outcome == Verdict::Outcome::fails) return "expected '" + v.condition + "', but it " + v.why;
-  return "";
+    if (v.outcome == Verdict::Outcome::fails)
+      failures.push_back({"expected '" + v.condition + "'", "", "expected '" + v.condition + "', but it " + v.why});
+}
+
+// Conditions that say nothing of the run.
+void add_not_judged(Result& result, const RunVerdict& verdict) {
+  std::string why;
+  for (const Verdict& v : verdict.expectations) {
+    if (v.outcome != Verdict::Outcome::not_judged) continue;
+    ++result.not_judged;
+    if (why.empty()) why = v.why;
+  }
+  if (result.not_judged > 0 && result.outcome == Outcome::good)
+    result.why = std::to_string(result.not_judged) +
+                 (result.not_judged > 1 ? " conditions were not judged: " : " condition was not judged: ") + why;
 }
 
 // `whole`: the run came to its end; of another one there is what an instant or a broken limit decided.
@@ -57,10 +73,9 @@ void measure(const Measures& measures, const std::vector<Verdict>& verdicts, Res
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const Metric& metric = measures.metrics[i];
     result.metrics[i] = reached_of(metric, measures.conditions[i], verdicts[i], whole);
-    const bool broken = metric.is_limit && verdicts[i].outcome == Verdict::Outcome::fails;
-    if (!broken || result.outcome != Outcome::good) continue;
-    result.outcome = Outcome::bad;
-    result.why = "metric '" + metric.name + "' is beyond its limit: it " + verdicts[i].why;
+    if (!metric.is_limit || verdicts[i].outcome != Verdict::Outcome::fails) continue;
+    const std::string what = "metric '" + metric.name + "'";
+    result.failures.push_back({what, "", what + " is beyond its limit: it " + verdicts[i].why});
   }
 }
 
@@ -96,21 +111,22 @@ class CampaignRun {
     RunEnd end;
     end.ending = result.outcome == Outcome::lost ? Ending::lost() : report.stopped ? Ending::fault() : Ending::over();
     if (result.outcome == Outcome::good && report.stopped) {
+      const Fault& fault = report.faults.back();
       result.outcome = Outcome::fault;
-      result.why = to_text(report.faults.back());
+      result.failures.push_back({"task '" + fault.task + "'", fault.cause, to_text(fault)});
     }
     const RunVerdict verdict = run_.judge(end_, end);
-    if (result.outcome == Outcome::good && verdict.is_negative()) {
-      result.outcome = Outcome::bad;
-      result.why = why_bad(verdict);
-    }
+    add_failures(result.failures, verdict);
     measure(of_.measures, run_.measure(end_), result);
+    if (result.outcome == Outcome::good && !result.failures.empty()) result.outcome = Outcome::bad;
+    if (!result.failures.empty()) result.why = result.failures.front().why;
+    add_not_judged(result, verdict);
   }
 
  private:
   void lose(Result& result, const std::string& text) {
     result.outcome = Outcome::lost;
-    result.why = "at " + seconds_text(run_.executor().now()) + " s: " + text;
+    result.failures.push_back({"lost", text, "at " + seconds_text(run_.executor().now()) + " s: " + text});
   }
 
   const MeasuredGraph& of_;
@@ -144,6 +160,13 @@ std::optional<Result> run_one(Graphs& graphs, const Start& start, std::optional<
   Result result;
   result.index = start.index;
   result.metrics.resize(graphs.base().measures.metrics.size());
+  std::optional<SourceSet> files;
+  if (graphs.files()) files.emplace(*graphs.files(), "it was not there when the campaign began");
+  const auto require_all_read = [&] {
+    if (files && !files->missed().empty())
+      throw UnreadFile("run " + std::to_string(start.index) + " needs '" + files->missed() +
+                       "', which was not read before the first run; the results hold nothing of that run");
+  };
   try {
     const std::shared_ptr<const MeasuredGraph> of = graphs.of(start);
     RunStart begin = of->graph.start(changes_of(start, true), start.seed);
@@ -156,11 +179,13 @@ std::optional<Result> run_one(Graphs& graphs, const Start& start, std::optional<
     if (!run.cover(result, stop)) return std::nullopt;
     run.judge(result);
   } catch (const SpecError& error) {
+    require_all_read();
     result.outcome = Outcome::refused;
     result.why = text_of(error);
   } catch (const std::exception& error) {
     result.outcome = Outcome::lost;
     result.why = error.what();
+    result.failures = {{"lost", result.why, result.why}};
   }
   return result;
 }

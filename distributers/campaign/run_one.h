@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <optional>
+#include <stdexcept>
 
 #include "distributers/campaign/graphs.h"
 #include "distributers/campaign/result.h"
@@ -12,7 +13,12 @@ namespace jarol::campaign {
 /// Why the graph can't be run many times at once with that length; empty: it can. None: to the end of its mission.
 std::string why_not_in_campaign(const PlannedGraph& graph, std::optional<Duration> length);
 
-/// Whatever goes wrong in the run is its result. None: it was to stop before its end.
+/// A run needs a file that the campaign has not read before its first run.
+struct UnreadFile : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+/// Whatever goes wrong in the run is its result. None: it was to stop before its end. Throws UnreadFile.
 std::optional<Result> run_one(Graphs& graphs, const Start& start, std::optional<Duration> length,
                               const std::atomic<bool>& stop);
 

@@ -1,8 +1,10 @@
 #include "distributers/campaign/shrink.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "graph/campaign/variation.h"
+#include "runtime/run/fault_summary.h"
 
 namespace jarol::campaign {
 namespace {
@@ -73,12 +75,22 @@ class Search {
     start.set[at] = campaign_.vary[i].path + "=" + value;
   }
 
-  // What fails is what has been found until now.
+  // Is that against a run what is to be made milder?
+  bool is_wanted(const Failure& failure) const {
+    return failure.what == wanted_.what && same_but_for_numbers(failure.cause, wanted_.cause);
+  }
+
+  // What fails is what has been found until now. The first of all says what is against a run that fails.
   bool fails(const Start& start) {
     ++found_.tried;
     std::optional<Result> result = run_one(graphs_, start, campaign_.length, stop_);
     if (!result) throw Stopped();
-    if (result->outcome != outcome_) return false;
+    if (result->outcome != outcome_ || result->failures.empty()) return false;
+    if (found_.tried == 1) wanted_ = result->failures.front();
+    const auto same = std::find_if(result->failures.begin(), result->failures.end(),
+                                   [&](const Failure& failure) { return is_wanted(failure); });
+    if (same == result->failures.end()) return false;
+    result->why = same->why;
     found_.result = std::move(*result);
     found_.start = start;
     return true;
@@ -88,6 +100,7 @@ class Search {
   const Campaign& campaign_;
   const Draws& draws_;
   Outcome outcome_;
+  Failure wanted_{};
   const std::atomic<bool>& stop_;
   Shrunk found_;
 };

@@ -16,7 +16,8 @@ struct Shrunk {
 
 /// Takes each value to the middle of its range or distribution, or to the first one of its list, and where that is too
 /// far as near to it as a thousandth of the way: one path after the other, all others as they are by then. The seed
-/// stays. `outcome`: what runs have to come to. None: it was to stop.
+/// stays. `outcome`: what runs have to come to, by the same metric, condition, mishap, or task and cause. None: it was
+/// to stop.
 std::optional<Shrunk> shrink(Graphs& graphs, const Campaign& campaign, const Draws& draws, std::uint64_t index,
                              Outcome outcome, const std::atomic<bool>& stop);
 

@@ -17,7 +17,11 @@ Campaign state_campaign(Graphs& graphs, const Wishes& wishes);
 
 /// A key and a text for each thing that the results hang on: who resumes a campaign needs the same.
 using Identity = std::vector<std::pair<std::string, std::string>>;
+/// `program`: of the next; `files`: what was read for it, beside plugins.
 Identity identity_of(const GraphSource& of, const Graphs& graphs, const Campaign& campaign, std::uint64_t seed,
-                     const std::string& program);
+                     const Identity& program, const SourceSet::Sources& files = {});
+/// Of this process as it has begun, before it loads more: its version, and what the linker calls this build of it and
+/// of each library that it is linked with.
+Identity identity_of_program(const std::string& version);
 
 }  // namespace jarol::campaign

@@ -101,6 +101,15 @@ class MetricFolder {
   double worst_ = 0;
 };
 
+// No number of one is no number of the other, too.
+bool is_same(const Result& a, const Result& b) {
+  const auto same = [](const Reached& left, const Reached& right) {
+    return left == right || (left.number && right.number && std::isnan(*left.number) && std::isnan(*right.number));
+  };
+  return a.digest == b.digest && a.outcome == b.outcome &&
+         std::equal(a.metrics.begin(), a.metrics.end(), b.metrics.begin(), b.metrics.end(), same);
+}
+
 std::string text_of(const Reached& reached) { return reached.number ? number_text(*reached.number) : reached.word; }
 
 }  // namespace
@@ -110,15 +119,20 @@ Summary summarise(const Results& results, const Measures& measures, const RunRan
   std::vector<MetricFolder> folders;
   for (std::size_t i = 0; i < measures.metrics.size(); ++i)
     folders.emplace_back(measures.metrics[i], measures.conditions[i]);
+  std::optional<Result> first;
   const auto add = [&](const Result& result) {
-    ++summary.runs;
+    if (!first) first = result;
+    summary.all_same = summary.runs++ == 0 ? result.digest.has_value() : summary.all_same && is_same(result, *first);
     ++summary.outcomes[static_cast<std::size_t>(result.outcome)];
     if (result.outcome != Outcome::good && summary.not_good.size() < max_not_good) summary.not_good.push_back(result);
     if (result.outcome != Outcome::good && result.outcome != Outcome::refused && !summary.first_failed)
       summary.first_failed = result;
+    if (result.outcome == Outcome::good && result.not_judged > 0 && summary.not_judged++ == 0)
+      summary.first_not_judged = result;
     for (std::size_t i = 0; i < folders.size(); ++i) folders[i].add(result, result.metrics[i]);
   };
   results.for_each(add, range);
+  summary.all_same = summary.all_same && summary.runs > 1;
   for (MetricFolder& folder : folders) summary.metrics.push_back(folder.finish());
   return summary;
 }
@@ -137,8 +151,9 @@ void write_csv(const Results& results, const Campaign& campaign, const Draws& dr
     line = std::to_string(result.index) + "," + std::to_string(start.seed);
     for (const std::string& change : start.set) line += "," + csv_text(change.substr(change.find('=') + 1));
     for (const Reached& reached : result.metrics) line += "," + csv_text(text_of(reached));
-    line += fmt::format(",{},{},{},{},{}\n", word_of(result.outcome), result.faults, seconds_text(result.simulated),
-                        result.digest ? fmt::format("0x{:016x}", *result.digest) : "", csv_text(result.why));
+    line += fmt::format(",{},{},{},{},{},{}\n", word_of(result.outcome), result.faults, seconds_text(result.simulated),
+                        result.digest ? fmt::format("0x{:016x}", *result.digest) : "", csv_text(result.why),
+                        result.not_judged);
     write(line);
   };
   results.for_each(add, range);

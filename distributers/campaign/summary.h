@@ -35,6 +35,9 @@ struct Summary {
   std::vector<MetricSummary> metrics;
   std::vector<Result> not_good;        // the first of them
   std::optional<Result> first_failed;  // the first that is not good and was not refused
+  std::uint64_t not_judged = 0;        // good runs of which not all that is expected was judged
+  std::optional<Result> first_not_judged;
+  bool all_same = false;  // of several runs: one digest, one outcome, and the same of each metric
   std::uint64_t good() const { return outcomes[0]; }
 };
 

@@ -9,12 +9,12 @@
 namespace jarol::campaign {
 
 /// Of the database, before the others.
-inline constexpr std::array<std::string_view, 7> database_columns{"run",          "seed",   "outcome", "why",
-                                                                  "simulated_ns", "faults", "digest"};
+inline constexpr std::array<std::string_view, 8> database_columns{"run",          "seed",   "outcome", "why",
+                                                                  "simulated_ns", "faults", "digest",  "not_judged"};
 /// Of the table, before the others and after them.
 inline constexpr std::array<std::string_view, 2> first_table_columns{"run", "seed"};
-inline constexpr std::array<std::string_view, 5> last_table_columns{"outcome", "faults", "simulated_s", "digest",
-                                                                    "why"};
+inline constexpr std::array<std::string_view, 6> last_table_columns{"outcome", "faults", "simulated_s",
+                                                                    "digest",  "why",    "not_judged"};
 
 /// SQL takes names that differ in case alone for one.
 inline bool is_same_column(std::string_view a, std::string_view b) {

@@ -83,7 +83,7 @@ campaign::Wishes wishes_of(const CampaignOptions& options) {
 
 // Ready to be run. Throws where it can't be.
 struct Stated {
-  explicit Stated(const CampaignOptions& options)
+  Stated(const CampaignOptions& options, const campaign::Identity& program)
       : source{read_source(options.file), built_in(), options.overrides, options.metrics, note_once},
         graphs(source),
         campaign(state_campaign(graphs, wishes_of(options))) {
@@ -92,10 +92,12 @@ struct Stated {
     if (const std::string wrong = campaign::wrong_runs(campaign); !wrong.empty())
       throw std::invalid_argument("'" + options.file + "' and its options make no campaign: " + wrong +
                                   ", as in --runs 1000");
-    identity = identity_of(source, graphs, campaign, options.seed, version_text());
+    identity = identity_of(source, graphs, campaign, options.seed, program, files.read());
+    graphs.close(files.read());
     draws.emplace(campaign, options.seed);
   }
 
+  const SourceSet files;  // sees all that follow read
   const campaign::GraphSource source;
   campaign::Graphs graphs;
   const campaign::Campaign campaign;
@@ -116,11 +118,11 @@ std::string text_of(const campaign::Identity& identity) {
 }
 
 // Of a rank that is not the first: it does what that gives it, and has nothing to report.
-int take_part(const CampaignOptions& options, campaign::Messages& messages) {
+int take_part(const CampaignOptions& options, const campaign::Identity& program, campaign::Messages& messages) {
   std::optional<Stated> stated;
   std::string wrong;
   try {
-    stated.emplace(options);
+    stated.emplace(options, program);
   } catch (const std::exception& error) { wrong = error.what(); }
   campaign::AskedWork work(messages);
   // the first says what is wrong; mpirun would end it before that, were this not good
@@ -140,8 +142,10 @@ struct Finish {
 };
 
 int run(const CampaignOptions& options) {
+  // before MPI loads what differs from one machine to another
+  const campaign::Identity program = campaign::identity_of_program(version_text());
   std::unique_ptr<campaign::Messages> messages = campaign::messages_of_mpirun();
-  if (messages && messages->rank() > 0) return take_part(options, *messages);
+  if (messages && messages->rank() > 0) return take_part(options, program, *messages);
   std::optional<campaign::FirstRank> ranks;
   if (messages) ranks.emplace(*messages);
   const std::string results_file = results_of(options);
@@ -151,7 +155,7 @@ int run(const CampaignOptions& options) {
     throw std::invalid_argument("--report: '-' is no file; a page is opened by its name, as in --report campaign.html");
   require_extension({"--report", options.report}, ".html", "a page in HTML");
   const Shard shard = shard_of(options.shard);
-  Stated stated(options);
+  Stated stated(options, program);
   campaign::Graphs& graphs = stated.graphs;
   const campaign::Campaign& campaign = stated.campaign;
   const campaign::Draws& draws = *stated.draws;

@@ -16,6 +16,7 @@
 #include "graph/analysis/policies.h"
 #include "graph/campaign/draws.h"
 #include "tasks/tasks.h"
+#include "tasks/values/lauv.h"
 
 namespace {
 using namespace jarol;
@@ -48,6 +49,19 @@ struct Unsteady {
   }
 };
 
+struct DepthOf {
+  static constexpr std::string_view summary = "the depth of a setpoint";
+  struct In {
+    tasks::Setpoint setpoint{};
+    static constexpr auto fields() { return describe(field<&In::setpoint>()); }
+  };
+  struct Out {
+    double depth = 0;
+    static constexpr auto fields() { return describe(field<&Out::depth>()); }
+  };
+  static void run(const Tick&, const In& in, Out& out) { out.depth = in.setpoint.depth; }
+};
+
 const distributers::Registries& known() {
   static const distributers::Registries all = [] {
     distributers::Registries made;
@@ -56,6 +70,7 @@ const distributers::Registries& known() {
     distributers::add_distributers(made.graph);
     distributers::add_links(made.links);
     made.graph.add(task_class<Unsteady>());
+    made.graph.add(task_class<DepthOf>());
     return made;
   }();
   return all;
@@ -88,11 +103,28 @@ GraphSource source_of(const std::string& text, std::vector<std::string> metrics 
   return {std::make_shared<const Source>(Source{"t.yaml", text}), known(), {}, std::move(metrics)};
 }
 
+// The mission beside it, dive.csv, says how deep.
+GraphSource diving(const std::string& file, const std::string& expected = "") {
+  const std::string text =
+      "graph: g\n"
+      "distributers: {neptus: {type: LauvOperator, link: {type: script, file: dive.csv}}}\n"
+      "communicators: {setpoint: {channel: neptus.setpoint, period: 100ms}}\n"
+      "tasks: {depth: {type: DepthOf, wcet: 1us, period: 100ms}}\n"
+      "connections: [setpoint -> depth.setpoint]\n"
+      "campaign: {metrics: {deepest: max(depth.depth)}}\n";
+  return {std::make_shared<const Source>(Source{file, text + expected}), known(), {}, {}};
+}
+
+std::string dive_to(double depth) {
+  const std::string row = "," + number_text(depth) + ",0deg,0\n";
+  return "time,setpoint.depth,setpoint.heading,setpoint.speed\n0" + row + "5" + row;
+}
+
 // A campaign under way.
 struct Under {
   Under(const GraphSource& of, const Wishes& wishes, std::uint64_t seed, const std::string& file)
       : source(of), graphs(source), campaign(state_campaign(graphs, wishes)), draws(campaign, seed) {
-    results.emplace(file, identity_of(source, graphs, campaign, seed, "test"), campaign);
+    results.emplace(file, identity_of(source, graphs, campaign, seed, {{"program", "test"}}), campaign);
   }
 
   void run(std::size_t workers, const Shard& shard = {}) {
@@ -260,6 +292,133 @@ TEST_SUITE("distributers/campaign") {
     CHECK(middle->start.set[0] == "tasks.a.parameters.gain=2.5");
     worse.stop = true;
     CHECK(!shrink(worse.graphs, worse.campaign, worse.draws, 1, campaign::Outcome::bad, worse.stop));
+  }
+
+  TEST_CASE("the mildest run fails as the one that is made milder: by its metric, condition, or task and cause") {
+    const Folder folder;
+    const auto mildest = [&](const std::string& name, const std::vector<std::string>& vary,
+                             const std::vector<std::string>& metrics, std::uint64_t index) {
+      Under under(source_of(waves, metrics), {.vary = vary}, 0, folder / name);
+      const std::optional<Result> first =
+          run_one(under.graphs, under.draws.at(index), under.campaign.length, under.stop);
+      REQUIRE(first.has_value());
+      const auto shrunk = shrink(under.graphs, under.campaign, under.draws, index, first->outcome, under.stop);
+      REQUIRE(shrunk.has_value());
+      return shrunk->start.set[0].substr(std::string("tasks.a.parameters.").size()) + ": " + shrunk->result.why;
+    };
+    // of the list the second breaks the other limit
+    CHECK(mildest("metric", {"tasks.a.parameters.gain=[1, 0.1, 1.7]"},
+                  {"high=max(a.out) < 1.5", "low=max(a.out) > 0.5"},
+                  2) == "gain=1.7: metric 'high' is beyond its limit: it reached 1.7");
+    // what comes first in a milder run is not all that is against it
+    CHECK(mildest("both", {"tasks.a.parameters.gain=[1, 1.6, 1.7]"}, {"low=max(a.out) < 1.65", "high=min(b.out) < -1"},
+                  1) == "gain=1: metric 'high' is beyond its limit: it reached -0.5");
+    CHECK(mildest("fault",
+                  {"tasks.a.parameters.fails_at=[-1, 20]", "tasks.a.parameters.stops_being_finite_at=[-1, 50]"}, {},
+                  3) == "fails_at=20: task 'a' activation 20 at 0.2 s: threw: it was to fail");
+  }
+
+  TEST_CASE("conditions that were not judged are counted, and a good run says why") {
+    const Folder folder;
+    std::ofstream(folder / "dive.csv") << "expect: final(depth.depth) < 2\n" << dive_to(3);
+    const GraphSource source = diving(folder / "g.yaml", "expect: [final(depth.depth) > 2, never depth.depth > 4]\n");
+    Under whole(source, {.vary = {"seed=1..2"}}, 0, folder / "whole");
+    whole.run(1);
+    CHECK(whole.all()[0].outcome == campaign::Outcome::bad);
+    CHECK(whole.all()[0].not_judged == 0);
+    Under some(source, {.vary = {"seed=1..2"}, .length = 2s}, 0, folder / "some");
+    some.run(1);
+    const Result first = some.all()[0];
+    CHECK(first.outcome == campaign::Outcome::good);
+    CHECK(first.not_judged == 3);
+    CHECK(first.why == "3 conditions were not judged: the run ended at 2 s, its mission ends at 5 s");
+    const Summary summary = summarise(*some.results, some.campaign.measures);
+    CHECK(summary.not_judged == 2);
+    CHECK(summary.first_not_judged->index == 0);
+    CHECK(some.csv().ends_with(",good,0,2," + some.csv().substr(some.csv().rfind("0x"), 18) +
+                               ",\"3 conditions were not judged: the run ended at 2 s, its mission ends at 5 s\",3\n"));
+  }
+
+  TEST_CASE("runs that are all the same are known by their digests and metrics") {
+    const Folder folder;
+    const auto same = [&](const std::string& name, const std::string& vary) {
+      Under under(source_of(waves), {.vary = {vary}}, 0, folder / name);
+      under.run(2);
+      return summarise(*under.results, under.campaign.measures).all_same;
+    };
+    CHECK(same("seeds", "seed=1..5"));
+    CHECK(!same("one", "tasks.a.parameters.gain=[1]"));
+    CHECK(!same("gains", "tasks.a.parameters.gain=[1, 1, 1.1]"));
+  }
+
+  TEST_CASE("all runs get the files that were read first, however they change on the disk") {
+    const Folder folder;
+    const std::string mission = folder / "dive.csv", graph = folder / "g.yaml";
+    const auto write = [&](double depth) { std::ofstream(mission) << dive_to(depth); };
+    const GraphSource source = diving(graph);
+    write(3);
+    const SourceSet read;
+    Graphs graphs(source);
+    const Campaign campaign = state_campaign(graphs, {.vary = {"tasks.depth.let=[100ms, 50ms]"}});
+    graphs.close(read.read());
+    const Draws draws(campaign, 0);
+    const std::atomic<bool> stop{false};
+    const auto deepest = [&](std::uint64_t run) {
+      return run_one(graphs, draws.at(run), campaign.length, stop)->metrics[0].number;
+    };
+    CHECK(deepest(0) == 3);
+    write(6);
+    CHECK(deepest(0) == 3);
+    fs::remove(mission);
+    CHECK(deepest(1) == 3);
+    const Identity identity = identity_of(source, graphs, campaign, 0, {}, read.read());
+    CHECK(identity.back().first == "file dive.csv");
+    // what was not read first is no reason to say that there is no such run
+    Start other = draws.at(1);
+    other.index = 7;
+    other.set = {"distributers.neptus.link.file=rise.csv"};
+    CHECK_THROWS_WITH_AS(run_one(graphs, other, campaign.length, stop),
+                         ("run 7 needs '" + folder / "rise.csv" +
+                          "', which was not read before the first run; the results hold nothing of that run")
+                             .c_str(),
+                         UnreadFile);
+  }
+
+  TEST_CASE("results that were removed meanwhile are missed") {
+    const Folder folder;
+    Under under(source_of(waves), {.vary = {"seed=1..3"}}, 0, folder / "r");
+    under.run(1);
+    under.results->require_in_place();
+    fs::remove(folder / "r");
+    const std::string lost = "the results are lost: '" + folder / "r" +
+                             "' was removed or replaced while the campaign was running; the same command runs it anew";
+    CHECK_THROWS_WITH_AS(under.results->require_in_place(), lost.c_str(), ResultsError);
+    std::ofstream(folder / "r") << "another";
+    CHECK_THROWS_WITH_AS(under.results->require_in_place(), lost.c_str(), ResultsError);
+  }
+
+  TEST_CASE("another build of the program or of a library is another campaign") {
+    const Identity here = identity_of_program("jarol 1");
+    REQUIRE(here.size() > 2);
+    CHECK(here[0] == std::pair<std::string, std::string>("program", "jarol 1"));
+    CHECK(here[1].first == "build");
+    CHECK(here[2].first.starts_with("library "));
+    const Folder folder;
+    const GraphSource source = source_of(waves);
+    Graphs graphs(source);
+    const Campaign campaign = state_campaign(graphs, gains);
+    const auto open = [&](const Identity& program) {
+      Results(folder / "r", identity_of(source, graphs, campaign, 1, program), campaign);
+    };
+    open(here);
+    open(here);
+    Identity other = here;
+    other[1].second = "b1";
+    CHECK_THROWS_WITH_AS(open(other),
+                         ("'" + folder / "r" + "' has the results of another campaign: its 'build' was '" +
+                          here[1].second + "', not 'b1'; repeat that, or name another file")
+                             .c_str(),
+                         OtherCampaign);
   }
 
   TEST_CASE("results of another campaign are refused with the reason") {

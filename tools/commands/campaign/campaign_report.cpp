@@ -113,6 +113,17 @@ std::string title_of(const CampaignOutcome& outcome) {
                                    : fmt::format("(runs {} to {})", range.begin, range.end - 1));
 }
 
+// Where all runs are the same, and where good ones say less than it seems.
+std::string notes_of(const Summary& summary) {
+  std::string text;
+  if (summary.all_same) text += fmt::format("  all {} runs have one digest: what varies has no effect\n", summary.runs);
+  if (summary.first_not_judged)
+    text += fmt::format("  run {} is good as far as it was judged{}: {}\n", summary.first_not_judged->index,
+                        summary.not_judged > 1 ? fmt::format(", the first of {} such runs", summary.not_judged) : "",
+                        printable(summary.first_not_judged->why));
+  return text;
+}
+
 std::string shrunk_text(const CampaignOutcome& outcome) {
   if (outcome.all_refused) return "  no run to make milder: all that are not good are refused\n";
   if (outcome.shrunk == nullptr) return "";
@@ -149,7 +160,7 @@ std::string to_text(const CampaignOutcome& outcome) {
   std::string text = fmt::format("{}: {} of {} runs, {}", title_of(outcome), summary.runs, outcome.range().size(),
                                  outcomes_text(summary));
   if (outcome.ran > 0) text += fmt::format("; {} of them in {:.1f} s", outcome.ran, outcome.seconds);
-  text += "\n" + table_of(summary);
+  text += "\n" + notes_of(summary) + table_of(summary);
   for (const MetricSummary& m : summary.metrics) text += cases_text(m, outcome);
   for (const campaign::Result& result : summary.not_good)
     text += fmt::format("  run {} is {}: {}\n    {}\n", result.index, campaign::word_of(result.outcome),
@@ -178,6 +189,10 @@ Json to_json(const CampaignOutcome& outcome) {
             {"ran", outcome.ran},           {"wall_ns", static_cast<std::int64_t>(outcome.seconds * 1e9)},
             {"outcomes", outcomes},         {"metrics", metrics},
             {"not_good", not_good},         {"results", outcome.results}};
+  if (summary.all_same) json["all_same"] = true;
+  if (summary.first_not_judged)
+    json["not_judged"] = {
+        {"runs", summary.not_judged}, {"run", summary.first_not_judged->index}, {"why", summary.first_not_judged->why}};
   if (outcome.shard)
     json["shard"] = {{"part", outcome.shard->index + 1},
                      {"of", outcome.shard->count},

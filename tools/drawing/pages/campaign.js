@@ -24,7 +24,7 @@ function head() {
   const figure = (value, text) => el('div', {class: 'figure'}, el('dd', {}, value), el('dt', {}, text));
   const kinds = outcomeWords.filter((word) => word !== 'good' && report.outcomes[word] > 0);
   return el('header', {class: 'head'}, el('p', {class: 'kicker'}, 'Jarol · campaign'),
-    el('div', {class: 'title'}, el('h1', {}, report.graph), report.done === 0 ? badge('open', 'No runs') : bad === 0 ? badge('good', 'All runs are good') : badge('bad', `${count(bad, 'run')} not good`)),
+    el('div', {class: 'title'}, el('h1', {}, report.graph), report.done === 0 ? badge('open', 'No runs') : bad === 0 ? report.not_judged ? badge('open', 'Good as far as judged') : badge('good', 'All runs are good') : badge('bad', `${count(bad, 'run')} not good`)),
     el('dl', {class: 'figures'}, figure(plain(report.done), runsText()),
       figure(`${number(report.outcomes.good / Math.max(1, report.done) * 100, 4)} %`, 'good'),
       ...kinds.map((word) => figure(plain(report.outcomes[word]), word))));
@@ -42,7 +42,10 @@ function summary() {
   const words = metrics.flatMap((m) => Object.entries(m.words ?? {}).map(([word, runs]) => el('p', {}, el('code', {}, m.name), ` is ${word} in ${count(runs, 'run')}.`)));
   const valued = metrics.filter((m) => m.missing > 0).map((m) => el('p', {}, el('code', {}, m.name),
     ` has a value in ${report.done - m.missing} of ${count(report.done, 'run')}${m.runs > 0 ? '; its numbers are of those' : ''}.`));
-  return section('summary', 'Summary', 'Percentiles are by nearest rank: each is the number of a run.', facts, el('h3', {}, 'Metrics'),
+  const notes = [];
+  if (report.all_same) notes.push(el('p', {}, `All ${count(report.done, 'run')} have one digest: what varies has no effect.`));
+  if (report.not_judged) notes.push(el('p', {}, `${count(report.not_judged.runs, 'run')} good as far as judged; run ${report.not_judged.run}: ${report.not_judged.why}.`));
+  return section('summary', 'Summary', 'Percentiles are by nearest rank: each is the number of a run.', facts, notes, el('h3', {}, 'Metrics'),
     rows.length > 0 ? table('percentiles of each metric', columns, rows) : el('p', {class: 'nothing'}, 'Nothing was measured. Name a metric: jarol campaign ... --metric \'deepest=max(depth of dune) < 3.2\''), words, valued);
 }
 

@@ -245,7 +245,7 @@ TEST_SUITE("tools/commands/campaign") {
     REQUIRE(lines.size() == 7);
     CHECK(lines[0] ==
           "run,seed,tasks.depth.parameters.kp,distributers.dune.link.parameters.hull.mass,deepest,outcome,"
-          "faults,simulated_s,digest,why");
+          "faults,simulated_s,digest,why,not_judged");
     for (std::size_t i = 1; i < lines.size(); i += 2) {
       const std::vector<std::string> cells = cells_of(lines[i]);
       const json alone = json_of(

@@ -123,7 +123,7 @@ TEST_SUITE("tools/commands/campaign/report") {
         "that is outside";
     const command::Result twelve = dives("12");
     CHECK(twelve.exit_code == 1);
-    CHECK(command::content(folder / "12.csv").find("\n2,0,-0.13828408547883264,,refused,0,0,,\"" + why + "\"\n") !=
+    CHECK(command::content(folder / "12.csv").find("\n2,0,-0.13828408547883264,,refused,0,0,,\"" + why + "\",0\n") !=
           std::string::npos);
     CAPTURE(twelve.output);
     CHECK(twelve.output.find(" of 12 runs, 7 good, 2 bad, 3 refused;") != std::string::npos);
@@ -139,6 +139,24 @@ TEST_SUITE("tools/commands/campaign/report") {
         " --set tasks.depth.parameters.kp=-0.13828408547883264 --seed 0 --for 20s --record run_2.mcap\n"
         "  no run to make milder: all that are not good are refused\n  results     " +
         (folder / "3") + "\n"));
+  }
+
+  TEST_CASE("a report says where all runs are the same, and of which good runs not all that is expected was judged") {
+    const TemporaryFolder folder;
+    const std::string of =
+        "campaign specs/exolauv.yaml --set distributers.dune.link.parameters.dynamics=rigid --vary seed=1..3 --for 3s "
+        "--results " +
+        (folder / "r");
+    REQUIRE(command::run_jarol(of).exit_code == 0);
+    const std::string why = "5 conditions were not judged: the run ended at 3 s, its mission ends at 100 s";
+    CHECK(command::run_jarol(of).output ==
+          "exolauv: 3 of 3 runs, 3 good\n"
+          "  all 3 runs have one digest: what varies has no effect\n"
+          "  run 0 is good as far as it was judged, the first of 3 such runs: " +
+              why + "\n  results     " + (folder / "r") + "\n");
+    const auto json = nlohmann::json::parse(command::run_jarol(of + " --json").output);
+    CHECK(json["all_same"] == true);
+    CHECK(json["not_judged"] == nlohmann::json{{"runs", 3}, {"run", 0}, {"why", why}});
   }
 
   TEST_CASE("a dive that never settles is bad, and its command stands beside that of the slowest that does") {

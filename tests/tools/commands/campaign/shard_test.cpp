@@ -64,11 +64,11 @@ TEST_SUITE("tools/commands/campaign/shard") {
               "6 --for 1s --record run_5.mcap\n  results     " + results + "\n  report      " + (folder / "2.html") +
               "\n");
     CHECK(content(folder / "2.csv") ==
-          "run,seed,tasks.slow.let,last,outcome,faults,simulated_s,digest,why\n"
-          "4,5,5ms,10178,bad,0,1,0xf68c8cf14a0b9eb6,metric 'last' is beyond its limit: it reached 10178\n"
-          "5,6,5ms,10178,bad,0,1,0xf68c8cf14a0b9eb6,metric 'last' is beyond its limit: it reached 10178\n"
-          "6,1,15ms,9630,good,0,1,0xc25a95cb432b2ad5,\n"
-          "7,2,15ms,9630,good,0,1,0xc25a95cb432b2ad5,\n");
+          "run,seed,tasks.slow.let,last,outcome,faults,simulated_s,digest,why,not_judged\n"
+          "4,5,5ms,10178,bad,0,1,0xf68c8cf14a0b9eb6,metric 'last' is beyond its limit: it reached 10178,0\n"
+          "5,6,5ms,10178,bad,0,1,0xf68c8cf14a0b9eb6,metric 'last' is beyond its limit: it reached 10178,0\n"
+          "6,1,15ms,9630,good,0,1,0xc25a95cb432b2ad5,,0\n"
+          "7,2,15ms,9630,good,0,1,0xc25a95cb432b2ad5,,0\n");
     const nlohmann::json page = page_data(content(folder / "2.html"));
     CHECK(page["report"]["shard"] == nlohmann::json({{"part", 2}, {"of", 3}, {"first", 4}, {"runs", 4}}));
     CHECK(page["report"]["done"] == 4);
@@ -95,6 +95,7 @@ TEST_SUITE("tools/commands/campaign/shard") {
     const auto none = run(results + "--shard 1/13 --csv " + (folder / "none.csv"));
     CHECK(none.exit_code == 0);
     CHECK(first_line(none.output) == "counting, shard 1/13 (no runs): 0 of 0 runs, 0 good");
-    CHECK(content(folder / "none.csv") == "run,seed,tasks.slow.let,last,outcome,faults,simulated_s,digest,why\n");
+    CHECK(content(folder / "none.csv") ==
+          "run,seed,tasks.slow.let,last,outcome,faults,simulated_s,digest,why,not_judged\n");
   }
 }
