@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "runtime/machine/signal_stack.h"
+
 namespace jarol::campaign {
 std::optional<std::uint64_t> OwnWork::next() {
   const std::lock_guard lock(mutex_);
@@ -44,6 +46,7 @@ void run_work(Graphs& graphs, const Campaign& campaign, const Draws& draws, Work
   tbb::task_arena arena(static_cast<int>(workers));
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, workers, [&](std::size_t) {
+      const SignalStack stack;  // a task may use up that of the thread
       while (!stop.load(std::memory_order_relaxed)) {
         const std::optional<std::uint64_t> index = work.next();
         if (!index) return;

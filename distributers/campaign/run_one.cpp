@@ -3,9 +3,13 @@
 #include <array>
 #include <utility>
 
+#include "distributers/campaign/running_run.h"
 #include "distributers/session/graph_run.h"
 
 namespace jarol::campaign {
+
+constinit thread_local std::atomic<std::int64_t> running_run{no_run};
+
 namespace {
 
 constexpr std::array<const char*, 5> words{"good", "bad", "fault", "lost", "refused"};
@@ -160,6 +164,7 @@ std::optional<Result> run_one(Graphs& graphs, const Start& start, std::optional<
   Result result;
   result.index = start.index;
   result.metrics.resize(graphs.base().measures.metrics.size());
+  const RunningRun running(start.index);
   std::optional<SourceSet> files;
   if (graphs.files()) files.emplace(*graphs.files(), "it was not there when the campaign began");
   const auto require_all_read = [&] {

@@ -13,14 +13,14 @@
 #include "distributers/campaign/statement.h"
 #include "distributers/campaign/summary.h"
 #include "graph/text/escape.h"
-#include "runtime/files/atomic_file.h"
-#include "tools/commands/campaign/campaign_page.h"
 #include "tools/commands/campaign/campaign_report.h"
+#include "tools/commands/campaign/outputs.h"
 #include "tools/commands/campaign/pace.h"
 #include "tools/commands/campaign/repeat.h"
 #include "tools/commands/campaign/shard_option.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/run/apart.h"
+#include "tools/commands/run/crash_line.h"
 #include "tools/commands/run/interrupt.h"
 #include "tools/commands/run/load_graph.h"
 #include "tools/commands/run/no_plugins.h"
@@ -58,19 +58,6 @@ std::string results_of(const CampaignOptions& options) {
   if (!options.results.empty()) return options.results;
   const std::string stem = std::filesystem::path(options.file).stem().string();
   return (options.file == "-" ? "graph" : stem) + ".campaign.sqlite";
-}
-
-void write_table(const std::string& path, const campaign::Results& results, const campaign::Campaign& campaign,
-                 const campaign::Draws& draws, const campaign::RunRange& range) {
-  if (path == "-") {
-    write_csv(
-        results, campaign, draws, [](std::string_view text) { std::cout << text; }, range);
-    return;
-  }
-  AtomicFile file(path);
-  write_csv(
-      results, campaign, draws, [&](std::string_view text) { file.write(text); }, range);
-  file.commit();
 }
 
 campaign::Wishes wishes_of(const CampaignOptions& options) {
@@ -128,6 +115,7 @@ int take_part(const CampaignOptions& options, const campaign::Identity& program,
   // the first says what is wrong; mpirun would end it before that, were this not good
   if (!work.join(stated ? text_of(stated->identity) : "", wrong)) return exit_good;
   const Interruptible interruptible;
+  const CrashLine crash_line(stated->graphs.base().graph.graph());
   run_work(stated->graphs, stated->campaign, *stated->draws, work, workers_of(options), Interruptible::interrupted());
   work.finish();
   return Interruptible::interrupted() ? exit_of_signal(Interruptible::signal()) : exit_good;
@@ -151,6 +139,10 @@ int run(const CampaignOptions& options) {
   const std::string results_file = results_of(options);
   require_apart({{"FILE", options.file}},
                 {{"--results", results_file}, {"--csv", options.csv}, {"--report", options.report}});
+  if (results_file == ":memory:")
+    throw std::invalid_argument(
+        "--results: ':memory:' is no file, and results that end with the process are of no "
+        "use; name a file, as in --results campaign.sqlite");
   if (options.report == "-")
     throw std::invalid_argument("--report: '-' is no file; a page is opened by its name, as in --report campaign.html");
   require_extension({"--report", options.report}, ".html", "a page in HTML");
@@ -161,12 +153,14 @@ int run(const CampaignOptions& options) {
   const campaign::Draws& draws = *stated.draws;
   if (ranks) ranks->gather(text_of(stated.identity));
   let_writing_fail();
+  CampaignOutputs outputs(options.csv, options.report);
   campaign::Results results(results_file, stated.identity, campaign);
   const campaign::RunRange range = shard.of(draws.runs());
   const std::vector<std::uint64_t> to_run = missing(results.done(draws.runs()), range);
   CampaignPace pace(range.size(), to_run.size());
   {
     const Interruptible interruptible;
+    const CrashLine crash_line(graphs.base().graph.graph());
     const Progress progress(!options.json && isatty(STDERR_FILENO) != 0, [&] { return pace.line(); });
     const std::function<void(const campaign::Result&)> count = [&](const campaign::Result& r) { pace.count(r); };
     campaign::OwnWork work(to_run, draws, results, count, Interruptible::interrupted());
@@ -187,6 +181,7 @@ int run(const CampaignOptions& options) {
   if (whole && options.shrink && summary.first_failed) {
     const campaign::Result& first = *summary.first_failed;
     const Interruptible interruptible;
+    const CrashLine crash_line(graphs.base().graph.graph());
     shrunk = shrink(graphs, campaign, draws, first.index, first.outcome, Interruptible::interrupted());
     gave_up = !shrunk;
   }
@@ -209,15 +204,11 @@ int run(const CampaignOptions& options) {
   if (shrunk)
     outcome.repeat_shrunk = repeat_command(options.file, options.overrides, campaign.length, shrunk->start) +
                             fmt::format(" --record run_{}_mild.mcap", shrunk->start.index);
-  if (whole && !options.csv.empty()) write_table(options.csv, results, campaign, draws, range);
-  if (whole && !options.report.empty()) {
-    AtomicFile page(options.report);
-    page.write(campaign_page(outcome, to_json(outcome), results));
-    page.commit();
-  }
   std::ostream& out = options.csv == "-" ? std::cerr : std::cout;
   out << (options.json ? json_line(to_json(outcome)) : to_text(outcome));
+  if (whole) outputs.write(outcome, results);
   if (whole && !options.report.empty() && !options.json) out << "  report      " << printable(options.report) << "\n";
+  results.require_in_place();
   if (!whole) {
     std::cerr << "interrupted: " << to_run.size() - pace.ran()
               << " runs are left; the same command goes on where this one ended\n";

@@ -16,6 +16,7 @@
 #include <string>
 #include <string_view>
 
+#include "distributers/campaign/running_run.h"
 #include "distributers/guardian/guardian.h"
 #include "graph/text/escape.h"
 #include "graph/text/shell_word.h"
@@ -95,14 +96,17 @@ class Line {
 };
 
 void name_task(Line& line) {
+  line << "crash: ";
+  if (const std::int64_t run = campaign::running_run.load(std::memory_order_relaxed); run != campaign::no_run)
+    line << "run " << run << " of the campaign: ";
   const TaskMemory* const memory = running_task.memory.load(std::memory_order_relaxed);
   const Graph* const of = running_graph.load();
   if (memory == nullptr || of == nullptr) {
-    line << "crash: no task ran in this thread: ";
+    line << "no task ran in this thread: ";
     return;
   }
   const Tick& tick = *running_task.tick.load(std::memory_order_relaxed);
-  line << "crash: task '" << of->tasks[static_cast<const TaskStatus*>(memory->fault)->task].name << "' activation "
+  line << "task '" << of->tasks[static_cast<const TaskStatus*>(memory->fault)->task].name << "' activation "
        << tick.activation << " at ";
   line.seconds(tick.now) << " s: ";
 }
