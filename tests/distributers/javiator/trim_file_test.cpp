@@ -9,6 +9,7 @@
 #include "distributers/interfaces/typed.h"
 #include "distributers/javiator/operator.h"
 #include "distributers/messages/javiator.h"
+#include "graph/language/source_set.h"
 
 namespace {
 using namespace jarol;
@@ -43,6 +44,27 @@ TEST_SUITE("distributers/trim_file") {
     write_trim(place.path(), trim);
     CHECK(read_trim(place.path()) == trim);
     write_trim(place.path(), {});
+    CHECK(read_trim(place.path()) == Trim{});
+  }
+
+  TEST_CASE("where the files of runs are given, a trim is that of these files, or none") {
+    const Place place;
+    const Trim before{0.01, 0.02};
+    write_trim(place.path(), before);
+    const SourceSet read;
+    CHECK(read_trim(place.path()) == before);
+    const SourceSet::Sources files = read.read();
+    write_trim(place.path(), {0.5, 0.5});
+    {
+      const SourceSet given(files, "it was not there");
+      CHECK(read_trim(place.path()) == before);
+      std::filesystem::remove(place.path());
+      CHECK(read_trim(place.path()) == before);
+      CHECK(given.missed().empty());
+    }
+    write_trim(place.path(), {0.5, 0.5});
+    const SourceSet::Sources none;
+    const SourceSet closed(none, "it was not there");
     CHECK(read_trim(place.path()) == Trim{});
   }
 
