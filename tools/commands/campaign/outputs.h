@@ -1,5 +1,5 @@
-// The table and the page that a campaign is asked for: files that can be made are seen to before the first run, and what
-// stood there before stays until they are whole.
+// The table and the page that a campaign is asked for: files that can be made are seen to before the first run, and
+// what stood there before stays until they are whole.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// How a campaign ends where something is in its way: a task that crashes, results that are removed, outputs that can't be
-// made.
+// How a campaign ends where something is in its way: a task that crashes, results that are removed, outputs that can't
+// be made.
 #include <doctest/doctest.h>
 
 #include <csignal>
@@ -62,8 +62,8 @@ TEST_SUITE("tools/commands/campaign/ends") {
       CHECK(!std::filesystem::exists(folder / "r"));
       const std::string there = folder.write("a.html", "of an earlier campaign");
       REQUIRE(command::run_jarol(counting + "--results " + (folder / "other")).exit_code == 0);
-      const auto other = command::run_jarol(counting + "--seed 5 " + option + " " + there + " --results " +
-                                            (folder / "other"));
+      const auto other =
+          command::run_jarol(counting + "--seed 5 " + option + " " + there + " --results " + (folder / "other"));
       CHECK(other.exit_code == 2);
       CHECK(content(there) == "of an earlier campaign");
       REQUIRE(command::run_jarol(counting + option + " " + there + results).exit_code == 0);
