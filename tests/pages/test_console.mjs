@@ -135,7 +135,7 @@ test('while another page commands this one changes no pace, pauses and steps not
   pilot.ask({do: 'take', desk: 'terminal', as: 'a pilot', sticks: {roll: 0}});
   const alive = setInterval(() => pilot.ask({do: 'alive', desk: 'terminal'}), 100);
   await shown.page.until(command('Another page commands'));
-  const why = `document.querySelector('header [role=alert]')?.textContent === "another page commands 'terminal'; it alone changes the pace, pauses and steps"`;
+  const why = `document.querySelector('header [role=alert]')?.textContent === "another page commands 'terminal'; only a page that commands alone changes the pace, pauses and steps"`;
   await shown.choose('speed', 'max');
   await shown.page.until(why);
   assert.equal(await shown.page.evaluate(`document.querySelector('header .group select').value`), '1');

@@ -122,7 +122,8 @@ std::string Console::answer(const Page& page, const std::string& message) {
     throw std::invalid_argument("this run goes on by itself; only one on the virtual clock can be paced and paused");
   // the time that a vehicle waits for its operator is that of the run: who changes it could end another one's flight
   if (const std::string desk = desk_.commanded_by_others(page.number); !desk.empty())
-    throw std::invalid_argument("another page commands '" + desk + "'; it alone changes the pace, pauses and steps");
+    throw std::invalid_argument("another page commands '" + desk +
+                                "'; only a page that commands alone changes the pace, pauses and steps");
   obey(*watched_.pace, message);
   return "";
 }

@@ -90,12 +90,9 @@ void Desk::obey(std::uint64_t page, const Received& message, Clock::time_point n
 }
 
 std::string Desk::commanded_by_others(std::uint64_t page) const {
-  std::string others;
-  for (const Seat& seat : seats_) {
-    if (seat.page == page) return "";
-    if (seat.page) others = seat.of.name;
-  }
-  return others;
+  for (const Seat& seat : seats_)
+    if (seat.page && seat.page != page) return seat.of.name;
+  return "";
 }
 
 void Desk::leave_out(Seat& seat, const Received& message, Duration behind) {

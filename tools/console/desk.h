@@ -35,7 +35,7 @@ class Desk {
   /// What page number so-and-so asks for: {"do": "take" | "alive" | "send" | "release", "desk": NAME, ...}. Throws
   /// std::invalid_argument, of which the page is shown the text. `behind`: so old is what the page shows.
   void obey(std::uint64_t page, const nlohmann::json& message, Clock::time_point now, Duration behind = {});
-  /// A desk that is commanded, where that page commands none; empty: there is none, or nobody commands.
+  /// The first desk that another page commands; empty: there is none.
   std::string commanded_by_others(std::uint64_t page) const;
   /// The page is gone.
   void leave(std::uint64_t page);

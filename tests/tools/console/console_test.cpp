@@ -177,7 +177,7 @@ TEST_SUITE("console/console") {
       pilot.send(R"({"do": "alive", "desk": "terminal"})");
       other.send(R"({"do": )" + what + "}");
       CHECK(other.read_with("error")["error"] ==
-            "another page commands 'terminal'; it alone changes the pace, pauses and steps");
+            "another page commands 'terminal'; only a page that commands alone changes the pace, pauses and steps");
     }
     CHECK(pace.state() == tools::Pace::State{1.0, false});
     pilot.send(R"({"do": "pause"})");
