@@ -186,6 +186,18 @@ test('it is saved, and a file that has changed on the disk is never overwritten 
   await shown.end();
 });
 
+test('a carriage return alone is shown, and stays where the text is edited around it', async () => {
+  const shown = await EditorPage.edit(browser, 'counting.yaml');
+  const theirs = '# old\rfile\r\n' + shown.onDisk();
+  writeFileSync(shown.file, theirs);
+  await shown.page.until(`document.querySelector('textarea').value.startsWith('# old\u240dfile\\n')`);
+  await shown.rewrite((await shown.source()).replace('wcet: 2ms', 'wcet: 1ms'));
+  await shown.control('s');
+  await shown.page.until(`document.querySelector('[aria-label="state of the file"]').textContent.trim() === 'saved'`);
+  assert.equal(shown.onDisk(), theirs.replace('wcet: 2ms', 'wcet: 1ms'));
+  await shown.end();
+});
+
 test('a suggestion of check is taken with a click', async () => {
   const shown = await EditorPage.edit(browser, 'counting.yaml');
   await shown.choose_part('task slow');

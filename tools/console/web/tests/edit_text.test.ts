@@ -4,7 +4,7 @@ import { wordText } from "../src/edit/entries.ts";
 import { GraphText } from "../src/edit/graph_text.ts";
 import { History } from "../src/edit/history.ts";
 import * as operations from "../src/edit/operations.ts";
-import { CannotEdit, commentsOf, differenceOf, offsetAt, typed } from "../src/edit/splice.ts";
+import { CannotEdit, commentsOf, differenceOf, offsetAt, placeOf, shownOf, typed } from "../src/edit/splice.ts";
 
 const graph = (text: string): GraphText => new GraphText(text);
 const task = (g: GraphText, name: string) => g.find("task", name)!;
@@ -139,6 +139,19 @@ test("ends of lines stay what they are, also where people type", () => {
   assert.equal(typed("a\nb", "a\nb"), "a\nb");
   const removed = operations.removePart(graph(text), task(graph(text), "a"));
   assert.equal(removed.text, "tasks:\r\n# end\r\n");
+});
+
+test("a carriage return alone, which ends no line, is shown and stays, whatever else the ends of lines are", () => {
+  for (const text of ["graph: a\rtasks:\r  c: {wcet: 1us}\r", "# a\rb\nc: 1us\n", "# a\rb\r\nc: 1us\r\n", "# a\r\r\nc: 1us\r\n"]) {
+    const shown = shownOf(text);
+    assert.ok(!shown.includes("\r"), "a browser would make an end of a line of it");
+    assert.equal(shown.split("\n").length, text.split("\n").length, "lines are those of the loader");
+    assert.equal(typed(text, shown.replace("1us", "2us")), text.replace("1us", "2us"));
+    assert.equal(text.slice(placeOf(text, shown.indexOf("1us"))).slice(0, 3), "1us");
+  }
+  // a copy of it is one, too
+  assert.equal(typed("a\rb\n", "a\u240db\na\u240db\n"), "a\rb\na\rb\n");
+  assert.equal(typed("# \u240d\n", "# \u240d\u240d\n"), "# \u240d\u240d\n");
 });
 
 test("what can't be edited without harm is refused with a reason", () => {

@@ -102,17 +102,27 @@ export function differenceOf(before: string, after: string): Splice | undefined 
   return { from, to: before.length - end, insert: after.slice(from, after.length - end) };
 }
 
-/** What was typed where all ends of lines are \n, as a change of the text, which has ends of its own. */
+// A carriage return alone ends no line, neither for the loader nor for YAML here; a browser would make it one that does.
+const loneReturn = /\r(?!\n)/g;
+const shownReturn = "\u240d";
+
+/** The text as a browser shows it: all ends of lines are \n, and what looks like one and is none is a sign. */
+export const shownOf = (text: string): string => text.replace(loneReturn, shownReturn).replaceAll("\r\n", "\n");
+
+/** The place in the text of one in what is shown of it. */
+export function placeOf(text: string, shownAt: number): number {
+  let place = 0;
+  for (let i = 0; i < shownAt; ++i) place += text.startsWith("\r\n", place) ? 2 : 1;
+  return place;
+}
+
+/** What was typed where the text is shown, as a change of the text. */
 export function typed(text: string, value: string): string {
-  const shown = text.replaceAll("\r\n", "\n");
-  const change = differenceOf(shown, value);
+  const change = differenceOf(shownOf(text), value);
   if (!change) return text;
-  // places of what is shown in the text
-  const place = (at: number): number => {
-    let place = 0;
-    for (let i = 0; i < at; ++i) place += text[place] === "\r" && text[place + 1] === "\n" ? 2 : 1;
-    return place;
-  };
-  const insert = text.includes("\r\n") ? change.insert.replaceAll("\n", "\r\n") : change.insert;
-  return applySplices(text, [{ from: place(change.from), to: place(change.to), insert }]);
+  let { insert } = change;
+  if (text.includes("\r\n")) insert = insert.replaceAll("\n", "\r\n");
+  // a piece that was moved or copied
+  if (text.search(loneReturn) >= 0) insert = insert.replaceAll(shownReturn, "\r");
+  return applySplices(text, [{ from: placeOf(text, change.from), to: placeOf(text, change.to), insert }]);
 }
