@@ -3,19 +3,21 @@ import assert from 'node:assert/strict';
 import {cpSync, mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
+import {ForwardedPort} from './forwarded_port.mjs';
 import {Console, start} from './watched_run.mjs';
 
 /** The editor as people see it, of a copy of what stands in specs/. */
 export class EditorPage extends Console {
-  /** `name` as in 'exolauv.yaml'. */
-  static async edit(browser, name, {options = {}, words = []} = {}) {
+  /** `name` as in 'exolauv.yaml'; `forwarded`: through a port that can be cut. */
+  static async edit(browser, name, {options = {}, words = [], forwarded = false} = {}) {
     const folder = join(mkdtempSync(join(tmpdir(), 'jarol_edit_')), 'specs');
     cpSync('specs', folder, {recursive: true, filter: (from) => !/specs\/(broken|pictures)/.test(from)});
     const file = join(folder, name);
     const run = start('edit', file, ...words);
-    const url = await run.url;
+    const port = forwarded ? await ForwardedPort.to(await run.url) : undefined;
+    const url = port?.url ?? await run.url;
     const shown = new EditorPage(await browser.open(url, {width: 1280, height: 720, ...options}), url);
-    Object.assign(shown, {folder, file, run});
+    Object.assign(shown, {folder, file, run, forwarded: port});
     await shown.page.until(`document.querySelector('textarea')?.value.length > 0`);
     await shown.judged();
     return shown;
@@ -23,11 +25,17 @@ export class EditorPage extends Console {
 
   async end() {
     await this.close();
+    await this.forwarded?.cut();
     assert.equal((await this.run.stop()).code, 130);
     rmSync(join(this.folder, '..'), {recursive: true, force: true});
   }
 
   onDisk() { return readFileSync(this.file, 'utf8'); }
+  /** Until that is on the disk. */
+  async disk(text) {
+    for (const end = Date.now() + 120_000; this.onDisk() !== text; await new Promise((done) => setTimeout(done, 20)))
+      assert.ok(Date.now() < end, `on the disk stands ${this.onDisk()}`);
+  }
   source() { return this.page.evaluate(`document.querySelector('textarea').value`); }
   verdict() { return this.text('[aria-label=verdict]'); }
 

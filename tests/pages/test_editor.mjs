@@ -186,6 +186,29 @@ test('it is saved, and a file that has changed on the disk is never overwritten 
   await shown.end();
 });
 
+test('it is saved again before the first answer: what was edited meanwhile is saved behind it, and nobody else is blamed', async () => {
+  const shown = await EditorPage.edit(browser, 'counting.yaml');
+  const before = shown.onDisk();
+  const save = `window.dispatchEvent(new KeyboardEvent('keydown', {key: 's', ctrlKey: true}))`;
+  const type = (text) => `(() => { const a = document.querySelector('textarea'); a.value += ${JSON.stringify(text)}; a.dispatchEvent(new Event('input', {bubbles: true})); })()`;
+  const isSaved = `document.querySelector('[aria-label="state of the file"]').textContent.trim() === 'saved'`;
+  await shown.page.evaluate(`window.dialogs = 0; new MutationObserver(() => (window.dialogs += document.querySelectorAll('dialog').length)).observe(document.body, {childList: true, subtree: true})`);
+  await shown.page.evaluate([type('# one\n'), save, save, type('# two\n'), save, save].join(';'));
+  await shown.page.until(isSaved);
+  assert.equal(shown.onDisk(), before + '# one\n# two\n');
+  // an edit that comes later than the request is not saved with it
+  await shown.page.evaluate([type('# three\n'), save, type('# four\n')].join(';'));
+  await shown.judged();
+  assert.equal(await shown.text('[aria-label="state of the file"]'), 'not saved');
+  assert.equal(shown.onDisk(), before + '# one\n# two\n# three\n');
+  assert.equal(await shown.page.evaluate(`!window.dispatchEvent(new Event('beforeunload', {cancelable: true}))`), true, 'who leaves is asked');
+  await shown.press('Save');
+  await shown.page.until(isSaved);
+  assert.equal(shown.onDisk(), before + '# one\n# two\n# three\n# four\n');
+  assert.equal(await shown.page.evaluate('window.dialogs'), 0);
+  await shown.end();
+});
+
 test('a carriage return alone is shown, and stays where the text is edited around it', async () => {
   const shown = await EditorPage.edit(browser, 'counting.yaml');
   const theirs = '# old\rfile\r\n' + shown.onDisk();

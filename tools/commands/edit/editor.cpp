@@ -135,7 +135,7 @@ std::string Editor::save(const std::string& text, const std::string& over) {
   try {
     if (const auto other = file_.write(text, over))
       return dump({{"conflict", {{"text", other->text}, {"hash", other->hash}}}});
-  } catch (const std::runtime_error& wrong) { throw std::invalid_argument(wrong.what()); }
+  } catch (const std::runtime_error& wrong) { return dump({{"unsaved", {{"why", wrong.what()}}}}); }
   return dump({{"saved", {{"hash", hash_of(text)}}}});
 }
 

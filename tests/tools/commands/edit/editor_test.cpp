@@ -1,6 +1,8 @@
 // jarol edit, as a page talks to it.
 #include <doctest/doctest.h>
 
+#include <filesystem>
+
 #include "tests/tools/console/client.h"
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
@@ -85,6 +87,20 @@ TEST_SUITE("editor/editor") {
     page.send(json{{"do", "save"}, {"text", mine}, {"over", conflict["hash"]}}.dump());
     CHECK(page.read_with("saved")["saved"]["hash"] == saved["hash"]);
     CHECK(content(edited.file()) == mine);
+  }
+
+  TEST_CASE("where the file can't be written, who saves learns why, apart from what else is refused") {
+    Edited edited;
+    PageSocket page(edited.url());
+    const std::string before = content(edited.file());
+    page.send(R"({"do": "open"})");
+    const json hash = page.read_with("opened")["opened"]["hash"];
+    std::filesystem::permissions(edited.file(), std::filesystem::perms::owner_read);
+    page.send(json{{"do", "save"}, {"text", "graph: a\n"}, {"over", hash}}.dump());
+    CHECK(page.read_with("unsaved")["unsaved"]["why"] ==
+          "can't write '" + edited.file() +
+              "': the file is read-only; allow that it is written, as by chmod u+w, and save again");
+    CHECK(content(edited.file()) == before);
   }
 
   TEST_CASE("a text is run in simulation, saved or not") {

@@ -1,20 +1,13 @@
 // The editor as the page knows it: the text and what was before, what jarol says of it, and what is chosen.
 
-import { GraphText, type Connection, type Kind, type Part } from "./graph_text.ts";
+import { Link } from "../link.ts";
+import { findingOf, type Finding } from "./findings.ts";
+import { endText, GraphText, type Connection, type Kind, type Part } from "./graph_text.ts";
 import { History } from "./history.ts";
-import type { Catalogue, Checked, Drawn, Hello, Message, Problem, Suggestion, Trial, Verdict, Version } from "./protocol.ts";
-import { CannotEdit, offsetAt, typed } from "./splice.ts";
+import type { Catalogue, Checked, Drawn, Hello, Message, Suggestion, Trial, Verdict, Version } from "./protocol.ts";
+import { CannotEdit, typed } from "./splice.ts";
 
 export type Chosen = { kind: Kind; name: string } | { kind: "connection"; from: string; to: string } | { kind: "graph" };
-
-/** A problem with where it is drawn. */
-export interface Finding {
-  problem: Problem;
-  /** Of the file that is edited; undefined: another one. */
-  offset?: number;
-  part?: string;
-  connection?: number;
-}
 
 /** Until what was typed is looked at. */
 const patience = 150;
@@ -35,7 +28,6 @@ export class Editor {
   refusal = $state("");
   /** What stands on the disk where that is not what was opened. */
   conflict: Version | undefined = $state.raw();
-  saving = $state(false);
   /** The hash of what was opened or saved last, and its text. */
   base: Version = $state.raw({ text: "", hash: "" });
   disk = $state("");
@@ -50,11 +42,21 @@ export class Editor {
   goTo: (line: number) => void = () => {};
 
   private history = new History("");
-  private socket: WebSocket | undefined;
+  private readonly socket = new Link({
+    onopen: () => (this.link = "open"),
+    onmessage: (text) => this.take(JSON.parse(text) as Message),
+    onlost: () => this.lose(),
+  });
   private texts = new Map<number, GraphText>();
   private timer: ReturnType<typeof setTimeout> | undefined;
-  private saved = "";
-  private loading = false;
+  /** The text that is being saved, one at a time. */
+  private sent: string | undefined;
+  /** A save was asked for meanwhile. */
+  private savesAgain = false;
+  /** A text that was sent, whose answer never came. */
+  private unanswered: string | undefined;
+  /** What the text of the file is asked for, while it is on its way: to take the place of what is here, or to be compared with it. */
+  private opening: "load" | "compare" | undefined;
 
   get catalogue(): Catalogue {
     return this.hello!.catalogue;
@@ -78,42 +80,52 @@ export class Editor {
   }
 
   connect(): void {
-    const scheme = location.protocol === "https:" ? "wss" : "ws";
-    this.socket = new WebSocket(`${scheme}://${location.host}/socket${location.search}`);
-    this.socket.onopen = () => (this.link = "open");
-    this.socket.onmessage = (event: MessageEvent<string>) => this.take(JSON.parse(event.data) as Message);
-    this.socket.onclose = () => (this.link = "lost");
+    this.socket.connect();
   }
 
-  private ask(what: object): void {
-    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(what));
-    else this.refusal = "jarol edit has ended; what you have edited is still in the text here, to be copied";
+  // What was asked for may be done or not. It tries to connect anew where it was connected: the edits are here.
+  private lose(): boolean {
+    this.link = "lost";
+    this.unanswered = this.sent ?? this.unanswered;
+    this.sent = undefined;
+    this.savesAgain = false;
+    this.opening = undefined;
+    return this.hello !== undefined;
+  }
+
+  private ask(what: object): boolean {
+    const isSent = this.socket.send(what);
+    if (!isSent) this.refusal = "not done: the connection to jarol edit is lost; do it again once it is back";
+    return isSent;
   }
 
   private take(message: Message): void {
     if ("hello" in message) {
+      if (!this.hello) this.profile = message.hello.profile;
       this.hello = message.hello;
-      this.profile = message.hello.profile;
       document.title = `${message.hello.file} · Jarol`;
-      this.load();
-    } else if ("opened" in message) this.begin(message.opened);
+      this.open("compare");
+    } else if ("opened" in message) this.opened(message.opened);
     else if ("verdict" in message) this.judged(message.verdict);
     else if ("drawn" in message) this.draw(message.drawn);
     else if ("suggested" in message) {
       if (message.suggested.id === this.asked) this.suggestions = message.suggested.list;
     } else if ("saved" in message) {
-      this.base = { text: this.saved, hash: message.saved.hash };
+      this.base = { text: this.sent!, hash: message.saved.hash };
       this.disk = message.saved.hash;
       this.conflict = undefined;
-      this.saving = false;
+      if (this.endSave() && this.isDirty) this.save();
     } else if ("conflict" in message) {
       this.conflict = message.conflict;
       this.disk = message.conflict.hash;
-      this.saving = false;
+      this.endSave();
+    } else if ("unsaved" in message) {
+      this.refusal = message.unsaved.why;
+      this.endSave();
     } else if ("disk" in message) {
       this.disk = message.disk.hash;
       // nothing of here is lost
-      if (this.isBehind && !this.isDirty && !this.saving) this.load();
+      if (this.isBehind && !this.isDirty && this.sent === undefined) this.open("compare");
     } else if ("trial" in message) {
       this.trial = message.trial;
       if (message.trial.state === "running") this.trialPage = "";
@@ -125,34 +137,61 @@ export class Editor {
       }
     } else if ("error" in message) {
       this.refusal = message.error;
-      this.saving = false;
+      // it may be that the file can't be read
+      this.opening = undefined;
     }
   }
 
-  private begin(version: Version): void {
-    this.base = version;
+  private opened(version: Version): void {
+    const isFirst = this.base.hash === "";
+    const loads = this.opening === "load";
+    this.opening = undefined;
     this.disk = version.hash;
+    if (version.text === this.unanswered) this.base = version;
+    this.unanswered = undefined;
+    if (!isFirst && !loads && this.isDirty && version.text !== this.graph.text) {
+      this.conflict = version.hash === this.base.hash ? undefined : version;
+      this.judgeAgain();
+      return;
+    }
+    this.base = version;
     this.conflict = undefined;
-    if (this.loading && this.history.text !== "") {
-      // what was there before can be had back
-      this.history.add(version.text, "load from disk");
-    } else this.history = new History(version.text);
-    this.loading = false;
+    // what was there before can be had back
+    if (isFirst) this.history = new History(version.text);
+    else this.history.add(version.text, "load from disk");
     this.show(version.text);
+  }
+
+  private open(to: "load" | "compare"): void {
+    const isAsked = this.opening !== undefined;
+    if (!isAsked || to === "load") this.opening = to;
+    if (!isAsked && !this.ask({ do: "open" })) this.opening = undefined;
   }
 
   /** What is on the disk takes the place of the text; undo brings that back. */
   load(): void {
-    this.loading = this.history.text !== "";
-    this.ask({ do: "open" });
+    this.open("load");
   }
 
-  /** Over the version that was opened, or another one that was looked at. */
+  /** Over the version that was opened, or another one that was looked at. While a text is being saved, what is edited
+   * meanwhile is saved behind it. */
   save(over = this.base.hash): void {
+    if (this.sent !== undefined) {
+      this.savesAgain = true;
+      return;
+    }
+    if (!this.isDirty && over === this.base.hash && this.disk === over) return;
     this.refusal = "";
-    this.saving = true;
-    this.saved = this.graph.text;
-    this.ask({ do: "save", text: this.saved, over });
+    const { text } = this.graph;
+    if (this.ask({ do: "save", text, over })) this.sent = text;
+  }
+
+  // Whether another save was asked for.
+  private endSave(): boolean {
+    const again = this.savesAgain;
+    this.savesAgain = false;
+    this.sent = undefined;
+    return again;
   }
 
   private show(text: string, wait = 0): void {
@@ -169,7 +208,8 @@ export class Editor {
     const id = ++this.asked;
     this.texts.set(id, this.graph);
     for (const old of this.texts.keys()) if (old < id - 200) this.texts.delete(old);
-    const judge = (): void => this.ask({ do: "judge", id, text, profile: this.profile });
+    // after a break it is asked for again
+    const judge = (): void => void this.socket.send({ do: "judge", id, text, profile: this.profile });
     if (wait === 0) judge();
     else this.timer = setTimeout(judge, wait);
   }
@@ -212,12 +252,7 @@ export class Editor {
     if (verdict.id !== this.asked || !graph) return;
     this.verdict = verdict;
     if (verdict.problems.length > 0) this.suggestions = [];
-    this.findings = verdict.problems.map((problem) => {
-      if (problem.file !== this.hello?.file || problem.line < 1) return { problem };
-      const offset = offsetAt(graph.text, problem.line, problem.column);
-      const { part, connection } = graph.at(offset);
-      return { problem, offset, ...(part ? { part: `${part.kind} ${part.name}` } : {}), ...(connection ? { connection: graph.connections.indexOf(connection) } : {}) };
-    });
+    this.findings = verdict.problems.map((problem) => findingOf(problem, graph, this.hello?.file));
   }
 
   private draw(drawn: Drawn): void {
@@ -241,12 +276,10 @@ export class Editor {
     this.chosen = { kind: part.kind, name: part.name };
   }
   chooseConnection(connection: Connection): void {
-    const end = ({ name, field }: { name: string; field: string }): string => (field ? `${name}.${field}` : name);
-    this.chosen = { kind: "connection", from: end(connection.from), to: end(connection.to) };
+    this.chosen = { kind: "connection", from: endText(connection.from), to: endText(connection.to) };
   }
   findConnection(from: string, to: string): Connection | undefined {
-    const end = ({ name, field }: { name: string; field: string }): string => (field ? `${name}.${field}` : name);
-    return this.graph.connections.find((c) => end(c.from) === from && end(c.to) === to);
+    return this.graph.connections.find((c) => endText(c.from) === from && endText(c.to) === to);
   }
   get chosenPart(): Part | undefined {
     const { chosen } = this;

@@ -134,6 +134,7 @@ export type Message =
   | { suggested: { id: number; list: Suggestion[] } }
   | { saved: { hash: string } }
   | { conflict: Version }
+  | { unsaved: { why: string } }
   | { disk: { hash: string } }
   | { trial: Trial }
   | { missed: number }
