@@ -7,6 +7,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, test} from 'node:test';
 import {Browser} from './browser.mjs';
+import {ForwardedPort} from './forwarded_port.mjs';
 import {command, Console, digestIn, endAll, leaveOutWithoutPage, pilotFlags, row, start, state} from './watched_run.mjs';
 import {Watcher} from './watcher.mjs';
 
@@ -227,4 +228,36 @@ test('a pilot flies on while a hundred watch, one reads nothing, and others try 
   await shown.close();
   const {output} = await run.stop();
   assert.equal(digestIn(execFileSync(jarol, ['replay', file], {encoding: 'utf8'})), digestIn(output));
+});
+
+test('a page that commanded before the break does so no more: it sends nothing until command is taken anew', vehicles, async () => {
+  const run = start('run', 'specs/javiator.yaml', '--profile', 'desk', '--console', '--for', '1h');
+  const port = await ForwardedPort.to(await run.url);
+  const shown = await Console.open(browser, port.url);
+  let sent = [];
+  browser.watchers.push(({method, params, sessionId}) => {
+    if (sessionId === shown.page.session && method === 'Network.webSocketFrameSent') sent.push(JSON.parse(params.response.payloadData).do);
+  });
+  await shown.press('Take command');
+  await shown.page.until(command('You command terminal'));
+  await shown.reach(1);
+  assert.ok(sent.includes('take') && sent.includes('send'), `${sent}`);
+  await port.cut();
+  await shown.page.until(command('Nothing comes from jarol any more'));
+  const lost = await shown.seconds();
+  sent = [];
+  await port.mend();
+  await shown.page.until(command('Nobody commands'));
+  await shown.reach(lost + 2);
+  assert.deepEqual(sent.filter((what) => what !== 'seen'), []);
+  // what was before the break is there
+  await shown.choose('instant', '0');
+  assert.ok((await shown.seconds()) < 0.1);
+  await shown.press('Live');
+  await shown.press('Take command');
+  await shown.page.until(command('You command terminal'));
+  await run.stop();
+  shown.forgiveBreaks();
+  await shown.close();
+  await port.cut();
 });

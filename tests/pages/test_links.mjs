@@ -5,7 +5,7 @@ import {after, test} from 'node:test';
 import {Browser} from './browser.mjs';
 import {EditorPage} from './edited_graph.mjs';
 import {ForwardedPort} from './forwarded_port.mjs';
-import {endAll, leaveOutWithoutPage} from './watched_run.mjs';
+import {Console, digestIn, endAll, leaveOutWithoutPage, start} from './watched_run.mjs';
 
 await leaveOutWithoutPage();
 
@@ -14,9 +14,6 @@ after(async () => {
   endAll();
   await browser.close();
 });
-
-// The browser says of each connection that it can't have that it can't.
-const forgiveBreaks = (shown) => (shown.page.complaints = shown.page.complaints.filter((text) => !/WebSocket connection to .* failed/.test(text)));
 
 const isLost = `/connection to jarol edit is lost/.test(document.querySelector('[role=alert]')?.innerText)`;
 const isBack = `!document.querySelector('[role=alert]')`;
@@ -42,7 +39,7 @@ test('an editor whose connection breaks keeps the edits, connects again, judges 
   await shown.press('Save');
   await shown.page.until(isState('saved'));
   assert.equal(shown.onDisk(), before + '# before\n# meanwhile\n');
-  forgiveBreaks(shown);
+  shown.forgiveBreaks();
   await shown.end();
 });
 
@@ -66,7 +63,7 @@ test('a file that has changed while the connection was broken is shown where not
   await shown.press('Go on editing');
   await shown.page.until(isState('changed on disk'));
   assert.ok(shown.onDisk().endsWith('# theirs\n# theirs, too\n'));
-  forgiveBreaks(shown);
+  shown.forgiveBreaks();
   await shown.end();
 });
 
@@ -84,6 +81,27 @@ test('a save whose answer is lost with the connection is known as saved once it 
   await shown.page.until(isBack);
   await shown.page.until(isState('saved'));
   assert.equal(await shown.page.evaluate(`document.querySelector('dialog')`), null);
-  forgiveBreaks(shown);
+  shown.forgiveBreaks();
   await shown.end();
+});
+
+test('a run whose connection breaks is watched again, and to its end', async () => {
+  const run = start('run', 'specs/counting.yaml', '--console', '--for', '2s', '--pace', '0.001');
+  const port = await ForwardedPort.to(await run.url);
+  const shown = await Console.open(browser, port.url);
+  await shown.state('live');
+  for (let i = 0; i < 2; ++i) {
+    await port.cut();
+    await shown.state('connection lost');
+    await port.mend();
+    await shown.state('live');
+  }
+  await shown.choose('speed', 'max');
+  await shown.state('ended');
+  const {code, output} = await run.ended;
+  assert.equal(code, 0);
+  assert.equal(digestIn(await shown.text('[role=log]')), digestIn(output));
+  shown.forgiveBreaks();
+  await shown.close();
+  await port.cut();
 });

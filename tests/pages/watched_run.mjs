@@ -123,6 +123,11 @@ export class Console {
       })`);
   }
 
+  /** The browser complains of each connection that it can't have. */
+  forgiveBreaks() {
+    this.page.complaints = this.page.complaints.filter((text) => !/WebSocket connection to .* failed/.test(text));
+  }
+
   /** Nothing is complained of, and nobody asked but jarol. */
   async close() {
     // that pictures are drawn by the processor is no fault of the page

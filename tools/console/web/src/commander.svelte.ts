@@ -8,10 +8,9 @@ export class Commander {
   private readonly run: () => Run;
   private readonly type: string;
   private sequence = 0;
-  /** It has let go, though the server's word may not be here yet. */
-  private released = $state(false);
-  /** It has asked for the command since it let go. */
-  private asked = false;
+  /** After so many breaks of the connection it has asked for the command, and not let go since, though the server's word may not
+   * be here yet. After another break it would have to ask anew. */
+  private asked: number | undefined = $state();
 
   /** Of the operator whose distributer has that type. */
   constructor(run: () => Run, type: string) {
@@ -29,8 +28,11 @@ export class Commander {
   get open(): boolean {
     return this.run().link === "open" && this.run().ended === undefined && !this.run().silent;
   }
+  private get holds(): boolean {
+    return this.asked === this.run().breaks;
+  }
   get commands(): boolean {
-    return !this.released && this.seat?.commander === this.own && this.open;
+    return this.holds && this.seat?.commander === this.own && this.open;
   }
   get another(): boolean {
     const commander = this.seat?.commander;
@@ -48,17 +50,16 @@ export class Commander {
 
   take(sticks: Record<string, number>): void {
     this.sequence = 0;
-    this.released = false;
-    this.asked = true;
+    this.asked = this.run().breaks;
     this.run().ask({ do: "take", desk: this.desk.name, as: this.own, sticks });
   }
   release(): void {
     // also of what is on its way
-    if (this.asked && !this.another) this.run().ask({ do: "release", desk: this.desk.name });
-    this.asked = false;
-    this.released = true;
+    if (this.holds && !this.another) this.run().ask({ do: "release", desk: this.desk.name });
+    this.asked = undefined;
   }
   send(message: string, fields?: object): void {
+    if (!this.holds) return;
     const { name } = this.desk;
     this.run().ask({ do: "send", desk: name, sequence: ++this.sequence, t: performance.now(), message, fields });
   }

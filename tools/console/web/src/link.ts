@@ -5,7 +5,6 @@ export const minPause = 500;
 export const maxPause = 10_000;
 
 export interface LinkUser {
-  onopen(): void;
   onmessage(text: string): void;
   /** The connection broke, or could not be had. Whether to try again. */
   onlost(): boolean;
@@ -25,7 +24,6 @@ export class Link {
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     const socket = new WebSocket(`${scheme}://${location.host}/socket${location.search}`);
     this.socket = socket;
-    socket.onopen = () => this.user.onopen();
     socket.onmessage = (event: MessageEvent<string>) => {
       this.pause = minPause;
       this.user.onmessage(event.data);

@@ -1,6 +1,7 @@
 // A run as the page knows it: the socket, all values so far, and the instant that is looked at.
 
 import { EventLog, type Event } from "./events.ts";
+import { Link } from "./link.ts";
 import { parseMessage, type Answer, type Fields, type Hello, type Message, type Shown } from "./protocol.ts";
 import { Store } from "./series.ts";
 import { vehicleOf, type Vehicle } from "./vehicles.ts";
@@ -16,6 +17,8 @@ export class Run {
   store: Store | undefined = $state.raw();
   vehicle: Vehicle | undefined = $state.raw();
   link: "connecting" | "open" | "lost" = $state("connecting");
+  /** Grows with each break: what was asked for before is no longer asked for. */
+  breaks = $state(0);
   paused = $state(false);
   speed: number | "max" = $state(1);
   thinned = $state(0);
@@ -45,7 +48,13 @@ export class Run {
   tick = $state(0);
 
   private log: EventLog | undefined;
-  private socket: WebSocket | undefined;
+  private readonly socket = new Link({
+    onmessage: (text) => {
+      this.take(text);
+      this.see();
+    },
+    onlost: () => this.lose(),
+  });
   private news = false;
   private lastFrame = 0;
   private heard = 0;
@@ -60,19 +69,22 @@ export class Run {
   }
 
   connect(): void {
-    const scheme = location.protocol === "https:" ? "wss" : "ws";
-    this.socket = new WebSocket(`${scheme}://${location.host}/socket${location.search}`);
-    this.socket.onopen = () => (this.link = "open");
-    this.socket.onmessage = (event: MessageEvent<string>) => {
-      this.take(event.data);
-      this.see();
-    };
-    this.socket.onclose = () => {
-      this.link = "lost";
-      if (this.hello?.clock === "recorded") return;
-      if (this.ended === undefined && this.hello) this.note("the connection to jarol is lost");
-    };
+    this.socket.connect();
     requestAnimationFrame((t) => this.frame(t));
+  }
+
+  // Where there is more to come of a run that was watched, it tries to connect again.
+  private lose(): boolean {
+    const triesAgain = this.hello !== undefined && this.ended === undefined;
+    if (triesAgain && this.link === "open") this.note("the connection to jarol is lost; this page tries to connect again");
+    this.link = "lost";
+    ++this.breaks;
+    this.desks = {};
+    this.playing = false;
+    clearTimeout(this.seenTimer);
+    this.seenTimer = undefined;
+    this.got = this.seen = 0;
+    return triesAgain;
   }
 
   /** What this page asked for was refused: said for a while. */
@@ -84,19 +96,17 @@ export class Run {
   }
 
   ask(what: object): void {
-    if (this.socket?.readyState !== WebSocket.OPEN) return;
     this.saySeen();
-    this.socket.send(JSON.stringify(what));
+    this.socket.send(what);
   }
 
   /** The server sends no more than what is seen soon, and knows how old that is which somebody at a desk looks at. */
   private saySeen(): void {
     clearTimeout(this.seenTimer);
     this.seenTimer = undefined;
-    if (this.seen === this.got || this.socket?.readyState !== WebSocket.OPEN) return;
+    if (this.seen === this.got || !this.socket.send({ do: "seen", messages: this.got })) return;
     this.seen = this.got;
     this.seenAt = performance.now();
-    this.socket.send(JSON.stringify({ do: "seen", messages: this.got }));
   }
 
   private see(): void {
@@ -141,13 +151,20 @@ export class Run {
     this.news = true;
   }
 
+  /** Also after a break: what was shown so far comes anew, as to a page that comes late. */
   private begin(hello: Hello): void {
+    const isFirst = this.hello === undefined;
     this.hello = hello;
     this.store = new Store(hello.outputs);
     this.vehicle = vehicleOf(this.store);
     this.log = new EventLog(hello);
+    this.events = [];
+    this.faults = new Map();
+    this.said = {};
+    this.thinned = this.missed = this.newest = 0;
+    this.link = "open";
     document.title = `${hello.graph} · Jarol`;
-    if (hello.clock === "recorded") this.cursor = 0;
+    if (hello.clock === "recorded" && isFirst) this.cursor = 0;
   }
 
   private show(shown: Shown): void {

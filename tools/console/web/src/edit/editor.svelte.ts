@@ -43,7 +43,6 @@ export class Editor {
 
   private history = new History("");
   private readonly socket = new Link({
-    onopen: () => (this.link = "open"),
     onmessage: (text) => this.take(JSON.parse(text) as Message),
     onlost: () => this.lose(),
   });
@@ -101,6 +100,7 @@ export class Editor {
 
   private take(message: Message): void {
     if ("hello" in message) {
+      this.link = "open";
       if (!this.hello) this.profile = message.hello.profile;
       this.hello = message.hello;
       document.title = `${message.hello.file} · Jarol`;
