@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <cstring>
+#include <stdexcept>
 
 #include "distributers/links/timestamp.h"
 #include "graph/floating_point.h"
@@ -64,17 +65,32 @@ void Link::connect() {
   interrupter_.reset();
   send_signal_.resume();
   ending_ = false;
-  receiver_ = std::thread([this] {
-    set_floating_point_control(default_floating_point_control());
-    take_no_signals();
-    transport_->receive(interrupter_, translator_);
-  });
+  receiving_.failed = sending_.failed = false;
+  sends_ = true;
+  receiver_ = std::thread([this] { run(receiving_, [this] { transport_->receive(interrupter_, translator_); }); });
   sender_ = std::thread([this] {
-    set_floating_point_control(default_floating_point_control());
-    take_no_signals();
-    run_sender();
+    run(sending_, [this] { run_sender(); });
+    sends_ = false;
   });
   connected_ = true;
+}
+
+template <class Work>
+void Link::run(Failure& failure, Work work) {
+  set_floating_point_control(default_floating_point_control());
+  take_no_signals();
+  try {
+    work();
+    return;
+  } catch (const std::exception& error) { failure.text = error.what(); } catch (...) {
+    failure.text = "something was thrown that is no exception";
+  }
+  failure.failed.store(true, std::memory_order_release);
+}
+
+void Link::require_works(const Failure& thread, const char* what) const {
+  if (thread.failed.load(std::memory_order_acquire))
+    throw std::runtime_error(transport_->text() + ": " + what + " has failed: " + thread.text);
 }
 
 void Link::disconnect() {
@@ -90,6 +106,8 @@ void Link::disconnect() {
 }
 
 void Link::receive(messages::Receiver& receiver) {
+  require_works(receiving_, "receiving");
+  require_works(sending_, "sending");
   const auto read = [&](auto& port) { return port.read(room_); };
   for (auto left = std::visit([](const auto& port) { return port.capacity(); }, input_); left > 0; --left) {
     const auto length = std::visit(read, input_);
@@ -134,6 +152,7 @@ void Link::announce(messages::MessageRef message) {
 }
 
 void Link::flush() {
+  require_works(sending_, "sending");
   if (queued_.load(std::memory_order_relaxed) == given_) return;
   queued_.store(given_, std::memory_order_seq_cst);
   // a sender that is busy looks again before it waits

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -27,7 +28,7 @@ class Link {
   void disconnect();
 
   /// Gives the receiver the packets that have arrived, oldest first; no more than the port holds, however fast others
-  /// come.
+  /// come. Throws std::runtime_error with the cause once the transport has thrown where it receives or sends.
   void receive(messages::Receiver& receiver);
   /// Who sent the packet that was given last: datagrams' peers are numbered from 1; 0: it came in a stream.
   std::uint32_t peer() const { return peer_; }
@@ -48,13 +49,26 @@ class Link {
   bool announces() const { return announcer_ != nullptr; }
   /// The same for all who may look for this system, in place of the peer.
   void announce(messages::MessageRef message);
-  /// Wakes the sending thread for what was given to `send` and `announce` since the last call.
+  /// Wakes the sending thread for what was given to `send` and `announce` since the last call. Throws
+  /// std::runtime_error with the cause once the transport has thrown where it sends.
   void flush();
+
+  /// Between `connect` and the time when all that was given to `send` has gone out; any thread.
+  bool sends() const { return sends_; }
 
   const Transport& transport() const { return *transport_; }
   LinkReport report() const;
 
  private:
+  // What ended one of its threads, for the thread that uses the link.
+  struct Failure {
+    std::string text;  // written before `failed`
+    std::atomic<bool> failed{false};
+  };
+  template <class Work>
+  static void run(Failure& failure, Work work);
+  void require_works(const Failure& thread, const char* what) const;
+
   messages::Message& header_of(messages::MessageRef message);
   static PacketPorts make_port(const PortOptions& options, std::size_t longest);
   void run_sender();
@@ -70,6 +84,7 @@ class Link {
   Translator translator_;  // used by the receiving thread
   Interrupter interrupter_;
   Signal send_signal_;
+  Failure receiving_, sending_;
   std::thread receiver_, sender_;
   bool connected_ = false;
 
@@ -86,7 +101,7 @@ class Link {
   std::uint64_t busy_ = 0;     // the sender was, when it was signalled
 
   std::atomic<std::uint64_t> queued_{0};  // packets in the output port so far
-  std::atomic<bool> ending_{false};
+  std::atomic<bool> ending_{false}, sends_{false};
   std::atomic<std::uint64_t> packets_out_{0}, bytes_out_{0};
 };
 

@@ -58,13 +58,15 @@ class Transport {
   /// Takes hold of what must be there from the begin, as a port to listen at. Throws std::runtime_error with the cause.
   virtual void open() = 0;
 
-  /// Receives until interrupted; a peer that is lost is looked for again, at growing intervals up to a second.
+  /// Receives until interrupted; a peer that is lost is looked for again, at growing intervals up to a second. What it
+  /// throws ends the run, with that cause: the external system is lost.
   virtual void receive(const Interrupter& interrupter, ByteSink& sink) = 0;
 
-  /// Sends one packet, from one other thread. False if there is no peer or it can't be sent.
+  /// Sends one packet, from one other thread. False if there is no peer or it can't be sent. What it throws ends the
+  /// run likewise, and nothing more is sent, no `safe` either.
   virtual bool send(std::span<const std::byte> packet) = 0;
 
-  /// Lets go of everything; after that it can be opened again.
+  /// Lets go of everything; after that it can be opened again. Throws nothing.
   virtual void close() = 0;
 
   /// It shows its way to the peer to `holder`; else nobody can hand over `safe` there once the program is gone.

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <stdexcept>
+
 #include "tests/distributers/links/pairs.h"
 
 namespace {
@@ -61,9 +63,59 @@ void check_meets_again(Pair pair) {
     CHECK(meet(pair));
   }
 }
+
+// Throws where it receives or sends.
+class ThrowingTransport : public Transport {
+ public:
+  explicit ThrowingTransport(bool sends) : sends_(sends) {}
+  std::string text() const override { return "radio"; }
+  void open() override {}
+  void close() override {}
+  void receive(const Interrupter& interrupter, ByteSink&) override {
+    if (!sends_) throw std::runtime_error("the modem has reset itself");
+    static_cast<void>(interrupter.wait(-1, std::chrono::milliseconds(-1)));
+  }
+  bool send(std::span<const std::byte>) override {
+    if (sends_) throw 5;
+    return true;
+  }
+
+ private:
+  const bool sends_;
+};
+
+// What a call throws, tried until it does.
+template <class Call>
+std::string thrown_by(Call call) {
+  std::string thrown;
+  CHECK(wait_for([&] {
+    try {
+      call();
+    } catch (const std::runtime_error& error) { thrown = error.what(); }
+    return !thrown.empty();
+  }));
+  return thrown;
+}
 }  // namespace
 
 TEST_SUITE("distributers/links/link") {
+  TEST_CASE("what a transport throws in a thread of the link, whoever uses the link gets, with the link's name") {
+    Ids ids;
+    const auto receives = make(std::make_unique<ThrowingTransport>(false));
+    receives->connect();
+    CHECK(thrown_by([&] { receives->receive(ids); }) == "radio: receiving has failed: the modem has reset itself");
+    send_id(*receives, 1);  // what is safe still goes out
+    CHECK(wait_for([&] { return count_of(*receives, "packets out") == 1; }));
+    receives->disconnect();
+    const auto sends = make(std::make_unique<ThrowingTransport>(true));
+    sends->connect();
+    const std::string sending = "radio: sending has failed: something was thrown that is no exception";
+    CHECK(thrown_by([&] { send_id(*sends, 1); }) == sending);
+    CHECK(thrown_by([&] { sends->receive(ids); }) == sending);
+    sends->disconnect();
+    CHECK_FALSE(sends->sends());
+  }
+
   TEST_CASE("packets arrive both ways, in order and whole: UDP") { check_carries_all(udp("127.0.0.1")); }
   TEST_CASE("packets arrive both ways, in order and whole: UDP over IPv6") { check_carries_all(udp("[::1]")); }
   TEST_CASE("packets arrive both ways, in order and whole: TCP") { check_carries_all(tcp("127.0.0.1")); }
