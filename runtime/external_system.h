@@ -53,6 +53,9 @@ class ExternalSystem {
   /// The external system is there after the run, and goes on with what it was handed last.
   virtual bool outlives_run() const { return needs_real_clock(); }
 
+  /// What was handed over last may not have gone out yet, until it has finished; any thread.
+  virtual bool sends() const { return false; }
+
   /// What was carried until now, for channels that are on a link.
   virtual std::optional<LinkReport> link_report() const { return std::nullopt; }
 

@@ -18,6 +18,7 @@ class LinkedSystem : public ExternalSystem {
   void begin() override;
   void finish() override;
   bool needs_real_clock() const override { return true; }
+  bool sends() const override { return link_->sends(); }
   std::optional<LinkReport> link_report() const override { return link_->report(); }
   std::uint64_t non_finite_inputs() const override { return distributer_->non_finite_inputs(); }
 

@@ -50,6 +50,8 @@ class GraphRun {
   void connect(NoteSink note) { linked_.emplace(channels_, std::move(note)); }
   /// After the last one.
   void disconnect() { linked_->finish(); }
+  /// The same after a run that was attended: waits no longer than for anything else, and notes there what hangs.
+  void disconnect(RunEnd& end) { finish_links(*linked_, graph_, end); }
   std::vector<LinkReport> link_reports() const { return linked_->reports(); }
 
   /// Before it is saved or goes on from what was: what it is made of.

@@ -1,9 +1,34 @@
 #include "distributers/session/linked.h"
 
-#include <stdexcept>
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <string>
+#include <thread>
 #include <utility>
 
 namespace jarol {
+namespace {
+
+// Outlives a thread that never ends.
+struct Finishing {
+  explicit Finishing(const std::vector<ExternalSystem*>& all) : channels(all) { failures.reserve(all.size()); }
+  const std::vector<ExternalSystem*> channels;
+  std::vector<std::string> failures;  // those of the first `finished` are written
+  std::atomic<std::uint32_t> finished{0};
+};
+
+// Why it has failed, or nothing.
+std::string finish_one(ExternalSystem& channels) {
+  try {
+    channels.finish();
+    return "";
+  } catch (const std::exception& error) { return error.what(); } catch (...) {
+    return "something was thrown that is no exception";
+  }
+}
+
+}  // namespace
 
 std::vector<ExternalSystem*> pointers_to(const std::vector<std::unique_ptr<ExternalSystem>>& all) {
   std::vector<ExternalSystem*> pointers;
@@ -17,17 +42,54 @@ Linked::Linked(std::vector<ExternalSystem*> channels, NoteSink note)
 }
 
 void Linked::finish() {
-  for (ExternalSystem* channels : channels_) {
-    try {
-      channels->finish();
-    } catch (const std::runtime_error& error) { note_(error.what()); }
+  for (ExternalSystem* channels : channels_)
+    if (const std::string failure = finish_one(*channels); !failure.empty()) note_(failure);
+}
+
+std::optional<std::size_t> Linked::finish_until(Futex::Time time) {
+  const auto finishing = std::make_shared<Finishing>(channels_);
+  std::thread thread([finishing] {
+    for (ExternalSystem* channels : finishing->channels) {
+      finishing->failures.push_back(finish_one(*channels));
+      finishing->finished.fetch_add(1, std::memory_order_release);
+      Futex::wake_all(finishing->finished);
+    }
+  });
+  std::uint32_t finished = 0;
+  while ((finished = finishing->finished.load(std::memory_order_acquire)) < channels_.size())
+    if (!Futex::wait(finishing->finished, finished, time)) break;
+  finished = finishing->finished.load(std::memory_order_acquire);
+  for (std::size_t i = 0; i < finished; ++i)
+    if (const std::string& failure = finishing->failures[i]; !failure.empty()) note_(failure);
+  if (finished < channels_.size()) {
+    thread.detach();
+    return finished;
   }
+  thread.join();
+  return std::nullopt;
 }
 
 std::vector<LinkReport> Linked::reports() const {
   std::vector<LinkReport> reports;
   for (const ExternalSystem* channels : channels_)
     if (auto report = channels->link_report()) reports.push_back(std::move(*report));
+  return reports;
+}
+
+void finish_links(Linked& linked, const Graph& graph, RunEnd& end) {
+  const auto hangs = linked.finish_until(std::max(end.until, Futex::now() + finish_patience));
+  if (hangs) end.distributer = HangingDistributer{graph.distributers[*hangs].name};
+}
+
+std::vector<FailsafeReport> failsafe_after(const RunEnd& end, const Graph& graph,
+                                           const std::vector<ExternalSystem*>& channels,
+                                           std::vector<FailsafeReport> reports) {
+  for (FailsafeReport& report : reports) {
+    const std::size_t distributer = *graph.communicators[report.communicator].distributer;
+    const bool hangs = end.distributer && end.distributer->distributer == graph.distributers[distributer].name;
+    if (hangs && report.at_end && report.at_end->failure.empty() && channels[distributer]->sends())
+      report.at_end->failure = busy_link_text;
+  }
   return reports;
 }
 

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "distributers/session/note_sink.h"
+#include "runtime/execute/attend.h"
+#include "runtime/execute/failsafe.h"
 #include "runtime/external_system.h"
 
 namespace jarol {
@@ -22,11 +25,22 @@ class Linked {
 
   /// What can't be kept for the next run is noted, and the rest goes on.
   void finish();
+  /// The same on another thread, which is waited for until then. The one that has not finished by then, by its number:
+  /// it runs on, and neither it nor those behind it may be used or destroyed any more.
+  std::optional<std::size_t> finish_until(Futex::Time time);
   std::vector<LinkReport> reports() const;
 
  private:
   std::vector<ExternalSystem*> channels_;
   NoteSink note_;
 };
+
+/// Has them finish before the run's patience is over, or notes there which one hangs.
+void finish_links(Linked& linked, const Graph& graph, RunEnd& end);
+
+/// What is handed over at the end, but for what a link still sends that hangs.
+std::vector<FailsafeReport> failsafe_after(const RunEnd& end, const Graph& graph,
+                                           const std::vector<ExternalSystem*>& channels,
+                                           std::vector<FailsafeReport> reports);
 
 }  // namespace jarol

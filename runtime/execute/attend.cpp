@@ -69,6 +69,30 @@ class HoldupWatch {
   Futex::Time::duration stood_{};
 };
 
+// How long one call of a distributer's has done so, likewise.
+class CallWatch {
+ public:
+  std::optional<Ending> look_at(const AttendedRun& run) {
+    const Futex::Time now = Futex::now();
+    const auto passed = std::min<Futex::Time::duration>(now - looked_, 2 * look);
+    looked_ = now;
+    const std::optional<Call> call = run.call();
+    if (!call || call->of != of_) {
+      of_ = call ? call->of : HangingDistributer{};
+      stood_ = {};
+      return std::nullopt;
+    }
+    stood_ += passed;
+    if (!call->patience || stood_ < *call->patience) return std::nullopt;
+    return Ending{Ending::Cause::hung, 0, to_text(call->of) + ", which ended the run"};
+  }
+
+ private:
+  Futex::Time looked_ = Futex::now();
+  HangingDistributer of_;
+  Futex::Time::duration stood_{};
+};
+
 // What has run since it was first seen: looked at now and then, and reported once.
 class StuckWatch {
  public:
@@ -155,6 +179,7 @@ RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std:
   });
   RunEnd end;
   HoldupWatch watch;
+  CallWatch calls;
   RestWatch rest(run, on_rest);
   StuckWatch stuck(run, on_stuck);
   for (std::optional<Ending> why; !why;) {
@@ -170,14 +195,14 @@ RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std:
       why = Ending::of_signal(wished.signal);
     else if (rest.is_too_long())
       why = rest.before();
-    else
-      why = watch.look_at(run);
+    else if (!(why = watch.look_at(run)))
+      why = calls.look_at(run);
     if (why && why->cause == Ending::Cause::over && rest.before()) why = rest.before();
     if (why) end.ending = std::move(*why);
   }
   on_end();
   end.before_rest = rest.before();
-  const Futex::Time until = Futex::now() + end_patience;
+  const Futex::Time until = end.until = Futex::now() + end_patience;
   run.close(end.ending, until);
   if (!worker->ends_until(Futex::now() + 2 * look)) {
     // what runs on may not keep those who send from the processor
@@ -187,6 +212,7 @@ RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std:
   if (!worker->ends_until(until)) {
     end.hangs = true;
     end.hanging = run.running();
+    if (const std::optional<Call> call = run.call()) end.distributer = call->of;
     worker->thread.detach();
     return end;
   }

@@ -21,6 +21,13 @@ struct Holdup {
   bool over = false;   // all that was to be covered lies in the past
 };
 
+/// A distributer that the thread that keeps the time is in a call of.
+struct Call {
+  HangingDistributer of;
+  // how long it may hold up everything else; none: for ever, as on the virtual clock nothing is late
+  std::optional<std::chrono::milliseconds> patience{};
+};
+
 class AttendedRun {
  public:
   virtual ~AttendedRun() = default;
@@ -42,6 +49,8 @@ class AttendedRun {
   /// there is. A channel that is still in use at that time gets none.
   virtual void close(const Ending& ending, Futex::Time patience) = 0;
   virtual std::optional<Holdup> holdup() const { return std::nullopt; }
+  /// Which it is in now, on either clock.
+  virtual std::optional<Call> call() const { return std::nullopt; }
   /// What `cover` runs now, on whatever threads.
   virtual std::vector<HangingTask> running() const = 0;
 
@@ -55,15 +64,23 @@ struct RunEnd {
   std::exception_ptr failure;           // what `cover` threw
   bool hangs = false;                   // threads still run, and the process can only end at once, without destructors
   std::vector<HangingTask> hanging;
+  std::optional<HangingDistributer> distributer{};  // that hangs
+  Futex::Time until{};                              // how long what is under way is waited for
 
   /// What hangs, if anything, runs a task.
-  bool links_are_free() const { return !hangs || !hanging.empty(); }
+  bool links_are_free() const { return !distributer && (!hangs || !hanging.empty()); }
+  /// Something still runs that has to be left behind.
+  bool must_end_at_once() const { return hangs || distributer; }
 };
 
 /// How long a run that ends waits for what is under way.
 inline constexpr std::chrono::milliseconds end_patience{800};
+/// How long links may take to finish, whatever else was waited for before.
+inline constexpr std::chrono::milliseconds finish_patience{100};
 /// How long an activation that need not be in time may hold up everything else, beyond its deadline.
 inline constexpr std::chrono::milliseconds holdup_patience{1000};
+/// How long an external system may that is not on a link: in lockstep it waits 10 s for the other end itself.
+inline constexpr std::chrono::milliseconds lockstep_patience{12'000};
 
 /// What asks a run to end: a signal, or 0; and whether it is not to wait for rest.
 struct Wish {

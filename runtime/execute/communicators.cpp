@@ -55,6 +55,7 @@ void Communicators::begin(Turn& turn, const Now& now) {
 
 void Communicators::end(Turn& turn) {
   turn.uses_ = false;
+  called_.store(0, std::memory_order_relaxed);
   use_.store(Use::free, std::memory_order_release);
 }
 
@@ -71,14 +72,21 @@ void Communicators::gather(const Now& now) {
   sort_by_name(ins_);
 }
 
+// For a call of it, which whoever attends the run sees until the next one.
+ExternalSystem& Communicators::call(std::size_t distributer) {
+  called_.store(static_cast<std::uint32_t>(distributer + 1), std::memory_order_relaxed);
+  return *channels_[distributer];
+}
+
 void Communicators::reach(Duration instant) {
   const MemoryScope outside(nullptr);
-  for (const auto& channels : channels_) channels->reach(instant);
+  for (std::size_t i = 0; i < channels_.size(); ++i) call(i).reach(instant);
   for (WatchedVehicle& vehicle : watched_) {
-    channels_[vehicle.distributer]->copy_true_values(vehicle.values.data());
+    call(vehicle.distributer).copy_true_values(vehicle.values.data());
     const auto output = static_cast<std::uint32_t>(run_.plan.outputs.size() + vehicle.distributer);
     record(*run_.publisher.recorder(), output, *vehicle.values.type(), vehicle.values.data(), instant);
   }
+  called_.store(0, std::memory_order_relaxed);
 }
 
 void Communicators::act(Turn& turn, const Now& now) {
@@ -98,7 +106,7 @@ void Communicators::hand_over(const CommunicatorAction& out, Duration instant) {
   const void* const safe = failsafe_.in_place_of_input(out.communicator, instant);
   copy_value(*communicator.type, out.value, safe != nullptr ? safe : out.input);
   const MemoryScope outside(nullptr);
-  if (communicator.distributer) channels_[*communicator.distributer]->hand_over(communicator.channel, out.value);
+  if (communicator.distributer) call(*communicator.distributer).hand_over(communicator.channel, out.value);
 }
 
 void Communicators::take(const CommunicatorAction& in, Duration instant) {
@@ -106,7 +114,7 @@ void Communicators::take(const CommunicatorAction& in, Duration instant) {
   if (!communicator.distributer) return;
   const MemoryScope outside(nullptr);
   const bool over = resting() && rest_->is_mission(*communicator.distributer);
-  bool fresh = !over && channels_[*communicator.distributer]->take(communicator.channel, in.taken);
+  bool fresh = !over && call(*communicator.distributer).take(communicator.channel, in.taken);
   if (fresh && !communicator.type->finite(in.taken)) {
     ++refused_;
     fresh = false;

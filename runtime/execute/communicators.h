@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -68,6 +69,13 @@ class Communicators {
   /// the run. Any thread; what an instant has begun to hand over is waited for until then.
   void close(Futex::Time patience, bool outliving, const std::function<Duration()>& time);
 
+  /// The external system that an instant is in a call of, by distributer; none: it is in none. Any thread.
+  std::optional<std::size_t> called() const {
+    const std::uint32_t number = called_.load(std::memory_order_relaxed);
+    return number == 0 ? std::nullopt : std::optional<std::size_t>(number - 1);
+  }
+  bool on_link(std::size_t distributer) const { return channels_[distributer]->needs_real_clock(); }
+
   const std::vector<FailsafeReport>& failsafe() const { return failsafe_.reports(); }
   /// Values from outside that were not taken as they were not finite.
   std::uint64_t non_finite_inputs() const;
@@ -80,6 +88,7 @@ class Communicators {
   void act(Turn& turn, const Now& now);
   void end(Turn& turn);
   void gather(const Now& now);
+  ExternalSystem& call(std::size_t distributer);
   void reach(Duration instant);
   void hand_over(const CommunicatorAction& out, Duration instant);
   void take(const CommunicatorAction& in, Duration instant);
@@ -98,7 +107,8 @@ class Communicators {
   // of the channels, by an instant or by whoever closed the run
   enum class Use : std::uint32_t { free, covering, closed };
   std::atomic<Use> use_{Use::free};
-  std::unique_ptr<Rest> rest_;  // null: the run can't be brought to rest
+  std::atomic<std::uint32_t> called_{0};  // the number of the distributer from 1, 0: none
+  std::unique_ptr<Rest> rest_;            // null: the run can't be brought to rest
   std::atomic<bool> resting_{false};
   Duration rest_begun_{};
   bool rest_reached_ = false;

@@ -77,6 +77,8 @@ class Executor {
   std::vector<HangingTask> running() const;
   /// What it holds up: the thread that keeps the time, or one of several.
   std::optional<Holdup> holdup() const;
+  /// The distributer that it is in a call of.
+  std::optional<Call> call() const;
 
   /// What the run is, between two pieces of it on the virtual clock. Restored, it is that of the same graph but for
   /// parameters, and nobody runs it meanwhile. Throws NotSaveable.

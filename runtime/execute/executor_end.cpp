@@ -69,6 +69,14 @@ std::optional<Holdup> Executor::holdup_of_thread() const {
   return Holdup{.task = std::move(*first), .late = late};
 }
 
+std::optional<Call> Executor::call() const {
+  const std::optional<std::size_t> called = communicators_.called();
+  if (!called) return std::nullopt;
+  Call call{{run_.graph.distributers[*called].name, now()}};
+  if (clock_ != nullptr) call.patience = communicators_.on_link(*called) ? holdup_patience : lockstep_patience;
+  return call;
+}
+
 std::optional<Holdup> Executor::holdup() const {
   if (clock_ == nullptr) return std::nullopt;
   if (!dispatcher_->runs_on_caller()) return holdup_of_thread();

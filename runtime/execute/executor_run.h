@@ -33,6 +33,7 @@ class ExecutorRun : public AttendedRun {
   bool stopped_by_fault() const override { return executor_.report().stopped; }
   void close(const Ending&, Futex::Time patience) override { executor_.close(patience); }
   std::optional<Holdup> holdup() const override { return executor_.holdup(); }
+  std::optional<Call> call() const override { return executor_.call(); }
   std::vector<HangingTask> running() const override { return executor_.running(); }
   Finish finish(Futex::Time patience) override { return executor_.finish(patience); }
 

@@ -29,4 +29,10 @@ std::string to_text(const HangingTask& hanging) {
          seconds_text(hanging.instant) + " s has not ended";
 }
 
+std::string to_text(const HangingDistributer& hanging) {
+  const std::string who = "distributer '" + hanging.distributer + "'";
+  return hanging.instant ? who + " at " + seconds_text(*hanging.instant) + " s has not returned"
+                         : who + " has not finished";
+}
+
 }  // namespace jarol

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,14 @@ struct HangingTask {
   friend bool operator==(const HangingTask&, const HangingTask&) = default;
 };
 
+/// A distributer that has not returned from a call of the run's: from that instant on, or none: from that of its end.
+struct HangingDistributer {
+  std::string distributer;
+  std::optional<Duration> instant{};
+
+  friend bool operator==(const HangingDistributer&, const HangingDistributer&) = default;
+};
+
 /// What threads still run when they were waited for long enough; a thread that does not end may run no task, as one
 /// that waits for a link.
 struct Finish {
@@ -46,5 +55,7 @@ std::string_view to_text(Ending::Cause cause);
 
 /// One line, as it goes to people: "task 'a' activation 3 at 0.03 s has not ended".
 std::string to_text(const HangingTask& hanging);
+/// Likewise: "distributer 'display' at 2.9 s has not returned", "distributer 'display' has not finished".
+std::string to_text(const HangingDistributer& hanging);
 
 }  // namespace jarol

@@ -192,7 +192,7 @@ int run(RunOptions options) {
   take_priority_above(priority);
   auto start = std::chrono::steady_clock::now();
   ExecutorRun attended(executor, end, rest, [&](Duration begun) { graph_run.sinks().judge_before(begun); });
-  const RunEnd run_end = attend(
+  RunEnd run_end = attend(
       clock ? attended : saved,
       [&] {
         if (clock) start_clock(*clock, executor);
@@ -207,10 +207,8 @@ int run(RunOptions options) {
       Interruptible::forbid_haste, {.report = report_stuck});
   progress.reset();
   // a link that is in use can't be finished, and what it has to be handed is left to the guardian
-  if (run_end.links_are_free()) {
-    graph_run.disconnect();
-    if (guard) guard->close();
-  }
+  if (run_end.links_are_free()) graph_run.disconnect(run_end);
+  if (guard && run_end.links_are_free()) guard->close();
   halt_if_asked(run_end);
   const double seconds =
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -240,10 +238,11 @@ int run(RunOptions options) {
   if (!not_run.empty()) lost += (lost.empty() ? "" : "; ") + not_run;
   if (!lost.empty()) unwritten += (written ? "" : "; ") + lost;
   const RunVerdict verdict = graph_run.judge(end, run_end);
+  const std::vector<FailsafeReport> failsafe = failsafe_after(run_end, graph, channels, executor.failsafe());
   const RunOutcome outcome{.state = executor.state(),
                            .report = report,
                            .rest = executor.rest(),
-                           .failsafe = executor.failsafe(),
+                           .failsafe = failsafe,
                            .noted = noted,
                            .end = run_end,
                            .clock = clock ? &*clock : nullptr,
@@ -262,7 +261,7 @@ int run(RunOptions options) {
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
   const int exit_code =
       exit_of({exit_code_of(run_end), exit_code_of(verdict), exit_code_of_lost(written, lost.empty())});
-  if (run_end.hangs) end_at_once(exit_code);
+  if (run_end.must_end_at_once()) end_at_once(exit_code);
   return exit_code;
 }
 

@@ -46,7 +46,8 @@ std::string errors_of(const RunEnd& end, Duration now) {
     } catch (...) { text += "error: at " + seconds_text(now) + " s: something was thrown that is no exception\n"; }
   }
   for (const HangingTask& hanging : end.hanging) text += "error: " + to_text(hanging) + "\n";
-  if (end.hangs)
+  if (end.distributer) text += "error: " + to_text(*end.distributer) + "; the program ends without it\n";
+  if (end.hangs && (!end.distributer || !end.hanging.empty()))
     text += end.hanging.empty() ? "error: a thread has not ended that runs no task; the program ends without it\n"
                                 : "error: threads have not ended; the program ends without them\n";
   if (end.ending.cause == Ending::Cause::hung && !end.hangs) text += "error: " + end.ending.reason + "\n";
@@ -57,6 +58,11 @@ nlohmann::ordered_json to_json(const RunEnd& end) {
   auto hanging = nlohmann::ordered_json::array();
   for (const HangingTask& h : end.hanging)
     hanging.push_back({{"task", h.task}, {"activation", h.activation}, {"instant_ns", h.instant.count()}});
+  if (end.distributer)
+    hanging.push_back(
+        {{"distributer", end.distributer->distributer},
+         {"instant_ns", end.distributer->instant ? nlohmann::ordered_json(end.distributer->instant->count())
+                                                 : nlohmann::ordered_json()}});
   return {{"cause", to_text(end.ending.cause)},
           {"signal",
            end.ending.signal == 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(signal_text(end.ending.signal))},
@@ -66,7 +72,8 @@ nlohmann::ordered_json to_json(const RunEnd& end) {
 
 int exit_code_of(const RunEnd& end) {
   const Ending::Cause cause = end.ending.cause;
-  const bool unfinished = end.hangs || end.failure || cause == Ending::Cause::fault || cause == Ending::Cause::hung;
+  const bool unfinished =
+      end.must_end_at_once() || end.failure || cause == Ending::Cause::fault || cause == Ending::Cause::hung;
   return exit_of({unfinished ? exit_unfinished : exit_good, exit_of_signal(end.ending.signal)});
 }
 

@@ -28,6 +28,7 @@ class Run : public AttendedRun {
   bool resting() const override { return rests; }
   void close(const Ending&, Futex::Time) override { closed = true; }
   std::vector<HangingTask> running() const override { return now_running; }
+  std::optional<Call> call() const override { return in_call; }
   Finish finish(Futex::Time) override {
     has_fault = has_fault || fails_at_last;
     return {};
@@ -37,6 +38,7 @@ class Run : public AttendedRun {
   Duration takes = 30ms;
   bool fails = false, fails_at_last = false;
   std::vector<HangingTask> now_running;
+  std::optional<Call> in_call;
   std::atomic<bool> over{false}, has_fault{false}, asked{false}, rests{false}, closed{false};
 };
 
@@ -87,6 +89,17 @@ TEST_SUITE("runtime/execute/attend") {
         {.report = [&](const HangingTask& task) { reported.push_back(to_text(task)); }, .after = 100ms});
     CHECK(reported == std::vector<std::string>{"task 'slow' activation 3 at 0.03 s has not ended"});
     CHECK(end.ending.cause == Ending::Cause::over);
+  }
+
+  TEST_CASE("a distributer that does not return ends the run after a while, and is named") {
+    Run run;
+    run.longest.reset();
+    run.in_call = Call{{"display", 2900ms}, 50ms};
+    const RunEnd end = attend(
+        run, [] {}, no_wish);
+    CHECK(end.ending.cause == Ending::Cause::hung);
+    CHECK(end.ending.reason == "distributer 'display' at 2.9 s has not returned, which ended the run");
+    CHECK_FALSE(end.hangs);  // it did at last
   }
 
   TEST_CASE("what is not brought to rest ends at the first signal") {

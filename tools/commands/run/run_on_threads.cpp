@@ -77,7 +77,7 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
   take_priority_above(options.priority);
   ThreadsRun attended(core, end, rest, options);
   auto start = std::chrono::steady_clock::now();
-  const RunEnd run_end = attend(
+  RunEnd run_end = attend(
       attended,
       [&] {
         guard.arm();
@@ -89,10 +89,8 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
       },
       [&](const Ending& why) { write_promptly(printable_lines(rest_begins_text(*loaded.graph, why))); },
       Interruptible::forbid_haste, {.report = report_stuck});
-  if (run_end.links_are_free()) {
-    linked->finish();
-    guard.close();
-  }
+  if (run_end.links_are_free()) finish_links(*linked, *loaded.graph, run_end);
+  if (run_end.links_are_free()) guard.close();
   halt_if_asked(run_end);
   const double seconds =
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -101,11 +99,12 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
     if (!run_end.hangs) show_mishaps_and_close(sinks, *loaded.graph, channels, core.report());
   } catch (const std::exception& error) { unwatched = error.what(); }
   const RunVerdict verdict = judge_run(*loaded.graph, core.report(), channels, sinks, core.rest(), end, run_end);
+  const std::vector<FailsafeReport> failsafe = failsafe_after(run_end, *loaded.graph, channels, core.failsafe());
   const RunOutcome outcome{
       .state = core.state(),
       .report = core.report(),
       .rest = core.rest(),
-      .failsafe = core.failsafe(),
+      .failsafe = failsafe,
       .noted = noted,
       .end = run_end,
       .threads = &core,
@@ -120,7 +119,7 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
   if (!unwatched.empty()) std::cerr << "error: " << unwatched << "\n";
   const int exit_code =
       exit_of({exit_code_of(run_end), exit_code_of(verdict), unwatched.empty() ? exit_good : exit_unfinished});
-  if (run_end.hangs) end_at_once(exit_code);
+  if (run_end.must_end_at_once()) end_at_once(exit_code);
   return exit_code;
 }
 
