@@ -117,6 +117,30 @@ fault_limit: 100%
     CHECK(command::run_jarol("log diff " + b + " " + b).exit_code == 0);
   }
 
+  TEST_CASE("two recordings of runs that came to other ends differ, whatever values they have") {
+    const TemporaryFolder folder;
+    const auto record = [&](const std::string& name, const std::string& more) {
+      REQUIRE(command::run_jarol("run specs/counting.yaml --for 1s " + more + " " + (folder / name)).exit_code == 0);
+      return folder / name;
+    };
+    const std::string a = record("a", "--log"), b = record("b", "--set tasks.loop.init.out=5 --log");
+    const auto inputs = command::run_jarol("log diff " + a + " " + b);
+    CHECK(inputs.exit_code == 1);
+    CHECK(inputs.output.starts_with("DIFFERENT, 0 values compared\n  apart       at the end: digest 0x"));
+    CHECK(has(command::run_jarol("log diff --json " + a + " " + b).output, R"("verdict":"different")"));
+    CHECK(command::run_jarol("log diff " + a + " " + a).output == "the same, 0 values\n");
+    const std::string c = record("c", "--record-what 'count.*' --record"),
+                      d = record("d", "--set tasks.loop.init.out=5 --record-what 'count.*' --record");
+    const auto part = command::run_jarol("log diff " + c + " " + d);
+    CHECK(part.exit_code == 1);
+    CHECK(has(part.output, "  apart       at the end: digest 0x"));
+    const auto late = command::run_jarol("log diff " + c + " " + d + " --from 5s");
+    CHECK(late.exit_code == 2);
+    CHECK(late.output == "NOTHING TO COMPARE: both have no values in that time\n");
+    CHECK(
+        has(command::run_jarol("log diff --json --from 5s " + a + " " + b).output, R"("verdict":"nothing_compared")"));
+  }
+
   TEST_CASE("one bit of one input is found by instant and field") {
     const TemporaryFolder folder;
     const std::string a = folder / "a.mcap", b = folder / "b.mcap";

@@ -62,7 +62,8 @@ void add_log(CommandLine& line, int& exit_code) {
                           "          chrome://tracing\n"
                           "  report  a page for people, one HTML file: what run it is, whether it replays, its graph,\n"
                           "          time lines, faults, plots, the vehicle's path\n"
-                          "Exit code: 0 good, 1 damaged or different, 2 bad input, 3 can't write, as on a full disk");
+                          "Exit code: 0 good, 1 damaged or different, 2 bad input or nothing to compare,\n"
+                          "3 can't write, as on a full disk");
   command->add_option("WHAT", words->what, "info, cat, csv, verify, diff, trace or report")
       ->required()
       ->one_of({"info", "cat", "csv", "verify", "diff", "trace", "report"});

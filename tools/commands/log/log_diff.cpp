@@ -8,6 +8,7 @@
 #include "graph/text/escape.h"
 #include "runtime/record/differences.h"
 #include "runtime/record/instants.h"
+#include "runtime/record/recorded_run.h"
 #include "tools/commands/log/break_note.h"
 #include "tools/commands/log/log_commands.h"
 #include "tools/commands/log/recorded_graph.h"
@@ -78,6 +79,21 @@ std::string find_other_event(const RecordedEvents& a, const RecordedEvents& b, c
   }
 }
 
+// What the runs came to, of which a recording may hold more than the values: its digest is of all that was published.
+std::vector<std::string> find_other_ends(const Recording& a, const Recording& b) {
+  const std::optional<LogEnd> was = find_end(a), is = find_end(b);
+  std::vector<std::string> apart;
+  if (!was || !is) return apart;  // one breaks off, which is said
+  const auto compare = [&](const char* what, std::uint64_t in_a, std::uint64_t in_b) {
+    if (in_a != in_b) apart.push_back(fmt::format("at the end: {} {} in A, {} in B", what, in_a, in_b));
+  };
+  if (was->digest != is->digest)
+    apart.push_back(fmt::format("at the end: digest 0x{:016x} in A, 0x{:016x} in B", was->digest, is->digest));
+  compare("activations", was->activations, is->activations);
+  compare("faults", was->faults, is->faults);
+  return apart;
+}
+
 // Goes through two instants that are one, by name.
 void compare_instant(Duration instant, const std::vector<RecordedInstants::Message>& was,
                      const std::vector<RecordedInstants::Message>& is, const Common& common, Differences& differences) {
@@ -123,17 +139,24 @@ int log_diff(const LogOptions& options) {
     if (in_was) more_was = was.next();
     if (in_is) more_is = is.next();
   }
+  const bool all = options.from <= Duration{} && options.until == Duration::max();
+  const bool ends = all && find_end(a) && find_end(b);
+  if (all)
+    for (std::string& text : find_other_ends(a, b)) common.apart.push_back(std::move(text));
   const bool same = !differences.first() && common.apart.empty();
+  // two recordings of inputs alone are compared by their ends
+  const bool nothing = same && differences.compared() == 0 && !ends;
   if (options.json) {
     auto json = json_of(differences);
     json["schema"] = "jarol.log_diff/1";
-    json["verdict"] = same ? "same" : "different";
+    json["verdict"] = nothing ? "nothing_compared" : same ? "same" : "different";
     json["apart"] = common.apart;
     json["breaks_off"] = nlohmann::ordered_json::object();
     for (const auto& [name, where] : breaks_of(a, b)) json["breaks_off"][name] = where;
     std::cout << json_line(json);
   } else {
-    if (same) std::cout << fmt::format("the same, {} values\n", differences.compared());
+    if (nothing) std::cout << "NOTHING TO COMPARE: both have no values" << (all ? "" : " in that time") << "\n";
+    if (same && !nothing) std::cout << fmt::format("the same, {} values\n", differences.compared());
     if (!same) std::cout << fmt::format("DIFFERENT, {} values compared\n", differences.compared());
     std::cout << text_of(differences);
     for (const std::string& text : common.apart) std::cout << "  apart       " << printable(text) << "\n";
@@ -141,6 +164,7 @@ int log_diff(const LogOptions& options) {
       std::cout << fmt::format("  breaks off  {} {}; what it lacks after that counts as different\n", name,
                                printable(where));
   }
+  if (nothing) return exit_input;
   return same ? exit_good : exit_negative;
 }
 
