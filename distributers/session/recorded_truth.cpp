@@ -1,5 +1,7 @@
 #include "distributers/session/recorded_truth.h"
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "graph/values/value.h"
@@ -56,6 +58,21 @@ std::vector<std::unique_ptr<ExternalSystem>> recorded_channels(const Loaded& loa
       channels[i] = std::make_unique<WithTruth>(std::move(channels[i]), run.recording(), *topic, *type);
   }
   return channels;
+}
+
+void judge_no_other_truth(const Graph& graph, Evidence evidence, bool other_graph, std::vector<Verdict>& verdicts) {
+  const bool diverged = evidence == Evidence::diverged;
+  if (!diverged && !(other_graph && evidence == Evidence::unknown)) return;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    const expect::Condition& condition = graph.expectations[i];
+    const auto is_truth = [](const expect::Signal& signal) { return signal.distributer.has_value(); };
+    if (!condition.not_judged.empty() || std::none_of(condition.signals.begin(), condition.signals.end(), is_truth))
+      continue;
+    verdicts[i] = {.outcome = Verdict::Outcome::not_judged,
+                   .condition = verdicts[i].condition,
+                   .why = std::string("the vehicle might have gone elsewhere, as the replay ") +
+                          (diverged ? "has diverged" : "is of another file")};
+  }
 }
 
 }  // namespace jarol

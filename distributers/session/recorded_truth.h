@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "distributers/session/load.h"
+#include "distributers/session/replay.h"
+#include "distributers/session/verdict.h"
 #include "runtime/record/recorded_run.h"
 
 namespace jarol {
@@ -15,5 +17,10 @@ std::vector<std::unique_ptr<ExternalSystem>> recorded_channels(const Loaded& loa
 
 /// By distributer the type of the true values that `loaded` knows; null: none.
 std::vector<const Type*> types_of_truth(const Loaded& loaded);
+
+/// Where the replay did otherwise than the run, the vehicle might have gone elsewhere, and conditions on where it was
+/// are not judged. `other_graph`: the graph is another text, so that a replay of which nobody knows whether it was the
+/// same is taken as one that was not.
+void judge_no_other_truth(const Graph& graph, Evidence evidence, bool other_graph, std::vector<Verdict>& verdicts);
 
 }  // namespace jarol

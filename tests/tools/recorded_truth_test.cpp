@@ -1,14 +1,17 @@
 // What a recording has of where its vehicle truly was, and what is judged by it.
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
+#include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
 namespace {
 using command::content;
+using command::has;
 using command::TemporaryFolder;
 
 // The lines of a report that say what was expected.
@@ -106,6 +109,33 @@ TEST_SUITE("tools/recorded_truth") {
         judged(replay.output)
             .find("  expected    6 conditions: not judged: the vehicle of 'dune' is not simulated in this process\n") !=
         std::string::npos);
+  }
+
+  TEST_CASE("a replay of another file that diverges is not judged by where the vehicle was; one that is the same is") {
+    const TemporaryFolder folder;
+    const std::string specs = folder / "specs", dive = folder / "dive.mcap";
+    std::filesystem::copy("specs", specs, std::filesystem::copy_options::recursive);
+    const std::string expect = "'expect=[depth of dune within 0.3 of 3, never supervisor.condition.alarm is not none]'";
+    REQUIRE(command::run_jarol("run " + specs +
+                               "/exolauv.yaml --set distributers.dune.link.parameters.dynamics=rigid --set " + expect +
+                               " --record " + dive)
+                .exit_code == 0);
+    std::string text = content(specs + "/exolauv.yaml");
+    const std::string task = "{type: DepthControl, ";
+    const std::string same = folder.write("specs/same.yaml", text + "# a remark\n");
+    REQUIRE(text.find(task) != std::string::npos);
+    text.replace(text.find(task), task.size(), task + "parameters: {kp: 0.01}, ");
+    const std::string other = folder.write("specs/other.yaml", text);
+    CHECK(has(command::run_jarol("replay " + dive + " " + same).output,
+              "  expected    depth of dune within 0.3 of 3: holds, "));
+    const auto replay = command::run_jarol("replay " + dive + " " + other);
+    CHECK(replay.exit_code == 1);
+    const std::string why = "the vehicle might have gone elsewhere, as the replay has diverged";
+    CHECK(has(replay.output, "  expected    5 conditions: not judged: " + why + "\n"));
+    CHECK(has(replay.output, "  expected    never supervisor.condition.alarm is not none: holds\n"));
+    CHECK(has(command::run_jarol("replay --json " + dive + " " + other, "2>/dev/null").output, why));
+    CHECK(command::run_jarol("log report " + dive + " " + other + " --out " + (folder / "dive.html")).exit_code == 0);
+    CHECK(has(content(folder / "dive.html"), R"("depth of dune within 0.3 of 3","verdict":"not_judged")"));
   }
 
   TEST_CASE("the true values stand in the recording as topics beside what is published, and only where all is") {

@@ -197,8 +197,11 @@ int replay(const ReplayOptions& options) {
     verdict.expectations = sinks.judge(judged_until(log.rest_begun(), log.header().until, report.covered),
                                        why_cut_short(judged_until(log.rest_begun(), log.header().until, reached),
                                                      log.header().until, log.header().mission));
+  const bool is_other_text = !options.file.empty() && !is_text_of_run(options.file, log.recording());
+  judge_no_other_truth(graph, comparison.evidence, is_other_text, verdict.expectations);
   verdict.left_out = find_left_out(graph, report);
-  if (world == RecordedWorld::truth && !comparison.interrupted) verdict.mishaps = read_mishaps(log.recording());
+  const bool is_of_run = world == RecordedWorld::truth && comparison.evidence != Evidence::diverged;
+  if (is_of_run && !comparison.interrupted) verdict.mishaps = read_mishaps(log.recording());
   const RunOutcome outcome{.state = executor.state(),
                            .report = report,
                            .rest = executor.rest(),
@@ -221,8 +224,7 @@ int replay(const ReplayOptions& options) {
                              misses.size());
     if (unwritten.empty()) std::cout << to_text(options.files);
     if (!judges) std::cout << "  expected    not judged, as the replay begins on the way\n";
-    std::cout << text_of(comparison, report, log, differences,
-                         !options.file.empty() && !is_text_of_run(options.file, log.recording()), only.has_value());
+    std::cout << text_of(comparison, report, log, differences, is_other_text, only.has_value());
     if (options.file.empty())
       for (const std::string& file : changed_files(log.recording()))
         std::cout << "  changed     '" << printable(file)

@@ -19,6 +19,7 @@
 #include "tools/commands/log/report_replay.h"
 #include "tools/commands/log/report_signals.h"
 #include "tools/commands/run/apart.h"
+#include "tools/commands/run/replay_start.h"
 #include "tools/drawing/graph/drawing_json.h"
 #include "tools/drawing/graph/layout.h"
 #include "tools/drawing/pages/page.h"
@@ -170,7 +171,8 @@ int log_report(const LogOptions& options) {
     data["happenings"] = happenings_json(run, run.begin(graph), events, &graph);
     data["tasks"] = tasks_json(graph);
     const std::vector<std::size_t> order = graph.order;
-    const ReportReplay replay = replay_for_report(run, std::move(loaded));
+    const bool other_graph = !options.other.empty() && !is_text_of_run(options.other, run.recording());
+    const ReportReplay replay = replay_for_report(run, std::move(loaded), other_graph);
     data["replay"] = replay_json(replay);
     for (std::size_t i = 0; i < order.size() && !replay.measured.empty(); ++i) {
       const MeasuredTask& measured = replay.measured[order[i]];

@@ -27,7 +27,7 @@ std::vector<MeasuredTask> measure(RecordedRun& run, const Graph& graph) {
 
 }  // namespace
 
-ReportReplay replay_for_report(RecordedRun& run, Loaded loaded) {
+ReportReplay replay_for_report(RecordedRun& run, Loaded loaded, bool other_graph) {
   ReportReplay replayed;
   const CrashLine crash_line(*loaded.graph);
   replayed.measured = measure(run, *loaded.graph);
@@ -51,6 +51,7 @@ ReportReplay replay_for_report(RecordedRun& run, Loaded loaded) {
   replayed.verdict.expectations = graph_run.sinks().judge(
       judged_until(run.rest_begun(), header.until, executor.report().covered),
       why_cut_short(judged_until(run.rest_begun(), header.until, reached), header.until, header.mission));
+  judge_no_other_truth(graph_run.graph(), replayed.evidence, other_graph, replayed.verdict.expectations);
   replayed.verdict.mishaps = read_mishaps(run.recording());
   replayed.verdict.left_out = find_left_out(graph_run.graph(), executor.report());
   return replayed;

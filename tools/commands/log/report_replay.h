@@ -16,7 +16,8 @@ struct ReportReplay {
   std::vector<MeasuredTask> measured{};  // of a second replay; empty: it had no activation, or the clock is too coarse
 };
 
-/// Runs all that the recording covers, twice, without its vehicles. Throws LogError where it is of another graph.
-ReportReplay replay_for_report(RecordedRun& run, Loaded loaded);
+/// Runs all that the recording covers, twice, without its vehicles; `other_graph`: by another text than the run.
+/// Throws LogError where its tasks and outputs are other ones.
+ReportReplay replay_for_report(RecordedRun& run, Loaded loaded, bool other_graph);
 
 }  // namespace jarol::tools
