@@ -96,7 +96,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   // between readings it turns on as it did, and feels what it felt
   const double gap = state.last_turn.since;
   state.last_turn.since = turns ? 0 : state.last_turn.since + dt;
-  const double felt = state.imu.lost ? 0 : std::exp(-state.last_turn.since / p.rate_fade);
+  const double felt = state.imu.lost ? 0 : std::exp(-state.last_turn.since / p.age.fade);
   const BlindMotion& blind = in.blind;
   const bool is_blind = state.imu.lost && blind.known;
   const Vector3d rates = is_blind ? Vector3d(blind.p, blind.q, blind.r) : Vector3d(felt * Vector3d(s.p, s.q, s.r));
@@ -137,20 +137,19 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   // over a gap it turned at the mean of the rates before and after it
   const double turned = 0.5 * (gap + dt);
   const LastTurn& last = state.last_turn;
-  const double roll = gap > 0 ? last.roll + turned * (last.roll_rate + angle_rates.x()) : state.roll;
-  const double pitch = gap > 0 ? last.pitch + turned * (last.pitch_rate + angle_rates.y()) : state.pitch;
+  const bool over_gap = turns && gap > 0 && !settled;
+  const double roll = over_gap ? last.roll + turned * (last.roll_rate + angle_rates.x()) : state.roll;
+  const double pitch = over_gap ? last.pitch + turned * (last.pitch_rate + angle_rates.y()) : state.pitch;
   const bool smooth = near(roll, pitch);
   state.angles.silent += heard_dt;
-  if (turns && smooth) {
-    // what it turned meanwhile was not felt
-    if (gap > 0 && !state.angles.lost) {
-      state.slow_roll.angle += s.roll - state.roll;
-      state.slow_pitch.angle += s.pitch - state.pitch;
-      state.roll = s.roll;
-      state.pitch = s.pitch;
-    }
-    watch_drift(state, p, s, dt);
+  if (over_gap) {
+    // what it turned meanwhile was not felt; what is measured may drift, and is no measure of it
+    state.slow_roll.angle += roll - state.roll;
+    state.slow_pitch.angle += pitch - state.pitch;
+    state.roll = smooth && !state.angles.lost ? s.roll : roll;
+    state.pitch = smooth && !state.angles.lost ? s.pitch : pitch;
   }
+  if (turns && smooth) watch_drift(state, p, s, dt);
   if (believe(state.angles, turns && smooth, p.imu_patience)) {
     state.roll += p.angle_gain * (s.roll - state.roll);
     state.pitch += p.angle_gain * (s.pitch - state.pitch);
@@ -169,8 +168,8 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
 
   const Matrix3d R = rotation_of(state.roll, state.pitch, state.zero_yaw + state.yaw);
   // ranges are younger than the IMU's sample
-  const Matrix3d R_now = rotation_of(state.roll + p.range_age * rates.x(), state.pitch + p.range_age * rates.y(),
-                                     state.zero_yaw + state.yaw + p.range_age * rates.z());
+  const Matrix3d R_now = rotation_of(state.roll + p.age.range * rates.x(), state.pitch + p.age.range * rates.y(),
+                                     state.zero_yaw + state.yaw + p.age.range * rates.z());
   // what carries it while nobody feels it; what is known of drag and wind as well
   const Vector3d last_b(s.a_x, s.a_y, s.a_z);
   const Vector3d hover_b =
@@ -253,7 +252,8 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
                         .range = range * R_now(fix.axis, along),
                         .is_new = true};
     if (is_blind) return void(axis.since = 0);
-    correct(axis, fix.place - zero, p.bandwidth);
+    const double doubt = range * R_now(1 - fix.axis, along) * rates.z() * p.age.spread / p.age.noise;
+    correct(axis, axis.place + (fix.place - zero - axis.place) / (1 + doubt * doubt), p.bandwidth);
   };
   look(state.laser_x, new_x, {p.laser_x_x, p.laser_x_y, p.laser_x_z}, 0, s.laser_x);
   look(state.laser_y, new_y, {p.laser_y_x, p.laser_y_y, p.laser_y_z}, 1, s.laser_y);
@@ -265,10 +265,10 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   const bool answers = state.unanswered <= p.imu_patience;
   // an accelerometer in flight feels the rotors along their axis, and drag across it
   const Vector3d drag = R * Vector3d(force_b.x(), force_b.y(), 0);
-  e = {.roll = state.roll + p.age * rates.x() - in.directive.trim_roll,
-       .pitch = state.pitch + p.age * rates.y() - in.directive.trim_pitch,
-       .yaw = state.yaw + p.age * rates.z(),
-       .heading = state.zero_yaw + state.yaw + p.age * rates.z(),
+  e = {.roll = state.roll + p.age.imu * rates.x() - in.directive.trim_roll,
+       .pitch = state.pitch + p.age.imu * rates.y() - in.directive.trim_pitch,
+       .yaw = state.yaw + p.age.imu * rates.z(),
+       .heading = state.zero_yaw + state.yaw + p.age.imu * rates.z(),
        .p = rates.x(),
        .q = rates.y(),
        .r = rates.z(),

@@ -51,6 +51,26 @@ struct UnseenPlace {
   }
 };
 
+/// How old readings are when they are used. An answer has what the IMU sampled at the answer before, and ranges since:
+/// over a radio that loses or holds up signals the time between them is not known well.
+struct ReadingAge {
+  double imu = 0.02;
+  double range = 0.009;
+  double fade = 0.05;
+  double spread = 0;
+  double noise = 0.03;
+
+  static constexpr auto fields() {
+    using A = ReadingAge;
+    return describe(
+        field<&A::imu>("s", "of the attitude when it is used; it is turned on by the rates"),
+        field<&A::range>("s", "the same, when a range is measured: later than the IMU's sample, by so much on average"),
+        field<&A::fade>("s", "in which rates and forces of the last reading fade to a third until the next one"),
+        field<&A::spread>("s", "of the time between the two; 0: ranges count alike however fast it turns").in(0, 1),
+        field<&A::noise>("m", "of a place, against which what that makes of it is weighed").in(0.001, 10));
+  }
+};
+
 struct JaviatorFilter {
   static constexpr std::string_view summary = "estimates attitude, position and velocity from the helicopter's sensors";
   struct Param {
@@ -59,12 +79,10 @@ struct JaviatorFilter {
     double laser_y_x = 0.050, laser_y_y = -0.077, laser_y_z = 0.080;
     Room room{};
     double bandwidth = 6;
-    double age = 0.02;
-    double range_age = 0.009;
+    ReadingAge age{};
     double angle_gain = 0.5;
     double patience = 0.3;
     double imu_patience = 0.04;
-    double rate_fade = 0.05;
     UnseenPlace unseen{};
     double range_jump = 0.3;
     double sonar_jump = 0.08;
@@ -89,14 +107,10 @@ struct JaviatorFilter {
           field<&P::laser_x_z>("m", "down"), field<&P::laser_y_x>("m", "of the laser that looks right, forward"),
           field<&P::laser_y_y>("m", "right"), field<&P::laser_y_z>("m", "down"),
           field<&P::room>("", "whose walls the lasers see"),
-          field<&P::bandwidth>("rad/s", "of the observers of place and speed"),
-          field<&P::age>("s", "of the attitude when it is used; it is turned on by the rates"),
-          field<&P::range_age>(
-              "s", "the same, when a range is measured: later than the IMU's sample, by so much on average"),
+          field<&P::bandwidth>("rad/s", "of the observers of place and speed"), field<&P::age>("", "of readings"),
           field<&P::angle_gain>("", "part of a measured angle in the new one, the rest is the rate's"),
           field<&P::patience>("s", "without a credible measurement before a sensor counts as lost"),
           field<&P::imu_patience>("s", "the same, for the IMU"),
-          field<&P::rate_fade>("s", "in which rates and forces of the last reading fade to a third until the next one"),
           field<&P::unseen>("", "where no laser sees along an axis"),
           field<&P::range_jump>("m", "from the estimate at which a range is not credible"),
           field<&P::sonar_jump>("m", "the same, of the sonar right after a credible range"),

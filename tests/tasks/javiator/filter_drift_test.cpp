@@ -124,16 +124,22 @@ TEST_SUITE("tasks/javiator_filter/drift") {
     CHECK(step.determinant() == doctest::Approx(pole * pole).epsilon(1e-9));
   }
 
-  TEST_CASE("what it turned while the IMU was not heard is no drift of the angles") {
-    HeardHelicopter heard = hovering();
-    heard.sensors.new_imu = false;
-    heard.run(1);
-    heard.sensors.new_imu = true;
-    heard.sensors.roll = 0.03;
-    heard.sensors.pitch = -0.03;
-    heard.state.roll_off = 0.03;
-    heard.state.pitch_off = -0.03;
-    CHECK(heard.run(10).attitude_known);
+  TEST_CASE("what it turned while the IMU was not heard, by the rates before and after, is no drift of the angles") {
+    for (const bool turns : {true, false}) {
+      HeardHelicopter heard = hovering();
+      heard.sensors.new_imu = false;
+      heard.run(1);
+      heard.sensors.new_imu = true;
+      heard.sensors.roll = 0.03;
+      heard.sensors.pitch = -0.03;
+      heard.sensors.p = turns ? 2 : 0;
+      heard.sensors.q = turns ? -2 : 0;
+      heard.run(1);
+      heard.sensors.p = heard.sensors.q = 0;
+      heard.state.roll_off = 0.03;
+      heard.state.pitch_off = -0.03;
+      CHECK(heard.run(9).attitude_known == turns);
+    }
     HeardHelicopter heard_all = hovering();
     heard_all.sensors.roll = 0.03;
     heard_all.state.roll_off = 0.03;
