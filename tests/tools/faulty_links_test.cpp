@@ -80,10 +80,9 @@ TEST_SUITE("tools/faulty_links") {
   }
 
   TEST_CASE("a link or a distributer that does not finish is left behind, by its name, within a second") {
-    for (const auto& [display, fault] :
-         {std::pair{"GoodDisplay", "send_blocks"}, std::pair{"EndlessDisplay", "none"}}) {
-      CAPTURE(display);
-      const FaultyRun over = run_faulty(display, fault, "300ms");
+    for (const auto& each : {std::pair{"GoodDisplay", "send_blocks"}, std::pair{"EndlessDisplay", "none"}}) {
+      CAPTURE(each.first);
+      const FaultyRun over = run_faulty(each.first, each.second, "300ms");
       CAPTURE(over.errors);
       CHECK(over.exit_code == 3);
       CHECK(over.errors.ends_with("error: distributer 'display' has not finished; the program ends without it\n"));
@@ -91,8 +90,8 @@ TEST_SUITE("tools/faulty_links") {
       CHECK(over.report["ending"]["hanging"] ==
             nlohmann::json::parse(R"([{"distributer":"display","instant_ns":null}])"));
       // a link that blocks has not sent it
-      CHECK((over.lost() == "") == (std::string(fault) == "none"));
-      const FaultyRun ended = run_faulty(display, fault, "1h", SIGTERM);
+      CHECK((over.lost() == "") == (std::string(each.second) == "none"));
+      const FaultyRun ended = run_faulty(each.first, each.second, "1h", SIGTERM);
       CHECK(ended.exit_code == 3);
       CHECK(ended.report["ending"]["signal"] == "SIGTERM");
       CHECK(ended.took < 10s);  // a busy machine may take long
