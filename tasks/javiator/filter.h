@@ -66,7 +66,9 @@ struct ReadingAge {
         field<&A::imu>("s", "of the attitude when it is used; it is turned on by the rates"),
         field<&A::range>("s", "the same, when a range is measured: later than the IMU's sample, by so much on average"),
         field<&A::fade>("s", "in which rates and forces of the last reading fade to a third until the next one"),
-        field<&A::spread>("s", "of the time between the two; 0: ranges count alike however fast it turns").in(0, 1),
+        field<&A::spread>("s",
+                          "of the time from the IMU's sample to a range; 0: ranges count alike however fast it turns")
+            .in(0, 1),
         field<&A::noise>("m", "of a place, against which what that makes of it is weighed").in(0.001, 10));
   }
 };

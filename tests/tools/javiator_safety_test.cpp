@@ -127,7 +127,7 @@ TEST_SUITE("tools/javiator_safety") {
     }
   }
 
-  // With ranges that count alike however fast it turns 14 of 20 such flights end on their backs.
+  // With ranges that count alike however fast it turns 3 of 6 flights that turn by 180 degrees overturn.
   TEST_CASE("over a radio that loses a tenth of all packets it turns round and back, and lands where it was") {
     const auto turns = [](double time) {
       tasks::PilotCommand command = tests::hover_command(time);
