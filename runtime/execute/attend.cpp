@@ -40,57 +40,59 @@ void leave_signals_to_others() {
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
 }
 
-// How long one activation has held up everything else. Time counts by looks: while the whole process is halted, or the
-// machine, nobody could have gone on.
-class HoldupWatch {
+// How long the same has stood at one look after another. Time counts by looks: while the whole process is halted, or
+// the machine, nobody could have gone on.
+template <typename What>
+class Standing {
  public:
-  std::optional<Ending> look_at(const AttendedRun& run) {
+  /// None: nothing stands. Zero at the first look at it.
+  Futex::Time::duration look_at(const std::optional<What>& what) {
     const Futex::Time now = Futex::now();
     const auto passed = std::min<Futex::Time::duration>(now - looked_, 2 * look);
     looked_ = now;
+    stood_ = what && what == what_ ? stood_ + passed : Futex::Time::duration{};
+    what_ = what;
+    return stood_;
+  }
+
+ private:
+  Futex::Time looked_ = Futex::now();
+  std::optional<What> what_;
+  Futex::Time::duration stood_{};
+};
+
+// One activation that holds up everything else.
+class HoldupWatch {
+ public:
+  std::optional<Ending> look_at(const AttendedRun& run) {
     const std::optional<Holdup> holdup = run.holdup();
-    if (!holdup || holdup->late <= Duration{} || !(holdup->task == held_)) {
-      held_ = holdup ? holdup->task : HangingTask{};
-      stood_ = {};
-      return std::nullopt;
-    }
-    stood_ += passed;
+    const bool late = holdup && holdup->late > Duration{};
+    const Futex::Time::duration stood = standing_.look_at(late ? std::optional(holdup->task) : std::nullopt);
+    if (stood == Futex::Time::duration{}) return std::nullopt;
     const std::string who = to_text(holdup->task);
-    if (holdup->over && stood_ >= 2 * look) return Ending::over();
-    if (holdup->stops && stood_ >= 2 * look)
+    if (holdup->over && stood >= 2 * look) return Ending::over();
+    if (holdup->stops && stood >= 2 * look)
       return Ending{Ending::Cause::fault, 0, who + " by its deadline, which ended the run"};
-    if (stood_ >= holdup_patience) return Ending{Ending::Cause::hung, 0, who + ", which ended the run"};
+    if (stood >= holdup_patience) return Ending{Ending::Cause::hung, 0, who + ", which ended the run"};
     return std::nullopt;
   }
 
  private:
-  Futex::Time looked_ = Futex::now();
-  HangingTask held_;
-  Futex::Time::duration stood_{};
+  Standing<HangingTask> standing_;
 };
 
-// How long one call of a distributer's has done so, likewise.
+// One call of a distributer's that does so.
 class CallWatch {
  public:
   std::optional<Ending> look_at(const AttendedRun& run) {
-    const Futex::Time now = Futex::now();
-    const auto passed = std::min<Futex::Time::duration>(now - looked_, 2 * look);
-    looked_ = now;
     const std::optional<Call> call = run.call();
-    if (!call || call->of != of_) {
-      of_ = call ? call->of : HangingDistributer{};
-      stood_ = {};
-      return std::nullopt;
-    }
-    stood_ += passed;
-    if (!call->patience || stood_ < *call->patience) return std::nullopt;
+    const Futex::Time::duration stood = standing_.look_at(call ? std::optional(call->of) : std::nullopt);
+    if (!call || !call->patience || stood < *call->patience) return std::nullopt;
     return Ending{Ending::Cause::hung, 0, to_text(call->of) + ", which ended the run"};
   }
 
  private:
-  Futex::Time looked_ = Futex::now();
-  HangingDistributer of_;
-  Futex::Time::duration stood_{};
+  Standing<HangingDistributer> standing_;
 };
 
 // What has run since it was first seen: looked at now and then, and reported once.

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "graph/language/inputs.h"
@@ -40,6 +41,21 @@ RecordingHeader read_header(mcap::Reader& reader, const std::string& path) {
   try {
     return parse_header(attachment.data);
   } catch (const LogError&) { throw mcap::FormatError("no recording"); }
+}
+
+constexpr std::size_t footer_bytes = mcap::record_head + 8 + 8 + 4;
+
+// The footer and the mark behind it, or what stands there; less of a file that has less.
+std::string end_of_file(mcap::Reader& reader) {
+  const std::uint64_t bytes = std::min<std::uint64_t>(reader.size(), footer_bytes + mcap::magic.size());
+  return reader.bytes(reader.size() - bytes, bytes);
+}
+
+// Where the summary begins, by the footer.
+std::optional<std::uint64_t> summary_begin(std::string_view end) {
+  if (end.size() != footer_bytes + mcap::magic.size() || !end.ends_with(mcap::magic)) return std::nullopt;
+  if (static_cast<mcap::Opcode>(end.front()) != mcap::Opcode::footer) return std::nullopt;
+  return mcap::ByteCursor(end.substr(mcap::record_head)).number<std::uint64_t>();
 }
 
 }  // namespace
@@ -113,21 +129,17 @@ bool Recording::open_next_part(mcap::Reader& reader) {
 
 // False: there is none that is whole, and the file has to be gone through. Nothing has changed then.
 bool Recording::read_summary(mcap::Reader& reader) {
-  constexpr std::size_t footer_bytes = mcap::record_head + 8 + 8 + 4;
-  if (last_size_ < good_until_ + footer_bytes + mcap::magic.size()) return false;
-  const std::uint64_t footer_at = last_size_ - mcap::magic.size() - footer_bytes;
-  const std::string end = reader.bytes(footer_at, footer_bytes + mcap::magic.size());
-  if (!end.ends_with(mcap::magic) || static_cast<mcap::Opcode>(end[0]) != mcap::Opcode::footer) return false;
+  const std::string end = end_of_file(reader);
+  const std::optional<std::uint64_t> begin = summary_begin(end);
+  const std::uint64_t footer_at = last_size_ - end.size();
+  if (!begin || *begin < good_until_ || *begin > footer_at) return false;
   std::map<std::uint16_t, mcap::Schema> schemas;
   std::map<std::uint16_t, ReadTopic> found;
   std::vector<ReadPlace> chunks;
   try {
-    mcap::ByteCursor footer(std::string_view(end).substr(mcap::record_head));
-    const auto begin = footer.number<std::uint64_t>();
-    footer.number<std::uint64_t>();
+    mcap::ByteCursor footer(std::string_view(end).substr(footer_bytes - sizeof(std::uint32_t)));
     const auto crc = footer.number<std::uint32_t>();
-    if (begin < good_until_ || begin > footer_at) return false;
-    const std::string summary = reader.bytes(begin, footer_at - begin + footer_bytes - sizeof crc);
+    const std::string summary = reader.bytes(*begin, footer_at - *begin + footer_bytes - sizeof crc);
     if (mcap::crc32(summary) != crc) return false;
     const auto read = [&](mcap::Opcode opcode, std::string_view content, std::size_t) {
       mcap::ByteCursor in(content);
@@ -163,7 +175,7 @@ bool Recording::read_summary(mcap::Reader& reader) {
         chunks.push_back(place);
       }
     };
-    mcap::for_each_record(std::string_view(summary).substr(0, footer_at - begin), read);
+    mcap::for_each_record(std::string_view(summary).substr(0, footer_at - *begin), read);
   } catch (const mcap::FormatError&) { return false; }
   schemas_.merge(schemas);
   for (const auto& [id, topic] : found) {
@@ -176,29 +188,42 @@ bool Recording::read_summary(mcap::Reader& reader) {
 }
 
 void Recording::read_chunks(mcap::Reader& reader, const Visit& visit) {
-  mcap::Record record;
-  bool ended = false;
-  while (reader.next(record)) {
-    if (record.opcode == mcap::Opcode::footer && ended) {
-      whole_ = reader.bytes(reader.offset(), mcap::magic.size()) == mcap::magic;
-      if (whole_) good_until_ = reader.offset() + mcap::magic.size();
+  if (read_data(reader, visit)) {
+    for (mcap::Record record; reader.next(record);) {
+      if (record.opcode != mcap::Opcode::footer) continue;  // of the summary
+      if (reader.bytes(reader.offset(), mcap::magic.size()) != mcap::magic) break;
+      good_until_ = reader.offset() + mcap::magic.size();
+      whole_ = true;
       return;
     }
-    if (ended) continue;  // the summary
+    // a summary that can't be gone through is no loss
+    whole_ = end_of_file(reader).ends_with(mcap::magic);
+  } else {
+    // nor is the mark of the end of the data, where all up to it are good
+    constexpr std::size_t data_end_bytes = mcap::record_head + 4;
+    whole_ = summary_begin(end_of_file(reader)) == good_until_ + data_end_bytes;
+  }
+  if (whole_) good_until_ = last_size_;
+}
+
+// True: up to the end of the data.
+bool Recording::read_data(mcap::Reader& reader, const Visit& visit) {
+  for (mcap::Record record; reader.next(record);) {
     try {
       if (record.opcode == mcap::Opcode::chunk)
         read_chunk(record, visit);
       else if (record.opcode == mcap::Opcode::data_end)
-        ended = true;
+        return true;
       else if (record.opcode == mcap::Opcode::schema || record.opcode == mcap::Opcode::channel)
         describe(record.opcode, record.content);
       else
         mcap::require_message_index(record);
     } catch (const mcap::FormatError&) {
-      return;  // what follows can't be trusted
+      return false;  // what follows can't be trusted
     }
-    if (!ended) good_until_ = reader.offset();
+    good_until_ = reader.offset();
   }
+  return false;
 }
 
 void Recording::describe(mcap::Opcode opcode, std::string_view content) {

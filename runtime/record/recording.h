@@ -57,7 +57,7 @@ class Recording {
   const ReadTopic* find(std::string_view topic) const;
   const std::vector<ReadPlace>& chunks() const { return chunks_; }
 
-  /// Up to the mark at its end: the run has ended, and all was written.
+  /// The run has ended, and all that was recorded is there, whatever has happened to the index behind it.
   bool is_whole() const { return whole_; }
   /// Its last part is good up to that byte, and has so many.
   std::uint64_t good_until() const { return good_until_; }
@@ -76,6 +76,7 @@ class Recording {
   void describe(mcap::Opcode opcode, std::string_view content);
   bool read_summary(mcap::Reader& reader);
   void read_chunks(mcap::Reader& reader, const Visit& visit);
+  bool read_data(mcap::Reader& reader, const Visit& visit);
   void read_chunk(const mcap::Record& record, const Visit& visit);
   [[noreturn]] void fail(const std::string& what) const;
 

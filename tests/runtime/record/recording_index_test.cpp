@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -122,6 +123,20 @@ TEST_SUITE("runtime/recording_index") {
       }
     }
     CHECK(gone_through > 10);
+    // that the index, its footer or the end of the data can't be read any more is no loss
+    std::uint64_t summary = 0;
+    std::memcpy(&summary, bytes.data() + bytes.size() - mcap::magic.size() - 20, sizeof summary);
+    for (std::size_t at = summary - mcap::record_head - 4; at < bytes.size() - mcap::magic.size(); at += 5) {
+      CAPTURE(at);
+      for (const char bits : {'\x01', '\x80'}) {
+        std::string damaged = bytes;
+        damaged[at] ^= bits;
+        file.write(damaged);
+        const Recording recording(file.path());
+        REQUIRE(recording.is_whole());
+        REQUIRE(text_of(recording) == should);
+      }
+    }
     file.write(bytes.substr(0, bytes.size() - 1));
     CHECK(!Recording(file.path()).is_whole());
     CHECK(Recording(file.path()).topics().size() == Recording(file.path(), nobody).topics().size());
