@@ -39,7 +39,8 @@ struct Sample {
 
 /// Names are those of the trace: "task.output", "communicator", and fields within their values, as "depth.moment.z" or
 /// "fins.actuation.fins.0". Used by one thread at a time; any number of sessions may live side by side. One that was
-/// moved from throws RunOver, whatever is asked of it.
+/// moved from throws RunOver, whatever is asked of it. It computes in the default floating-point environment, and
+/// leaves that of the thread as it was.
 class Session {
  public:
   /// A graph's file with what it may name, which outlives the session. Throws SpecError with all that is wrong with the

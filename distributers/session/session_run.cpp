@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "distributers/session/real_time.h"
+#include "graph/floating_point.h"
 #include "graph/language/problems.h"
 
 namespace jarol {
@@ -40,6 +41,7 @@ void require_no_clock(const Loaded& loaded) {
 Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const Source> source,
                   const SessionOptions& options)
     : note_(options.note ? options.note : no_notes) {
+  const DefaultFloatingPoint arithmetic;  // of vehicles and parameters, and of threads that are started here
   if (options.workers < 1 || options.workers > max_workers)
     throw NotExecutable("a run has 1 to " + std::to_string(max_workers) + " workers, not " +
                         std::to_string(options.workers));
@@ -87,6 +89,7 @@ void Session::Run::start_clock() {
 
 // What has a safe gets it, then the links are let go.
 void Session::Run::end() {
+  const DefaultFloatingPoint arithmetic;
   graph_run_->executor().close();
   graph_run_->executor().finish();
   graph_run_->disconnect();
@@ -124,6 +127,7 @@ Loaded Session::Run::feed_in_place_of_links(Loaded loaded, const std::vector<std
 }
 
 void Session::Run::run_until(Duration end) {
+  const DefaultFloatingPoint arithmetic;
   Executor& executor = graph_run_->executor();
   if (!over_.empty()) throw RunOver("the run is over at " + seconds_text(executor.now()) + " s: " + over_);
   if (end > longest_duration) throw WrongInstant("a run has ten years at most, not " + seconds_text(end) + " s");
@@ -146,6 +150,7 @@ void Session::Run::run_until(Duration end) {
 }
 
 Checkpoint Session::Run::checkpoint() {
+  const DefaultFloatingPoint arithmetic;
   if (finished_ || (!over_.empty() && !graph_run_->executor().report().stopped))
     throw RunOver("there is nothing to save, as the run is over: " + over_);
   try {
@@ -156,6 +161,7 @@ Checkpoint Session::Run::checkpoint() {
 }
 
 void Session::Run::restore(const Checkpoint& checkpoint) {
+  const DefaultFloatingPoint arithmetic;
   if (finished_) throw RunOver("the run was finished");
   if (clock_) throw CheckpointRefused("a run on the real clock does not go on from a checkpoint");
   try {
@@ -192,6 +198,7 @@ void Session::Run::feed(std::string_view name, const Type& type, const void* val
 }
 
 RunVerdict Session::Run::finish() {
+  const DefaultFloatingPoint arithmetic;
   if (finished_) throw RunOver("the run was finished before");
   finished_ = true;
   over_ = "it was finished";
