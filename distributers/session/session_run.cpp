@@ -201,12 +201,14 @@ RunVerdict Session::Run::finish() {
   const DefaultFloatingPoint arithmetic;
   if (finished_) throw RunOver("the run was finished before");
   finished_ = true;
-  over_ = "it was finished";
+  const std::string stopped = std::exchange(over_, "it was finished");
   this->end();
   graph_run_->close_sinks();
   RunEnd end;
   end.ending = Ending::over();
-  return graph_run_->judge(asked_, end);
+  RunVerdict verdict = graph_run_->judge(asked_, end);
+  verdict.stopped = stopped;
+  return verdict;
 }
 
 }  // namespace jarol

@@ -18,7 +18,7 @@ bool is_single(const Task& task, std::uint64_t left_out, std::int64_t due) {
 }  // namespace
 
 bool RunVerdict::is_negative() const {
-  return !mishaps.empty() || !left_out.empty() || !not_at_rest.empty() ||
+  return !stopped.empty() || !mishaps.empty() || !left_out.empty() || !not_at_rest.empty() ||
          std::any_of(expectations.begin(), expectations.end(),
                      [](const Verdict& v) { return v.outcome == Verdict::Outcome::fails; });
 }
@@ -95,8 +95,11 @@ RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector
   RunVerdict verdict;
   const std::optional<Duration> rest_begun = rest ? std::optional(rest->begun) : std::nullopt;
   if (!end.hangs) {
-    const std::string cut_short =
+    std::string cut_short =
         why_cut_short(judged_until(rest_begun, until, report.simulated), until, end_of_mission(channels));
+    // of a session that went back to where it was stopped it is not known how far it was to go
+    if (cut_short.empty() && report.stopped)
+      cut_short = "a fault ended the run at " + seconds_text(report.simulated) + " s";
     verdict.expectations = sinks.judge(judged_until(rest_begun, until, report.covered), cut_short);
     verdict.mishaps = find_mishaps(graph, channels);
   }

@@ -1,0 +1,77 @@
+// The verdict on a session that did not come to its end.
+#include <doctest/doctest.h>
+
+#include "distributers/session/session.h"
+#include "graph/analysis/policies.h"
+#include "tasks/tasks.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+
+struct FailsAtFive {
+  static constexpr std::string_view summary = "throws at its activation 5";
+  struct Out {
+    double out = 0;
+    static constexpr auto fields() { return describe(field<&Out::out>()); }
+  };
+  static void run(const Tick& tick, Out& out) {
+    if (tick.activation == 5) throw std::runtime_error("five");
+    out.out += 1;
+  }
+};
+
+const distributers::Registries& known_with_five() {
+  static const distributers::Registries all = [] {
+    distributers::Registries made;
+    analysis::add_policies(made.graph);
+    made.graph.add(task_class<FailsAtFive>());
+    return made;
+  }();
+  return all;
+}
+
+Session failing() {
+  const std::string text =
+      "graph: t\ntiming: {period: 10ms}\ntasks: {a: {type: FailsAtFive, wcet: 1us}}\n"
+      "expect: [final(a.out) > 2, a.out < 9]\n";
+  return {known_with_five(), std::make_shared<const Source>(Source{"t.yaml", text})};
+}
+
+const std::string what_stopped = "task 'a' activation 5 at 0.05 s: threw: five";
+}  // namespace
+
+TEST_SUITE("distributers/session/stopped") {
+  TEST_CASE("the verdict on a session that a fault stops is negative, and says which fault") {
+    Session whole = failing(), stopped = failing();
+    whole.run_until(50ms);
+    CHECK_FALSE(whole.finish().is_negative());
+    stopped.run_until(1s);
+    const RunVerdict verdict = stopped.finish();
+    CHECK(verdict.is_negative());
+    CHECK(verdict.stopped == what_stopped);
+    CHECK(verdict.expectations[0].why == "the run ended at 0.05 s, and was to go on until 1 s");
+  }
+
+  TEST_CASE("a session that goes back to where a fault had stopped it is not judged as one that came to its end") {
+    Session stopped = failing(), again = failing();
+    stopped.run_until(1s);
+    again.restore(stopped.checkpoint());
+    const RunVerdict verdict = again.finish();
+    CHECK(verdict.is_negative());
+    CHECK(verdict.stopped == what_stopped);
+    for (const Verdict& v : verdict.expectations) {
+      CHECK(v.outcome == Verdict::Outcome::not_judged);
+      CHECK(v.why == "a fault ended the run at 0.05 s");
+    }
+  }
+
+  TEST_CASE("the verdict on a session that goes back before its fault, and is not run into it again, is a good one") {
+    Session session = failing();
+    session.run_until(30ms);
+    const Checkpoint before = session.checkpoint();
+    session.run_until(1s);
+    session.restore(before);
+    CHECK_FALSE(session.finish().is_negative());
+  }
+}
