@@ -29,7 +29,7 @@ std::vector<std::string> split(const std::string& path) {
 
 // Sections whose entries the graph must already have: an override changes a graph, it does not add to it.
 bool holds_named_entries(const std::string& section) {
-  constexpr std::array<std::string_view, 4> sections{"tasks", "communicators", "distributers", "profiles"};
+  constexpr std::array<std::string_view, 3> sections{"tasks", "communicators", "distributers"};
   return std::find(sections.begin(), sections.end(), section) != sections.end();
 }
 
@@ -43,6 +43,10 @@ void set_source(Yaml& yaml, const std::shared_ptr<const Source>& source) {
 
 void apply_override(Yaml& graph, const std::string& path, const Location& where, Yaml value, Problems& problems) {
   const std::vector<std::string> parts = split(path);
+  if (parts[0] == "profiles")
+    return problems.add(where, "path '" + path +
+                                   "' changes nothing, as profiles are applied before it; set what the profile sets, "
+                                   "as in tasks.depth.period=20ms");
   const bool takes_away = value.kind == Yaml::Kind::null;
   Yaml *at = &graph, *above = nullptr;
   std::string done;
@@ -131,7 +135,7 @@ void apply_profile(Yaml& graph, const std::string& profile, Problems& problems) 
   if (found == nullptr)
     return problems.add(graph.where, "there is no profile '" + profile + "'" + did_you_mean(profile, names) +
                                          "; the graph has: " + list_of(names));
-  const Yaml overrides = *found;  // a copy: an override may change the profiles themselves
+  const Yaml overrides = *found;  // a copy: an override may add a key beside 'profiles'
   if (overrides.kind != Yaml::Kind::mapping)
     return problems.add(overrides.where, "profile '" + profile + "' needs a mapping of path to value, not " +
                                              std::string(kind_name(overrides)));

@@ -31,6 +31,18 @@ TEST_SUITE("graph/spec/override") {
     CHECK(graph_of(counting, {"slow", {"tasks.count.period=20ms"}}).tasks[0].period == std::chrono::milliseconds(20));
   }
 
+  TEST_CASE("an override of a profile is an error, as it would change nothing") {
+    CHECK(
+        report_on(counting, {"slow", {"profiles.slow.tasks.count.period=20ms"}}) ==
+        "--set:1:1: error: path 'profiles.slow.tasks.count.period' changes nothing, as profiles are applied before it; "
+        "set what the profile sets, as in tasks.depth.period=20ms\n"
+        "  profiles.slow.tasks.count.period=20ms\n"
+        "  ^");
+    CHECK(report_on(counting, {"", {"profiles={}"}}).find("path 'profiles' changes nothing") != std::string::npos);
+    CHECK(report_on(counting + "  other: {profiles.slow: null}\n", {"other", {}})
+              .find("'profiles.slow' changes nothing") != std::string::npos);
+  }
+
   TEST_CASE("null takes a key away, as if it did not stand there") {
     const std::string let =
         "graph: t\ntasks:\n  a: {type: Relay, period: 10ms, let: 5ms, init: {out: 2}}\n"
