@@ -114,8 +114,9 @@ class Session {
   /// Where a vehicle truly is, in the words of `expect`: "depth of dune". Throws UnknownName.
   double true_value(const std::string& field_of_distributer) const;
 
-  /// Ends the run; what the graph expects of it is judged. The verdict on one that a fault or a lost system stopped is
-  /// negative whatever was expected. Throws RunOver the second time.
+  /// Ends the run; what the graph expects of it is judged. The verdict on one that a fault or a lost system stopped,
+  /// or that has heard nothing from its vehicle over a link, is negative whatever was expected. Throws RunOver the
+  /// second time.
   RunVerdict finish();
 
  private:

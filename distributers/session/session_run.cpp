@@ -208,6 +208,8 @@ RunVerdict Session::Run::finish() {
   end.ending = Ending::over();
   RunVerdict verdict = graph_run_->judge(asked_, end);
   verdict.stopped = stopped;
+  if (stopped.empty() && !verdict.unheard.empty())
+    verdict.stopped = "nothing came from the vehicle of '" + verdict.unheard.front() + "'";
   return verdict;
 }
 

@@ -20,8 +20,8 @@ struct RunVerdict {
     std::string text;
   };
   std::vector<VehicleMishap> mishaps;
-  std::string stopped{};      // what ended a session before it was to end: a fault, a lost system; empty: nothing
-  std::string not_at_rest{};  // why its vehicle did not come to rest at its end; empty: it did, or was not to
+  std::string stopped{};  // why a session did not come to its end: a fault, a lost system, no vehicle; empty: it did
+  std::string not_at_rest{};           // why its vehicle did not come to rest at its end; empty: it did, or was not to
   std::vector<std::string> left_out;   // per task with more faults than the graph allows: a line
   std::vector<std::string> unheard{};  // distributers on links whose vehicle sent nothing that counts, in the whole run
 

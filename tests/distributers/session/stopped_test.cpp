@@ -1,6 +1,7 @@
 // The verdict on a session that did not come to its end.
 #include <doctest/doctest.h>
 
+#include "distributers/distributers.h"
 #include "distributers/session/session.h"
 #include "graph/analysis/policies.h"
 #include "tasks/tasks.h"
@@ -25,6 +26,9 @@ const distributers::Registries& known_with_five() {
   static const distributers::Registries all = [] {
     distributers::Registries made;
     analysis::add_policies(made.graph);
+    tasks::add_tasks(made.graph);
+    distributers::add_distributers(made.graph);
+    distributers::add_links(made.links);
     made.graph.add(task_class<FailsAtFive>());
     return made;
   }();
@@ -73,5 +77,19 @@ TEST_SUITE("distributers/session/stopped") {
     session.run_until(1s);
     session.restore(before);
     CHECK_FALSE(session.finish().is_negative());
+  }
+
+  TEST_CASE("the verdict on a session that has heard nothing from its vehicle is negative") {
+    const std::string text =
+        "graph: t\ntiming: {period: 10ms}\ndistributers: {dune: {type: LauvVehicle, link: {type: udp, listen: 0}}}\n"
+        "communicators: {motion: {channel: dune.motion}, hand: {type: Actuation, direction: in}}\n"
+        "tasks: {forward: {type: LauvForward, wcet: 1us}}\nconnections: [motion -> forward.motion, hand -> "
+        "forward.actuation]\n";
+    Session session(known_with_five(), std::make_shared<const Source>(Source{"t.yaml", text}),
+                    {.real_clock = true, .force = true});
+    session.run_until(20ms);
+    const RunVerdict verdict = session.finish();
+    CHECK(verdict.is_negative());
+    CHECK(verdict.stopped == "nothing came from the vehicle of 'dune'");
   }
 }
