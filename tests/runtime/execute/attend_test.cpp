@@ -28,7 +28,11 @@ class Run : public AttendedRun {
   bool resting() const override { return rests; }
   void close(const Ending&, Futex::Time) override { closed = true; }
   std::vector<HangingTask> running() const override { return now_running; }
-  std::optional<Call> call() const override { return in_call; }
+  std::optional<Call> call() const override {
+    std::optional<Call> now = in_call;
+    if (calls_go_on && now) now->of.instant = looks++ * 1ms;
+    return now;
+  }
   Finish finish(Futex::Time) override {
     has_fault = has_fault || fails_at_last;
     return {};
@@ -39,6 +43,8 @@ class Run : public AttendedRun {
   bool fails = false, fails_at_last = false;
   std::vector<HangingTask> now_running;
   std::optional<Call> in_call;
+  bool calls_go_on = false;
+  mutable int looks = 0;
   std::atomic<bool> over{false}, has_fault{false}, asked{false}, rests{false}, closed{false};
 };
 
@@ -100,6 +106,22 @@ TEST_SUITE("runtime/execute/attend") {
     CHECK(end.ending.cause == Ending::Cause::hung);
     CHECK(end.ending.reason == "distributer 'display' at 2.9 s has not returned, which ended the run");
     CHECK_FALSE(end.hangs);  // it did at last
+  }
+
+  TEST_CASE("one call of a distributer's after another does not end the run, however long they take together") {
+    Run run;
+    run.longest.reset();
+    run.in_call = Call{{"display", 0ms}, 50ms};
+    run.calls_go_on = true;
+    const auto begin = std::chrono::steady_clock::now();
+    const RunEnd end = attend(
+        run, [] {},
+        [&] {
+          if (std::chrono::steady_clock::now() - begin > 300ms) run.over = true;
+          return Wish{};
+        });
+    CHECK(run.looks > 5);
+    CHECK(end.ending.cause == Ending::Cause::over);
   }
 
   TEST_CASE("what is not brought to rest ends at the first signal") {
