@@ -76,6 +76,9 @@ struct Files {
                                    "0,0,0,1,0\n0.3,0,0,1,1\n0.6,0,0,1,2\n2.5,1,0,1,2\n5,1,5,1,2\n600,1,5,1,2\n");
   std::string deep =
       folder.write("deep.csv", "time,setpoint.depth,setpoint.heading,setpoint.speed\n0,3,0deg,1.2\n600,3,0deg,1.2\n");
+  std::string plan = folder.write("plan.csv",
+                                  "time,leg.number,leg.course,leg.north,leg.level,leg.surge\n"
+                                  "0,1,line,900,3,1.2\n600,1,line,900,3,1.2\n");
 };
 
 Outcome helicopter(const Files& files, const std::string& link, const std::string& more, const std::string& log,
@@ -114,6 +117,8 @@ class Runs {
     begin("never", [this] { return helicopter(files_, "udp", never + "--for 8s", "never.log", wait_for_end); });
     begin("killed", [this] { return helicopter(files_, "udp", "", "", kill_on_the_way); });
     begin("submarine", [this] { return submarine(files_, "", "submarine.log", terminate); });
+    begin("submarine with a plan",
+          [this] { return submarine(files_, "--set distributers.neptus.link.file=" + files_.plan, "", interrupt); });
     begin("submarine on threads",
           [this] { return submarine(files_, "--concurrency threads --for 8s", "", wait_for_end); });
     for (const std::string failure : gauge_failures)
@@ -234,6 +239,13 @@ TEST_SUITE("tools/at_end") {
     const Outcome threads = runs()["submarine on threads"];
     CHECK(threads.exit_code == 0);
     check_surfaced(threads);
+  }
+
+  TEST_CASE("a submarine that flies a plan in 3 m drives up") {
+    const Outcome o = runs()["submarine with a plan"];
+    INFO(o.errors);
+    CHECK(o.exit_code == 130);
+    check_surfaced(o);
   }
 
   TEST_CASE("a submarine whose depth gauge is lost, stuck below or reads the surface in 3 m drives up") {
