@@ -190,19 +190,22 @@ void LauvVehicle::entity(const imc::EntityState& m, const messages::MessageRef& 
   for (LeakDetector& each : leaks_) each.reported = false;
 }
 
-// offsets from the origin along meridian and parallel
+// offsets from the origin along meridian and parallel, the shorter way around the Earth
+std::pair<double, double> LauvVehicle::from_origin(double latitude, double longitude) const {
+  const EarthRadii radii = earth_radii(latitude_);
+  return {(latitude - latitude_) * radii.north, wrapped(longitude - longitude_) * radii.east};
+}
+
 void LauvVehicle::place(double latitude, double longitude) {
   if (!all_finite({latitude, longitude})) return;
-  EarthRadii radii = earth_radii(latitude_);
-  if (in.instruments->place.count < 1 &&
-      std::hypot((latitude - latitude_) * radii.north, (longitude - longitude_) * radii.east) > flat_earth) {
+  auto [north, east] = from_origin(latitude, longitude);
+  if (in.instruments->place.count < 1 && std::hypot(north, east) > flat_earth) {
     latitude_ = latitude;
     longitude_ = longitude;
-    radii = earth_radii(latitude);
+    north = east = 0;
   }
   tasks::VectorReading& r = in.instruments.renew().place;
-  r = {(latitude - latitude_) * radii.north, (longitude - longitude_) * radii.east, 0,
-       std::max<std::int64_t>(r.count, 0) + 1};
+  r = {north, east, 0, std::max<std::int64_t>(r.count, 0) + 1};
 }
 
 // the configuration that the vehicle has or gets, by the order in it
@@ -224,10 +227,9 @@ void LauvVehicle::range(const imc::LblRange& m, const messages::MessageRef& from
   if (Entities::sender_of(from) != Entities::nobody) range *= parameters_.ranges.scale;
   if (!all_finite({range})) return;
   const Beacon& b = beacons_[m.id];
-  const EarthRadii radii = earth_radii(latitude_);
+  const auto [north, east] = from_origin(b.latitude, b.longitude);
   tasks::BeaconReading& r = in.instruments.renew().beacons[m.id];
-  r = {(b.latitude - latitude_) * radii.north, (b.longitude - longitude_) * radii.east, b.depth, range,
-       std::max<std::int64_t>(r.count, 0) + 1};
+  r = {north, east, b.depth, range, std::max<std::int64_t>(r.count, 0) + 1};
 }
 
 // Of one fin, beside where it was sent last.

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "distributers/interfaces/distributer.h"
 #include "distributers/lauv/entities.h"
@@ -144,6 +145,7 @@ class LauvVehicle {
   void send_actuation(const tasks::Actuation& actuation, messages::Receiver& system);
 
   void place(double latitude, double longitude);
+  std::pair<double, double> from_origin(double latitude, double longitude) const;
   // of whoever is that instrument; what is not finite is counted
   void note(tasks::Reading tasks::Instruments::*reading, const LauvInstrument& instrument,
             const messages::MessageRef& from, double value);

@@ -46,7 +46,7 @@ messages::Message report_beacons_of(const SeaParameters& sea) {
     imc::LblBeacon beacon;
     beacon.beacon = names[k];
     beacon.lat = sea.latitude + all[k]->north / radii.north;
-    beacon.lon = sea.longitude + all[k]->east / radii.east;
+    beacon.lon = wrapped(sea.longitude + all[k]->east / radii.east);
     beacon.depth = static_cast<float>(all[k]->depth);
     messages::InlineMessage packed;
     messages::put_inline(messages::refer_to(beacon), packed);
@@ -248,7 +248,7 @@ void SubmarineSensors::report_place(messages::Receiver& receiver) const {
     fix.validity = imc::GpsFix::Validity::VALID_POS;
     fix.type = imc::GpsFix::Type::SIMULATION;
     fix.lat = sea_.latitude + gps_.values()[0] / radii.north;
-    fix.lon = sea_.longitude + gps_.values()[1] / radii.east;
+    fix.lon = wrapped(sea_.longitude + gps_.values()[1] / radii.east);
     receiver.receive(messages::refer_to(fix));
   }
   if (altitude_.reported()) {

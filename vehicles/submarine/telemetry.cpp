@@ -115,7 +115,7 @@ messages::Message announcement_of(const Vehicle& vehicle, const std::string& add
   const imc::Announce announce = imc::make_announce({.name = "lauv-simulator-1",
                                                      .type = imc::SystemType::UUV,
                                                      .latitude = truth.at.lat + truth.at.x / radii.north,
-                                                     .longitude = truth.at.lon + truth.at.y / radii.east,
+                                                     .longitude = wrapped(truth.at.lon + truth.at.y / radii.east),
                                                      .address = address});
   return messages::Message(messages::refer_to(announce));
 }

@@ -7,6 +7,7 @@
 
 #include "distributers/messages/imc.h"
 #include "distributers/messages/payload.h"
+#include "graph/math/geometry.h"
 #include "vehicles/sea/sea_water.h"
 #include "vehicles/submarine/submarine.h"
 
@@ -45,6 +46,15 @@ Submarine deep(const SubmarineParameters& from = {}, std::uint64_t seed = 0) {
 }  // namespace
 
 TEST_SUITE("vehicles/submarine_sensors") {
+  TEST_CASE("a fix to the east of the date line has a longitude to the west") {
+    SubmarineParameters parameters;
+    parameters.sea.longitude = jarol::pi;
+    parameters.start.east = 60;
+    Reported reported;
+    Submarine(parameters, 0).sense(reported);
+    CHECK(reported.fix.lon == doctest::Approx(60 / jarol::earth_radii(parameters.sea.latitude).east - jarol::pi));
+  }
+
   TEST_CASE("at rest in the deep each reports what there is") {
     Submarine submarine = deep();
     const double z = submarine.state().z;
