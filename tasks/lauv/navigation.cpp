@@ -52,12 +52,15 @@ void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& 
   Motion& m = state.motion;
   const double dt = seconds(tick.period);
   state.depth.take({p.depth_timeout, p.depth_error, p.fix_depth, p.fix_depth_error}, i, dt);
+  // without a compass the heading is the IMU's
+  const double heading = i.heading.count < 0 ? i.attitude.z : i.heading.value;
   if (!state.started) {
-    state.started = i.attitude.count > 0 && i.heading.count > 0 && i.depth.count > 0;
+    const std::int64_t depths = i.depth.count < 0 ? i.pressure.count : i.depth.count;
+    state.started = i.attitude.count > 0 && i.heading.count != 0 && depths > 0;
     m.z = state.depth.depth;
     m.phi = i.attitude.x;
     m.theta = i.attitude.y;
-    m.psi = i.heading.value;
+    m.psi = heading;
   } else {
     const Eigen::Vector3d v_n = rotation_of(m.phi, m.theta, m.psi) * Eigen::Vector3d(m.u, m.v, m.w);
     const Eigen::Vector3d angle_rates = euler_rates(m.phi, limited(m.theta, max_pitch_of_rates), {m.p, m.q, m.r});
@@ -71,7 +74,7 @@ void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& 
     m.z += share(dt, p.depth_time) * (state.depth.depth - m.z);
     m.phi += angles * wrapped(i.attitude.x - m.phi);
     m.theta += angles * wrapped(i.attitude.y - m.theta);
-    m.psi = wrapped(m.psi + angles * wrapped(i.heading.value - m.psi));
+    m.psi = wrapped(m.psi + angles * wrapped(heading - m.psi));
   }
   take_places(p, i, m.z, state);
   m.x = state.place.s[0];

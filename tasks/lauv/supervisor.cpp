@@ -20,6 +20,11 @@ constexpr double watch_time = 2;       // s, over which rates add up
 constexpr double floor_time = 30;      // s, for the sea floor to rise or fall
 constexpr double surface_depth = 0.2;  // m, at which GPS has to work
 
+// By the gauge, or by the pressure where no gauge is fitted.
+double depth_of(const Instruments& i) {
+  return i.depth.count < 0 && i.pressure.count > 0 ? calc_depth(i.pressure.value) : i.depth.value;
+}
+
 Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
   const std::int64_t counts[] = {i.depth.count,    i.pressure.count,     i.attitude.count,          i.rates.count,
                                  i.forces.count,   i.heading.count,      i.velocity.count,          i.rpm.count,
@@ -46,7 +51,7 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
   }
   // GPS reports nothing under water
   state.since_fix =
-      i.place.count > state.fixes || i.place.count < 0 || i.depth.value > surface_depth ? 0 : state.since_fix + dt;
+      i.place.count > state.fixes || i.place.count < 0 || depth_of(i) > surface_depth ? 0 : state.since_fix + dt;
   state.fixes = i.place.count;
   if (found == Alarm::none && state.since_fix > p.gps_timeout) found = Alarm::gps;
   return found == Alarm::none || state.heard ? found : Alarm::no_vehicle;
@@ -138,7 +143,7 @@ Alarm find_fin(const Param& p, const LauvSupervisor::In& in, State& state) {
 Alarm find_exceeded(const Param& p, const LauvSupervisor::In& in) {
   const Instruments& i = in.instruments;
   if (in.contact.silence > p.operator_timeout) return Alarm::operator_lost;
-  if (i.depth.value > p.max_depth) return Alarm::depth_limit;
+  if (depth_of(i) > p.max_depth) return Alarm::depth_limit;
   if (i.altitude.count > 0 && i.altitude.value < p.min_altitude) return Alarm::altitude_limit;
   if (std::abs(i.attitude.y) > p.max_pitch) return Alarm::pitch_limit;
   if (is_low(p, i.voltage)) return Alarm::voltage_limit;
@@ -193,7 +198,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
     if (state.alarm == Alarm::none || found == Alarm::none) {
       state.alarm = found;
       state.fixes_at_alarm = in.instruments.place.count;
-      state.depth_at_alarm = in.instruments.depth.value;
+      state.depth_at_alarm = depth_of(in.instruments);
       state.since_alarm = 0;
       state.surfaced = false;
     }
@@ -206,7 +211,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   if (leak != Alarm::none) state.surfaced |= !steerable(std::exchange(state.alarm, leak));
   // a climb gone wrong is given up
   if (!steerable(lost) || !steerable(liar)) state.surfaced = true;
-  const bool sinks = in.instruments.depth.value > state.depth_at_alarm + p.climb_sink;
+  const bool sinks = depth_of(in.instruments) > state.depth_at_alarm + p.climb_sink;
   if (sinks && state.alarm != Alarm::depth_gauge) state.surfaced = true;
   state.since_alarm += dt;
   if (in.instruments.place.count > state.fixes_at_alarm || state.since_alarm > p.climb_time) state.surfaced = true;

@@ -57,6 +57,20 @@ TEST_SUITE("tasks/lauv_navigation") {
     CHECK(out.motion.z == doctest::Approx(6).scale(0).epsilon(1e-3));
   }
 
+  TEST_CASE("without a compass the heading is the IMU's, without a depth gauge the depth is that of the pressure") {
+    LauvNavigation::State state;
+    LauvNavigation::Out out;
+    for (int k = 0; k < 100; ++k) {
+      Instruments i = turning(k);
+      i.heading = {0, -1};
+      i.depth = {0, -1};
+      i.pressure = {1013.25 + 98.1 * 5, k + 1};
+      LauvNavigation::run({}, every_50_ms, {i}, state, out);
+    }
+    CHECK(out.motion.psi == doctest::Approx(0.005 * 99).scale(0).epsilon(1e-3));
+    CHECK(out.motion.z == doctest::Approx(5));
+  }
+
   TEST_CASE("a climb shows in the depth before the gauge reports") {
     LauvNavigation::State state;
     LauvNavigation::Out out;

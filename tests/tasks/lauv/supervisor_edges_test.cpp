@@ -269,6 +269,20 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
     CHECK(speed_at(3, false) == 1);
   }
 
+  TEST_CASE("without a depth gauge it is as deep as the pressure says: GPS is not waited for, and limits hold") {
+    const auto alarm_at = [](double depth) {
+      Watched w;
+      return w.run(100, [&](LauvSupervisor::In& in) {
+        in.instruments.depth = {0, -1};
+        in.instruments.pressure.value = 1013.25 + 98.1 * depth;
+        in.instruments.altitude.count = -1;
+      });
+    };
+    CHECK(alarm_at(0.1) == Alarm::gps);
+    CHECK(alarm_at(11.9) == Alarm::none);
+    CHECK(alarm_at(12.1) == Alarm::depth_limit);
+  }
+
   TEST_CASE("a climb ends after a minute") {
     Watched w;
     const Change leak = [](LauvSupervisor::In& in) { in.instruments.leak.value = 1; };
