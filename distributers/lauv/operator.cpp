@@ -20,6 +20,17 @@ bool LauvOperator::is_finite(double value) {
   return false;
 }
 
+void LauvOperator::any_message() {
+  if (has_commanded_) heard_ = now_;
+}
+
+void LauvOperator::peer_changed() { has_commanded_ = false; }
+
+void LauvOperator::note_command() {
+  has_commanded_ = true;
+  heard_ = now_;
+}
+
 void LauvOperator::desired_z(const imc::DesiredZ& z) {
   if (z.z_units != imc::ZUnits::DEPTH || !is_finite(z.value)) return refuse("DesiredZ is taken as a depth in m only");
   // the hand that steers keeps the propeller and the rudders
@@ -74,6 +85,7 @@ void LauvOperator::abort(const imc::Abort&) {
 // False: it has been aborted just now.
 bool LauvOperator::use_autopilot() {
   if (mode_ == Mode::error) return false;
+  note_command();
   end_plan("the operator commands depth, heading or speed");
   tasks::Setpoint& setpoint = in.setpoint.renew();
   if (mode_ != Mode::external) {

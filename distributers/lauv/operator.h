@@ -45,7 +45,8 @@ struct LauvOperatorParameters {
 /// plan, an Abort stops the propeller, so that the vehicle comes up. An Abort, and the stop of a plan or maneuver, also
 /// has an alarm of the vehicle forgotten whose cause is gone; until then its state is an error. While a plan runs a
 /// stick that rests counts for nothing, as the vehicle's DUNE has it: only in its Teleoperation does a hand steer, and
-/// nobody has to be heard. What is asked is answered at the next instant.
+/// nobody has to be heard. Another who has the link now is the operator from when it commands: until then it is the one
+/// before that is silent. What is asked is answered at the next instant.
 class LauvOperator {
  public:
   static constexpr std::string_view summary = "the submarine's operator, over IMC";
@@ -93,7 +94,8 @@ class LauvOperator {
 
   explicit LauvOperator(const Param& parameters) : parameters_(parameters) {}
 
-  void any_message() { heard_ = now_; }
+  void any_message();
+  void peer_changed();
   void reach(Duration instant, messages::Receiver& system);
   void announce(Duration instant, messages::Receiver& all);
   void listen_at(const std::string& address) { address_ = address; }
@@ -130,6 +132,7 @@ class LauvOperator {
   void send_state(const tasks::Motion& motion, messages::Receiver& system) const;
 
   bool is_finite(double value);  // else that is counted
+  void note_command();
   bool use_autopilot();
   void start_teleoperation();
   void demand_stop();
@@ -180,7 +183,8 @@ class LauvOperator {
 
   std::optional<Duration> aborted_;
   Duration heard_{};
-  std::uint32_t stops_ = 0;  // demanded by the operator
+  bool has_commanded_ = true;  // who has the link now; else the vehicle goes by what another one has commanded
+  std::uint32_t stops_ = 0;    // demanded by the operator
   tasks::Alarm alarm_ = tasks::Alarm::none;
   double heading_ = 0;        // of the vehicle, as reported last
   tasks::Motion motion_;      // likewise

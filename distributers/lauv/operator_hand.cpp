@@ -27,6 +27,7 @@ void LauvOperator::remote_actions(const imc::RemoteActions& message) {
     return;
   }
   if (mode_ != Mode::teleoperation) start_teleoperation();
+  note_command();
   if (silent) heading_axis_ = thrust_axis_ = 0;
   if (const auto heading = actions.number("Heading")) heading_axis_ = *heading;
   tasks::Setpoint& setpoint = in.setpoint.renew();
@@ -46,6 +47,7 @@ void LauvOperator::start_teleoperation() {
   button_ = 0;
   let_go_ = true;
   maneuver_start_ = unix_time();
+  note_command();
   set_mode(Mode::teleoperation);
 }
 

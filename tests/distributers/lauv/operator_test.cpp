@@ -82,6 +82,26 @@ TEST_SUITE("distributers/lauv_operator") {
     CHECK(c.silence() == 0);
   }
 
+  TEST_CASE("another who has the link is the operator from when it commands, not from when it is heard") {
+    for (const bool by_hand : {false, true}) {
+      Conversation c;
+      const auto command = [&] {
+        by_hand ? c.act("Thrust=50") : c.say(imc::DesiredSpeed{1, imc::SpeedUnits::METERS_PS});
+      };
+      command();
+      c.pass(3s);
+      c.adapter.peer_changed();
+      c.say(imc::Heartbeat{});
+      c.pass(1s);
+      CHECK(c.silence() == 4);
+      command();
+      CHECK(c.silence() == 0);
+      c.pass(1s);
+      c.say(imc::Heartbeat{});
+      CHECK(c.silence() == 0);
+    }
+  }
+
   TEST_CASE("a report becomes an EstimatedState, until the whole motion is reported") {
     Conversation c;
     c.report({.depth = 3, .pitch = 0.5, .heading = 1, .speed = 2});
