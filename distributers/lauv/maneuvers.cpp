@@ -27,6 +27,11 @@ double finite(double value, const char* name) {
   return value;
 }
 
+void refuse_far(const Leg& leg) {
+  if (const double far = std::hypot(leg.north, leg.east); far > furthest)
+    refuse(fmt::format("its place is {:.0f} km from the origin; places within 100 km are gone to", far / 1000));
+}
+
 // The vehicle can't follow a smaller circle than the usual one; DUNE widens them, too.
 Leg circle_of(Leg leg, Course course, double radius, double duration) {
   leg.course = course;
@@ -67,6 +72,7 @@ Legs legs_of(const imc::FollowPath& m, const Origin& origin) {
     Leg leg = start;
     leg.north += finite(static_cast<double>(x), "x of a point");
     leg.east += finite(static_cast<double>(y), "y of a point");
+    refuse_far(leg);
     const double down = finite(static_cast<double>(z), "z of a point");
     leg.level += leg.vertical == tasks::Vertical::depth ? down : -down;
     if (leg.level < 0) refuse(fmt::format("point {} is {:.6g} m above the surface", legs.size() + 1, -leg.level));
@@ -96,6 +102,7 @@ Legs legs_of(const imc::Rows& m, const Origin& origin) {
     Leg leg = corner;
     leg.north += a * std::cos(along) + b * std::cos(across);
     leg.east += a * std::sin(along) + b * std::sin(across);
+    refuse_far(leg);
     legs.push_back({leg});
   };
   const double out = m.coff, share = 0.01 * m.alternation;
@@ -209,8 +216,7 @@ void set_place(Leg& leg, double latitude, double longitude, const Origin& origin
   const EarthRadii radii = earth_radii(origin.latitude);
   leg.north = (finite(latitude, "lat") - origin.latitude) * radii.north;
   leg.east = wrapped(finite(longitude, "lon") - origin.longitude) * radii.east;
-  if (const double far = std::hypot(leg.north, leg.east); far > furthest)
-    refuse(fmt::format("its place is {:.0f} km from the origin; places within 100 km are gone to", far / 1000));
+  refuse_far(leg);
 }
 
 void set_level(Leg& leg, double z, std::uint8_t units) {

@@ -267,9 +267,14 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     refuses(at<imc::FollowPath>(0, 0), "a path has at least one point");
     refuses(at<imc::Rows>(0, 0), "rows of 0 m, 30 m apart over 0 m; lengths are positive");
     auto rows = at<imc::Rows>(0, 0);
-    rows.length = rows.width = 1e9F;
+    rows.length = rows.width = 1e3F;
     rows.hstep = 1e-3F;
     refuses(rows, "more than 1000 lines");
+    rows.length = 1e9F;
+    refuses(rows, "its place is 1000000 km from the origin; places within 100 km are gone to");
+    auto path = at<imc::FollowPath>(0, 0);
+    path.points.push_back(packed(imc::PathPoint{0, -2e5F, 0}));
+    refuses(path, "its place is 200 km from the origin; places within 100 km are gone to");
     refuses(at<imc::YoYo>(0, 0), "up and down by 0 m at 0 rad; these are positive, and no more than 0.785 rad");
     CHECK_THROWS_WITH_AS(make_maneuver({}, origin), "there is no maneuver in it", std::invalid_argument);
   }
