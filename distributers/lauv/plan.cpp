@@ -13,6 +13,7 @@ namespace imc = messages::imc;
 namespace {
 
 constexpr std::size_t max_maneuvers = 1000;
+constexpr std::size_t max_legs = 10'000;  // looked through each second, for the time that is left
 
 [[noreturn]] void refuse_plan(const std::string& text) { throw std::invalid_argument(text); }
 
@@ -81,6 +82,7 @@ Plan make_plan(const imc::PlanSpecification& plan, const Origin& origin) {
   if (plan.maneuvers.empty()) refuse_plan("the plan has no maneuver");
   if (plan.maneuvers.size() > max_maneuvers)
     refuse_plan(fmt::format("the plan has more than {} maneuvers", max_maneuvers));
+  std::size_t legs = 0;
   for (const auto& each : read_all<imc::PlanManeuver>(plan.maneuvers, "maneuver")) {
     const std::string name(each.maneuver_id.view());
     if (std::any_of(made.maneuvers.begin(), made.maneuvers.end(), [&](const Maneuver& m) { return m.name == name; }))
@@ -89,6 +91,8 @@ Plan make_plan(const imc::PlanSpecification& plan, const Origin& origin) {
       made.maneuvers.push_back(make_maneuver(each.data, origin));
     } catch (const std::invalid_argument& error) { refuse_plan(fmt::format("maneuver '{}': {}", name, error.what())); }
     made.maneuvers.back().name = name;
+    legs += made.maneuvers.back().legs.size();
+    if (legs > max_legs) refuse_plan(fmt::format("the plan has more than {} lines, circles and the like", max_legs));
   }
   made.next.resize(made.maneuvers.size());
   made.start = find(made, plan.start_man_id.view(), "the start");

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <stdexcept>
+#include <string>
 
 #include "graph/math/geometry.h"
 #include "tests/distributers/lauv/inline_messages.h"
@@ -76,5 +77,32 @@ TEST_SUITE("distributers/lauv_plan") {
     refuses("maneuver 'x': there is no maneuver in it");
     plan.maneuvers[0].payload.resize(1);
     refuses("maneuver 1 can't be read: field 'maneuver_id' of PlanManeuver needs 2 bytes where 1 are left");
+  }
+
+  TEST_CASE("a plan of more lines than can be looked through within a period is refused") {
+    imc::Rows rows;
+    rows.lat = origin.latitude;
+    rows.lon = origin.longitude;
+    rows.z_units = imc::ZUnits::DEPTH;
+    rows.speed = 1;
+    rows.length = 10;
+    rows.hstep = 10;
+    rows.alternation = 100;
+    rows.width = 4000;  // 400 curves: twice as many lines, and two
+    imc::PlanSpecification plan;
+    plan.start_man_id = "0";
+    const auto add_up_to = [&](int maneuvers) {
+      for (int k = static_cast<int>(plan.maneuvers.size()); k < maneuvers; ++k) {
+        imc::PlanManeuver named;
+        named.maneuver_id = std::to_string(k);
+        named.data = packed(rows);
+        plan.maneuvers.push_back(packed(named));
+      }
+    };
+    add_up_to(12);
+    CHECK(make_plan(plan, origin).maneuvers.size() == 12);
+    add_up_to(13);
+    CHECK_THROWS_WITH_AS(make_plan(plan, origin), "the plan has more than 10000 lines, circles and the like",
+                         std::invalid_argument);
   }
 }
