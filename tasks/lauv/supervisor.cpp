@@ -16,9 +16,9 @@ using Param = LauvSupervisor::Param;
 using State = LauvSupervisor::State;
 
 constexpr double gravity = 9.81;
-constexpr double watch_time = 2;       // s, over which rates add up
-constexpr double floor_time = 30;      // s, for the sea floor to rise or fall
-constexpr double surface_depth = 0.2;  // m, at which GPS has to work
+constexpr double watch_time = 2;        // s, over which rates add up
+constexpr double floor_time = 30;       // s, for the sea floor to rise or fall
+constexpr double surface_depth = 0.15;  // m, at which GPS has to work; a little deeper it does not
 
 // By the gauge, or by the pressure where no gauge is fitted.
 double depth_of(const Instruments& i) {
