@@ -11,12 +11,10 @@
 #include "distributers/campaign/run_all.h"
 #include "distributers/campaign/shrink.h"
 #include "distributers/campaign/summary.h"
-#include "distributers/distributers.h"
 #include "distributers/session/session.h"
-#include "graph/analysis/policies.h"
 #include "graph/campaign/draws.h"
-#include "tasks/tasks.h"
 #include "tasks/values/lauv.h"
+#include "tests/distributers/all_parts.h"
 
 namespace {
 using namespace jarol;
@@ -62,20 +60,6 @@ struct DepthOf {
   static void run(const Tick&, const In& in, Out& out) { out.depth = in.setpoint.depth; }
 };
 
-const distributers::Registries& known() {
-  static const distributers::Registries all = [] {
-    distributers::Registries made;
-    analysis::add_policies(made.graph);
-    tasks::add_tasks(made.graph);
-    distributers::add_distributers(made.graph);
-    distributers::add_links(made.links);
-    made.graph.add(task_class<Unsteady>());
-    made.graph.add(task_class<DepthOf>());
-    return made;
-  }();
-  return all;
-}
-
 const std::string waves = R"(
 graph: waves
 timing: {period: 10ms}
@@ -100,7 +84,10 @@ struct Folder {
 };
 
 GraphSource source_of(const std::string& text, std::vector<std::string> metrics = {}) {
-  return {std::make_shared<const Source>(Source{"t.yaml", text}), known(), {}, std::move(metrics)};
+  return {std::make_shared<const Source>(Source{"t.yaml", text}),
+          tests::all_parts_with<Unsteady, DepthOf>(),
+          {},
+          std::move(metrics)};
 }
 
 // The mission beside it, dive.csv, says how deep.
@@ -112,7 +99,10 @@ GraphSource diving(const std::string& file, const std::string& expected = "") {
       "tasks: {depth: {type: DepthOf, wcet: 1us, period: 100ms}}\n"
       "connections: [setpoint -> depth.setpoint]\n"
       "campaign: {metrics: {deepest: max(depth.depth)}}\n";
-  return {std::make_shared<const Source>(Source{file, text + expected}), known(), {}, {}};
+  return {std::make_shared<const Source>(Source{file, text + expected}),
+          tests::all_parts_with<Unsteady, DepthOf>(),
+          {},
+          {}};
 }
 
 std::string dive_to(double depth) {
@@ -171,7 +161,8 @@ TEST_SUITE("distributers/campaign") {
     REQUIRE(all.size() == 10);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Start start = under.draws.at(i);
-      Session session(known(), under.source.source, {.set = start.set, .seed = start.seed});
+      Session session(tests::all_parts_with<Unsteady, DepthOf>(), under.source.source,
+                      {.set = start.set, .seed = start.seed});
       session.run_until(2s);
       CHECK(all[i].digest == session.report().digest);
       CHECK(all[i].index == i);

@@ -3,10 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include "distributers/distributers.h"
-#include "graph/analysis/policies.h"
-#include "tasks/tasks.h"
 #include "tasks/values/lauv.h"
+#include "tests/distributers/all_parts.h"
 
 namespace {
 using namespace jarol;
@@ -24,21 +22,9 @@ struct FailsAtThree {
   }
 };
 
-const distributers::Registries& known_with_failing() {
-  static const distributers::Registries all = [] {
-    distributers::Registries made;
-    analysis::add_policies(made.graph);
-    tasks::add_tasks(made.graph);
-    distributers::add_distributers(made.graph);
-    distributers::add_links(made.links);
-    made.graph.add(task_class<FailsAtThree>());
-    return made;
-  }();
-  return all;
-}
-
 Session session_of(const std::string& text, SessionOptions options = {}) {
-  return {known_with_failing(), std::make_shared<const Source>(Source{"t.yaml", text}), std::move(options)};
+  return {tests::all_parts_with<FailsAtThree>(), std::make_shared<const Source>(Source{"t.yaml", text}),
+          std::move(options)};
 }
 
 const std::string counting = R"(

@@ -1,10 +1,8 @@
 // The verdict on a session that did not come to its end.
 #include <doctest/doctest.h>
 
-#include "distributers/distributers.h"
 #include "distributers/session/session.h"
-#include "graph/analysis/policies.h"
-#include "tasks/tasks.h"
+#include "tests/distributers/all_parts.h"
 
 namespace {
 using namespace jarol;
@@ -22,24 +20,11 @@ struct FailsAtFive {
   }
 };
 
-const distributers::Registries& known_with_five() {
-  static const distributers::Registries all = [] {
-    distributers::Registries made;
-    analysis::add_policies(made.graph);
-    tasks::add_tasks(made.graph);
-    distributers::add_distributers(made.graph);
-    distributers::add_links(made.links);
-    made.graph.add(task_class<FailsAtFive>());
-    return made;
-  }();
-  return all;
-}
-
 Session failing() {
   const std::string text =
       "graph: t\ntiming: {period: 10ms}\ntasks: {a: {type: FailsAtFive, wcet: 1us}}\n"
       "expect: [final(a.out) > 2, a.out < 9]\n";
-  return {known_with_five(), std::make_shared<const Source>(Source{"t.yaml", text})};
+  return {tests::all_parts_with<FailsAtFive>(), std::make_shared<const Source>(Source{"t.yaml", text})};
 }
 
 const std::string what_stopped = "task 'a' activation 5 at 0.05 s: threw: five";
@@ -85,7 +70,7 @@ TEST_SUITE("distributers/session/stopped") {
         "communicators: {motion: {channel: dune.motion}, hand: {type: Actuation, direction: in}}\n"
         "tasks: {forward: {type: LauvForward, wcet: 1us}}\nconnections: [motion -> forward.motion, hand -> "
         "forward.actuation]\n";
-    Session session(known_with_five(), std::make_shared<const Source>(Source{"t.yaml", text}),
+    Session session(tests::all_parts_with<FailsAtFive>(), std::make_shared<const Source>(Source{"t.yaml", text}),
                     {.real_clock = true, .force = true});
     session.run_until(20ms);
     const RunVerdict verdict = session.finish();
