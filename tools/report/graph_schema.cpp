@@ -166,6 +166,12 @@ Json without_plugins(const Registry& known) {
               {"timing", timing}}}}}};
 }
 
+// A profile sets what the rest of the graph says, not what profiles say.
+Json profiles_schema() {
+  return {{"type", "object"},
+          {"additionalProperties", {{"type", "object"}, {"propertyNames", {{"pattern", "^(?!profiles(\\.|$))"}}}}}};
+}
+
 // Those of grammars take any value: each says itself what is wrong with it.
 void add_grammar_keys(Json& schema, const Registry& known) {
   for (const Grammar& grammar : known.grammars())
@@ -194,7 +200,7 @@ std::string graph_schema(const distributers::Registries& known) {
   describe_section(schema, "at_end", at_end_schema());
   describe_section(schema, "campaign", campaign_schema());
   describe_section(schema, "expect", {{"anyOf", {texts(), {{"const", "nothing"}}}}});
-  describe_section(schema, "profiles", {{"type", "object"}, {"additionalProperties", {{"type", "object"}}}});
+  describe_section(schema, "profiles", profiles_schema());
   add_grammar_keys(schema, known.graph);
   schema["anyOf"] = Json::array({some_of("tasks"), some_of("communicators"), some_of("distributers")});
   schema["allOf"] = Json::array({without_plugins(known.graph)});
