@@ -26,15 +26,27 @@ double depth_of(const Instruments& i) {
 }
 
 Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
-  const std::int64_t counts[] = {i.depth.count,    i.pressure.count,     i.attitude.count,          i.rates.count,
-                                 i.forces.count,   i.heading.count,      i.velocity.count,          i.rpm.count,
-                                 i.altitude.count, i.conductivity.count, i.water_temperature.count, i.leak.count,
-                                 i.voltage.count,  i.current.count};
-  constexpr Alarm alarms[] = {Alarm::depth_gauge, Alarm::ctd,   Alarm::attitude, Alarm::attitude,  Alarm::forces,
-                              Alarm::heading,     Alarm::speed, Alarm::speed,    Alarm::altimeter, Alarm::ctd,
-                              Alarm::ctd,         Alarm::leak,  Alarm::battery,  Alarm::battery};
+  struct Watched {
+    std::int64_t count;
+    Alarm lost;
+    bool needed = false;  // without it, or one like it, nothing can be steered
+  };
+  const Watched watched[] = {{i.depth.count, Alarm::depth_gauge, i.pressure.count < 0},
+                             {i.pressure.count, Alarm::ctd},
+                             {i.attitude.count, Alarm::attitude, true},
+                             {i.rates.count, Alarm::attitude},
+                             {i.forces.count, Alarm::forces},
+                             {i.heading.count, Alarm::heading},
+                             {i.velocity.count, Alarm::speed, true},
+                             {i.rpm.count, Alarm::speed},
+                             {i.altitude.count, Alarm::altimeter},
+                             {i.conductivity.count, Alarm::ctd},
+                             {i.water_temperature.count, Alarm::ctd},
+                             {i.leak.count, Alarm::leak},
+                             {i.voltage.count, Alarm::battery},
+                             {i.current.count, Alarm::battery}};
   if (!state.heard) {
-    state.heard = std::any_of(std::begin(counts), std::end(counts), [](std::int64_t count) { return count > 0; });
+    state.heard = std::any_of(std::begin(watched), std::end(watched), [](const Watched& w) { return w.count > 0; });
     // from now on each instrument has its time, whenever the vehicle came
     if (state.heard) {
       if (state.alarm == Alarm::no_vehicle) state.alarm = Alarm::none;
@@ -44,10 +56,11 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
   }
   Alarm found = Alarm::none;
   for (std::size_t k = state.counts.size(); k-- > 0;) {
-    const bool fitted = counts[k] >= 0;
-    state.silences[k] = counts[k] > state.counts[k] || !fitted ? 0 : state.silences[k] + dt;
-    state.counts[k] = counts[k];
-    if (state.silences[k] > p.sensor_timeout) found = alarms[k];
+    const Watched& w = watched[k];
+    const bool fitted = w.count >= 0;
+    state.silences[k] = w.count > state.counts[k] || !fitted ? 0 : state.silences[k] + dt;
+    state.counts[k] = w.count;
+    if (state.silences[k] > p.sensor_timeout || (w.needed && !fitted)) found = w.lost;
   }
   // GPS reports nothing under water
   state.since_fix =

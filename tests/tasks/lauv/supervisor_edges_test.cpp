@@ -14,7 +14,6 @@ namespace {
 using namespace jarol;
 using namespace jarol::tasks;
 using tests::calm_submarine;
-
 using tests::every_50_ms;
 constexpr double degrees = std::numbers::pi / 180;
 
@@ -53,7 +52,7 @@ int steps_to_alarm(const Change& change, Alarm expected) {
 }  // namespace
 
 TEST_SUITE("tasks/lauv_supervisor/edges") {
-  TEST_CASE("each instrument that reports no more is lost after two and a half seconds, under its own name") {
+  TEST_CASE("each instrument that reports no more is lost after 2.5 s, under its own name; not fitted: two, at once") {
     struct Case {
       std::int64_t& (*count)(Instruments&);
       Alarm alarm;
@@ -76,7 +75,14 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
       const int steps = steps_to_alarm([&](LauvSupervisor::In& in) { c.count(in.instruments) = 20; }, c.alarm);
       // the sum of 50 steps may lie a rounding above 2.5
       CHECK((steps == 50 || steps == 51));
+      const bool steered_by_it = &c == &cases[2] || &c == &cases[6];  // attitude, speed log
+      for (const int steps_of_run : {1, 200})
+        CHECK(Watched{}.run(steps_of_run, [&](LauvSupervisor::In& in) { c.count(in.instruments) = -1; }) ==
+              (steered_by_it ? c.alarm : Alarm::none));
     }
+    CHECK(Watched{}.run(1, [](LauvSupervisor::In& in) {
+      in.instruments.depth.count = in.instruments.pressure.count = -1;
+    }) == Alarm::depth_gauge);
   }
 
   TEST_CASE("GPS is lost after four seconds at the surface, and the surface ends at 15 cm, as far down as GPS works") {
