@@ -41,16 +41,16 @@ std::vector<std::uint64_t> missing(const std::vector<std::uint64_t>& done, const
 }
 
 void run_work(Graphs& graphs, const Campaign& campaign, const Draws& draws, Work& work, std::size_t workers,
-              const std::atomic<bool>& stop) {
+              const Oversight& oversight) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, workers);
   tbb::task_arena arena(static_cast<int>(workers));
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, workers, [&](std::size_t) {
       const SignalStack stack;  // a task may use up that of the thread
-      while (!stop.load(std::memory_order_relaxed)) {
+      while (!oversight.stop.load(std::memory_order_relaxed)) {
         const std::optional<std::uint64_t> index = work.next();
         if (!index) return;
-        if (const std::optional<Result> result = run_one(graphs, draws.at(*index), campaign.length, stop))
+        if (const std::optional<Result> result = run_one(graphs, draws.at(*index), campaign.length, oversight))
           work.add(*result);
       }
     });
@@ -59,9 +59,9 @@ void run_work(Graphs& graphs, const Campaign& campaign, const Draws& draws, Work
 
 void run_all(Graphs& graphs, const Campaign& campaign, const Draws& draws, const std::vector<std::uint64_t>& indices,
              std::size_t workers, Results& results, const std::function<void(const Result&)>& seen,
-             const std::atomic<bool>& stop) {
-  OwnWork work(indices, draws, results, seen, stop);
-  run_work(graphs, campaign, draws, work, workers, stop);
+             const Oversight& oversight) {
+  OwnWork work(indices, draws, results, seen, oversight.stop);
+  run_work(graphs, campaign, draws, work, workers, oversight);
   work.throw_if_failed();
 }
 

@@ -63,14 +63,14 @@ class OwnWork : public Work {
   std::exception_ptr failure_;
 };
 
-/// Does all of it on so many threads, the caller's among them; returns when there is no more, or soon after `stop`.
+/// Does all of it on so many threads, the caller's among them; returns when there is no more, or soon after a stop.
 void run_work(Graphs& graphs, const Campaign& campaign, const Draws& draws, Work& work, std::size_t workers,
-              const std::atomic<bool>& stop);
+              const Oversight& oversight);
 
 /// Runs them on so many threads, the caller's among them, and adds each result as it comes. `seen` is called then, one
-/// at a time. Returns when all are done, or soon after `stop`; throws what `results` throws.
+/// at a time. Returns when all are done, or soon after a stop; throws what `results` throws.
 void run_all(Graphs& graphs, const Campaign& campaign, const Draws& draws, const std::vector<std::uint64_t>& indices,
              std::size_t workers, Results& results, const std::function<void(const Result&)>& seen,
-             const std::atomic<bool>& stop);
+             const Oversight& oversight);
 
 }  // namespace jarol::campaign

@@ -91,12 +91,13 @@ class CampaignRun {
         end_(length.value_or(end_of_mission(run_.channels()))) {}
 
   // False: it was to stop.
-  bool cover(Result& result, const std::atomic<bool>& stop) {
+  bool cover(Result& result, const Oversight& oversight) {
     Executor& executor = run_.executor();
+    const StuckRuns::Watched watched(oversight.stuck, result.index, executor);
     try {
       run_.connect(no_notes);
       while (executor.now() < end_ && !executor.report().stopped) {
-        if (stop.load(std::memory_order_relaxed)) return false;
+        if (oversight.stop.load(std::memory_order_relaxed)) return false;
         executor.run_until(std::min(end_, executor.now() + piece));
       }
     } catch (const std::exception& error) { lose(result, error.what()); } catch (...) {
@@ -160,7 +161,7 @@ std::string why_not_in_campaign(const PlannedGraph& graph, std::optional<Duratio
 }
 
 std::optional<Result> run_one(Graphs& graphs, const Start& start, std::optional<Duration> length,
-                              const std::atomic<bool>& stop) {
+                              const Oversight& oversight) {
   Result result;
   result.index = start.index;
   result.metrics.resize(graphs.base().measures.metrics.size());
@@ -181,7 +182,7 @@ std::optional<Result> run_one(Graphs& graphs, const Start& start, std::optional<
       return result;
     }
     CampaignRun run(*of, std::move(begin), length);
-    if (!run.cover(result, stop)) return std::nullopt;
+    if (!run.cover(result, oversight)) return std::nullopt;
     run.judge(result);
   } catch (const SpecError& error) {
     require_all_read();

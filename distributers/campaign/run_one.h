@@ -1,11 +1,11 @@
 // One run of a campaign: the same as that of `jarol run` with its values and seed, whatever else runs beside it.
 #pragma once
 
-#include <atomic>
 #include <optional>
 #include <stdexcept>
 
 #include "distributers/campaign/graphs.h"
+#include "distributers/campaign/oversight.h"
 #include "distributers/campaign/result.h"
 
 namespace jarol::campaign {
@@ -20,6 +20,6 @@ struct UnreadFile : std::invalid_argument {
 
 /// Whatever goes wrong in the run is its result. None: it was to stop before its end. Throws UnreadFile.
 std::optional<Result> run_one(Graphs& graphs, const Start& start, std::optional<Duration> length,
-                              const std::atomic<bool>& stop);
+                              const Oversight& oversight);
 
 }  // namespace jarol::campaign

@@ -17,8 +17,8 @@ struct Stopped {};
 class Search {
  public:
   Search(Graphs& graphs, const Campaign& campaign, const Draws& draws, Start start, Outcome outcome,
-         const std::atomic<bool>& stop)
-      : graphs_(graphs), campaign_(campaign), draws_(draws), outcome_(outcome), stop_(stop) {
+         const Oversight& oversight)
+      : graphs_(graphs), campaign_(campaign), draws_(draws), outcome_(outcome), oversight_(oversight) {
     found_.start = std::move(start);
   }
 
@@ -83,7 +83,7 @@ class Search {
   // What fails is what has been found until now. The first of all says what is against a run that fails.
   bool fails(const Start& start) {
     ++found_.tried;
-    std::optional<Result> result = run_one(graphs_, start, campaign_.length, stop_);
+    std::optional<Result> result = run_one(graphs_, start, campaign_.length, oversight_);
     if (!result) throw Stopped();
     if (result->outcome != outcome_ || result->failures.empty()) return false;
     if (found_.tried == 1) wanted_ = result->failures.front();
@@ -101,16 +101,16 @@ class Search {
   const Draws& draws_;
   Outcome outcome_;
   Failure wanted_{};
-  const std::atomic<bool>& stop_;
+  const Oversight oversight_;
   Shrunk found_;
 };
 
 }  // namespace
 
 std::optional<Shrunk> shrink(Graphs& graphs, const Campaign& campaign, const Draws& draws, std::uint64_t index,
-                             Outcome outcome, const std::atomic<bool>& stop) {
+                             Outcome outcome, const Oversight& oversight) {
   try {
-    return Search(graphs, campaign, draws, draws.at(index), outcome, stop).run();
+    return Search(graphs, campaign, draws, draws.at(index), outcome, oversight).run();
   } catch (const Stopped&) { return std::nullopt; }
 }
 

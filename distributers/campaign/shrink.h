@@ -1,8 +1,6 @@
 // From a run that is not good to the mildest that is so, too.
 #pragma once
 
-#include <atomic>
-
 #include "distributers/campaign/run_one.h"
 
 namespace jarol::campaign {
@@ -19,6 +17,6 @@ struct Shrunk {
 /// stays. `outcome`: what runs have to come to, by the same metric, condition, mishap, or task and cause. None: it was
 /// to stop.
 std::optional<Shrunk> shrink(Graphs& graphs, const Campaign& campaign, const Draws& draws, std::uint64_t index,
-                             Outcome outcome, const std::atomic<bool>& stop);
+                             Outcome outcome, const Oversight& oversight);
 
 }  // namespace jarol::campaign

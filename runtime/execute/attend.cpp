@@ -95,40 +95,6 @@ class CallWatch {
   Standing<HangingDistributer> standing_;
 };
 
-// What has run since it was first seen: looked at now and then, and reported once.
-class StuckWatch {
- public:
-  StuckWatch(const AttendedRun& run, const StuckNote& note)
-      : run_(run), note_(note), between_(std::min<Futex::Time::duration>(note.after / 4, std::chrono::seconds(1))) {}
-
-  void look() {
-    const Futex::Time now = Futex::now();
-    if (now < next_) return;
-    next_ = now + between_;
-    std::vector<Seen> seen;
-    for (HangingTask& task : run_.running()) {
-      const auto before = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) { return s.task == task; });
-      seen.push_back(before == seen_.end() ? Seen{std::move(task), now, false} : std::move(*before));
-      if (seen.back().reported || now - seen.back().since < note_.after) continue;
-      seen.back().reported = true;
-      note_.report(seen.back().task);
-    }
-    seen_ = std::move(seen);
-  }
-
- private:
-  struct Seen {
-    HangingTask task;
-    Futex::Time since;
-    bool reported;
-  };
-  const AttendedRun& run_;
-  const StuckNote& note_;
-  Futex::Time::duration between_;
-  Futex::Time next_ = Futex::now() + between_;
-  std::vector<Seen> seen_;
-};
-
 // The way of a vehicle to rest, once the run has ended in good order.
 class RestWatch {
  public:
@@ -183,7 +149,7 @@ RunEnd attend(AttendedRun& run, const std::function<void()>& prepare, const std:
   HoldupWatch watch;
   CallWatch calls;
   RestWatch rest(run, on_rest);
-  StuckWatch stuck(run, on_stuck);
+  StuckWatch stuck([&run] { return run.running(); }, on_stuck);
   for (std::optional<Ending> why; !why;) {
     const bool ended = worker->has_ended();
     const Wish wished = wish();

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "runtime/execute/stuck_watch.h"
 #include "runtime/machine/futex.h"
 #include "runtime/run/ending.h"
 
@@ -86,12 +87,6 @@ inline constexpr std::chrono::milliseconds lockstep_patience{12'000};
 struct Wish {
   int signal = 0;
   bool at_once = false;
-};
-
-/// Who wants to know of activations that take so long that they may never end; each is reported once.
-struct StuckNote {
-  std::function<void(const HangingTask&)> report = [](const HangingTask&) {};
-  std::chrono::milliseconds after{10'000};
 };
 
 /// `prepare` is called on the run's thread before it covers anything; `on_rest` when it is seen to

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "distributers/campaign/oversight.h"
 #include "distributers/campaign/ranks.h"
 #include "distributers/campaign/statement.h"
 #include "distributers/campaign/summary.h"
@@ -24,6 +25,7 @@
 #include "tools/commands/run/interrupt.h"
 #include "tools/commands/run/load_graph.h"
 #include "tools/commands/run/no_plugins.h"
+#include "tools/commands/run/prompt_line.h"
 #include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/duration_option.h"
@@ -116,7 +118,9 @@ int take_part(const CampaignOptions& options, const campaign::Identity& program,
   if (!work.join(stated ? text_of(stated->identity) : "", wrong)) return exit_good;
   const Interruptible interruptible;
   const CrashLine crash_line(stated->graphs.base().graph.graph());
-  run_work(stated->graphs, stated->campaign, *stated->draws, work, workers_of(options), Interruptible::interrupted());
+  campaign::StuckRuns stuck(report_stuck_in_run);
+  run_work(stated->graphs, stated->campaign, *stated->draws, work, workers_of(options),
+           {Interruptible::interrupted(), &stuck});
   work.finish();
   return Interruptible::interrupted() ? exit_of_signal(Interruptible::signal()) : exit_good;
 }
@@ -157,6 +161,7 @@ int run(const CampaignOptions& options) {
   campaign::Results results(results_file, stated.identity, campaign);
   const campaign::RunRange range = shard.of(draws.runs());
   const std::vector<std::uint64_t> to_run = missing(results.done(draws.runs()), range);
+  campaign::StuckRuns stuck(report_stuck_in_run);
   CampaignPace pace(range.size(), to_run.size());
   {
     const Interruptible interruptible;
@@ -167,7 +172,7 @@ int run(const CampaignOptions& options) {
     {
       const Finish finish{ranks};
       if (ranks) ranks->serve(work);
-      run_work(graphs, campaign, draws, work, workers_of(options), Interruptible::interrupted());
+      run_work(graphs, campaign, draws, work, workers_of(options), {Interruptible::interrupted(), &stuck});
     }
     work.throw_if_failed();
   }
@@ -182,7 +187,7 @@ int run(const CampaignOptions& options) {
     const campaign::Result& first = *summary.first_failed;
     const Interruptible interruptible;
     const CrashLine crash_line(graphs.base().graph.graph());
-    shrunk = shrink(graphs, campaign, draws, first.index, first.outcome, Interruptible::interrupted());
+    shrunk = shrink(graphs, campaign, draws, first.index, first.outcome, {Interruptible::interrupted(), &stuck});
     gave_up = !shrunk;
   }
   CampaignOutcome outcome{.graph = graphs.base().graph.graph().name,

@@ -118,12 +118,11 @@ struct Under {
   }
 
   void run(std::size_t workers, const Shard& shard = {}) {
-    run_all(
-        graphs, campaign, draws, missing(results->done(draws.runs()), shard.of(draws.runs())), workers, *results,
-        [this](const Result&) {
-          if (++seen == stop_after) stop = true;
-        },
-        stop);
+    run_all(graphs, campaign, draws, missing(results->done(draws.runs()), shard.of(draws.runs())), workers, *results,
+            [this](const Result&) {
+              if (++seen == stop_after) stop = true;
+            },
+            {stop, stuck});
   }
 
   std::string csv() const {
@@ -145,6 +144,7 @@ struct Under {
   std::optional<Results> results;
   std::size_t seen = 0, stop_after = 0;
   std::atomic<bool> stop{false};
+  StuckRuns* stuck = nullptr;
 };
 
 const Wishes gains{

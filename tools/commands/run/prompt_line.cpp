@@ -24,4 +24,10 @@ void report_stuck(const HangingTask& task) {
   note_promptly(to_text(task) + " for a while; if it never does, Ctrl-C ends the run");
 }
 
+void report_stuck_in_run(std::uint64_t run, const HangingTask& task) {
+  note_promptly(
+      "run " + std::to_string(run) + ": " + to_text(task) +
+      " for a while; if it never does, Ctrl-C twice ends the campaign, with the results of all runs that are done");
+}
+
 }  // namespace jarol::tools

@@ -17,5 +17,7 @@ void note_promptly(const std::string& text);
 
 /// Likewise, of an activation that has run for long.
 void report_stuck(const HangingTask& task);
+/// Likewise, in a run of a campaign.
+void report_stuck_in_run(std::uint64_t run, const HangingTask& task);
 
 }  // namespace jarol::tools

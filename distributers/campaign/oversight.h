@@ -1,0 +1,58 @@
+// What looks over the runs of a campaign, from outside: whether to stop, and which of them has a task that never ends.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <mutex>
+#include <thread>
+
+#include "runtime/execute/executor.h"
+#include "runtime/execute/stuck_watch.h"
+
+namespace jarol::campaign {
+
+/// Looks after runs under way on any threads, on one of its own.
+class StuckRuns {
+ public:
+  using Report = std::function<void(std::uint64_t run, const HangingTask& task)>;
+
+  explicit StuckRuns(Report report, std::chrono::milliseconds after = StuckNote{}.after);
+  ~StuckRuns();
+
+  /// A run is under way while this lives.
+  class Watched {
+   public:
+    Watched(StuckRuns* by, std::uint64_t run, const Executor& executor);
+    ~Watched();
+    Watched(const Watched&) = delete;
+    Watched& operator=(const Watched&) = delete;
+
+   private:
+    StuckRuns* by_;  // null: nobody looks
+    std::list<StuckWatch>::iterator place_;
+  };
+
+ private:
+  void look();
+
+  const Report report_;
+  const std::chrono::milliseconds after_;
+  std::mutex mutex_;
+  std::condition_variable over_;
+  bool is_over_ = false;
+  std::list<StuckWatch> runs_;
+  std::thread thread_;
+};
+
+struct Oversight {
+  /// `stops`: a run ends at its next second, without a result. `knows`: who is told of those that never do, if anybody.
+  Oversight(const std::atomic<bool>& stops, StuckRuns* knows = nullptr) : stop(stops), stuck(knows) {}
+
+  const std::atomic<bool>& stop;
+  StuckRuns* stuck;
+};
+
+}  // namespace jarol::campaign
