@@ -81,9 +81,11 @@ ChainLatency latency_of(const Graph& graph, const std::vector<End>& path) {
   }
   result.bound = static_cast<std::int64_t>(std::min(bound, max_time));
   const Hop &first = hops.front(), &last = hops.back();
+  // how far apart the hops are is not known
+  const bool open = graph.platform.phasing == Phasing::any;
   // the latest instant that is looked at is before that
   const bool fits = 2 * (start + lcm) + bound <= max_time;
-  if (!fits || lcm / first.period > max_activations || lcm / last.period > max_activations) {
+  if (open || !fits || lcm / first.period > max_activations || lcm / last.period > max_activations) {
     result.exact = false;
     result.max_reaction = result.max_reduced = result.max_age = result.max_reduced_age = result.bound;
     return result;

@@ -6,7 +6,7 @@
 namespace jarol::analysis {
 
 struct ChainLatency {
-  bool exact = true;              // else upper bounds, as the path repeats too late to be enumerated
+  bool exact = true;  // else upper bounds, as the path repeats too late to be enumerated, or phasing is open
   std::int64_t max_reaction = 0;  // ns: from a stimulus just missed by the first read to the first output that shows it
   std::int64_t min_reaction = 0;  // ns: from a read to the first output that shows it
   std::int64_t max_reduced = 0;   // ns: as max_reaction, counted from the read

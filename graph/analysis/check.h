@@ -34,7 +34,10 @@ Result check(const System& system);
 /// The verdict alone; unknown where it would take more effort.
 Verdict verdict_of(const System& system, Budget& budget);
 
-/// The same of a graph; a task without a WCET leaves it open and is named.
+/// Whose deadline is a difference of offsets, where `phasing: any` leaves these open, and what to do; empty: nobody's.
+std::string open_deadline(const Graph& graph);
+
+/// The same of a graph; a task without a WCET, or whose deadline is open, leaves it open and is named.
 Result check(const Graph& graph);
 
 }  // namespace jarol::analysis

@@ -89,7 +89,7 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
           {"cores", platform.cores},
           {"policy", analysis::policy_of(platform).name},
           {"assumptions",
-           {{"text", assumption(platform)},
+           {{"text", assumption(*r.graph)},
             {"phasing", Words<Phasing>::list()[static_cast<std::size_t>(platform.phasing)]},
             {"dispatch_ns", platform.dispatch.count()},
             {"copy_ns_per_byte", platform.copy.count()}}},

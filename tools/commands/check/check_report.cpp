@@ -146,7 +146,14 @@ std::string demand_text(const CheckReport& r) {
   return text + ": " + parts + "\n";
 }
 
+// With what the platform adds to each activation.
+double use_of(const analysis::System& system, std::size_t task) {
+  const analysis::TaskModel& model = system.models[task];
+  return static_cast<double>(model.wcet) / static_cast<double>(model.period);
+}
+
 std::string task_table(const CheckReport& r) {
+  const analysis::System system = analysis::system_of(*r.graph);
   std::size_t width = 4;
   for (const Task& t : r.graph->tasks) width = std::max(width, t.name.size());
   const bool cores = r.graph->platform.cores > 1;
@@ -155,9 +162,7 @@ std::string task_table(const CheckReport& r) {
                   "deadline", "wcet", "use", "response", "slack", cores ? "  core" : "");
   for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
     const Task& t = r.graph->tasks[i];
-    const std::string use = t.wcet ? fmt::format("{:.2f}%", 100.0 * static_cast<double>(t.wcet->count()) /
-                                                                static_cast<double>(t.period.count()))
-                                   : "-";
+    const std::string use = t.wcet ? fmt::format("{:.2f}%", 100 * use_of(system, i)) : "-";
     const auto& response = r.result.response[i];
     const bool exact = r.result.exact[i];
     text +=
@@ -190,12 +195,11 @@ std::string core_lines(const CheckReport& r) {
                ? fmt::format("  all {} cores: utilisation {:.2f}% of {}%\n", all, 100 * r.result.utilisation, 100 * all)
                : "";
   }
+  const analysis::System system = analysis::system_of(*r.graph);
   for (std::size_t c = 0; r.graph->platform.cores > 1 && c < static_cast<std::size_t>(r.graph->platform.cores); ++c) {
     double use = 0;
     for (std::size_t i = 0; i < r.graph->tasks.size(); ++i)
-      if (r.result.core[i] == c && r.graph->tasks[i].wcet)
-        use += static_cast<double>(r.graph->tasks[i].wcet->count()) /
-               static_cast<double>(r.graph->tasks[i].period.count());
+      if (r.result.core[i] == c && r.graph->tasks[i].wcet) use += use_of(system, i);
     text += fmt::format("  core {}: utilisation {:.2f}%, idle {:.2f}%\n", c, 100 * use, 100 * (1 - use));
   }
   return text;
@@ -254,10 +258,16 @@ std::string chain_lines(const CheckReport& r) {
   return text;
 }
 
+// To six digits, none of them rounded up: what is printed has to hold.
+double rounded_down(double factor) {
+  const double unit = std::pow(10.0, std::floor(std::log10(factor)) - 5);
+  return std::floor(factor / unit + 1e-6) * unit;
+}
+
 std::string sensitivity_lines(const CheckReport& r) {
   std::string text;
   if (r.sensitivity && r.sensitivity->alpha) {
-    text += fmt::format("  all WCETs together may be {:.6g} times as long", *r.sensitivity->alpha);
+    text += fmt::format("  all WCETs together may be {:.6g} times as long", rounded_down(*r.sensitivity->alpha));
     if (r.sensitivity->binding) {
       const std::size_t i = *r.sensitivity->binding;
       text += fmt::format("; alone, '{}' has least room: up to {}", r.graph->tasks[i].name,
@@ -275,8 +285,7 @@ std::string sensitivity_lines(const CheckReport& r) {
 std::string to_text(const CheckReport& r) {
   std::string text = measured_headline(r) + headline(r) + demand_text(r) + gantt_text(*r.graph, r.result) +
                      task_table(r) + core_lines(r) + response_line(r);
-  text += "  assumed: " + assumption(r.graph->platform) + "\n" + sensitivity_lines(r) + chain_lines(r) +
-          late_outs(*r.graph);
+  text += "  assumed: " + assumption(*r.graph) + "\n" + sensitivity_lines(r) + chain_lines(r) + late_outs(*r.graph);
   if (r.result.verdict == Verdict::unknown &&
       std::any_of(r.graph->tasks.begin(), r.graph->tasks.end(), [](const Task& t) { return !t.wcet; }))
     text +=

@@ -25,14 +25,17 @@ const Task* longer_than_stated(const CheckReport& r) {
 
 bool chains_hold(const CheckReport& report) { return std::all_of(report.chains.begin(), report.chains.end(), holds); }
 
-std::string assumption(const Platform& platform) {
+std::string assumption(const Graph& graph) {
+  const Platform& platform = graph.platform;
   const Policy& policy = analysis::policy_of(platform);
   const std::string how = std::string(policy.how) + (policy.executed ? "" : "; 'run' does not execute this");
   std::string overhead = ", without overhead";
   if (platform.dispatch > Duration{} || platform.copy > Duration{})
     overhead = ", with " + duration_text(platform.dispatch) + " for each activation and " +
                duration_text(platform.copy) + " for each byte handed on";
-  return how + overhead + (platform.phasing == Phasing::any ? "; whatever the offsets" : "");
+  const bool has_cores = std::any_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return t.core; });
+  return how + overhead + (has_cores && !policy.keeps_core ? "; whatever 'core' tasks have" : "") +
+         (platform.phasing == Phasing::any ? "; whatever the offsets" : "");
 }
 
 std::string word_of(analysis::Evidence evidence) {

@@ -11,7 +11,7 @@ namespace jarol::tools {
 bool holds(const ReportedChain& chain);
 
 /// Who runs when, and what that costs.
-std::string assumption(const Platform& platform);
+std::string assumption(const Graph& graph);
 
 /// What a verdict rests on: "proof", "safe", "by a run" or "none".
 std::string word_of(analysis::Evidence evidence);

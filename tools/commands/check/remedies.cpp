@@ -61,7 +61,7 @@ class Search {
     Problems problems;
     const GraphSpec spec = load_spec(source_, changed, problems, registry_.grammars());
     const Graph graph = build_graph(spec, registry_, problems);
-    if (!problems.empty()) return false;
+    if (!problems.empty() || !analysis::open_deadline(graph).empty()) return false;
     if (analysis::verdict_of(analysis::system_of(graph), budget_) != Verdict::schedulable) return false;
     const bool chains_hold = std::all_of(graph.chains.begin(), graph.chains.end(), [&](const Chain& chain) {
       return analysis::broken_limits(chain, analysis::latency_of(graph, chain.path)).empty();

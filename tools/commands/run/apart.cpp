@@ -23,8 +23,9 @@ bool are_same(const std::string& a, const std::string& b) {
 void require_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (outputs[i].path.empty()) continue;
+    // standard input is another file than standard output
     for (const NamedFile& input : inputs)
-      if (!input.path.empty() && are_same(outputs[i].path, input.path))
+      if (!input.path.empty() && input.path != "-" && are_same(outputs[i].path, input.path))
         throw std::invalid_argument(outputs[i].option + " '" + outputs[i].path + "' would replace what " +
                                     input.option + " names; choose another file");
     for (std::size_t k = 0; k < i; ++k)

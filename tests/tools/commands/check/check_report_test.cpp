@@ -84,4 +84,73 @@ tasks:
                            "more to do than time;") != std::string::npos);
     CHECK(run_jarol("check " + file + " --set platform.policy=global_edf").exit_code == 0);
   }
+
+  TEST_CASE("a deadline or latency that is a difference of offsets is not judged where the offsets are open") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {policy: fixed_priority, phasing: any}
+tasks:
+  a: {type: Counter, period: 10ms, wcet: 6ms}
+  b: {type: Relay, period: 10ms, offset: 9ms, let: 10ms, wcet: 1ms}
+connections: [a.out -> b.in]
+)");
+    const auto open = run_jarol("check " + file);
+    CHECK(open.exit_code == 3);
+    CHECK(open.output.starts_with(file +
+                                  ": UNKNOWN on one core (fixed_priority): the deadline of 'a' follows from when "
+                                  "'b' reads, and 'phasing: any' leaves that open; give 'a' a 'let', or state "
+                                  "'phasing: given'\n"));
+    CHECK(json_of("check --json " + file)["evidence"] == "none");
+    CHECK(run_jarol("check " + file + " --set platform.phasing=given").exit_code == 0);
+    CHECK(run_jarol("check " + file + " --set tasks.a.let=10ms").exit_code == 0);
+    // who follows at the same instant does so whatever others do
+    CHECK(run_jarol("check " + file + " --set tasks.b.offset=0ms").exit_code == 0);
+
+    const std::string chain = folder.write("c.yaml", R"(graph: c
+platform: {policy: fixed_priority, phasing: any}
+tasks:
+  a: {type: Counter, period: 10ms, let: 1ms, wcet: 100us}
+  b: {type: Relay, period: 10ms, offset: 1ms, let: 1ms, wcet: 100us}
+connections: [a.out -> b.in]
+chains: {x: {path: [a, b], reaction: 12ms}}
+)");
+    CHECK(run_jarol("check " + chain + " --set platform.phasing=given").exit_code == 0);
+    const auto any = run_jarol("check " + chain);
+    CHECK(any.exit_code == 1);
+    CHECK(any.output.find("  chain x: reaction - to 22ms, data age at most 22ms, jitter 0ns (upper bounds)\n"
+                          "    LIMIT BROKEN: reaction 22ms over 12ms\n") != std::string::npos);
+  }
+
+  TEST_CASE("what the platform adds counts in the use of tasks and cores, and cores that a policy leaves are named") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {policy: fixed_priority, cores: 2, dispatch: 4us}
+tasks:
+  a: {type: Counter, period: 10us, let: 10us, wcet: 2us, core: 0}
+  b: {type: Counter, period: 10us, let: 10us, wcet: 1us, core: 0}
+)");
+    const std::string no = run_jarol("check " + file).output;
+    CHECK(no.find("        2us  60.00%  ") != std::string::npos);
+    CHECK(no.find("\n  core 0: utilisation 110.00%, idle -10.00%\n  core 1: utilisation 0.00%, idle 100.00%\n") !=
+          std::string::npos);
+    CHECK(
+        run_jarol("check " + file + " --set platform.policy=global_edf --set platform.dispatch=1us")
+            .output.find("on any core; 'run' does not execute this, with 1us for each activation and 0ns for each byte "
+                         "handed on; whatever 'core' tasks have\n") != std::string::npos);
+  }
+
+  TEST_CASE("the factor by which all WCETs may grow is one that holds as it is printed") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", "graph: t\ntasks: {a: {type: Counter, period: 10us, wcet: 6us}}\n");
+    CHECK(run_jarol("check " + file).output.find("  all WCETs together may be 1.66666 times as long;") !=
+          std::string::npos);
+    CHECK(run_jarol("check " + file + " --set tasks.a.wcet=2us").output.find(" may be 5 times as long;") !=
+          std::string::npos);
+  }
+
+  TEST_CASE("a graph that comes by standard input gets its picture on standard output") {
+    const auto drawn = run_jarol("check - --svg - < specs/counting.yaml");
+    CHECK(drawn.exit_code == 0);
+    CHECK(drawn.output.find("<svg xmlns=") != std::string::npos);
+  }
 }
