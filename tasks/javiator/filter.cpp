@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
+#include "tasks/javiator/filter_checks.h"
 
 namespace jarol::tasks {
 namespace {
@@ -13,77 +15,20 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double gravity = 9.81;
-constexpr double pascal_per_metre = 12.0;
+constexpr std::int64_t longest_pause = 100;  // activations: after more of them little is known anyway
+// A turn that was neither felt nor foreseen, while nothing was heard for longer than a few lost packets.
+constexpr double felt_gap = 0.1;   // s
+constexpr double unfelt_rate = 2;  // rad/s
 
 bool is_near(const AxisObserver& axis, double measured, double jump) { return std::abs(measured - axis.place) < jump; }
 
-// A sonar that drifts reports a climb that is not felt.
-void compare_climb(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double dt) {
-  state.climb_off += (state.z.speed - state.z_slow.speed - state.climb_off) * dt / p.drift.climb_time;
-  state.climb_was_off = std::max(state.climb_was_off * (1 - dt / p.drift.climb_memory), std::abs(state.climb_off));
-}
-
-// In flight it may be as noisy as on the ground.
-double credible_step(const JaviatorFilter::State& state, const JaviatorFilter::Param& p) {
-  return std::clamp(p.pressure_noise * std::sqrt(state.ground.step_squared), p.pressure_jump, 4 * p.pressure_jump);
-}
-
-// Without a sonar the pressure has to do; with one, each shows whether the other can be believed, and what is felt
-// which of the two.
-void weigh_pressure(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double pressure) {
-  const double residual = (state.ground.mean - pressure) / pascal_per_metre - state.z.place;
-  state.disagreement += 0.05 * (residual - state.disagreement);
-  if (!state.sonar.lost && std::abs(state.disagreement) > p.disagreement) {
-    if (state.climb_was_off < p.drift.climb) {
-      state.pressure.lost = true;
-    } else {
-      state.sonar.lost = true;
-    }
-  }
-  if (!state.sonar.lost) return;
-  state.z.place += p.pressure_place * residual;
-  state.z.speed += p.pressure_speed * residual;
-}
-
-// Wrong angles turn gravity sideways, which the observers of the place take for a bias.
-void compare_pull(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double dt) {
-  const double heading = state.zero_yaw + state.yaw, c = std::cos(heading), s = std::sin(heading);
-  const double forward = c * state.x.bias + s * state.y.bias, right = c * state.y.bias - s * state.x.bias;
-  const double part = dt / p.drift.pull_time;
-  state.roll_off += (right / gravity - state.roll_off) * part;
-  state.pitch_off += (-forward / gravity - state.pitch_off) * part;
-}
-
-// Angles that drift against the rates are not believed.
-void watch_drift(JaviatorFilter::State& state, const JaviatorFilter::Param& p, const JaviatorSensors& s, double dt) {
-  if (state.angles.lost) return;
-  correct(state.slow_roll, s.roll, p.drift.angle_bandwidth, dt);
-  correct(state.slow_pitch, s.pitch, p.drift.angle_bandwidth, dt);
-  // rates alone go astray where readings are lost or late, places where their sensors fail
-  const auto drifts = [&](double by_rates, double by_places) {
-    return by_rates * by_places > 0 && std::abs(by_rates) > p.drift.angle && std::abs(by_places) > p.drift.pull;
-  };
-  state.angles.lost = drifts(state.roll - state.slow_roll.angle, state.roll_off) ||
-                      drifts(state.pitch - state.slow_pitch.angle, state.pitch_off);
-}
-
-// Angles that disagree with the weight that it feels on the ground are not believed: it does not fly with them.
-void feel_weight(JaviatorFilter::State& state, const JaviatorFilter::Param& p, const JaviatorSensors& s) {
-  const double roll = std::atan2(-s.a_y, -s.a_z), pitch = std::atan2(s.a_x, std::hypot(s.a_y, s.a_z));
-  state.slant_roll += 0.05 * (roll - s.roll - state.slant_roll);
-  state.slant_pitch += 0.05 * (pitch - s.pitch - state.slant_pitch);
-  const bool level = std::abs(state.slant_roll) < p.angle_jump && std::abs(state.slant_pitch) < p.angle_jump;
-  state.angles = {.lost = !level};
-}
-
-}  // namespace
-
-void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+// In one period.
+void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& in, JaviatorFilter::State& state,
+          JaviatorFilter::Out& out) {
   const JaviatorSensors& s = in.sensors;
   FlightEstimate& e = out.estimate;
-  const double dt = seconds(tick.period);
-  const bool fresh = s.answers != state.answers;
-  state.answers = s.answers;
+  const bool fresh = s.answers != state.before.answers;
+  state.before.answers = s.answers;
   state.unanswered = fresh ? 0 : state.unanswered + dt;
   const double heard_dt = fresh ? dt : 0;
   const FlightState doing = in.directive.state;
@@ -101,7 +46,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   const bool is_blind = state.imu.lost && blind.known;
   const Vector3d rates = is_blind ? Vector3d(blind.p, blind.q, blind.r) : Vector3d(felt * Vector3d(s.p, s.q, s.r));
 
-  if (state.stood && !settled) {
+  if (state.before.stood && !settled) {
     take_off(state.x, state.zero_x);
     take_off(state.y, state.zero_y);
     take_off(state.z, state.zero_z);
@@ -112,11 +57,12 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     state.yaw = 0;
     state.has_flown = true;
   }
-  state.stood = settled;
+  state.before.stood = settled;
 
   // angles follow the rates, and what is measured unless it jumps: wrong angles would turn the rates wrongly, too
+  const double angle_jump = p.angle_jump + unfelt_rate * std::max(gap - felt_gap, 0.0);
   const auto near = [&](double roll, double pitch) {
-    return std::abs(s.roll - roll) < p.angle_jump && std::abs(s.pitch - pitch) < p.angle_jump;
+    return std::abs(s.roll - roll) < angle_jump && std::abs(s.pitch - pitch) < angle_jump;
   };
   const bool right = settled || (!state.angles.lost && near(state.roll, state.pitch));
   const Vector3d angle_rates = euler_rates(right ? s.roll : state.roll, right ? s.pitch : state.pitch, rates);
@@ -295,6 +241,20 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
        .position_known = !state.laser_x.lost && !state.laser_y.lost && unseen < p.unseen.patience,
        .pressure_known = !state.pressure.lost,
        .answers_known = answers};
+}
+
+}  // namespace
+
+void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
+  const double dt = seconds(tick.period);
+  const std::int64_t left_out = tick.activation - std::exchange(state.before.activation, tick.activation) - 1;
+  if (left_out > 0) {
+    // what it would have estimated, had nothing been heard
+    In unheard = in;
+    unheard.sensors.answers = state.before.answers;
+    for (std::int64_t i = 0; i < std::min(left_out, longest_pause); ++i) step(p, dt, unheard, state, out);
+  }
+  step(p, dt, in, state, out);
 }
 
 }  // namespace jarol::tasks

@@ -51,6 +51,19 @@ struct UnseenPlace {
   }
 };
 
+/// What the filter goes on from.
+struct Before {
+  std::int64_t activation = -1;
+  std::uint32_t answers = 0;
+  bool stood = false;
+
+  static constexpr auto fields() {
+    using B = Before;
+    return describe(field<&B::activation>("", "that ran last"), field<&B::answers>("", "of the Robostix, up to then"),
+                    field<&B::stood>());
+  }
+};
+
 /// How old readings are when they are used. An answer has what the IMU sampled at the answer before, and ranges since:
 /// over a radio that loses or holds up signals the time between them is not known well.
 struct ReadingAge {
@@ -117,7 +130,8 @@ struct JaviatorFilter {
           field<&P::range_jump>("m", "from the estimate at which a range is not credible"),
           field<&P::sonar_jump>("m", "the same, of the sonar right after a credible range"),
           field<&P::sonar_jump_rate>("m/s", "at which that grows until the next one, up to that of any range"),
-          field<&P::angle_jump>("rad", "the same, for roll and pitch"),
+          field<&P::angle_jump>("rad",
+                                "the same, for roll and pitch; more, where the IMU was not heard for 0.1 s and longer"),
           field<&P::pressure_jump>("Pa", "from one reading to the next, which is not credible").in(0, 1000),
           field<&P::pressure_noise>(
               "", "times the RMS step on the ground that one in flight may have, up to 4 pressure_jump")
@@ -151,8 +165,8 @@ struct JaviatorFilter {
     double roll = 0, pitch = 0, yaw = 0;
     double disagreement = 0, climb_off = 0, climb_was_off = 0, roll_off = 0, pitch_off = 0, unanswered = 0;
     double slant_roll = 0, slant_pitch = 0;
-    bool stood = false, has_flown = false;
-    std::uint32_t answers = 0;
+    bool has_flown = false;
+    Before before{};
     static constexpr auto fields() {
       using S = State;
       return describe(field<&S::x>(), field<&S::y>(), field<&S::z>("", "upwards"),
@@ -169,8 +183,7 @@ struct JaviatorFilter {
                       field<&S::roll_off>("rad", "by which it is wrong as places report, averaged"),
                       field<&S::pitch_off>("rad"), field<&S::unanswered>("s", "since the Robostix answered"),
                       field<&S::slant_roll>("rad", "of the weight felt while it stands, less the roll, averaged"),
-                      field<&S::slant_pitch>("rad"), field<&S::stood>("", "in the period before"),
-                      field<&S::has_flown>(), field<&S::answers>("", "of the Robostix, up to now"));
+                      field<&S::slant_pitch>("rad"), field<&S::has_flown>(), field<&S::before>());
     }
   };
   struct Out {

@@ -15,6 +15,11 @@ Cause find_lean(const FlightLogic::Param& p, const FlightEstimate& e) {
   return std::abs(e.pitch) > p.pitch_limit ? Cause::pitch : Cause::none;
 }
 
+// On its side or its back, where rotors do nothing but harm.
+bool lies_over(const FlightLogic::Param& p, const FlightEstimate& e) {
+  return (e.rates_known || e.lean_known) && std::cos(e.roll) * std::cos(e.pitch) < std::cos(p.overturned);
+}
+
 // Why it can't go on flying as it is commanded, if so.
 Cause find_cause(const FlightLogic::Param& p, const FlightLogic::In& in, bool wants_position, double unheard) {
   const FlightEstimate& e = in.estimate;
@@ -27,6 +32,7 @@ Cause find_cause(const FlightLogic::Param& p, const FlightLogic::In& in, bool wa
   if (!e.attitude_known) return Cause::imu_lost;
   if (!e.altitude_known) return Cause::sonar_lost;
   if (!e.pressure_known) return Cause::bmu_lost;
+  if (e.battery == 0) return Cause::bmu_lost;  // which measures it, and never has
   if (e.battery < p.battery_limit) return Cause::battery_low;
   if (wants_position && !e.position_known) return Cause::position_lost;
   return Cause::none;
@@ -35,7 +41,7 @@ Cause find_cause(const FlightLogic::Param& p, const FlightLogic::In& in, bool wa
 void enter(FlightState next, Cause cause, FlightLogic::State& state, FlightDirective& d) {
   d.state = next;
   d.cause = cause;
-  state.since = state.still = 0;
+  state.since = state.still = state.lies_over = 0;
 }
 
 // Where it comes to rest; but in a turn, or where its lasers have not seen enough, along the walls that it can see.
@@ -122,10 +128,17 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   }
   if (d.state == FlightState::landing) {
     d.hold_position = e.position_known;
+    // what fails only now is told, too; that nobody is heard any more is nothing then
+    if (d.cause == Cause::none || d.cause == Cause::operator_lost)
+      if (const Cause cause = find_cause(p, in, wants_position, 0); cause != Cause::none) d.cause = cause;
     // once it descends, only the ground can stop it or take its weight
     const bool still = e.altitude_known && e.altitude < 0.5 && std::abs(e.climb) < p.still;
     state.still = still || in.lift.thrust < p.light ? state.still + dt : 0;
-    if (state.since > 1 && state.still > p.touch_time) enter(FlightState::ground, d.cause, state, d);
+    state.lies_over = lies_over(p, e) ? state.lies_over + dt : 0;
+    if (state.lies_over > p.touch_time)
+      enter(FlightState::halt, d.cause, state, d);
+    else if (state.since > 1 && state.still > p.touch_time)
+      enter(FlightState::ground, d.cause, state, d);
   }
   d.stands = in.lift.stands;
   // one that lies on its side does not stand there well, however it came to that

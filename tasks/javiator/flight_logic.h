@@ -1,6 +1,7 @@
 // What the helicopter does next: starting, flying, landing, and when it lands of its own accord.
 #pragma once
 
+#include <numbers>
 #include <string_view>
 
 #include "graph/task.h"
@@ -23,6 +24,7 @@ struct FlightLogic {
     double still = 0.08;
     double light = 0.6;
     double touch_time = 0.3;
+    double overturned = 1;
     static constexpr auto fields() {
       using P = Param;
       return describe(
@@ -35,7 +37,9 @@ struct FlightLogic {
           field<&P::patience>("s", "without the operator, before it lands"),
           field<&P::still>("m/s", "rate of descent below which it may have touched down"),
           field<&P::light>("", "thrust below which the ground must carry"),
-          field<&P::touch_time>("s", "for which it is still or light when it has touched down"));
+          field<&P::touch_time>("s", "for which it is still or light when it has touched down"),
+          field<&P::overturned>("rad", "of lean, beyond which for touch_time a landing ends with the motors locked")
+              .in(0, std::numbers::pi));
     }
   };
   struct In {
@@ -51,13 +55,14 @@ struct FlightLogic {
     }
   };
   struct State {
-    double since = 0, unheard = 0, still = 0;
+    double since = 0, unheard = 0, still = 0, lies_over = 0;
     std::uint32_t state_switches = 0, shut_downs = 0;
     TrimKeys trim{};
     static constexpr auto fields() {
       using S = State;
       return describe(field<&S::since>("s", "the state began"), field<&S::unheard>("s", "the operator was heard"),
                       field<&S::still>("s", "it has not moved up or down"),
+                      field<&S::lies_over>("s", "it has leant like one that has overturned"),
                       field<&S::state_switches>("", "of the operator, up to now"),
                       field<&S::shut_downs>("", "likewise"), field<&S::trim>("", "likewise"));
     }

@@ -23,12 +23,15 @@ struct HeardHelicopter {
                                  .new_y = true};
   tasks::FlightDirective directive{.state = tasks::FlightState::ground};
 
+  std::int64_t activation = 0;
+
   static constexpr double dt = 0.015;  // s
 
   const tasks::FlightEstimate& run(int periods) {
     for (int i = 0; i < periods; ++i) {
       ++sensors.answers;
-      tasks::JaviatorFilter::run(param, {.period = std::chrono::milliseconds(15)}, {sensors, directive}, state, out);
+      tasks::JaviatorFilter::run(param, {.activation = activation++, .period = std::chrono::milliseconds(15)},
+                                 {sensors, directive}, state, out);
     }
     return out.estimate;
   }

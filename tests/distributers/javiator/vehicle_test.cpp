@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include <string>
 #include <vector>
 
@@ -138,7 +140,7 @@ TEST_SUITE("distributers/javiator_vehicle") {
     }
   }
 
-  TEST_CASE("motors are unlocked once before the first signals, and shut down once before the signals that follow") {
+  TEST_CASE("motors are unlocked before the first signals and about once a second, and shut down once after that") {
     Vehicle v;
     SentInOrder sent;
     v.command(sent, false, {});
@@ -147,6 +149,10 @@ TEST_SUITE("distributers/javiator_vehicle") {
     v.command(sent, false, {});
     v.command(sent, false, {});
     CHECK(sent.order == "mummsmm");
+    sent.order.clear();
+    for (int i = 0; i < 150; ++i) v.command(sent, true, {});
+    CHECK(std::count(sent.order.begin(), sent.order.end(), 'm') == 150);
+    CHECK(std::count(sent.order.begin(), sent.order.end(), 'u') == 3);
   }
 
   TEST_CASE("signals are whole numbers from 0 to 16000, each command has the next number") {

@@ -77,6 +77,24 @@ TEST_SUITE("tasks/javiator_filter") {
     CHECK(e.p == 0);
   }
 
+  TEST_CASE("where the filter itself did not run for long, it goes on from what it hears, and loses nothing by that") {
+    const auto after_a_pause = [](std::int64_t left_out, double roll) {
+      Heard heard;
+      heard.lift_to(1);
+      heard.activation += left_out;
+      heard.sensors.roll = roll;
+      return heard.run(20);
+    };
+    CHECK_FALSE(after_a_pause(0, 0.5).attitude_known);
+    const FlightEstimate paused = after_a_pause(53, 0.5);  // 0.8 s
+    CHECK(paused.attitude_known);
+    CHECK(paused.roll == doctest::Approx(0.5).scale(0).epsilon(0.01));
+    CHECK(paused.altitude_known);
+    CHECK(paused.answers_known);
+    // in 0.1 s it can't have leant by that
+    CHECK_FALSE(after_a_pause(6, 0.15).attitude_known);
+  }
+
   TEST_CASE("answers that do not come are late, and no sensor is lost by that") {
     Heard heard;
     heard.lift_to(1);

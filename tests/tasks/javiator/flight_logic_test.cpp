@@ -224,7 +224,7 @@ TEST_SUITE("tasks/flight_logic") {
     logic.press();
     logic.in.estimate.altitude = 0.1;
     logic.in.estimate.roll = -1.5;
-    CHECK(logic.run(100) == FlightState::ground);
+    CHECK(logic.run(100) == FlightState::halt);
     CHECK(logic.out.directive.cause == LandingCause::roll);
     // it says so again, and the key never gets further
     CHECK(logic.press() == FlightState::ground);
@@ -242,6 +242,51 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(logic.out.directive.cause == LandingCause::none);
   }
 
+  TEST_CASE("a landing that has leant over for 0.3 s by what is known of it ends with the motors locked") {
+    const auto after = [](double roll, double pitch, int periods, bool is_known = true) {
+      Logic logic;
+      logic.fly();
+      logic.press();
+      logic.in.estimate.roll = roll;
+      logic.in.estimate.pitch = pitch;
+      logic.in.estimate.rates_known = is_known;
+      return logic.run(periods);
+    };
+    constexpr double turn = 6.283185307179586;
+    CHECK(after(0.99, 0, 100) == FlightState::landing);
+    CHECK(after(1.01, 0, 19) == FlightState::landing);
+    CHECK(after(1.01, 0, 22) == FlightState::halt);
+    CHECK(after(0, -1.01, 22) == FlightState::halt);
+    CHECK(after(0.8, 0.8, 22) == FlightState::halt);  // 61 degrees from upright
+    CHECK(after(turn + 0.9, 0, 100) == FlightState::landing);
+    CHECK(after(turn + 3, 0, 22) == FlightState::halt);
+    CHECK(after(3, 0, 100, false) == FlightState::landing);
+  }
+
+  TEST_CASE("what fails in a landing is told, once, but that nobody is heard") {
+    Logic logic;
+    logic.fly();
+    logic.press();
+    logic.in.command.heard = false;
+    logic.run(50);
+    CHECK(logic.out.directive.cause == LandingCause::none);
+    logic.in.estimate.altitude_known = false;
+    CHECK(logic.run(1) == FlightState::landing);
+    CHECK(logic.out.directive.cause == LandingCause::sonar_lost);
+    logic.in.estimate.attitude_known = false;
+    logic.run(1);
+    CHECK(logic.out.directive.cause == LandingCause::sonar_lost);
+    // one that lands as it has lost its operator has a worse cause then
+    Logic alone;
+    alone.fly();
+    alone.in.command.heard = false;
+    alone.run(40);
+    CHECK(alone.out.directive.cause == LandingCause::operator_lost);
+    alone.in.motors.weak = Motor::front;
+    alone.run(1);
+    CHECK(alone.out.directive.cause == LandingCause::motor_weak);
+  }
+
   TEST_CASE("each limit makes it land when it is exceeded, to either side, and not before") {
     struct Case {
       double FlightEstimate::*value;
@@ -255,7 +300,8 @@ TEST_SUITE("tasks/flight_logic") {
                           {&FlightEstimate::yaw, 2, 2.001, LandingCause::yaw},
                           {&FlightEstimate::yaw, -2, -2.001, LandingCause::yaw},
                           {&FlightEstimate::altitude, 2.8, 2.801, LandingCause::altitude},
-                          {&FlightEstimate::battery, 13.4, 13.399, LandingCause::battery_low}};
+                          {&FlightEstimate::battery, 13.4, 13.399, LandingCause::battery_low},
+                          {&FlightEstimate::battery, 13.4, 0, LandingCause::bmu_lost}};
     for (const Case& c : cases) {
       CAPTURE(c.outside);
       Logic logic;

@@ -13,14 +13,27 @@ TEST_SUITE("tasks/trim") {
     CHECK(d.trim_roll == 0.02);
     CHECK(d.trim_pitch == -0.01);
     ++command.trim_stores;
-    trim(command, {.roll = 0.25, .pitch = 0.125}, pressed, d);
-    CHECK(d.trim_roll == doctest::Approx(0.27));
-    CHECK(d.trim_pitch == doctest::Approx(0.115));
-    trim(command, {.roll = 0.25, .pitch = 0.125}, pressed, d);
-    CHECK(d.trim_roll == doctest::Approx(0.27));
+    trim(command, {.roll = 0.05, .pitch = 0.025}, pressed, d);
+    CHECK(d.trim_roll == doctest::Approx(0.07));
+    CHECK(d.trim_pitch == doctest::Approx(0.015));
+    trim(command, {.roll = 0.05, .pitch = 0.025}, pressed, d);
+    CHECK(d.trim_roll == doctest::Approx(0.07));
     ++command.trim_clears;
     trim(command, {.roll = 0.25}, pressed, d);
     CHECK(d.trim_roll == 0);
     CHECK(d.trim_pitch == 0);
+  }
+
+  TEST_CASE("no more than 0.1 rad is level, stored or kept, to either side") {
+    TrimKeys pressed;
+    FlightDirective d;
+    PilotCommand command{.kept_trim_roll = 0.3, .kept_trim_pitch = -0.3};
+    trim(command, {}, pressed, d);
+    CHECK(d.trim_roll == 0.1);
+    CHECK(d.trim_pitch == -0.1);
+    ++command.trim_stores;
+    trim(command, {.roll = 0.01, .pitch = 0.25}, pressed, d);
+    CHECK(d.trim_roll == 0.1);
+    CHECK(d.trim_pitch == 0.1);
   }
 }
