@@ -19,9 +19,11 @@ using nlohmann::json;
 struct Outcome {
   int exit_code = -1;
   json run;
+  int vehicle_exit_code = -1;
   json vehicle;  // where it truly was a while after the run's end
   std::string errors;
   json replay;
+  std::string info;  // of the log
 };
 
 // What is done to a run that steers.
@@ -49,11 +51,14 @@ void kill_on_the_way(Process& run) {
 Outcome outcome(const std::string& vehicle_words, const std::string& run_words, const std::string& log,
                 const Act& act) {
   Process vehicle("vehicle " + vehicle_words + " --json");
-  if (!vehicle.says("until Ctrl-C")) return {-1, {}, {}, vehicle.errors(), {}};
   Outcome all;
+  if (!vehicle.says("until Ctrl-C")) {
+    all.errors = vehicle.errors();
+    return all;
+  }
   {
     Process run("run " + run_words + " --clock real --json --set fault_limit=100% --set expect=nothing" +
-                (log.empty() ? "" : " --log " + log));
+                (log.empty() ? "" : (log.ends_with(".mcap") ? " --record " : " --log ") + log));
     std::this_thread::sleep_for(8s);
     act(run);
     all.exit_code = run.end();
@@ -62,8 +67,9 @@ Outcome outcome(const std::string& vehicle_words, const std::string& run_words, 
   }
   std::this_thread::sleep_for(1500ms);  // for what has to fall
   vehicle.interrupt();
-  vehicle.end();
+  all.vehicle_exit_code = vehicle.end();
   all.vehicle = vehicle.json();
+  if (!log.empty()) all.info = command::run_jarol("log info " + log).output;
   if (!log.empty()) all.replay = json::parse(command::run_jarol("replay " + log + " --json", "2>/dev/null").output);
   return all;
 }
@@ -113,7 +119,7 @@ class Runs {
     begin("signal", [this] { return helicopter(files_, "udp", "", "signal.log", interrupt); });
     begin("tcp", [this] { return helicopter(files_, "tcp", "--for 8s", "", wait_for_end); });
     begin("threads", [this] { return helicopter(files_, "udp", "--concurrency threads", "", terminate); });
-    begin("second", [this] { return helicopter(files_, "udp", "", "", interrupt_twice); });
+    begin("second", [this] { return helicopter(files_, "udp", "", "second.mcap", interrupt_twice); });
     begin("never", [this] { return helicopter(files_, "udp", never + "--for 8s", "never.log", wait_for_end); });
     begin("killed", [this] { return helicopter(files_, "udp", "", "", kill_on_the_way); });
     begin("submarine", [this] { return submarine(files_, "", "submarine.log", terminate); });
@@ -179,6 +185,9 @@ TEST_SUITE("tools/at_end") {
     CHECK(o.replay["verdict"] == "same");
     CHECK(o.replay["digest"] == o.run["digest"]);
     CHECK(o.replay["log"]["rest_begun_ns"] == o.run["rest"]["begun_ns"]);
+    CHECK(o.replay["judgement"]["not_at_rest"].is_null());
+    CHECK(o.info.find("\n  ended       as SIGINT ended the run\n") != std::string::npos);
+    CHECK(o.vehicle_exit_code == 130);
   }
 
   TEST_CASE("it lands at the end of --for, and by threads") {
@@ -203,8 +212,14 @@ TEST_SUITE("tools/at_end") {
     CHECK(
         o.errors.ends_with("error: the vehicle did not come to rest: 'logic.directive.state is ground or halt' was "
                            "not so when a second signal came\n"));
-    // it fell
+    // it fell, which its own process tells, and that it did not come to rest whoever replays
     CHECK(o.vehicle["mishap"].is_string());
+    CHECK(o.vehicle_exit_code == 1);
+    CHECK(o.replay["verdict"] == "same");
+    CHECK(o.replay["judgement"]["not_at_rest"] ==
+          "the vehicle of the run did not come to rest, as far as its recording goes");
+    CHECK(o.info.find("\n  ended       as SIGTERM ended the run\n") != std::string::npos);
+    CHECK(o.info.find(" s on the vehicle was to come to rest: NOT AT REST\n") != std::string::npos);
   }
 
   TEST_CASE("what never comes to rest gets safe after the longest time, and the run ends with 1") {

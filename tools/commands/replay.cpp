@@ -54,7 +54,9 @@ std::string text_of(const Comparison& comparison, const Report& report, const Re
   const std::string run = "the run on the " + log.header().clock + " clock";
   std::string text;
   if (log.rest_begun())
-    text += "  at end      from " + seconds_text(*log.rest_begun()) + " s on the run brought its vehicle to rest\n";
+    text += "  at end      from " + seconds_text(*log.rest_begun()) +
+            " s on the run was to bring its vehicle to rest: " +
+            std::string(words_of(read_rest(log.recording()), log.end().has_value())) + "\n";
   if (comparison.evidence == Evidence::same) {
     text += "  same        as " + run;
     if (differences.compared() > 0) text += fmt::format(", {} values compared", differences.compared());
@@ -202,6 +204,8 @@ int replay(const ReplayOptions& options) {
   verdict.left_out = find_left_out(graph, report);
   const bool is_of_run = world == RecordedWorld::truth && comparison.evidence != Evidence::diverged;
   if (is_of_run && !comparison.interrupted) verdict.mishaps = read_mishaps(log.recording());
+  if (const auto rest = read_rest(log.recording()); rest && !rest->reached && is_of_run && !comparison.interrupted)
+    verdict.not_at_rest = "the vehicle of the run did not come to rest, as far as its recording goes";
   const RunOutcome outcome{.state = executor.state(),
                            .report = report,
                            .rest = executor.rest(),

@@ -52,6 +52,10 @@ nlohmann::ordered_json json_of(const Looked& run) {
   json["covered_ns"] = run.covered.count();
   json["digest"] =
       run.end ? nlohmann::ordered_json(fmt::format("0x{:016x}", run.end->digest)) : nlohmann::ordered_json();
+  const std::string ended_by = read_ended_by(recording);
+  json["ended_by"] = ended_by.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(ended_by);
+  if (const auto rest = read_rest(recording))
+    json["rest"] = {{"begun_ns", rest->begun.count()}, {"reached", rest->reached}};
   json["mishaps"] = nlohmann::ordered_json::array();
   for (const auto& mishap : read_mishaps(recording))
     json["mishaps"].push_back({{"distributer", mishap.distributer}, {"text", mishap.text}});
@@ -91,9 +95,13 @@ int log_info(const LogOptions& options) {
     if (file.path != header.file) std::cout << "  file        " << printable(file.path) << "\n";
   std::cout << "  made by     " << printable(header.version.substr(0, header.version.find('\n'))) << "\n  on          "
             << printable(header.platform) << "\n";
-  if (run.end)
-    std::cout << fmt::format("  digest      0x{:016x}\n", run.end->digest);
-  else
+  if (run.end) std::cout << fmt::format("  digest      0x{:016x}\n", run.end->digest);
+  if (const std::string by = read_ended_by(recording); !by.empty())
+    std::cout << "  ended       as " << printable(by) << "\n";
+  if (const auto rest = read_rest(recording))
+    std::cout << "  at end      from " << seconds_text(rest->begun)
+              << " s on the vehicle was to come to rest: " << words_of(rest, run.end.has_value()) << "\n";
+  if (!run.end)
     std::cout << "  breaks off " << printable(recording.text_of_break()) << "; how the run ended is not known\n";
   for (const auto& mishap : read_mishaps(recording))
     std::cout << "  mishap      " << printable(to_text(mishap)) << "\n";

@@ -14,20 +14,25 @@ namespace jarol::tools {
 
 namespace {
 
-// In their order. Throws LogError.
-void each_event(const Recording& recording, const std::function<void(Duration, const RecordedEvent&)>& take) {
-  const ReadTopic* const topic = recording.find(topics::events);
+// Of a topic of ours, in their order. Throws LogError.
+template <class T>
+void each(const Recording& recording, std::string_view name, const std::function<void(Duration, const T&)>& take) {
+  const ReadTopic* const topic = recording.find(name);
   if (topic == nullptr) return;
   for (MessageCursor cursor(recording, *topic); cursor.message() != nullptr; cursor.next()) {
-    RecordedEvent event;
+    T value;
     const std::string_view data = cursor.message()->data;
-    if (const std::string wrong = decode_cdr(type_of<RecordedEvent>(),
-                                             {reinterpret_cast<const std::byte*>(data.data()), data.size()}, &event);
+    if (const std::string wrong =
+            decode_cdr(type_of<T>(), {reinterpret_cast<const std::byte*>(data.data()), data.size()}, &value);
         !wrong.empty())
-      throw LogError("'" + recording.path() + "' has an event that " + wrong +
+      throw LogError("'" + recording.path() + "' has a message of '" + std::string(name) + "' that " + wrong +
                      "; it is no recording that this jarol has written");
-    take(Duration(cursor.message()->time), event);
+    take(Duration(cursor.message()->time), value);
   }
+}
+
+void each_event(const Recording& recording, const std::function<void(Duration, const RecordedEvent&)>& take) {
+  each<RecordedEvent>(recording, topics::events, take);
 }
 
 }  // namespace
@@ -73,6 +78,26 @@ std::vector<RunVerdict::VehicleMishap> read_mishaps(const Recording& recording) 
       mishaps.push_back({std::string(event.task.view()), std::string(event.cause.view())});
   });
   return mishaps;
+}
+
+std::optional<RecordedRest> read_rest(const Recording& recording) {
+  std::optional<RecordedRest> rest;
+  each_event(recording, [&](Duration instant, const RecordedEvent& event) {
+    if (event.kind == RunEvent::Kind::rest_begun) rest = RecordedRest{instant, false};
+    if (event.kind == RunEvent::Kind::at_rest && rest) rest->reached = true;
+  });
+  return rest;
+}
+
+std::string_view words_of(const std::optional<RecordedRest>& rest, bool is_whole) {
+  if (!rest || (!rest->reached && !is_whole)) return "not known";
+  return rest->reached ? "at rest" : "NOT AT REST";
+}
+
+std::string read_ended_by(const Recording& recording) {
+  std::string reason;
+  each<EndedBy>(recording, topics::ended, [&](Duration, const EndedBy& ended) { reason = ended.reason.view(); });
+  return reason;
 }
 
 std::int64_t releases_before(const Task& task, Duration end) {

@@ -43,6 +43,20 @@ RecordedEvents read_events(const Recording& recording);
 /// What had become of vehicles by the end of the run. Throws LogError.
 std::vector<RunVerdict::VehicleMishap> read_mishaps(const Recording& recording);
 
+/// How the vehicle was brought to rest at the end of the run.
+struct RecordedRest {
+  Duration begun{};
+  bool reached = false;  // as far as the recording goes
+};
+
+/// None: it was not, or that is not known. Throws LogError.
+std::optional<RecordedRest> read_rest(const Recording& recording);
+/// "at rest", "NOT AT REST"; of inputs alone it is not known.
+std::string_view words_of(const std::optional<RecordedRest>& rest, bool is_whole);
+
+/// What ended the run, as in "SIGINT ended the run"; empty: it came to its end. Throws LogError.
+std::string read_ended_by(const Recording& recording);
+
 /// The instant of the k-th release of a task.
 inline Duration release_of(const Task& task, std::int64_t k) { return task.offset + k * task.period; }
 /// Its releases before `end`.

@@ -141,7 +141,8 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
               << silences.to_text() << to_text(link.report());
   }
   if (mishap) report(*mishap, vehicle_class.name);
-  return exit_of({exit_code, exit_of_signal(Interruptible::signal()), mishap ? exit_negative : exit_good});
+  // a signal is how it ends without --for, and nobody else knows of the mishap
+  return exit_of({exit_code, mishap ? int{exit_negative} : exit_of_signal(Interruptible::signal())});
 }
 
 int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,
